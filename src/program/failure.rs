@@ -113,11 +113,9 @@ impl From<figures::Error> for Failure {
 
 impl From<report::Error> for Failure {
     fn from(error: report::Error) -> Self {
-        use report::Error::{Lint, NotShown, Unused};
-        match error {
-            // What can be read, and breaks a rule of the prose.
-            Lint(_) | NotShown(_) | Unused(_) => Failure::check(error.to_string()),
-            error => Failure::input(error.to_string()),
+        match error.is_of_rules() {
+            true => Failure::check(error.to_string()),
+            false => Failure::input(error.to_string()),
         }
     }
 }

@@ -24,7 +24,7 @@ pub fn whole(
     progress: &Progress,
 ) -> Result<(Report, Vec<Check>), Failure> {
     let templates = sources.templates()?;
-    report::lint::check(&templates, PROGRAM)?;
+    report::filler::Filler::new(&templates, PROGRAM)?;
     // Faults of the templates are told before the long runs, not after them.
     let published = sources.published(&templates)?;
     let results = run(ALL, profile, &templates, store, progress)?;

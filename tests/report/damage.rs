@@ -9,7 +9,6 @@ use impact_paper::experiments::built::code;
 use impact_paper::report::bibliography::Library;
 use impact_paper::report::filler::Filler;
 use impact_paper::report::labels::Labels;
-use impact_paper::report::origin::Filled;
 use impact_paper::report::{Document, Error, PROGRAM, Templates};
 use impact_paper::report::{compare, folder, latex, ledger, markdown, parse};
 use literate::digest::sha256;
@@ -88,8 +87,9 @@ static LIBRARY: LazyLock<Library> =
 /// What documents make of a text.
 fn prose(text: &str) -> Result<(), Error> {
     let (values, templates) = (&QUICK.values, Templates::of([("report.md", text)]));
-    let filled = Filler::new(&templates, values, PROGRAM)?.fill("report.md")?;
-    let (mut blocks, _) = parse::parse(&Filled::plain("report.md", &filled), values, PROGRAM)?;
+    let filler = Filler::new(&templates, PROGRAM)?.with(values);
+    let filled = filler.prose(&Document::REPORT)?;
+    let (mut blocks, _) = parse::parse(&filled, values, &filler.declared, PROGRAM)?;
     let (here, mut labels) = (Document::REPORT, Labels::default());
     labels.number_all(&mut blocks, here)?;
     labels.resolve(&mut blocks, here, &LIBRARY)?;

@@ -11,7 +11,7 @@
 //! 3. A [figure](figures) is one list of shapes, written as SVG, into the page and as PDF, with its data beside it.
 //! 4. A [statement](claims) that was printed is held against what was found; its verdict is a function of numbers, and can fail.
 //! 5. The [report](mod@report) fills people's prose with all of it: Markdown, LaTeX and HTML, a ledger of the claims, all values as
-//!    data, a card for each number. A numeral that nobody computed is refused by file and line.
+//!    data, a card for each number. A numeral that nobody computed is refused by file and line. The [manual] has the markup.
 //!
 //! A table, and a number by its address:
 //!
@@ -33,6 +33,8 @@ pub mod digest;
 pub mod experiments;
 pub mod figures;
 pub mod input;
+#[doc = include_str!("manual.md")]
+pub mod manual {}
 pub mod report;
 pub mod source;
 pub mod table;

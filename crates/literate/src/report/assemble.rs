@@ -10,6 +10,7 @@ use super::filler::Filler;
 use super::folder::{self, SUMS};
 use super::labels::Labels;
 use super::ledger::EquationEntry;
+use super::lint::Declared;
 use super::mark::ids;
 use super::origin::{Filled, Places};
 use super::uses::uses;
@@ -71,7 +72,11 @@ struct Part<'a> {
 fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     let mut values = input.values.clone();
     values.extend(scorecard(input.claims))?;
-    let mut filler = Filler::new(input.templates, &values, input.program)?;
+    let mut filler = Filler::new(input.templates, input.program)?.with(&values);
+    let reason = |claim: &Check| {
+        lint::check(&format!("the reason of {}", claim.id), &claim.reason, &filler.declared).err()
+    };
+    Error::all(input.claims.iter().filter_map(reason).collect())?;
     filler.insert("claims", &input.claims.iter().map(row).collect::<Vec<_>>());
     filler.insert("figures", &ledger::figures(input.figures));
     filler.insert("equations", &input.equations);
@@ -85,15 +90,14 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
 
 /// Makes the whole report.
 pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
-    let declared = lint::check(input.templates, input.program)?;
     let (mut values, mut filler, filled) = fill(input)?;
     let used: BTreeSet<String> = filled.iter().flat_map(|filled| ids(&filled.text)).collect();
     check_unused(&values, &used)?;
     values.keep_cells(used.iter().map(String::as_str));
     values.shorten(input.program);
 
-    let (parts, labels) = parts(input, &filled, &values)?;
-    declared.refuse_unmet()?;
+    let declared = filler.declared.clone();
+    let (parts, labels) = parts(input, &filled, &values, &declared)?;
     let all: Vec<&[Block]> = parts.iter().map(|part| part.blocks.as_slice()).collect();
     let uses = uses(input.claims, &values, &all);
     let ledger = ledger::ledger(input.claims, input.figures, input.equations, &uses);
@@ -148,12 +152,15 @@ fn parts<'a>(
     input: &Input<'_>,
     filled: &'a [Filled],
     values: &'a Registry,
+    declared: &'a Declared,
 ) -> Result<(Vec<Part<'a>>, Labels), Error> {
     let library = Library::read(input.templates.text("references.bib")?)?;
     let (mut labels, mut shown) = (Labels::of(input.figures), BTreeSet::new());
     let mut parts = Vec::new();
-    let read = |filled| parse::parse(filled, values, input.program);
-    let read: Vec<_> = filled.par_iter().with_max_len(1).map(read).collect();
+    let read = |filled| parse::parse(filled, values, declared, input.program);
+    let read = filled.par_iter().with_max_len(1).map(read).collect::<Vec<_>>();
+    let (read, faults): (Vec<_>, Vec<_>) = read.into_iter().partition(Result::is_ok);
+    Error::all(faults.into_iter().filter_map(Result::err).collect())?;
     for ((of, filled), read) in input.program.documents.iter().zip(filled).zip(read) {
         let (mut blocks, places) = read?;
         document::title(&blocks).map_err(|error| error.at(filled.place(0)))?;

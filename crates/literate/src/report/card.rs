@@ -3,9 +3,9 @@
 //! Cards are made of values.json and ledger.json alone, with the parameters of the profile, so that
 //! no run is needed.
 
-use super::captions::number_of_figure;
 use super::document::Inline;
 use super::ledger::Ledger;
+use super::parse::number_of_figure;
 use super::print::{Asked, Style, print};
 use super::values::{Digits, Kind, Number, Registry, Value};
 use crate::figures::DataFile;

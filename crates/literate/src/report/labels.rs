@@ -2,9 +2,9 @@
 
 use super::Error;
 use super::bibliography::Library;
-use super::captions::number_of_figure;
 use super::document::{Block, Inline, rewrite, visit};
 use super::documents::Document;
+use super::parse::number_of_figure;
 use crate::claims::Check;
 use crate::figures::Figure;
 use std::collections::{BTreeMap, BTreeSet};

@@ -6,9 +6,9 @@
 
 use super::print::{Asked, Style};
 
-const OPEN: char = '\u{e000}';
+pub(super) const OPEN: char = '\u{e000}';
 const NEXT: char = '\u{e001}';
-const CLOSE: char = '\u{e002}';
+pub(super) const CLOSE: char = '\u{e002}';
 
 /// Brackets of an address, into which Markdown would read a link.
 const BRACKETS: [(&str, &str); 2] = [("[", "\u{e003}"), ("]", "\u{e004}")];
@@ -86,11 +86,6 @@ pub fn style(words: &str) -> Style {
         }
     }
     style
-}
-
-/// Does a mark end with this character?
-pub fn ends(c: char) -> bool {
-    c == CLOSE
 }
 
 #[cfg(test)]

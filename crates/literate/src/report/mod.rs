@@ -7,11 +7,9 @@
 
 pub mod assemble;
 pub mod bibliography;
-mod captions;
 pub mod card;
 pub mod claims;
 pub mod compare;
-mod declared;
 pub mod document;
 pub mod documents;
 pub mod filler;
@@ -29,7 +27,6 @@ pub mod origin;
 pub mod parse;
 pub mod print;
 pub mod spell;
-mod tags;
 pub mod templates;
 mod tex;
 mod uses;
@@ -63,7 +60,7 @@ pub enum Error {
     Template(String),
     #[error("{path}: {source}; {}", crate::input::remedy(source, "check --templates"))]
     Read { path: String, source: std::io::Error },
-    #[error("{}; see report::parse for the markup that there is", one_line(.0, 200))]
+    #[error("{}; see the manual, `literate::manual`", one_line(.0, 200))]
     Markup(String),
     #[error("{place}: {error}")]
     At { place: String, error: Box<Error> },
@@ -88,7 +85,12 @@ pub enum Error {
     #[error("no MathML for ${}$: {}; write it otherwise", one_line(tex, 200), one_line(what, 200))]
     Maths { tex: String, what: String },
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
-    Lint(Vec<lint::Finding>),
+    Several(Vec<Error>),
+    #[error(
+        "the naked numeral {0}; name a value «v.…», declare «literal(text=\"{0}\", why=\"…\")», or the phrase about it in \
+         literals.toml"
+    )]
+    Numeral(String),
     #[error("{0} is not shown; put ![caption](figures/{0}.svg) into the prose")]
     NotShown(String),
     #[error("equation ({0}) is not shown; put \\tag{{{0}}} to it in the prose")]
@@ -103,6 +105,25 @@ impl Error {
         match self {
             Error::At { .. } => self,
             error => Error::At { place, error: Box::new(error) },
+        }
+    }
+
+    /// Nothing wrong, or all that is.
+    pub(crate) fn all(mut errors: Vec<Error>) -> Result<(), Error> {
+        match errors.len() {
+            0 => Ok(()),
+            1 => errors.pop().map_or(Ok(()), Err),
+            _ => Err(Error::Several(errors)),
+        }
+    }
+
+    /// Whether the prose can be read, and breaks a rule about its numbers and figures.
+    pub fn is_of_rules(&self) -> bool {
+        match self {
+            Error::Numeral(_) | Error::NotShown(_) | Error::Unused(_) => true,
+            Error::At { error, .. } => error.is_of_rules(),
+            Error::Several(errors) => errors.iter().all(Error::is_of_rules),
+            _ => false,
         }
     }
 }

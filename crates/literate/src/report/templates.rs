@@ -2,12 +2,11 @@
 
 use super::Error;
 use crate::input;
-use std::collections::{BTreeMap, BTreeSet};
-use std::io;
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::path::Path;
 
 /// Endings of the files that are templates or data for them (fonts live there too).
-const TEXT: [&str; 9] = [".md", ".tex", ".typ", ".bib", ".toml", ".html", ".css", ".js", ".json"];
+const TEXT: [&str; 8] = [".md", ".tex", ".bib", ".toml", ".html", ".css", ".js", ".json"];
 
 /// What stands around the text of the documents, where a folder has none of its own.
 const SKIN: [(&str, &str); 4] = [
@@ -17,12 +16,8 @@ const SKIN: [(&str, &str); 4] = [
     ("report.tex", include_str!("../../skin/report.tex")),
 ];
 
-/// Files and folders that may stand in the folder: somebody might give the root.
-const ENTRIES: usize = 10_000;
-
-/// Bytes of all of them at most: ours have a third of a million, and each of them takes a hundred times as much while a
-/// report is made.
-const BYTES: usize = 4 << 20;
+/// Files that may stand in the folder: somebody might give the root.
+const FILES: usize = 1000;
 
 /// All template files, by path relative to their folder.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,9 +32,30 @@ impl Templates {
 
     /// Reads all templates of a folder.
     pub fn read(folder: &Path) -> Result<Self, Error> {
-        let mut walk = Walk::default();
-        walk.folder(folder, "")?;
-        Ok(Templates::of(walk.files.iter().map(|(path, text)| (path.as_str(), text.as_str()))))
+        let mut templates = Templates::of([]);
+        templates.add(folder, "")?;
+        Ok(templates)
+    }
+
+    fn add(&mut self, folder: &Path, prefix: &str) -> Result<(), Error> {
+        let fail = |path: &Path, source| Error::Read { path: path.display().to_string(), source };
+        for entry in std::fs::read_dir(folder).map_err(|e| fail(folder, e))? {
+            let path = entry.map_err(|e| fail(folder, e))?.path();
+            // Locks and copies of editors are hidden.
+            let name = path.file_name().and_then(|name| name.to_str());
+            let Some(name) = name.filter(|name| !name.starts_with('.')) else { continue };
+            if path.is_dir() && !path.is_symlink() {
+                self.add(&path, &format!("{prefix}{name}/"))?;
+            } else if TEXT.iter().any(|end| name.ends_with(end)) {
+                let text = input::regular_text(&path).map_err(|e| fail(&path, e))?;
+                self.0.insert(format!("{prefix}{name}"), text);
+            }
+            if self.0.len() > FILES {
+                let what = format!("more than {FILES} files; give the folder of templates alone");
+                return Err(Error::Template(format!("{}: {what}", folder.display())));
+            }
+        }
+        Ok(())
     }
 
     /// The text of one file.
@@ -55,58 +71,5 @@ impl Templates {
     /// Paths and texts, sorted.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
         self.0.iter().map(|(path, text)| (path.as_str(), text.as_str()))
-    }
-}
-
-/// A folder being read.
-#[derive(Default)]
-struct Walk {
-    files: BTreeMap<String, String>,
-    bytes: usize,
-    /// Files and folders met so far.
-    entries: usize,
-    /// Folders so far: symbolic links may lead to one of them again, without end.
-    folders: BTreeSet<PathBuf>,
-}
-
-impl Walk {
-    fn folder(&mut self, folder: &Path, prefix: &str) -> Result<(), Error> {
-        let fail = |path: &Path, source| Error::Read { path: path.display().to_string(), source };
-        let refuse = |path: &Path, what: &str| {
-            Err(fail(path, io::Error::new(io::ErrorKind::InvalidInput, what)))
-        };
-        if !self.folders.insert(folder.canonicalize().map_err(|e| fail(folder, e))?) {
-            return refuse(folder, "it leads to a folder that was read before");
-        }
-        for entry in std::fs::read_dir(folder).map_err(|e| fail(folder, e))? {
-            let path = entry.map_err(|e| fail(folder, e))?.path();
-            self.entries += 1;
-            if self.entries > ENTRIES {
-                let what = format!(
-                    "there are more than {ENTRIES} files; give the folder of templates alone"
-                );
-                return refuse(folder, &what);
-            }
-            // Locks and copies of editors are hidden.
-            let name = path.file_name().and_then(|name| name.to_str());
-            let Some(name) = name.filter(|name| !name.starts_with('.')) else { continue };
-            let relative = format!("{prefix}{name}");
-            if path.is_dir() {
-                self.folder(&path, &format!("{relative}/"))?;
-            } else if TEXT.iter().any(|end| name.ends_with(end)) {
-                let text = input::regular_text(&path).map_err(|e| fail(&path, e))?;
-                if text.starts_with('\u{feff}') {
-                    let what = "it begins with a byte-order mark; save it as UTF-8 without";
-                    return Err(Error::Template(format!("{}: {what}", path.display())));
-                }
-                self.bytes += text.len();
-                if self.bytes > BYTES {
-                    let what = format!("the templates are longer than {} MiB", BYTES >> 20);
-                    return refuse(&path, &what);
-                }
-                self.files.insert(relative, text);
-            }
-        }
-        Ok(())
     }
 }

@@ -1,14 +1,12 @@
 //! Running text: words, formulas, code, references and values.
 
-use super::super::captions::{picture, refuse_pictures};
 use super::super::card::words_and_maths;
-use super::super::document::{Inline, plain};
-use super::super::labels::of_kind;
+use super::super::document::Inline;
+use super::super::lint;
 use super::super::mark::{self, Piece, bare, framed, pieces};
-use super::super::print::print;
+use super::super::print::{Printed, print};
 use super::super::{Error, macros, mathml, tex};
-use super::written::{comment, markup, own_link};
-use super::{Reader, is_block, leftover};
+use super::{ALONE, ELSE, Reader, comment, is_block, markup};
 use crate::input::is_no_text;
 use pulldown_cmark::{Event, LinkType, Tag};
 use std::ops::Range;
@@ -25,94 +23,70 @@ impl Reader<'_> {
             }
             let Some((event, range)) = self.next() else { break };
             match event {
-                Event::Text(text) => {
-                    self.whole(&text, &range)?;
-                    self.text(&text, &mut out)?;
+                Event::Text(text) => self.text(&text, range, &mut out)?,
+                Event::Code(code) => {
+                    let digits = |(_, numeral): &(usize, String)| {
+                        numeral.starts_with(|c: char| c.is_numeric())
+                    };
+                    let found = lint::words(&self.filled.text, range, self.declared);
+                    self.naked(found.into_iter().filter(digits));
+                    out.push(Inline::Code(self.plain(&code)?));
                 }
-                Event::Code(text) => {
-                    self.has_no_role(&text, &range)?;
-                    out.push(Inline::Code(self.written(&text)?));
-                }
-                Event::InlineMath(_) if self.inside > 0 => {
+                Event::InlineMath(_) if self.hides > 0 => {
                     return Err(markup("hosts see no formula inside emphasis or a link"));
                 }
                 Event::InlineMath(tex) => {
-                    self.stands_free(&range)?;
+                    self.stands_free(range.start)?;
+                    self.formula(&range);
                     out.push(Inline::Maths(self.maths(&tex)?));
                 }
-                Event::DisplayMath(tex) => out.push(self.display(&tex)?),
+                Event::DisplayMath(tex) => {
+                    self.formula(&range);
+                    out.push(self.display(&tex)?);
+                }
                 Event::SoftBreak => out.push(Inline::Soft),
                 Event::HardBreak => out.push(Inline::Break),
                 Event::InlineHtml(html) => comment(&html)?,
                 Event::Start(tag) => out.push(self.span(tag, range)?),
-                other => return Err(markup(format!("no such markup: {other:?}"))),
+                _ => return Err(markup(ELSE)),
             }
         }
         Ok(out)
     }
 
-    /// The same where no picture and no equation of its own can stand.
-    pub(super) fn without_pictures(&mut self) -> Result<Vec<Inline>, Error> {
+    /// The same where no equation of its own can stand.
+    pub(super) fn line(&mut self) -> Result<Vec<Inline>, Error> {
         let inlines = self.inlines()?;
-        if inlines.iter().any(|inline| matches!(inline, Inline::Display { .. })) {
-            return Err(markup("an equation between $$ stands in a paragraph; write $…$ here"));
-        }
-        refuse_pictures(&inlines).map(|()| inlines)
-    }
-
-    /// Other tools give code a role, or run it.
-    fn has_no_role(&self, code: &str, range: &Range<usize>) -> Result<(), Error> {
-        let before = self.filled.text[..range.start].split_whitespace().next_back();
-        let before =
-            before.filter(|_| !self.filled.text[..range.start].ends_with(char::is_whitespace));
-        let role = |word: &str| word.len() > 2 && word.starts_with(':') && word.ends_with(':');
-        match before.is_some_and(role) || code.starts_with("r ") {
-            true => Err(markup("code has no role and is not run; write $…$, [@…] or «…»")),
-            false => Ok(()),
+        match inlines.iter().any(|inline| matches!(inline, Inline::Display { .. })) {
+            true => Err(markup("an equation between $$ stands in a paragraph; write $…$ here")),
+            false => Ok(inlines),
         }
     }
 
-    /// Refuses markup that was left over as text, since its other end is missing.
-    fn whole(&mut self, text: &str, range: &Range<usize>) -> Result<(), Error> {
-        let source = &self.filled.text;
-        // Behind a backslash a sign is meant as it stands.
-        let escaped = source[..range.start].ends_with('\\');
-        let begins =
-            source[..range.start].rsplit('\n').next().is_some_and(|line| line.trim().is_empty());
-        if begins && text.starts_with('|') {
-            self.at = range.start;
-            return Err(markup(
-                "a table needs a line of dashes below its head with as many columns; write \\| for the sign",
-            ));
+    /// Notes naked numerals that people typed.
+    fn naked(&mut self, found: impl IntoIterator<Item = (usize, String)>) {
+        for (at, numeral) in found {
+            if self.filled.is_typed(at) {
+                self.find(at, Error::Numeral(numeral));
+            }
         }
-        if let Some(offset) = leftover::find(source, range.start, text, escaped) {
-            self.at = offset;
-            return Err(markup(leftover::WHAT));
-        }
-        // Characters for private use frame values; nobody else writes them, not as `&#xE000;` either.
-        if let Some(c) = text.chars().find(|c| is_no_text(*c) && !self.source(range).contains(*c)) {
-            return Err(markup(format!("the character U+{:04X} is none of a text", u32::from(c))));
-        }
-        let written = self.source(range);
-        if written.starts_with('&') && written.ends_with(';') && written != text {
-            return Err(markup(format!("{written} is no text; write the character itself")));
-        }
-        let odd = |c: char| !c.is_ascii() && !is_no_text(c);
-        for (i, c) in text.char_indices().filter(|(_, c)| odd(*c)) {
-            tex::text(c.encode_utf8(&mut [0; 4])).inspect_err(|_| self.at = range.start + i)?;
-        }
-        if let Some(offset) = text.find("{#").filter(|_| !escaped) {
-            self.attribute = Some(range.start + offset);
-        }
-        Ok(())
+    }
+
+    /// Notes a naked number in a formula; what tags wrote is a letter there.
+    fn formula(&mut self, range: &Range<usize>) {
+        let source = self.source(range);
+        let tex = source.trim_start_matches('$');
+        let begin = range.end - tex.len();
+        let tex = tex.trim_end_matches('$').split(r"\tag").next().unwrap_or_default();
+        let typed = |(i, c)| if self.filled.is_typed(begin + i) { c } else { 'x' };
+        let naked = lint::formula(&tex.char_indices().map(typed).collect::<String>());
+        self.naked(naked.map(|numeral| (range.start, numeral)));
     }
 
     /// Hosts see a formula in the line only behind a blank or an opening bracket.
-    fn stands_free(&self, range: &Range<usize>) -> Result<(), Error> {
-        let before = self.filled.text[..range.start].chars().next_back();
-        let touches =
-            |c: char| c.is_alphanumeric() || matches!(c, ')' | ']' | '$') || mark::ends(c);
-        match before.is_some_and(touches) {
+    fn stands_free(&self, at: usize) -> Result<(), Error> {
+        let touches = |c: char| c.is_alphanumeric() || ")]$".contains(c) || c == mark::CLOSE;
+        match self.filled.text[..at].ends_with(touches) {
             true => Err(markup(
                 "hosts see no formula right behind a word or a number: move it inside, or set it apart",
             )),
@@ -121,63 +95,89 @@ impl Reader<'_> {
     }
 
     fn span(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Inline, Error> {
+        // What stands there is no text but a reference, or the address of a link.
+        if let Tag::Link { link_type, dest_url, .. } = &tag
+            && let LinkType::ShortcutUnknown | LinkType::Autolink | LinkType::Email = link_type
+        {
+            while !matches!(self.next(), None | Some((Event::End(_), _))) {}
+            let mail = if *link_type == LinkType::Email { "mailto:" } else { "" };
+            return match link_type {
+                LinkType::ShortcutUnknown => self.reference(dest_url, range.start),
+                _ => Ok(Inline::Link {
+                    to: format!("{mail}{dest_url}"),
+                    shown: vec![Inline::Text(dest_url.to_string())],
+                }),
+            };
+        }
         let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
-        self.inside += usize::from(hides);
-        let inner = self.without_pictures()?;
-        self.inside -= usize::from(hides);
+        self.hides += usize::from(hides);
+        let shown = self.line()?;
+        self.hides -= usize::from(hides);
         self.at = range.start;
         self.next();
-        let empty = plain(&inner).trim().is_empty();
         Ok(match tag {
-            Tag::Emphasis => Inline::Emphasis(inner),
-            Tag::Strong => Inline::Strong(inner),
-            Tag::Link { link_type: LinkType::ShortcutUnknown, dest_url, .. } => {
-                let link = own_link(&dest_url)?;
-                match &link {
-                    Inline::Anchor { id, .. } => self.places.add(format!("#{id}"), range.start),
-                    Inline::Unresolved(ids) => {
-                        let all = ids.iter().cloned().chain([ids.join("; ")]);
-                        all.for_each(|id| self.places.add(format!("@{id}"), range.start));
-                    }
-                    _ => {}
-                }
-                link
-            }
-            Tag::Link { dest_url, .. } if dest_url.starts_with('@') => {
-                return Err(markup("a reference for a link; write two of them as [@one; @two]"));
-            }
-            Tag::Link { .. } if plain(&inner).starts_with('@') => {
-                return Err(markup("a reference leads where it names; write [@…] alone"));
-            }
-            Tag::Link { dest_url, .. } if dest_url.contains(char::is_whitespace) => {
-                return Err(markup("a blank in the target of a link; write %20"));
-            }
-            Tag::Link { .. } if empty => return Err(markup("a link without words")),
-            Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. } if dest_url.is_empty() => {
-                return Err(markup("a link or picture that leads nowhere"));
-            }
-            Tag::Link { dest_url, link_type, .. } => {
-                let mail = if link_type == LinkType::Email { "mailto:" } else { "" };
-                let to = format!("{mail}{}", self.written(&dest_url)?);
+            Tag::Emphasis => Inline::Emphasis(shown),
+            Tag::Strong => Inline::Strong(shown),
+            Tag::Link { dest_url, .. } => {
+                let to = self.plain(&dest_url)?;
                 self.places.add(format!("({to}"), range.start);
-                Inline::Link { to, shown: inner }
+                Inline::Link { to, shown }
             }
-            // Becomes a figure if it stands alone in its paragraph, else an error there.
-            Tag::Image { dest_url, .. } => picture(&dest_url, inner),
-            other => return Err(markup(format!("no such markup: {other:?}"))),
+            Tag::Image { .. } => return Err(markup(ALONE)),
+            _ => return Err(markup(ELSE)),
         })
     }
 
+    /// `@fig:2; @fig:3` or `!claim:rise`.
+    fn reference(&mut self, reference: &str, at: usize) -> Result<Inline, Error> {
+        if let Some(id) = reference.strip_prefix('!') {
+            self.id("claim", id, at)?;
+            return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
+        }
+        let one = |id: &str| id.trim().strip_prefix('@').map(str::to_string);
+        let ids: Option<Vec<String>> = reference.split(';').map(one).collect();
+        let ids = ids.ok_or_else(|| Error::Reference(reference.trim_start_matches('@').into()))?;
+        for id in ids.iter().cloned().chain([ids.join("; ")]) {
+            self.places.add(format!("@{id}"), at);
+        }
+        Ok(Inline::Unresolved(ids))
+    }
+
     /// Text with marks → words and values.
-    fn text(&self, text: &str, out: &mut Vec<Inline>) -> Result<(), Error> {
+    fn text(
+        &mut self,
+        text: &str,
+        range: Range<usize>,
+        out: &mut Vec<Inline>,
+    ) -> Result<(), Error> {
+        let source = &self.filled.text;
+        let range = range.start..range.end.min(self.until.max(range.start));
+        let text = &text[..text.len().min(range.len())];
+        if let Some((at, what)) = leftover(source, range.start, text)
+            && at >= self.quiet
+        {
+            (self.at, self.quiet) = (at, at + source[at..].find("\n\n").unwrap_or(source.len()));
+            return Err(markup(what));
+        }
+        self.naked(lint::words(source, range.clone(), self.declared));
         for piece in pieces(text) {
             match piece {
-                Piece::Text(words) => match (whole(words)?, out.last_mut()) {
-                    (words, Some(Inline::Text(before))) => before.push_str(words),
-                    (words, _) => out.push(Inline::Text(words.to_string())),
-                },
+                Piece::Text(words) => {
+                    if let Some(c) = words.chars().find(|c| is_no_text(*c)) {
+                        return Err(markup(format!(
+                            "the character U+{:04X} is none of a text",
+                            u32::from(c)
+                        )));
+                    }
+                    // What LaTeX does not know is told here, where its place is known.
+                    tex::text(words)?;
+                    match out.last_mut() {
+                        Some(Inline::Text(before)) => before.push_str(words),
+                        _ => out.push(Inline::Text(words.to_string())),
+                    }
+                }
                 Piece::Value { id, shown } => {
-                    let shown = words_and_maths(&self.shown(&id, shown, Target::Prose)?);
+                    let shown = words_and_maths(&self.printed(&id, shown)?.markdown());
                     out.push(Inline::Value { id, shown });
                 }
             }
@@ -187,18 +187,16 @@ impl Reader<'_> {
 
     /// TeX that every format can show.
     fn maths(&self, tex: &str) -> Result<String, Error> {
-        let tex = self.replaced(tex, Target::Maths)?;
+        let one = |piece| match piece {
+            Piece::Value { id, shown } => Ok(framed(&id, &self.printed(&id, shown)?.maths())),
+            Piece::Text(text) => Ok(text.to_string()),
+        };
+        let tex: String = pieces(tex).into_iter().map(one).collect::<Result<_, Error>>()?;
         let bare = bare(&tex);
-        if bare.trim().is_empty() {
-            return Err(markup("a formula without anything in it"));
+        if bare.contains(|c| "«»`".contains(c) || is_no_text(c)) {
+            return Err(markup(LEFTOVER));
         }
-        if bare.contains('`') {
-            return Err(markup("code within a formula; write $…$ alone"));
-        }
-        if bare.contains('»') {
-            return Err(markup("the end of a value that does not begin; put « before its name"));
-        }
-        match macros::refused(&bare).or_else(|| macros::ungrouped(&tex)) {
+        match macros::refused(&tex) {
             Some(what) => Err(Error::Maths { tex: bare, what }),
             None => tex::maths(&bare).and_then(|_| mathml::reads(&bare)).map(|()| tex),
         }
@@ -211,47 +209,75 @@ impl Reader<'_> {
         };
         let (tag, after) =
             after.split_once('}').ok_or_else(|| markup(r"a \tag{ without its end"))?;
+        self.id("eq", &format!("eq:{tag}"), self.at)?;
         let tex = self.maths(format!("{}{}", before.trim(), after.trim_end()).trim())?;
-        of_kind("eq", &format!("eq:{tag}"))?;
-        self.places.add(format!("#eq:{tag}"), self.at);
         Ok(Inline::Display { tex, tag: Some(tag.to_string()) })
     }
 
-    pub(super) fn written(&self, text: &str) -> Result<String, Error> {
-        self.replaced(text, Target::Plain)
-    }
-
-    fn replaced(&self, text: &str, target: Target) -> Result<String, Error> {
+    /// Text in which values are digits alone: code, targets of links.
+    pub(super) fn plain(&self, text: &str) -> Result<String, Error> {
         let one = |piece| match piece {
-            Piece::Value { id, shown } => self.shown(&id, shown, target),
-            Piece::Text(text) => whole(text).map(str::to_string),
+            Piece::Value { id, shown } => Ok(self.printed(&id, shown)?.plain()),
+            Piece::Text(text) => Ok(text.to_string()),
         };
         pieces(text).into_iter().map(one).collect()
     }
 
-    fn shown(&self, id: &str, words: &str, target: Target) -> Result<String, Error> {
+    fn printed(&self, id: &str, filters: &str) -> Result<Printed, Error> {
         let unknown = || Error::Template(format!("there is no value {id}"));
         let value = self.values.get(id).ok_or_else(unknown)?;
-        let printed = print(&value.number, mark::style(words));
-        Ok(match target {
-            Target::Prose => printed.markdown(),
-            Target::Maths => framed(id, &printed.maths()),
-            Target::Plain => printed.plain(),
-        })
+        Ok(print(&value.number, mark::style(filters)))
     }
 }
 
-/// Text without a part of a value.
-fn whole(text: &str) -> Result<&str, Error> {
-    match text.contains(is_no_text) {
-        true => Err(Error::Template("a filter has cut a value; print it whole".into())),
-        false => Ok(text),
-    }
-}
+const LEFTOVER: &str = "markup without its other end, or none of this project; complete it, or write a backslash before the sign";
 
-#[derive(Clone, Copy)]
-enum Target {
-    Prose,
-    Maths,
-    Plain,
+/// How lines begin that Markdown reads as a list, a heading or a quotation, and ends a formula there.
+const LINES: [&str; 7] = ["+ ", "- ", "* ", "1. ", "# ", "## ", ">"];
+
+/// The first sign of markup that Markdown took for text, since its other end is missing, and what is wrong there. The text
+/// stands at `start`; behind a backslash a sign is meant as it stands.
+fn leftover(source: &str, start: usize, text: &str) -> Option<(usize, String)> {
+    let escaped = source[..start].ends_with('\\');
+    let left = |(i, c): &(usize, char)| {
+        let (before, after) = source.split_at(start + i);
+        let word = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
+        let blank = |c: Option<char>| c.is_none_or(char::is_whitespace);
+        let (last, next) = (before.chars().next_back(), after.chars().nth(1));
+        match c {
+            '«' | '»' | '[' | ']' | '{' | '}' | '$' | '`' | '~' | '^' => true,
+            '*' => !(blank(last) && blank(next)),
+            '@' => !(word(last) && word(next)),
+            '\\' => next.is_some_and(|c| c.is_ascii_alphabetic()),
+            '#' | '|' => last.is_none_or(|c| c == '\n'),
+            _ => false,
+        }
+    };
+    let (i, sign) = text.char_indices().skip(usize::from(escaped)).find(left)?;
+    let at = start + i;
+    if sign == '|' {
+        return Some((
+            at,
+            "a table needs a line of dashes below its head with as many columns".into(),
+        ));
+    }
+    let mut offset = at;
+    for line in source[at..].split_inclusive('\n').take_while(|_| source[at..].starts_with("$$")) {
+        let begin = line.trim_start();
+        if offset > at
+            && (begin.is_empty()
+                || line.contains("$$") && !LINES.iter().any(|own| begin.starts_with(own)))
+        {
+            break;
+        }
+        if let Some(own) = LINES.iter().find(|own| begin.starts_with(**own)) {
+            let what = "a list, a heading or a quotation; end the line before with the sign";
+            return Some((
+                offset,
+                format!("Markdown reads a line of a formula that begins with {own:?} as {what}"),
+            ));
+        }
+        offset += line.len();
+    }
+    Some((at, LEFTOVER.into()))
 }

@@ -1,44 +1,31 @@
-//! Filled Markdown → the tree of [`super::document`].
+//! Filled Markdown → the tree of [`super::document`], in one pass, which looks for naked numerals too.
 //!
-//! The prose is CommonMark with tables, `$…$` and `$$…$$`, and these forms of our own:
-//!
-//! - `## Words {#sec:id}`: a section; numbers are given in order; `{#sec:id .unnumbered}` has none.
-//! - `$$ … \tag{18} $$`: a numbered equation; its id is `eq:18`.
-//! - `![caption](figures/fig03.svg)` alone in a paragraph: a figure; its id is `fig:3`.
-//! - `Table: caption {#tab:id}`, a paragraph right before a table: its caption.
-//! - `Listing: caption {#lst:id}`, a paragraph right before `«code(item="path::of::item")»`: a
-//!   listing of that item of the source.
-//! - `Lab name: caption`, a paragraph: what readers run themselves, where a format can, else nothing.
-//! - `[!claim:id]`: a place that can be referred to; it shows its number.
-//! - `[@eq:18]`, `[@fig:2; @fig:3]`, `[@sec:id]`, `[@tab:id]`, `[@lst:id]`, `[@claim:id]`: references, written
-//!   out as "Eq. (18)" and so on; with a capital, as `[@Fig:2]`, in full as at the start of a sentence.
-//! - `[@row:id]`: the verdict on a statement and the number of its row, small behind the sentence; `[@mark:id]`: the same
-//!   in a line; `[@sign:id]`: the sign of the verdict alone.
-//! - `[@rice1945]`: a citation of `references.bib`.
-//! - `[@bibliography]` alone in a paragraph: the list of what was cited.
-//!
-//! Signs of markup that are left over as text are errors; one that is meant has a backslash before it.
+//! The manual ([`crate::manual`]) says which markup there is. Whatever else Markdown reads is refused, and so is markup that
+//! was left over as text, since its other end is missing.
 
 mod inlines;
-mod leftover;
-mod written;
 
 use super::Error;
-use super::captions::{join, listing, opens_caption, paragraph, stands_within};
-use super::document::{Align, Block, Inline, plain};
+use super::document::{Align, Block, Inline};
 use super::labels::of_kind;
+use super::lint::Declared;
 use super::origin::{Filled, Places};
 use super::values::Registry;
 use crate::source::Program;
-use pulldown_cmark::{Alignment, BrokenLink, CowStr, Event, Options, Parser, Tag};
+use pulldown_cmark::{
+    Alignment, BrokenLink, CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd,
+};
 use std::ops::Range;
-use written::{attributes, cells_of, comment, markup};
 
-/// Parses filled Markdown; `values` turn marks into what is shown. The places are those of what has an id
-/// and of what names one.
+/// Parses filled Markdown; `values` turn marks into what is shown, `declared` are phrases that may have numbers. The
+/// places are those of what has an id and of what names one.
+///
+/// # Errors
+/// All that is wrong, with its places.
 pub fn parse<'a>(
     filled: &'a Filled,
     values: &'a Registry,
+    declared: &'a Declared,
     program: Program,
 ) -> Result<(Vec<Block>, Places<'a>), Error> {
     let options =
@@ -48,70 +35,87 @@ pub fn parse<'a>(
         own.then(|| (CowStr::from(link.reference.to_string()), CowStr::from("")))
     };
     let parser = Parser::new_with_broken_link_callback(&filled.text, options, Some(callback));
-    if let Some((_, definition)) = parser.reference_definitions().iter().next() {
-        let error = Error::Markup("a definition of a link is shown nowhere".into());
-        return Err(error.at(filled.place(definition.span.start)));
-    }
+    let definitions = parser.reference_definitions().iter().map(|(_, own)| own.span.start);
+    let definitions: Vec<usize> = definitions.collect();
     let events: Vec<(Event<'_>, Range<usize>)> = parser.into_offset_iter().collect();
+    let deep = deepest(&events);
     let mut reader = Reader {
         events: events.into_iter().peekable(),
         filled,
         values,
+        declared,
         program,
         at: 0,
-        attribute: None,
-        inside: 0,
+        until: usize::MAX,
+        quiet: 0,
         within: 0,
+        hides: 0,
         titled: false,
-        level: 1,
         places: Places::of(filled),
+        found: Vec::new(),
     };
-    match reader.shallow().and_then(|()| reader.blocks()) {
-        Ok(blocks) => Ok((blocks, reader.places)),
-        Err(error) => Err(error.at(filled.place(reader.at))),
+    for at in definitions.into_iter().chain(deep) {
+        reader.find(at, markup("this is shown nowhere, or lies too deep; remove it"));
     }
+    let mut blocks = Vec::new();
+    if deep.is_none() {
+        blocks = reader.blocks()?;
+    }
+    Error::all(reader.found).map(|()| (blocks, reader.places))
+}
+
+/// An error of the markup.
+fn markup(what: impl Into<String>) -> Error {
+    Error::Markup(what.into())
 }
 
 /// Lists, quotations and spans within each other, at most: what reads and writes them calls itself.
-const DEEPEST: usize = 40;
+const DEEPEST: i32 = 40;
+
+/// Where something lies deeper than any prose.
+fn deepest(events: &[(Event<'_>, Range<usize>)]) -> Option<usize> {
+    let mut depth = 0;
+    let deep = |(event, range): &(Event<'_>, Range<usize>)| {
+        depth += i32::from(matches!(event, Event::Start(_)));
+        depth -= i32::from(matches!(event, Event::End(_)));
+        (depth > DEEPEST).then_some(range.start)
+    };
+    events.iter().find_map(deep)
+}
 
 struct Reader<'a> {
     events: std::iter::Peekable<std::vec::IntoIter<(Event<'a>, Range<usize>)>>,
     filled: &'a Filled,
-    program: Program,
     values: &'a Registry,
+    declared: &'a Declared,
+    program: Program,
     /// Where in the filled text what is being read begins.
     at: usize,
-    /// Where the last `{#id}` stands that nothing has taken yet.
-    attribute: Option<usize>,
-    /// Emphasis and links about what is being read.
-    inside: usize,
-    /// Lists and quotations about it.
+    /// Where the words of a caption end, before its id.
+    until: usize,
+    /// Where a formula ends that Markdown has cut, of which the first fault says all.
+    quiet: usize,
+    /// Lists and quotations about what is being read.
     within: usize,
-    /// Whether there is a title already, and the level of the last heading.
+    /// Emphasis and links about it, in which hosts see no formula.
+    hides: usize,
     titled: bool,
-    level: u8,
     places: Places<'a>,
+    /// What is wrong so far.
+    found: Vec<Error>,
 }
 
-impl<'a> Reader<'a> {
-    /// Refuses what is nested deeper than any prose.
-    fn shallow(&mut self) -> Result<(), Error> {
-        let mut depth: usize = 0;
-        for (event, range) in self.events.clone() {
-            match event {
-                Event::Start(_) => depth += 1,
-                Event::End(_) => depth = depth.saturating_sub(1),
-                _ => {}
-            }
-            if depth > DEEPEST {
-                self.at = range.start;
-                return Err(markup(format!("more than {DEEPEST} levels within each other")));
-            }
-        }
-        Ok(())
-    }
+/// A paragraph `Table: words {#tab:id}` or `Listing: words {#lst:id}` before what it belongs to.
+struct Caption {
+    kind: &'static str,
+    at: usize,
+    words: Vec<Inline>,
+    id: Option<String>,
+}
 
+const CAPTIONS: [(&str, &str); 2] = [("Table: ", "tab"), ("Listing: ", "lst")];
+
+impl<'a> Reader<'a> {
     fn peek(&mut self) -> Option<&Event<'a>> {
         self.events.peek().map(|(event, _)| event)
     }
@@ -130,75 +134,40 @@ impl<'a> Reader<'a> {
         &self.filled.text[range.clone()]
     }
 
-    /// Blocks up to the end of what contains them.
+    /// Notes what is wrong at an offset.
+    fn find(&mut self, at: usize, error: Error) {
+        self.found.push(error.at(self.filled.place(at)));
+    }
+
+    /// Notes an id, of what stands at an offset.
+    fn id(&mut self, kind: &str, id: &str, at: usize) -> Result<(), Error> {
+        self.places.add(format!("#{id}"), at);
+        of_kind(kind, id)
+    }
+
+    /// Blocks up to the end of what contains them. Behind a faulty one reading goes on, but in lists and quotations.
     fn blocks(&mut self) -> Result<Vec<Block>, Error> {
-        let mut blocks = Vec::new();
-        // Where a caption begins that waits for its table or listing.
-        let mut caption = None;
-        while let Some(event) = self.peek() {
-            let new = match event {
-                Event::End(_) => break,
-                Event::Start(tag) if is_block(tag) => match self.next() {
-                    Some((Event::Start(tag), range)) => self.block(tag, range)?,
-                    _ => None,
-                },
-                Event::Rule => {
-                    self.next();
-                    return Err(markup("a line across the page is shown nowhere"));
+        let (mut blocks, within) = (Vec::new(), self.within);
+        while let Some((event, Range { start, end })) = self.events.peek().cloned() {
+            if matches!(event, Event::End(_)) {
+                break;
+            }
+            match self.block(None) {
+                Ok(Some(block)) if within > 0 && !stands_within(&block) => {
+                    self.at = start;
+                    let what = "what has a number or a place stands in no list and no quotation";
+                    return Err(markup(what));
                 }
-                // Text right inside an item of a tight list.
-                _ => {
-                    let begun = self.events.peek().map_or(self.at, |(_, range)| range.start);
-                    Some(self.paragraph(begun)?)
+                Ok(block) => blocks.extend(block),
+                Err(error) if within > 0 => return Err(error),
+                Err(error) => {
+                    self.find(self.at, error);
+                    (self.within, self.hides, self.until) = (0, 0, usize::MAX);
+                    while self.events.next_if(|(_, range)| range.start < end).is_some() {}
                 }
-            };
-            let Some(mut block) = new else { continue };
-            let begun = self.at;
-            if let (Some(Block::List { start: one, .. }), Block::List { start: other, .. }) =
-                (blocks.last(), &block)
-                && one.is_some() == other.is_some()
-            {
-                return Err(markup(
-                    "two lists without words between them are read as one; make them one",
-                ));
-            }
-            let is_list = |block: &Block| matches!(block, Block::Bibliography(_));
-            if is_list(&block) && blocks.iter().any(is_list) {
-                return Err(markup("a second [@bibliography]; a document has one"));
-            }
-            if self.within > 0 && !stands_within(&block) {
-                return Err(markup(
-                    "what has a number or a place of its own stands in no list and no quotation",
-                ));
-            }
-            self.at = caption.unwrap_or(begun);
-            let joined = join(&mut blocks, &mut block)?;
-            if let (Some(id), Some(offset)) = (&joined, caption) {
-                self.attribute = None;
-                self.at = offset;
-                let kind = if matches!(block, Block::Table { .. }) { "tab" } else { "lst" };
-                id.iter().try_for_each(|id| of_kind(kind, id))?;
-                id.iter().for_each(|id| self.places.add(format!("#{id}"), offset));
-            } else if let Some(offset) = caption {
-                self.at = offset;
-                return Err(markup("a caption without its table or code right behind it"));
-            }
-            caption = opens_caption(&block).then_some(begun);
-            if let Some(offset) = self.attribute.filter(|_| caption.is_none()) {
-                self.at = offset;
-                return Err(markup(
-                    "an id {#…} stands behind a heading or at the end of a caption",
-                ));
-            }
-            blocks.push(block);
-        }
-        match caption {
-            None => Ok(blocks),
-            Some(offset) => {
-                self.at = offset;
-                Err(markup("a caption without its table or code right behind it"))
             }
         }
+        Ok(blocks)
     }
 
     /// Blocks of an item of a list, or of a quotation.
@@ -209,56 +178,45 @@ impl<'a> Reader<'a> {
         Ok(blocks)
     }
 
-    fn block(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Option<Block>, Error> {
-        let block = match tag {
+    /// The next block, with the caption before it; none for a comment.
+    fn block(&mut self, caption: Option<Caption>) -> Result<Option<Block>, Error> {
+        let begins = |event: &Event<'_>| matches!(event, Event::Start(tag) if is_block(tag));
+        let Some((event, range)) = self.events.next_if(|(event, _)| begins(event)) else {
+            // Text right inside an item of a tight list.
+            let range = self.events.peek().map_or(0..0, |(_, range)| range.clone());
+            return self.paragraph(range, caption);
+        };
+        self.at = range.start;
+        let Event::Start(tag) = event else { return Ok(None) };
+        let mut block = match tag {
             Tag::Paragraph => {
-                let text = self.source(&range).trim();
-                let begins = text.starts_with('[') && !text.starts_with("[@");
-                if begins && text.contains("](figures/") && text.ends_with(".svg)") {
-                    return Err(markup(
-                        "a picture has ! before its brackets, ![caption](figures/…)",
-                    ));
-                }
-                self.paragraph(range.start)?
+                let block = self.paragraph(range, caption);
+                // A caption has gone on with what it belongs to.
+                self.events.next_if(|(event, _)| matches!(event, Event::End(TagEnd::Paragraph)));
+                return block;
             }
             Tag::Heading { level, id, classes, attrs } => {
                 let level = level as u8;
                 let unnumbered = classes.iter().any(|class| &**class == "unnumbered");
-                let own = id
-                    .iter()
-                    .map(|id| format!("#{id}"))
-                    .chain(unnumbered.then(|| ".unnumbered".into()));
-                let written = attributes(self.source(&range));
-                if !attrs.is_empty() || (!written.is_empty() && written != own.collect::<Vec<_>>())
-                {
-                    return Err(markup(
-                        "a heading has {#sec:id .unnumbered} behind it, or one of both, and nothing else",
-                    ));
+                if !attrs.is_empty() || classes.len() > usize::from(unnumbered) {
+                    return Err(markup("behind a heading stands {#sec:id .unnumbered} at most"));
                 }
-                id.iter().try_for_each(|id| of_kind("sec", id))?;
-                if level == 1 && std::mem::replace(&mut self.titled, true) {
-                    return Err(markup("a second title: sections begin with ##"));
+                let id = id.map(|id| id.to_string());
+                id.iter().try_for_each(|id| self.id("sec", id, range.start))?;
+                if level > 3 || level == 1 && std::mem::replace(&mut self.titled, true) {
+                    return Err(markup("a document has one title, and sections of ## and ###"));
                 }
-                if level > self.level + 1 {
-                    return Err(markup("a heading steps over a level"));
-                }
-                self.level = level;
-                let text = self.without_pictures()?;
+                let text = self.line()?;
                 self.at = range.start;
                 let leads =
                     |inline: &Inline| matches!(inline, Inline::Link { .. } | Inline::Unresolved(_));
-                if text.iter().any(leads) {
-                    return Err(markup("a heading leads nowhere else; put the link into the text"));
+                if text.is_empty() || text.iter().any(leads) {
+                    return Err(markup("a heading has words, and leads nowhere else"));
                 }
-                if plain(&text).trim().is_empty() {
-                    return Err(markup("a heading without words"));
-                }
-                let id = id.map(|id| id.to_string());
-                id.iter().for_each(|id| self.places.add(format!("#{id}"), range.start));
-                let number = (!unnumbered && matches!(level, 2 | 3)).then(String::new);
-                Block::Heading { level, number, id, text }
+                let number = (!unnumbered && level > 1).then(String::new);
+                Some(Block::Heading { level, number, id, text })
             }
-            Tag::BlockQuote(_) => Block::Quote(self.inner()?),
+            Tag::BlockQuote(_) => Some(Block::Quote(self.inner()?)),
             Tag::List(start) => {
                 let mut items = Vec::new();
                 while let Some(Event::Start(Tag::Item)) = self.peek() {
@@ -266,76 +224,140 @@ impl<'a> Reader<'a> {
                     items.push(self.inner()?);
                     self.next();
                 }
-                Block::List { start, items }
+                Some(Block::List { start, items })
             }
-            Tag::CodeBlock(kind) => {
-                let fenced = kind.is_fenced();
-                let language = match kind {
-                    pulldown_cmark::CodeBlockKind::Fenced(language) => language.to_string(),
-                    pulldown_cmark::CodeBlockKind::Indented => String::new(),
-                };
-                let mut text = String::new();
-                while let Some(Event::Text(piece)) = self.peek() {
-                    text.push_str(piece);
-                    self.next();
-                }
-                self.at = range.start;
-                if !fenced {
-                    return Err(markup(
-                        "words set in by four blanks are code; put it between ```, or set them less",
-                    ));
-                }
-                let last = self.source(&range).trim_end().lines().skip(1).last();
-                if !last.is_some_and(|line| line.trim_start().starts_with(['`', '~'])) {
-                    return Err(markup("a block of code without its end"));
-                }
-                let word = language.split(' ').next().unwrap_or_default();
-                if word == "math" || word.contains(|c: char| !c.is_ascii_alphanumeric()) {
-                    let what = "code of a language is named by a word; a formula stands between $$";
-                    return Err(markup(format!("{what}, and not in {word}")));
-                }
-                match language.split_once(' ') {
-                    Some((_, item)) => listing(item, &self.program)?,
-                    None => Block::Code { language, text: self.written(&text)? },
-                }
-            }
-            Tag::Table(columns) => {
-                let table = self.table(&columns)?;
-                self.at = range.start;
-                table
-            }
+            Tag::CodeBlock(kind) => Some(self.code(kind, &range)?),
+            Tag::Table(columns) => Some(self.table(&columns)?),
             Tag::HtmlBlock => {
-                // Comments are for writers; other HTML has no place in four formats.
                 let mut html = String::new();
                 while let Some(Event::Html(piece)) = self.peek() {
                     html.push_str(piece);
                     self.next();
                 }
-                self.at = range.start;
                 comment(html.trim())?;
-                self.next();
-                return Ok(None);
+                None
             }
-            other => return Err(markup(format!("no such markup: {other:?}"))),
+            _ => return Err(markup(ELSE)),
         };
         self.next();
-        Ok(Some(block))
+        match (caption, &mut block) {
+            (None, Some(Block::Listing { item, .. })) => {
+                let item = std::mem::take(item);
+                self.at = range.start;
+                let what = "without the paragraph `Listing: caption {#lst:id}` before it";
+                Err(markup(format!("code of `{item}` {what}")))
+            }
+            (None, _) => Ok(block),
+            (Some(own), Some(Block::Table { id, number, caption, .. })) if own.kind == "tab" => {
+                (*id, *number, *caption) = (own.id, Some(String::new()), own.words);
+                Ok(block)
+            }
+            (
+                Some(Caption { kind: "lst", id: Some(own), words, .. }),
+                Some(Block::Listing { id, caption, .. }),
+            ) => {
+                (*id, *caption) = (own, words);
+                Ok(block)
+            }
+            (Some(own), _) => {
+                self.at = own.at;
+                Err(markup(
+                    "a caption has its table, or an id {#lst:…} and its code, right behind it",
+                ))
+            }
+        }
     }
 
-    /// A paragraph that begins there, or what stands alone in it.
-    fn paragraph(&mut self, begun: usize) -> Result<Block, Error> {
-        let inlines = self.inlines()?;
-        self.at = begun;
-        let block = paragraph(inlines)?;
-        match &block {
-            Block::Figure { id, path, .. } => {
-                self.places.add(format!("#{id}"), begun);
-                self.places.add(format!("({path}"), begun);
-            }
-            Block::Lab { lab, .. } => self.places.add(format!("Lab {lab}"), begun),
-            _ => {}
+    /// A paragraph, or what stands alone in it.
+    fn paragraph(
+        &mut self,
+        range: Range<usize>,
+        before: Option<Caption>,
+    ) -> Result<Option<Block>, Error> {
+        if let Some(Caption { at, .. }) = before {
+            self.at = at;
+            return Err(markup("a caption has its table or its code right behind it"));
         }
-        Ok(block)
+        if let Some(Event::Start(Tag::Image { dest_url, .. })) = self.peek() {
+            let path = dest_url.to_string();
+            self.next();
+            return self.figure(path, range.start).map(Some);
+        }
+        let source = self.source(&range).trim_end();
+        let caption = CAPTIONS.iter().find(|(word, _)| source.starts_with(word));
+        let own = source.strip_suffix('}').and_then(|source| source.rsplit_once("{#"));
+        let own = own.filter(|_| caption.is_some());
+        self.until = own.map_or(usize::MAX, |(words, _)| range.start + words.len());
+        let mut inlines = self.inlines()?;
+        self.until = usize::MAX;
+        self.at = range.start;
+        if let Some((word, kind)) = caption {
+            let id = own.map(|(_, id)| id.to_string());
+            id.iter().try_for_each(|id| self.id(kind, id, range.start))?;
+            if let Some(Inline::Text(last)) = inlines.last_mut() {
+                last.truncate(last.trim_end().len());
+            }
+            self.events.next_if(|(event, _)| matches!(event, Event::End(TagEnd::Paragraph)));
+            let Some(Inline::Text(first)) = inlines.first_mut() else { return Err(markup(ELSE)) };
+            *first = first.trim_start_matches(word).to_string();
+            return self.block(Some(Caption { kind, at: range.start, words: inlines, id }));
+        }
+        if let [Inline::Unresolved(ids)] = inlines.as_slice()
+            && ids == &["bibliography"]
+        {
+            return Ok(Some(Block::Bibliography(Vec::new())));
+        }
+        if let Some(Inline::Text(first)) = inlines.first_mut()
+            && let Some((lab, words)) =
+                first.strip_prefix("Lab ").and_then(|own| own.split_once(": "))
+        {
+            let (lab, words) = (lab.to_string(), words.to_string());
+            *first = words;
+            self.places.add(format!("Lab {lab}"), range.start);
+            return Ok(Some(Block::Lab { lab, caption: inlines }));
+        }
+        Ok(Some(Block::Paragraph(inlines)))
+    }
+
+    /// A picture, which stands alone in its paragraph.
+    fn figure(&mut self, path: String, at: usize) -> Result<Block, Error> {
+        let caption = self.line()?;
+        self.next();
+        if !matches!(self.peek(), Some(Event::End(TagEnd::Paragraph))) {
+            self.at = at;
+            return Err(markup(ALONE));
+        }
+        let number = number_of_figure(&path);
+        let id = format!("fig:{number}");
+        self.places.add(format!("#{id}"), at);
+        self.places.add(format!("({path}"), at);
+        Ok(Block::Figure { id, number, path, alt: String::new(), origin: Vec::new(), caption })
+    }
+
+    /// A block of code, or the listing of an item of the source.
+    fn code(&mut self, kind: CodeBlockKind<'_>, range: &Range<usize>) -> Result<Block, Error> {
+        let mut text = String::new();
+        while let Some(Event::Text(piece)) = self.peek() {
+            text.push_str(piece);
+            self.next();
+        }
+        self.at = range.start;
+        let last = self.source(range).trim_end().lines().skip(1).last();
+        let closed = last.is_some_and(|line| line.trim_start().starts_with(['`', '~']));
+        let CodeBlockKind::Fenced(language) = kind else { return Err(markup(FENCE)) };
+        match language.split_once(' ') {
+            _ if !closed => Err(markup(FENCE)),
+            Some((_, item)) => {
+                let found = self.program.item(item).map_err(Error::Markup)?;
+                let (id, number, caption) = (String::new(), String::new(), Vec::new());
+                let (item, file, text) = (item.to_string(), found.file.to_string(), found.text);
+                let words = |words: &str| Inline::Text(words.into());
+                let link = Inline::Link { to: format!("../{file}"), shown: vec![words(&file)] };
+                let origin = vec![words("From "), link, words(".")];
+                Ok(Block::Listing { id, number, caption, item, file, origin, text })
+            }
+            None => Ok(Block::Code { language: language.to_string(), text: self.plain(&text)? }),
+        }
     }
 
     fn table(&mut self, columns: &[Alignment]) -> Result<Block, Error> {
@@ -352,7 +374,7 @@ impl<'a> Reader<'a> {
             let mut cells = Vec::new();
             while let Some(Event::Start(Tag::TableCell)) = self.peek() {
                 self.next();
-                cells.push(self.without_pictures()?);
+                cells.push(self.line()?);
                 self.next();
             }
             self.next();
@@ -367,6 +389,45 @@ impl<'a> Reader<'a> {
         let head = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
         Ok(Block::Table { id: None, number: None, caption: Vec::new(), columns, head, rows })
     }
+}
+
+const ELSE: &str = "this markup has no place in all formats";
+const ALONE: &str = "a picture stands alone in its paragraph";
+const FENCE: &str = "a block of code stands between two lines ```";
+
+/// figures/fig03.svg → 3, figures/s01.svg → S1.
+pub(super) fn number_of_figure(path: &str) -> String {
+    let stem = path.rsplit('/').next().unwrap_or(path);
+    let stem = stem.split('.').next().unwrap_or(stem);
+    let digits = stem.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+    let prefix = &stem[..stem.len() - digits.len()];
+    let digits = digits.trim_start_matches('0');
+    if prefix == "fig" { digits.to_string() } else { format!("{}{digits}", prefix.to_uppercase()) }
+}
+
+/// Comments are for writers; other HTML has no place in four formats.
+fn comment(html: &str) -> Result<(), Error> {
+    match html.starts_with("<!--") && html.ends_with("-->") && html.len() >= 7 {
+        true => Ok(()),
+        false => Err(markup("no HTML but whole comments, <!-- … --> and nothing behind it")),
+    }
+}
+
+/// Cells of a row of a table, by its bars.
+fn cells_of(row: &str) -> usize {
+    let row = row.trim();
+    let row = row.strip_prefix('|').unwrap_or(row);
+    let row = row.strip_suffix('|').filter(|rest| !rest.ends_with('\\')).unwrap_or(row);
+    row.matches('|').count() - row.matches(r"\|").count() + 1
+}
+
+/// May it stand in a list or a quotation? What is counted there would have no number.
+fn stands_within(block: &Block) -> bool {
+    use Block::{Code, List, Paragraph, Quote, Table};
+    matches!(
+        block,
+        Paragraph(_) | List { .. } | Quote(_) | Code { .. } | Table { number: None, .. }
+    )
 }
 
 fn is_block(tag: &Tag<'_>) -> bool {
