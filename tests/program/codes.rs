@@ -41,7 +41,7 @@ fn exit_codes_are_those_of_the_table() {
         (2, "check --profile quick --results r --templates broken".into(), "published.toml"),
         (2, paper("renamed"), "published.toml"),
         (2, "check --profile quick --results r --templates renamed".into(), "published.toml"),
-        (2, paper("none"), "front.md: it is missing or empty"),
+        (2, paper("none"), "front.md: no such file"),
         (
             0,
             "ulimit -v 1000000; exec \"$0\" sweep --sigma 0.3 --masses 1000000 --realisations 1 --transient 0 \

@@ -2,7 +2,7 @@
 
 pub use impact_numerics::text::{count, is_obeyed, one_line, plain};
 use std::fs::File;
-use std::io::{Error, ErrorKind, Read, Write};
+use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
 use std::time::SystemTime;
 use tempfile::NamedTempFile;
@@ -37,11 +37,12 @@ pub fn regular_text(path: &Path) -> Result<String, Error> {
     text(regular(path)?)
 }
 
-/// Bytes as text. Lines end in `\n` however they end in the file, so that what is made of them has the same bytes.
+/// Bytes as text, without a byte-order mark. Lines end in `\n` however they end in the file, so that what is made of them
+/// has the same bytes.
 fn text(bytes: Vec<u8>) -> Result<String, Error> {
     let wrong = |_| Error::new(ErrorKind::InvalidData, "it is no UTF-8 text");
     let text = String::from_utf8(bytes).map_err(wrong)?;
-    Ok(if text.contains('\r') { text.replace("\r\n", "\n") } else { text })
+    Ok(text.trim_start_matches('\u{feff}').replace("\r\n", "\n"))
 }
 
 fn bounded(file: impl Read, mib: u64) -> Result<Vec<u8>, Error> {
@@ -61,35 +62,6 @@ pub fn is_absent(error: &Error) -> bool {
 /// What is wrong with a file of more than so many MiB.
 pub fn too_long(mib: u64) -> String {
     format!("it is longer than {mib} MiB")
-}
-
-/// What is written, up to so many bytes.
-pub struct Bounded {
-    /// What was written.
-    pub bytes: Vec<u8>,
-    most: u64,
-}
-
-impl Bounded {
-    /// Nothing yet.
-    pub fn new(most: u64) -> Self {
-        Bounded { bytes: Vec::new(), most }
-    }
-}
-
-impl Write for Bounded {
-    fn write(&mut self, bytes: &[u8]) -> Result<usize, Error> {
-        if (self.bytes.len() + bytes.len()) as u64 > self.most {
-            let what = format!("it makes more than {} MiB", self.most >> 20);
-            return Err(Error::new(ErrorKind::FileTooLarge, what));
-        }
-        self.bytes.extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> Result<(), Error> {
-        Ok(())
-    }
 }
 
 /// What the system said of a temporary file, without the name of that file.
@@ -267,7 +239,7 @@ mod tests {
     #[test]
     fn lines_end_the_same_way() {
         let file = tempfile::NamedTempFile::new().unwrap();
-        std::fs::write(file.path(), "$a\r\n= b$\r\n\r\nc\rd\n").unwrap();
+        std::fs::write(file.path(), "\u{feff}$a\r\n= b$\r\n\r\nc\rd\n").unwrap();
         assert_eq!(regular_text(file.path()).unwrap(), "$a\n= b$\n\nc\rd\n");
     }
 }
