@@ -23,10 +23,9 @@
 //! Imports flow one way: `impact-numerics` → `impact-chain` → `impact-circuits` (crates of their own) → `experiments` →
 //! `figures`, `claims` → `report` → `program`; `params` may be read by all.
 //!
-//! # Where each equation lives
-#![doc = ""]
-#![doc = include_str!(concat!(env!("OUT_DIR"), "/map.md"))]
+//! Where each equation lives is in [`report::equations`].
 // What writes to a closed pipe or a full disk by a macro panics: `experiments::say` does not.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![warn(clippy::print_stderr, clippy::print_stdout)]
 
 pub mod claims;

@@ -1,6 +1,7 @@
 //! The command line of the literate paper.
 
 // What writes to a closed pipe or a full disk by a macro panics: `say` and `program::stdout` do not.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![warn(clippy::print_stderr, clippy::print_stdout)]
 
 mod cli;

@@ -1,7 +1,6 @@
 //! `impact-paper explain`.
 
 use super::{Failure, stdout};
-use impact_paper::experiments::alive;
 use impact_paper::report::card::{Card, Cards, Row};
 use impact_paper::report::document::{Inline, spelt};
 use impact_paper::report::{Error, PROGRAM, compare, ledger};
@@ -13,8 +12,7 @@ use std::path::{Path, PathBuf};
 ///
 /// What is asked for is the address of a value (sweep.rise.half_height) or a part of it, a number as it is printed
 /// (0.1159), "Fig. 3", "Eq. (18)" or a statement (sec7_jump); without it, all are listed. Nothing is run: the answer is
-/// read from the report's folder, and lines of the source are looked up in ./src, or else as they were when the program
-/// was built.
+/// read from the report's folder.
 #[derive(clap::Args)]
 pub struct Args {
     /// What to explain.
@@ -29,7 +27,6 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    let _alive = alive(|| Some("explain: at work".into()));
     let values = compare::read(&read(&args.paper, "values.json")?).map_err(fault)?;
     let ledger = ledger::read(&read(&args.paper, "ledger.json")?).map_err(fault)?;
     let cards = Cards { values: &values, ledger: &ledger, program: PROGRAM };
@@ -89,7 +86,7 @@ fn shown(card: &Card) -> String {
         out += &format!("  {}\n", clean(&card.lead));
     }
     for row in card.rows.iter().filter(|row| row.name != "id") {
-        let place = stands(row).map(|(file, line)| format!(" ({file}:{line})"));
+        let place = file(row).map(|file| format!(" ({file})"));
         out += &format!("  {:15} {}{}\n", row.name, words(&row.text), place.unwrap_or_default());
     }
     out
@@ -106,17 +103,13 @@ fn clean(text: &str) -> String {
 
 fn row_json(row: &Row) -> serde_json::Value {
     let mut out = json!({"name": row.name, "text": words(&row.text)});
-    if let Some((file, line)) = stands(row) {
-        (out["file"], out["line"]) = (json!(file), json!(line));
+    if let Some(file) = file(row) {
+        out["file"] = json!(file);
     }
     out
 }
 
-/// File and line of the item that a row names.
-fn stands(row: &Row) -> Option<(&'static str, usize)> {
-    let here = |file: &str| regular_text(Path::new(file)).ok();
-    // What was moved in the working copy may still be found in the built one.
-    let item = row.item.as_ref()?;
-    let found = PROGRAM.place(item, here).or_else(|| PROGRAM.place(item, |_| None))?;
-    Some((found.file, found.line))
+/// The file of the item that a row names.
+fn file(row: &Row) -> Option<&'static str> {
+    PROGRAM.file(row.item.as_ref()?)
 }

@@ -11,7 +11,7 @@ mod sweep;
 mod trace;
 mod verify;
 
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 use impact_paper::experiments::be_quiet;
 use impact_paper::program::{
     self, Failure, git, judged, make, memory, shown, signals, sources, stdout, threads, work,
@@ -37,7 +37,7 @@ const VERSION: &str =
 /// The literate, reproducible edition of Homer & Hogan (2007), Impact Dynamics of Large
 /// Dimensional Systems.
 #[derive(Parser)]
-#[command(version = VERSION, after_help = EXIT_CODES, help_template = TEMPLATE)]
+#[command(version = VERSION, after_help = EXIT_CODES)]
 struct Cli {
     #[command(subcommand)]
     verb: Verb,
@@ -45,10 +45,6 @@ struct Cli {
     #[arg(long, short, global = true)]
     quiet: bool,
 }
-
-/// The verbs are listed by [`groups`].
-const TEMPLATE: &str =
-    "{about}\n\n{usage-heading} {usage}\n\n{before-help}Options:\n{options}{after-help}";
 
 /// A reader of numbers in a range, both ends among them.
 fn within(
@@ -63,45 +59,22 @@ fn within(
     }
 }
 
-/// Who uses which verb.
-const GROUPS: [(&str, &[&str]); 3] = [
-    ("Make and check", &["paper", "check", "verify", "diff", "run"]),
-    ("Look at", &["explain"]),
-    ("Compute", &["eval", "sweep", "trace"]),
-];
-
-/// The command line, with its verbs in groups.
-fn command() -> clap::Command {
-    let command = Cli::command();
-    let line = |name: &&str| {
-        let about = command.find_subcommand(name).and_then(clap::Command::get_about);
-        let about = about.map(ToString::to_string).unwrap_or_default();
-        format!("  {name:8} {about}\n")
-    };
-    let group = |(head, names): (&str, &[&str])| -> String {
-        format!("{head}:\n{}\n", names.iter().map(line).collect::<String>())
-    };
-    let groups: String = GROUPS.into_iter().map(group).collect();
-    command.before_help(groups)
-}
-
 #[derive(Subcommand)]
 enum Verb {
-    Check(check::Args),
-    Diff(diff::Args),
-    Eval(eval::Args),
-    Explain(explain::Args),
     Paper(paper::Args),
+    Check(check::Args),
+    Verify(verify::Args),
+    Diff(diff::Args),
     Run(run::Args),
+    Explain(explain::Args),
+    Eval(eval::Args),
     Sweep(sweep::Args),
     Trace(trace::Args),
-    Verify(verify::Args),
 }
 
 /// Parses the command line and runs the verb.
 pub fn main() -> ExitCode {
-    let parsed = command().try_get_matches().and_then(|found| Cli::from_arg_matches(&found));
-    let Cli { verb, quiet } = match parsed {
+    let Cli { verb, quiet } = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => return program::usage(&error),
     };
@@ -129,23 +102,5 @@ fn profile_in(root: &Path) -> Option<String> {
     match &compare::read(&text).ok()?.get("profile")?.number {
         Number::Text(name) => Some(name.clone()),
         _ => None,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_verb_is_in_one_group_and_fits_its_line() {
-        let command = Cli::command();
-        let mut verbs: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
-        let mut listed: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| *names).copied().collect();
-        verbs.sort_unstable();
-        listed.sort_unstable();
-        assert_eq!(verbs, listed);
-        let help = super::command().render_help().to_string();
-        let long = help.lines().find(|line| line.chars().count() > 100);
-        assert_eq!(long, None);
     }
 }

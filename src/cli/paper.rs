@@ -6,7 +6,6 @@ use impact_numerics::text::count;
 use impact_paper::experiments::{ALL, Need, Progress, Store, say};
 use impact_paper::figures;
 use impact_paper::params::Profile;
-use impact_paper::report::compare::{self, Parts};
 use impact_paper::report::{self, Files, PROGRAM, Report, folder};
 use literate::input::listed;
 use std::collections::BTreeSet;
@@ -46,9 +45,6 @@ fn figure_help() -> String {
     )
 }
 
-/// Of more verdicts that changed only so many are told: the whole is one screen.
-const MOVED: usize = 6;
-
 pub fn run(args: Args) -> Result<(), Failure> {
     let began = Instant::now();
     let Args { profile, sources, force, .. } = args;
@@ -73,10 +69,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         }
     });
     let (report, checks) = made?;
-    // What was there before is compared first: it is about to be replaced.
     let told = if whole { judged::scores(&checks) } else { Vec::new() };
-    let changes = if whole { changes(&out, &report.committed) } else { Vec::new() };
-    let told: String = told.into_iter().chain(changes).map(|line| line + "\n").collect();
+    let told: String = told.into_iter().map(|line| line + "\n").collect();
     let written = report.write(&out, force).map_err(option)?;
     for (what, files) in [("removed", written.removed), ("--force: wrote over", written.over)] {
         if !files.is_empty() {
@@ -91,38 +85,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let printed = stdout::print(&format!("{}: {number} in {time}{documents}\n{told}", shown(&out)));
     let more = |failure: Failure| failure.and("`impact-paper check` of the same says more");
     judged::verdict(&checks).map_err(more).and(printed)
-}
-
-/// What the report in `out` said otherwise, if there is one.
-fn changes(out: &Path, files: &Files) -> Vec<String> {
-    let read = |name: &str| Some((name.to_string(), folder::read(out, name).ok()?));
-    let Some(before) =
-        ["values.json", "ledger.json"].into_iter().map(read).collect::<Option<Files>>()
-    else {
-        return Vec::new();
-    };
-    let parts = (Parts::of("before", before), Parts::of("now", files.clone()));
-    let (Ok(old), Ok(new)) = parts else { return Vec::new() };
-    let diff = compare::diff(&old, &new);
-    let before = shown(out);
-    if diff.numbers.is_empty() && diff.verdicts.is_empty() {
-        return vec![format!(
-            "no number and no verdict differs from the report before in {before}"
-        )];
-    }
-    let moved: Vec<_> =
-        diff.verdicts.iter().filter(|change| change.before != change.after).collect();
-    let line = |change: &&compare::Change| format!("  {}: {}", change.id, change.fate());
-    let mut lines = vec![format!(
-        "{} and {} differ from the report before in {before}; `impact-paper diff OLD NEW` tells them",
-        count(diff.numbers.len(), "number"),
-        count(moved.len(), "verdict"),
-    )];
-    lines.extend(moved.iter().take(MOVED).map(line));
-    if moved.len() > MOVED {
-        lines.push(format!("  and {} more", moved.len() - MOVED));
-    }
-    lines
 }
 
 /// Where a profile writes unless told otherwise.

@@ -6,7 +6,7 @@ use literate::experiments::Code;
 use std::collections::BTreeMap;
 
 /// Path and hash of Cargo.lock and of every source file.
-const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/fingerprint.rs"));
+pub const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/fingerprint.rs"));
 
 /// What all experiments depend on. An experiment that uses files of another one names them too.
 const SHARED: [&str; 8] = [
@@ -14,19 +14,15 @@ const SHARED: [&str; 8] = [
     "crates/numerics/src",
     "crates/impact-chain/src",
     "crates/circuits/src",
-    "crates/literate/src/experiments",
+    "crates/literate/src/experiments/cutting.rs",
     "src/params.rs",
     "src/params",
     "src/experiments/ensembles.rs",
 ];
 
-/// Files that change no result: words for people. Files of tables are left out too, since tables are made of results anew
-/// each time, and so is `src/experiments/mod.rs`, which only lists what is run.
-const LEFT_OUT: [&str; 2] =
-    ["crates/literate/src/experiments/progress.rs", "crates/literate/src/experiments/error.rs"];
-
+/// Whether a file changes no result: tables are made of results anew each time.
 fn left_out(path: &str) -> bool {
-    LEFT_OUT.contains(&path) || path.starts_with("src/experiments/") && path.ends_with("tables.rs")
+    path.starts_with("src/experiments/") && path.ends_with("tables.rs")
 }
 
 /// The code of an experiment of this program: its files and folders, that of its main item first.

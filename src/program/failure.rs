@@ -69,7 +69,7 @@ impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         let code = match &error {
             Error::Interrupted => INTERRUPTED,
-            Error::Store { .. } | Error::Input { .. } | Error::Foreign { .. } => 2,
+            Error::Store { .. } | Error::Input { .. } => 2,
             Error::Failed { source, .. }
                 if matches!(source.downcast_ref(), Some(impact_chain::Error::Input { .. })) =>
             {

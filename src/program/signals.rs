@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock};
 #[cfg(unix)]
 use {
     crate::experiments::say,
-    crate::report::folder::WRITING,
+    literate::input::WRITING,
     signal_hook::consts::{SIGINT, SIGTERM},
     signal_hook::iterator::Signals,
     std::time::Duration,

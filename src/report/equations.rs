@@ -11,118 +11,102 @@ pub struct Equation {
     pub section: u32,
     /// What it says, in a few words.
     pub what: &'static str,
+    /// Path of the item that is its home: its comment has `**Eq. (n)**`.
+    pub home: &'static str,
+    /// The equation that the home leads to, where coding this one would be pointless.
+    pub towards: &'static [u32],
 }
 
-const fn equation(number: u32, section: u32, what: &'static str) -> Equation {
-    Equation { number, section, what }
+/// Rows of number, section, words, home, and the number that the home leads to.
+macro_rules! equations {
+    ($($number:literal, $section:literal, $what:literal, $home:path $(, towards $next:literal)?;)*) => {
+        [$(Equation {
+            number: $number,
+            section: $section,
+            what: $what,
+            home: stringify!($home),
+            towards: &[$($next)?],
+        }),*]
+    };
 }
 
 /// All of them, in order.
-pub const EQUATIONS: [Equation; 38] = [
-    equation(1, 1, "a piecewise smooth system in general"),
-    equation(2, 1, "motion of mass j between impacts"),
-    equation(3, 1, "the forcing as a sum of harmonics"),
-    equation(4, 2, "the motion in scaled units"),
-    equation(5, 2, "the forcing with one harmonic"),
-    equation(6, 5, "paths of length k back to their first vertex"),
-    equation(7, 5, "simple circuits of length k, $\\phi_N(k)$"),
-    equation(8, 5, "$\\phi_N(k)$ against $\\phi_N(N)$"),
-    equation(9, 6, "distribution of the number of impacts, $P(X = k)$"),
-    equation(10, 6, "its weights $\\Phi_{N,p}(k)$ and their sum $\\Gamma_{N,p}$"),
-    equation(11, 7, "difference of neighbouring weights"),
-    equation(12, 7, "$f_{N,p}(k)$, which has the sign of that difference"),
-    equation(13, 7, "the zeros $k_\\pm$ of $f_{N,p}$"),
-    equation(14, 7, "$f_{N,p}$ at k = 0"),
-    equation(15, 7, "$f_{N,p}$ at k = N"),
-    equation(16, 7, "$f_{N,p}$ at p = 0"),
-    equation(17, 7, "the slope of $f_{N,p}$ in p"),
-    equation(18, 7, "$p_{\\mathrm{crit}}$, where $f_{N,p}$ has a double zero"),
-    equation(19, 8, "the separation $\\Delta_j(t)$ of two neighbours"),
-    equation(20, 8, "the probability that a gap never closes"),
-    equation(21, 8, "the amplitudes $Y_i$"),
-    equation(22, 8, "density of $Y_0$"),
-    equation(23, 8, "density of the scaled $Y_1$"),
-    equation(24, 8, "the probability of no impact as a convolution"),
-    equation(25, 8, "p(σ)"),
-    equation(26, 9, "lengths of the two loops of a circuit with one doubled vertex"),
-    equation(27, 9, "circuits through one doubled vertex, vertex by vertex"),
-    equation(28, 9, "the same, by the length k"),
-    equation(29, 9, "the same, as factorials"),
-    equation(30, 9, "circuits with one doubled vertex, as a sum over loops"),
-    equation(31, 9, "an integer as an ordered sum"),
-    equation(32, 9, "the number $\\gamma(n, j)$ of such sums"),
-    equation(33, 9, "circuits with one doubled vertex, $\\phi_N^1(k)$"),
-    equation(34, 9, "circuits of a general class, by the visits $\\delta_j$"),
-    equation(35, 9, "circuits with one tripled vertex"),
-    equation(36, 9, "circuits with one vertex visited four times"),
-    equation(37, 9, "circuits with two doubled vertices"),
-    equation(38, 9, "circuits of five classes with k different vertices"),
-];
+pub const EQUATIONS: [Equation; 38] = equations! {
+    1, 1, "a piecewise smooth system in general", impact_chain, towards 2;
+    2, 1, "motion of mass j between impacts", impact_chain::flight::Motion;
+    3, 1, "the forcing as a sum of harmonics", impact_chain::scenario::Scenario;
+    4, 2, "the motion in scaled units", impact_chain::chain::Chain, towards 2;
+    5, 2, "the forcing with one harmonic", impact_chain::scenario::Scenario::draw;
+    6, 5, "paths of length k back to their first vertex", impact_circuits::counting::paths;
+    7, 5, "simple circuits of length k, $\\phi_N(k)$", impact_circuits::counting::phi;
+    8, 5, "$\\phi_N(k)$ against $\\phi_N(N)$", impact_circuits::counting::ratio_to_longest;
+    9, 6, "distribution of the number of impacts, $P(X = k)$", impact_circuits::distribution::Law::probability;
+    10, 6, "its weights $\\Phi_{N,p}(k)$ and their sum $\\Gamma_{N,p}$", impact_circuits::distribution::Law::weight;
+    11, 7, "difference of neighbouring weights", impact_circuits::jump::rises;
+    12, 7, "$f_{N,p}(k)$, which has the sign of that difference", impact_circuits::jump::f;
+    13, 7, "the zeros $k_\\pm$ of $f_{N,p}$", impact_circuits::jump::zeros;
+    14, 7, "$f_{N,p}$ at k = 0", impact_circuits::jump::f, towards 18;
+    15, 7, "$f_{N,p}$ at k = N", impact_circuits::jump::f, towards 18;
+    16, 7, "$f_{N,p}$ at p = 0", impact_circuits::jump::f, towards 18;
+    17, 7, "the slope of $f_{N,p}$ in p", impact_circuits::jump::f, towards 18;
+    18, 7, "$p_{\\mathrm{crit}}$, where $f_{N,p}$ has a double zero", impact_circuits::jump::p_crit;
+    19, 8, "the separation $\\Delta_j(t)$ of two neighbours", impact_chain::flight::Motion::frame;
+    20, 8, "the probability that a gap never closes", impact_circuits::impact_probability::ImpactProbability::complement;
+    21, 8, "the amplitudes $Y_i$", impact_circuits::impact_probability::amplitude;
+    22, 8, "density of $Y_0$", impact_circuits::impact_probability::density_free;
+    23, 8, "density of the scaled $Y_1$", impact_circuits::impact_probability::density_forced;
+    24, 8, "the probability of no impact as a convolution", impact_circuits::impact_probability::ImpactProbability::p_by_double_integral;
+    25, 8, "p(σ)", impact_circuits::impact_probability::ImpactProbability::p;
+    26, 9, "lengths of the two loops of a circuit with one doubled vertex", impact_circuits::higher_order::doubled_paths, towards 30;
+    27, 9, "circuits through one doubled vertex, vertex by vertex", impact_circuits::higher_order::doubled_paths, towards 29;
+    28, 9, "the same, by the length k", impact_circuits::higher_order::doubled_paths, towards 29;
+    29, 9, "the same, as factorials", impact_circuits::higher_order::doubled_paths;
+    30, 9, "circuits with one doubled vertex, as a sum over loops", impact_circuits::higher_order::doubled_as_printed;
+    31, 9, "an integer as an ordered sum", impact_circuits::higher_order::compositions, towards 32;
+    32, 9, "the number $\\gamma(n, j)$ of such sums", impact_circuits::higher_order::compositions;
+    33, 9, "circuits with one doubled vertex, $\\phi_N^1(k)$", impact_circuits::higher_order::doubled;
+    34, 9, "circuits of a general class, by the visits $\\delta_j$", impact_circuits::higher_order::Class;
+    35, 9, "circuits with one tripled vertex", impact_circuits::higher_order::three_visits;
+    36, 9, "circuits with one vertex visited four times", impact_circuits::higher_order::four_visits;
+    37, 9, "circuits with two doubled vertices", impact_circuits::higher_order::two_doubled;
+    38, 9, "circuits of five classes with k different vertices", impact_circuits::higher_order::multiplicity;
+};
 
 /// All equations with their homes, as the ledger has them.
 pub fn entries() -> Vec<EquationEntry> {
-    let entry = |equation: Equation, home: Home| EquationEntry {
+    let entry = |equation: Equation| EquationEntry {
         number: equation.number,
         section: equation.section,
         what: equation.what.into(),
-        home: home.item.into(),
-        step_towards: home.step_towards().map(String::from),
+        home: equation.home.into(),
+        step_towards: equation.towards.first().map(|number| format!("({number})")),
     };
-    let of = |equation: Equation| homes(equation.number).map(move |home| entry(equation, home));
-    EQUATIONS.into_iter().flat_map(of).collect()
-}
-
-/// Every home in the source: (number, path of the item, what its comment says behind the number,
-/// file).
-/// The build script collects them from the doc comments that have `**Eq. (n)**`.
-const HOMES: &[(u32, &str, &str, &str)] = include!(concat!(env!("OUT_DIR"), "/homes.rs"));
-
-/// The homes of an equation; a test demands that there is exactly one.
-pub fn homes(number: u32) -> impl Iterator<Item = Home> {
-    let own = HOMES.iter().filter(move |home| home.0 == number);
-    own.map(|&(_, item, note, file)| Home { item, file, note })
-}
-
-/// Where an equation lives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Home {
-    /// Path of the item, as `impact_circuits::jump::p_crit`.
-    pub item: &'static str,
-    /// The file, as `crates/circuits/src/jump.rs`.
-    pub file: &'static str,
-    /// What the comment says behind the number; "(step towards (18))" where coding the equation
-    /// itself would be pointless.
-    note: &'static str,
-}
-
-impl Home {
-    /// "(18)" if this is a step towards it.
-    pub fn step_towards(&self) -> Option<&'static str> {
-        let rest = self.note.strip_prefix("(step towards ")?;
-        rest.find("))").map(|end| &rest[..=end])
-    }
+    EQUATIONS.into_iter().map(entry).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::PROGRAM;
 
+    /// The comment says the number, and belongs to the item.
     #[test]
     fn each_equation_has_one_home() {
-        for equation in EQUATIONS {
-            let items: Vec<&str> = homes(equation.number).map(|home| home.item).collect();
-            assert_eq!(items.len(), 1, "Eq. ({}) lives in {items:?}", equation.number);
+        for Equation { number, home, towards, .. } in EQUATIONS {
+            let step = towards.first().map(|towards| format!(" (step towards ({towards})):"));
+            let mark = format!("**Eq. ({number})**{}", step.unwrap_or_default());
+            let text = |path: &&str| std::fs::read_to_string(path).unwrap();
+            let files = PROGRAM.files.iter().map(|(path, _)| *path);
+            let found: Vec<&str> = files.filter(|path| text(path).contains(&mark)).collect();
+            assert_eq!(found, [PROGRAM.file(home).unwrap()], "{mark}");
+            let text = text(&found[0]);
+            let (_, rest) = text.split_once(&mark).unwrap();
+            assert!(!rest.contains(&mark), "{mark} stands twice in {}", found[0]);
+            let is_code = |line: &&str| !line.trim_start().starts_with(['/', '#']);
+            let item = rest.lines().skip(1).find(is_code).unwrap();
+            let name = home.rsplit("::").next().unwrap();
+            let whole_file = home == "impact_chain";
+            assert!(whole_file || item.contains(&format!(" {name}")), "{mark}: {item}");
         }
-        for (number, item, ..) in HOMES {
-            assert!((1..=38).contains(number), "{item} is the home of no equation ({number})");
-        }
-    }
-
-    #[test]
-    fn homes_are_read_from_the_comments() {
-        let home = |number| homes(number).next().unwrap();
-        assert_eq!(home(18).item, "impact_circuits::jump::p_crit");
-        assert_eq!(home(18).step_towards(), None);
-        assert_eq!(home(14).step_towards(), Some("(18)"));
     }
 }

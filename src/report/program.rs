@@ -3,19 +3,56 @@
 use super::Document;
 use super::recipe::recipe;
 use crate::committed;
-use literate::source::Program;
+use crate::experiments::built::FILES;
+use literate::source::{Listing, Program};
 
 /// This program.
 pub const PROGRAM: Program = Program {
-    sources: include!(concat!(env!("OUT_DIR"), "/sources.rs")),
-    crates: &[("impact_paper::", "")],
-    quoted: &["impact_numerics::", "impact_chain::", "impact_circuits::"],
+    files: FILES,
+    crates: &[
+        ("impact_numerics", "crates/numerics/src"),
+        ("impact_chain", "crates/impact-chain/src"),
+        ("impact_circuits", "crates/circuits/src"),
+        ("literate", "crates/literate/src"),
+        ("", "src"),
+    ],
+    name: "impact_paper::",
+    listings: &LISTINGS,
     recipe,
     judge: |claim| format!("claims::{}", claim.split('_').next().unwrap_or_default()),
     exists: committed::exists,
     documents: &DOCUMENTS,
     about: &ABOUT,
 };
+
+/// An item and its file.
+macro_rules! listing {
+    ($item:path, $file:literal) => {
+        Listing {
+            item: stringify!($item),
+            file: $file,
+            text: include_str!(concat!("../../", $file)),
+        }
+    };
+}
+
+/// What the documents quote, in the order of the paper.
+const LISTINGS: [Listing; 8] = [
+    listing!(impact_chain::flight::Motion::kick, "crates/impact-chain/src/flight.rs"),
+    listing!(impact_chain::impact::jumps, "crates/impact-chain/src/impact.rs"),
+    listing!(impact_circuits::counting::phi, "crates/circuits/src/counting.rs"),
+    listing!(impact_circuits::jump::p_jump, "crates/circuits/src/jump.rs"),
+    listing!(impact_circuits::jump::first_is_exceeded, "crates/circuits/src/jump.rs"),
+    listing!(
+        impact_circuits::impact_probability::ImpactProbability::leading,
+        "crates/circuits/src/impact_probability.rs"
+    ),
+    listing!(impact_chain::search::stepping::stretch, "crates/impact-chain/src/search/stepping.rs"),
+    listing!(
+        impact_chain::search::stepping::first_root_by_steps,
+        "crates/impact-chain/src/search/stepping.rs"
+    ),
+];
 
 /// As in CITATION.cff.
 const ABOUT: [(&str, &str); 6] = [
@@ -71,58 +108,16 @@ const DOCUMENTS: [Document; 5] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use literate::source::{declared, items};
 
     #[test]
-    fn every_item_is_whole() {
-        let quoted = |module: &&str| {
-            PROGRAM.quoted.iter().any(|layer| format!("{module}::").starts_with(layer))
-        };
-        for (module, _, text) in PROGRAM.sources.iter().filter(|(module, ..)| quoted(module)) {
-            for (name, _, lines) in items(text) {
-                let text = lines.join("\n");
-                let count = |c| text.matches(c).count();
-                assert_eq!(count('{'), count('}'), "{module}::{name}:\n{text}");
-            }
+    fn each_listing_is_one_whole_item_of_its_file() {
+        for Listing { item, file, text } in LISTINGS {
+            assert_eq!(PROGRAM.file(item), Some(file));
+            let lines = PROGRAM.listing(item).unwrap().lines();
+            let name = item.rsplit("::").next().unwrap();
+            assert_eq!(text.matches(&format!("// listing: {name}\n")).count(), 1, "{item}");
+            assert!(lines.starts_with("///") && lines.ends_with("\n}"), "{lines}");
+            assert!(lines.contains(&format!("fn {name}")), "{lines}");
         }
-    }
-
-    #[test]
-    fn no_item_hides_in_the_one_before() {
-        for (module, _, text) in
-            PROGRAM.sources.iter().filter(|(own, ..)| !own.ends_with("::tests"))
-        {
-            let items = items(text);
-            let lines = text.lines().take_while(|line| *line != "#[cfg(test)]");
-            let outside = |line: &str| !line.starts_with(' ') && declared(line).is_some();
-            for (i, line) in lines.enumerate().filter(|(_, line)| outside(line)) {
-                assert!(items.iter().any(|(_, at, _)| *at == i), "{module}: {line}");
-            }
-        }
-    }
-
-    /// A module has the place of its file.
-    #[test]
-    fn items_have_a_place() {
-        let jump = PROGRAM.place("impact_circuits::jump::p_jump", |_| None).unwrap();
-        assert_eq!(jump.file, "crates/circuits/src/jump.rs");
-        let text = std::fs::read_to_string(jump.file).unwrap();
-        assert!(text.lines().nth(jump.line - 1).unwrap().contains("fn p_jump"));
-        assert_eq!(PROGRAM.place("claims::sec8", |_| None).unwrap().line, 1);
-    }
-
-    #[test]
-    fn a_renamed_item_is_refused() {
-        let error = PROGRAM.item("impact_circuits::jump::p_yump").unwrap_err();
-        assert!(error.contains("`p_yump`") && error.contains("p_jump, "), "{error}");
-        assert!(
-            PROGRAM.item("impact_circuits::yump::p_jump").unwrap_err().contains("there is no item")
-        );
-        let error = PROGRAM.item("cli::run").unwrap_err();
-        assert!(
-            error.contains("no such module; begin with one of impact_numerics::…, impact_chain::…"),
-            "{error}"
-        );
-        assert!(PROGRAM.item("impact_chain::flight::Phases::kick").is_err());
     }
 }

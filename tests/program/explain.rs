@@ -15,11 +15,11 @@ sweep.rise.half_height => standard error; impact_chain::rise::Curve::new (crates
 sweep.rise.half_height => chain masses: 100; sweep-rise.csv
 second_seed.rise.half_height => seed: 7002
 theory.jump.p_jump => reproduced
-theory.jump.p_crit => 0.0122099; impact_circuits::jump::p_crit (crates/circuits/src/jump.rs:; (18)
+theory.jump.p_crit => 0.0122099; impact_circuits::jump::p_crit (crates/circuits/src/jump.rs); (18)
 printed.sec2_half_height => that the paper prints; Sec. 2
-fig:3 => fig03.svg; figures::fig03 (src/figures/fig03.rs:1); seed: 2007
+fig:3 => fig03.svg; figures::fig03 (src/figures/fig03.rs); seed: 2007
 fig:s8 => experiments::accuracy::race (src/experiments/accuracy/race.rs:
-eq:18 => impact_circuits::jump::p_crit (crates/circuits/src/jump.rs:; theory.jump.p_crit, theory.jump.p_crit_walls
+eq:18 => impact_circuits::jump::p_crit (crates/circuits/src/jump.rs); theory.jump.p_crit, theory.jump.p_crit_walls
 claim:sec7_jump => verdict; tolerance; theory.jump.p_jump
 eq:12 => f_(N,p)(k)";
 
@@ -87,7 +87,6 @@ fn every_origin_is_a_function() {
         .collect();
     assert!(ids.len() > 500, "{}", ids.len());
     let folder = report();
-    // Lines are those of the working copy.
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let paper = folder.path().join("r");
     let cards =
@@ -96,10 +95,8 @@ fn every_origin_is_a_function() {
         let row = |name: &str| card["rows"].as_array().unwrap().iter().find(|r| r["name"] == name);
         let by = row("computed by").unwrap_or_else(|| panic!("{card}"));
         let source = std::fs::read_to_string(by["file"].as_str().unwrap()).unwrap();
-        let line = by["line"].as_u64().unwrap() as usize - 1;
-        let line = source.lines().nth(line).unwrap();
         let name = by["text"].as_str().unwrap().rsplit("::").next().unwrap();
-        assert!(line.contains(&format!("fn {name}")), "{}: {line}", card["id"]);
+        assert!(source.contains(&format!("fn {name}")), "{}: {name}", card["id"]);
     }
     let means = |id: &&String| id.starts_with("sweep.rows") && id.ends_with(".mean");
     let means: Vec<&String> = values.keys().filter(means).collect();

@@ -67,7 +67,6 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     let before = times("r1");
     let (code, told, _) = run(folder.path(), paper);
     assert_eq!((code, times("r1")), (0, before));
-    assert!(told.contains("no number and no verdict differs"), "{told}");
     assert!(told.contains("report.html") && told.contains(" statements of the paper: "), "{told}");
     assert!(report == tree(&at("one")));
 
@@ -76,20 +75,15 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     assert_eq!(run(folder.path(), paper).0, 0);
     assert!(report == tree(&at("one")));
 
-    // What was edited is refused at once by its name; forced, it is told what changed, in one screen.
+    // What was edited is refused at once by its name.
     let ledger = String::from_utf8(report["ledger.json"].clone()).unwrap();
     let edited = ledger.replace("\"verdict\": \"reproduced\"", "\"verdict\": \"differs\"");
     std::fs::write(at("one/ledger.json"), &edited).unwrap();
     refused(folder.path(), paper, &["ledger.json", "--force"]);
     assert_eq!(std::fs::read_to_string(at("one/ledger.json")).unwrap(), edited);
-    let (code, told, note) = run(folder.path(), &format!("{paper} --force"));
+    let (code, _, note) = run(folder.path(), &format!("{paper} --force"));
     assert_eq!(code, 0, "{note}");
     assert!(note.contains("--force: wrote over ledger.json"), "{note}");
-    assert!(
-        told.contains(" verdicts differ") && told.contains(": differs -> reproduced"),
-        "{told}"
-    );
-    assert!(told.contains("and ") && told.lines().count() <= 15, "{told}");
     assert!(report == tree(&at("one")));
 
     // check takes the same saved results.

@@ -13,7 +13,7 @@ use impact_paper::report::{Document, Error, PROGRAM, Templates};
 use impact_paper::report::{compare, folder, latex, ledger, markdown, parse};
 use literate::digest::sha256;
 use literate::experiments::Profile;
-use literate::experiments::identity::{Identity, told};
+use literate::experiments::identity::Identity;
 use literate::experiments::store;
 use rand::RngExt;
 use std::{fs, sync::LazyLock, sync::mpsc::channel, time::Duration};
@@ -119,7 +119,7 @@ fn no_reader_panics_or_hangs() {
     let saved = serde_json::to_string(&identity).unwrap() + "\n[[\"row\",0.5],[\"\",null]]\n";
     survives("saved", saved, 1000, |text| {
         let whole = format!("{}\n{text}", sha256(text));
-        let (_, body) = store::parsed(&whole).map_err(|reasons| told(&reasons))?;
+        let (_, body) = store::parsed(&whole)?;
         line(serde_json::from_str::<Vec<(String, Option<f64>)>>(body))
     });
 }

@@ -27,6 +27,7 @@ pub fn paths(big_n: usize, k: usize) -> Option<u128> {
     arrangements(big_n - 1, k - 1)
 }
 
+// listing: phi
 /// **Eq. (7)**
 ///
 /// φ_N(k), the number of distinct simple circuits of length k: N first vertices times
@@ -38,6 +39,7 @@ pub fn phi(big_n: usize, k: usize) -> Option<u128> {
     }
     arrangements(big_n, k).map(|paths| paths / k as u128)
 }
+// end
 
 /// φ_N(k) of Eq. (7) for any N, to about 30 digits.
 fn phi_scaled(big_n: usize, k: usize) -> Scaled {

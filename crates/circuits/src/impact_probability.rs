@@ -145,6 +145,7 @@ impl ImpactProbability {
         if free <= forced { (free, forced) } else { (forced, free) }
     }
 
+    // listing: leading
     /// The leading exponent E and the factor B of p = B e^{−E}; both without cancellation.
     fn leading(&self) -> (DoubleDouble, f64) {
         let (s, t) = self.scales();
@@ -159,6 +160,7 @@ impl ImpactProbability {
         let factor = PI.sqrt() * (s * ratio).to_f64() / (one_r * root);
         (square(s) / sum, (free + r * r * forced) / one_r + factor * mixed)
     }
+    // end
 
     /// **Eq. (25)**
     ///

@@ -107,6 +107,7 @@ pub struct Jump {
     pub k_after: usize,
 }
 
+// listing: p_jump
 /// The actual jump of k*: the infimum of p with k* > 1, and k* after it.
 ///
 /// Φ(k)/Φ(1) grows with p for every k > 1, so "some Φ(k) exceeds Φ(1)" turns true once, and
@@ -127,7 +128,9 @@ pub fn p_jump(space: SampleSpace, big_n: usize) -> Result<Jump, Error> {
     let p = if first_is_exceeded(space, big_n, half) { below } else { above };
     Ok(Jump { p, bracket: [below, above], k_after: Law::new(space, big_n, above)?.k_star() })
 }
+// end
 
+// listing: first_is_exceeded
 /// Whether some k > 1 has more weight than k = 1.
 fn first_is_exceeded(space: SampleSpace, big_n: usize, p: DoubleDouble) -> bool {
     let mut weights = Weights::new(space, big_n, p);
@@ -144,6 +147,7 @@ fn first_is_exceeded(space: SampleSpace, big_n: usize, p: DoubleDouble) -> bool 
     }
     false
 }
+// end
 
 impl Error {
     /// k* stays at 1 for every p in [0, 1].

@@ -23,6 +23,8 @@
 //! # Ok::<(), impact_circuits::Error>(())
 //! ```
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod commuting;
 pub mod counting;
 pub mod distribution;

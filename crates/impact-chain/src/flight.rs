@@ -103,12 +103,14 @@ impl<const M: usize> Motion<M> {
         self.b = u * p.sin + u_quadrature * p.cos;
     }
 
+    // listing: kick
     /// A jump of the velocity by ω `kick` at an instant: it only rotates into the free part.
     #[inline(always)]
     pub fn kick(&mut self, kick: f64, p: &Phases<M>) {
         self.a -= kick * p.sin;
         self.b += kick * p.cos;
     }
+    // end
 
     /// The local frame of a gap at an instant.
     ///

@@ -1,5 +1,6 @@
 //! The impact law.
 
+// listing: jumps
 /// The jumps of velocity (left, right) of two neighbours whose gap closes at `speed` ≥ 0.
 ///
 /// Newton's restitution: the gap opens at r `speed` afterwards, and momentum is shared by the
@@ -10,3 +11,4 @@ pub fn jumps(speed: f64, restitution: f64, inverse_masses: [f64; 2]) -> [f64; 2]
     let share = (1.0 + restitution) * speed / (left + right);
     [-(share * left), share * right]
 }
+// end

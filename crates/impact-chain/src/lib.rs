@@ -5,6 +5,8 @@
 //!
 //! **Eq. (1)** (step towards (2)): its general form has no code of its own.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod chain;
 mod contact;
 pub mod counts;

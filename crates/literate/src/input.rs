@@ -4,8 +4,7 @@ pub use impact_numerics::text::{count, is_obeyed, one_line, plain};
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
-use std::time::SystemTime;
-use tempfile::NamedTempFile;
+use std::sync::RwLock;
 
 /// MiB at most of a text that somebody names: it is kept in memory. A scenario of a million masses has less.
 const NAMED: u64 = 64;
@@ -64,17 +63,6 @@ pub fn too_long(mib: u64) -> String {
     format!("it is longer than {mib} MiB")
 }
 
-/// What the system said of a temporary file, without the name of that file.
-pub fn bare(error: Error) -> Error {
-    // The code stands in the text alone.
-    let text = error.to_string();
-    let code = text.split_once("(os error ").and_then(|(_, rest)| rest.split(')').next());
-    match code.and_then(|code| code.parse().ok()) {
-        Some(code) if error.raw_os_error().is_none() => Error::from_raw_os_error(code),
-        _ => error,
-    }
-}
-
 /// What to do where there is too little memory.
 const MEMORY: &str = "raise the limits of the process, or end other programs";
 
@@ -113,49 +101,8 @@ pub fn listed(names: &[impl AsRef<str>]) -> String {
 /// Files and folders that wait until they are complete begin with this.
 pub const STAGING: &str = ".staging-impact-paper-";
 
-/// A temporary file in the folder of `path`, to be renamed to it when it is complete. Whoever the umask
-/// allows may read it, as with any other file. It is locked as long as it lives: see [`remove_leftovers`].
-pub fn new_beside(path: &Path) -> Result<NamedTempFile, Error> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(STAGING);
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let file = builder.tempfile_in(folder.unwrap_or(Path::new("."))).map_err(bare)?;
-    // Where there are no locks, leftovers stay.
-    let _ = file.as_file().try_lock();
-    Ok(file)
-}
-
-/// Whether a name goes on as those of temporary files do.
-fn is_random(rest: &str) -> bool {
-    rest.len() == 6 && rest.bytes().all(|byte| byte.is_ascii_alphanumeric())
-}
-
-/// Whether a time is no moment ago: a second at least, or in a future that some clock was in.
-pub fn is_settled(time: SystemTime) -> bool {
-    time.elapsed().map_or(true, |age| age.as_secs() >= 1)
-}
-
-/// Removes what killed runs left of [`new_beside`] in a folder: nobody holds its lock, and it `is_ours` by what it
-/// begins with. What is younger than a second may be about to be locked.
-pub fn remove_leftovers(folder: &Path, is_ours: impl Fn(&Path) -> std::io::Result<bool>) {
-    let is_left = |path: &Path| {
-        let file = File::open(path).ok().filter(|file| file.try_lock().is_ok());
-        let found = file.and_then(|file| file.metadata().ok()).filter(|found| found.is_file());
-        found.and_then(|found| found.modified().ok()).is_some_and(is_settled)
-    };
-    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
-        let name = entry.file_name();
-        let path = entry.path();
-        let named =
-            name.to_str().and_then(|name| name.strip_prefix(STAGING)).is_some_and(is_random);
-        let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
-        if named && is_file && is_ours(&path).unwrap_or(false) && is_left(&path) {
-            let _ = std::fs::remove_file(path);
-        }
-    }
-}
+/// Held for reading while files are put into place, so that who ends the program waits for that by holding it for writing.
+pub static WRITING: RwLock<()> = RwLock::new(());
 
 /// Is the character none of a text: one that controls a terminal, or one for private use, which frames values in filled
 /// prose?
@@ -196,38 +143,6 @@ pub fn line_and_column(text: &str, offset: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn leftovers_of_the_killed_go() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = |name: &str| folder.path().join(name);
-        let left = path(&format!("{STAGING}dead00"));
-        let old = std::time::SystemTime::now() - std::time::Duration::from_secs(60);
-        let age = |path: &Path| File::options().write(true).open(path)?.set_modified(old);
-        std::fs::write(&left, "half").unwrap();
-        std::fs::write(path("notes"), "theirs").unwrap();
-        let theirs = path(&format!("{STAGING}notes1"));
-        std::fs::write(&theirs, "theirs").unwrap();
-        let remove = || remove_leftovers(folder.path(), |path| Ok(std::fs::read(path)? == b"half"));
-        let living = new_beside(&path("a")).unwrap();
-        remove();
-        assert!(left.exists(), "it may be about to be locked");
-        for path in [&left, &path("notes"), &theirs, living.path()] {
-            age(path).unwrap();
-        }
-        std::fs::write(living.path(), "half").unwrap();
-        age(living.path()).unwrap();
-        remove();
-        assert!(!left.exists() && path("notes").exists() && living.path().exists());
-        assert!(theirs.exists());
-        living.persist(path("a")).unwrap();
-    }
-
-    #[test]
-    fn no_name_of_a_temporary_file_is_told() {
-        let told = new_beside(Path::new("/nowhere/at/all/file")).unwrap_err();
-        assert_eq!(told.to_string(), Error::from_raw_os_error(2).to_string());
-    }
 
     #[test]
     fn what_is_no_text_is_refused() {

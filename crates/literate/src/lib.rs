@@ -28,6 +28,8 @@
 //! # Ok::<(), literate::table::Missing>(())
 //! ```
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod claims;
 pub mod digest;
 pub mod experiments;

@@ -6,6 +6,8 @@
 //! - Samples: [`random`] streams that depend on nothing but their names, [`statistics`], the
 //!   [`bootstrap`], and [`estimates`] with the jackknife's errors.
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod bootstrap;
 pub mod double_double;
 pub mod estimates;

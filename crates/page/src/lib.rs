@@ -1,5 +1,6 @@
 //! What a page calls: numbers go in and out as they are, texts and lists lie in memory that the page may look at until
 //! it calls again. One run is under way at a time, and whatever it is, it takes no more memory than [`MOST`] masses need.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![deny(unsafe_op_in_unsafe_fn)]
 
 use impact_chain::replay::{Asked, Forces, Replay};

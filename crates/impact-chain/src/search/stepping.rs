@@ -20,6 +20,7 @@ fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
     h.min(far)
 }
 
+// listing: stretch
 /// A certified stretch: f > 0 on (s, s + h) for the returned h ≤ `limit`.
 ///
 /// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f stays
@@ -42,6 +43,7 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
     let h = certified(first.min(limit));
     certified((1.5 * h).min(limit)).max(h)
 }
+// end
 
 /// Whether f > 0 is certain on (a, a + h), from value, slope and curvature at both ends.
 ///
@@ -101,6 +103,7 @@ fn lift<const M: usize>(p: &Point<M>, frame: &Frame<M>, frequencies: &Frequencie
 /// Evaluations after which a search stops with what is certified so far; its owner resumes it.
 const PATIENCE: u32 = 64;
 
+// listing: first_root_by_steps
 /// The first root after `from`, where f ≥ 0, or the proof that there is none up to `limit`.
 ///
 /// # Why no root is skipped
@@ -193,6 +196,7 @@ pub fn first_root_by_steps<const M: usize>(
     }
     Next::Clear { s }
 }
+// end
 
 /// A guess of where f, seen from `p`, has just crossed zero; `left` if no root is in sight.
 #[inline]

@@ -10,7 +10,7 @@ use literate::experiments::{Code, Error, Experiment, Profile, Progress, Store};
 use literate::figures::prelude::*;
 use literate::report::claims::printed;
 use literate::report::{self, Input, Registry, Report, Templates, assemble};
-use literate::source::{PLAIN, Program, Recipe};
+use literate::source::{Listing, PLAIN, Program, Recipe};
 use literate::table::Table;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -24,13 +24,13 @@ const FILES: [(&str, &str); 4] = [
 ];
 
 /// This file, which the paper quotes, and on which saved results depend.
-const SOURCE: (&str, &str, &str) =
-    ("paper", "crates/literate/examples/feigenbaum/paper.rs", include_str!("paper.rs"));
+const SOURCE: &str = "crates/literate/examples/feigenbaum/paper.rs";
 
 const PROGRAM: Program = Program {
-    sources: &[SOURCE],
-    crates: &[("feigenbaum::paper::", "paper::")],
-    quoted: &["paper::"],
+    files: &[(SOURCE, "")],
+    crates: &[("", "crates/literate/examples/feigenbaum")],
+    name: "feigenbaum::",
+    listings: &[Listing { item: "paper::cascade", file: SOURCE, text: include_str!("paper.rs") }],
     recipe: |name, profile| {
         let profile = if profile == "quick" { Profile::Quick } else { Profile::Full };
         let parameters = serde_json::to_value((CASCADE.parameters)(profile)).ok()?;
@@ -41,8 +41,10 @@ const PROGRAM: Program = Program {
 };
 
 const CODE: Code = Code {
-    own: &[SOURCE.1],
-    files: |_| BTreeMap::from([(SOURCE.1.into(), literate::digest::sha256(SOURCE.2))]),
+    own: &[SOURCE],
+    files: |_| {
+        BTreeMap::from([(SOURCE.into(), literate::digest::sha256(include_str!("paper.rs")))])
+    },
 };
 
 /// How far the cascade of period doublings is followed.
@@ -83,6 +85,7 @@ fn orbit(r: DoubleDouble, steps: u64) -> [DoubleDouble; 2] {
     })
 }
 
+// listing: cascade
 /// Newton's method for each R_n, with 32 digits; the steps before tell where the next begins.
 fn cascade(depth: &Depth, progress: &Progress) -> Result<Vec<Orbit>, Error> {
     let half = DoubleDouble::from(0.5);
@@ -103,6 +106,7 @@ fn cascade(depth: &Depth, progress: &Progress) -> Result<Vec<Orbit>, Error> {
     }
     Ok(all)
 }
+// end
 
 /// What follows from the cascade: two numbers for each orbit, and their limits.
 fn tables(cascade: &[Orbit]) -> Vec<Table> {

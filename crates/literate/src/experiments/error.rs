@@ -21,8 +21,6 @@ pub enum Error {
         "{experiment}: a result is not finite, so it was not saved; this is a fault of the program"
     )]
     NotFinite { experiment: String },
-    #[error("{path}: it stands where a saved result belongs, and is none; move it away")]
-    Foreign { path: PathBuf },
     #[error("--results: {path}: {source}; {}", remedy(source, "choose another folder"))]
     Store { path: PathBuf, source: std::io::Error },
 }

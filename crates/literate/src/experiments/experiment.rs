@@ -1,7 +1,7 @@
 //! An experiment: a name, parameters, a way to run it, and the tables that follow.
 
 use super::cutting::{Cutting, Unit};
-use super::identity::{Identity, told};
+use super::identity::Identity;
 use super::store::Store;
 use super::{Code, Error, Profile, Progress};
 use crate::input::count;
@@ -61,10 +61,6 @@ pub type Found = Arc<dyn Any + Send + Sync>;
 impl<P: Params, T: Json, U: Json> Experiment<P, T, U> {
     /// The result: the saved one if it is fresh, else that of a run, which is then saved. Units that are in the store
     /// are not run again; each of the others is saved as soon as it is there.
-    ///
-    /// # Errors
-    /// What the run returns; [`Error::NotFinite`] for a result with a number that is not finite;
-    /// [`Error::Store`] if it cannot be saved: better before the run than after it.
     pub fn get(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<T, Error> {
         let (parameters, identity) = self.known_by(profile);
         let why = match store.look(&identity) {
@@ -72,9 +68,9 @@ impl<P: Params, T: Json, U: Json> Experiment<P, T, U> {
                 progress.say(&format!("{}: fresh", self.name));
                 return Ok(result);
             }
-            Err(reasons) => told(&reasons),
+            Err(why) => why,
         };
-        store.prepare(&identity)?;
+        store.prepare()?;
         progress.say(&format!("{}: {why}", self.name));
         let result = match &self.how {
             How::Read(_) => return Err(Error::NotRun(self.name)),
@@ -118,8 +114,8 @@ impl<P: Params, T, U: Json> Units<'_, P, T, U> {
         let look = |unit: &Unit| store.look::<U>(&self.identity.of_unit(unit));
         let saved: Vec<_> = units.par_iter().map(look).collect();
         let mut lost: BTreeMap<String, usize> = BTreeMap::new();
-        for reasons in saved.iter().filter_map(|found| found.as_ref().err()) {
-            *lost.entry(told(reasons)).or_default() += 1;
+        for why in saved.iter().filter_map(|found| found.as_ref().err()) {
+            *lost.entry(why.clone()).or_default() += 1;
         }
         let run: usize = lost.values().sum();
         let name = &self.identity.experiment;
@@ -239,7 +235,7 @@ impl<P: Params, T: Json, U: Json> Entry for Experiment<P, T, U> {
         }
         match &self.how {
             How::Cut(words, cutting) => {
-                store.prepare(&identity)?;
+                store.prepare()?;
                 let given = Units { cutting, words, parameters: &parameters, identity: &identity };
                 Ok(given.parts(units, store, progress)?.1)
             }
@@ -249,8 +245,8 @@ impl<P: Params, T: Json, U: Json> Entry for Experiment<P, T, U> {
 
     fn stale(&self, profile: Profile, store: &Store) -> Option<String> {
         let (parameters, identity) = self.known_by(profile);
-        let reasons = store.look::<T>(&identity).err().filter(|_| self.is_saved())?;
-        let why = format!("{}: {}", self.name, told(&reasons));
+        let why = store.look::<T>(&identity).err().filter(|_| self.is_saved())?;
+        let why = format!("{}: {why}", self.name);
         let How::Cut(_, cutting) = &self.how else { return Some(why) };
         let units = cutting.units(&parameters);
         let there = |unit: &&Unit| store.look::<U>(&identity.of_unit(unit)).is_ok();

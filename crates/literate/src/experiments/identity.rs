@@ -1,13 +1,15 @@
-//! What a saved result was made of, and why one is not used.
+//! What a saved result was made of.
 
 use super::Profile;
 use super::cutting::Unit;
-use crate::input::one_line;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The form of saved files; a change of it makes all of them unknown.
 const SCHEMA: u32 = 3;
+
+/// What is said of a file of another form.
+pub(super) const FORM: &str = "saved in another form";
 
 /// The code of an experiment.
 #[derive(Clone, Copy)]
@@ -66,11 +68,6 @@ impl Identity {
         Identity { unit: Some(unit.clone()), ..self.clone() }
     }
 
-    /// Whether it is of a whole result, and not of a unit.
-    pub fn is_whole(&self) -> bool {
-        self.unit.is_none()
-    }
-
     /// Name of its file, without the ending: `sweep-full`, of a unit `sweep-full-0012`.
     pub fn file_stem(&self) -> String {
         let (experiment, profile) = (&self.experiment, self.profile.name());
@@ -80,71 +77,29 @@ impl Identity {
         }
     }
 
-    /// Why a result that was made of `saved` is not the one that would be made of this.
-    pub(super) fn reasons(&self, saved: &Identity) -> Vec<Reason> {
-        let mut reasons = Vec::new();
+    /// In which respects a result that was made of `saved` is not the one that would be made of this, in one line; empty
+    /// if it is.
+    pub(super) fn differences(&self, saved: &Identity) -> String {
         if saved.schema != self.schema || saved.experiment != self.experiment {
-            return vec![Reason::Schema];
+            return FORM.into();
         }
+        let mut differences = Vec::new();
         if saved.parameters != self.parameters || saved.profile != self.profile {
-            reasons.push(Reason::Parameters);
+            differences.push("other parameters".to_string());
         }
         if saved.unit != self.unit {
-            reasons.push(Reason::Unit);
+            differences.push("another unit of work".into());
         }
         let paths: BTreeSet<&String> = self.code.keys().chain(saved.code.keys()).collect();
-        let changed =
-            paths.into_iter().filter(|path| self.code.get(*path) != saved.code.get(*path));
-        let changed: Vec<String> = changed.cloned().collect();
-        if !changed.is_empty() {
-            reasons.push(Reason::Code(changed));
+        let changed = |path: &&&String| self.code.get(**path) != saved.code.get(**path);
+        let changed: Vec<_> = paths.iter().filter(changed).collect();
+        match changed.as_slice() {
+            [] => (),
+            [one] => differences.push(format!("{one} changed")),
+            [one, more @ ..] => differences.push(format!("{one} and {} more changed", more.len())),
         }
-        reasons
+        differences.join(", ")
     }
-}
-
-/// Why a saved result is not used.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Reason {
-    /// There is none.
-    Missing,
-    /// It has other parameters.
-    Parameters,
-    /// It is another unit of work.
-    Unit,
-    /// These files of the source are others now.
-    Code(Vec<String>),
-    /// It was saved in another form.
-    Schema,
-    /// It cannot be trusted, and why.
-    Damaged(String),
-}
-
-impl std::fmt::Display for Reason {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Reason::Missing => f.write_str("no saved result"),
-            Reason::Parameters => f.write_str("other parameters"),
-            Reason::Unit => f.write_str("another unit of work"),
-            Reason::Code(files) => match files.as_slice() {
-                [one] => write!(f, "{one} changed"),
-                [one, others @ ..] => write!(f, "{one} and {} more changed", others.len()),
-                [] => f.write_str("the code changed"),
-            },
-            Reason::Schema => f.write_str("saved in another form"),
-            Reason::Damaged(what) => f.write_str(what),
-        }
-    }
-}
-
-/// What is done for these reasons, in one line: `run again, Cargo.lock changed`; `run` where nothing was saved.
-pub fn told(reasons: &[Reason]) -> String {
-    if reasons == [Reason::Missing] {
-        return "run".into();
-    }
-    // A file that was saved elsewhere names its own sources.
-    let all = reasons.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-    one_line(&format!("run again, {all}"), 1000)
 }
 
 #[cfg(test)]
@@ -158,7 +113,7 @@ mod tests {
             let code = code.into_iter().map(|(path, hash)| (path.into(), hash.into())).collect();
             Identity { code, ..Identity::new("sweep", Profile::Quick, TOY, &1) }
         };
-        assert_eq!(of("a").reasons(&of("a")), []);
-        assert_eq!(told(&of("a").reasons(&of("b"))), "run again, sweep/mod.rs changed");
+        assert_eq!(of("a").differences(&of("a")), "");
+        assert_eq!(of("a").differences(&of("b")), "sweep/mod.rs changed");
     }
 }

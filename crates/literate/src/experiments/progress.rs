@@ -88,7 +88,7 @@ impl Progress {
                 Some(format!("{name}: {told}"))
             })
         });
-        Stage { done, bar, lines }
+        Stage { done, bar, _lines: lines }
     }
 
     /// Says one plain line, whatever the way of showing, except to nobody.
@@ -132,7 +132,7 @@ pub fn alive(line: impl Fn() -> Option<String> + Send + 'static) -> Alive {
 pub struct Stage {
     done: Arc<AtomicU64>,
     bar: Option<ProgressBar>,
-    lines: Option<Alive>,
+    _lines: Option<Alive>,
 }
 
 impl Stage {
@@ -141,15 +141,6 @@ impl Stage {
         let done = self.done.fetch_add(units, Ordering::Relaxed) + units;
         if let Some(bar) = &self.bar {
             bar.set_position(done);
-        }
-    }
-
-    /// Says one plain line in the middle of the stage, above its bar if there is one.
-    pub fn say(&self, line: &str) {
-        match &self.bar {
-            Some(bar) => bar.suspend(|| say(line)),
-            None if self.lines.is_some() => say(line),
-            None => (),
         }
     }
 }

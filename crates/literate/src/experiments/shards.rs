@@ -4,7 +4,6 @@ use super::cutting::Unit;
 use super::store::Store;
 use super::{Error, Need, Profile, Progress};
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 
 /// Into so many shards a profile may be divided; more would have nothing to do.
 pub const MOST: usize = 100_000;
@@ -14,14 +13,12 @@ pub const MOST: usize = 100_000;
 fn shared_out(weights: &[u64], of: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..weights.len()).collect();
     order.sort_by_key(|&unit| Reverse(weights[unit]));
-    let mut loads: BinaryHeap<_> = (1..=of).map(|shard| Reverse((0_u64, shard))).collect();
-    let mut shards = vec![1; weights.len()];
+    let (mut loads, mut shards) = (vec![0_u64; of], vec![1; weights.len()]);
     for unit in order {
-        if let Some(Reverse((load, shard))) = loads.pop() {
-            shards[unit] = shard;
-            // A unit without weight takes its turn too.
-            loads.push(Reverse((load.saturating_add(weights[unit].max(1)), shard)));
-        }
+        let shard = (0..of).min_by_key(|&shard| loads[shard]).unwrap_or(0);
+        // A unit without weight takes its turn too.
+        loads[shard] = loads[shard].saturating_add(weights[unit].max(1));
+        shards[unit] = shard + 1;
     }
     shards
 }

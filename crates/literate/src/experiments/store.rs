@@ -6,12 +6,12 @@
 //! the reason is said.
 
 use super::Error;
-use super::identity::{Identity, Reason};
+use super::identity::{FORM, Identity};
 use crate::digest::sha256;
-use crate::input::{new_beside, regular_text, remove_leftovers};
+use crate::input::{WRITING, one_line, regular_text};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::io::{ErrorKind, Read, Write};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Where results are saved.
@@ -46,27 +46,29 @@ impl Store {
         self.folder.as_ref().map(|folder| folder.join(name))
     }
 
-    /// The saved result, or why there is none to be used.
-    pub fn look<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, Vec<Reason>> {
-        let path = self.path(identity).ok_or_else(|| vec![Reason::Missing])?;
-        let text = read(&path, identity)?;
-        serde_json::from_str(&text).map_err(|_| vec![Reason::Schema])
-    }
-
-    /// Makes the folder, and tries whether this result can be saved there without replacing what was never one.
-    pub fn prepare(&self, identity: &Identity) -> Result<(), Error> {
-        let Some((folder, path)) = self.folder.as_ref().zip(self.path(identity)) else {
-            return Ok(());
+    /// The saved result, or what is to be done for want of it, and why, in one line: `run`, `run again, Cargo.lock changed`.
+    pub fn look<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
+        let again = |why: &str| format!("run again, {}", one_line(why, 1000));
+        let text = match self.path(identity).map(|path| regular_text(&path)) {
+            Some(Ok(text)) => text,
+            Some(Err(error)) if error.kind() != ErrorKind::NotFound => {
+                return Err(again(&format!("the saved result cannot be read: {error}")));
+            }
+            _ => return Err("run".into()),
         };
-        let tried = std::fs::create_dir_all(folder).and_then(|()| new_beside(&path).map(drop));
-        self.tidy();
-        tried.map_err(|source| Error::Store { path: folder.clone(), source })?;
-        refuse_foreign(&path)
+        let (saved, body) = parsed(&text).map_err(again)?;
+        let differences = identity.differences(&saved);
+        if !differences.is_empty() {
+            return Err(again(&differences));
+        }
+        serde_json::from_str(body).map_err(|_| again(FORM))
     }
 
-    /// Removes what killed runs left there.
-    pub fn tidy(&self) {
-        self.folder.iter().for_each(|folder| remove_leftovers(folder, begins_with_digest));
+    /// Makes the folder.
+    pub fn prepare(&self) -> Result<(), Error> {
+        let Some(folder) = &self.folder else { return Ok(()) };
+        let failed = |source| Error::Store { path: folder.clone(), source };
+        std::fs::create_dir_all(folder).map_err(failed)
     }
 
     /// Saves a result.
@@ -75,9 +77,9 @@ impl Store {
         T: Serialize + DeserializeOwned + PartialEq,
     {
         let Some(path) = self.path(identity) else { return Ok(()) };
-        refuse_foreign(&path)?;
-        let body = written(&identity.experiment, result)?;
-        save(&path, identity, &body).map_err(|source| Error::Store { path, source })
+        let [made_of, body] = [written(identity, identity)?, written(identity, result)?];
+        let text = format!("{}\n{made_of}\n{body}\n", digest(&[&made_of, &body]));
+        save(&path, &text).map_err(|source| Error::Store { path, source })
     }
 
     /// Removes the files of the units of a result, which is joined.
@@ -87,7 +89,6 @@ impl Store {
             let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
             let number = name.strip_prefix(&stem).and_then(|rest| rest.strip_suffix(".json"));
             number.is_some_and(|number| number.bytes().all(|b| b.is_ascii_digit()))
-                && begins_with_digest(path).unwrap_or(false)
         };
         let all = self.folder.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten();
         for path in all.flatten().map(|entry| entry.path()).filter(unit) {
@@ -97,46 +98,18 @@ impl Store {
     }
 }
 
-/// Reads and checks a file: its result as text, or why it is not to be used.
-fn read(path: &Path, identity: &Identity) -> Result<String, Vec<Reason>> {
-    let damaged = |what: &str| vec![Reason::Damaged(what.into())];
-    let text = match regular_text(path) {
-        Ok(text) => text,
-        Err(error) if error.kind() == ErrorKind::NotFound => return Err(vec![Reason::Missing]),
-        Err(_) if is_foreign(path).unwrap_or(false) => return Err(damaged(FOREIGN)),
-        Err(error) => return Err(damaged(&format!("the saved result cannot be read: {error}"))),
-    };
-    let whole = parsed(&text);
-    let (saved, body) = whole.map_err(|why| match is_foreign(path) {
-        Ok(true) => damaged(FOREIGN),
-        _ => why,
-    })?;
-    match identity.reasons(&saved) {
-        reasons if reasons.is_empty() => Ok(body.into()),
-        reasons => Err(reasons),
-    }
-}
-
-/// Bytes at most of what a result was made of: ours have some thousand.
-const IDENTITY: usize = 1 << 20;
-
 /// What a saved result was made of, and the result, as text.
-pub fn parsed(text: &str) -> Result<(Identity, &str), Vec<Reason>> {
-    let damaged = |what: &str| vec![Reason::Damaged(what.into())];
+pub fn parsed(text: &str) -> Result<(Identity, &str), &'static str> {
     let mut lines = text.split('\n');
     let (Some(checksum), Some(found), Some(body), Some(""), None) =
         (lines.next(), lines.next(), lines.next(), lines.next(), lines.next())
     else {
-        return Err(damaged("the saved result is cut short or has lines too many"));
+        return Err("the saved result is cut short or has lines too many");
     };
     if checksum != digest(&[found, body]) {
-        return Err(damaged("the saved result was damaged or edited: its checksum is wrong"));
+        return Err("the saved result was damaged or edited: its checksum is wrong");
     }
-    if found.len() > IDENTITY {
-        return Err(vec![Reason::Schema]);
-    }
-    let saved = serde_json::from_str(found).map_err(|_| vec![Reason::Schema])?;
-    Ok((saved, body))
+    Ok((serde_json::from_str(found).map_err(|_| FORM)?, body))
 }
 
 /// A result as text that reads back to the same bits.
@@ -144,11 +117,11 @@ pub fn parsed(text: &str) -> Result<(Identity, &str), Vec<Reason>> {
 /// # Errors
 /// [`Error::NotFinite`]: JSON has no NaN and no infinity, and serde_json writes null. Reading back
 /// tells all such losses.
-fn written<T>(experiment: &str, result: &T) -> Result<String, Error>
+fn written<T>(identity: &Identity, result: &T) -> Result<String, Error>
 where
     T: Serialize + DeserializeOwned + PartialEq,
 {
-    let not_finite = || Error::NotFinite { experiment: experiment.into() };
+    let not_finite = || Error::NotFinite { experiment: identity.experiment.clone() };
     let body = serde_json::to_string(result).map_err(|_| not_finite())?;
     match serde_json::from_str::<T>(&body) {
         Ok(read) if read == *result => Ok(body),
@@ -156,49 +129,12 @@ where
     }
 }
 
-/// What is said of a file that stands where a result belongs.
-const FOREIGN: &str = "this is no saved result";
-
-/// Was this never a result, damaged or not? One is a file whose first line is a digest.
-fn is_foreign(path: &Path) -> std::io::Result<bool> {
-    match std::fs::symlink_metadata(path) {
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
-        Err(error) => Err(error),
-        Ok(found) if !found.is_file() => Ok(true),
-        Ok(found) => Ok(found.len() > 0 && !begins_with_digest(path)?),
-    }
-}
-
-/// Refuses to replace what was never a result.
-fn refuse_foreign(path: &Path) -> Result<(), Error> {
-    match is_foreign(path) {
-        Ok(false) => Ok(()),
-        Ok(true) => Err(Error::Foreign { path: path.into() }),
-        // Nobody knows whose it is.
-        Err(source) => Err(Error::Store { path: path.into(), source }),
-    }
-}
-
-/// Whether the first line has the form of a digest, but for a few characters: files are cut short, and letters change.
-fn begins_with_digest(path: &Path) -> std::io::Result<bool> {
-    let mut first = Vec::new();
-    std::fs::File::open(path)?.take(65).read_to_end(&mut first)?;
-    let Some((digest, end)) = first.split_at_checked(64) else { return Ok(first.is_empty()) };
-    let hexadecimal = digest.iter().filter(|b| matches!(b, b'0'..=b'9' | b'a'..=b'f')).count();
-    Ok(hexadecimal >= 60 && end.iter().all(|end| matches!(end, b'\n' | b'\r')))
-}
-
-/// Writes a temporary file and renames it: at no time is there half a result under the name. A unit that a lost machine
-/// had not yet on its disk is found damaged, and run again.
-fn save(path: &Path, identity: &Identity, body: &str) -> std::io::Result<()> {
-    let made_of = serde_json::to_string(identity)?;
-    let mut file = new_beside(path)?;
-    write!(file.as_file_mut(), "{}\n{made_of}\n{body}\n", digest(&[&made_of, body]))?;
-    if identity.is_whole() {
-        file.as_file().sync_all()?;
-    }
-    file.persist(path)?;
-    Ok(())
+/// Writes a file beside and renames it: at no time is there half a result under the name.
+fn save(path: &Path, text: &str) -> std::io::Result<()> {
+    let _moment = WRITING.read();
+    let waiting = path.with_extension(format!("json.{}", std::process::id()));
+    let saved = std::fs::write(&waiting, text).and_then(|()| std::fs::rename(&waiting, path));
+    saved.inspect_err(|_| drop(std::fs::remove_file(&waiting)))
 }
 
 /// SHA-256 of lines, in hexadecimal.

@@ -304,7 +304,7 @@ fn register(tera: &mut Tera, program: Program) {
     });
     tera.register_function("code", move |arguments: Kwargs, _: &State| {
         let item: String = arguments.must_get("item")?;
-        program.item(&item).map_err(tera::Error::message)?;
+        program.listing(&item).map_err(tera::Error::message)?;
         Ok::<_, tera::Error>(format!("```rust {item}\n```"))
     });
 }

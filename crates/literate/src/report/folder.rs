@@ -5,17 +5,13 @@
 
 use super::assemble::{Files, Report};
 use crate::digest::sha256;
-use crate::input::{self, STAGING, is_absent, listed, remedy};
+use crate::input::{self, STAGING, WRITING, is_absent, listed, remedy};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::Path;
-use std::sync::RwLock;
 
 /// The list, in the folder.
 pub const SUMS: &str = "SHA256SUMS";
-
-/// Held for reading while files are put into place, so that who ends the program waits for it by holding it for writing.
-pub static WRITING: RwLock<()> = RwLock::new(());
 
 /// Why a folder is not written or compared.
 #[derive(Debug, thiserror::Error)]

@@ -63,7 +63,7 @@ impl Registry {
     /// Shows the paths of items as documents do.
     pub fn shorten(&mut self, program: Program) {
         for value in self.values.values_mut() {
-            value.source = program.short(&value.source);
+            value.source = program.short(&value.source).to_string();
         }
     }
 

@@ -348,9 +348,9 @@ impl<'a> Reader<'a> {
         match language.split_once(' ') {
             _ if !closed => Err(markup(FENCE)),
             Some((_, item)) => {
-                let found = self.program.item(item).map_err(Error::Markup)?;
+                let found = self.program.listing(item).map_err(Error::Markup)?;
                 let (id, number, caption) = (String::new(), String::new(), Vec::new());
-                let (item, file, text) = (item.to_string(), found.file.to_string(), found.text);
+                let (item, file, text) = (item.to_string(), found.file.to_string(), found.lines());
                 let words = |words: &str| Inline::Text(words.into());
                 let link = Inline::Link { to: format!("../{file}"), shown: vec![words(&file)] };
                 let origin = vec![words("From "), link, words(".")];
