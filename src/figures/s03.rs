@@ -27,7 +27,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (means, rise, scores) =
         (table("seeds.means")?, table("seeds.rise")?, table("seeds.scores")?);
-    let sheet = Sheet::new(9350);
+    let sheet = Sheet::new(9600);
     counts(&sheet, means, table("seeds.theory")?, sweep::main(results)?)?;
     let advance = table("seeds.advance")?;
     advances(&sheet, advance)?;

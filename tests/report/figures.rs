@@ -16,8 +16,29 @@ fn numbers(list: &str) -> Vec<f64> {
         .collect()
 }
 
-fn pairs(list: &str) -> Vec<(f64, f64)> {
-    numbers(list).chunks(2).map(|c| (c[0], c[1])).collect()
+/// Where the steps of a path end, stroke by stroke.
+fn strokes(d: &str) -> Vec<Vec<(f64, f64)>> {
+    let mut strokes: Vec<Vec<(f64, f64)>> = Vec::new();
+    let letters: Vec<usize> =
+        d.match_indices(|c: char| c.is_ascii_alphabetic()).map(|m| m.0).collect();
+    let ends = letters.iter().skip(1).copied().chain([d.len()]);
+    for (from, to) in letters.iter().zip(ends) {
+        let n = numbers(&d[from + 1..to]);
+        let (x, y) = strokes.last().and_then(|own| own.last().copied()).unwrap_or_default();
+        let end = match &d[*from..from + 1] {
+            "M" => {
+                strokes.push(Vec::new());
+                (n[0], n[1])
+            }
+            "h" => (x + n[0], y),
+            "v" => (x, y + n[0]),
+            "l" => (x + n[0], y + n[1]),
+            "c" => (x + n[4], y + n[5]),
+            _ => continue,
+        };
+        strokes.last_mut().unwrap().push(end);
+    }
+    strokes
 }
 
 fn view(document: &Document) -> (f64, f64) {
@@ -109,29 +130,11 @@ fn all_coordinates_are_finite_and_on_the_sheet() {
         let (width, height) = view(&document);
         let on_sheet = |x: f64, y: f64| (0.0..=width).contains(&x) && (0.0..=height).contains(&y);
         let mut points = 0;
-        for node in document.descendants() {
-            if let Some(list) = node.attribute("points") {
-                for (x, y) in pairs(list) {
-                    assert!(on_sheet(x, y), "{}: {x}, {y}", figure.id);
-                    points += 1;
-                }
-            }
-            // Where the strokes of a path begin; the paths of glyphs have ids and another scale.
-            let path = node.attribute("d").filter(|_| node.attribute("id").is_none());
-            for begin in path.iter().flat_map(|path| path.split('M').skip(1)) {
-                let end = begin.find(|c: char| c.is_alphabetic()).unwrap_or(begin.len());
-                let (x, y) = pairs(&begin[..end])[0];
+        // The paths of glyphs have ids and another scale.
+        for path in document.descendants().filter(|n| n.attribute("id").is_none()) {
+            for (x, y) in path.attribute("d").map(strokes).unwrap_or_default().concat() {
                 assert!(on_sheet(x, y), "{}: {x}, {y}", figure.id);
                 points += 1;
-            }
-            let get = |name: &str| node.attribute(name).map_or(0.0, |v| v.parse().unwrap());
-            if node.tag_name().name() == "rect" {
-                assert!(on_sheet(get("x"), get("y")), "{}", figure.id);
-                assert!(on_sheet(get("x") + get("width"), get("y") + get("height")));
-            }
-            if node.tag_name().name() == "circle" {
-                let (x, y, r) = (get("cx"), get("cy"), get("r"));
-                assert!(on_sheet(x - r, y - r) && on_sheet(x + r, y + r), "{}", figure.id);
             }
         }
         assert!(points > 50, "{} has only {points} points", figure.id);
@@ -178,10 +181,9 @@ fn no_curve_runs_through_a_label() {
         let labels = labels(&document);
         let data = document.descendants().filter(|n| n.attribute("class") == Some("data"));
         for line in data.flat_map(|group| group.descendants()) {
-            if line.tag_name().name() != "polyline" {
-                continue;
-            }
-            for stretch in pairs(line.attribute("points").unwrap()).windows(2) {
+            let path = line.attribute("d").filter(|_| line.attribute("fill") == Some("none"));
+            let strokes = path.map(strokes).unwrap_or_default();
+            for stretch in strokes.iter().flat_map(|stroke| stroke.windows(2)) {
                 // Sampled finely enough: a letter is about a hundred units wide.
                 for i in 0..=200 {
                     let share = f64::from(i) / 200.0;
@@ -272,15 +274,9 @@ fn the_long_run_is_drawn_compactly_and_completely() {
     let group = group.unwrap();
     let frame = numbers(group.attribute("data-frame").unwrap());
     let path = group.descendants().find_map(|n| n.attribute("d")).unwrap();
-    let strokes: Vec<[f64; 3]> = path
-        .split('M')
-        .skip(1)
-        .map(|stroke| {
-            let (at, length) = stroke.split_once('h').unwrap();
-            let at = numbers(at);
-            [at[0], at[1], length.parse().unwrap()]
-        })
-        .collect();
+    let strokes = strokes(path);
+    let strokes: Vec<[f64; 3]> =
+        strokes.iter().map(|own| [own[0].0, own[0].1, own[1].0 - own[0].0]).collect();
     let place = |time: f64, gap: u32| {
         let across = frame[0] + (frame[2] - frame[0]) * time / run.parameters.until;
         let share = f64::from(gap + 1) / (run.width() + 1) as f64;

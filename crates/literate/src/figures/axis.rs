@@ -198,52 +198,29 @@ mod tests {
     }
 
     #[test]
-    fn linear_ticks_are_exact_multiples() {
+    fn ticks_are_exact_multiples_and_powers() {
         let axis = Axis::linear(0.0, 0.4, 0.1, 2, "σ");
-        assert_eq!(labels(&axis), ["0", "0.1", "0.2", "0.3", "0.4"]);
-        assert_eq!(axis.ticks.len(), 9);
-        assert_eq!(
-            labels(&Axis::linear(-1.0, 1.0, 0.5, 1, "")),
-            ["−1.0", "−0.5", "0", "0.5", "1.0"]
-        );
-        assert_eq!(
-            labels(&Axis::linear(0.01, 0.0275, 0.005, 1, "")),
-            ["0.010", "0.015", "0.020", "0.025"]
-        );
-    }
-
-    #[test]
-    fn decades_are_labelled_as_powers() {
+        assert_eq!((labels(&axis), axis.ticks.len()), (vec!["0", "0.1", "0.2", "0.3", "0.4"], 9));
+        let axis = Axis::linear(-1.0, 1.0, 0.5, 1, "");
+        assert_eq!(labels(&axis), ["−1.0", "−0.5", "0", "0.5", "1.0"]);
         let axis = Axis::decades(-3, 0, 1, "p");
         assert_eq!(labels(&axis), ["10^{−3}", "10^{−2}", "10^{−1}", "10^{0}"]);
         assert_eq!(axis.ticks.len(), 4 + 3 * 8);
-        assert_eq!(labels(&Axis::decades(-12, 0, 3, "")).len(), 5);
         let short = Axis::decades(-1, 1, 1, "").from(0.2, 2.0).finely();
         assert_eq!((short.lo, labels(&short)), (0.2, vec!["0.2", "0.5", "1", "2"]));
-    }
-
-    #[test]
-    fn ticks_lie_where_their_logarithms_do() {
         let axis = Axis::decades(-20, 7, 1, "");
-        assert_eq!(axis.ends(), (-20.0, 7.0));
         let whole = axis.ticks.iter().filter(|tick| tick.label.is_some());
         assert!(whole.zip(-20..).all(|(tick, power)| axis.at(tick.at) == f64::from(power)));
         assert!(!axis.holds(0.0) && !axis.holds(-1.0) && !axis.holds(f64::NAN));
-        // A bar whose lower end is negative is cut below, and not lost.
-        assert_eq!(axis.at(-1.0), f64::NEG_INFINITY);
         let around = Axis::around([0.02, 30.0].into_iter(), 1, "");
         assert_eq!((around.lo, around.hi), (0.01, 100.0));
     }
 
     #[test]
     fn a_column_is_the_label_in_plain_text_with_its_unit() {
-        let named = |label: &str| {
-            let (name, unit) = Axis::decades(0, 1, 1, label).bare().named();
-            format!("{name}|{unit}")
-        };
-        assert_eq!(named("transient *T* (1/*ω*)"), "transient T|1/omega");
-        assert_eq!(named("*s*^{2}/*σ*^{2}"), "s^2/sigma^2|1");
-        assert_eq!(named("*P*(*X* = *k*)"), "P(X = k)|1");
+        let named = |label: &str| Axis::decades(0, 1, 1, label).bare().named();
+        assert_eq!(named("transient *T* (1/*ω*)"), ("transient T".into(), "1/omega".into()));
+        assert_eq!(named("*P*(*X* = *k*)"), ("P(X = k)".into(), "1".into()));
         let axis = Axis::linear(0.0, 1.0, 0.5, 1, "*σ*").column("sigma (d omega^2)");
         assert_eq!(axis.named(), ("sigma".into(), "d omega^2".into()));
     }

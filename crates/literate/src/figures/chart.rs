@@ -1,9 +1,8 @@
 //! What several charts share: columns over integers, round axis ends, corner notes, numbers.
 
-use plotters::style::text_anchor::{HPos, VPos};
-
 use super::Error;
 use super::axis::{Axis, number};
+use super::drawing::{HPos, VPos};
 use super::panel::{Frame, Panel};
 use super::style::{INK, SMALL};
 
@@ -97,19 +96,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn axes_end_at_round_numbers() {
-        assert_eq!(upwards_from_zero(0.37, "").hi, 0.4);
-        assert_eq!(upwards_from_zero(101.0, "").hi, 125.0);
-        let axis = upwards_from_zero(0.056, "");
-        assert!((axis.hi - 0.06).abs() < 1e-12, "{}", axis.hi);
-    }
-
-    #[test]
-    fn short_numbers_keep_their_leading_digits() {
-        assert_eq!(short(0.013_032_86, 4), "0.01303");
-        assert_eq!(short(89.887, 3), "89.9");
-        assert_eq!(short(0.5, 3), "0.5");
-        assert_eq!(short(100.0, 3), "100");
-        assert_eq!(short(2.339e-5, 3), "2.34·10^−5");
+    fn numbers_and_ends_are_round() {
+        assert_eq!((upwards_from_zero(0.37, "").hi, upwards_from_zero(101.0, "").hi), (0.4, 125.0));
+        let shown = [(0.013_032_86, 4), (89.887, 3), (0.5, 3), (100.0, 3), (2.339e-5, 3)];
+        let shown = shown.map(|(value, digits)| short(value, digits));
+        assert_eq!(shown, ["0.01303", "89.9", "0.5", "100", "2.34·10^−5"]);
     }
 }

@@ -1,72 +1,72 @@
-//! What a figure draws, as one list; [`super::svg`] and [`super::pdf`] write it.
+//! What a figure draws, as one list of shapes; [`super::svg`] and [`super::pdf`] write it.
 //!
 //! The grid is a hundredth of a millimetre at column width, so whole numbers are fine enough for smooth curves.
-//! Labels become outlines (see [`super::font`]); nothing in the list depends on the machine. It is filled as
-//! a backend of plotters.
-
-use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
-
-use plotters_backend::text_anchor::{HPos, VPos};
-use plotters_backend::{
-    BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
-    FontTransform,
-};
+//! Labels become outlines (see [`super::font`]); nothing in the list depends on the machine.
 
 use super::font::Placed;
 use super::panel::Frame;
-use super::style::{Colour, Stroke, WIDTH};
+use super::style::{Colour, Mark, Stroke, WHITE};
 use super::{Error, font, markup};
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// A place on the grid, y downwards.
-pub type Point = BackendCoord;
+pub type Point = (i32, i32);
 
-/// A step of a path; those with small letters in SVG are relative to where the last one ended.
+/// A step of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// M: begin at a place.
-    Begin(Point),
-    /// m: begin at some distance.
-    BeginBy(Point),
-    /// L: a line to a place.
+    /// Begin at a place.
+    Move(Point),
+    /// A straight line to a place.
     Line(Point),
-    /// l: a line by a distance.
-    LineBy(Point),
-    /// h: a line to the side.
-    Side(i32),
-    /// v: a line downwards.
-    Down(i32),
-    /// C: a cubic curve, two controls and its end.
+    /// A cubic curve: two controls and its end.
     Curve([Point; 3]),
-    /// a: half a circle counter-clockwise, its end so far to the side.
-    HalfCircle(i32),
-    /// Z: back to where the path began.
+    /// Back to where the path began.
     Close,
 }
 
-/// Where ink goes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Geometry {
-    /// A line through points.
-    Polyline(Vec<Point>),
-    /// A closed polygon.
-    Polygon(Vec<Point>),
-    /// A path.
-    Path(Vec<Step>),
-    /// Upper left corner, width and height.
-    Rectangle(Point, [u32; 2]),
-    /// Centre and radius.
-    Circle(Point, u32),
-}
-
-/// What ink it is.
+/// What ink a shape is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Paint {
     /// Inside: colour and opacity in hundredths.
     pub fill: Option<(Colour, u8)>,
-    /// Along the edge.
+    /// Along the edge; corners of a line that encloses nothing are round.
     pub stroke: Option<Stroke>,
 }
+
+impl From<Stroke> for Paint {
+    fn from(stroke: Stroke) -> Self {
+        Paint { fill: None, stroke: Some(stroke) }
+    }
+}
+
+impl From<(Colour, u8)> for Paint {
+    fn from(fill: (Colour, u8)) -> Self {
+        Paint { fill: Some(fill), stroke: None }
+    }
+}
+
+/// Where along a label its place is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names tell")]
+pub enum HPos {
+    Left,
+    Center,
+    Right,
+}
+
+/// Where across a label its place is: at the height of capitals, at half of it, or at the base line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names tell")]
+pub enum VPos {
+    Top,
+    Center,
+    Bottom,
+}
+
+/// Size of an em and colour of words, and where their place is.
+pub type Look = (i32, Colour, HPos, VPos);
 
 /// Words as glyphs.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -96,7 +96,7 @@ pub enum Element {
     /// It ends.
     Close,
     /// A shape.
-    Shape(Geometry, Paint),
+    Shape(Vec<Step>, Paint),
     /// Words.
     Label(Label),
 }
@@ -112,21 +112,35 @@ pub struct Drawing {
     pub glyphs: Glyphs,
 }
 
-type Drawn = Result<(), DrawingErrorKind<Error>>;
-
-fn colour_of(color: BackendColor) -> Colour {
-    let (r, g, b) = color.rgb;
-    Colour(r, g, b)
+/// A path through points.
+fn through(points: impl IntoIterator<Item = Point>) -> Vec<Step> {
+    let mut points = points.into_iter();
+    let first = points.next().map(Step::Move);
+    first.into_iter().chain(points.map(Step::Line)).collect()
 }
 
-/// The paint of one of plotters' own elements.
-fn paint<S: BackendStyle>(style: &S, fill: bool) -> Paint {
-    let colour = colour_of(style.color());
-    if fill {
-        Paint { fill: Some((colour, (style.color().alpha * 100.0).round() as u8)), stroke: None }
-    } else {
-        Paint { fill: None, stroke: Some(Stroke::solid(colour, style.stroke_width())) }
-    }
+/// A closed path through points.
+fn polygon(points: impl IntoIterator<Item = Point>) -> Vec<Step> {
+    let mut path = through(points);
+    path.push(Step::Close);
+    path
+}
+
+/// A circle as four cubic curves (off by 0.03 % of its radius at most).
+fn circle((x, y): Point, r: i32) -> Vec<Step> {
+    let k = (0.552_284_749_831 * f64::from(r)).round() as i32;
+    let quarter =
+        |[a, b, c]: [Point; 3]| Step::Curve([a, b, c].map(|(dx, dy): Point| (x + dx, y + dy)));
+    let quarters = [
+        [(-r, k), (-k, r), (0, r)],
+        [(k, r), (r, k), (r, 0)],
+        [(r, -k), (k, -r), (0, -r)],
+        [(-k, -r), (-r, -k), (-r, 0)],
+    ];
+    let mut path = vec![Step::Move((x - r, y))];
+    path.extend(quarters.map(quarter));
+    path.push(Step::Close);
+    path
 }
 
 impl Drawing {
@@ -135,21 +149,123 @@ impl Drawing {
         Drawing { height, ..Drawing::default() }
     }
 
-    /// Adds a shape.
-    pub fn shape(&mut self, geometry: Geometry, paint: Paint) {
-        self.elements.push(Element::Shape(geometry, paint));
+    fn shape(&mut self, path: Vec<Step>, paint: impl Into<Paint>) {
+        self.elements.push(Element::Shape(path, paint.into()));
     }
 
-    /// Adds a line through points.
-    pub fn polyline(&mut self, path: Vec<Point>, stroke: Stroke) {
-        self.shape(Geometry::Polyline(path), Paint { fill: None, stroke: Some(stroke) });
+    /// A line through points; repetitions are left out.
+    pub fn line(&mut self, mut points: Vec<Point>, stroke: Stroke) {
+        points.dedup();
+        self.shape(through(points), stroke);
     }
 
-    fn label(
+    /// A straight stroke from each first point to the second.
+    pub fn strokes(&mut self, ends: &[Point], stroke: Stroke) {
+        let pairs = ends.chunks_exact(2);
+        self.shape(pairs.flat_map(|pair| through([pair[0], pair[1]])).collect(), stroke);
+    }
+
+    /// A polygon without an edge.
+    pub fn area(&mut self, points: impl IntoIterator<Item = Point>, fill: Colour, opacity: u8) {
+        self.shape(polygon(points), (fill, opacity));
+    }
+
+    /// A filled rectangle.
+    pub fn rectangle(&mut self, frame: Frame, fill: Colour) {
+        let Frame { left, top, right, bottom } = frame;
+        self.area([(left, top), (right, top), (right, bottom), (left, bottom)], fill, 100);
+    }
+
+    /// A filled circle with an edge.
+    pub fn disc(&mut self, centre: Point, radius: i32, fill: Colour, edge: Stroke) {
+        self.shape(circle(centre, radius), Paint { fill: Some((fill, 100)), stroke: Some(edge) });
+    }
+
+    /// A line that ends in an arrow head. The line ends inside the head; a short last stretch must not turn the head,
+    /// so its direction is taken over at least its own length.
+    pub fn arrow(&mut self, mut path: Vec<Point>, stroke: Stroke) {
+        let Some(&tip) = path.last() else { return };
+        let width = f64::from(stroke.width);
+        let (length, half) = (90.0 + 2.6 * width, 34.0 + 1.1 * width);
+        let distance = |p: &Point| {
+            let (dx, dy) = (f64::from(tip.0 - p.0), f64::from(tip.1 - p.1));
+            (dx, dy, (dx * dx + dy * dy).sqrt())
+        };
+        while path.len() > 1 && path.last().is_some_and(|p| distance(p).2 < length) {
+            path.pop();
+        }
+        let Some((dx, dy, d)) = path.last().map(distance).filter(|&(.., d)| d > 0.0) else {
+            return;
+        };
+        let (ux, uy) = (dx / d, dy / d);
+        let at = |along: f64, aside: f64| {
+            let x = f64::from(tip.0) - along * ux - aside * uy;
+            let y = f64::from(tip.1) - along * uy + aside * ux;
+            (x.round() as i32, y.round() as i32)
+        };
+        path.push(at(0.75 * length, 0.0));
+        self.line(path, stroke);
+        let head = [tip, at(length, half), at(0.75 * length, 0.0), at(length, -half)];
+        self.area(head, stroke.colour, 100);
+    }
+
+    /// Upright ticks of a width, as high as the stroke is thick; those in one row that touch are one stroke.
+    pub fn ticks(&mut self, points: impl IntoIterator<Item = Point>, width: i32, stroke: Stroke) {
+        let mut places: Vec<Point> = points.into_iter().map(|(x, y)| (y, x)).collect();
+        places.sort_unstable();
+        let mut ends = Vec::new();
+        for run in places.chunk_by(|a, b| a.0 == b.0 && b.1 - a.1 <= width) {
+            let (first, last) = (run[0].1 - width / 2, run[run.len() - 1].1 - width / 2 + width);
+            ends.extend([(first, run[0].0), (last, run[0].0)]);
+        }
+        self.strokes(&ends, stroke);
+    }
+
+    /// Equal markers: shape, half their width, line of open shapes and colour of filled ones.
+    pub fn marks(
+        &mut self,
+        points: impl IntoIterator<Item = Point>,
+        (mark, r, stroke): (Mark, i32, Stroke),
+    ) {
+        let one = |(x, y): Point| match mark {
+            Mark::Cross => [
+                through([(x - r, y - r), (x + r, y + r)]),
+                through([(x + r, y - r), (x - r, y + r)]),
+            ]
+            .concat(),
+            Mark::Plus => {
+                [through([(x - r, y), (x + r, y)]), through([(x, y - r), (x, y + r)])].concat()
+            }
+            Mark::Disc | Mark::Ring => circle((x, y), r),
+            Mark::Square | Mark::OpenSquare => {
+                polygon([(x - r, y - r), (x + r, y - r), (x + r, y + r), (x - r, y + r)])
+            }
+            Mark::Triangle | Mark::OpenTriangle => {
+                polygon([(x, y - r), (x + r, y + r), (x - r, y + r)])
+            }
+            Mark::Diamond | Mark::OpenDiamond => {
+                polygon([(x, y - r), (x + r, y), (x, y + r), (x - r, y)])
+            }
+        };
+        let inside = match mark {
+            Mark::Disc | Mark::Square | Mark::Diamond | Mark::Triangle => Some(stroke.colour),
+            Mark::Cross | Mark::Plus => None,
+            _ => Some(WHITE),
+        };
+        let path = points.into_iter().flat_map(one).collect();
+        let fill = inside.map(|colour| (colour, 100));
+        self.shape(path, Paint { fill, stroke: Some(stroke) });
+    }
+
+    /// Words.
+    ///
+    /// # Errors
+    /// If they have a character that the shipped fonts lack.
+    pub fn label(
         &mut self,
         text: &str,
-        (at, size, colour): (Point, i32, Colour),
-        (h, v): (HPos, VPos),
+        at: Point,
+        (size, colour, h, v): Look,
         upwards: bool,
     ) -> Result<(), Error> {
         let font::Line { mut glyphs, width } = font::set(text)?;
@@ -165,99 +281,12 @@ impl Drawing {
         };
         for placed in &mut glyphs {
             (placed.x, placed.y) = (placed.x + dx, placed.y + dy);
-            let id = font::id(placed);
-            if let Entry::Vacant(place) = self.glyphs.entry(id) {
+            if let Entry::Vacant(place) = self.glyphs.entry(font::id(placed)) {
                 place.insert(font::outline(placed)?);
             }
         }
         let words = markup::plain(text);
         self.elements.push(Element::Label(Label { words, at, size, colour, upwards, glyphs }));
         Ok(())
-    }
-}
-
-impl DrawingBackend for Drawing {
-    type ErrorType = Error;
-
-    fn get_size(&self) -> (u32, u32) {
-        (WIDTH, self.height)
-    }
-
-    fn ensure_prepared(&mut self) -> Drawn {
-        Ok(())
-    }
-
-    fn present(&mut self) -> Drawn {
-        Ok(())
-    }
-
-    fn draw_pixel(&mut self, at: BackendCoord, color: BackendColor) -> Drawn {
-        let fill = Some((colour_of(color), 100));
-        self.shape(Geometry::Rectangle(at, [1, 1]), Paint { fill, stroke: None });
-        Ok(())
-    }
-
-    fn draw_line<S: BackendStyle>(&mut self, a: BackendCoord, b: BackendCoord, s: &S) -> Drawn {
-        self.draw_path([a, b], s)
-    }
-
-    fn draw_rect<S: BackendStyle>(
-        &mut self,
-        (x0, y0): BackendCoord,
-        (x1, y1): BackendCoord,
-        style: &S,
-        fill: bool,
-    ) -> Drawn {
-        let size = [x0.abs_diff(x1), y0.abs_diff(y1)];
-        self.shape(Geometry::Rectangle((x0.min(x1), y0.min(y1)), size), paint(style, fill));
-        Ok(())
-    }
-
-    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
-        &mut self,
-        path: I,
-        style: &S,
-    ) -> Drawn {
-        self.shape(Geometry::Polyline(path.into_iter().collect()), paint(style, false));
-        Ok(())
-    }
-
-    fn draw_circle<S: BackendStyle>(
-        &mut self,
-        centre: BackendCoord,
-        radius: u32,
-        style: &S,
-        fill: bool,
-    ) -> Drawn {
-        self.shape(Geometry::Circle(centre, radius), paint(style, fill));
-        Ok(())
-    }
-
-    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
-        &mut self,
-        vertices: I,
-        style: &S,
-    ) -> Drawn {
-        self.shape(Geometry::Polygon(vertices.into_iter().collect()), paint(style, true));
-        Ok(())
-    }
-
-    fn draw_text<T: BackendTextStyle>(&mut self, text: &str, style: &T, at: BackendCoord) -> Drawn {
-        let anchor = style.anchor();
-        let upwards = matches!(style.transform(), FontTransform::Rotate270);
-        let look = (at, style.size().round() as i32, colour_of(style.color()));
-        self.label(text, look, (anchor.h_pos, anchor.v_pos), upwards)
-            .map_err(DrawingErrorKind::DrawingError)
-    }
-
-    fn estimate_text_size<T: BackendTextStyle>(
-        &self,
-        text: &str,
-        style: &T,
-    ) -> Result<(u32, u32), DrawingErrorKind<Error>> {
-        let width = font::set(text).map_err(DrawingErrorKind::DrawingError)?.width;
-        let size = style.size().round() as i32;
-        let scaled = |length: i32| (length * size / font::EM).max(0) as u32;
-        Ok((scaled(width), scaled(font::CAP_HEIGHT)))
     }
 }

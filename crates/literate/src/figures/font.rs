@@ -147,7 +147,7 @@ pub fn outline(placed: &Placed) -> Result<Vec<Step>, Error> {
         };
         if at != Some(*from) {
             steps.extend(at.map(|_| Step::Close));
-            steps.push(Step::Begin(p(from)));
+            steps.push(Step::Move(p(from)));
         }
         steps.push(step);
         at = Some(*to);

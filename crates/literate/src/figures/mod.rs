@@ -5,7 +5,6 @@ pub mod chart;
 pub mod clip;
 pub mod data;
 pub mod drawing;
-pub mod element;
 pub mod font;
 pub mod markup;
 pub mod panel;
@@ -18,23 +17,21 @@ pub mod svg;
 
 pub use data::DataFile;
 pub use drawing::{Drawing, Glyphs};
-pub use svg::{escape, path_data};
+pub use svg::{escape, outlines};
 
 /// What a figure is drawn with, for one line of imports.
 pub mod prelude {
     pub use super::axis::{Axis, Scale, Tick, number};
     pub use super::chart::*;
+    pub use super::drawing::{HPos, VPos};
     pub use super::panel::{Frame, Panel};
     pub use super::series::{Marker, Outside};
     pub use super::sheet::{Entry, Sheet};
     pub use super::style::*;
     pub use super::{DataFile, Error, Figure};
-    pub use plotters::style::text_anchor::{HPos, VPos};
 }
 
 use crate::experiments;
-use plotters::drawing::DrawingAreaErrorKind;
-use plotters_backend::DrawingErrorKind;
 use thiserror::Error;
 
 /// A figure: the picture, what it shows in words, and its data.
@@ -66,23 +63,12 @@ pub enum Error {
     Number(String),
     #[error("a figure lacks its data: {0}")]
     Data(#[from] experiments::Error),
-    #[error("figure {figure} expects {expected}")]
-    Shape { figure: &'static str, expected: &'static str },
     #[error("{series}: the point ({x}, {y}) lies outside its frame")]
     Outside { series: String, x: f64, y: f64 },
     #[error("the shipped fonts have no glyph for {character:?} in the label {label:?}")]
     Glyph { character: char, label: String },
     #[error("drawing failed: {0}")]
     Drawing(String),
-}
-
-impl From<DrawingAreaErrorKind<Error>> for Error {
-    fn from(error: DrawingAreaErrorKind<Error>) -> Self {
-        match error {
-            DrawingAreaErrorKind::BackendError(DrawingErrorKind::DrawingError(inner)) => inner,
-            other => Error::Drawing(other.to_string()),
-        }
-    }
 }
 
 /// The colours of all figures: the name that style sheets use, and the colour as `#rrggbb`.

@@ -4,21 +4,11 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use plotters::coord::Shift;
-use plotters::coord::cartesian::Cartesian2d;
-use plotters::coord::types::RangedCoordf64;
-use plotters::drawing::DrawingArea;
-use plotters::element::{Drawable, PointCollection, Text};
-use plotters::style::text_anchor::{HPos, VPos};
-
 use super::axis::{Axis, Tick};
-use super::drawing::Drawing;
-use super::element::{Drawn, Look};
+use super::drawing::{Drawing, HPos, Look, Point, VPos};
 use super::record::Record;
-use super::style::{self, Colour, HAIR, INK, SMALL, Stroke, TEXT};
+use super::style::{HAIR, INK, SMALL, Stroke, TEXT};
 use super::{Error, font};
-
-type Plane = Cartesian2d<RangedCoordf64, RangedCoordf64>;
 
 /// A rectangle of the sheet in grid units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,8 +30,7 @@ impl Frame {
 /// Axes in a frame; data is given in its own units, whatever the scales.
 #[derive(Clone)]
 pub struct Panel {
-    pub(super) sheet: DrawingArea<Drawing, Shift>,
-    pub(super) plane: DrawingArea<Drawing, Plane>,
+    pub(super) drawing: Rc<RefCell<Drawing>>,
     /// Where it stands.
     pub frame: Frame,
     /// Horizontal axis.
@@ -63,21 +52,26 @@ const GAP: i32 = 70;
 
 impl Panel {
     /// A panel without anything in it yet, not even its axes.
-    pub fn new(sheet: &DrawingArea<Drawing, Shift>, frame: Frame, x: Axis, y: Axis) -> Self {
-        let ((left, right), (low, high)) = (x.ends(), y.ends());
-        let plane = sheet.clone().apply_coord_spec(Plane::new(
-            left..right,
-            low..high,
-            (frame.left..frame.right, frame.bottom..frame.top),
-        ));
+    pub(super) fn new(drawing: &Rc<RefCell<Drawing>>, frame: Frame, x: Axis, y: Axis) -> Self {
         let record = Rc::new(RefCell::new(Record::new(&x, &y)));
-        let (numbers, recorded, series) = (SMALL, true, None);
-        Panel { sheet: sheet.clone(), plane, frame, x, y, numbers, record, recorded, series }
+        let (drawing, numbers) = (drawing.clone(), SMALL);
+        Panel { drawing, frame, x, y, numbers, record, recorded: true, series: None }
     }
 
     /// Where a value stands on the sheet.
-    pub fn at(&self, x: f64, y: f64) -> (i32, i32) {
-        self.plane.map_coordinate(&(self.x.at(x), self.y.at(y)))
+    pub fn at(&self, x: f64, y: f64) -> Point {
+        self.place((self.x.at(x), self.y.at(y)))
+    }
+
+    /// Where a place on the axes stands on the sheet.
+    pub(super) fn place(&self, (x, y): (f64, f64)) -> Point {
+        let along = |(low, high): (f64, f64), from: i32, to: i32, value: f64| {
+            let far = f64::from(to - from) * (value - low) / (high - low);
+            // What is whole but for rounding stays; all else goes towards where the axis begins.
+            from + if to > from { (far + 1e-3).floor() } else { (far - 1e-3).ceil() } as i32
+        };
+        let Frame { left, top, right, bottom } = self.frame;
+        (along(self.x.ends(), left, right, x), along(self.y.ends(), bottom, top, y))
     }
 
     /// The same panel, which records into a file of its own: its name is the figure's id with these letters behind.
@@ -96,16 +90,8 @@ impl Panel {
         Panel { series: Some(name.into()), ..self.clone() }
     }
 
-    fn put<E>(&self, element: &E) -> Result<(), Error>
-    where
-        E: Drawable<Drawing>,
-        for<'a> &'a E: PointCollection<'a, (i32, i32)>,
-    {
-        Ok(self.sheet.draw(element)?)
-    }
-
-    fn text(&self, text: &str, at: (i32, i32), size: i32, h: HPos, v: VPos) -> Result<(), Error> {
-        self.put(&Text::new(text.to_string(), at, style::text(size, INK, h, v)))
+    fn text(&self, text: &str, at: Point, size: i32, h: HPos, v: VPos) -> Result<(), Error> {
+        self.drawing.borrow_mut().label(text, at, (size, INK, h, v), false)
     }
 
     /// Draws both axes: spines at the left and below, ticks outwards, numbers, labels.
@@ -121,7 +107,7 @@ impl Panel {
             let y = self.at(self.x.lo, tick.at).1;
             [(left, y), (left - length(tick), y)]
         }));
-        self.put(&Drawn(lines, Look::Strokes(Stroke::solid(INK, HAIR))))?;
+        self.drawing.borrow_mut().strokes(&lines, Stroke::solid(INK, HAIR));
         for tick in &self.x.ticks {
             let x = self.at(tick.at, self.y.lo).0;
             if let Some(label) = tick.label.as_ref().filter(|label| !label.is_empty()) {
@@ -151,8 +137,8 @@ impl Panel {
         }
         if !self.y.label.is_empty() {
             let at = (left - TICK - widest - 4 * GAP, (top + bottom) / 2);
-            let look = style::upwards(style::text(TEXT, INK, HPos::Center, VPos::Bottom));
-            self.put(&Text::new(self.y.label.clone(), at, look))?;
+            let look = (TEXT, INK, HPos::Center, VPos::Bottom);
+            self.drawing.borrow_mut().label(&self.y.label, at, look, true)?;
         }
         Ok(())
     }
@@ -170,11 +156,10 @@ impl Panel {
         text: &str,
         (x, y): (f64, f64),
         (dx, dy): (i32, i32),
-        look: (i32, Colour, HPos, VPos),
+        look: Look,
     ) -> Result<(), Error> {
         let (px, py) = self.at(x, y);
-        let style = style::text(look.0, look.1, look.2, look.3);
-        self.put(&Text::new(text.to_string(), (px + dx, py + dy), style))
+        self.drawing.borrow_mut().label(text, (px + dx, py + dy), look, false)
     }
 }
 

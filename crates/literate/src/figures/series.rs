@@ -1,20 +1,22 @@
 //! Data in a panel: curves, markers, areas and bars.
 //!
-//! plotters moves points that lie outside a range onto the frame, which makes curves silently
-//! false. Here such a point is an error, unless the caller asks for something else.
-//!
 //! Each series is recorded as it was given, in its own units, before anything is cut: curves, markers, ticks, bars,
 //! estimates and columns. Guides and areas are no data.
 //!
-//! All return [`Error::Outside`] for a number that is not finite, and for a point outside where that is refused.
+//! All return [`Error::Outside`] for a number that is not finite, and for a point outside the frame where that is refused.
 
 use super::Error;
 use super::clip::clip;
-use super::element::{Drawn, Look};
+use super::drawing::{Drawing, Element, Point};
 use super::panel::Panel;
 use super::record::Row;
 use super::style::{Colour, Mark, Stroke};
 use impact_numerics::statistics::Estimate;
+
+/// Points in units of the data.
+type Points<'a> = &'a [(f64, f64)];
+
+type Drawn = Result<(), Error>;
 
 /// What to do with data outside the frame. On a logarithmic axis all that is not positive lies outside, below.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,7 +38,7 @@ impl Panel {
     fn placed(
         &self,
         name: &str,
-        points: &[(f64, f64)],
+        points: Points,
         outside: Outside,
     ) -> Result<Vec<(f64, f64)>, Error> {
         let finite = |p: &(f64, f64)| p.0.is_finite() && p.1.is_finite();
@@ -46,14 +48,12 @@ impl Panel {
             return Err(Error::Outside { series: name.into(), x, y });
         }
         let (x, y) = (self.x.ends(), self.y.ends());
-        let place = |p: &(f64, f64)| (self.x.at(p.0), self.y.at(p.1));
+        let places = points.iter().map(|p| (self.x.at(p.0), self.y.at(p.1)));
+        // Of what is refused elsewhere, at most a rounding error is cut off here.
+        let edge = |p: (f64, f64)| (p.0.clamp(x.0, x.1), p.1.clamp(y.0, y.1));
         Ok(match outside {
-            Outside::Cut => points.iter().map(place).filter(finite).collect(),
-            // Of what is refused elsewhere, at most a rounding error is cut off here.
-            Outside::Refuse | Outside::Edge => {
-                let edge = |p: (f64, f64)| (p.0.clamp(x.0, x.1), p.1.clamp(y.0, y.1));
-                points.iter().map(place).map(edge).collect()
-            }
+            Outside::Cut => places.filter(finite).collect(),
+            Outside::Refuse | Outside::Edge => places.map(edge).collect(),
         })
     }
 
@@ -65,98 +65,85 @@ impl Panel {
         }
     }
 
-    fn record_points(&self, name: &str, points: &[(f64, f64)], outside: Outside) {
-        let shown = |p: &&(f64, f64)| {
-            outside == Outside::Edge || self.x.at(p.0).is_finite() && self.y.at(p.1).is_finite()
-        };
+    /// Whether the axes have a place for a point.
+    fn has(&self, (x, y): (f64, f64)) -> bool {
+        self.x.at(x).is_finite() && self.y.at(y).is_finite()
+    }
+
+    fn record_points(&self, name: &str, points: Points, outside: Outside) {
+        let shown = |p: &&(f64, f64)| outside == Outside::Edge || self.has(**p);
         self.record(name, points.iter().filter(shown).copied());
     }
 
-    fn draw(&self, name: &str, elements: &[Drawn<(f64, f64)>]) -> Result<(), Error> {
-        self.sheet.draw(&Drawn(vec![], Look::Open(name.into(), self.frame)))?;
-        elements.iter().try_for_each(|element| self.plane.draw(element))?;
-        Ok(self.sheet.draw(&Drawn(vec![], Look::Close))?)
+    /// Draws the shapes of a series.
+    fn draw(&self, name: &str, shapes: impl FnOnce(&mut Drawing)) -> Drawn {
+        let mut drawing = self.drawing.borrow_mut();
+        drawing.elements.push(Element::Open(name.into(), self.frame));
+        shapes(&mut drawing);
+        drawing.elements.push(Element::Close);
+        Ok(())
+    }
+
+    /// Where places on the axes stand on the sheet.
+    fn seen(&self, places: Vec<(f64, f64)>) -> Vec<Point> {
+        places.into_iter().map(|place| self.place(place)).collect()
     }
 
     /// A curve.
-    pub fn curve(
-        &self,
-        name: &str,
-        points: &[(f64, f64)],
-        stroke: Stroke,
-        outside: Outside,
-    ) -> Result<(), Error> {
+    pub fn curve(&self, name: &str, points: Points, stroke: Stroke, outside: Outside) -> Drawn {
         let parts = clip(&self.placed(name, points, outside)?, self.x.ends(), self.y.ends());
         self.record_points(name, points, outside);
-        let curves: Vec<_> =
-            parts.into_iter().map(|points| Drawn(points, Look::Curve(stroke))).collect();
-        self.draw(name, &curves)
+        self.draw(name, |drawing| {
+            parts.into_iter().for_each(|part| drawing.line(self.seen(part), stroke));
+        })
     }
 
     /// A line that is no data: zero, a level, an outline, a printed value; cut at the frame.
-    pub fn guide(&self, name: &str, points: &[(f64, f64)], stroke: Stroke) -> Result<(), Error> {
+    pub fn guide(&self, name: &str, points: Points, stroke: Stroke) -> Drawn {
         self.quiet().curve(name, points, stroke, Outside::Cut)
     }
 
     /// A guide across the panel at one height.
-    pub fn level(&self, name: &str, y: f64, stroke: Stroke) -> Result<(), Error> {
+    pub fn level(&self, name: &str, y: f64, stroke: Stroke) -> Drawn {
         self.guide(name, &[(self.x.lo, y), (self.x.hi, y)], stroke)
     }
 
     /// Markers; points outside the frame are left out if `outside` cuts.
-    pub fn marks(
-        &self,
-        name: &str,
-        points: &[(f64, f64)],
-        (mark, half, stroke): Marker,
-        outside: Outside,
-    ) -> Result<(), Error> {
+    pub fn marks(&self, name: &str, points: Points, marker: Marker, outside: Outside) -> Drawn {
         let mut placed = self.placed(name, points, outside)?;
         placed.retain(|p| self.x.reaches(p.0) && self.y.reaches(p.1));
         self.record_points(name, points, outside);
-        self.draw(name, &[Drawn(placed, Look::Marks(mark, half, stroke))])
+        self.draw(name, |drawing| drawing.marks(self.seen(placed), marker))
     }
 
     /// A curve with markers at its points.
     pub fn marked(
         &self,
         name: &str,
-        points: &[(f64, f64)],
+        points: Points,
         (stroke, marker): (Stroke, Marker),
         outside: Outside,
-    ) -> Result<(), Error> {
+    ) -> Drawn {
         self.curve(name, points, stroke, outside)?;
         self.marks(name, points, marker, outside)
     }
 
     /// Upright ticks of the given width at many points, all inside the frame; the thickness of the
     /// stroke is their height.
-    pub fn ticks(
-        &self,
-        name: &str,
-        points: &[(f64, f64)],
-        width: i32,
-        stroke: Stroke,
-    ) -> Result<(), Error> {
+    pub fn ticks(&self, name: &str, points: Points, width: i32, stroke: Stroke) -> Drawn {
         let placed = self.placed(name, points, Outside::Refuse)?;
         self.record_points(name, points, Outside::Refuse);
-        self.draw(name, &[Drawn(placed, Look::Ticks(width, stroke))])
+        self.draw(name, |drawing| drawing.ticks(self.seen(placed), width, stroke))
     }
 
     /// A filled polygon, all of it inside the frame; it is a ground, and no data.
-    pub fn area(
-        &self,
-        name: &str,
-        points: &[(f64, f64)],
-        fill: Colour,
-        opacity: u8,
-    ) -> Result<(), Error> {
+    pub fn area(&self, name: &str, points: Points, fill: Colour, opacity: u8) -> Drawn {
         let placed = self.placed(name, points, Outside::Refuse)?;
-        self.draw(name, &[Drawn(placed, Look::Area(fill, opacity))])
+        self.draw(name, |drawing| drawing.area(self.seen(placed), fill, opacity))
     }
 
     /// Columns of width 1 around 1, 2, …, which stand on zero: filled and with an outline.
-    pub fn columns(&self, name: &str, values: &[f64], stroke: Stroke) -> Result<(), Error> {
+    pub fn columns(&self, name: &str, values: &[f64], stroke: Stroke) -> Drawn {
         let heights = || (1..).map(f64::from).zip(values.iter().copied());
         let end = |k: f64| k.min(self.x.hi);
         let mut outline = vec![(0.5, 0.0)];
@@ -176,38 +163,29 @@ impl Panel {
         half: i32,
         stroke: Stroke,
         outside: Outside,
-    ) -> Result<(), Error> {
+    ) -> Drawn {
         let outside = if outside == Outside::Cut { Outside::Edge } else { outside };
         let ends: Vec<_> = bars.iter().flat_map(|&(x, a, b)| [(x, a), (x, b)]).collect();
         let ends = self.placed(name, &ends, outside)?;
         self.record(name, bars.iter().copied());
         let (lo, hi) = self.x.ends();
         let cap = f64::from(half) * (hi - lo) / f64::from(self.frame.right - self.frame.left);
-        let line = |a, b| Drawn(vec![a, b], Look::Curve(stroke));
-        let mut parts = Vec::new();
-        for ends in ends.chunks_exact(2) {
-            let ((x, low), (_, high)) = (ends[0], ends[1]);
-            parts.push(line((x, low), (x, high)));
-            if half > 0 {
-                let (a, b) = ((x - cap).max(lo), (x + cap).min(hi));
-                parts.push(line((a, low), (b, low)));
-                parts.push(line((a, high), (b, high)));
+        self.draw(name, |drawing| {
+            let mut line = |a, b| drawing.line(self.seen(vec![a, b]), stroke);
+            for ends in ends.chunks_exact(2) {
+                line(ends[0], ends[1]);
+                let (a, b) = ((ends[0].0 - cap).max(lo), (ends[0].0 + cap).min(hi));
+                for y in ends.iter().map(|end| end.1).filter(|_| half > 0) {
+                    line((a, y), (b, y));
+                }
             }
-        }
-        self.draw(name, &parts)
+        })
     }
 
     /// Estimates with bars of one standard error. What lies outside the frame is left out, and bars are cut: a few
     /// realisations leave some that are longer than the axis.
-    pub fn estimates(
-        &self,
-        name: &str,
-        estimates: &[(f64, Estimate)],
-        look: Marker,
-    ) -> Result<(), Error> {
-        let shown = |(x, own): &&(f64, Estimate)| {
-            self.x.at(*x).is_finite() && self.y.at(own.value).is_finite()
-        };
+    pub fn estimates(&self, name: &str, estimates: &[(f64, Estimate)], look: Marker) -> Drawn {
+        let shown = |(x, own): &&(f64, Estimate)| self.has((*x, own.value));
         self.record(name, estimates.iter().filter(shown).copied());
         let holds = |(x, own): &&(f64, Estimate)| self.x.holds(*x) && self.y.holds(own.value);
         let inside = || estimates.iter().filter(holds);
@@ -218,12 +196,7 @@ impl Panel {
     }
 
     /// Estimates with a line through them, cut at the frame.
-    pub fn joined(
-        &self,
-        name: &str,
-        estimates: &[(f64, Estimate)],
-        look: Marker,
-    ) -> Result<(), Error> {
+    pub fn joined(&self, name: &str, estimates: &[(f64, Estimate)], look: Marker) -> Drawn {
         let points: Vec<_> = estimates.iter().map(|(x, own)| (*x, own.value)).collect();
         self.quiet().curve(name, &points, look.2, Outside::Cut)?;
         self.estimates(name, estimates, look)
@@ -238,46 +211,47 @@ mod tests {
     use crate::figures::sheet::Sheet;
     use crate::figures::style::GREEN;
 
-    fn panel() -> Panel {
-        let sheet = Sheet::new(3000);
-        let axis = || Axis::linear(0.0, 1.0, 0.5, 1, "");
-        sheet.panel(Frame::new(1000, 100, 2000, 1100), axis(), axis()).unwrap()
+    const FRAME: Frame = Frame::new(1000, 100, 2000, 1100);
+    const LINE: Stroke = Stroke::solid(GREEN, 30);
+
+    fn axis() -> Axis {
+        Axis::linear(0.0, 1.0, 0.5, 1, "x")
     }
 
     #[test]
     fn data_outside_the_frame_is_an_error_and_not_moved_onto_it() {
-        let panel = panel();
-        let line = Stroke::solid(GREEN, 30);
+        let panel = Sheet::new(3000).panel(FRAME, axis(), axis()).unwrap();
+        assert_eq!((panel.at(0.0, 0.0), panel.at(1.0, 1.0)), ((1000, 1100), (2000, 100)));
         let beyond = [(0.5, 0.5), (0.6, 1.1)];
-        let drawn = panel.curve("curve", &beyond, line, Outside::Refuse);
+        let drawn = panel.curve("curve", &beyond, LINE, Outside::Refuse);
         assert!(matches!(drawn, Err(Error::Outside { y: 1.1, .. })));
-        panel.curve("curve", &beyond, line, Outside::Cut).unwrap();
-        let marks = panel.marks("marks", &beyond, (Mark::Disc, 30, line), Outside::Refuse);
+        panel.curve("curve", &beyond, LINE, Outside::Cut).unwrap();
+        let marks = panel.marks("marks", &beyond, (Mark::Disc, 30, LINE), Outside::Refuse);
         assert!(matches!(marks, Err(Error::Outside { .. })));
         assert!(panel.area("area", &beyond, GREEN, 50).is_err());
-        let bars = [(0.5, 0.1, 1.1)];
-        assert!(panel.bars("bars", &bars, 20, line, Outside::Refuse).is_err());
-        panel.bars("bars", &bars, 20, line, Outside::Cut).unwrap();
-        assert!(panel.columns("columns", &[1.1], line).is_err());
-        assert!(panel.curve("nan", &[(0.1, f64::NAN)], line, Outside::Cut).is_err());
+        assert!(panel.columns("columns", &[1.1], LINE).is_err());
+        assert!(panel.curve("nan", &[(0.1, f64::NAN)], LINE, Outside::Cut).is_err());
+        // A wall that is touched within rounding is inside.
+        panel.curve("wall", &[(0.0, -1e-17), (1.0, 1.0 + 1e-15)], LINE, Outside::Refuse).unwrap();
     }
 
     #[test]
     fn on_a_logarithmic_axis_what_is_not_positive_is_outside_below() {
         let sheet = Sheet::new(3000);
-        let frame = Frame::new(1000, 100, 2000, 1100);
-        let (x, y) = (Axis::linear(0.0, 1.0, 0.5, 1, "x"), Axis::decades(-2, 0, 1, "y"));
-        let panel = sheet.lettered("(b)", frame, x, y).unwrap();
+        let panel = sheet.lettered("(b)", FRAME, axis(), Axis::decades(-2, 0, 1, "y")).unwrap();
         assert_eq!(panel.at(0.5, 0.1), (1500, 600));
-        let line = Stroke::solid(GREEN, 30);
         let points = [(0.1, 0.5), (0.2, 0.0), (0.3, 1e-3), (0.4, -1.0)];
-        let refused = panel.curve("refused", &points, line, Outside::Refuse);
+        let refused = panel.curve("refused", &points, LINE, Outside::Refuse);
         assert!(matches!(refused, Err(Error::Outside { x: 0.2, y: 0.0, .. })));
-        panel.curve("cut", &points, line, Outside::Cut).unwrap();
-        panel.marks("edge", &points[1..2], (Mark::Disc, 30, line), Outside::Edge).unwrap();
+        panel.curve("cut", &points, LINE, Outside::Cut).unwrap();
+        panel.marks("edge", &points[1..2], (Mark::Disc, 30, LINE), Outside::Edge).unwrap();
         let of = |value, error| Estimate { value, error, interval: [value; 2] };
         let estimates = [(0.5, of(0.1, 0.2)), (0.6, of(0.0, 0.1)), (0.7, of(2.0, 0.1))];
-        panel.estimates("estimates", &estimates, (Mark::Disc, 30, line)).unwrap();
+        panel.estimates("estimates", &estimates, (Mark::Disc, 30, LINE)).unwrap();
+        // Guides, grounds and what is quiet are no data.
+        panel.level("level", 0.5, LINE).unwrap();
+        panel.area("area", &points[..1], GREEN, 50).unwrap();
+        panel.quiet().curve("rims", &points, LINE, Outside::Cut).unwrap();
         // In units of the data, and as they were given: the cut is the picture's.
         let file = &sheet.finish("s01", "", String::new()).data[0];
         let rows = [
@@ -292,38 +266,15 @@ mod tests {
     }
 
     #[test]
-    fn guides_grounds_and_insets_are_no_data() {
+    fn insets_record_where_they_have_a_file() {
         let sheet = Sheet::new(3000);
-        let frame = Frame::new(1000, 100, 2000, 1100);
-        let axis = || Axis::linear(0.0, 1.0, 0.5, 1, "x");
-        let panel = sheet.panel(frame, axis(), axis()).unwrap();
-        let (line, points) = (Stroke::solid(GREEN, 30), [(0.1, 0.2), (0.3, 0.4)]);
-        panel.guide("guide", &points, line).unwrap();
-        panel.level("level", 0.5, line).unwrap();
-        panel.area("area", &points, GREEN, 50).unwrap();
-        panel.quiet().marks("rims", &points, (Mark::Disc, 30, line), Outside::Cut).unwrap();
-        let inset = sheet.inset(frame, axis(), axis()).unwrap();
-        inset.curve("again", &points, line, Outside::Cut).unwrap();
-        let own = sheet.inset(frame, axis(), axis()).unwrap().file("-inset");
-        own.series("finer").curve("again", &points[..1], line, Outside::Cut).unwrap();
-        panel.columns("columns", &[0.5], line).unwrap();
+        let inset = sheet.inset(FRAME, axis(), axis()).unwrap();
+        inset.columns("again", &[0.5], LINE).unwrap();
+        let own = sheet.inset(FRAME, axis(), axis()).unwrap().file("-inset");
+        own.series("finer").curve("again", &[(0.1, 0.2)], LINE, Outside::Cut).unwrap();
         let data = sheet.finish("s01", "", String::new()).data;
         let told: Vec<_> = data.iter().map(|file| (&*file.name, file.csv())).collect();
-        let head = "series (text),x (1),x (1)\n";
-        let files = [("s01.csv", "columns,1,0.5\n"), ("s01-inset.csv", "finer,0.1,0.2\n")];
-        assert_eq!(told, files.map(|(name, row)| (name, format!("{head}{row}"))));
-    }
-
-    #[test]
-    fn a_wall_touched_within_rounding_is_inside() {
-        let line = Stroke::solid(GREEN, 30);
-        panel().curve("wall", &[(0.0, -1e-17), (1.0, 1.0 + 1e-15)], line, Outside::Refuse).unwrap();
-    }
-
-    #[test]
-    fn corners_of_the_axes_are_corners_of_the_frame() {
-        let panel = panel();
-        assert_eq!(panel.at(0.0, 0.0), (1000, 1100));
-        assert_eq!(panel.at(1.0, 1.0), (2000, 100));
+        let csv = "series (text),x (1),x (1)\nfiner,0.1,0.2\n".to_string();
+        assert_eq!(told, [("s01-inset.csv", csv)]);
     }
 }

@@ -5,25 +5,17 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use plotters::coord::Shift;
-use plotters::drawing::DrawingArea;
-use plotters::element::{Circle, Rectangle, Text};
-use plotters::style::text_anchor::{HPos, VPos};
-use plotters::style::{Color, RGBColor, ShapeStyle};
-
 use super::axis::Axis;
-use super::drawing::Drawing;
-use super::element::{Drawn, Look};
+use super::drawing::{Drawing, HPos, Look, Point, VPos};
 use super::panel::{Frame, Panel};
 use super::record::Record;
 use super::series::Marker;
-use super::style::{self, Colour, GREY, INK, Stroke, TINY, WIDTH};
+use super::style::{Colour, GREY, INK, Stroke, TINY, WIDTH};
 use super::{Error, Figure};
 
 /// A figure in the making.
 pub struct Sheet {
     drawing: Rc<RefCell<Drawing>>,
-    area: DrawingArea<Drawing, Shift>,
     /// What each panel has recorded.
     records: RefCell<Vec<Rc<RefCell<Record>>>>,
 }
@@ -63,14 +55,12 @@ impl Sheet {
     }
 
     fn on(drawing: Drawing) -> Self {
-        let drawing = Rc::new(RefCell::new(drawing));
-        let area = DrawingArea::from(&drawing);
-        Sheet { drawing, area, records: RefCell::default() }
+        Sheet { drawing: Rc::new(RefCell::new(drawing)), records: RefCell::default() }
     }
 
     /// A panel with its axes drawn.
     pub fn panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
-        let panel = Panel::new(&self.area, frame, x, y);
+        let panel = Panel::new(&self.drawing, frame, x, y);
         self.records.borrow_mut().push(panel.record.clone());
         panel.axes()?;
         Ok(panel)
@@ -86,56 +76,36 @@ impl Sheet {
     /// An inset with smaller numbers. It shows data of the panel again, and records nothing; with data of its own
     /// it takes a [`Panel::file`].
     pub fn inset(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
-        let panel = Panel::new(&self.area, frame, x, y);
+        let panel = Panel::new(&self.drawing, frame, x, y);
         self.records.borrow_mut().push(panel.record.clone());
         let panel = Panel { numbers: TINY, recorded: false, ..panel };
         panel.axes()?;
         Ok(panel)
     }
 
-    /// Words on the sheet: size, colour and anchor.
-    pub fn text(
-        &self,
-        text: &str,
-        at: (i32, i32),
-        (size, colour, h, v): (i32, Colour, HPos, VPos),
-    ) -> Result<(), Error> {
-        let look = style::text(size, colour, h, v);
-        Ok(self.area.draw(&Text::new(text.to_string(), at, look))?)
+    /// Words on the sheet.
+    pub fn text(&self, text: &str, at: Point, look: Look) -> Result<(), Error> {
+        self.drawing.borrow_mut().label(text, at, look, false)
     }
 
     /// A line through points of the sheet.
-    pub fn line(&self, points: &[(i32, i32)], stroke: Stroke) -> Result<(), Error> {
-        Ok(self.area.draw(&Drawn(points.to_vec(), Look::Curve(stroke)))?)
+    pub fn line(&self, points: &[Point], stroke: Stroke) {
+        self.drawing.borrow_mut().line(points.to_vec(), stroke);
     }
 
     /// A line that ends in an arrow head.
-    pub fn arrow(&self, points: &[(i32, i32)], stroke: Stroke) -> Result<(), Error> {
-        Ok(self.area.draw(&Drawn(points.to_vec(), Look::Arrow(stroke)))?)
+    pub fn arrow(&self, points: &[Point], stroke: Stroke) {
+        self.drawing.borrow_mut().arrow(points.to_vec(), stroke);
     }
 
     /// A filled circle with an edge.
-    pub fn disc(
-        &self,
-        centre: (i32, i32),
-        radius: i32,
-        fill: Colour,
-        edge: Stroke,
-    ) -> Result<(), Error> {
-        let fill = RGBColor::from(fill).filled();
-        self.area.draw(&Circle::new(centre, radius, fill))?;
-        let edge = ShapeStyle {
-            color: RGBColor::from(edge.colour).to_rgba(),
-            filled: false,
-            stroke_width: edge.width,
-        };
-        Ok(self.area.draw(&Circle::new(centre, radius, edge))?)
+    pub fn disc(&self, centre: Point, radius: i32, fill: Colour, edge: Stroke) {
+        self.drawing.borrow_mut().disc(centre, radius, fill, edge);
     }
 
     /// A filled rectangle.
-    pub fn rectangle(&self, frame: Frame, fill: Colour) -> Result<(), Error> {
-        let corners = [(frame.left, frame.top), (frame.right, frame.bottom)];
-        Ok(self.area.draw(&Rectangle::new(corners, RGBColor::from(fill).filled()))?)
+    pub fn rectangle(&self, frame: Frame, fill: Colour) {
+        self.drawing.borrow_mut().rectangle(frame, fill);
     }
 
     /// A legend; `at` is the left end of its first sample line.
@@ -149,11 +119,10 @@ impl Sheet {
         for (i, entry) in entries.iter().enumerate() {
             let (x, y) = (at.0, at.1 + i as i32 * spacing);
             if let Some(stroke) = entry.line {
-                self.line(&[(x, y), (x + SAMPLE, y)], stroke)?;
+                self.line(&[(x, y), (x + SAMPLE, y)], stroke);
             }
-            if let Some((mark, half, stroke)) = entry.mark {
-                let look = Look::Marks(mark, half, stroke);
-                self.area.draw(&Drawn(vec![(x + SAMPLE / 2, y)], look))?;
+            if let Some(marker) = entry.mark {
+                self.drawing.borrow_mut().marks([(x + SAMPLE / 2, y)], marker);
             }
             let look = (size, INK, HPos::Left, VPos::Center);
             self.text(&entry.text, (x + SAMPLE + 130, y), look)?;

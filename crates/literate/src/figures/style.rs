@@ -6,9 +6,6 @@
 
 use std::fmt;
 
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{FontTransform, IntoFont, RGBColor, TextStyle};
-
 /// Width of every figure: one column.
 pub const WIDTH: u32 = 8400;
 
@@ -43,12 +40,6 @@ pub struct Colour(pub u8, pub u8, pub u8);
 impl fmt::Display for Colour {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
-    }
-}
-
-impl From<Colour> for RGBColor {
-    fn from(c: Colour) -> Self {
-        RGBColor(c.0, c.1, c.2)
     }
 }
 
@@ -143,18 +134,4 @@ pub enum Mark {
     OpenSquare,
     OpenDiamond,
     OpenTriangle,
-}
-
-/// A text style with the given size, colour and anchor. Top is the height of capitals, bottom the
-/// base line, centre half the height of capitals.
-pub fn text(size: i32, colour: Colour, h: HPos, v: VPos) -> TextStyle<'static> {
-    ("Libertinus Serif", f64::from(size))
-        .into_font()
-        .color(&RGBColor::from(colour))
-        .pos(Pos::new(h, v))
-}
-
-/// The same style, read from bottom to top.
-pub fn upwards(style: TextStyle<'static>) -> TextStyle<'static> {
-    style.transform(FontTransform::Rotate270)
 }

@@ -9,7 +9,7 @@ use super::documents::Document;
 use super::labels::Labels;
 use super::{Error, Files, latex, mathml};
 use crate::claims::Verdict;
-use crate::figures::{Figure, Glyphs, escape as text, path_data};
+use crate::figures::{Figure, Glyphs, escape as text, outlines};
 use crate::source::Program;
 use math_core::MathDisplay;
 use serde::Serialize;
@@ -78,7 +78,6 @@ pub fn write(blocks: &[Block], here: Document, site: Site<'_>) -> Result<Parts, 
     let title = document::title(blocks)?;
     let meta: Vec<_> =
         site.program.about.iter().map(|(name, words)| (*name, text(words))).collect();
-    let mut glyphs = String::new();
     let (heading, body) = (page.inlines(title)?, page.blocks(blocks)?);
     let (mut sections, mut figures) = (Vec::new(), Vec::new());
     for block in blocks {
@@ -95,9 +94,6 @@ pub fn write(blocks: &[Block], here: Document, site: Site<'_>) -> Result<Parts, 
             _ => (),
         }
     }
-    for (id, steps) in page.glyphs.borrow().iter() {
-        let _ = writeln!(glyphs, "<path id=\"glyph-{id}\" d=\"{}\"/>", path_data(steps, ' '));
-    }
     Ok(Parts {
         file: here.page,
         markdown: here.markdown,
@@ -110,7 +106,7 @@ pub fn write(blocks: &[Block], here: Document, site: Site<'_>) -> Result<Parts, 
         sections,
         figures,
         body,
-        glyphs,
+        glyphs: outlines(&page.glyphs.borrow()),
         values: page.values.into_inner(),
     })
 }
