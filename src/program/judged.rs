@@ -5,6 +5,7 @@ use crate::claims::relations::relations;
 use crate::claims::targets::targets;
 use crate::claims::{Basis, Check, Kind, Verdict, score};
 use crate::experiments::Results;
+use literate::input::count;
 
 /// Everything that can be asked of results beside the statements of the paper.
 ///
@@ -33,7 +34,11 @@ pub fn scores(checks: &[Check]) -> Vec<String> {
         (all > 0).then(|| format!("{} of {all} {}", counts[0], basis.words()))
     });
     let mut lines = vec![
-        format!("{} statements of the paper: {}", claims.clone().count(), counts.join(", ")),
+        format!(
+            "{} of the paper: {}",
+            count(claims.clone().count(), "statement"),
+            counts.join(", ")
+        ),
         format!(
             "reproduced, by what the verdict rests on: {}",
             bases.collect::<Vec<_>>().join(", ")

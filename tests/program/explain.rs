@@ -11,7 +11,7 @@ fn report() -> tempfile::TempDir {
 
 /// What is asked for, and parts of what is told.
 const CARDS: &str = "\
-sweep.rise.half_height => standard error; impact_chain::rise::Curve::new (crates/impact-chain/src/rise.rs:; seed: 2007
+sweep.rise.half_height => standard error; impact_chain::rise::Curve::new (crates/impact-chain/src/rise.rs); seed: 2007
 sweep.rise.half_height => chain masses: 100; sweep-rise.csv
 second_seed.rise.half_height => seed: 7002
 theory.jump.p_jump => reproduced
