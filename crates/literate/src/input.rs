@@ -48,7 +48,7 @@ fn bounded(file: impl Read, mib: u64) -> Result<Vec<u8>, Error> {
     let (mut bytes, most) = (Vec::new(), mib << 20);
     file.take(most + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
-        return Err(Error::new(ErrorKind::InvalidInput, too_long(mib)));
+        return Err(Error::new(ErrorKind::InvalidInput, format!("it is longer than {mib} MiB")));
     }
     Ok(bytes)
 }
@@ -57,14 +57,6 @@ fn bounded(file: impl Read, mib: u64) -> Result<Vec<u8>, Error> {
 pub fn is_absent(error: &Error) -> bool {
     [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind())
 }
-
-/// What is wrong with a file of more than so many MiB.
-pub fn too_long(mib: u64) -> String {
-    format!("it is longer than {mib} MiB")
-}
-
-/// What to do where there is too little memory.
-const MEMORY: &str = "raise the limits of the process, or end other programs";
 
 /// What to do about what the system said: `otherwise`, unless it is not the place that is at fault.
 pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
@@ -77,7 +69,7 @@ pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::WriteZero => "make room",
         ErrorKind::FileTooLarge => "allow larger files (ulimit -f)",
-        ErrorKind::OutOfMemory => MEMORY,
+        ErrorKind::OutOfMemory => "raise the limits of the process, or end other programs",
         ErrorKind::InvalidData => "save it as UTF-8",
         ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
             "a file is in the way; choose another folder"
@@ -116,14 +108,9 @@ pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {
     let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
     // What it takes a word without quotes for depends on how the word begins.
     let bare = ["string values must be quoted", "invalid boolean", "invalid float, expected `"];
-    let what = match error.message() {
-        message if bare.iter().any(|bare| message.starts_with(bare)) => {
-            "this is neither a number nor text in quotes, \"…\"".into()
-        }
-        message if message.contains("missing comma between array") => {
-            "the list before has no end here; is a ] or a comma missing before?".into()
-        }
-        message => one_line(&plain(message), 300),
+    let what = match bare.iter().any(|bare| error.message().starts_with(bare)) {
+        true => "this is neither a number nor text in quotes, \"…\"".into(),
+        false => one_line(&plain(error.message()), 300),
     };
     format!("{}: {what}; mend this line, or restore the file", line(before))
 }

@@ -73,10 +73,13 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     let mut values = input.values.clone();
     values.extend(scorecard(input.claims))?;
     let mut filler = Filler::new(input.templates, input.program)?.with(&values);
-    let reason = |claim: &Check| {
-        lint::check(&format!("the reason of {}", claim.id), &claim.reason, &filler.declared).err()
-    };
-    Error::all(input.claims.iter().filter_map(reason).collect())?;
+    let reasons =
+        input.claims.iter().map(|c| (format!("the reason of {}", c.id), c.reason.clone()));
+    // Digits of an alternative text are computed where the figure is drawn.
+    let shown = |figure: &Figure| figure.description.replace(|c: char| c.is_ascii_digit(), "x");
+    let shown = input.figures.iter().map(|f| (format!("what {} shows", f.id), shown(f)));
+    let lint = |(place, text): (String, String)| lint::check(&place, &text, &filler.declared).err();
+    Error::all(reasons.chain(shown).filter_map(lint).collect())?;
     filler.insert("claims", &input.claims.iter().map(row).collect::<Vec<_>>());
     filler.insert("figures", &ledger::figures(input.figures));
     filler.insert("equations", &input.equations);
