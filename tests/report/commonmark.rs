@@ -38,50 +38,6 @@ fn every_link_lands_wherever_the_report_is_written() {
     crate::quick::links_land(texts, 200, 150);
 }
 
-/// What the parser takes for text is what a reader sees: no markup is left over in it.
-#[test]
-fn no_markup_is_left_over() {
-    texts().for_each(|(_, text)| whole(text));
-}
-
-fn whole(text: &str) {
-    let mut code = false;
-    let mut words = String::new();
-    for event in events(text) {
-        match event {
-            Event::Start(Tag::CodeBlock(_)) => code = true,
-            Event::End(TagEnd::CodeBlock) => code = false,
-            Event::Text(piece) if !code => words.push_str(&piece),
-            Event::SoftBreak | Event::HardBreak => words.push('\n'),
-            Event::End(
-                TagEnd::Paragraph | TagEnd::Item | TagEnd::TableCell | TagEnd::Heading(_),
-            ) => {
-                // Mathematics has its own rules.
-                for (i, part) in words.split('$').enumerate() {
-                    let left = ["**", "](", "```", "«", "»", "{#", "[@", "[!", "<%", "%>", "<a"];
-                    let found = left.iter().find(|mark| i % 2 == 0 && part.contains(**mark));
-                    assert_eq!(found, None, "{words}");
-                }
-                assert!(!words.contains(|c| ('\u{e000}'..='\u{f8ff}').contains(&c)), "{words}");
-                words.clear();
-            }
-            _ => {}
-        }
-    }
-    // An open fence would take the rest of the text.
-    assert!(!code && words.is_empty());
-    let fences = text.lines().filter(|line| line.trim_start().starts_with("```")).count();
-    assert_eq!(fences % 2, 0);
-    // HTML is ours: anchors, folds and small print.
-    for event in events(text) {
-        let (Event::Html(html) | Event::InlineHtml(html)) = event else { continue };
-        let ours = "<a id=|</a>|<details>|</details>|<summary>|<sub>|</sub>|<sup>|</sup>";
-        for line in html.lines().filter(|line| !line.trim().is_empty()) {
-            assert!(ours.split('|').any(|tag| line.trim_start().starts_with(tag)), "{html}");
-        }
-    }
-}
-
 /// Mathematics comes through Markdown as it was written, escapes, stars and lows included: between
 /// one dollar and the next the parser finds text and nothing else.
 #[test]

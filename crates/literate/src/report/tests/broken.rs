@@ -29,6 +29,9 @@ fn broken_prose_is_told_with_its_place() {
         ("[data](data/no.csv)", "14:1", "a link to data/no.csv"),
         ("[place](#sec-no)", "14:1", "a link to #sec-no"),
         ("[!claim:rise2]", "14:1", "there is no claim of this id"),
+        ("Lab game: You run it.", "14:1", "`Lab game: …`: lab.js has no function"),
+        ("[mice](javascript://x)", "14:1", "a link to javascript://x"),
+        ("Seen [@mice1945]", "14:6", "[@mice1945]: nothing"),
         ("![Words.](figures/fig09.svg)", "14:1", "figures/fig09.svg"),
         ("## A {#sec:a}\n\n## B {#sec:a}", "16:1", "have this id, the first at report.md:14:1"),
         ("## A {#fig:a}", "14:1", "write sec: and behind it"),
@@ -36,6 +39,11 @@ fn broken_prose_is_told_with_its_place() {
         ("| a | b |\n|---|\n| x | y |", "14:1", "a line of dashes"),
         ("| a | b |\n|---|---|\n| c | d | «v.half_height» |", "16:1", "a row of 3 cells"),
         ("Table: A. {#tab:b}\n\nwords", "14:1", "a caption has its table"),
+        (
+            "Words.\n\n«code(item=\"toy::flight::Motion::kick\")»",
+            "16:1",
+            "without the paragraph `Listing: ",
+        ),
         (r"at $\left( x$", "14:4", "no MathML"),
         ("$$ x \\tag{a b} $$", "14:1", "write eq: and behind it"),
         (
