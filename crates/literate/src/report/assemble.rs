@@ -95,7 +95,11 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
 pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let (mut values, mut filler, filled) = fill(input)?;
     let used: BTreeSet<String> = filled.iter().flat_map(|filled| ids(&filled.text)).collect();
-    check_unused(&values, &used)?;
+    let unused = values.iter().filter(|own| !own.for_data_only && !used.contains(&own.id));
+    let unused: Vec<&str> = unused.map(|value| value.id.as_str()).collect();
+    if !unused.is_empty() {
+        return Err(Error::Unused(unused.join(", ")));
+    }
     values.keep_cells(used.iter().map(String::as_str));
     values.shorten(input.program);
 
@@ -143,9 +147,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     beside.extend(input.figures.par_iter().map(pdf).collect::<Vec<_>>());
     committed.insert(SUMS.into(), folder::sums(&committed).into_bytes());
     for Part { of, blocks, places } in &parts {
-        check_links(blocks, *of, &labels, &committed, input.program)
-            .and_then(|()| check_labs(blocks, input.templates))
-            .map_err(|e| places.tell(e))?;
+        check_links(blocks, *of, &labels, &committed, input.program).map_err(|e| places.tell(e))?;
     }
     Ok(Report { committed, beside })
 }
@@ -169,15 +171,7 @@ fn parts<'a>(
         document::title(&blocks).map_err(|error| error.at(filled.place(0)))?;
         let own = illustrate(&mut blocks, input)
             .and_then(|own| labels.number_all(&mut blocks, *of).map(|()| own))
-            .map_err(|error| match error {
-                Error::Label(id, _) => {
-                    let own = parts.iter().filter(|part: &&Part<'_>| !part.of.repeats);
-                    let earlier = own.map(|part| &part.places);
-                    let first = earlier.chain([&places]).find_map(|places| places.first(&id));
-                    places.tell(Error::Label(id, first))
-                }
-                error => places.tell(error),
-            })?;
+            .map_err(|error| places.tell(error))?;
         shown.extend(own.into_iter().filter(|_| !of.repeats));
         parts.push(Part { of: *of, blocks, places });
     }
@@ -206,15 +200,6 @@ fn data(file: &DataFile) -> (String, Vec<u8>) {
     (format!("data/{}", file.name), file.csv().into_bytes())
 }
 
-fn check_unused(values: &Registry, used: &BTreeSet<String>) -> Result<(), Error> {
-    let unused: Vec<&str> = values
-        .iter()
-        .filter(|value| !value.for_data_only && !used.contains(&value.id))
-        .map(|value| value.id.as_str())
-        .collect();
-    if unused.is_empty() { Ok(()) } else { Err(Error::Unused(unused.join(", "))) }
-}
-
 /// Each link leads to a place of its document, a file or folder of the report, a file of the project, or out.
 fn check_links(
     blocks: &[Block],
@@ -225,19 +210,12 @@ fn check_links(
 ) -> Result<(), Error> {
     let is_page = |to: &str| program.documents.iter().any(|of| of.page == to);
     let leads = |to: &str| match (to.split_once("://"), to.strip_prefix('#')) {
-        // What a browser would run or read from a disk is no address of a source.
-        (Some((scheme, host)), _) => {
-            ["https", "http"].contains(&scheme) && host.starts_with(char::is_alphanumeric)
-        }
-        _ if to.starts_with("mailto:") => to.contains('@'),
-        (_, Some(id)) if id.contains(':') => false,
+        (Some((scheme, _)), _) => ["https", "http"].contains(&scheme),
         (_, Some(id)) => {
-            let id = id.replacen('-', ":", 1);
-            labels.document(&id) == Some(here)
+            !id.contains(':') && labels.document(&id.replacen('-', ":", 1)) == Some(here)
         }
         // Seen before it was led from where the report is written.
-        _ if to.starts_with('.') => true,
-        _ if is_page(to) => true,
+        _ if to.starts_with('.') || to.starts_with("mailto:") || is_page(to) => true,
         _ => files.keys().any(|path| path == to || path.starts_with(&format!("{to}/"))),
     };
     let mut result = Ok(());
@@ -250,18 +228,6 @@ fn check_links(
         }
     });
     result
-}
-
-/// What readers run is a function of lab.js each, where there is one.
-fn check_labs(blocks: &[Block], templates: &Templates) -> Result<(), Error> {
-    let Ok(script) = templates.text("lab.js") else { return Ok(()) };
-    let unknown = blocks.iter().find_map(|block| match block {
-        Block::Lab { lab, .. } => {
-            (!script.contains(&format!("function {lab}("))).then(|| Error::Lab(lab.clone()))
-        }
-        _ => None,
-    });
-    unknown.map_or(Ok(()), Err)
 }
 
 /// Gives the figures in the prose their alternative text and data, and leads what leads to files of the project; which

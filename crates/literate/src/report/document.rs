@@ -177,39 +177,48 @@ pub fn continues(block: &Block) -> bool {
     matches!(inlines.first(), Some(Inline::Text(text)) if text.starts_with(char::is_lowercase))
 }
 
+/// All running texts of a block, in reading order, nested ones too.
+macro_rules! texts {
+    ($name:ident, $block:ty, $text:ty, $iter:ident) => {
+        fn $name(block: $block) -> Vec<$text> {
+            match block {
+                Block::Heading { text, .. } | Block::Paragraph(text) => vec![text],
+                Block::Lab { caption, .. } => vec![caption],
+                Block::Figure { caption, origin, .. } | Block::Listing { caption, origin, .. } => {
+                    vec![caption, origin]
+                }
+                Block::Table { caption, head, rows, .. } => {
+                    let cells = head.$iter().chain(rows.$iter().flatten());
+                    [caption].into_iter().chain(cells).collect()
+                }
+                Block::List { items, .. } => items.$iter().flatten().flat_map($name).collect(),
+                Block::Quote(inner) => inner.$iter().flat_map($name).collect(),
+                Block::Code { .. } | Block::Bibliography(_) => Vec::new(),
+            }
+        }
+    };
+}
+texts!(texts, &Block, &Vec<Inline>, iter);
+texts!(texts_mut, &mut Block, &mut Vec<Inline>, iter_mut);
+
 /// Calls `visit` on each piece of running text of the blocks, in reading order, nested ones too.
 pub fn visit(blocks: &[Block], visit: &mut impl FnMut(&Inline)) {
-    for block in blocks {
-        match block {
-            Block::Heading { text, .. } | Block::Paragraph(text) => visit_inlines(text, visit),
-            Block::Lab { caption, .. } => visit_inlines(caption, visit),
-            Block::Figure { caption, origin, .. } | Block::Listing { caption, origin, .. } => {
-                visit_inlines(caption, visit);
-                visit_inlines(origin, visit);
-            }
-            Block::Table { caption, head, rows, .. } => {
-                visit_inlines(caption, visit);
-                for cell in head.iter().chain(rows.iter().flatten()) {
-                    visit_inlines(cell, visit);
-                }
-            }
-            Block::List { items, .. } => items.iter().for_each(|item| self::visit(item, visit)),
-            Block::Quote(inner) => self::visit(inner, visit),
-            Block::Code { .. } | Block::Bibliography(_) => {}
-        }
-    }
+    blocks.iter().flat_map(texts).for_each(|text| visit_inlines(text, visit));
 }
 
 fn visit_inlines(inlines: &[Inline], visit: &mut impl FnMut(&Inline)) {
     for inline in inlines {
         visit(inline);
-        match inline {
-            Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => {
-                visit_inlines(inner, visit);
-            }
-            Inline::Link { shown, .. } | Inline::Value { shown, .. } => visit_inlines(shown, visit),
-            _ => {}
-        }
+        visit_inlines(inner(inline), visit);
+    }
+}
+
+/// What stands within a piece of running text.
+fn inner(inline: &Inline) -> &[Inline] {
+    match inline {
+        Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => inner,
+        Inline::Link { shown, .. } | Inline::Value { shown, .. } => shown,
+        _ => &[],
     }
 }
 
@@ -218,30 +227,8 @@ pub fn rewrite<E>(
     blocks: &mut [Block],
     change: &mut impl FnMut(Inline) -> Result<Vec<Inline>, E>,
 ) -> Result<(), E> {
-    for block in blocks {
-        match block {
-            Block::Heading { text, .. } | Block::Paragraph(text) => rewrite_inlines(text, change)?,
-            Block::Lab { caption, .. } => rewrite_inlines(caption, change)?,
-            Block::Figure { caption, origin, .. } | Block::Listing { caption, origin, .. } => {
-                rewrite_inlines(caption, change)?;
-                rewrite_inlines(origin, change)?;
-            }
-            Block::Table { caption, head, rows, .. } => {
-                rewrite_inlines(caption, change)?;
-                for cell in head.iter_mut().chain(rows.iter_mut().flatten()) {
-                    rewrite_inlines(cell, change)?;
-                }
-            }
-            Block::List { items, .. } => {
-                for item in items {
-                    rewrite(item, change)?;
-                }
-            }
-            Block::Quote(inner) => rewrite(inner, change)?,
-            Block::Code { .. } | Block::Bibliography(_) => {}
-        }
-    }
-    Ok(())
+    let mut texts = blocks.iter_mut().flat_map(texts_mut);
+    texts.try_for_each(|text| rewrite_inlines(text, change))
 }
 
 /// The same of running text.
@@ -289,22 +276,12 @@ pub fn spelt(inlines: &[Inline]) -> String {
 }
 
 fn words(inlines: &[Inline], maths: &dyn Fn(&str) -> String) -> String {
-    let mut out = String::new();
-    for inline in inlines {
-        match inline {
-            Inline::Text(text) | Inline::Code(text) => out.push_str(text),
-            Inline::Maths(tex) | Inline::Display { tex, .. } => out.push_str(&maths(tex)),
-            Inline::Soft | Inline::Break => out.push(' '),
-            Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => {
-                out.push_str(&words(inner, maths));
-            }
-            Inline::Link { shown, .. } | Inline::Value { shown, .. } => {
-                out.push_str(&words(shown, maths));
-            }
-            Inline::Reference { shown, .. } => out.push_str(shown),
-            Inline::Anchor { number, .. } => out.push_str(number),
-            Inline::Unresolved(_) => {}
-        }
-    }
-    out
+    let word = |inline: &Inline| match inline {
+        Inline::Text(text) | Inline::Code(text) => text.clone(),
+        Inline::Maths(tex) | Inline::Display { tex, .. } => maths(tex),
+        Inline::Soft | Inline::Break => " ".into(),
+        Inline::Reference { shown: text, .. } | Inline::Anchor { number: text, .. } => text.clone(),
+        other => words(inner(other), maths),
+    };
+    inlines.iter().map(word).collect()
 }

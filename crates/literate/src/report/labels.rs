@@ -33,7 +33,7 @@ impl Labels {
     fn add(&mut self, id: &str, number: &str, of: Document) -> Result<(), Error> {
         match self.labels.insert(id.to_string(), (number.to_string(), of)) {
             None => Ok(()),
-            Some(_) => Err(Error::Label(id.to_string(), None)),
+            Some(_) => Err(Error::Label(id.to_string())),
         }
     }
 
@@ -154,6 +154,8 @@ impl Labels {
         }
         Ok(())
     }
+
+    /// Citations `[@rice1945; @toda1989]`, or references of one kind, `[@fig:3; @fig:8a]`.
     fn refer(
         &self,
         ids: &[String],
@@ -162,46 +164,35 @@ impl Labels {
         cited: &mut Vec<String>,
     ) -> Result<Vec<Inline>, Error> {
         let words = |text: &str| Inline::Text(text.to_string());
-        let all = || ids.join("; ");
-        // Citations have no colon; a list holds one kind only.
+        let mut out = Vec::new();
         if ids.iter().all(|id| !id.contains(':')) {
-            let mut out = vec![words("[")];
-            for (i, key) in ids.iter().enumerate() {
-                if i > 0 {
-                    out.push(words("; "));
-                }
+            for key in ids {
+                out.push(words(if out.is_empty() { "[" } else { "; " }));
+                let (to, shown) = (format!("ref:{key}"), library.label(key)?);
+                out.push(Inline::Reference { to, within: None, shown });
                 cited.push(key.clone());
-                let shown = library.label(key)?;
-                out.push(Inline::Reference { to: format!("ref:{key}"), within: None, shown });
             }
             out.push(words("]"));
             return Ok(out);
         }
         let kind = |id: &String| id.split(':').next().unwrap_or_default().to_string();
-        let first = kind(&ids[0]);
-        if ids.iter().any(|id| kind(id) != first) {
-            return Err(Error::Reference(all()));
-        }
-        let full = first.starts_with(|c: char| c.is_ascii_uppercase());
-        let lower = first.to_lowercase();
-        let names = names(&lower).ok_or_else(|| Error::Reference(all()))?;
-        let name = names[usize::from(ids.len() > 1) + if full { 2 } else { 0 }];
-        let mut out = Vec::new();
+        let (asked, several) = (kind(&ids[0]), ids.len() > 1);
+        let lower = asked.to_lowercase();
+        let names = names(&lower).filter(|_| ids.iter().all(|id| kind(id) == asked));
+        let names = names.ok_or_else(|| Error::Reference(ids.join("; ")))?;
+        let name = names[usize::from(several) + if asked == lower { 0 } else { 2 }];
         let is_verdict = name.is_empty();
-        if ids.len() > 1 && !is_verdict {
+        if several && !is_verdict {
             out.push(words(&format!("{name}\u{a0}")));
         }
         for (i, id) in ids.iter().enumerate() {
-            let id = format!("{lower}{}", &id[first.len()..]);
+            let id = format!("{lower}{}", &id[asked.len()..]);
             // `[@fig:8a]` is part (a) of Fig. 8.
-            let (target, part) = match self.number(&id) {
-                Some(_) => (id.as_str(), String::new()),
-                None => match id.strip_suffix(|c: char| c.is_ascii_lowercase()) {
-                    Some(whole) if self.panels.contains(&id) => {
-                        (whole, format!("({})", &id[whole.len()..]))
-                    }
-                    _ => (id.as_str(), String::new()),
-                },
+            let (target, part) = match id.strip_suffix(|c: char| c.is_ascii_lowercase()) {
+                Some(whole) if self.panels.contains(&id) => {
+                    (whole, format!("({})", &id[whole.len()..]))
+                }
+                _ => (id.as_str(), String::new()),
             };
             let number = self.number(target).filter(|number| !number.is_empty());
             let number = number.ok_or_else(|| Error::Reference(ids[i].clone()))?;
@@ -211,17 +202,14 @@ impl Labels {
                 let last = i + 1 == ids.len() && !is_verdict;
                 out.push(words(if last { " and " } else { ", " }));
             }
-            let alone = ids.len() == 1 && !is_verdict;
-            let shown = if alone { format!("{name}\u{a0}{number}") } else { number };
-            let target = match target.split_once(':') {
-                Some((_, id)) if is_verdict => &format!("claim:{id}"),
-                _ => target,
+            let named = !several && !is_verdict;
+            let shown = if named { format!("{name}\u{a0}{number}") } else { number };
+            let to = match target.split_once(':') {
+                Some((_, id)) if is_verdict => format!("claim:{id}"),
+                _ => target.to_string(),
             };
-            out.push(Inline::Reference {
-                to: target.to_string(),
-                within: self.document(target).filter(|of| *of != here),
-                shown,
-            });
+            let within = self.document(&to).filter(|of| *of != here);
+            out.push(Inline::Reference { to, within, shown });
         }
         Ok(if lower == "row" { vec![Inline::Raised(out)] } else { out })
     }

@@ -255,19 +255,17 @@ fn table(
     head: &[Vec<Inline>],
     rows: &[Vec<Vec<Inline>>],
 ) -> Result<String, Error> {
-    let width = |column: usize| -> usize {
-        let cell = |row: &[Vec<Inline>]| row.get(column).map_or(0, |c| plain(c).chars().count());
-        rows.iter().map(|row| cell(row)).chain([cell(head)]).max().unwrap_or(0).max(3)
-    };
-    let widths: Vec<usize> = (0..columns.len()).map(width).collect();
-    let words = |column: usize| -> usize {
-        let longest = |row: &[Vec<Inline>]| {
-            let cell = row.get(column).map(|c| plain(c)).unwrap_or_default();
-            cell.split_whitespace().map(|word| word.chars().count()).max().unwrap_or(0)
+    let most = |of: fn(&str) -> usize| -> Vec<usize> {
+        let column = |i: usize| {
+            let cells = rows.iter().map(Vec::as_slice).chain([head]).filter_map(|row| row.get(i));
+            cells.map(|cell| of(&plain(cell))).max().unwrap_or(0)
         };
-        rows.iter().map(|row| longest(row)).chain([longest(head)]).max().unwrap_or(0).min(24)
+        (0..columns.len()).map(column).collect()
     };
-    let words: Vec<usize> = (0..columns.len()).map(words).collect();
+    let widths = most(|cell| cell.chars().count().max(3));
+    let words = most(|cell| {
+        cell.split_whitespace().map(|word| word.chars().count()).max().unwrap_or(0).min(24)
+    });
     let total: usize = widths.iter().map(|w| w + 2).sum();
     let least: usize = (0..columns.len()).map(|i| least_width(widths[i], words[i])).sum();
     let gaps = GAPS * columns.len() as f64;

@@ -10,14 +10,8 @@ use super::mark::bare;
 
 /// Writes report.md.
 pub fn write(blocks: &[Block]) -> String {
-    let mut out = String::new();
-    for block in blocks {
-        write_block(block, "", &mut out);
-    }
-    while out.ends_with("\n\n") {
-        out.pop();
-    }
-    out
+    let blocks = blocks.iter().map(|own| block(own).trim_end().to_string());
+    blocks.filter(|text| !text.is_empty()).collect::<Vec<_>>().join("\n\n") + "\n"
 }
 
 /// Running text as Markdown, for tables and ledgers.
@@ -25,21 +19,22 @@ pub fn inlines(inlines: &[Inline]) -> String {
     Writer { in_table: false }.all(inlines)
 }
 
-fn write_block(block: &Block, indent: &str, out: &mut String) {
-    let prose = Writer { in_table: false };
-    let text = match block {
+/// The lines of a text with something before each.
+fn lines(text: &str, before: &str) -> String {
+    let line = |line: &str| format!("{before}{line}").trim_end().to_string();
+    text.lines().map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn block(block: &Block) -> String {
+    match block {
         Block::Heading { level, number, id, text } => {
             let number = number.as_ref().map(|n| format!("{n} ")).unwrap_or_default();
-            let hashes = "#".repeat(usize::from(*level));
-            format!(
-                "{hashes} {}{number}{}",
-                id.as_deref().map_or(String::new(), anchor),
-                prose.all(text)
-            )
+            let (hashes, id) = ("#".repeat(usize::from(*level)), id.as_deref().map(anchor));
+            format!("{hashes} {}{number}{}", id.unwrap_or_default(), inlines(text))
         }
-        Block::Paragraph(text) => prose.all(text),
+        Block::Paragraph(text) => inlines(text),
         Block::Figure { id, number, path, alt, origin, caption } => {
-            let (caption, origin) = (prose.all(caption), prose.all(origin));
+            let (caption, origin) = (inlines(caption), inlines(origin));
             let origin = if origin.is_empty() { origin } else { format!("\n<sub>{origin}</sub>") };
             let (id, alt) = (anchor(id), alternative(alt));
             format!("{id}\n![{alt}]({path})\n\n**Figure {number}.** {caption}{origin}")
@@ -47,40 +42,19 @@ fn write_block(block: &Block, indent: &str, out: &mut String) {
         Block::Table { id, number, caption, columns, head, rows } => {
             let mut text = id.as_deref().map_or(String::new(), anchor);
             if let Some(number) = number {
-                text.push_str(&format!("**Table {number}.** {}\n\n", prose.all(caption)));
+                text.push_str(&format!("**Table {number}.** {}\n\n", inlines(caption)));
             }
             text + &table(columns, head, rows)
         }
         Block::List { start, items } => {
-            for (i, item) in items.iter().enumerate() {
-                let marker = match start {
-                    Some(start) => format!("{}. ", start + i as u64),
-                    None => "- ".to_string(),
-                };
-                let mut inner = String::new();
-                for block in item {
-                    write_block(block, "", &mut inner);
-                }
-                let deeper = " ".repeat(marker.len());
-                let mut lines = inner.trim_end().lines();
-                out.push_str(&format!("{indent}{marker}{}\n", lines.next().unwrap_or_default()));
-                for line in lines {
-                    let line = format!("{indent}{deeper}{line}");
-                    out.push_str(line.trim_end());
-                    out.push('\n');
-                }
-            }
-            out.push('\n');
-            return;
+            let item = |(i, item): (usize, &Vec<Block>)| {
+                let marker = start.map_or("- ".into(), |start| format!("{}. ", start + i as u64));
+                let deeper = lines(&write(item), &" ".repeat(marker.len()));
+                marker + deeper.trim_start()
+            };
+            items.iter().enumerate().map(item).collect::<Vec<_>>().join("\n")
         }
-        Block::Quote(blocks) => {
-            let mut inner = String::new();
-            for block in blocks {
-                write_block(block, "", &mut inner);
-            }
-            let line = |line: &str| format!("> {line}").trim_end().to_string();
-            inner.trim_end().lines().map(line).collect::<Vec<_>>().join("\n")
-        }
+        Block::Quote(blocks) => lines(&write(blocks), "> "),
         Block::Code { language, text } => {
             let fence = fence(text, 3);
             format!("{fence}{language}\n{}\n{fence}", text.trim_end())
@@ -90,28 +64,20 @@ fn write_block(block: &Block, indent: &str, out: &mut String) {
             "{}**Listing {number}.** {}\n\n<details>\n<summary><code>{item}</code></summary>\n\n\
              {fence}rust\n{}\n{fence}\n\n<sub>{}</sub>\n\n</details>",
             anchor(id),
-            prose.all(caption),
+            inlines(caption),
             text.trim_end(),
-            prose.all(origin),
+            inlines(origin),
             fence = fence(text, 3)
         ),
         // Nothing moves here.
-        Block::Lab { .. } => return,
+        Block::Lab { .. } => String::new(),
         Block::Bibliography(entries) => {
             let entry = |entry: &super::document::Entry| {
-                format!("- {}{}", anchor(&format!("ref:{}", entry.key)), prose.all(&entry.text))
+                format!("- {}{}", anchor(&format!("ref:{}", entry.key)), inlines(&entry.text))
             };
             entries.iter().map(entry).collect::<Vec<_>>().join("\n")
         }
-    };
-    for line in text.trim_end().lines() {
-        if !line.is_empty() {
-            out.push_str(indent);
-        }
-        out.push_str(line);
-        out.push('\n');
     }
-    out.push('\n');
 }
 
 fn table(columns: &[Align], head: &[Vec<Inline>], rows: &[Vec<Vec<Inline>>]) -> String {

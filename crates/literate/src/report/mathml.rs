@@ -5,42 +5,16 @@ use super::html::Page;
 use super::mark::{Piece, bare, pieces};
 use crate::figures::escape;
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
-use std::panic::catch_unwind;
 use std::sync::LazyLock;
 
 static CONVERTER: LazyLock<Option<LatexToMathML>> =
     LazyLock::new(|| LatexToMathML::new(MathCoreConfig::default()).ok());
 
-/// No formula is longer, in bytes: commands without brackets that follow each other nest as well.
-pub const LONGEST: usize = 4000;
-
-/// No formula has more brackets within each other: the converter calls itself for each.
-const DEEPEST: usize = 50;
-
-/// How deep the groups of a formula go.
-fn deepest(tex: &str) -> usize {
-    let (mut depth, mut most) = (0_usize, 0);
-    for c in tex.chars() {
-        match c {
-            '{' | '[' | '(' => depth += 1,
-            '}' | ']' | ')' => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-        most = most.max(depth);
-    }
-    most
-}
-
 /// Plain TeX without values.
 fn convert(tex: &str, display: MathDisplay) -> Result<String, Error> {
     let fail = |what: String| Error::Maths { tex: bare(tex), what };
     let converter = CONVERTER.as_ref().ok_or_else(|| fail("no converter".into()))?;
-    if tex.len() > LONGEST || deepest(tex) > DEEPEST {
-        return Err(fail(format!("longer than {LONGEST} bytes, or {DEEPEST} brackets deep")));
-    }
-    // The converter asserts, in builds with assertions, that no column ends inside a script.
-    let made = catch_unwind(|| converter.convert_with_local_state(tex, display));
-    let made = made.map_err(|_| fail("a column ends inside a part of the formula".into()))?;
+    let made = converter.convert_with_local_state(tex, display);
     made.map(|made| made.mathml).map_err(|error| fail(error.to_string()))
 }
 

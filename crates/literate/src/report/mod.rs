@@ -64,17 +64,12 @@ pub enum Error {
     Markup(String),
     #[error("{place}: {error}")]
     At { place: String, error: Box<Error> },
-    #[error("`Lab {}: …`: lab.js has no function of this name; correct it, or write one", one_line(.0, 200))]
-    Lab(String),
     #[error("[!claim:{}]: there is no claim of this id; correct or remove it", one_line(.0, 200))]
     Claim(String),
     #[error("a link to {}: there is no such file or place; correct or remove it", one_line(.0, 200))]
     NoFile(String),
-    #[error(
-        "{}: two things in the report have this id{}; give one of them another",
-        one_line(.0, 200), .1.as_ref().map(|place| format!(", the first at {place}")).unwrap_or_default()
-    )]
-    Label(String, Option<String>),
+    #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]
+    Label(String),
     #[error("[@{}]: nothing in the report has this id; correct or remove the reference{}", one_line(.0, 200), several(.0))]
     Reference(String),
     #[error(

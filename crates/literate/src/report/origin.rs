@@ -120,20 +120,13 @@ impl<'a> Places<'a> {
         self.found.push((thing, offset));
     }
 
-    /// Where the thing with an id stands first.
-    pub fn first(&self, id: &str) -> Option<String> {
-        let (_, offset) = self.found.iter().find(|(own, _)| own.strip_prefix('#') == Some(id))?;
-        Some(self.filled.place(*offset))
-    }
-
     /// The error with the place of what it names. Of two things with one id the second is meant.
     pub fn tell(&self, error: Error) -> Error {
         let thing = match &error {
-            Error::Label(id, _) => format!("#{id}"),
+            Error::Label(id) => format!("#{id}"),
             Error::Reference(id) => format!("@{id}"),
             Error::Claim(id) => format!("#claim:{id}"),
             Error::NoFile(path) => format!("({path}"),
-            Error::Lab(lab) => format!("Lab {lab}"),
             _ => return error,
         };
         match self.found.iter().rev().find(|(own, _)| *own == thing) {

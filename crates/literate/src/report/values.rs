@@ -102,14 +102,6 @@ fn is_id(id: &str) -> bool {
     parts.clone().count() <= 2 && parts.all(name)
 }
 
-/// The power of ten of the last of so many significant digits.
-pub fn place(x: f64, digits: usize) -> i32 {
-    let places = digits.clamp(1, 17) - 1;
-    let text = format!("{:.*e}", places, x.abs());
-    let leading = text.split_once('e').and_then(|(_, power)| power.parse::<i32>().ok());
-    leading.unwrap_or(0) - places as i32
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,7 +111,6 @@ mod tests {
         let mut registry = Registry::new();
         registry.add(Value::integer("edges", 16)).unwrap();
         assert!(matches!(registry.add(Value::integer("edges", 17)), Err(Error::DuplicateId(_))));
-        assert_eq!(registry.get("edges"), Some(&Value::integer("edges", 16)));
     }
 
     #[test]
@@ -135,16 +126,6 @@ mod tests {
     #[test]
     fn what_is_not_finite_is_refused() {
         let mut registry = Registry::new();
-        assert!(registry.add(Value::real("x", f64::NAN, 3)).is_err());
-        assert!(registry.add(Value::ensemble("x", 1.0, f64::INFINITY, 3)).is_err());
         assert!(registry.add(Value::interval("x", [0.0, f64::NAN])).is_err());
-    }
-
-    /// Formatting panics beyond 65535 digits.
-    #[test]
-    fn digits_that_no_number_has_are_not_printed() {
-        assert!(Value::real("x", 0.1, 70_000).plain().starts_with("0.1000"));
-        let long = format!("0.{}", "1".repeat(70_000));
-        assert!(Value::printed("x", &long, "Sec. 2").plain().len() < 2000);
     }
 }

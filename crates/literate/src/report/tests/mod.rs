@@ -188,12 +188,7 @@ fn assembled(prose: &str) -> Result<Report, Error> {
 
 fn with_lab(prose: &str, lab: Option<&str>) -> Result<Report, Error> {
     let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
-    let files = [
-        ("report.md", prose),
-        ("references.bib", bib),
-        ("lab.js", "function toy(bench) {}"),
-        ("literals.toml", "literal = []"),
-    ];
+    let files = [("report.md", prose), ("references.bib", bib), ("literals.toml", "literal = []")];
     let mut values = Registry::new();
     values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000))?;
     values.add(Value::integer("spare", 3).data_only())?;
