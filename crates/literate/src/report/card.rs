@@ -164,41 +164,24 @@ impl Cards<'_> {
         if let Kind::Printed { place } = &value.kind {
             card.words("place", place.clone());
         }
-        if !value.source.is_empty() {
-            card.item("computed by", &value.source, self.program);
-        }
+        card.item("computed by", &value.source, self.program);
         let home = self.ledger.equations.iter().find(|equation| equation.home == value.source);
         if let Some(number) = home.map(|equation| equation.number) {
-            let shown = format!("Eq.\u{a0}({number})");
-            card.row(
-                "equation",
-                vec![Inline::Reference { to: format!("eq:{number}"), within: None, shown }],
-            );
+            let (to, shown) = (format!("eq:{number}"), format!("Eq.\u{a0}({number})"));
+            card.row("equation", vec![Inline::Reference { to, within: None, shown }]);
         }
         card.experiment(&value.experiment, self);
         card.row("note", words_and_maths(&value.note));
-        let mut data = vec![link("values.json", Inline::Text("values.json".into()))];
-        let shows = |names: &[String]| names.contains(&value.experiment);
-        let figures = self.ledger.figures.iter().filter(|figure| shows(&figure.experiments));
-        let csv: Vec<&String> = figures.flat_map(|figure| &figure.data).collect();
-        // A cell has the file of its table; what has no table has those of its experiment.
         let own = table_of(&value.id).map(|table| format!("data/{}", DataFile::name_of(table)));
-        if let Some(own) = &own {
-            data.push(Inline::Text(", ".into()));
-            data.extend(links([own]));
-        } else if value.experiment != "theory" && !csv.is_empty() {
-            data.push(Inline::Text("; of the same experiment: ".into()));
-            data.extend(links(csv));
-        }
-        card.row("data", data);
+        let data: Vec<String> = ["values.json".into()].into_iter().chain(own).collect();
+        card.row("data", links(&data));
         let claims = self.ledger.claims.iter().filter(|claim| claim.values.contains(&value.id));
         let mut used = Vec::new();
         for claim in claims {
             if !used.is_empty() {
                 used.push(Inline::Text("; ".into()));
             }
-            let shown = claim.id.clone();
-            let to = format!("claim:{}", claim.id);
+            let (to, shown) = (format!("claim:{}", claim.id), claim.id.clone());
             used.push(Inline::Reference { to, within: None, shown });
             used.push(Inline::Text(format!(" ({}): {}", claim.place, claim.verdict.words())));
         }

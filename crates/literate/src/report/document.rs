@@ -111,10 +111,8 @@ pub enum Align {
 pub enum Inline {
     /// Words; no markup inside.
     Text(String),
-    /// A line break of the source, which is a space.
+    /// A line break, which is a space.
     Soft,
-    /// A line break that is meant.
-    Break,
     Code(String),
     Emphasis(Vec<Inline>),
     Strong(Vec<Inline>),
@@ -231,8 +229,7 @@ pub fn rewrite<E>(
     texts.try_for_each(|text| rewrite_inlines(text, change))
 }
 
-/// The same of running text.
-pub fn rewrite_inlines<E>(
+fn rewrite_inlines<E>(
     inlines: &mut Vec<Inline>,
     change: &mut impl FnMut(Inline) -> Result<Vec<Inline>, E>,
 ) -> Result<(), E> {
@@ -279,7 +276,7 @@ fn words(inlines: &[Inline], maths: &dyn Fn(&str) -> String) -> String {
     let word = |inline: &Inline| match inline {
         Inline::Text(text) | Inline::Code(text) => text.clone(),
         Inline::Maths(tex) | Inline::Display { tex, .. } => maths(tex),
-        Inline::Soft | Inline::Break => " ".into(),
+        Inline::Soft => " ".into(),
         Inline::Reference { shown: text, .. } | Inline::Anchor { number: text, .. } => text.clone(),
         other => words(inner(other), maths),
     };

@@ -34,12 +34,6 @@ impl Document {
         repeats: false,
     };
 
-    /// Paths of its files in the folder of a report.
-    pub fn paths(&self) -> impl Iterator<Item = String> {
-        let print = self.print.map(|name| format!("{name}.tex"));
-        [self.markdown, self.page].map(String::from).into_iter().chain(print)
-    }
-
     /// Paths of its prose in the templates, in its order; none if there is no such file.
     pub fn files<'a>(&self, templates: &'a Templates) -> Vec<&'a str> {
         let (one, folder) = (format!("{}.md", self.prose), format!("{}/", self.prose));

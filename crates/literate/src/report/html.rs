@@ -121,19 +121,15 @@ pub fn beside(values: &BTreeSet<String>, cards: Cards<'_>, site: Site<'_>) -> Re
         let card = cards.get(id).ok_or_else(unknown)?;
         let mut own = Vec::new();
         for row in &card.rows {
-            let mut words = vec![row.text.clone()];
-            for text in &mut words {
-                document::rewrite_inlines(text, &mut |inline| {
-                    Ok::<_, Error>(match inline {
-                        Inline::Reference { to, shown, .. } => {
-                            let within = site.labels.document(&to);
-                            vec![Inline::Reference { to, within, shown }]
-                        }
-                        other => document::led(other, site.top),
-                    })
-                })?;
-            }
-            let row = format!("<dt>{}</dt><dd>{}</dd>", row.name, page.inlines(&words.concat())?);
+            let place = |inline: &Inline| match inline.clone() {
+                Inline::Reference { to, shown, .. } => {
+                    let within = site.labels.document(&to);
+                    vec![Inline::Reference { to, within, shown }]
+                }
+                other => document::led(other, site.top),
+            };
+            let words: Vec<Inline> = row.text.iter().flat_map(place).collect();
+            let row = format!("<dt>{}</dt><dd>{}</dd>", row.name, page.inlines(&words)?);
             own.push(*places.entry(row.clone()).or_insert_with(|| {
                 rows.push(row);
                 rows.len() - 1
@@ -402,7 +398,6 @@ impl Page<'_> {
         Ok(match inline {
             Inline::Text(words) => text(words),
             Inline::Soft => "\n".into(),
-            Inline::Break => "<br/>".into(),
             // Long paths may break at their joints.
             Inline::Code(code) => {
                 let code = text(code).replace('/', "/<wbr\u{0}>").replace("::", "::<wbr\u{0}>");

@@ -81,15 +81,11 @@ const LISTINGS: &str = "\\clearpage\n\\phantomsection\\section*{Listings}\n\
 
 fn write_block(block: &Block) -> Result<String, Error> {
     Ok(match block {
-        // The title belongs to the shell.
+        // The template has the title.
         Block::Heading { level: 1, .. } => String::new(),
         Block::Heading { level, number, id, text } => {
-            let command = match level {
-                2 => "section",
-                3 => "subsection",
-                4 => "subsubsection",
-                _ => "paragraph",
-            };
+            let command = ["section", "subsection", "subsubsection"];
+            let command = command.get(usize::from(*level) - 2).unwrap_or(&"paragraph");
             let label = id.as_deref().map(|id| format!("\\label{{{id}}}")).unwrap_or_default();
             let mut words = inlines(text)?;
             if words != bookmark(text)? {
@@ -131,9 +127,8 @@ fn write_block(block: &Block) -> Result<String, Error> {
         Block::Code { text, .. } => {
             format!("{{\\small\\begin{{alltt}}\n{}\n\\end{{alltt}}}}", tex::code(text.trim_end())?)
         }
-        // On paper nothing unfolds: it stands behind the text, see `listings`.
-        Block::Listing { .. } => String::new(),
-        Block::Lab { .. } => String::new(),
+        // On paper nothing unfolds, a listing stands behind the text; and nothing runs.
+        Block::Listing { .. } | Block::Lab { .. } => String::new(),
         Block::Bibliography(entries) => {
             let mut out = String::from(HANGING);
             for entry in entries {
@@ -171,9 +166,7 @@ pub fn inlines(list: &[Inline]) -> Result<String, Error> {
         if *piece == Inline::Soft && (beside(i + 1) || i > 0 && beside(i - 1)) {
             continue;
         }
-        let text = inline(piece)?;
-        let broken = i > 0 && list[i - 1] == Inline::Break;
-        out.push_str(&if broken { apart(&text) } else { text });
+        out.push_str(&inline(piece)?);
     }
     Ok(out)
 }
@@ -188,7 +181,6 @@ fn inline(inline: &Inline) -> Result<String, Error> {
     Ok(match inline {
         Inline::Text(text) => tex::text(text)?,
         Inline::Soft => "\n".into(),
-        Inline::Break => "\\\\\n".into(),
         Inline::Code(code) => {
             // Two hyphens in a row are set as a dash.
             let code = tex::text(code)?.replace("--", "-{}-");
@@ -310,8 +302,8 @@ fn least_width(width: usize, longest_word: usize) -> usize {
     if width <= SHORT { width } else { longest_word + 1 }
 }
 
-/// Columns as wide as their words while all fit; else the long ones share what the short leave,
-/// each at least as wide as its longest word.
+/// Columns as wide as their words while all fit; else the long ones are as wide as their longest words, and share what is
+/// left.
 fn layout(columns: &[Align], widths: &[usize], words: &[usize], line: usize) -> String {
     let letter = |align: &Align| match align {
         Align::Left => "l",
@@ -321,32 +313,20 @@ fn layout(columns: &[Align], widths: &[usize], words: &[usize], line: usize) -> 
     if widths.iter().map(|w| w + 2).sum::<usize>() <= line {
         return columns.iter().map(letter).collect();
     }
-    let short = |i: usize| widths[i] <= SHORT;
-    let long: Vec<usize> = (0..columns.len()).filter(|i| !short(*i)).collect();
-    let taken: usize = (0..columns.len()).filter(|i| short(*i)).map(|i| widths[i]).sum();
-    let gaps = GAPS * columns.len() as f64 / line as f64;
-    let free = (1.0 - gaps - taken as f64 / line as f64).max(0.3);
+    let short = |i: &usize| widths[*i] <= SHORT;
+    let least: usize = (0..columns.len()).map(|i| least_width(widths[i], words[i])).sum();
+    let free = (line as f64 - GAPS * columns.len() as f64 - least as f64).max(0.0);
     // Long cells wrap: the square root keeps a very long one from starving the others.
-    let mut shares = vec![0.0; columns.len()];
-    let mut fixed = vec![false; columns.len()];
-    loop {
-        let open: Vec<usize> = long.iter().copied().filter(|i| !fixed[*i]).collect();
-        let kept: f64 = long.iter().filter(|i| fixed[**i]).map(|i| shares[*i]).sum();
-        let weights: f64 = open.iter().map(|i| (widths[*i] as f64).sqrt()).sum();
-        for i in &open {
-            shares[*i] = (free - kept).max(0.1) * (widths[*i] as f64).sqrt() / weights;
-        }
-        let least = |i: usize| least_width(widths[i], words[i]) as f64 / line as f64;
-        match open.iter().find(|i| shares[**i] < least(**i)) {
-            Some(&i) => (shares[i], fixed[i]) = (least(i), true),
-            None => break,
-        }
-    }
+    let weight = |i: usize| (widths[i] as f64).sqrt();
+    let weights: f64 = (0..columns.len()).filter(|i| !short(i)).map(weight).sum();
+    let share = |i: usize| {
+        (least_width(widths[i], words[i]) as f64 + free * weight(i) / weights) / line as f64
+    };
     let column = |(i, align): (usize, &Align)| {
-        if short(i) {
+        if short(&i) {
             return letter(align).to_string();
         }
-        format!(">{{\\raggedright\\arraybackslash}}p{{{:.3}\\linewidth}}", shares[i])
+        format!(">{{\\raggedright\\arraybackslash}}p{{{:.3}\\linewidth}}", share(i))
     };
     columns.iter().enumerate().map(column).collect()
 }

@@ -174,9 +174,8 @@ impl Writer {
     fn one(&self, inline: &Inline, out: &mut String) {
         match inline {
             Inline::Text(text) => self.text(text, out),
-            Inline::Soft | Inline::Break if self.in_table => out.push(' '),
+            Inline::Soft if self.in_table => out.push(' '),
             Inline::Soft => out.push('\n'),
-            Inline::Break => out.push_str("\\\n"),
             Inline::Code(code) => {
                 let fence = fence(code, 1);
                 let blank = if code.starts_with('`') || code.ends_with('`') { " " } else { "" };

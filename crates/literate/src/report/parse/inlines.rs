@@ -45,7 +45,6 @@ impl Reader<'_> {
                     out.push(self.display(&tex)?);
                 }
                 Event::SoftBreak => out.push(Inline::Soft),
-                Event::HardBreak => out.push(Inline::Break),
                 Event::InlineHtml(html) => comment(&html)?,
                 Event::Start(tag) => out.push(self.span(tag, range)?),
                 _ => return Err(markup(ELSE)),
