@@ -135,9 +135,7 @@ fn forged(bytes: &[u8], line: usize, from: &str, to: &str) -> Vec<u8> {
 fn templates(to: &Path, file: &str, change: impl Fn(&str) -> String) {
     assert!(Command::new("cp").arg("-r").arg(TEMPLATES).arg(to).status().unwrap().success());
     assert!(Command::new("chmod").args(["-R", "u+w"]).arg(to).status().unwrap().success());
-    // What a folder does not have is the crate's.
-    let skin = Path::new(TEMPLATES).join("../crates/literate/skin").join(file);
-    let text = fs::read_to_string(to.join(file)).or_else(|_| fs::read_to_string(skin)).unwrap();
+    let text = fs::read_to_string(to.join(file)).unwrap();
     fs::write(to.join(file), change(&text)).unwrap();
 }
 

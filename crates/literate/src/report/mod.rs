@@ -49,10 +49,6 @@ pub enum Error {
     #[error("value {0}: the id is taken; give one of the two values another id")]
     DuplicateId(String),
     #[error(
-        "value {0}: an id is `name` or `group.name` of a-z, 0-9 and _, beginning with a letter"
-    )]
-    BadId(String),
-    #[error(
         "value {0}: not a finite number; leave the value out or say why there is none in words"
     )]
     NotFinite(String),

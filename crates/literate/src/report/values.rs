@@ -25,9 +25,6 @@ impl Registry {
 
     /// Adds a value.
     pub fn add(&mut self, value: Value) -> Result<(), Error> {
-        if !is_id(&value.id) && crate::table::table_of(&value.id).is_none() {
-            return Err(Error::BadId(value.id));
-        }
         if !value.is_finite() {
             return Err(Error::NotFinite(value.id));
         }
@@ -92,16 +89,6 @@ impl Registry {
     }
 }
 
-/// `name` or `group.name`, each of lower-case letters, digits and `_`, beginning with a letter.
-fn is_id(id: &str) -> bool {
-    let mut parts = id.split('.');
-    let name = |part: &str| {
-        part.starts_with(|c: char| c.is_ascii_lowercase())
-            && part.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
-    };
-    parts.clone().count() <= 2 && parts.all(name)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,16 +98,6 @@ mod tests {
         let mut registry = Registry::new();
         registry.add(Value::integer("edges", 16)).unwrap();
         assert!(matches!(registry.add(Value::integer("edges", 17)), Err(Error::DuplicateId(_))));
-    }
-
-    #[test]
-    fn ids_are_names_of_templates() {
-        for good in ["a", "half_height", "printed.p_15", "params.n"] {
-            assert!(is_id(good), "{good}");
-        }
-        for bad in ["", "A", "1a", "a.b.c", "a-b", "a..b", ".a", "a b"] {
-            assert!(!is_id(bad), "{bad}");
-        }
     }
 
     #[test]
