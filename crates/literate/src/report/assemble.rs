@@ -123,14 +123,14 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     });
     let written = written.collect::<Vec<Result<_, Error>>>();
     for (Part { of, blocks, .. }, written) in parts.iter().zip(written) {
-        let (print, page) = written?;
+        let (print, (page, values)) = written?;
         committed.insert(of.markdown.into(), markdown::write(blocks).into_bytes());
         if let Some(name) = of.print {
             filler.insert("print", &print);
             committed.insert(format!("{name}.tex"), filler.fill("report.tex")?.into_bytes());
         }
         filler.insert("page", &page);
-        shown.extend(page.values);
+        shown.extend(values);
         beside.insert(of.page.into(), filler.fill("report.html")?.into_bytes());
     }
     beside.extend(html::beside(&shown, cards, site)?);

@@ -12,7 +12,7 @@ use crate::claims::Verdict;
 use crate::figures::{Figure, Glyphs, escape as text, outlines};
 use crate::source::Program;
 use math_core::MathDisplay;
-use serde::Serialize;
+use serde_json::{Value as Json, json};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -40,40 +40,12 @@ pub struct Site<'a> {
     pub top: Option<&'a str>,
 }
 
-/// What the template has places for.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Parts {
-    /// The file.
-    pub file: &'static str,
-    /// The same for hosts.
-    pub markdown: &'static str,
-    /// What is known of the program: name and words.
-    pub about: BTreeMap<&'static str, String>,
-    /// The same in its order, which a template that loops through a map does not keep.
-    pub meta: Vec<(&'static str, String)>,
-    /// File and name of each document.
-    pub documents: Vec<(&'static str, String)>,
-    /// The title as words.
-    pub title: String,
-    /// The same for BibTeX.
-    pub bibtex: String,
-    /// The title with its mathematics.
-    pub heading: String,
-    /// Id, number and words of each section.
-    pub sections: Vec<[String; 3]>,
-    /// The same of each figure.
-    pub figures: Vec<[String; 3]>,
-    /// The text.
-    pub body: String,
-    /// The outlines that figures share.
-    pub glyphs: String,
-    /// The values that the page shows.
-    #[serde(skip)]
-    pub values: BTreeSet<String>,
-}
-
-/// Writes all parts of a page.
-pub fn write(blocks: &[Block], here: Document, site: Site<'_>) -> Result<Parts, Error> {
+/// What the template report.html has places for, and the values that the page shows.
+pub fn write(
+    blocks: &[Block],
+    here: Document,
+    site: Site<'_>,
+) -> Result<(Json, BTreeSet<String>), Error> {
     let page = Page { site, values: RefCell::default(), glyphs: RefCell::default() };
     let title = document::title(blocks)?;
     let meta: Vec<_> =
@@ -94,21 +66,23 @@ pub fn write(blocks: &[Block], here: Document, site: Site<'_>) -> Result<Parts, 
             _ => (),
         }
     }
-    Ok(Parts {
-        file: here.page,
-        markdown: here.markdown,
-        about: meta.iter().cloned().collect(),
-        meta,
-        documents: site.program.documents.iter().map(|of| (of.page, text(of.name))).collect(),
-        title: text(&spelt(title)),
-        bibtex: text(&latex::inlines(title)?),
-        heading,
-        sections,
-        figures,
-        body,
-        glyphs: outlines(&page.glyphs.borrow()),
-        values: page.values.into_inner(),
-    })
+    let documents = site.program.documents.iter().map(|of| (of.page, text(of.name)));
+    let parts = json!({
+        "file": here.page,
+        "markdown": here.markdown,
+        // A template that loops through a map does not keep its order.
+        "about": meta.iter().cloned().collect::<BTreeMap<_, _>>(),
+        "meta": meta,
+        "documents": documents.collect::<Vec<_>>(),
+        "title": text(&spelt(title)),
+        "bibtex": text(&latex::inlines(title)?),
+        "heading": heading,
+        "sections": sections,
+        "figures": figures,
+        "body": body,
+        "glyphs": outlines(&page.glyphs.borrow()),
+    });
+    Ok((parts, page.values.into_inner()))
 }
 
 /// What lies beside the pages: fonts, and the cards of all values that they show, as a script, since pages on a disk may

@@ -4,36 +4,19 @@ use super::Error;
 use super::document::{self, Align, Block, Inline, continues, is_equation, plain, spelt};
 use super::documents::Document;
 use super::tex;
-use serde::Serialize;
+use serde_json::{Value as Json, json};
 
-/// What the template has places for.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Parts {
-    /// What numbers begin with.
-    pub letter: &'static str,
-    /// The page that has the cards of its numbers.
-    pub page: &'static str,
-    /// The title.
-    pub title: String,
-    /// The same as words, for what a reader of PDF shows.
-    pub bookmark: String,
-    /// The text.
-    pub body: String,
-    /// The listings, which stand behind the text; empty if there are none.
-    pub listings: String,
-}
-
-/// Writes all parts of a document.
-pub fn write(blocks: &[Block], of: Document) -> Result<Parts, Error> {
+/// What the template report.tex has places for.
+pub fn write(blocks: &[Block], of: Document) -> Result<Json, Error> {
     let title = document::title(blocks)?;
-    Ok(Parts {
-        letter: of.letter,
-        page: of.page,
-        title: inlines(title)?,
-        bookmark: bookmark(title)?,
-        body: body(blocks)?,
-        listings: listings(blocks)?,
-    })
+    Ok(json!({
+        "letter": of.letter,
+        "page": of.page,
+        "title": inlines(title)?,
+        "bookmark": bookmark(title)?,
+        "body": body(blocks)?,
+        "listings": listings(blocks)?,
+    }))
 }
 
 fn body(blocks: &[Block]) -> Result<String, Error> {
