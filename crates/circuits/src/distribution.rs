@@ -34,7 +34,6 @@ pub(crate) struct Weights {
     space: SampleSpace,
     big_n: usize,
     p: DoubleDouble,
-    p_scaled: Scaled,
     k: usize,
     /// p^(k−1) N!/(N − k)!, over the common denominator of the classes.
     arranged: Scaled,
@@ -47,17 +46,13 @@ impl Weights {
             // What `higher_order::multiplicity` multiplies by, taken out once.
             _ => Scaled::from(big_n) / Scaled::from(higher_order::SHARED as usize),
         };
-        Weights { space, big_n, p, p_scaled: Scaled::from(p), k: 1, arranged }
+        Weights { space, big_n, p, k: 1, arranged }
     }
 
     /// Moves on to k + 1.
     pub(crate) fn advance(&mut self) {
         let left = self.big_n - self.k;
-        self.arranged = if self.p.hi > 1e-100 {
-            self.arranged * (self.p * left as f64)
-        } else {
-            self.arranged * (self.p_scaled * Scaled::from(left))
-        };
+        self.arranged = self.arranged * (self.p * left as f64);
         self.k += 1;
     }
 

@@ -68,17 +68,13 @@ pub fn local_maximum(big_n: usize, p: f64) -> usize {
         k += 1;
     }
     while k > 1 && !rises(big_n, p, k - 1) {
-        if f_falls_from_start(big_n, p, k - 1) {
+        // Left of the vertex of the parabola f < 0 down to 1.
+        if 2.0 * p * (k - 1) as f64 <= p * big_n as f64 - 1.0 {
             return 1;
         }
         k -= 1;
     }
     k
-}
-
-/// Whether k lies left of the vertex of the parabola f, so that f < 0 from there down to 1.
-fn f_falls_from_start(big_n: usize, p: f64, k: usize) -> bool {
-    2.0 * p * k as f64 <= p * big_n as f64 - 1.0
 }
 
 /// The p at which k* steps from k to k + 1 once k* > 1: f_{N,p}(k) = 0, so (k + 1)/(k (N − k)).
@@ -120,7 +116,10 @@ pub fn p_jump(space: SampleSpace, big_n: usize) -> Result<Jump, Error> {
     check_vertices(big_n)?;
     if !first_is_exceeded(space, big_n, DoubleDouble::ONE) {
         let least = if space == SampleSpace::Simple { 4 } else { 2 };
-        return Err(Error::no_jump(big_n, least));
+        let problem = format!(
+            "with N = {big_n} the most likely number of impacts is 1 for every p, so there is no jump"
+        );
+        return Err(Error::new("vertices", problem, format!("give N ≥ {least}")));
     }
     let exceeded = |p: f64| first_is_exceeded(space, big_n, DoubleDouble::from(p));
     let [below, above] = roots::bracket(0.0, 1.0, exceeded);
@@ -148,16 +147,6 @@ fn first_is_exceeded(space: SampleSpace, big_n: usize, p: DoubleDouble) -> bool 
     false
 }
 // end
-
-impl Error {
-    /// k* stays at 1 for every p in [0, 1].
-    fn no_jump(big_n: usize, least: usize) -> Error {
-        let problem = format!(
-            "with N = {big_n} the most likely number of impacts is 1 for every p, so there is no jump"
-        );
-        Error::new("vertices", problem, format!("give N ≥ {least}"))
-    }
-}
 
 /// The limit of k*/N and of μ/N for N → ∞ with p N fixed: max(0, 1 − 1/(p N)). For k Φ_{N,p}(k) is a Poisson weight of
 /// N − k with mean 1/p (ours, beyond the paper).

@@ -93,32 +93,12 @@ impl Default for Ensemble {
     }
 }
 
-/// Impacts per unit of time and mass against σ, of the paper's chain.
-const RATES: [(f64, f64); 8] = [
-    (0.07, 0.0),
-    (0.09, 0.0019),
-    (0.10, 0.009),
-    (0.12, 0.046),
-    (0.15, 0.122),
-    (0.18, 0.16),
-    (0.25, 0.208),
-    (0.40, 0.282),
-];
-
-/// Linear between the rows of [`RATES`], and level outside.
-fn rate(sigma: f64) -> f64 {
-    let after = RATES.partition_point(|(at, _)| *at <= sigma);
-    match (after.checked_sub(1).and_then(|i| RATES.get(i)), RATES.get(after)) {
-        (Some((from, low)), Some((to, high))) => low + (high - low) * (sigma - from) / (to - from),
-        (Some((_, last)), None) => *last,
-        (None, _) => 0.0,
-    }
-}
-
 /// Impacts that a run of a chain is likely to have, to share work and to show progress: no result depends on it. A gap
 /// that is searched once counts as one.
 pub fn work(chain: &Chain, sigma: f64, time: f64) -> u64 {
-    (chain.masses as f64 * (1.0 + time * rate(sigma))) as u64
+    // Impacts per unit of time and mass, of the paper's chain, roughly.
+    let rate = (1.6 * (sigma - 0.085)).clamp(0.0, 0.3);
+    (chain.masses as f64 * (1.0 + time * rate)) as u64
 }
 
 impl Ensemble {

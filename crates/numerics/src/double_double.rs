@@ -224,16 +224,6 @@ mod tests {
     }
 
     #[test]
-    fn large_integers_keep_their_last_bit() {
-        let n = usize::MAX / 2;
-        let d = DoubleDouble::from(n);
-        assert_eq!(d.hi as i128 + d.lo as i128, n as i128);
-        let n = (1_u128 << 105) - 1;
-        let d = DoubleDouble::from(n);
-        assert_eq!(d.hi as i128 + d.lo as i128, n as i128);
-    }
-
-    #[test]
     fn exponential_sees_the_second_part() {
         let x = DoubleDouble { hi: 700.0, lo: 5e-14 };
         // e^(5e−14) = 1 + 5e−14 to 1e−27.

@@ -134,13 +134,6 @@ mod tests {
     }
 
     #[test]
-    fn of_equal_modes_the_lowest() {
-        assert_eq!(mode(&[0, 2, 5, 1, 5]), Some(2));
-        assert_eq!(mode(&[0, 0]), None);
-        assert_eq!(mode(&[]), None);
-    }
-
-    #[test]
     fn wilson_against_printed_values() {
         // Wilson's score interval is the set of p with |s − n p| ≤ z √(n p (1 − p)): both ends
         // must solve that equation, which is the second route.
@@ -170,13 +163,5 @@ mod tests {
         assert_eq!(last_rise(&x, &[Some(9.0); 5], 4.0), None);
         assert_eq!(last_rise(&x, &[Some(1.0); 5], 4.0), None);
         assert_eq!(last_rise(&[], &[], 4.0), None);
-    }
-
-    #[test]
-    fn slopes_by_hand() {
-        assert_eq!(slope(&[(0.0, 1.0), (1.0, 3.0), (5.0, 11.0)]), Some(2.0));
-        // x = −1, 0, 1 and y = 0, 3, 0: level.
-        assert_eq!(slope(&[(-1.0, 0.0), (0.0, 3.0), (1.0, 0.0)]), Some(0.0));
-        assert_eq!((slope(&[(1.0, 2.0), (1.0, 3.0)]), slope(&[])), (None, None));
     }
 }

@@ -203,19 +203,4 @@ mod tests {
             }
         }
     }
-
-    /// The first and the last of a ring are neighbours, and the last may be earlier by one tick.
-    #[test]
-    fn a_tick_decides() {
-        let mut earliest = Earliest::new(9);
-        let early = Instant::at(10.5);
-        let late = early.after(1.0 / (1u128 << 80) as f64);
-        earliest.set(0, [late]);
-        earliest.set(8, [early]);
-        assert_eq!(earliest.first(), (0, late));
-        assert!(earliest.is_close(0));
-        assert_eq!(earliest.first_in_full(), (8, early));
-        earliest.set(8, [late]);
-        assert_eq!(earliest.first_in_full(), (0, late));
-    }
 }

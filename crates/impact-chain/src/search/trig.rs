@@ -179,18 +179,6 @@ pub fn rough_angles(y: f64x2, x: f64x2) -> f64x2 {
 mod tests {
     use super::*;
 
-    #[test]
-    fn angles_are_rough() {
-        for i in 0..10_000 {
-            let angle = f64::from(i) * (std::f64::consts::TAU / 10_000.0) - std::f64::consts::PI;
-            let (y, x) = (3.0 * pxfm::f_sin(angle), 3.0 * pxfm::f_cos(angle));
-            let found = rough_angles(f64x2::from([y, y]), f64x2::from([x, -x])).to_array();
-            let mirrored = pxfm::f_atan2(y, -x);
-            assert!((found[0] - pxfm::f_atan2(y, x)).abs() < 2e-9, "{angle}: {found:?}");
-            assert!((found[1] - mirrored).abs() < 2e-9, "{angle}: {found:?}");
-        }
-    }
-
     /// The correctly rounded functions of `pxfm` are the second route.
     #[test]
     fn small_arguments_keep_relative_accuracy() {
