@@ -16,4 +16,4 @@ pub use impact_chain::{Boundary, Chain, Protocol, Start};
 pub use impact_numerics::estimates::LEVEL;
 pub use literate::experiments::Profile;
 pub use nucleation::{NucleationParams, SeedsParams};
-pub use sizes::{Grid, HorizonParams, SpaceTimeParams, TwoMassesParams};
+pub use sizes::{Grid, Runs, TwoMassesParams};

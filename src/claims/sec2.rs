@@ -199,7 +199,7 @@ fn sticking(e: &Evidence, s: &Statement) -> Judged {
 fn without_impact(e: &Evidence, s: &Statement) -> Judged {
     let found = e.results.of(&TWO_MASSES)?;
     let least = some(found.excess.iter().map(|own| own[0]).reduce(f64::min))?;
-    let safe = two_masses::safe_force(&found.parameters.chain);
+    let safe = two_masses::safe_force(&found.parameters.directions.chain);
     let text = Text::of(
         "{} impacts below the force that the amplitudes allow; smallest force with an impact, over that bound: {}",
         [integer(found.violations as usize), significant(least, 6)],

@@ -121,7 +121,7 @@ fn exact(results: &Results) -> Result<Vec<Check>, Error> {
 mod tests {
     use super::*;
     use crate::claims::Verdict;
-    use crate::experiments::{Need, Progress, Store, run::run};
+    use crate::experiments::{Need, Progress, Store, run};
     use crate::params::Profile;
 
     fn results() -> Results {

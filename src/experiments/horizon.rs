@@ -4,14 +4,14 @@
 //! rounded away. Every operation of a run rounds, in every mass, so the twins differ in all.
 
 use crate::experiments::prelude::*;
-use crate::params::HorizonParams;
+use crate::params::Runs;
 use impact_numerics::statistics::slope;
 
 /// The twins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Horizon {
     /// What was run.
-    pub parameters: HorizonParams,
+    pub parameters: Runs,
     /// One for each pair of twins.
     pub twins: Vec<Twins>,
 }
@@ -38,7 +38,7 @@ impl Horizon {
 }
 
 /// Runs the twins.
-pub fn run(parameters: &HorizonParams, progress: &Progress) -> Result<Horizon, Error> {
+pub fn run(parameters: &Runs, progress: &Progress) -> Result<Horizon, Error> {
     let stage = progress.stage("horizon", parameters.realisations as u64);
     let twins = each(&stage, progress, 0..parameters.realisations as u64, |index| {
         pair(parameters, index).map_err(|source| Error::failed("horizon", source))
@@ -99,9 +99,8 @@ fn rate(differences: &[(f64, f64)]) -> Option<f64> {
 }
 
 /// Runs a scenario and its twin, whose amplitudes are one bit larger and smaller in turn.
-fn pair(parameters: &HorizonParams, index: u64) -> Result<Twins, impact_chain::Error> {
-    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
-    let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
+fn pair(parameters: &Runs, index: u64) -> Result<Twins, impact_chain::Error> {
+    let scenario = parameters.scenario(index);
     let mut twin = scenario.clone();
     for (j, amplitude) in twin.forcing.iter_mut().flatten().enumerate() {
         *amplitude = if j % 2 == 0 { amplitude.next_up() } else { amplitude.next_down() };
@@ -136,7 +135,7 @@ mod tests {
 
     #[test]
     fn twins_part_and_repeat_exactly() {
-        let mut parameters = HorizonParams::new(crate::params::Profile::Quick);
+        let mut parameters = Runs::horizon(crate::params::Profile::Quick);
         parameters.realisations = 2;
         let horizon = run(&parameters, &Progress::silent()).unwrap();
         assert_eq!(horizon, run(&parameters, &Progress::silent()).unwrap());

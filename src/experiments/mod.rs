@@ -15,7 +15,6 @@ pub mod nucleation;
 pub mod protocol;
 pub mod replay;
 pub mod restitution;
-pub mod run;
 pub mod seeds;
 pub mod segments;
 pub mod spacetime;
@@ -48,12 +47,11 @@ pub use literate::experiments::{
     Entry, Error, Experiment, Need, Progress, Store, alive, be_quiet, say,
 };
 pub use measured::Measured;
-pub use results::Results;
-pub use run::run;
+pub use results::{Results, run};
 
 use crate::params::{
-    self, BiasParams, HorizonParams, NucleationParams, Profile, RaceParams, ScaleParams,
-    SeedsParams, SpaceTimeParams, TrialParams, TwoMassesParams,
+    self, BiasParams, NucleationParams, Profile, RaceParams, Runs, ScaleParams, SeedsParams,
+    TrialParams, TwoMassesParams,
 };
 use accuracy::{bias, race, scale, tables, trials};
 use built::code;
@@ -143,10 +141,10 @@ pub const PROTOCOL: Ensembles =
 pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, starts::tables);
 
 /// Chaos and its horizon.
-pub const HORIZON: Experiment<HorizonParams, horizon::Horizon> = Experiment {
+pub const HORIZON: Experiment<Runs, horizon::Horizon> = Experiment {
     name: "horizon",
     code: code(&["src/experiments/horizon.rs"]),
-    parameters: HorizonParams::new,
+    parameters: Runs::horizon,
     how: Whole {
         run: horizon::run,
         weight: |p| 3 * p.realisations as u64 * impact_chain::work(&p.chain, p.sigma, p.until) / 2,
@@ -161,16 +159,19 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Exper
     parameters: TwoMassesParams::new,
     how: Whole {
         run: two_masses::run,
-        weight: |p| p.directions as u64 * p.times.iter().map(|time| *time as u64).sum::<u64>() / 3,
+        weight: |p| {
+            p.directions.realisations as u64 * p.times.iter().map(|time| *time as u64).sum::<u64>()
+                / 3
+        },
     },
     tables: two_masses::tables,
 };
 
 /// One long run.
-pub const SPACE_TIME: Experiment<SpaceTimeParams, spacetime::SpaceTime> = Experiment {
+pub const SPACE_TIME: Experiment<Runs, spacetime::SpaceTime> = Experiment {
     name: "spacetime",
     code: code(&["src/experiments/spacetime.rs"]),
-    parameters: SpaceTimeParams::new,
+    parameters: Runs::spacetime,
     how: Whole {
         run: spacetime::run,
         weight: |p| 8 * impact_chain::work(&p.chain, p.sigma, p.until),

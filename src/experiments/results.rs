@@ -1,7 +1,8 @@
 //! All results together.
 
-use super::{ALL, Error, Need, TOGETHER, identities, theory};
+use super::{ALL, Error, Need, Progress, Store, TOGETHER, identities, theory};
 use crate::params::Profile;
+use literate::experiments::experiment::Given;
 use literate::experiments::{Found, Typed};
 use literate::table::{Missing, Table, number, table_of};
 use rayon::prelude::*;
@@ -89,6 +90,24 @@ impl Results {
     pub fn empty(profile: Profile) -> Self {
         Results { profile, found: BTreeMap::new(), tables: OnceLock::new() }
     }
+}
+
+/// Runs the experiments that are needed with the sample sizes of a profile. `given` gives the text of a
+/// file of the templates; it is asked only by experiments that read one.
+pub fn run(
+    needs: &[Need],
+    profile: Profile,
+    given: Given<'_>,
+    store: &Store,
+    progress: &Progress,
+) -> Result<Results, Error> {
+    let mut results = Results::empty(profile);
+    let needed = |one: &&Need| needs.iter().any(|need| need.name() == one.name());
+    for experiment in ALL.iter().filter(needed) {
+        results.put(experiment.name(), experiment.found(profile, given, store, progress)?);
+    }
+    progress.check()?;
+    Ok(results)
 }
 
 #[cfg(test)]

@@ -5,13 +5,13 @@
 //! still has impacts in the last part of the run.
 
 use crate::experiments::prelude::*;
-use crate::params::SpaceTimeParams;
+use crate::params::Runs;
 
 /// The run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpaceTime {
     /// What was run.
-    pub parameters: SpaceTimeParams,
+    pub parameters: Runs,
     /// Which realisation it is, from 0; those before it had no impact in the last part.
     pub realisation: u64,
     /// Time of each impact, rising.
@@ -21,18 +21,16 @@ pub struct SpaceTime {
 }
 
 /// Runs realisations until one keeps hitting.
-pub fn run(parameters: &SpaceTimeParams, progress: &Progress) -> Result<SpaceTime, Error> {
+pub fn run(parameters: &Runs, progress: &Progress) -> Result<SpaceTime, Error> {
     let stage = progress.stage("spacetime", 1);
-    for realisation in 0..REALISATIONS {
+    for realisation in 0..parameters.realisations as u64 {
         progress.check()?;
-        let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, realisation);
-        let scenario = Scenario::draw(&parameters.chain, parameters.sigma, &mut normals);
-        let impacts =
-            Engine::new(&scenario).and_then(|mut engine| engine.impacts(parameters.until));
+        let impacts = Engine::new(&parameters.scenario(realisation))
+            .and_then(|mut engine| engine.impacts(parameters.until));
         let impacts = impacts.map_err(|source| Error::failed("spacetime", source))?;
         let (times, gaps): (Vec<f64>, Vec<u32>) =
             impacts.into_iter().map(|impact| (impact.time, impact.gap as u32)).unzip();
-        if times.last().is_some_and(|t| *t > parameters.until - parameters.last) {
+        if times.last().is_some_and(|t| *t > 0.9 * parameters.until) {
             stage.advance(1);
             let parameters = parameters.clone();
             return Ok(SpaceTime { parameters, realisation, times, gaps });
@@ -40,13 +38,10 @@ pub fn run(parameters: &SpaceTimeParams, progress: &Progress) -> Result<SpaceTim
     }
     Err(Error::input(
         "sigma",
-        format!("none of {REALISATIONS} runs with {:?} has late impacts", parameters.sigma),
+        format!("no run with {:?} has late impacts", parameters.sigma),
         "give a larger one",
     ))
 }
-
-/// Realisations after which the search for one that keeps hitting is given up.
-const REALISATIONS: u64 = 1000;
 
 impl SpaceTime {
     /// Number of gaps.
@@ -107,7 +102,7 @@ pub fn tables(own: &SpaceTime) -> Vec<Table> {
         Table::of("spacetime.run", &[()], |()| 1)
             .chosen("sigma", "d omega^2", "standard deviation σ", |()| Some(own.parameters.sigma))
             .chosen("until", time, "length of the run", |()| Some(until))
-            .chosen("last", time, "in which it has impacts", |()| Some(own.parameters.last))
+            .chosen("last", time, "in which it has impacts", |()| Some(until / 10.0))
             .chosen("quarter", time, "of the run", |()| Some(until / 4.0))
             .chosen("half", time, "of the run", |()| Some(until / 2.0))
             .computed_by(origin(run))
@@ -147,7 +142,7 @@ mod tests {
 
     /// Five gaps by hand: gap 1 starts, then 2 and 0 follow; gap 4 starts and 3 is never hit.
     fn by_hand() -> SpaceTime {
-        let mut parameters = SpaceTimeParams::new(Profile::Quick);
+        let mut parameters = Runs::spacetime(Profile::Quick);
         parameters.chain = Chain { masses: 4, ..Chain::default() };
         parameters.until = 100.0;
         SpaceTime {

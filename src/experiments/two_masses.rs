@@ -23,20 +23,23 @@ pub struct TwoMasses {
 /// How far below its bound a direction is tried for an impact that must not come.
 const BELOW: f64 = 1.0 - 1e-9;
 
+/// Halvings of the bracket around the smallest amplitude.
+const HALVINGS: usize = 28;
+
 /// Runs the experiment.
 pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasses, Error> {
-    let stage = progress.stage("two masses", parameters.directions as u64 + 1);
+    let directions = parameters.directions.realisations;
+    let stage = progress.stage("two masses", directions as u64 + 1);
     // The last is the worst.
-    let found = each(&stage, progress, 0..=parameters.directions, |index| {
-        let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index as u64);
-        let forcing = match index < parameters.directions {
-            true => Scenario::draw(&parameters.chain, 1.0, &mut normals).forcing,
-            false => worst(&parameters.chain),
+    let found = each(&stage, progress, 0..=directions, |index| {
+        let forcing = match index < directions {
+            true => parameters.directions.scenario(index as u64).forcing,
+            false => worst(&parameters.directions.chain),
         };
         thresholds(parameters, &forcing, progress)
     })?;
     let excess = |i: usize| {
-        let ratios = found[..parameters.directions].iter().map(|(_, ratios)| ratios[i]);
+        let ratios = found[..directions].iter().map(|(_, ratios)| ratios[i]);
         ratios.fold([f64::INFINITY, 0.0], |[least, most], x| [least.min(x), most.max(x)])
     };
     Ok(TwoMasses {
@@ -51,10 +54,10 @@ pub fn tables(found: &TwoMasses) -> Vec<Table> {
     let bound = Table::of("two_masses.bound", &[found], |_| 0)
         .computed_by(origin(safe_force))
         .real("force", "d omega^2", 4, "force amplitude below which two masses never hit", |own| {
-            safe_force(&own.parameters.chain)
+            safe_force(&own.parameters.directions.chain)
         })
         .count("directions", "random directions of the forcing", |own| {
-            own.parameters.directions as u64
+            own.parameters.directions.realisations as u64
         })
         .done();
     let excess: Vec<_> = found.parameters.times.iter().zip(&found.excess).collect();
@@ -108,11 +111,11 @@ fn thresholds(
     forcing: &[[f64; 2]],
     progress: &Progress,
 ) -> Result<(u64, Vec<f64>), Error> {
-    let bound = bound(&parameters.chain, forcing);
+    let bound = bound(&parameters.directions.chain, forcing);
     let hits = |ratio: f64, until: f64| -> Result<bool, Error> {
         progress.check()?;
         let scaled = forcing.iter().map(|pair| pair.map(|x| ratio * bound * x)).collect();
-        let first = Scenario::given(&parameters.chain, scaled)
+        let first = Scenario::given(&parameters.directions.chain, scaled)
             .and_then(|scenario| Engine::new(&scenario)?.next_impact(until));
         Ok(first.map_err(|source| Error::failed("two masses", source))?.is_some())
     };
@@ -126,7 +129,7 @@ fn thresholds(
         }
         // An impact at time t' with amplitude s comes from an excursion that a smaller
         // amplitude reaches too late or never: the threshold is monotone in the amplitude.
-        for _ in 0..parameters.halvings {
+        for _ in 0..HALVINGS {
             let middle = 0.5 * (quiet + hitting);
             if hits(middle, time)? {
                 hitting = middle;
@@ -147,7 +150,7 @@ mod tests {
     #[test]
     fn thresholds_lie_above_the_bound_and_fall_towards_it() {
         let mut parameters = TwoMassesParams::new(Profile::Quick);
-        parameters.directions = 6;
+        parameters.directions.realisations = 6;
         let found = run(&parameters, &Progress::silent()).unwrap();
         assert_eq!(found.violations, 0);
         assert!(found.excess.windows(2).all(|pair| pair[1][1] <= pair[0][1]));

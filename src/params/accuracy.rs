@@ -1,6 +1,6 @@
 //! Methods of simulation by name, and the sizes of what compares their speed and accuracy.
 
-use super::{Chain, HorizonParams, Profile, Protocol, SEED};
+use super::{Chain, Profile, Protocol, Runs, SEED};
 use impact_chain::methods::{
     Advancement, Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Truth, Verlet,
 };
@@ -123,7 +123,7 @@ pub const BENCH: (&str, u64) = ("bench", 1);
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RaceParams {
     /// The twins whose growth gives the line that chaos allows; all methods run the same chains.
-    pub growth: HorizonParams,
+    pub growth: Runs,
     /// Length of the runs; a run ends where it has left the truth.
     pub until: f64,
     /// Until then a run goes on although it has left the truth, so that its cost is known.
@@ -142,7 +142,7 @@ impl RaceParams {
         let quick = profile == Profile::Quick;
         let (until, at_least, chains, segments, realisations) =
             if quick { (30.0, 10.0, 2, 12, 6) } else { (250.0, 20.0, 12, 1200, 60) };
-        let growth = HorizonParams {
+        let growth = Runs {
             chain: Chain { masses: 20, ..Chain::default() },
             sigma: 0.3,
             until: 300.0,

@@ -14,8 +14,6 @@ pub struct NucleationParams {
     pub sigmas: Vec<f64>,
     /// Times T by which a first impact is looked for, rising.
     pub times: Vec<f64>,
-    /// Angles at which the reach of a gap is computed.
-    pub angles: usize,
     /// Name of the random stream.
     pub stream: String,
     /// Master seed.
@@ -39,7 +37,6 @@ impl NucleationParams {
             lengths: lengths.to_vec(),
             sigmas: sigmas.values(),
             times: times.into_iter().filter(|time| *time <= last).collect(),
-            angles: 256,
             stream: "nucleation".into(),
             seed: SEED,
         }

@@ -1,6 +1,8 @@
 //! Sample sizes and grids of each profile, in one place.
 
 use super::{Chain, PRINTED_THRESHOLD, Profile, SEED};
+use impact_chain::Scenario;
+use impact_numerics::random::NormalPairs;
 use serde::{Deserialize, Serialize};
 
 /// A σ axis made of stretches of equal steps; values are exact quotients, so 0.12 is the double
@@ -22,16 +24,16 @@ impl Grid {
     }
 }
 
-/// Twin runs that differ in the last bit of every amplitude.
+/// Chains of one kind at one σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct HorizonParams {
+pub struct Runs {
     /// The chain without its forcing.
     pub chain: Chain,
     /// Standard deviation σ.
     pub sigma: f64,
-    /// Time at which the twins are given up.
+    /// Time at which runs end.
     pub until: f64,
-    /// Number of twins.
+    /// Number of realisations.
     pub realisations: usize,
     /// Name of the random stream.
     pub stream: String,
@@ -39,83 +41,47 @@ pub struct HorizonParams {
     pub seed: u64,
 }
 
-impl HorizonParams {
-    /// The twins of each profile.
-    pub fn new(profile: Profile) -> Self {
-        HorizonParams {
-            chain: Chain::default(),
-            sigma: 0.2,
-            until: 500.0,
-            realisations: if profile == Profile::Quick { 10 } else { 100 },
-            stream: "horizon".into(),
-            seed: SEED,
-        }
+impl Runs {
+    /// Twins that differ in the last bit of every amplitude.
+    pub fn horizon(profile: Profile) -> Self {
+        let realisations = if profile == Profile::Quick { 10 } else { 100 };
+        let (chain, stream) = (Chain::default(), "horizon".into());
+        Runs { chain, sigma: 0.2, until: 500.0, realisations, stream, seed: SEED }
+    }
+
+    /// A run at the printed threshold, kept impact by impact: the first of these that has an impact in its last tenth.
+    pub fn spacetime(profile: Profile) -> Self {
+        let until = if profile == Profile::Quick { 400.0 } else { 4000.0 };
+        let (chain, stream) = (Chain::default(), "space-time".into());
+        Runs { chain, sigma: PRINTED_THRESHOLD, until, realisations: 1000, stream, seed: SEED }
+    }
+
+    /// A realisation.
+    pub fn scenario(&self, index: u64) -> Scenario {
+        let mut normals = NormalPairs::new(&self.stream, self.seed, index);
+        Scenario::draw(&self.chain, self.sigma, &mut normals)
     }
 }
 
 /// Two masses under a low force.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TwoMassesParams {
-    /// The chain, with n = 2.
-    pub chain: Chain,
+    /// Random directions of the forcing, as amplitudes with σ = 1.
+    pub directions: Runs,
     /// Times within which an impact must come, rising.
     pub times: Vec<f64>,
-    /// Number of random directions of the forcing.
-    pub directions: usize,
-    /// Halvings of the bracket around the smallest amplitude.
-    pub halvings: usize,
-    /// Name of the random stream.
-    pub stream: String,
-    /// Master seed.
-    pub seed: u64,
 }
 
 impl TwoMassesParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
-        let (times, directions) = match profile {
+        let (times, realisations) = match profile {
             Profile::Full => (vec![1e2, 1e3, 1e4], 40),
             Profile::Quick => (vec![1e2, 1e3], 10),
         };
-        TwoMassesParams {
-            chain: Chain { masses: 2, ..Chain::default() },
-            times,
-            directions,
-            halvings: 28,
-            stream: "two-masses".into(),
-            seed: SEED,
-        }
-    }
-}
-
-/// One realisation at the printed threshold, kept impact by impact.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SpaceTimeParams {
-    /// The chain without its forcing.
-    pub chain: Chain,
-    /// Standard deviation σ.
-    pub sigma: f64,
-    /// Length of the run.
-    pub until: f64,
-    /// The first realisation is taken that has an impact in the last part of this length.
-    pub last: f64,
-    /// Name of the random stream.
-    pub stream: String,
-    /// Master seed.
-    pub seed: u64,
-}
-
-impl SpaceTimeParams {
-    /// The run of each profile.
-    pub fn new(profile: Profile) -> Self {
-        let until = if profile == Profile::Quick { 400.0 } else { 4000.0 };
-        SpaceTimeParams {
-            chain: Chain::default(),
-            sigma: PRINTED_THRESHOLD,
-            until,
-            last: until / 10.0,
-            stream: "space-time".into(),
-            seed: SEED,
-        }
+        let chain = Chain { masses: 2, ..Chain::default() };
+        let (sigma, until, stream) = (1.0, 1e4, "two-masses".into());
+        let directions = Runs { chain, sigma, until, realisations, stream, seed: SEED };
+        TwoMassesParams { directions, times }
     }
 }

@@ -40,7 +40,7 @@ fn base64(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiments::{Progress, Store, run::run};
+    use crate::experiments::{Progress, Store, run};
     use crate::experiments::{REPLAY, SWEEP};
     use crate::params::Profile;
 

@@ -5,7 +5,7 @@
 use crate::quick::QUICK;
 use impact_chain::rise::Mean;
 use impact_paper::claims::{self, Verdict};
-use impact_paper::experiments::{Need, Progress, Results, Store, run::run};
+use impact_paper::experiments::{Need, Progress, Results, Store, run};
 use impact_paper::experiments::{STARTS, SWEEP};
 use impact_paper::figures;
 use impact_paper::params::Profile;

@@ -1,7 +1,7 @@
 //! The whole report of the quick profile in memory, for the tests that read it.
 
 use impact_paper::claims::{self, Published};
-use impact_paper::experiments::{ALL, Progress, Results, Store, run::run};
+use impact_paper::experiments::{ALL, Progress, Results, Store, run};
 use impact_paper::figures::{self, Figure};
 use impact_paper::params::Profile;
 use impact_paper::report::{

@@ -68,34 +68,3 @@ fn count(
     let Cost { impacts, evaluations, .. } = ran.unwrap_or_default();
     Counted { distinct, impacts, evaluations }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::experiments::accuracy::tables;
-    use crate::params::Profile;
-    use impact_chain::{Counts, Ensemble, rise};
-
-    /// Certified counts are those of the main sweep, by its own way of counting.
-    #[test]
-    fn the_same_chains_as_in_the_sweep() {
-        let mut parameters = BiasParams::new(Profile::Quick);
-        let short = Protocol { transient: 50.0, window: 20.0 };
-        parameters.scenes = vec![(0.3, short)];
-        let own = Setting { method: MethodName::Certified, value: 0.0 };
-        let coarse = Setting { method: MethodName::Verlet, value: 0.1 };
-        parameters.settings = vec![(own, 3), (coarse, 2)];
-        let found = run(&parameters, &Progress::silent()).unwrap();
-        let stream = parameters.stream.clone();
-        let sweep = Ensemble { protocols: vec![short], stream, ..Ensemble::default() };
-        let counts: Counts = (0..3).map(|i| sweep.realisation(0.3, i, || false).unwrap()).collect();
-        let row = rise::Row::new(0.3, &counts, 0, 101, [None; 2]);
-        let sum: u32 = found.runs[0][0].iter().filter_map(|own| own.distinct).sum();
-        assert_eq!(Some(f64::from(sum) / 3.0), row.mean_all.map(|mean| mean.value));
-        // Against itself nothing differs; a coarse method differs, on chains of its own number.
-        let [same, other] = &tables::compared(&found)[..] else { panic!() };
-        assert_eq!(same.share.map(|own| (own.value, own.error)), Some((0.0, 0.0)));
-        assert_eq!(other.pairs, 2);
-        assert_ne!(other.share.map(|own| own.value), Some(0.0));
-    }
-}

@@ -104,21 +104,26 @@ impl Verdict {
 }
 
 impl Case {
-    /// Runs a method on this case and judges what it did. Returns how far off its times were too, at most.
-    pub fn judge(&self, method: &dyn Method) -> (Verdict, f64) {
+    /// Runs a method on this case and judges what it did.
+    pub fn judge(&self, method: &dyn Method) -> Verdict {
         let mut seen = Vec::new();
         let ran = method.run((&self.scenario, &self.start, self.until), &mut |impact| {
             if self.counts(&impact) {
                 seen.push(impact);
             }
-            self.goes_on(seen.len())
+            match &self.expected {
+                Expected::Impacts { impacts, all, .. } => {
+                    seen.len() < impacts.len() + usize::from(*all)
+                }
+                Expected::Together(..) => seen.len() < 2,
+                Expected::Mirror | Expected::Steady(..) => true,
+                Expected::Refused => false,
+            }
         });
         match (ran, &self.expected) {
-            (Err(Error::Input { .. } | Error::Overlap { .. }), Expected::Refused) => {
-                (Verdict::Right, 0.0)
-            }
-            (Ok(_), Expected::Refused) => (Verdict::Accepted, 0.0),
-            (Err(_), _) => (Verdict::GaveUp, 0.0),
+            (Err(Error::Input { .. } | Error::Overlap { .. }), Expected::Refused) => Verdict::Right,
+            (Ok(_), Expected::Refused) => Verdict::Accepted,
+            (Err(_), _) => Verdict::GaveUp,
             (Ok(_), _) => self.judged(&seen),
         }
     }
@@ -128,70 +133,52 @@ impl Case {
         impact.closing_speed > *faster && (among.is_empty() || among.contains(&impact.gap))
     }
 
-    /// Whether the run should go on after so many impacts that count.
-    fn goes_on(&self, seen: usize) -> bool {
-        match &self.expected {
-            Expected::Impacts { impacts, all, .. } => seen < impacts.len() + usize::from(*all),
-            Expected::Together(..) => seen < 2,
-            Expected::Mirror | Expected::Steady(..) => true,
-            Expected::Refused => false,
-        }
-    }
-
-    fn judged(&self, seen: &[Impact]) -> (Verdict, f64) {
+    fn judged(&self, seen: &[Impact]) -> Verdict {
+        let near = |a: f64, b: f64| (a - b).abs() <= NEAR;
         match &self.expected {
             Expected::Impacts { impacts, within, .. } => in_order(impacts, *within, seen),
-            Expected::Refused => (Verdict::Accepted, 0.0),
+            Expected::Refused => Verdict::Accepted,
             Expected::Together(gaps, time) => {
                 let mut found: Vec<usize> = seen.iter().map(|impact| impact.gap).collect();
                 found.sort_unstable();
-                let off = seen.iter().map(|impact| (impact.time - time).abs());
                 match found == gaps {
-                    true => least(off.fold(0.0, f64::max), NEAR, Verdict::Displaced),
-                    false if seen.len() < 2 => (Verdict::Missed, 0.0),
-                    false => (Verdict::WrongGap, 0.0),
+                    true if seen.iter().all(|impact| near(impact.time, *time)) => Verdict::Right,
+                    true => Verdict::Displaced,
+                    false if seen.len() < 2 => Verdict::Missed,
+                    false => Verdict::WrongGap,
                 }
             }
-            Expected::Mirror if seen.is_empty() => (Verdict::Missed, 0.0),
+            Expected::Mirror if seen.is_empty() => Verdict::Missed,
             Expected::Mirror => {
                 let last = self.scenario.gaps() - 1;
-                let off = |impact: &Impact| {
-                    let partners = seen.iter().filter(|other| other.gap == last - impact.gap);
-                    let off = partners.map(|other| (other.time - impact.time).abs());
-                    off.fold(f64::INFINITY, f64::min)
+                let has_partner = |impact: &Impact| {
+                    let of = |other: &Impact| other.gap == last - impact.gap;
+                    seen.iter().any(|other| of(other) && near(other.time, impact.time))
                 };
-                let early = seen.iter().filter(|impact| impact.time < self.until - NEAR);
-                least(early.map(off).fold(0.0, f64::max), NEAR, Verdict::WrongGap)
+                let mut early = seen.iter().filter(|impact| impact.time < self.until - NEAR);
+                if early.all(has_partner) { Verdict::Right } else { Verdict::WrongGap }
             }
-            Expected::Steady(impacts, _) if seen.len() < *impacts => (Verdict::Missed, 0.0),
+            Expected::Steady(impacts, _) if seen.len() < *impacts => Verdict::Missed,
             Expected::Steady(_, speed) => {
-                let off = seen.iter().map(|impact| (impact.closing_speed / speed - 1.0).abs());
-                least(off.fold(0.0, f64::max), STEADY, Verdict::Drifted)
+                let off = |impact: &Impact| (impact.closing_speed / speed - 1.0).abs() > STEADY;
+                if seen.iter().any(off) { Verdict::Drifted } else { Verdict::Right }
             }
         }
     }
-}
-
-/// Right if the worst is within a bound.
-fn least(worst: f64, within: f64, otherwise: Verdict) -> (Verdict, f64) {
-    (if worst <= within { Verdict::Right } else { otherwise }, worst)
 }
 
 /// Impacts one after the other, and no more.
-fn in_order(expected: &[(f64, usize)], within: f64, seen: &[Impact]) -> (Verdict, f64) {
-    let mut worst: f64 = 0.0;
+fn in_order(expected: &[(f64, usize)], within: f64, seen: &[Impact]) -> Verdict {
     for (i, (time, gap)) in expected.iter().enumerate() {
-        let Some(seen) = seen.get(i) else { return (Verdict::Missed, worst) };
-        let early = seen.time - time;
-        worst = worst.max(early.abs());
-        if seen.gap != *gap {
-            return (if early < -within { Verdict::Ghost } else { Verdict::WrongGap }, worst);
-        }
-        if early.abs() > within {
-            return (Verdict::Displaced, worst);
+        let Some(seen) = seen.get(i) else { return Verdict::Missed };
+        match (seen.gap == *gap, seen.time - time) {
+            (false, late) if late < -within => return Verdict::Ghost,
+            (false, _) => return Verdict::WrongGap,
+            (true, late) if late.abs() > within => return Verdict::Displaced,
+            _ => (),
         }
     }
-    (if seen.len() > expected.len() { Verdict::Ghost } else { Verdict::Right }, worst)
+    if seen.len() > expected.len() { Verdict::Ghost } else { Verdict::Right }
 }
 
 #[cfg(test)]
@@ -224,7 +211,7 @@ mod tests {
     fn a_method_that_errs_is_told() {
         for scene in scenes::all(true).unwrap() {
             for case in &scene.cases {
-                let [(late, _), (blind, _)] = [0.05, 0.0].map(|by| case.judge(&False(by)));
+                let [late, blind] = [0.05, 0.0].map(|by| case.judge(&False(by)));
                 let expected = match scene.id {
                     "bad-input" => (Verdict::Right, Verdict::Accepted),
                     "elastic" => (Verdict::Drifted, Verdict::Missed),

@@ -3,7 +3,7 @@
 
 use crate::experiments::horizon::{self, Horizon};
 use crate::experiments::prelude::*;
-use crate::params::{HorizonParams, RaceParams, Setting};
+use crate::params::{RaceParams, Setting};
 use impact_chain::methods::truth::{Hit, TrueMotion};
 use impact_chain::methods::{Cost, Method};
 use impact_numerics::double_double::DoubleDouble;
@@ -66,10 +66,9 @@ struct Course {
 /// Runs everything.
 pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> {
     let growth = horizon::run(&parameters.growth, progress)?;
-    let HorizonParams { chain, sigma, stream, seed, .. } = &parameters.growth;
     let stage = progress.stage("true motions", parameters.chains as u64);
     let courses = each(&stage, progress, 0..parameters.chains as u64, |index| {
-        let scenario = Scenario::draw(chain, *sigma, &mut NormalPairs::new(stream, *seed, index));
+        let scenario = parameters.growth.scenario(index);
         let hits = TrueMotion::of(&scenario, &State::of(&scenario)).run(parameters.until);
         Ok(Course { scenario, hits: hits.map_err(|source| Error::failed("race", source))? })
     })?;

@@ -41,7 +41,7 @@ pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Erro
         let method = setting.method.with(setting.value);
         let judge = |case: &super::case::Case| {
             progress.check()?;
-            Ok(case.judge(method.as_ref()).0)
+            Ok(case.judge(method.as_ref()))
         };
         scene.cases.iter().map(judge).collect::<Result<Trial, Error>>()
     })?;

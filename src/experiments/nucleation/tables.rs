@@ -6,6 +6,9 @@ use crate::params::NucleationParams;
 use impact_circuits::nucleation::{AtLeastOne, Chances, Reach, half};
 use rayon::prelude::*;
 
+/// Angles at which the reach of a gap is computed.
+const ANGLES: usize = 256;
+
 /// Angles of the rule for neighbours, which takes their square.
 const COARSE: usize = 64;
 
@@ -37,8 +40,8 @@ struct Chains<'a> {
 pub fn tables(found: &Nucleation) -> Vec<Table> {
     let parameters = &found.parameters;
     let chain = &parameters.chain;
-    let within = Reach::within(chain, &parameters.times, parameters.angles);
-    let fewer = |reach: &Reach| reach.every(parameters.angles / COARSE);
+    let within = Reach::within(chain, &parameters.times, ANGLES);
+    let fewer = |reach: &Reach| reach.every(ANGLES / COARSE);
     let fewer: Vec<Reach> = within.iter().map(fewer).collect();
     let ever = Reach::ever(chain, COARSE);
     let gaps = |&sigma: &f64| {
