@@ -204,7 +204,7 @@ impl<const M: usize> Simulation<M> {
             if ends && !cluster.is_empty() {
                 self.make_rigid(&cluster);
                 for k in std::mem::take(&mut cluster) {
-                    self.contact_phases += u64::from(self.gaps[k].awaits != Awaits::Release);
+                    self.work.contact_phases += u64::from(self.gaps[k].awaits != Awaits::Release);
                     self.gaps[k].in_contact = true;
                     self.watch_contact(k, p);
                 }
@@ -347,8 +347,6 @@ impl<const M: usize> Simulation<M> {
         self.queue.set(k, [key]);
     }
 
-    /// The gaps in contact and their contact forces at `time` (≥ 0 while it lasts), exact between
-    /// the last event and the next.
     pub fn contacts(&self, time: f64) -> Vec<(usize, f64)> {
         let p = Phases::at(&self.rates, Instant::at(time));
         (0..self.gaps.len())

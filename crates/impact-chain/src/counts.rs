@@ -135,24 +135,15 @@ fn rising(times: impl Iterator<Item = f64>) -> Vec<f64> {
 
 impl Watch {
     pub fn new(ensemble: &Ensemble) -> Self {
-        let transients = rising(ensemble.protocols.iter().map(|own| own.transient));
-        let ends = ensemble.protocols.iter().map(Protocol::end);
-        Watch::of(ensemble.chain.gaps(), ensemble.chain.boundary, transients, ends)
-    }
-
-    fn of(
-        gaps: usize,
-        boundary: Boundary,
-        transients: Vec<f64>,
-        ends: impl Iterator<Item = f64>,
-    ) -> Self {
+        let (gaps, all) = (ensemble.chain.gaps(), &ensemble.protocols);
+        let transients = rising(all.iter().map(|own| own.transient));
         Watch {
-            ring: boundary == Boundary::Ring,
+            ring: ensemble.chain.boundary == Boundary::Ring,
             total: Total::default(),
             last: vec![f64::NEG_INFINITY; gaps],
             firsts: vec![vec![f64::INFINITY; gaps]; transients.len()],
             known: vec![0; gaps],
-            edges: rising(transients.iter().copied().chain(ends)),
+            edges: rising(transients.iter().copied().chain(all.iter().map(Protocol::end))),
             at: Vec::new(),
             transients,
         }
@@ -265,16 +256,6 @@ fn masses_hit(hit: &[bool], ring: bool) -> u32 {
 mod tests {
     use super::*;
 
-    fn impact(time: f64, gap: usize, closing_speed: f64) -> Impact {
-        Impact { time, gap, closing_speed }
-    }
-
-    fn watched(gaps: usize, boundary: Boundary, from: Vec<f64>, impacts: &[Impact]) -> Watch {
-        let mut watch = Watch::of(gaps, boundary, from, std::iter::empty());
-        impacts.iter().for_each(|&impact| watch.see(impact));
-        watch
-    }
-
     /// Gaps 0 and 4 of a row of four masses are at its walls. On a ring of five the masses at both
     /// ends of gap 0 (or 5) are the last and the first.
     #[test]
@@ -295,14 +276,14 @@ mod tests {
     fn adjacent_impacts_by_hand() {
         // Gap 1 follows gap 0 by 0.5; gap 2 follows gap 1 by 0.05; gap 0 has gap 1 as its only
         // neighbour, 0.054 ago; gap 3 follows gap 2 by 0.004.
-        let impacts = [
-            impact(1.0, 0, 1.0),
-            impact(1.5, 1, 0.05),
-            impact(1.55, 2, 0.0005),
-            impact(1.554, 0, 1.0),
-            impact(1.554, 3, 1e-9),
-        ];
-        let seen = watched(4, Boundary::Walls, vec![0.0], &impacts).total;
+        let chain = crate::Chain { masses: 3, ..crate::Chain::default() };
+        let mut watch = Watch::new(&Ensemble { chain, ..Ensemble::default() });
+        for (time, gap, closing_speed) in
+            [(1.0, 0, 1.0), (1.5, 1, 0.05), (1.55, 2, 0.0005), (1.554, 0, 1.0), (1.554, 3, 1e-9)]
+        {
+            watch.see(Impact { time, gap, closing_speed });
+        }
+        let seen = watch.total;
         assert_eq!(seen.near, [3, 1, 0, 0, 0, 0, 0, 0, 0]);
         assert_eq!(seen.slow, [3, 2, 2, 1, 1, 1, 1, 1]);
     }

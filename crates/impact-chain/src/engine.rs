@@ -6,6 +6,7 @@ use super::scenario::COMPONENTS;
 use super::simulation::{Gap, Simulation};
 use super::{Error, Scenario};
 use crate::search::earliest::Earliest;
+use crate::search::first_root::Counters;
 
 /// One impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,25 +21,6 @@ pub struct Impact {
 
 /// Who is handed the impacts of a run; false stops it.
 pub type Sink<'a> = &'a mut dyn FnMut(Impact) -> bool;
-
-/// Counted work of a run: deterministic, and a result like any other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counters {
-    /// Impacts.
-    pub impacts: u64,
-    /// Contact phases begun, one per gap.
-    pub contact_phases: u64,
-    /// Searches started.
-    pub searches: u64,
-    /// Pieces screened by a polynomial, without a sine.
-    pub pieces: u64,
-    /// Evaluations of a gap by the root search.
-    pub evaluations: u64,
-    /// Decisions taken inside the undecidable band of the search.
-    pub undecided: u64,
-    /// Instants at which two or more neighbouring gaps closed together.
-    pub simultaneous: u64,
-}
 
 /// The simulation of one scenario.
 #[derive(Clone, Debug)]
@@ -139,12 +121,12 @@ impl Engine {
 
     /// Time of the last event.
     pub fn time(&self) -> f64 {
-        inside!(&self.0, simulation => simulation.time())
+        inside!(&self.0, simulation => simulation.now.time())
     }
 
     /// Counted work so far.
     pub fn counters(&self) -> Counters {
-        inside!(&self.0, simulation => simulation.counters())
+        inside!(&self.0, simulation => simulation.work)
     }
 }
 

@@ -29,7 +29,8 @@ mod topology;
 
 pub use chain::{Boundary, Chain, Start};
 pub use counts::Counts;
-pub use engine::{Counters, Engine, Impact};
+pub use engine::{Engine, Impact};
 pub use ensemble::{Beyond, Ensemble, Heating, Protocol, work};
 pub use error::Error;
 pub use scenario::{Initial, Overtone, Scenario};
+pub use search::first_root::Counters;

@@ -273,23 +273,13 @@ impl Resampled {
 impl Curve {
     /// The curve of the window in this place.
     pub fn new(ensemble: &Ensemble, counts: &[Counts], window: usize) -> Curve {
-        let comparable = |own: &Counts, sigma| {
-            own.rejected as f64 <= ensemble.most_rejected * ensemble.realisations_at(sigma) as f64
-        };
-        let read = |(own, &sigma): (&'_ Counts, &f64)| comparable(own, sigma);
-        let used: Vec<bool> = counts.iter().zip(&ensemble.sigmas).map(read).collect();
-        let row =
-            |(own, used): (&'_ Counts, &bool)| own.distinct[window].len() * usize::from(*used);
-        let lengths: Vec<usize> = counts.iter().zip(&used).map(row).collect();
-        let sample = Sample {
-            sigmas: &ensemble.sigmas,
-            counts: counts
-                .iter()
-                .zip(&lengths)
-                .map(|(own, &length)| &own.distinct[window][..length])
-                .collect(),
-            gaps: ensemble.chain.gaps() as f64 / ensemble.pieces as f64,
-        };
+        let mut used: Vec<&[Option<u32>]> = Vec::new();
+        for (&sigma, own) in ensemble.sigmas.iter().zip(counts) {
+            let most = ensemble.most_rejected * ensemble.realisations_at(sigma) as f64;
+            used.push(if own.rejected as f64 <= most { &own.distinct[window] } else { &[] });
+        }
+        let gaps = ensemble.chain.gaps() as f64 / ensemble.pieces as f64;
+        let sample = Sample { sigmas: &ensemble.sigmas, counts: used, gaps };
         let found = Resampled::new(&sample, ensemble.seed);
         let interval = |pick: &dyn Fn(&Places) -> Option<f64>| Some(found.estimate(pick)?.interval);
         let row = |(row, (&sigma, own)): (usize, (&f64, &Counts))| Row {

@@ -6,7 +6,7 @@
 //! the lowest comes first, each by the law for two, until none closes. Instants are whole numbers of ticks, so "the same" means
 //! the same; such ties come from exact symmetries, and are counted.
 
-use super::engine::{Counters, Impact, Sink};
+use super::engine::{Impact, Sink};
 use super::flight::{Motion, Phases, Rates};
 use super::force::Force;
 use super::impact::jumps;
@@ -14,7 +14,7 @@ use super::topology::Topology;
 use super::{Error, Initial, Scenario};
 use crate::search::clock::Instant;
 use crate::search::earliest::Earliest;
-use crate::search::first_root::{Next, Search, Work};
+use crate::search::first_root::{Counters, Next, Search};
 use crate::search::local_frame::{Frame, Frequencies};
 use crate::search::window::next_window;
 
@@ -83,11 +83,8 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) forces: Vec<Force<M>>,
     pub(super) queue: Earliest,
     pub(super) now: Instant,
-    pub(super) work: Work,
-    pub(super) impacts: u64,
-    pub(super) contact_phases: u64,
-    /// Instants at which neighbouring gaps closed together, and the last of them.
-    pub(super) ties: u64,
+    pub(super) work: Counters,
+    /// The last instant at which neighbouring gaps closed together.
     pub(super) tied: Option<Instant>,
     pub(super) budget_end: Instant,
     pub(super) budget_left: u64,
@@ -102,7 +99,6 @@ fn not_below<const M: usize>(frame: &mut Frame<M>) {
 }
 
 impl<const M: usize> Simulation<M> {
-    /// Sets a scenario at t = 0.
     pub fn new(scenario: &Scenario) -> Result<Self, Error> {
         scenario.validate()?;
         let w = scenario.natural_frequency;
@@ -147,10 +143,7 @@ impl<const M: usize> Simulation<M> {
             forces: vec![Force::ZERO; gaps],
             queue: Earliest::new(gaps),
             now: Instant::ZERO,
-            work: Work::default(),
-            impacts: 0,
-            contact_phases: 0,
-            ties: 0,
+            work: Counters::default(),
             tied: None,
             budget_end: Instant::ZERO.after(1.0 / w),
             budget_left: EVENTS_PER_GAP * gaps as u64,
@@ -191,8 +184,6 @@ impl<const M: usize> Simulation<M> {
         self.topology.sides(k).into_iter().fold(self.spacing, |sum, side| sum + parts(side))
     }
 
-    /// Runs until time `until`, and hands each impact to `sink` in order; stops early, right
-    /// after that impact, when `sink` returns false. May be called again with a later time.
     pub fn run(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
         let end = Instant::at(until);
         while let Some(k) = self.next_event(end) {
@@ -278,7 +269,7 @@ impl<const M: usize> Simulation<M> {
         };
         let ties = self.topology.adjacent(k).into_iter().flatten().any(is_due);
         if ties && self.tied != Some(self.now) {
-            self.ties += 1;
+            self.work.simultaneous += 1;
             self.tied = Some(self.now);
         }
     }
@@ -287,7 +278,7 @@ impl<const M: usize> Simulation<M> {
     #[inline(always)]
     fn count_impact(&mut self, k: usize, closing_speed: f64) -> Result<Impact, Error> {
         self.spend(k)?;
-        self.impacts += 1;
+        self.work.impacts += 1;
         Ok(Impact { time: self.now.time(), gap: self.topology.label(k), closing_speed })
     }
 
@@ -470,7 +461,7 @@ impl<const M: usize> Simulation<M> {
         true
     }
 
-    /// Positions x_1..x_n at `time`, exact between the last event and the next.
+    // What `Engine` hands out under the same names.
     pub fn positions(&self, time: f64) -> Vec<f64> {
         let phases = Phases::at(&self.rates, Instant::at(time));
         self.masses(|j, motion| {
@@ -478,13 +469,11 @@ impl<const M: usize> Simulation<M> {
         })
     }
 
-    /// Velocities of the masses 1..n at `time`, exact between the last event and the next.
     pub fn velocities(&self, time: f64) -> Vec<f64> {
         let phases = Phases::at(&self.rates, Instant::at(time));
         self.masses(|_, motion| motion.seen(&phases).velocity(&self.search.frequencies))
     }
 
-    /// Free parts (a_j, b_j) of the masses 1..n; those in contact share that of their cluster.
     pub fn free_parts(&self) -> Vec<[f64; 2]> {
         self.masses(|_, motion| [motion.a, motion.b])
     }
@@ -492,23 +481,5 @@ impl<const M: usize> Simulation<M> {
     fn masses<T>(&self, of: impl Fn(usize, &Motion<M>) -> T) -> Vec<T> {
         let n = self.motions.len() - 2;
         (1..=n).map(|j| of(j, &self.motions[j])).collect()
-    }
-
-    /// Time of the last event.
-    pub fn time(&self) -> f64 {
-        self.now.time()
-    }
-
-    /// Counted work so far.
-    pub fn counters(&self) -> Counters {
-        Counters {
-            impacts: self.impacts,
-            contact_phases: self.contact_phases,
-            searches: self.work.searches,
-            pieces: self.work.pieces,
-            evaluations: self.work.evaluations,
-            undecided: self.work.undecided,
-            simultaneous: self.ties,
-        }
     }
 }

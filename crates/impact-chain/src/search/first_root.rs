@@ -22,17 +22,23 @@ pub enum Next {
     },
 }
 
-/// Counted work of searches.
+/// Counted work of a run: deterministic, and a result like any other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Work {
+pub struct Counters {
+    /// Impacts.
+    pub impacts: u64,
+    /// Contact phases begun, one per gap.
+    pub contact_phases: u64,
     /// Searches started.
     pub searches: u64,
     /// Pieces screened: one polynomial certificate each, without a sine.
     pub pieces: u64,
-    /// Evaluations of f: by the polynomial of a node, or with its sines (the start costs none).
+    /// Evaluations of a gap: by the polynomial of a node, or with its sines (the start costs none).
     pub evaluations: u64,
-    /// Decisions taken inside the undecidable band.
+    /// Decisions taken inside the undecidable band of the search.
     pub undecided: u64,
+    /// Instants at which two or more neighbouring gaps closed together.
+    pub simultaneous: u64,
 }
 
 /// How often the reach is halved: pieces of 1, 1/2, … 2^-LEVELS of it.
@@ -76,7 +82,7 @@ impl<const M: usize> Search<M> {
     /// f₀ > 0: the first root. f₀ = 0: the first root after s = 0 if f leaves zero upwards, and
     /// s = 0 itself if it moves down. f₀ < 0 is a root at s = 0.
     #[inline(always)]
-    pub fn first_root(&self, frame: &Frame<M>, work: &mut Work) -> Next {
+    pub fn first_root(&self, frame: &Frame<M>, work: &mut Counters) -> Next {
         work.searches += 1;
         if frame.f0 < 0.0 || (frame.f0 == 0.0 && frame.g0 < 0.0) {
             return Next::Root { s: 0.0, speed: -frame.g0 };
@@ -113,7 +119,7 @@ impl<const M: usize> Search<M> {
 
     /// A closer look: the halves of the reach, and the halves of what they leave open.
     #[inline(always)]
-    fn look_closer(&self, frame: &Frame<M>, work: &mut Work) -> Sight {
+    fn look_closer(&self, frame: &Frame<M>, work: &mut Counters) -> Sight {
         let mut first = frame.f0;
         let mut k = 1;
         loop {
@@ -148,7 +154,7 @@ impl<const M: usize> Search<M> {
     /// The last step: a root in sight to full accuracy, and certified steps where nothing else
     /// decides.
     #[inline(always)]
-    fn settle(&self, frame: &Frame<M>, sight: Sight, work: &mut Work) -> Next {
+    fn settle(&self, frame: &Frame<M>, sight: Sight, work: &mut Counters) -> Next {
         let reach = self.frequencies.reach;
         let clear = match sight {
             Sight::Clear => return Next::Clear { s: reach },
@@ -218,7 +224,7 @@ mod tests {
     /// The second route: f on a fine grid.
     #[test]
     fn no_sign_change_is_skipped() {
-        let (mut roots, mut total) = (0, Work::default());
+        let (mut roots, mut total) = (0, Counters::default());
         for [w, big_w] in OMEGAS {
             let search = Search::new(Frequencies::new(w, [big_w]));
             let reach = search.frequencies.reach;

@@ -3,7 +3,7 @@
 //! The Taylor coefficients of f about a node are linear in its frame ([`Linear`]). At the first node, s = 0, they are exact, so a short wait keeps
 //! its relative accuracy.
 
-use super::first_root::Work;
+use super::first_root::Counters;
 use super::linear::Linear;
 use super::local_frame::{Frame, Frequencies};
 use wide::f64x2;
@@ -48,7 +48,7 @@ impl<const M: usize> Nodes<M> {
 
     /// The root near `guess`, 0 ≤ `guess` ≤ reach, and −f' there; nothing if it is not near.
     #[inline(always)]
-    pub fn root(&self, frame: &Frame<M>, guess: f64, work: &mut Work) -> Option<(f64, f64)> {
+    pub fn root(&self, frame: &Frame<M>, guess: f64, work: &mut Counters) -> Option<(f64, f64)> {
         let mut s = guess;
         for _ in 0..STEPS {
             work.evaluations += 1;

@@ -1,6 +1,6 @@
 //! The first root by certified steps: slower than the screen, and never at a loss.
 
-use super::first_root::{Next, Work};
+use super::first_root::{Counters, Next};
 use super::local_frame::{Frame, Frequencies, Point, ROUNDING};
 
 /// The first root h > 0 of the parabola f + g h − ½ K h², f ≥ 0; `far` if there is none before.
@@ -117,14 +117,14 @@ const PATIENCE: u32 = 64;
 /// # The undecidable band
 /// Where the minimum of that quadratic lies within two margins of zero, a double cannot tell a
 /// grazing impact from a near miss. The quadratic then decides, hit if its minimum is ≤ 0, and the
-/// decision is counted in [`Work::undecided`]. A margin is 8 ε times the sum of the absolute
+/// decision is counted in [`Counters::undecided`]. A margin is 8 ε times the sum of the absolute
 /// values of the terms of f, ε = 2^-52, which is never more than d + 2 (R₁ + R₂) + 3 R₂ Ω/ω.
 pub fn first_root_by_steps<const M: usize>(
     frame: &Frame<M>,
     from: f64,
     limit: f64,
     frequencies: &Frequencies<M>,
-    work: &mut Work,
+    work: &mut Counters,
 ) -> Next {
     let fast = frequencies.fastest;
     let bound6 = fast * fast * frame.bound;
