@@ -2,10 +2,9 @@
 //! `trials` have more of them, with outcomes in closed form; here is what goes beyond those.
 
 use crate::reference::{Dd, Real, Reference};
-use crate::{drawn, first, given, run};
+use crate::{first, given, run};
 use impact_chain::{Engine, Initial, Scenario};
 use impact_numerics::random::NormalPairs;
-use impact_paper::params::Chain;
 
 /// One mass between walls, with free part (a, b) and forcing (α, β).
 fn one(free: [f64; 2], forcing: [f64; 2], restitution: f64) -> Scenario {
@@ -89,35 +88,6 @@ fn chattering_ends_in_contact_and_contact_in_release() {
     println!("{counters:?}, {releases} releases");
     assert!(releases >= 3 && counters.contact_phases as usize >= releases);
     assert!(counters.impacts < 2000, "a chatter is cut short: {counters:?}");
-}
-
-#[test]
-fn squeezed_clusters_press_and_never_overlap() {
-    for (index, n) in [(0, 3), (1, 3), (2, 5), (3, 8)] {
-        let chain = Chain { masses: n, restitution: 0.2, ..Chain::default() };
-        let mut scenario = drawn(&chain, 2.0, "squeeze", index);
-        for (j, pair) in scenario.forcing.iter_mut().enumerate() {
-            // Towards the middle at t = 0.
-            pair[0] += 2.0 * ((n - 1) as f64 - 2.0 * j as f64);
-        }
-        let mut engine = Engine::new(&scenario).unwrap();
-        for i in 1..2000 {
-            let t = f64::from(i) / 50.0;
-            engine.run(t, |_| true).unwrap();
-            let mut x = vec![0.0];
-            x.extend(engine.positions(t));
-            x.push((n + 1) as f64);
-            for (gap, pair) in x.windows(2).enumerate() {
-                let width = pair[1] - pair[0];
-                assert!(width > -1e-12, "n = {n}: gap {gap} overlaps by {width:e} at {t}");
-            }
-            for (gap, force) in engine.contacts(t) {
-                assert!(force >= -1e-12, "n = {n}: force {force:e} in gap {gap} at {t}");
-                assert!((x[gap + 1] - x[gap]).abs() < 1e-12, "contact is shut");
-            }
-        }
-        assert!(engine.counters().contact_phases > 5, "{:?}", engine.counters());
-    }
 }
 
 /// An almost elastic chatter, and a hard squeeze: finished, and cheaply.
