@@ -5,7 +5,6 @@ use super::starts::HALF_HEIGHT;
 use crate::experiments::prelude::*;
 use impact_chain::{Boundary, Protocol, Start};
 
-const UNIT: &str = "d omega^2";
 const WIDTH: &str = "from a quarter to three quarters of all gaps";
 
 /// Masses of the chain of an ensemble.
@@ -79,14 +78,14 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
 
 fn half_heights(both: &[Both<'_>]) -> Table {
     Table::of("branches.half_heights", both, |own| own.rest.0.ensemble.realisations)
-        .key("transient", "1/omega", Both::transient)
+        .key("transient", TIME, Both::transient)
         .computed_by(origin(Curve::new))
-        .estimate("from_rest", UNIT, HALF_HEIGHT, |own| own.rest.1.rise.half_height_all)
-        .estimate("from_above", UNIT, HALF_HEIGHT, |own| own.above.1.rise.half_height_all)
-        .estimate("width_from_rest", UNIT, WIDTH, |own| own.rest.1.rise.quarters)
-        .estimate("width_from_above", UNIT, WIDTH, |own| own.above.1.rise.quarters)
+        .estimate("from_rest", SIGMA, HALF_HEIGHT, |own| own.rest.1.rise.half_height_all)
+        .estimate("from_above", SIGMA, HALF_HEIGHT, |own| own.above.1.rise.half_height_all)
+        .estimate("width_from_rest", SIGMA, WIDTH, |own| own.rest.1.rise.quarters)
+        .estimate("width_from_above", SIGMA, WIDTH, |own| own.above.1.rise.quarters)
         .computed_by(origin(Both::distance))
-        .estimate("distance", UNIT, "half height from rest less that from above", Both::distance)
+        .estimate("distance", SIGMA, "half height from rest less that from above", Both::distance)
         .done()
 }
 
@@ -100,8 +99,8 @@ fn shares(both: &[Both<'_>]) -> Table {
     }
     const SHARE: &str = "share of all gaps with an impact";
     Table::of("branches.shares", &rows, |row| row.1.rest.0.ensemble.realisations)
-        .key("transient", "1/omega", |row| row.1.transient())
-        .key("sigma", UNIT, |row| row.0)
+        .key("transient", TIME, |row| row.1.transient())
+        .key("sigma", SIGMA, |row| row.0)
         .computed_by(origin(share))
         .estimate("from_rest", "1", SHARE, |row| share(row.1.rest, row.0))
         .estimate("from_above", "1", SHARE, |row| share(row.1.above, row.0))
@@ -115,11 +114,11 @@ fn lengths(found: &[Counted], both: &[Both<'_>]) -> Table {
     let rows: Vec<_> = from_rest(found).filter(other).collect();
     Table::of("branches.lengths", &rows, |row| row.0.ensemble.realisations)
         .key("masses", "1", |row| masses(row.0) as f64)
-        .key("transient", "1/omega", |row| row.1.protocol.transient)
-        .key("window", "1/omega", |row| row.1.protocol.window)
+        .key("transient", TIME, |row| row.1.protocol.transient)
+        .key("window", TIME, |row| row.1.protocol.window)
         .computed_by(origin(Curve::new))
-        .estimate("half_height", UNIT, HALF_HEIGHT, |row| row.1.rise.half_height_all)
-        .estimate("width", UNIT, WIDTH, |row| row.1.rise.quarters)
+        .estimate("half_height", SIGMA, HALF_HEIGHT, |row| row.1.rise.half_height_all)
+        .estimate("width", SIGMA, WIDTH, |row| row.1.rise.quarters)
         .done()
 }
 
@@ -131,9 +130,9 @@ fn starts(found: &[Counted]) -> Table {
     }
     Table::of("branches.starts", &rows, |row| row.0.ensemble.realisations)
         .text_key("chain", |row| row.0.ensemble.name.clone())
-        .key("transient", "1/omega", |row| row.1.protocol.transient)
+        .key("transient", TIME, |row| row.1.protocol.transient)
         .computed_by(origin(Curve::new))
-        .estimate("half_height", UNIT, HALF_HEIGHT, |row| row.1.rise.half_height_all)
+        .estimate("half_height", SIGMA, HALF_HEIGHT, |row| row.1.rise.half_height_all)
         .done()
 }
 
@@ -148,14 +147,14 @@ fn all(found: &[Counted], both: &[Both<'_>]) -> Table {
         .chosen("stretch", "1", "masses of a stretch that is counted like a chain", |()| {
             heated.map(|(own, _)| (masses(own) / own.ensemble.pieces) as f64)
         })
-        .chosen("hot", UNIT, "σ of the force at first", |()| heated.map(|(_, own)| own.sigma))
-        .chosen("heating", "1/omega", "time under that force", |()| heated.map(|(_, own)| own.time))
+        .chosen("hot", SIGMA, "σ of the force at first", |()| heated.map(|(_, own)| own.sigma))
+        .chosen("heating", TIME, "time under that force", |()| heated.map(|(_, own)| own.time))
         .computed_by(origin(exponent))
         .estimate("exponent", "1", "of T in the distance, from the first to the last", |()| {
             exponent(ends(both)?)
         })
         .computed_by(origin(logarithmic))
-        .estimate("logarithmic", UNIT, "the last distance, if it fell like 1/ln T", |()| {
+        .estimate("logarithmic", SIGMA, "the last distance, if it fell like 1/ln T", |()| {
             logarithmic(ends(both)?)
         })
         .done()

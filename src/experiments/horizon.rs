@@ -51,17 +51,17 @@ pub fn tables(found: &Horizon) -> Vec<Table> {
     let table = Table::of("horizon.twins", &[found], |own| own.twins.len())
         .computed_by(origin(run))
         .count("pairs", "pairs of twins", |own| own.twins.len() as u64)
-        .chosen("sigma", "d omega^2", "", |own| Some(own.parameters.sigma))
-        .estimate("order", "1/omega", "time of the first impact of another gap", |own| {
+        .chosen("sigma", SIGMA, "", |own| Some(own.parameters.sigma))
+        .estimate("order", TIME, "time of the first impact of another gap", |own| {
             own.over(|twins| Some(twins.order?.0))
         })
         .estimate("impacts", "1", "impacts before it", |own| {
             own.over(|twins| Some(twins.order?.1 as f64))
         })
-        .estimate("tenfold", "1/omega", "time in which differences grow tenfold", |own| {
+        .estimate("tenfold", TIME, "time in which differences grow tenfold", |own| {
             own.growth().map(tenfold)
         })
-        .real("first_order", "1/omega", 3, "least time of the first impact of another gap", |own| {
+        .real("first_order", TIME, 3, "least time of the first impact of another gap", |own| {
             let orders = own.twins.iter().filter_map(|pair| pair.order);
             orders.map(|own| own.0).fold(f64::INFINITY, f64::min)
         })

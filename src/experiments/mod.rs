@@ -40,6 +40,11 @@ pub(crate) mod prelude {
     pub use literate::table::Table;
     pub use literate::value::origin;
     pub use serde::{Deserialize, Serialize};
+
+    /// Unit of σ and of forces.
+    pub const SIGMA: &str = "d omega^2";
+    /// Unit of times.
+    pub const TIME: &str = "1/omega";
 }
 
 pub use impact_chain::rise;

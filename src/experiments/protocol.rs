@@ -19,11 +19,11 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
         .count("as_printed", "of these, half heights that round to the printed one", |_| {
             halves().filter(|(half, _)| prints_as_published(half.value)).count() as u64
         })
-        .estimate("largest", "d omega^2", "largest half height", |_| half(most))
+        .estimate("largest", SIGMA, "largest half height", |_| half(most))
         .same("largest", |_| same(most))
-        .estimate("least", "d omega^2", "least half height", |_| half(least))
+        .estimate("least", SIGMA, "least half height", |_| half(least))
         .same("least", |_| same(least))
-        .estimate("range_all", "d omega^2", "range of the half heights of the mean of all", |own| {
+        .estimate("range_all", SIGMA, "range of the half heights of the mean of all", |own| {
             range(own.curves.iter().map(|cell| cell.rise.half_height_all))
         })
         .done();
@@ -69,13 +69,11 @@ const PLACES: [Place; 4] = [
 
 fn cells(map: &Counted) -> Table {
     let table = Table::of("protocol.cells", &map.curves, |_| map.ensemble.realisations)
-        .key("transient", "1/omega", |own| own.protocol.transient)
-        .key("window", "1/omega", |own| own.protocol.window)
+        .key("transient", TIME, |own| own.protocol.transient)
+        .key("window", TIME, |own| own.protocol.window)
         .computed_by(origin(Curve::new));
     PLACES
         .into_iter()
-        .fold(table, |table, (name, meaning, place)| {
-            table.estimate(name, "d omega^2", meaning, place)
-        })
+        .fold(table, |table, (name, meaning, place)| table.estimate(name, SIGMA, meaning, place))
         .done()
 }

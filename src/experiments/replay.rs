@@ -107,7 +107,7 @@ pub fn tables(own: &Replays) -> Vec<Table> {
         .text_key("run", |((name, _), _)| name.clone())
         .computed_by(origin(run))
         .count("masses", "masses", |((_, asked), _)| asked.chain.masses as u64)
-        .chosen("until", "1/omega", "length of the run", |((_, asked), _)| Some(asked.until()))
+        .chosen("until", TIME, "length of the run", |((_, asked), _)| Some(asked.until()))
         .count("impacts", "impacts", |(_, found)| found.impacts)
         .count("distinct", "gaps with an impact in the window", |(_, found)| found.distinct as u64)
         .count("contact_phases", "contact phases", |(_, found)| found.contact_phases)

@@ -13,7 +13,7 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     }
     let rise = Table::of("restitution.rise", &rows, |(_, row)| row.ran)
         .key("r", "1", |(own, _)| restitution(own))
-        .key("sigma", "d omega^2", |(_, row)| row.sigma)
+        .key("sigma", SIGMA, |(_, row)| row.sigma)
         .computed_by(origin(Row::new))
         .estimate("mean_count", "1", "different gaps with an impact, mean of all", |(_, row)| {
             row.mean_all?.estimate()
@@ -37,7 +37,7 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
         .computed_by(origin(Curve::new))
         .estimate(
             "half_height",
-            "d omega^2",
+            SIGMA,
             "σ where the mean count of all chains passes half of all gaps",
             half_height,
         )
@@ -47,7 +47,7 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
             found[0].ensemble.realisations as u64
         })
         .count("sigmas", "values of σ", |()| found[0].ensemble.sigmas.len() as u64)
-        .estimate("shift", "d omega^2", "half height at the last r less that at the first", |()| {
+        .estimate("shift", SIGMA, "half height at the last r less that at the first", |()| {
             Some(difference(half_height(found.last()?)?, half_height(found.first()?)?))
         })
         .chosen("touched_to", "1", "the largest r with a contact phase", |()| {

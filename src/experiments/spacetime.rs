@@ -94,21 +94,21 @@ impl SpaceTime {
 
 /// The table of the run.
 pub fn tables(own: &SpaceTime) -> Vec<Table> {
-    let time = "1/omega";
     let none = f64::NAN;
+    let step = |at: Option<&(f64, usize, f64)>| at.copied().unwrap_or((none, 0, none));
     let (until, advances) = (own.parameters.until, own.advances());
-    let (median, longest) = (advances.get(advances.len() / 2), advances.last());
+    let (median, longest) = (step(advances.get(advances.len() / 2)), step(advances.last()));
     vec![
         Table::of("spacetime.run", &[()], |()| 1)
-            .chosen("sigma", "d omega^2", "standard deviation σ", |()| Some(own.parameters.sigma))
-            .chosen("until", time, "length of the run", |()| Some(until))
-            .chosen("last", time, "in which it has impacts", |()| Some(until / 10.0))
-            .chosen("quarter", time, "of the run", |()| Some(until / 4.0))
-            .chosen("half", time, "of the run", |()| Some(until / 2.0))
+            .chosen("sigma", SIGMA, "standard deviation σ", |()| Some(own.parameters.sigma))
+            .chosen("until", TIME, "length of the run", |()| Some(until))
+            .chosen("last", TIME, "in which it has impacts", |()| Some(until / 10.0))
+            .chosen("quarter", TIME, "of the run", |()| Some(until / 4.0))
+            .chosen("half", TIME, "of the run", |()| Some(until / 2.0))
             .computed_by(origin(run))
             .count("passed_over", "realisations without late impacts", |()| own.realisation)
             .count("impacts", "impacts", |()| own.times.len() as u64)
-            .real("first", time, 3, "the first impact", |()| {
+            .real("first", TIME, 3, "the first impact", |()| {
                 own.times.first().copied().unwrap_or(none)
             })
             .computed_by(origin(SpaceTime::reached))
@@ -121,16 +121,10 @@ pub fn tables(own: &SpaceTime) -> Vec<Table> {
             .computed_by(origin(SpaceTime::starts))
             .count("starts", "gaps hit when neither neighbour was", |()| own.starts().len() as u64)
             .computed_by(origin(SpaceTime::advances))
-            .real("advance_median", time, 3, "median step of a front", |()| {
-                median.map_or(none, |step| step.0)
-            })
-            .real("advance_longest", time, 3, "longest step of a front", |()| {
-                longest.map_or(none, |step| step.0)
-            })
-            .count("advance_gap", "gap that it reaches", |()| {
-                longest.map_or(0, |step| step.1 as u64)
-            })
-            .real("advance_time", time, 3, "when it does", |()| longest.map_or(none, |step| step.2))
+            .real("advance_median", TIME, 3, "median step of a front", |()| median.0)
+            .real("advance_longest", TIME, 3, "longest step of a front", |()| longest.0)
+            .count("advance_gap", "gap that it reaches", |()| longest.1 as u64)
+            .real("advance_time", TIME, 3, "when it does", |()| longest.2)
             .done(),
     ]
 }

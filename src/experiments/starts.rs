@@ -19,8 +19,8 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
         .chosen("restitution", "1", "", |own| Some(own.ensemble.chain.restitution))
         .chosen("forcing_frequency", "omega", "", |own| Some(own.ensemble.chain.forcing_frequency))
         .computed_by(origin(Curve::new))
-        .estimate("half_height", "d omega^2", HALF_HEIGHT, half_height)
-        .estimate("difference", "d omega^2", "half height less that from rest", |own| {
+        .estimate("half_height", SIGMA, HALF_HEIGHT, half_height)
+        .estimate("difference", SIGMA, "half height less that from rest", |own| {
             Some(difference(half_height(own)?, rest?))
         })
         .done();
@@ -33,7 +33,7 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
             "share of overlapping starts up to which a row is used",
             |_| Some(variants[0].ensemble.most_rejected),
         )
-        .chosen("rejected_at", "d omega^2", "the last σ of random starts", |last| {
+        .chosen("rejected_at", SIGMA, "the last σ of random starts", |last| {
             last.map(|row| row.sigma)
         })
         .estimate("rejected", "1", "share of the random starts there that overlap", |last| {

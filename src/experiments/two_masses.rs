@@ -53,7 +53,7 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
 pub fn tables(found: &TwoMasses) -> Vec<Table> {
     let bound = Table::of("two_masses.bound", &[found], |_| 0)
         .computed_by(origin(safe_force))
-        .real("force", "d omega^2", 4, "force amplitude below which two masses never hit", |own| {
+        .real("force", SIGMA, 4, "force amplitude below which two masses never hit", |own| {
             safe_force(&own.parameters.directions.chain)
         })
         .count("directions", "random directions of the forcing", |own| {
@@ -62,7 +62,7 @@ pub fn tables(found: &TwoMasses) -> Vec<Table> {
         .done();
     let excess: Vec<_> = found.parameters.times.iter().zip(&found.excess).collect();
     let excess = Table::of("two_masses.excess", &excess, |_| 0)
-        .key("time", "1/omega", |(time, _)| time.floor())
+        .key("time", TIME, |(time, _)| time.floor())
         .computed_by(origin(run))
         .real(
             "least",

@@ -65,17 +65,17 @@ pub fn race(race: &Race) -> Vec<Table> {
 fn entries(name: &'static str, entries: &[&Entry]) -> Table {
     Table::of(name, entries, |entry| entry.runs.len())
         .text_key("method", |entry| entry.setting.method.id().into())
-        .chosen("setting", "1/omega", "step or tolerance", |entry| Some(entry.setting.value))
+        .chosen("setting", TIME, "step or tolerance", |entry| Some(entry.setting.value))
         .computed_by(origin(race::run))
         .count("misses", "states from which the next impact is missed", |entry| entry.misses)
-        .real("error", "1/omega", 1, "median error of its time", |entry| {
+        .real("error", TIME, 1, "median error of its time", |entry| {
             or_nan(entry.errors.map(|errors| errors[0]))
         })
         .real("units", "1", 2, "largest error over what rounding the gap does", |entry| {
             or_nan(entry.units)
         })
         .real("work", "1", 2, "evaluations per impact", |entry| or_nan(entry.work))
-        .estimate("horizon", "1/omega", "time up to which a run is true", |entry| entry.horizon())
+        .estimate("horizon", TIME, "time up to which a run is true", |entry| entry.horizon())
         .done()
 }
 
@@ -92,9 +92,9 @@ fn all(race: &Race) -> Table {
     let (run, growth) = (&race.parameters.growth, race.growth.growth());
     Table::of("race.all", &[()], |()| race.growth.twins.len())
         .chosen("masses", "1", "masses", |()| Some(run.chain.masses as f64))
-        .chosen("sigma", "d omega^2", "standard deviation σ", |()| Some(run.sigma))
-        .chosen("until", "1/omega", "the end of the runs", |()| Some(race.parameters.until))
-        .chosen("displaced", "1/omega", "from here on an impact is another", |()| Some(DISPLACED))
+        .chosen("sigma", SIGMA, "standard deviation σ", |()| Some(run.sigma))
+        .chosen("until", TIME, "the end of the runs", |()| Some(race.parameters.until))
+        .chosen("displaced", TIME, "from here on an impact is another", |()| Some(DISPLACED))
         .computed_by(origin(race::run))
         .count("chains", "chains", |()| race.parameters.chains as u64)
         .count("states", "from which each method is asked for the next impact", |()| {
@@ -103,7 +103,7 @@ fn all(race: &Race) -> Table {
         .estimate("growth", "omega", "rate λ at which neighbouring motions part", |()| {
             growth.map(|own| with_error(own.value, own.error))
         })
-        .estimate("ceiling", "1/omega", "time that chaos allows to doubles", |()| {
+        .estimate("ceiling", TIME, "time that chaos allows to doubles", |()| {
             growth
                 .map(|own| with_error(folds / own.value, folds / own.value * own.error / own.value))
         })
@@ -176,7 +176,7 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
     let rows = compared(biases);
     let cells = Table::of("bias.cells", &rows, |row| row.pairs)
         .text_key("setting", |row| called(row.setting))
-        .key("sigma", "d omega^2", |row| row.sigma)
+        .key("sigma", SIGMA, |row| row.sigma)
         .words("name", "method with step or tolerance", |row| titled(row.setting))
         .computed_by(origin(bias::run))
         .estimate("share", "1", "bias of the mean over the mean", |row| row.share)
@@ -185,9 +185,9 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
     let scenes: Vec<_> =
         biases.parameters.scenes.iter().zip(biases.runs.iter().map(engine)).collect();
     let means = Table::of("bias.means", &scenes, |(_, own)| own.len())
-        .key("sigma", "d omega^2", |(scene, _)| scene.0)
-        .chosen("transient", "1/omega", "transient", |(scene, _)| Some(scene.1.transient))
-        .chosen("window", "1/omega", "window", |(scene, _)| Some(scene.1.window))
+        .key("sigma", SIGMA, |(scene, _)| scene.0)
+        .chosen("transient", TIME, "transient", |(scene, _)| Some(scene.1.transient))
+        .chosen("window", TIME, "window", |(scene, _)| Some(scene.1.window))
         .computed_by(origin(bias::run))
         .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |(_, own)| {
             or_nan(mean(own))
@@ -211,9 +211,9 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
         Some(format!("bias.cells[setting={setting},sigma={sigma}].share"))
     };
     let ends = Table::of("bias.ends", &[()], |()| 0)
-        .chosen("low", "d omega^2", "σ on the rise", |()| low)
-        .chosen("high", "d omega^2", "σ far above it", |()| high)
-        .chosen("step", "1/omega", "of a coarse scheme of Verlet", |()| Some(verlet.value))
+        .chosen("low", SIGMA, "σ on the rise", |()| low)
+        .chosen("high", SIGMA, "σ far above it", |()| high)
+        .chosen("step", TIME, "of a coarse scheme of Verlet", |()| Some(verlet.value))
         .words("worst", "the method with the largest bias on the rise", |()| {
             worst.map_or("none".into(), |(row, _)| spoken(row.setting))
         })
@@ -242,7 +242,7 @@ pub fn scale(scale: &Scale) -> Vec<Table> {
     let ends: Vec<_> = ends.collect();
     let table = Table::of("scale.ends", &ends, |_| 1)
         .text_key("method", |(own, _)| own.0.method.id().into())
-        .chosen("setting", "1/omega", "step or tolerance", |(own, _)| Some(own.0.value))
+        .chosen("setting", TIME, "step or tolerance", |(own, _)| Some(own.0.value))
         .chosen("small", "1", "fewest masses", |(own, _)| Some(own.1 as f64))
         .chosen("large", "1", "most masses", |(_, own)| Some(own.1 as f64))
         .computed_by(origin(scale::run))

@@ -12,8 +12,6 @@ const ANGLES: usize = 256;
 /// Angles of the rule for neighbours, which takes their square.
 const COARSE: usize = 64;
 
-const SIGMA: &str = "d omega^2";
-
 /// Gaps at one σ: what they do within each time, and in unlimited time.
 struct Gaps {
     sigma: f64,
@@ -118,7 +116,7 @@ fn times(parameters: &NucleationParams, gaps: &[Gaps]) -> Table {
         .collect();
     Table::of("nucleation.times", &rows, |_| 0)
         .key("sigma", SIGMA, |(row, ..)| row.sigma)
-        .key("time", "1/omega", |(_, time, _)| *time)
+        .key("time", TIME, |(_, time, _)| *time)
         .real("missing", "1", 2, "share of p that is missing by then", |(row, _, within)| {
             1.0 - within.p / row.ever.p
         })
@@ -130,7 +128,7 @@ fn chains_table(rows: &[Chains<'_>]) -> Table {
     Table::of("nucleation.chains", rows, |row| row.part.len())
         .key("masses", "1", |row| row.masses as f64)
         .key("sigma", SIGMA, |row| row.sigma)
-        .key("time", "1/omega", |row| row.time)
+        .key("time", TIME, |row| row.time)
         .estimate("found", "1", "share of the chains with an impact by then", |row| {
             share(row.hit(), row.part.len() as u64)
         })
@@ -155,7 +153,7 @@ fn all(parameters: &NucleationParams, chains: &[Chains<'_>], half: f64) -> Table
         .real("half", SIGMA, 4, "σ where half of the chains have such a gap", |_| half)
         .count("shortest", "masses of the shortest chains", |_| shortest as u64)
         .count("longest", "masses of the longest", |_| lengths().max().unwrap_or(0) as u64)
-        .chosen("until", "1/omega", "the latest time", |_| last)
+        .chosen("until", TIME, "the latest time", |_| last)
         .real("off", "1", 1, "largest distance of found and expected shares by then", |own| {
             off(own.chain.masses)
         })

@@ -37,8 +37,8 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     };
     let lines: Vec<Line<'_>> = curves.into_iter().map(line).collect();
     let scores = Table::of("seeds.scores", &lines, |_| map.ensemble.realisations)
-        .key("transient", "1/omega", |line| line.transient)
-        .estimate("half_height", "d omega^2", "", |line| line.half_height)
+        .key("transient", TIME, |line| line.transient)
+        .estimate("half_height", SIGMA, "", |line| line.half_height)
         .same("half_height", |line| {
             map.curve(line.transient, window).map(|own| address(own, "half_height_all"))
         })
@@ -67,15 +67,15 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let by_circuits = |column: &str| root(&|sigma| theory.number(&[("sigma", sigma)], column).ok());
     let compared = Table::of("seeds.compared", &[()], |()| seeds.realisations)
         .count("sigmas", "values of σ that seeds and map have", |()| sigmas.len() as u64)
-        .chosen("from", "d omega^2", "the first of them", |()| sigmas.first().copied())
-        .chosen("to", "d omega^2", "the last", |()| sigmas.last().copied())
-        .estimate("early", "d omega^2", "half height of the main sweep less this", |()| {
+        .chosen("from", SIGMA, "the first of them", |()| sigmas.first().copied())
+        .chosen("to", SIGMA, "the last", |()| sigmas.last().copied())
+        .estimate("early", SIGMA, "half height of the main sweep less this", |()| {
             Some(difference(swept.first()?.1, half.first()?.1))
         })
         .real("largest", "1", 2, "largest distance of mean counts from the main sweep", |()| {
             worst.map_or(f64::NAN, |at| at.2.abs())
         })
-        .chosen("largest_at", "d omega^2", "where that is", |()| worst.map(|at| at.0))
+        .chosen("largest_at", SIGMA, "where that is", |()| worst.map(|at| at.0))
         .count("swept", "values of σ that seeds and main sweep have", |()| against.len() as u64)
         .real("grown", "1", 2, OFF_SWEEP, |()| root(&|sigma| grown_at(means, transient, sigma)))
         .real("from_rest", "1", 2, OFF_SWEEP, |()| by_circuits("from_rest"))

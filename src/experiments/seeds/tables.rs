@@ -10,9 +10,6 @@ use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use rayon::prelude::*;
 
-const SIGMA: &str = "d omega^2";
-const TIME: &str = "1/omega";
-
 /// The runs at one σ.
 struct Row<'a> {
     parameters: &'a SeedsParams,

@@ -7,7 +7,7 @@ use super::{SECOND_SEED, SWEEP};
 use crate::experiments::prelude::*;
 use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
 use impact_chain::counts::Total;
-use impact_chain::rise::{Mean, Row, Runs};
+use impact_chain::rise::{Mean, Rise, Row, Runs};
 
 /// A σ above the rise.
 const ABOVE: f64 = 0.2;
@@ -71,10 +71,10 @@ fn run(name: &'static str, sweep: &Counted) -> Table {
     let protocol = sweep.first().protocol;
     Table::of(name, &[sweep], |own| own.ensemble.realisations)
         .count("gaps", "gaps of a chain", |own| own.ensemble.chain.gaps() as u64)
-        .chosen("transient", "1/omega", "", |_| Some(protocol.transient))
-        .chosen("window", "1/omega", "", |_| Some(protocol.window))
+        .chosen("transient", TIME, "", |_| Some(protocol.transient))
+        .chosen("window", TIME, "", |_| Some(protocol.window))
         .count("realisations", "chains at each σ", |own| own.ensemble.realisations as u64)
-        .chosen("level_above", "d omega^2", "above this σ fewer chains are run", |own| {
+        .chosen("level_above", SIGMA, "above this σ fewer chains are run", |own| {
             own.ensemble.beyond.map(|beyond| beyond.above)
         })
         .chosen("level_realisations", "1", "so many", |own| {
@@ -92,7 +92,7 @@ fn run(name: &'static str, sweep: &Counted) -> Table {
 fn rows(sweep: &Counted) -> Table {
     let estimate = |own: Option<Mean>| own?.estimate();
     Table::of("sweep.rows", &sweep.first().rows, |row| row.ran)
-        .key("sigma", "d omega^2", |row| row.sigma)
+        .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(Row::new))
         .estimate("kept", "1", "share of the realisations with an impact in the window", |row| {
             share(row.kept as u64, row.ran as u64)
@@ -113,44 +113,36 @@ fn rows(sweep: &Counted) -> Table {
         .done()
 }
 
+/// A column: its name, what it is, and the place.
+type Place = (&'static str, &'static str, fn(&Rise) -> Option<Estimate>);
+
+const PLACES: [Place; 5] = [
+    ("half_height_all", "the mean of all passes half of all gaps", |own| own.half_height_all),
+    ("onset", "the mean of all passes a twentieth of all gaps", |own| own.onset),
+    ("kept_half", "half of the chains have an impact", |own| own.kept_half),
+    ("width", "from a tenth to nine tenths of all gaps, of the mean of all", |own| own.width),
+    (
+        "kept_width",
+        "from a quarter to three quarters of all gaps, of the mean of the kept",
+        |own| own.kept_width,
+    ),
+];
+
 /// Places of the rise.
 fn rise_table(name: &'static str, sweep: &Counted) -> Table {
-    Table::of(name, &[sweep.first()], |_| sweep.ensemble.realisations)
+    let rise = &sweep.first().rise;
+    let mut table = Table::of(name, &[()], |()| sweep.ensemble.realisations)
         .computed_by(origin(Curve::new))
-        .estimate(
-            "half_height",
-            "d omega^2",
-            "the mean of the kept passes half of all gaps",
-            |own| own.rise.half_height,
-        )
-        .interval("half_height_interval", "d omega^2", "its bootstrap interval", |own| {
-            own.rise.half_height.map(|half| half.interval)
+        .estimate("half_height", SIGMA, "the mean of the kept passes half of all gaps", |()| {
+            rise.half_height
         })
-        .estimate(
-            "half_height_all",
-            "d omega^2",
-            "the mean of all passes half of all gaps",
-            |own| own.rise.half_height_all,
-        )
-        .estimate("onset", "d omega^2", "the mean of all passes a twentieth of all gaps", |own| {
-            own.rise.onset
-        })
-        .estimate("kept_half", "d omega^2", "half of the chains have an impact", |own| {
-            own.rise.kept_half
-        })
-        .estimate(
-            "width",
-            "d omega^2",
-            "from a tenth to nine tenths of all gaps, of the mean of all",
-            |own| own.rise.width,
-        )
-        .estimate(
-            "kept_width",
-            "d omega^2",
-            "from a quarter to three quarters of all gaps, of the mean of the kept",
-            |own| own.rise.kept_width,
-        )
-        .done()
+        .interval("half_height_interval", SIGMA, "its bootstrap interval", |()| {
+            rise.half_height.map(|half| half.interval)
+        });
+    for (name, meaning, place) in PLACES {
+        table = table.estimate(name, SIGMA, meaning, |()| place(rise));
+    }
+    table.done()
 }
 
 /// Where the mode is.
@@ -160,20 +152,17 @@ fn modes(sweep: &Counted) -> Table {
         sweep.first().rows.iter().filter(|row| width(row) > 0).max_by_key(|row| width(row));
     let half = mode_half(sweep);
     Table::of("sweep.mode", &[()], |()| 0)
-        .chosen("noisiest_sigma", "d omega^2", "where the interval of the mode is longest", |()| {
+        .chosen("noisiest_sigma", SIGMA, "where the interval of the mode is longest", |()| {
             noisiest.map(|row| row.sigma)
         })
         .interval("noisiest", "1", "that interval", |()| {
             noisiest?.mode_interval.map(|ends| ends.map(|end| end as f64))
         })
         .computed_by(origin(mode_half))
-        .chosen(
-            "half_from",
-            "d omega^2",
-            "to here the mode is surely under half of all gaps",
-            |()| half.map(|[low, _]| low),
-        )
-        .chosen("half_to", "d omega^2", "from here surely over", |()| half.map(|[_, high]| high))
+        .chosen("half_from", SIGMA, "to here the mode is surely under half of all gaps", |()| {
+            half.map(|[low, _]| low)
+        })
+        .chosen("half_to", SIGMA, "from here surely over", |()| half.map(|[_, high]| high))
         .done()
 }
 
@@ -181,7 +170,7 @@ fn modes(sweep: &Counted) -> Table {
 fn laws_table(sweep: &Counted) -> Table {
     let rows: Vec<&Runs> = sweep.runs.iter().filter(|row| row.total.impacts > 0).collect();
     Table::of("sweep.laws", &rows, |row| row.total.impacts as usize)
-        .key("sigma", "d omega^2", |row| row.sigma)
+        .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(laws::run))
         .estimate("near_exponent", "1", "of the share of impacts next to another within δ", |row| {
             laws::run(row)[0].map(|law| law.exponent)
@@ -206,11 +195,11 @@ fn rare(sweep: &Counted) -> Table {
             last(&own.near)
         })
         .real("near_expected", "1", 2, "the law's", |_| near)
-        .real("near_limit", "1/omega", 1, "", |_| NEAR_SIMULTANEOUS)
+        .real("near_limit", TIME, 1, "", |_| NEAR_SIMULTANEOUS)
         .count("slow", "impacts slower than the limit", |own| last(&own.slow))
         .real("slow_expected", "1", 1, "the law's", |_| slow)
         .real("slow_limit", "d omega", 1, "", |_| SLOW)
-        .chosen("contact_sigma", "d omega^2", "above the rise", |_| Some(ABOVE))
+        .chosen("contact_sigma", SIGMA, "above the rise", |_| Some(ABOVE))
         .count("contact_phases_below", "contact phases up to that σ", |_| {
             let below = sweep.runs.iter().filter(|row| row.sigma <= ABOVE);
             below.map(|row| row.total.contact_phases).sum()
@@ -226,7 +215,7 @@ fn can_stick(sigma: &f64) -> f64 {
 
 fn sticking() -> Table {
     Table::of("sweep.sticking", &[PRINTED_THRESHOLD, STICKING], |_| 0)
-        .key("sigma", "d omega^2", |sigma| *sigma)
+        .key("sigma", SIGMA, |sigma| *sigma)
         .real("chance", "1", 1, "that the forces on a pair can press it together", can_stick)
         .done()
 }

@@ -64,7 +64,7 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         means.iter().map(|own| own.0).filter(|sigma| SIGMAS.contains(sigma)).collect();
     let mean = |sigma: &f64, curve| found(at(curve, *sigma));
     let theory = Table::of("sweep.theory", &sigmas, |_| 0)
-        .key("sigma", "d omega^2", |sigma| *sigma)
+        .key("sigma", SIGMA, |sigma| *sigma)
         .computed_by(origin(at))
         .real("simple", "1", 3, "μ, simple circuits", |sigma| mean(sigma, simple))
         .real("higher", "1", 3, "μ, five classes", |sigma| mean(sigma, higher))
@@ -74,13 +74,11 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let kept = increases(&means, finest);
     let table = Table::of("sweep.beside_theory", &[()], |()| 0)
         .computed_by(origin(largest_distance))
-        .chosen("large_sigma", "d omega^2", "from here on σ is called large", |()| {
-            Some(LARGE_SIGMA)
-        })
+        .chosen("large_sigma", SIGMA, "from here on σ is called large", |()| Some(LARGE_SIGMA))
         .real("large_distance", "1", 2, "largest distance of both means at large σ", |()| {
             found(far(0))
         })
-        .chosen("large_distance_at", "d omega^2", "σ of it", |()| far(1))
+        .chosen("large_distance_at", SIGMA, "σ of it", |()| far(1))
         .real("large_theory", "1", 3, "μ there", |()| found(far(2)))
         .real("large_mean", "1", 3, "mean of the kept there", |()| found(far(3)))
         .computed_by(origin(increases))
@@ -91,19 +89,12 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .real("increase_of_all", "1", 2, "of the mean of all in one step", |()| {
             found(increases(&of(|row| row.mean_all), finest).map(|[one, _]| one))
         })
-        .chosen("step", "d omega^2", "the finest of the grid", |()| Some(finest))
+        .chosen("step", SIGMA, "the finest of the grid", |()| Some(finest))
         .computed_by(origin(impact_chain::rise::Curve::new))
-        .real(
-            "half_gap",
-            "d omega^2",
-            2,
-            "half height of the theory less that of the simulation",
-            |()| {
-                let half =
-                    sweep.first().rise.half_height.zip(relation.number(&[], "sigma_half").ok());
-                found(half.map(|(half, theory)| theory - half.value))
-            },
-        )
+        .real("half_gap", SIGMA, 2, "half height of the theory less that of the simulation", |()| {
+            let half = sweep.first().rise.half_height.zip(relation.number(&[], "sigma_half").ok());
+            found(half.map(|(half, theory)| theory - half.value))
+        })
         .computed_by(origin(distance))
         .real("simple", "1", 3, "root mean square distance of the means, simple circuits", |()| {
             found(distance(&means, simple))

@@ -80,7 +80,7 @@ fn doubling(p: f64) -> f64 {
 
 /// Single numbers of Sec. 9, with those of the tables `theory.curve` and `theory.relation` that belong there.
 pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
-    let (sigma, census) = ("d omega^2", census());
+    let (sigma, census) = (SIGMA, census());
     let counted = |k| counted(&census, 3, k, &[1]) as u64;
     let printed = [doubled_as_printed(3, 3), doubled(3, 2)];
     let [eq30, eq33] = printed.map(|found| found.map_or(f64::NAN, Fraction::to_f64));

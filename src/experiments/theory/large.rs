@@ -34,7 +34,7 @@ pub(super) fn tables() -> Vec<Table> {
         .real("p_n", "1", 5, "N p_jump", |(n, jump)| jump.p * n)
         .done();
     let sigma = one("theory.large_relation", origin(reaches))
-        .real("sigma_jump", "d omega^2", 3, "σ of the jump at the largest N", |()| {
+        .real("sigma_jump", SIGMA, 3, "σ of the jump at the largest N", |()| {
             jumps.last().map_or(f64::NAN, |(_, jump)| reaches(p_of, jump.p))
         })
         .done();

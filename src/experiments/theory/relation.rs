@@ -14,8 +14,6 @@ use impact_numerics::roots;
 use rayon::prelude::*;
 use std::f64::consts::SQRT_2;
 
-const SIGMA: &str = "d omega^2";
-
 /// σ of the random starts whose overlap is given.
 const OVERLAP: f64 = 0.145;
 
