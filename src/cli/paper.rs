@@ -4,11 +4,10 @@ use super::sources::Sources;
 use super::{Failure, judged, make, shown, signals, stdout, threads, work};
 use impact_numerics::text::count;
 use impact_paper::experiments::{ALL, Need, Progress, Store, say};
-use impact_paper::figures;
+use impact_paper::figures::{self, Listed};
 use impact_paper::params::Profile;
 use impact_paper::report::{self, Files, PROGRAM, Report, folder};
 use literate::input::listed;
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -23,7 +22,8 @@ pub struct Args {
     /// Sample sizes.
     #[arg(long, default_value = "full", value_parser = work::profiles())]
     profile: Profile,
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help = figure_help())]
+    /// Draw this figure only (1 to 15, s1 to s9; may be repeated): its SVG and its CSV are written.
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     figure: Vec<String>,
     /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
     #[arg(long, value_name = "DIR")]
@@ -38,24 +38,18 @@ pub struct Args {
     sources: Sources,
 }
 
-fn figure_help() -> String {
-    let (paper, own) = (figures::Number::PAPER, figures::Number::OWN);
-    format!(
-        "Draw this figure only (1 to {paper}, s1 to s{own}; may be repeated): its SVG and its CSV are written"
-    )
-}
-
 pub fn run(args: Args) -> Result<(), Failure> {
     let began = Instant::now();
     let Args { profile, sources, force, .. } = args;
     let out = args.out.unwrap_or_else(|| default_folder(profile));
-    let read = |text: &String| text.parse().map_err(|e| Failure::input(format!("--figure: {e}")));
-    let numbers =
-        args.figure.iter().map(read).collect::<Result<BTreeSet<figures::Number>, Failure>>()?;
+    let find = |text: &String| {
+        figures::find(text).map_err(|error| Failure::input(format!("--figure: {error}")))
+    };
+    let chosen = args.figure.iter().map(find).collect::<Result<Vec<&Listed>, Failure>>()?;
     if args.dry_run {
-        return dry_run(&sources, profile, &needs(&numbers));
+        return dry_run(&sources, profile, &needs(&chosen));
     }
-    let whole = numbers.is_empty();
+    let whole = chosen.is_empty();
     refuse_over_other(profile, &out, whole)?;
     let option = |error: folder::Error| Failure::from(error).of("--out");
     folder::refuse(&out, &Files::new(), whole, force).map_err(option)?;
@@ -64,7 +58,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let made = threads::run(sources.threads, || match whole {
         true => make::whole(&sources, profile, &out, &store, &progress),
         false => {
-            let committed = some(&sources, &numbers, profile, &progress)?;
+            let committed = some(&sources, &chosen, profile, &progress)?;
             Ok((Report { committed, beside: Files::new() }, Vec::new()))
         }
     });
@@ -110,10 +104,10 @@ fn refuse_over_other(profile: Profile, out: &Path, whole: bool) -> Result<(), Fa
 }
 
 /// The experiments of figures, or all if none is named.
-fn needs(numbers: &BTreeSet<figures::Number>) -> Vec<Need> {
-    match numbers.is_empty() {
+fn needs(listed: &[&Listed]) -> Vec<Need> {
+    match listed.is_empty() {
         true => ALL.to_vec(),
-        false => numbers.iter().flat_map(|&number| figures::needs(number)).copied().collect(),
+        false => listed.iter().flat_map(|figure| figure.needs).copied().collect(),
     }
 }
 
@@ -132,15 +126,15 @@ fn dry_run(sources: &Sources, profile: Profile, needs: &[Need]) -> Result<(), Fa
 /// The figures that were asked for, and nothing else.
 fn some(
     sources: &Sources,
-    numbers: &BTreeSet<figures::Number>,
+    listed: &[&Listed],
     profile: Profile,
     progress: &Progress,
 ) -> Result<Files, Failure> {
-    let results = sources.run(&needs(numbers), profile, &sources.templates()?, progress)?;
+    let results = sources.run(&needs(listed), profile, &sources.templates()?, progress)?;
     let mut files = Files::new();
-    for &number in numbers {
+    for figure in listed {
         progress.check()?;
-        files.extend(report::files_of(&make::figure(number, &results)?));
+        files.extend(report::files_of(&make::figure(figure, &results)?));
     }
     Ok(files)
 }

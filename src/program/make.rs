@@ -6,7 +6,7 @@ use super::sources::{Sources, run};
 use crate::claims::{self, Check};
 use crate::committed;
 use crate::experiments::{ALL, Progress, Results, Store, alive};
-use crate::figures::{self, Figure};
+use crate::figures::{self, Figure, Listed};
 use crate::params::Profile;
 use crate::report::{self, PROGRAM, Report, contents, equations};
 use rayon::prelude::*;
@@ -31,12 +31,11 @@ pub fn whole(
     results.tables();
     // Machines may be slow or busy, a loop of a template long.
     let _alive = alive(|| Some("making figures and documents".into()));
-    let draw = |number| {
+    let draw = |listed| {
         progress.check()?;
-        figure(number, &results)
+        figure(listed, &results)
     };
-    let numbers: Vec<figures::Number> = figures::all().collect();
-    let drawn: Vec<Figure> = numbers.into_par_iter().map(draw).collect::<Result<_, Failure>>()?;
+    let drawn = figures::ALL.par_iter().map(draw).collect::<Result<Vec<Figure>, Failure>>()?;
     let claims = claims::all(&results, &published)?;
     let values = contents::registry(&results, &published)?;
     let rows = contents::rows(&results, &claims)?;
@@ -63,7 +62,7 @@ pub fn whole(
 }
 
 /// Draws one figure.
-pub fn figure(number: figures::Number, results: &Results) -> Result<Figure, Failure> {
-    let named = |error| Failure::from(error).of(format!("figure {number}"));
-    figures::draw(number, results).map_err(named)
+pub fn figure(figure: &Listed, results: &Results) -> Result<Figure, Failure> {
+    let named = |error| Failure::from(error).of(format!("figure {}", figure.number));
+    figure.draw(results).map_err(named)
 }

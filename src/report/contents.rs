@@ -30,9 +30,6 @@ pub enum Error {
     /// A table that is not JSON.
     #[error("the rows of a table: {0}")]
     Rows(#[from] serde_json::Error),
-    /// Results without the row that a sentence is about.
-    #[error("the report speaks of {0}, which the results do not have; run a fuller profile")]
-    Missing(&'static str),
 }
 
 /// All values of the report.

@@ -18,7 +18,7 @@ fn the_report_has_every_equation_and_figure() {
     for number in 1..=38 {
         assert_eq!(text.matches(&format!("\\tag{{{number}}}")).count(), 1, "Eq. ({number})");
     }
-    for number in figures::all().map(|number| number.to_string().to_uppercase()) {
+    for number in figures::ALL.iter().map(|figure| figure.number.to_uppercase()) {
         assert_eq!(text.matches(&format!("**Figure {number}.**")).count(), 1, "Fig. {number}");
     }
 }
@@ -33,7 +33,7 @@ fn own_figures_are_numbered_by_first_mention() {
         let first = named.iter().filter_map(|name| template.find(name)).min();
         first.unwrap_or_else(|| panic!("Fig. S{n} is not mentioned"))
     };
-    let first: Vec<usize> = (1..=figures::Number::OWN.into()).map(first).collect();
+    let first: Vec<usize> = (1..=9).map(first).collect();
     assert!(first.is_sorted(), "{first:?}");
 }
 

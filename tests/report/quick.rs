@@ -90,7 +90,7 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let values = contents::registry(&results, &published).unwrap();
     let rows = contents::rows(&results, &claims).unwrap();
     let [figures, full] = [&results, &full].map(|results| -> Vec<_> {
-        figures::all().map(|number| figures::draw(number, results).unwrap()).collect()
+        figures::ALL.iter().map(|figure| figure.draw(results).unwrap()).collect()
     });
     let equations = equations::entries();
     let made = |top| {

@@ -59,7 +59,7 @@ pub struct Figure {
 #[derive(Debug, Error)]
 #[expect(missing_docs, reason = "the messages tell")]
 pub enum Error {
-    #[error("there is no figure {0}; --figure lists those that there are")]
+    #[error("there is no figure {0:?}; `paper --help` lists those that there are")]
     Number(String),
     #[error("a figure lacks its data: {0}")]
     Data(#[from] experiments::Error),

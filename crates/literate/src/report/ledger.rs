@@ -84,12 +84,6 @@ pub fn ledger(
     }
 }
 
-/// Does a text begin as a ledger does, whatever became of the rest? Other people have files of this name.
-pub fn is_one(text: &str) -> bool {
-    let begins = "{\"claims\":[";
-    text.chars().filter(|c| !c.is_whitespace()).take(begins.len()).eq(begins.chars())
-}
-
 /// Reads a ledger.json.
 pub fn read(text: &str) -> Result<Ledger, Error> {
     serde_json::from_str(text).map_err(|e| Error::Template(format!("ledger.json: {e}")))
