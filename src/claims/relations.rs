@@ -11,8 +11,10 @@ use impact_numerics::statistics::Estimate;
 /// Departures from a relation, each over what chance and what a formula leaves out allow: at most one.
 type Departures = Result<Vec<f64>, Error>;
 
-/// Name, statement and departures of each.
-const RELATIONS: [(&str, &str, fn(&Evidence) -> Departures); 6] = [
+/// Its name, what it says, and its departures.
+type Relation = (&'static str, &'static str, fn(&Evidence) -> Departures);
+
+const RELATIONS: [Relation; 6] = [
     (
         "two_seeds",
         "two seeds of the main sweep have one half height, and one mean at each σ",
@@ -52,7 +54,7 @@ const RELATIONS: [(&str, &str, fn(&Evidence) -> Departures); 6] = [
 pub fn relations(results: &Results) -> Result<Vec<Check>, Error> {
     let published = published()?;
     let e = Evidence { results, published: &published, level: level() };
-    let one = |(id, statement, find): (&str, &str, fn(&Evidence) -> Departures)| {
+    let one = |(id, statement, find): Relation| {
         let found = match find(&e) {
             Err(Error::Undecided) => Vec::new(),
             found => found?,
@@ -69,7 +71,7 @@ pub fn relations(results: &Results) -> Result<Vec<Check>, Error> {
 
 /// How far two estimates lie apart, over what chance allows.
 fn apart(e: &Evidence, a: &Estimate, b: &Estimate) -> f64 {
-    (a.value - b.value).abs() / (e.level.quantile * a.error.hypot(b.error))
+    (a.value - b.value).abs() / (e.level.quantile * difference(*a, *b).error)
 }
 
 fn two_seeds(e: &Evidence) -> Departures {

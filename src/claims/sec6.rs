@@ -62,7 +62,7 @@ fn like_simulation(e: &Evidence, s: &Statement) -> Judged {
     let mut simulated = rows.iter().filter_map(|row| row.mean).map(|mean| mean.value);
     let (gaps, n) = (e.gaps()?, VERTICES as f64);
     let a = some(simulated.next())? / gaps;
-    let b = simulated.last().map_or(a, |last| last / gaps);
+    let b = simulated.next_back().map_or(a, |last| last / gaps);
     let [c, d] = e.numbers("theory.mean", ["at_zero", "at_one"])?.map(|mean| mean / n);
     let rises = |[low, high]: [f64; 2]| low < 0.25 && high > 0.9;
     let found = Text::of(

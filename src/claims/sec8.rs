@@ -9,7 +9,7 @@ use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::experiments::{BRANCHES, PROTOCOL, RESTITUTION, STARTS, SWEEP};
 use crate::params::{Protocol, VERTICES};
 use impact_chain::rise::{Counted, Curve};
-use impact_numerics::estimates::share;
+use impact_numerics::estimates::{difference as apart, share};
 use impact_numerics::statistics::{Estimate, wilson};
 
 pub const ROWS: &[Row] = &[
@@ -189,7 +189,7 @@ fn threshold_shift(e: &Evidence, s: &Statement) -> Judged {
     );
     for (i, (time, rest, random)) in both.iter().enumerate() {
         let share = share_of_start(rest.value, random.value, theory);
-        let error = random.error.hypot(rest.error) / (theory - rest.value);
+        let error = apart(*random, *rest).error / (theory - rest.value);
         holds &= share > 0.5 - room * error;
         note = note.then(Text::of(
             if i == 0 { "{} and {} at T = {}" } else { ", {} and {} at T = {}" },
@@ -248,8 +248,8 @@ fn restitution_omitted(e: &Evidence, s: &Statement) -> Judged {
     let of_start = |name| named(starts, name).and_then(half_height);
     let start = some(range(["rest", "random"].into_iter().map(of_start)))?;
     let more = |other: &Estimate| {
-        let error = restitution.error.hypot(other.error);
-        restitution.value >= other.value - e.level.quantile * error
+        let ahead = apart(restitution, *other);
+        ahead.value >= -e.level.quantile * ahead.error
     };
     let text = Text::of(
         "the half height moves by {} with r, by {} with the times of the protocol, by {} with the start",

@@ -86,7 +86,9 @@ impl Published {
             }
             let odd = |c: char| is_no_text(c) || is_obeyed(c) || ['«', '»'].contains(&c);
             let bad = |words: &&String| {
-                words.trim().is_empty() || words.contains(odd) || words.matches('$').count() % 2 > 0
+                words.trim().is_empty()
+                    || words.contains(odd)
+                    || !words.matches('$').count().is_multiple_of(2)
             };
             if words.iter().any(bad) || value.is_some_and(|x| !x.is_finite()) {
                 let what = "a text is empty, has a control character or an odd number of $, or the value is not \

@@ -148,7 +148,8 @@ fn numbers(before: &Registry, after: &Registry) -> Vec<Change> {
         let both = old.zip(new);
         let difference = both.and_then(|(old, new)| Some(real(new)? - real(old)?));
         let difference = difference.filter(|difference| difference.is_finite());
-        let error = both.map(|(old, new)| error(old).hypot(error(new)));
+        let error =
+            both.map(|(old, new)| (error(old) * error(old) + error(new) * error(new)).sqrt());
         let sigmas = difference.zip(error).map(|(difference, error)| difference / error);
         let kinds = both.map(|(old, new)| [kind(old), kind(new)]).filter(|[old, new]| old != new);
         Some(Change {
