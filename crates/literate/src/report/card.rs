@@ -7,7 +7,7 @@ use super::document::Inline;
 use super::ledger::Ledger;
 use super::parse::number_of_figure;
 use super::print::{Asked, Style, print};
-use super::values::{Digits, Kind, Number, Registry, Value};
+use super::values::{Kind, Number, Registry, Value};
 use crate::figures::DataFile;
 use crate::source::{Program, Recipe};
 use crate::table::table_of;
@@ -273,19 +273,14 @@ fn figure_id(figure: &str) -> String {
 
 /// What kind of number it is, and where it comes from.
 fn lead(value: &Value) -> String {
-    let what = match (&value.kind, &value.number) {
-        (Kind::Exact, Number::Text(_)) => "Words that were computed".into(),
-        (Kind::Exact, _) => "An exact number".into(),
-        (Kind::Deterministic, Number::Interval { .. }) => "An interval".into(),
-        (Kind::Deterministic, Number::Real { digits: Digits::Significant(_), .. }) => {
-            "A number computed without chance and rounded".into()
-        }
-        (Kind::Deterministic, _) => "A number computed without chance".into(),
-        (Kind::Ensemble { realisations, .. }, _) => {
+    let what = match &value.kind {
+        Kind::Exact => "Computed exactly".into(),
+        Kind::Deterministic => "Computed without chance".into(),
+        Kind::Ensemble { realisations, .. } => {
             format!("Found from {realisations} realisations, with its standard error in brackets")
         }
-        (Kind::Printed { .. }, _) => return "A number that the paper prints.".into(),
-        (Kind::Measured, _) => "A number measured once, and an input since".into(),
+        Kind::Printed { .. } => "A number that the paper prints".into(),
+        Kind::Measured => "A number measured once, and an input since".into(),
     };
     match value.experiment.as_str() {
         "" => format!("{what}."),

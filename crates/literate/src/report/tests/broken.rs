@@ -29,7 +29,6 @@ fn broken_prose_is_told_with_its_place() {
         ("[data](data/no.csv)", "14:1", "a link to data/no.csv"),
         ("[place](#sec-no)", "14:1", "a link to #sec-no"),
         ("[!claim:rise2]", "14:1", "there is no claim of this id"),
-        ("Lab game: You run it.", "14:1", "`Lab game: …`: lab.js has no function"),
         ("[mice](javascript://x)", "14:1", "a link to javascript://x"),
         ("Seen [@mice1945]", "14:6", "[@mice1945]: nothing"),
         ("![Words.](figures/fig09.svg)", "14:1", "figures/fig09.svg"),
