@@ -2,9 +2,9 @@
 
 use super::Error;
 use super::axis::{Axis, number};
-use super::drawing::{HPos, VPos};
 use super::panel::{Frame, Panel};
 use super::style::{INK, SMALL};
+use plotters::style::text_anchor::{HPos, VPos};
 
 /// Points (k, value) of a series whose first value belongs to k = 1.
 pub fn over_k(values: &[f64]) -> Vec<(f64, f64)> {

@@ -7,6 +7,7 @@ use super::font::Placed;
 use super::panel::Frame;
 use super::style::{Colour, Mark, Stroke, WHITE};
 use super::{Error, font, markup};
+use plotters::style::text_anchor::{HPos, VPos};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
@@ -45,24 +46,6 @@ impl From<(Colour, u8)> for Paint {
     fn from(fill: (Colour, u8)) -> Self {
         Paint { fill: Some(fill), stroke: None }
     }
-}
-
-/// Where along a label its place is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names tell")]
-pub enum HPos {
-    Left,
-    Center,
-    Right,
-}
-
-/// Where across a label its place is: at the height of capitals, at half of it, or at the base line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names tell")]
-pub enum VPos {
-    Top,
-    Center,
-    Bottom,
 }
 
 /// Size of an em and colour of words, and where their place is.

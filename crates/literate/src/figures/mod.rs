@@ -23,12 +23,12 @@ pub use svg::{escape, outlines};
 pub mod prelude {
     pub use super::axis::{Axis, Scale, Tick, number};
     pub use super::chart::*;
-    pub use super::drawing::{HPos, VPos};
     pub use super::panel::{Frame, Panel};
     pub use super::series::{Marker, Outside};
     pub use super::sheet::{Entry, Sheet};
     pub use super::style::*;
     pub use super::{DataFile, Error, Figure};
+    pub use plotters::style::text_anchor::{HPos, VPos};
 }
 
 use crate::experiments;

@@ -1,11 +1,15 @@
 //! A panel: a frame on the sheet with its two axes; [`super::series`] draws data in it and records it.
 //! Both fail if a label has a character that the shipped fonts lack.
 
+use plotters::coord::CoordTranslate;
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::coord::types::RangedCoordf64;
+use plotters::style::text_anchor::{HPos, VPos};
 use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::axis::{Axis, Tick};
-use super::drawing::{Drawing, HPos, Look, Point, VPos};
+use super::drawing::{Drawing, Look, Point};
 use super::record::Record;
 use super::style::{HAIR, INK, SMALL, Stroke, TEXT};
 use super::{Error, font};
@@ -31,6 +35,7 @@ impl Frame {
 #[derive(Clone)]
 pub struct Panel {
     pub(super) drawing: Rc<RefCell<Drawing>>,
+    pub(super) plane: Cartesian2d<RangedCoordf64, RangedCoordf64>,
     /// Where it stands.
     pub frame: Frame,
     /// Horizontal axis.
@@ -54,8 +59,11 @@ impl Panel {
     /// A panel without anything in it yet, not even its axes.
     pub(super) fn new(drawing: &Rc<RefCell<Drawing>>, frame: Frame, x: Axis, y: Axis) -> Self {
         let record = Rc::new(RefCell::new(Record::new(&x, &y)));
+        let ((from, to), (low, high)) = (x.ends(), y.ends());
+        let place = (frame.left..frame.right, frame.bottom..frame.top);
+        let plane = Cartesian2d::new(from..to, low..high, place);
         let (drawing, numbers) = (drawing.clone(), SMALL);
-        Panel { drawing, frame, x, y, numbers, record, recorded: true, series: None }
+        Panel { drawing, plane, frame, x, y, numbers, record, recorded: true, series: None }
     }
 
     /// Where a value stands on the sheet.
@@ -64,14 +72,8 @@ impl Panel {
     }
 
     /// Where a place on the axes stands on the sheet.
-    pub(super) fn place(&self, (x, y): (f64, f64)) -> Point {
-        let along = |(low, high): (f64, f64), from: i32, to: i32, value: f64| {
-            let far = f64::from(to - from) * (value - low) / (high - low);
-            // What is whole but for rounding stays; all else goes towards where the axis begins.
-            from + if to > from { (far + 1e-3).floor() } else { (far - 1e-3).ceil() } as i32
-        };
-        let Frame { left, top, right, bottom } = self.frame;
-        (along(self.x.ends(), left, right, x), along(self.y.ends(), bottom, top, y))
+    pub(super) fn place(&self, place: (f64, f64)) -> Point {
+        self.plane.translate(&place)
     }
 
     /// The same panel, which records into a file of its own: its name is the figure's id with these letters behind.

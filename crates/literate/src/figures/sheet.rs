@@ -6,12 +6,13 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::axis::Axis;
-use super::drawing::{Drawing, HPos, Look, Point, VPos};
+use super::drawing::{Drawing, Look, Point};
 use super::panel::{Frame, Panel};
 use super::record::Record;
 use super::series::Marker;
 use super::style::{Colour, GREY, INK, Stroke, TINY, WIDTH};
 use super::{Error, Figure};
+use plotters::style::text_anchor::{HPos, VPos};
 
 /// A figure in the making.
 pub struct Sheet {
