@@ -139,9 +139,6 @@ pub struct Check {
     pub verdict: Verdict,
     /// What explains a difference, or what should be known besides.
     pub note: Text,
-    /// Ids of the values that it states or is held against.
-    #[serde(default)]
-    pub values: Vec<String>,
 }
 
 impl Check {
@@ -159,7 +156,6 @@ impl Check {
             basis: Basis::Exact,
             verdict: Verdict::CannotBeJudged,
             note: Text::default(),
-            values: Vec::new(),
         }
     }
 

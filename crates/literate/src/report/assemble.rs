@@ -13,7 +13,6 @@ use super::ledger::EquationEntry;
 use super::lint::Declared;
 use super::mark::ids;
 use super::origin::{Filled, Places};
-use super::uses::uses;
 use super::values::Registry;
 use super::{Error, html, latex, ledger, lint, markdown, parse};
 use crate::claims::Check;
@@ -105,9 +104,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
 
     let declared = filler.declared.clone();
     let (parts, labels) = parts(input, &filled, &values, &declared)?;
-    let all: Vec<&[Block]> = parts.iter().map(|part| part.blocks.as_slice()).collect();
-    let uses = uses(input.claims, &values, &all);
-    let ledger = ledger::ledger(input.claims, input.figures, input.equations, &uses);
+    let ledger = ledger::ledger(input.claims, input.figures, input.equations);
 
     let (mut committed, mut beside) = (Files::new(), Files::new());
     let json = |e: serde_json::Error| Error::Template(format!("values.json: {e}"));

@@ -175,17 +175,6 @@ impl Cards<'_> {
         let own = table_of(&value.id).map(|table| format!("data/{}", DataFile::name_of(table)));
         let data: Vec<String> = ["values.json".into()].into_iter().chain(own).collect();
         card.row("data", links(&data));
-        let claims = self.ledger.claims.iter().filter(|claim| claim.values.contains(&value.id));
-        let mut used = Vec::new();
-        for claim in claims {
-            if !used.is_empty() {
-                used.push(Inline::Text("; ".into()));
-            }
-            let (to, shown) = (format!("claim:{}", claim.id), claim.id.clone());
-            used.push(Inline::Reference { to, within: None, shown });
-            used.push(Inline::Text(format!(" ({}): {}", claim.place, claim.verdict.words())));
-        }
-        card.row("claims", used);
         card.row("id", vec![Inline::Code(value.id.clone())]);
         Some(card)
     }
@@ -234,7 +223,6 @@ impl Cards<'_> {
         ] {
             card.words(name, words);
         }
-        card.words("values", claim.values.join(", "));
         card.item("judged by", &(self.program.judge)(&claim.id), self.program);
         Some(card)
     }

@@ -4,7 +4,6 @@ use super::Error;
 use crate::claims::Check;
 use crate::figures::Figure;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// All entries.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -66,19 +65,10 @@ pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
     figures.iter().map(figure).collect()
 }
 
-/// The ledger of claims, figures and equations; `uses` has the values of each claim.
-pub fn ledger(
-    claims: &[Check],
-    figures: &[Figure],
-    equations: &[EquationEntry],
-    uses: &BTreeMap<String, Vec<String>>,
-) -> Ledger {
-    let claim = |claim: &Check| {
-        let values = uses.get(&claim.id).cloned().unwrap_or_default();
-        Check { values, ..claim.clone() }
-    };
+/// The ledger of claims, figures and equations.
+pub fn ledger(claims: &[Check], figures: &[Figure], equations: &[EquationEntry]) -> Ledger {
     Ledger {
-        claims: claims.iter().map(claim).collect(),
+        claims: claims.to_vec(),
         figures: self::figures(figures),
         equations: equations.to_vec(),
     }

@@ -29,7 +29,6 @@ pub mod print;
 pub mod spell;
 pub mod templates;
 mod tex;
-mod uses;
 pub mod values;
 
 pub use assemble::{Files, Input, LAB, Report, assemble, files_of};
