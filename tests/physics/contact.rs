@@ -186,3 +186,20 @@ fn a_released_gap_is_not_shut_by_rounding() {
         assert_eq!(opened, 60, "{pressing}");
     }
 }
+
+/// Forces that grow along the row: every contact force is a parabola along it times (F cos Ωt − 1), and all end at once.
+#[test]
+fn long_runs_that_are_released_at_once_part() {
+    for (n, force) in [(100, 1.04), (300, 1.31), (1600, 1.3)] {
+        let middle = f64::from(n) / 2.0;
+        let forces: Vec<f64> = (0..n).map(|i| -force * (f64::from(i) - middle)).collect();
+        let place = f64::from(n + 1) / 2.0;
+        let masses = vec![(place, 0.0); forces.len()];
+        let mut engine = Engine::new(&scene(&masses, &forces, 0.0)).unwrap();
+        assert_eq!(engine.contacts(0.0).len(), forces.len() - 1);
+        let t = 0.5 * (1.0 / force).acos() + 0.01;
+        run(&mut engine, t);
+        assert!(engine.contacts(t).is_empty(), "{n}");
+        assert!(engine.counters().searches < 20 * n as u64, "{n}: {:?}", engine.counters());
+    }
+}

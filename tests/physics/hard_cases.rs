@@ -3,8 +3,9 @@
 
 use crate::reference::{Dd, Real, Reference};
 use crate::{first, given, run};
-use impact_chain::{Engine, Initial, Scenario};
+use impact_chain::{Engine, Initial, Overtone, Scenario};
 use impact_numerics::random::NormalPairs;
+use impact_paper::params::Chain;
 
 /// One mass between walls, with free part (a, b) and forcing (α, β).
 fn one(free: [f64; 2], forcing: [f64; 2], restitution: f64) -> Scenario {
@@ -99,4 +100,44 @@ fn chatters_are_cut_short() {
         engine.run(100.0, |_| true).unwrap();
         assert!(engine.counters().impacts < 60_000, "r = {r}: {:?}", engine.counters());
     }
+}
+
+/// Next to resonance amplitudes are ten million times a gap, and hide that it hardly moves: the certified steps
+/// are to go by the gap.
+#[test]
+fn next_to_resonance_a_gap_that_hardly_moves_is_soon_passed() {
+    for (k, scale) in [(1.0, 1.65e-7), (2.0, 1.6e-7), (16.0, 1.1e-7), (64.0, 1.6e-7)] {
+        let forcing =
+            [[0.3, 0.2], [-0.25, 0.1], [0.1, -0.3]].map(|x| x.map(|x| x * scale * k / 8.0));
+        let forcing_frequency = 1.0 + k * f64::EPSILON;
+        let chain = Chain { masses: 3, forcing_frequency, ..Chain::default() };
+        let mut engine = Engine::new(&Scenario::given(&chain, forcing.to_vec()).unwrap()).unwrap();
+        engine.run(30.0, |_| true).unwrap();
+        let counters = engine.counters();
+        println!("k = {k}: {counters:?}");
+        assert!(counters.impacts == 0 && counters.evaluations < 2_000_000, "k = {k}: {counters:?}");
+    }
+}
+
+/// Two components of one frequency next to resonance nearly cancel for a hundred thousand periods: a leap that fails is
+/// made shorter. Their sum as one component is hit at the same time.
+#[test]
+fn components_that_nearly_cancel_are_soon_passed() {
+    let frequency = 1.0 - 2.0_f64.powi(-40);
+    let from_rest = |forcing| {
+        let mut own = Scenario { initial: Initial::Rest, ..one([0.0; 2], forcing, 0.5) };
+        own.forcing_frequency = frequency;
+        own
+    };
+    let whole = from_rest([0.5e-6, 2.1e-6]);
+    let mut parts = from_rest([-2.7e-6, 7.5e-6]);
+    parts.overtones.push(Overtone { frequency, amplitudes: vec![[3.2e-6, -5.4e-6]] });
+    let [(sum, _), (hit, rate)] = [whole, parts].map(|scenario| {
+        let mut engine = Engine::new(&scenario).unwrap();
+        let hit = first(&mut engine, 1e6).expect("it closes in the end");
+        (hit, engine.counters().evaluations as f64 / hit.time)
+    });
+    let error = (hit.time - sum.time).abs() * sum.closing_speed;
+    println!("t = {}: {error:e}, {rate:.1} evaluations a unit of time", hit.time);
+    assert!(hit.gap == sum.gap && error < 1e-6 && rate < 20.0, "{error:e}, {rate}");
 }

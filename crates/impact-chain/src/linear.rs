@@ -36,15 +36,31 @@ struct Shut<'a, const M: usize> {
 }
 
 impl<const M: usize> Shut<'_, M> {
-    /// Adds gaps that are driven shut; true if none is left.
+    /// Adds gaps that are driven shut; true if none is left. Runs grow to the right, then to the left, as far as they
+    /// do, so that a long one needs few rounds.
     fn grow(&mut self) -> bool {
         let n = self.g.len();
+        self.spread(0..n);
+        self.spread((0..n).rev());
         let forces = self.forces();
         let of = |i: usize| forces.get(i).copied().flatten().unwrap_or(Force::ZERO);
         let between = |&i: &usize| self.is_driven(i, [of(i.wrapping_sub(1)), of(i + 1)]);
         let more: Vec<usize> = (0..n).filter(between).collect();
         more.iter().for_each(|&i| self.active[i] = true);
         more.is_empty()
+    }
+
+    /// Adds, one after the other, every gap that the run before it drives shut. What that takes for its last force is
+    /// what it would be if the next gap were open: never more than it is.
+    fn spread(&mut self, order: impl Iterator<Item = usize>) {
+        let mut last = None;
+        for i in order {
+            let force = last.map_or(Force::ZERO, |(pivot, right): (f64, Force<M>)| {
+                right.zip(right, |x, _| x / pivot)
+            });
+            self.active[i] |= self.is_driven(i, [force, Force::ZERO]);
+            last = self.active[i].then(|| self.eliminated(i, last));
+        }
     }
 
     /// Whether an open gap is driven shut by its acceleration and the forces of its neighbours.

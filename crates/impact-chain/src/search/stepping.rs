@@ -20,7 +20,15 @@ fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
     h.min(far)
 }
 
-// listing: stretch
+/// A gap barely opens where another trial gives a stretch so many times as long: its rate is below 1e-9 of what is usual.
+const BARELY: f64 = 1e6;
+
+/// The parts of a gap are far larger than itself where another trial gives a stretch so many times as long.
+const FAR_LARGER: f64 = 1e3;
+
+/// The parts of a gap cancel where its own second and third derivative are so many times below the bound of the fourth.
+const CANCELS: f64 = 1e4;
+
 /// A certified stretch: f > 0 on (s, s + h) for the returned h ≤ `limit`.
 ///
 /// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f stays
@@ -41,9 +49,28 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
         limit
     };
     let h = certified(first.min(limit));
+    // Where neither is a good trial: it can only be so if the term of M₄ alone lets the gap go far longer.
+    let cube = bound * (h * h * h);
+    let far_larger = (FAR_LARGER * FAR_LARGER) * (FAR_LARGER * FAR_LARGER);
+    let barely = BARELY * BARELY * BARELY;
+    if cube * h * far_larger < 4.0 * f || cube * barely < 4.0 * p.g {
+        let [by_rate, by_width] = by_one_term(f, p, bound);
+        if p.h <= 0.0 && by_rate > BARELY * h || by_width > FAR_LARGER * h {
+            return certified(by_rate.max(by_width).min(limit)).max(h);
+        }
+    }
     certified((1.5 * h).min(limit)).max(h)
 }
-// end
+
+/// How far the worst term of K alone lets a gap go, by its rate and by its width.
+#[cold]
+fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
+    let (down, third) = ((-p.h).max(0.0), p.j.abs());
+    let by_rate = (2.0 * p.g / down).min((2.0 * p.g / third).sqrt());
+    let by_width = (f / (-p.g).max(0.0)).min((2.0 * f / down).sqrt());
+    let by_width = by_width.min(pxfm::f_cbrt(2.0 * f / third));
+    [by_rate.min(pxfm::f_cbrt(4.0 * p.g / bound)), by_width.min((4.0 * f / bound).sqrt().sqrt())]
+}
 
 /// Whether f > 0 is certain on (a, a + h), from value, slope and curvature at both ends.
 ///
@@ -103,7 +130,6 @@ fn lift<const M: usize>(p: &Point<M>, frame: &Frame<M>, frequencies: &Frequencie
 /// Evaluations after which a search stops with what is certified so far; its owner resumes it.
 const PATIENCE: u32 = 64;
 
-// listing: first_root_by_steps
 /// The first root after `from`, where f ≥ 0, or the proof that there is none up to `limit`.
 ///
 /// # Why no root is skipped
@@ -111,7 +137,8 @@ const PATIENCE: u32 = 64;
 /// exact function from below, and count the rounding of its values against it. A *leap* goes to a
 /// point chosen by any guess (the end of the search, or just before a guessed root) and is taken
 /// if `stays_open` certifies the interval. Where it does not, `stretch` gives a step that is
-/// certain from this side alone. The search ends when the quadratic f + f' h + ½ f'' h² has its root
+/// certain from this side alone; if that is far shorter, for the parts of a gap cancel, halves of
+/// the leap are tried first. The search ends when the quadratic f + f' h + ½ f'' h² has its root
 /// so close that the rest, |f'''| h³/6 + M₄ h⁴/24, is below the margin.
 ///
 /// # The undecidable band
@@ -154,6 +181,7 @@ pub fn first_root_by_steps<const M: usize>(
                 return if s <= limit { Next::Root { s, speed } } else { Next::Clear { s: limit } };
             }
         }
+        let mut leap = 0.0;
         if !in_band {
             // A leap: to just beyond the guessed root and back, or to the end.
             let mut h = beyond_root(&p, root, discriminant, limit - s);
@@ -174,6 +202,7 @@ pub fn first_root_by_steps<const M: usize>(
                 p = b;
                 continue;
             }
+            leap = h;
         }
         let h = if in_band && p.h > 0.0 {
             // A dip that the quadratic does not reach zero in: on to where it leaves the band.
@@ -183,6 +212,13 @@ pub fn first_root_by_steps<const M: usize>(
         } else {
             stretch((p.f - p.margin).max(0.0), &p, frame.bound, limit - s)
         };
+        if FAR_LARGER * h < leap
+            && fast * (fast * p.h.abs() + p.j.abs()) * CANCELS < frame.bound
+            && let Some((h, b)) = shorter_leap(&p, s, [h, leap], frame, frequencies, work)
+        {
+            (s, p) = (s + h, b);
+            continue;
+        }
         // Where f, f' and f'' vanish, f''' lifts f: above zero while h < 4 f'''/M₄.
         let h = if h > 0.0 { h } else { 2.0 * p.j.abs() / frame.bound };
         let h = h.max(lift(&p, frame, frequencies));
@@ -196,7 +232,29 @@ pub fn first_root_by_steps<const M: usize>(
     }
     Next::Clear { s }
 }
-// end
+
+/// The longest of the halves, quarters and so on of a leap that failed that is certain, if one goes farther than a step.
+#[cold]
+fn shorter_leap<const M: usize>(
+    p: &Point<M>,
+    s: f64,
+    [step, leap]: [f64; 2],
+    frame: &Frame<M>,
+    frequencies: &Frequencies<M>,
+    work: &mut Counters,
+) -> Option<(f64, Point<M>)> {
+    let bound6 = frequencies.fastest * frequencies.fastest * frame.bound;
+    let mut h = 0.5 * leap;
+    while h > step {
+        let b = frame.at(s + h, frequencies);
+        work.evaluations += 1;
+        if b.f > b.margin && stays_open(p, &b, h, bound6, p.margin + b.margin) {
+            return Some((h, b));
+        }
+        h *= 0.5;
+    }
+    None
+}
 
 /// A guess of where f, seen from `p`, has just crossed zero; `left` if no root is in sight.
 #[inline]
