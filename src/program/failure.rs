@@ -19,17 +19,19 @@ pub struct Failure {
     pub code: u8,
     /// One line: which number, where, and what to do.
     pub message: String,
+    /// Whether it is several findings, a line each.
+    lines: bool,
 }
 
 impl Failure {
     /// Wrong usage or input: exit code 2.
     pub fn input(message: impl Into<String>) -> Self {
-        Failure { code: 2, message: message.into() }
+        Failure { code: 2, message: message.into(), lines: false }
     }
 
     /// Something does not hold, is stale, or failed: exit code 1.
     pub fn check(message: impl Into<String>) -> Self {
-        Failure { code: 1, message: message.into() }
+        Failure { code: 1, message: message.into(), lines: true }
     }
 
     /// The system refused to read or write `what`: exit code 2.
@@ -50,9 +52,9 @@ impl Failure {
     /// Tells it on standard error.
     pub(super) fn tell(self) -> ExitCode {
         // Findings in the prose have a line each; names of files may have line breaks.
-        let message = match self.code {
-            1 => self.message.replace(|c| c != '\n' && is_obeyed(c), " "),
-            _ => one_line(&self.message, LONGEST),
+        let message = match self.lines {
+            true => self.message.replace(|c| c != '\n' && is_obeyed(c), " "),
+            false => one_line(&self.message, LONGEST),
         };
         say(&format!("impact-paper: {message}"));
         ExitCode::from(self.code)
@@ -77,7 +79,7 @@ impl From<Error> for Failure {
             }
             _ => 1,
         };
-        Failure { code, message: error.to_string() }
+        Failure { code, message: error.to_string(), lines: false }
     }
 }
 
@@ -113,9 +115,10 @@ impl From<figures::Error> for Failure {
 
 impl From<report::Error> for Failure {
     fn from(error: report::Error) -> Self {
+        let lines = matches!(error, report::Error::Several(_));
         match error.is_of_rules() {
             true => Failure::check(error.to_string()),
-            false => Failure::input(error.to_string()),
+            false => Failure { lines, ..Failure::input(error.to_string()) },
         }
     }
 }
