@@ -157,7 +157,7 @@ impl Page<'_> {
             // The template has the title.
             Block::Heading { level: 1, .. } => String::new(),
             Block::Heading { level, number, id, text } => {
-                let number = number.as_ref().map(|n| format!("<span>{n}</span> "));
+                let number = number.as_ref().map(|n| format!("<span class=\"number\">{n}</span> "));
                 let words = number.unwrap_or_default() + &self.inlines(text)?;
                 if *level > 2 && id.is_none() {
                     return Ok(format!("<h{level}>{words}</h{level}>\n"));

@@ -47,6 +47,9 @@ pub fn write(page: &Page<'_>, tex: &str, display: MathDisplay) -> Result<String,
             }
         }
     }
+    if out.is_empty() {
+        return convert(&part, display);
+    }
     if !matches!(part.trim(), "" | "{}") {
         out += &convert(&part, display)?;
     }
