@@ -1,7 +1,6 @@
 //! `impact-paper diff`.
 
 use super::{Failure, folder, git, shown, stdout};
-use impact_paper::experiments::alive;
 use impact_paper::report::Files;
 use impact_paper::report::compare::{self, Parts};
 use literate::input::one_line;
@@ -32,7 +31,6 @@ pub struct Args {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    let _alive = alive(|| Some("diff: at work".into()));
     let [before, after] = [parts(&args.old)?, parts(&args.new)?];
     let diff = compare::diff(&before, &after);
     let [old, new] = [&args.old, &args.new].map(|name| shown(Path::new(name)));

@@ -5,7 +5,7 @@ use super::judged;
 use super::sources::{Sources, run};
 use crate::claims::{self, Check};
 use crate::committed;
-use crate::experiments::{ALL, Progress, Results, Store, alive};
+use crate::experiments::{ALL, Progress, Results, Store};
 use crate::figures::{self, Figure, Listed};
 use crate::params::Profile;
 use crate::report::{self, PROGRAM, Report, contents, equations};
@@ -29,8 +29,6 @@ pub fn whole(
     let published = sources.published(&templates)?;
     let results = run(ALL, profile, &templates, store, progress)?;
     results.tables();
-    // Machines may be slow or busy, a loop of a template long.
-    let _alive = alive(|| Some("making figures and documents".into()));
     let draw = |listed| {
         progress.check()?;
         figure(listed, &results)

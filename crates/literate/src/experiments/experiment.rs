@@ -50,15 +50,10 @@ pub trait Json: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static
 
 impl<T: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static> Json for T {}
 
-/// What an experiment is told, and known by.
-pub trait Params: Serialize + Send + Sync {}
-
-impl<P: Serialize + Send + Sync> Params for P {}
-
 /// A result of any experiment.
 pub type Found = Arc<dyn Any + Send + Sync>;
 
-impl<P: Params, T: Json, U: Json> Experiment<P, T, U> {
+impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     /// The result: the saved one if it is fresh, else that of a run, which is then saved. Units that are in the store
     /// are not run again; each of the others is saved as soon as it is there.
     pub fn get(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<T, Error> {
@@ -103,7 +98,7 @@ struct Units<'a, P, T, U> {
     identity: &'a Identity,
 }
 
-impl<P: Params, T, U: Json> Units<'_, P, T, U> {
+impl<P: Serialize + Sync, T, U: Json> Units<'_, P, T, U> {
     /// What some units give, in their order, and how many of them were not in the store and had to be run.
     fn parts(
         &self,
@@ -196,7 +191,7 @@ pub trait Typed: Entry {
     type Result: Json;
 }
 
-impl<P: Params, T: Json, U: Json> Entry for Experiment<P, T, U> {
+impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
     fn name(&self) -> &'static str {
         self.name
     }
@@ -272,6 +267,6 @@ impl<P: Params, T: Json, U: Json> Entry for Experiment<P, T, U> {
     }
 }
 
-impl<P: Params, T: Json, U: Json> Typed for Experiment<P, T, U> {
+impl<P: Serialize + Sync, T: Json, U: Json> Typed for Experiment<P, T, U> {
     type Result = T;
 }

@@ -4,10 +4,10 @@
 //! stderr, and nothing of it into a result.
 
 use super::Error;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, Write};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
@@ -22,35 +22,22 @@ pub fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// How progress is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Show {
-    Nothing,
-    Bar,
-    Lines,
-}
-
 /// Handed to every experiment: shows how far it is, and says whether to go on.
 #[derive(Clone, Debug)]
 pub struct Progress {
-    show: Show,
+    quiet: bool,
     stop: Arc<AtomicBool>,
 }
 
 impl Progress {
     /// Shows nothing and is stopped by nobody: for tests and callers inside the program.
     pub fn silent() -> Self {
-        Progress { show: Show::Nothing, stop: Arc::default() }
+        Progress { quiet: true, stop: Arc::default() }
     }
 
     /// A bar on stderr if that is a terminal, plain lines otherwise; `stop` ends the work.
     pub fn on_stderr(stop: Arc<AtomicBool>) -> Self {
-        let show = match (QUIET.load(Ordering::Relaxed), std::io::stderr().is_terminal()) {
-            (true, _) => Show::Nothing,
-            (false, true) => Show::Bar,
-            (false, false) => Show::Lines,
-        };
-        Progress { show, stop }
+        Progress { quiet: QUIET.load(Ordering::Relaxed), stop }
     }
 
     /// Whether the work was asked to end. Cheap: one relaxed load.
@@ -65,35 +52,27 @@ impl Progress {
 
     /// Begins a stage of `total` units of work.
     pub fn stage(&self, name: &str, total: u64) -> Stage {
-        let bar = (self.show == Show::Bar).then(|| {
-            let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
-            let style = ProgressStyle::with_template("{msg:24} {bar:30} {told}");
-            if let Ok(style) = style {
-                let told = |state: &ProgressState, line: &mut dyn std::fmt::Write| {
-                    let total = state.len().unwrap_or_default();
-                    let _ = line.write_str(&told(state.pos(), total, state.elapsed()));
-                };
-                bar.set_style(style.with_key("told", told));
-            }
-            bar.set_message(name.to_string());
-            bar.enable_steady_tick(Duration::from_secs(1));
-            bar
-        });
-        let done: Arc<AtomicU64> = Arc::default();
+        let terminal = std::io::stderr().is_terminal();
+        let shown = !self.quiet && terminal;
+        let target =
+            if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let bar = ProgressBar::with_draw_target(Some(total), target).with_message(name.to_string());
+        let style = ProgressStyle::with_template("{msg:24} {bar:30} {percent} %, {eta} left");
+        let bar = style.map_or(bar.clone(), |style| bar.with_style(style));
         // By the clock and not by what is done: the first unit may be a long one.
-        let lines = (self.show == Show::Lines).then(|| {
-            let (name, done, began) = (name.to_string(), done.clone(), Instant::now());
-            alive(move || {
-                let told = told(done.load(Ordering::Relaxed), total, began.elapsed());
-                Some(format!("{name}: {told}"))
-            })
+        let lines = (!self.quiet && !terminal).then(|| {
+            let (name, bar) = (name.to_string(), bar.clone());
+            alive(move || Some(format!("{name}: {}", told(bar.position(), total, bar.elapsed()))))
         });
-        Stage { done, bar, _lines: lines }
+        if shown {
+            bar.enable_steady_tick(Duration::from_secs(1));
+        }
+        Stage { bar, _lines: lines }
     }
 
     /// Says one plain line, whatever the way of showing, except to nobody.
     pub fn say(&self, line: &str) {
-        if self.show != Show::Nothing {
+        if !self.quiet {
             say(line);
         }
     }
@@ -130,26 +109,20 @@ pub fn alive(line: impl Fn() -> Option<String> + Send + 'static) -> Alive {
 /// One stage of an experiment. Shared by the threads that work on it.
 #[derive(Debug)]
 pub struct Stage {
-    done: Arc<AtomicU64>,
-    bar: Option<ProgressBar>,
+    bar: ProgressBar,
     _lines: Option<Alive>,
 }
 
 impl Stage {
     /// Counts `units` more as done.
     pub fn advance(&self, units: u64) {
-        let done = self.done.fetch_add(units, Ordering::Relaxed) + units;
-        if let Some(bar) = &self.bar {
-            bar.set_position(done);
-        }
+        self.bar.inc(units);
     }
 }
 
 impl Drop for Stage {
     fn drop(&mut self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
+        self.bar.finish_and_clear();
     }
 }
 
