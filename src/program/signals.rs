@@ -24,7 +24,7 @@ static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 pub fn obey() {
     let follow = |mut signals: Signals| {
         let ended = move || {
-            for _ in signals.forever() {
+            if signals.forever().next().is_some() {
                 STOP.store(true, std::sync::atomic::Ordering::Relaxed);
                 std::thread::sleep(Duration::from_millis(700));
                 let _moment = WRITING.write();
