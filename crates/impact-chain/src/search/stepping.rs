@@ -29,6 +29,7 @@ const FAR_LARGER: f64 = 1e3;
 /// The parts of a gap cancel where its own second and third derivative are so many times below the bound of the fourth.
 const CANCELS: f64 = 1e4;
 
+// listing: stretch
 /// A certified stretch: f > 0 on (s, s + h) for the returned h ≤ `limit`.
 ///
 /// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f stays
@@ -61,6 +62,7 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
     }
     certified((1.5 * h).min(limit)).max(h)
 }
+// end
 
 /// How far the worst term of K alone lets a gap go, by its rate and by its width.
 #[cold]
@@ -130,6 +132,7 @@ fn lift<const M: usize>(p: &Point<M>, frame: &Frame<M>, frequencies: &Frequencie
 /// Evaluations after which a search stops with what is certified so far; its owner resumes it.
 const PATIENCE: u32 = 64;
 
+// listing: first_root_by_steps
 /// The first root after `from`, where f ≥ 0, or the proof that there is none up to `limit`.
 ///
 /// # Why no root is skipped
@@ -232,6 +235,7 @@ pub fn first_root_by_steps<const M: usize>(
     }
     Next::Clear { s }
 }
+// end
 
 /// The longest of the halves, quarters and so on of a leap that failed that is certain, if one goes farther than a step.
 #[cold]
