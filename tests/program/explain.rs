@@ -14,13 +14,13 @@ const CARDS: &str = "\
 sweep.rise.half_height => standard error; impact_chain::rise::Curve::new (crates/impact-chain/src/rise.rs); seed: 2007
 sweep.rise.half_height => chain masses: 100; sweep-rise.csv
 second_seed.rise.half_height => seed: 7002
-theory.jump.p_jump => reproduced
+theory.jump.p_jump => 0.013033; without chance
 theory.jump.p_crit => 0.0122099; impact_circuits::jump::p_crit (crates/circuits/src/jump.rs); (18)
 printed.sec2_half_height => that the paper prints; Sec. 2
 fig:3 => fig03.svg; figures::fig03 (src/figures/fig03.rs); seed: 2007
 fig:s8 => experiments::accuracy::race (src/experiments/accuracy/race.rs)
 eq:18 => impact_circuits::jump::p_crit (crates/circuits/src/jump.rs); theory.jump.p_crit, theory.jump.p_crit_walls
-claim:sec7_jump => verdict; tolerance; theory.jump.p_jump
+claim:sec7_jump => verdict; tolerance
 eq:12 => f_(N,p)(k)";
 
 #[test]
