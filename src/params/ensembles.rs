@@ -76,7 +76,7 @@ pub fn starts(profile: Profile) -> Vec<Ensemble> {
         own
     };
     // A smaller r or a larger Ω move the rise up, a larger r or a smaller Ω move it down.
-    let (near, wide, low) = ([8, 18], [8, 26], [4, 14]);
+    let (near, wide, high, low) = ([8, 18], [8, 26], [11, 19], [4, 14]);
     let mut variants = vec![
         variant("rest", near, |_| ()),
         variant("zero", wide, |chain| chain.start = Start::Zero),
@@ -85,10 +85,10 @@ pub fn starts(profile: Profile) -> Vec<Ensemble> {
     ];
     if profile == Profile::Full {
         variants.extend([
-            variant("restitution-0.6", wide, |chain| chain.restitution = 0.6),
+            variant("restitution-0.6", high, |chain| chain.restitution = 0.6),
             variant("restitution-0.9", low, |chain| chain.restitution = 0.9),
             variant("forcing-frequency-1.3", low, |chain| chain.forcing_frequency = 1.3),
-            variant("forcing-frequency-1.6", wide, |chain| chain.forcing_frequency = 1.6),
+            variant("forcing-frequency-1.6", high, |chain| chain.forcing_frequency = 1.6),
         ]);
     }
     variants
@@ -112,7 +112,7 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
             (LENGTH, 100, REST, [100, 116, 8], 100, &[5e3]),
             (LENGTH, 1000, REST, [95, 111, 8], 8, &[5e3]),
             (LENGTH, 10_000, REST, [95, 111, 8], 1, &[5e3]),
-            (LENGTH, 100, REST, [90, 114, 8], 30, &[5e4]),
+            (LENGTH, 100, REST, [90, 114, 8], 24, &[5e4]),
             (BOTH, 2000, REST, [85, 140, 5], 4, &[500.0]),
             (BOTH, 2000, ABOVE, [35, 100, 5], 4, &[500.0]),
             (BOTH, 2000, REST, [85, 120, 5], 2, &[5e3]),
