@@ -112,7 +112,7 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
             (LENGTH, 100, REST, [100, 116, 8], 100, &[5e3]),
             (LENGTH, 1000, REST, [95, 111, 8], 8, &[5e3]),
             (LENGTH, 10_000, REST, [95, 111, 8], 1, &[5e3]),
-            (LENGTH, 100, REST, [90, 114, 8], 24, &[5e4]),
+            (LENGTH, 100, REST, [90, 114, 8], 30, &[5e4]),
             (BOTH, 2000, REST, [85, 140, 5], 4, &[500.0]),
             (BOTH, 2000, ABOVE, [35, 100, 5], 4, &[500.0]),
             (BOTH, 2000, REST, [85, 120, 5], 2, &[5e3]),

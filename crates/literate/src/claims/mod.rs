@@ -115,7 +115,6 @@ impl Verdict {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Check {
     /// What it is.
-    #[serde(default)]
     pub kind: Kind,
     /// Its id; that of a statement as in `published.toml`.
     pub id: String,
@@ -124,10 +123,8 @@ pub struct Check {
     /// What is said, in our words.
     pub statement: String,
     /// What can be read there, in its shortest form.
-    #[serde(alias = "printed")]
     pub expected: String,
     /// What we find, with its error.
-    #[serde(alias = "ours")]
     pub found: Text,
     /// How far from the printed value a finding may lie; the bound of a target.
     pub tolerance: Text,
