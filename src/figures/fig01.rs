@@ -38,11 +38,11 @@ pub fn draw() -> Result<Figure, Error> {
     floor_labels(&sheet, right)?;
     distances(&sheet)?;
 
-    let description =
+    let description = seen!(
         "A row of n equal masses on elastic stems, rooted a distance d apart between walls at 0 and (n + 1)d; \
          each is bent away from its equilibrium. Marked are d, the position x1(t), the gap Δ1(t) between the \
          first two masses, and the force F2(t) on the second."
-            .to_string();
+    );
     Ok(sheet.finish("fig01", "The chain of masses between two walls", description))
 }
 

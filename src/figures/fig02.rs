@@ -35,7 +35,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     ];
     sheet.legend_in_columns((1200, HEIGHTS.1), (SMALL, 400), (1, 3200), &entries)?;
 
-    let description = format!(
+    let description = seen!(
         "Most likely number of different gaps that impact against σ, simulated with {} masses; bars are 95 % \
          bootstrap intervals. Below the rise the mode is small and badly determined, beyond it nearly all {n} gaps \
          impact.",

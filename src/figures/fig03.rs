@@ -48,7 +48,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let dot = (Mark::Disc, 38, Stroke::solid(INK, HAIR));
     share.marked("kept fraction", &fraction, (line, dot), Outside::Refuse)?;
 
-    let description = format!(
+    let description = seen!(
         "(a) Mean number of different gaps that impact against σ, simulated with {} masses: of the realisations with an impact \
          (crosses, 95 % intervals) it {}; of all realisations (broken line) it starts near zero. (b) The share with an \
          impact rises from {} to {}.",

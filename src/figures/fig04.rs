@@ -9,11 +9,14 @@ pub fn draw() -> Result<Figure, Error> {
     layout.edges(&sheet, Stroke::solid(BLUE, 26))?;
     layout.vertices(&sheet, &[0, 1, 2, 3])?;
 
-    let description =
+    // Of the four vertices each leads to each.
+    let (edges, arrows, pairs) = (4 * 4, 4 * 3, 4 * 3 / 2);
+    let description = seen!(
         "A directed graph with the four vertices L-1, 1-2, 2-3 and 3-R at the corners \
         of a square: the impacts of three masses with the left wall, among each other and with the \
-        right wall. Its 16 edges join every vertex to every vertex: 4 loops and 12 arrows, two of \
-        opposite direction between each of the 6 pairs."
-            .to_string();
+        right wall. Its {edges} edges join every vertex to every vertex: {} loops and {arrows} arrows, two of \
+        opposite direction between each of the {pairs} pairs.",
+        edges - arrows,
+    );
     Ok(sheet.finish("fig04", "The graph of three masses between walls", description))
 }

@@ -27,12 +27,12 @@ pub fn draw() -> Result<Figure, Error> {
     )?;
 
     let peak = share.iter().position(|&s| s == top).unwrap_or(0) + 1;
-    let description = format!(
+    let description = seen!(
         "Columns over k = 1 … {N}: the share of all simple circuits of a fully connected graph of N = {N} vertices that have \
          length k. Only the last few are visible; the highest, {}, stands at k = {peak}. An inset shows the logarithm, which \
-         falls to about 10^{} at k = 1.",
+         falls to about {} at k = 1.",
         short(top, 3),
-        logs.first().copied().unwrap_or(0.0).round() as i64,
+        format!("10^{}", logs.first().copied().unwrap_or(0.0).round() as i64),
     );
     Ok(sheet.finish("fig07", "Number of simple circuits of each length", description))
 }

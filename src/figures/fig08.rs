@@ -26,7 +26,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         corner(&panel, side, &lines)?;
         seen.push(format!("{} p = {p}: mean {mean}", LETTERS[i]));
     }
-    let description = format!(
+    let description = seen!(
         "Columns over k = 1 … {N}: the probability of k different impacts for simple circuits, N = {N}. From panel to panel \
          the weight moves from single impacts to nearly the whole system. {}.",
         seen.join("; ")

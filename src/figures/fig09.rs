@@ -53,7 +53,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let look = (TINY, INK, HPos::Right, VPos::Bottom);
     inset.note("*μ* → 1 as *p* → 0", (SMALL_P, 1.0), (-60, -90), look)?;
 
-    let description = format!(
+    let description = seen!(
         "Against the edge probability p, for N = {N}, with insets for small p: (a) the most likely number of impacts is 1 up \
          to p = {}, jumps there to {jump} and climbs on in steps of one; (b) the expected number rises from 1 without a jump \
          and levels off towards {N}.",

@@ -55,7 +55,7 @@ pub fn draw() -> Result<Figure, Error> {
             right.note("height at *k* = 1", (right.x.hi, height), (-60, 110), look)?;
         }
     }
-    let description = format!(
+    let description = seen!(
         "Four rows for rising p, N = {N}, over k. Left, the function f, whose sign tells whether the weight Φ grows from k to \
          k + 1; right, Φ divided by its sum. Where f turns positive a second maximum grows, until it overtakes the first \
          column: the most likely numbers are {}.",

@@ -55,7 +55,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         decades.note(&number(sigma, 4), (sigma, bottom), (dx, -110), look(side, VPos::Bottom))?;
     }
 
-    let description = format!(
+    let description = seen!(
         "Probability p that two neighbours meet against σ, on (a) a linear and (b) a logarithmic axis: it stays at zero and then \
          rises steeply, and passes {}, where k* jumps, at σ = {}. A broken curve for a start from rest lies above it \
          up to σ = {}.",

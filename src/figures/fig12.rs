@@ -2,8 +2,8 @@
 
 use super::prelude::*;
 use super::simulated::{
-    CROSSES, HEIGHTS, MAIN, at, count_axis, crosses, curve, last_sigma, means, printed, rise,
-    sigma_axis,
+    CROSSES, HEIGHTS, MAIN, PRINTED, at, count_axis, crosses, curve, last_sigma, means, printed,
+    rise, sigma_axis,
 };
 use crate::experiments::{Results, sweep};
 use crate::params::VERTICES;
@@ -45,12 +45,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         ],
     )?;
 
-    let description = format!(
-        "Expected number of impacts against σ: crosses for the simulation, {} at σ = 0.12; a line for the graph theory with N = \
+    let description = seen!(
+        "Expected number of impacts against σ: crosses for the simulation, {} at σ = {PRINTED}; a line for the graph theory with N = \
          {big_n}, {} there, and a thin one for N = {big_n_walls} beside it. The simulation rises earlier than the theory (enlarged in \
          an inset); for large σ the two come together.",
-        at(&simulated, 0.12),
-        at(&simple, 0.12),
+        at(&simulated, PRINTED),
+        at(&simple, PRINTED),
     );
     Ok(sheet.finish("fig12", "Simulation against graph theory", description))
 }

@@ -2,7 +2,8 @@
 
 use super::prelude::*;
 use super::simulated::{
-    CROSSES, HEIGHTS, MAIN, at, count_axis, crosses, curve, last_sigma, means, rise, sigma_axis,
+    CROSSES, HEIGHTS, MAIN, PRINTED, at, count_axis, crosses, curve, last_sigma, means, rise,
+    sigma_axis,
 };
 use crate::experiments::{Results, sweep};
 use crate::params::VERTICES;
@@ -36,13 +37,13 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     ];
     sheet.legend_in_columns((1200, HEIGHTS.1), (SMALL, 380), (2, 3900), &entries)?;
 
-    let description = format!(
-        "Expected number of impacts against σ: crosses for the simulation, {} at σ = 0.12; lines for the theory with simple \
+    let description = seen!(
+        "Expected number of impacts against σ: crosses for the simulation, {} at σ = {PRINTED}; lines for the theory with simple \
          circuits only, {} there, and with higher orders, {}. The higher orders rise a little earlier, far less than the \
          simulation does, by at most {} gaps (inset); beyond the rise the lines cannot be told apart.",
-        at(&simulated, 0.12),
-        at(&simple, 0.12),
-        at(&higher, 0.12),
+        at(&simulated, PRINTED),
+        at(&simple, PRINTED),
+        at(&higher, PRINTED),
         short(most, 3),
     );
     Ok(sheet.finish("fig15", "Simulation against both theories", description))

@@ -43,7 +43,7 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
     sheet.text(foot, (WIDTH as i32 - 400, 4690), look)?;
 
     let names: Vec<&str> = circuit.order.iter().map(|&gap| NAMES[gap]).collect();
-    let description = format!(
+    let description = seen!(
         "(a) The graph of three masses with a {} circuit in red: {}. (b) Positions of the three masses against time, \
          over {} time units of a simulated motion, a segment and not a periodic orbit; each impact has the name of its \
          vertex.",

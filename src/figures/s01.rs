@@ -67,8 +67,8 @@ fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
     Ok(())
 }
 
-fn description(run: &SpaceTime) -> String {
-    format!(
+fn description(run: &SpaceTime) -> Seen {
+    seen!(
         "Gap against time, a tick for each of {} impacts of one run of {} masses at σ = {}. Impacts form horizontal bands that \
          begin at {} red discs and widen in bursts; {} of {} gaps are reached by the end. (b) A part of it, finer.",
         run.times.len(),

@@ -76,9 +76,9 @@ fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
     sheet.legend((1400, 6400), (SMALL, 370), &entries)
 }
 
-fn description(missing: &Table) -> String {
+fn description(missing: &Table) -> Seen {
     let sigmas = missing.values("sigma");
-    format!(
+    seen!(
         "(a) Share of chains with an impact against σ: measured points on steep curves, farther left for longer chains. (b) What is \
          missing of p after T, for σ from {} to {}: lines like 1/T².",
         sigmas.first().copied().unwrap_or_default(),

@@ -108,10 +108,10 @@ fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
     sheet.legend((4850, 8650), (SMALL, 370), &entries)
 }
 
-fn description(advance: &Table) -> String {
+fn description(advance: &Table) -> Seen {
     let sigmas = advance.values("sigma");
     let [low, high] = [sigmas.first(), sigmas.last()].map(|own| own.copied().unwrap_or_default());
-    format!(
+    seen!(
         "(a) Mean count of all against σ: simulated points along nucleation and growth; circuits steeper. (b) Advance \
          against time at σ from {low} to {high}: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.",
     )

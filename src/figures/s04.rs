@@ -73,7 +73,7 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
     Ok(())
 }
 
-fn description(both: &Table) -> String {
+fn description(both: &Table) -> Seen {
     let ends = |column| {
         let places = both.points(&[], "transient", column);
         let ends = places.first().zip(places.last());
@@ -81,7 +81,7 @@ fn description(both: &Table) -> String {
             format!("from {} to {}", short(first.1, 3), short(last.1, 3))
         })
     };
-    format!(
+    seen!(
         "(a) Half height against T: from rest it falls, {}; from above it rises, {}. (b) Share of gaps with an impact against σ, \
          early and late: two curves far apart that approach.",
         ends("from_rest"),

@@ -17,7 +17,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8450);
     shares(&sheet)?;
     jumps(&sheet, results.table("theory.large")?)?;
-    Ok(sheet.finish("s05", "The theory at large N", DESCRIPTION.into()))
+    let description = seen!(
+        "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
+     smaller the jump. (b) Height of the jump against N, with the rule."
+    );
+    Ok(sheet.finish("s05", "The theory at large N", description))
 }
 
 /// A power of ten as the figures write it.
@@ -62,6 +66,3 @@ fn jumps(sheet: &Sheet, table: &Table) -> Result<(), Error> {
     let entries = [Entry::mark(disc, "exact"), Entry::line(line, "*k*^{2} = 2*N*(ln *k* − 1)")];
     sheet.legend((5200, 5650), (SMALL, 370), &entries)
 }
-
-const DESCRIPTION: &str = "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
-     smaller the jump. (b) Height of the jump against N, with the rule.";

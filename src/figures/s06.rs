@@ -72,12 +72,12 @@ fn places(sheet: &Sheet, shown: &Shown<'_>) -> Result<(), Error> {
     panel.joined("half height", &points, (Mark::Disc, MEDIUM, Stroke::solid(RED, THIN)))
 }
 
-fn description(shown: &Shown<'_>) -> String {
+fn description(shown: &Shown<'_>) -> Seen {
     let halves = shown.curves.points(&[], "r", "half_height");
     let end = |at: Option<&(f64, f64)>| {
         at.map_or("none".into(), |(r, own)| format!("{} at r = {r}", short(*own, 3)))
     };
-    format!(
+    seen!(
         "(a) Mean count of all chains against σ, a curve for each restitution r: the smaller r, the later it rises. (b) Half \
          height against r, from {} to {}.",
         end(halves.first()),

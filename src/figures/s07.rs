@@ -53,10 +53,10 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     Ok(sheet.finish("s07", "Error and misses of the next impact", description(race)))
 }
 
-fn description(race: &Race) -> String {
+fn description(race: &Race) -> Seen {
     let certified = race.entries.iter().find(|e| e.setting.method == MethodName::Certified);
     let largest = certified.and_then(|entry| Some(entry.errors?[1]));
-    format!(
+    seen!(
         "Against counted work, a marker for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
          impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
          next impact is missed.",

@@ -105,12 +105,14 @@ fn clock(sheet: &Sheet, measured: &Measured, masses: usize, top: f64) -> Result<
     Ok(())
 }
 
-fn description(race: &Race) -> String {
+fn description(race: &Race) -> Seen {
     let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
-    format!(
+    seen!(
         "Time up to which a run has every impact right, mean of {} chains with n = {} and σ = {}: (a) against evaluations per \
          impact, (b) against the median error of one impact, with the line that the growth λ = {growth} allows, (c) against \
          measured time, on one chain.",
-        race.parameters.chains, race.parameters.growth.chain.masses, race.parameters.growth.sigma,
+        race.parameters.chains,
+        race.parameters.growth.chain.masses,
+        race.parameters.growth.sigma,
     )
 }

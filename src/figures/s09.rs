@@ -101,13 +101,13 @@ fn ranked(sheet: &Sheet, programs: &[&Timed]) -> Result<(), Error> {
     Ok(())
 }
 
-fn description(scale: &Costs, measured: &Measured) -> String {
+fn description(scale: &Costs, measured: &Measured) -> Seen {
     let most = scale.iter().rfind(|row| row.0.method == MethodName::Certified);
     let counted =
         most.map_or("none".into(), |(_, n, work)| format!("{} at n = {n}", short(*work, 2)));
     let last = own(measured).last().and_then(|row| Some((row.n, row.microseconds_per_impact?)));
     let timed = last.map_or("none".into(), |(n, time)| format!("{} at n = {n}", short(time, 2)));
-    format!(
+    seen!(
         "Cost against the number of masses n, all axes logarithmic. (a) Evaluations per impact: this engine lowest and nearly level, \
          {counted}; Runge–Kutta grows with n. (b) Microseconds per impact of this engine, {timed}. (c) Programs by their time, this engine first."
     )

@@ -13,7 +13,7 @@ pub const CROSS: Stroke = Stroke::solid(RED, THIN);
 pub const CROSSES: Marker = (Mark::Cross, 56, CROSS);
 
 /// The σ that the paper prints for the rise (Sec. 2).
-const PRINTED: f64 = 0.12;
+pub const PRINTED: f64 = 0.12;
 
 /// The axis of σ from zero to the sweep's end.
 pub fn sigma_axis(end: f64) -> Axis {

@@ -108,12 +108,14 @@ fn every_figure_is_a_titled_and_described_picture() {
             node.unwrap().text().unwrap().to_string()
         };
         assert_eq!(text("title"), figure.title);
-        assert_eq!(text("desc"), figure.description);
-        assert!(figure.description.chars().count() > 150, "{}", figure.id);
-        let words = figure.description.split_whitespace().count();
+        assert_eq!(text("desc"), figure.description.text);
+        assert!(figure.description.text.chars().count() > 150, "{}", figure.id);
+        let words = figure.description.text.split_whitespace().count();
         assert!(words <= 60, "{}: {words} words", figure.id);
-        assert!(figure.description.chars().any(|c| c.is_ascii_digit()), "{}", figure.id);
-        assert!(!figure.description.contains("NaN") && !figure.description.contains("  "));
+        assert!(figure.description.text.chars().any(|c| c.is_ascii_digit()), "{}", figure.id);
+        assert!(
+            !figure.description.text.contains("NaN") && !figure.description.text.contains("  ")
+        );
         // Nothing that depends on the reader's fonts, and every glyph that is used is there.
         assert!(!figure.svg.contains("<text") && !figure.svg.contains("font-family"));
         let ids: BTreeSet<_> = document.descendants().filter_map(|n| n.attribute("id")).collect();

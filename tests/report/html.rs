@@ -127,7 +127,10 @@ fn every_figure_says_what_is_seen_with_its_numbers() {
         let svg = pictures[format!("{title} {description}").as_str()];
         let text =
             |id: &str| words(svg.children().find(|node| node.attribute("id") == Some(id)).unwrap());
-        assert_eq!([text(&title), text(&description)], [&*figure.title, figure.description.trim()]);
+        assert_eq!(
+            [text(&title), text(&description)],
+            [&*figure.title, figure.description.text.trim()]
+        );
         let outer = words(svg.ancestors().find(|n| n.tag_name().name() == "figure").unwrap());
         for (origin, there) in
             [("Picture: ", true), ("Data: ", !figure.data.is_empty()), ("Code: ", true)]

@@ -180,7 +180,7 @@ fn diagram(limit: &Table) -> Result<Figure, literate::figures::Error> {
     let onset = limit.number(&[], "onset").unwrap_or(f64::NAN);
     let line = [(onset, 0.0), (onset, 1.0)];
     panel.guide("onset", &line, Stroke::solid(BLUE, THIN))?;
-    let words = format!(
+    let words = seen!(
         "Points of orbits against the parameter r. A single branch splits near r = 3 into two, these into four, and so \
          on; from r = {onset:.3}, marked by a line, whole ranges of x are covered, with windows between."
     );
@@ -208,7 +208,7 @@ fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, literate::figure
         let stroke = Stroke::solid(colour, LINE);
         panel.marked(column, &of(column), (stroke, (mark, 60, stroke)), Outside::Cut)?;
     }
-    let words = format!(
+    let words = seen!(
         "Distances of the ratios from those of the last orbit, n = {}, against n, on a logarithmic axis. From \
          n = 4 on both fall along one straight line, by the ratio delta from orbit to orbit.",
         number(last, 0)

@@ -27,7 +27,8 @@ pub mod prelude {
     pub use super::series::{Marker, Outside};
     pub use super::sheet::{Entry, Sheet};
     pub use super::style::*;
-    pub use super::{DataFile, Error, Figure};
+    pub use super::{DataFile, Error, Figure, Seen};
+    pub use crate::seen;
     pub use plotters::style::text_anchor::{HPos, VPos};
 }
 
@@ -41,8 +42,8 @@ pub struct Figure {
     pub id: String,
     /// A short name.
     pub title: String,
-    /// What is seen, with its numbers, for those who do not see it.
-    pub description: String,
+    /// What is seen, for those who do not see it.
+    pub description: Seen,
     /// The picture, a whole SVG document.
     pub svg: String,
     /// The picture as a list, for its other forms.
@@ -53,6 +54,23 @@ pub struct Figure {
     pub source: String,
     /// Names of the experiments whose results it shows.
     pub experiments: Vec<&'static str>,
+}
+
+/// What is seen in a figure: with its numbers, and as it was typed, so that a typed numeral is found. [`seen!`](crate::seen)
+/// makes both.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names tell")]
+pub struct Seen {
+    pub text: String,
+    pub typed: &'static str,
+}
+
+/// What is seen in a figure, written like the arguments of `format!`.
+#[macro_export]
+macro_rules! seen {
+    ($words:literal $(, $value:expr)* $(,)?) => {
+        $crate::figures::Seen { text: format!($words $(, $value)*), typed: $words }
+    };
 }
 
 /// Why a figure cannot be drawn.

@@ -253,7 +253,7 @@ mod tests {
         panel.area("area", &points[..1], GREEN, 50).unwrap();
         panel.quiet().curve("rims", &points, LINE, Outside::Cut).unwrap();
         // In units of the data, and as they were given: the cut is the picture's.
-        let file = &sheet.finish("s01", "", String::new()).data[0];
+        let file = &sheet.finish("s01", "", Default::default()).data[0];
         let rows = [
             "cut,0.1,0.5,",
             "cut,0.3,0.001,",
@@ -272,7 +272,7 @@ mod tests {
         inset.columns("again", &[0.5], LINE).unwrap();
         let own = sheet.inset(FRAME, axis(), axis()).unwrap().file("-inset");
         own.series("finer").curve("again", &[(0.1, 0.2)], LINE, Outside::Cut).unwrap();
-        let data = sheet.finish("s01", "", String::new()).data;
+        let data = sheet.finish("s01", "", Default::default()).data;
         let told: Vec<_> = data.iter().map(|file| (&*file.name, file.csv())).collect();
         let csv = "series (text),x (1),x (1)\nfiner,0.1,0.2\n".to_string();
         assert_eq!(told, [("s01-inset.csv", csv)]);

@@ -11,7 +11,7 @@ use super::panel::{Frame, Panel};
 use super::record::Record;
 use super::series::Marker;
 use super::style::{Colour, GREY, INK, Stroke, TINY, WIDTH};
-use super::{Error, Figure};
+use super::{Error, Figure, Seen};
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// A figure in the making.
@@ -145,9 +145,9 @@ impl Sheet {
 
     /// Closes a figure; its `id` is the picture's file name without its ending. Its data is what its panels have
     /// recorded, a file for each.
-    pub fn finish(self, id: &str, title: &str, description: String) -> Figure {
+    pub fn finish(self, id: &str, title: &str, description: Seen) -> Figure {
         let drawing = self.drawing.take();
-        let svg = drawing.svg(id, title, &description);
+        let svg = drawing.svg(id, title, &description.text);
         let records = self.records.take();
         let data = records.iter().filter_map(|record| record.borrow().file(id)).collect();
         let (id, title) = (id.to_string(), title.to_string());

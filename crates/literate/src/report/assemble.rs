@@ -74,8 +74,11 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     let mut filler = Filler::new(input.templates, input.program)?.with(&values);
     let reasons =
         input.claims.iter().map(|c| (format!("the reason of {}", c.id), c.reason.clone()));
-    // Digits of an alternative text are computed where the figure is drawn.
-    let shown = |figure: &Figure| figure.description.replace(|c: char| c.is_ascii_digit(), "x");
+    // What stands in braces is computed where the figure is drawn.
+    let shown = |figure: &Figure| {
+        let parts = figure.description.typed.split('{');
+        parts.map(|part| part.split_once('}').map_or(part, |(_, typed)| typed)).collect()
+    };
     let shown = input.figures.iter().map(|f| (format!("what {} shows", f.id), shown(f)));
     let lint = |(place, text): (String, String)| lint::check(&place, &text, &filler.declared).err();
     Error::all(reasons.chain(shown).filter_map(lint).collect())?;
@@ -236,7 +239,7 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Result<Vec<String>, Er
             let own = |figure: &&Figure| *path == format!("figures/{}.svg", figure.id);
             let figure =
                 input.figures.iter().find(own).ok_or_else(|| Error::NoFile(path.clone()))?;
-            *alt = figure.description.clone();
+            *alt = figure.description.text.clone();
             let words = |words: &str| Inline::Text(words.into());
             let data: Vec<String> =
                 figure.data.iter().map(|file| format!("data/{}", file.name)).collect();

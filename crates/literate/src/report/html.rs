@@ -169,7 +169,8 @@ impl Page<'_> {
             Block::Figure { id, number, path, origin, caption, .. } => {
                 let figure = self.figure(path)?;
                 self.glyphs.borrow_mut().extend(figure.drawing.glyphs.clone());
-                let svg = figure.drawing.on_page(&figure.id, &figure.title, &figure.description);
+                let svg =
+                    figure.drawing.on_page(&figure.id, &figure.title, &figure.description.text);
                 let name = path.rsplit('/').next().unwrap_or(path);
                 format!(
                     "<figure id=\"{}\">{}<figcaption><strong>Figure {number}.</strong> {} <span class=\"origin\">\

@@ -56,7 +56,7 @@ pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
     let figure = |figure: &Figure| FigureEntry {
         id: figure.id.clone(),
         title: figure.title.clone(),
-        description: figure.description.clone(),
+        description: figure.description.text.clone(),
         picture: format!("figures/{}.svg", figure.id),
         data: figure.data.iter().map(|data| format!("data/{}", data.name)).collect(),
         source: figure.source.clone(),

@@ -174,12 +174,14 @@ pub fn formula(tex: &str) -> Option<String> {
     sides.iter().find(|side| naked(side)).cloned()
 }
 
-/// Refuses naked numerals in words that stand outside the prose: a reason, an alternative text.
+/// Refuses naked numerals in words that stand outside the prose: a reason, an alternative text. They have no formulas, so
+/// `0` and `1` pass as there.
 ///
 /// # Errors
 /// All of them, with the name of the place.
 pub fn check(place: &str, text: &str, declared: &Declared) -> Result<(), Error> {
-    let found = words(text, 0..text.len(), declared);
+    let mut found = words(text, 0..text.len(), declared);
+    found.retain(|(_, numeral)| !["0", "1"].contains(&numeral.as_str()));
     let told = |(_, numeral)| Error::Numeral(numeral).at(place.to_string());
     Error::all(found.into_iter().map(told).collect())
 }

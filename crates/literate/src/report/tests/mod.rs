@@ -163,7 +163,7 @@ fn figure() -> Figure {
     Figure {
         id: "fig03".into(),
         title: "The rise".into(),
-        description: "It rises [steeply].".into(),
+        description: crate::seen!("It rises [steeply]."),
         svg: drawing
             .svg("fig03", "The rise", "It rises [steeply].")
             .replace("</svg>", "<g aria-label=\"(a)\"/></svg>"),
@@ -187,6 +187,10 @@ fn assembled(prose: &str) -> Result<Report, Error> {
 }
 
 fn with_lab(prose: &str, lab: Option<&str>) -> Result<Report, Error> {
+    made_of(prose, lab, figure(), claim())
+}
+
+fn made_of(prose: &str, lab: Option<&str>, figure: Figure, claim: Check) -> Result<Report, Error> {
     let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
     let files = [("report.md", prose), ("references.bib", bib), ("literals.toml", "literal = []")];
     let mut values = Registry::new();
@@ -196,8 +200,8 @@ fn with_lab(prose: &str, lab: Option<&str>) -> Result<Report, Error> {
         templates: &Templates::of(files),
         values: &values,
         rows: &Default::default(),
-        claims: &[claim()],
-        figures: &[figure()],
+        claims: &[claim],
+        figures: &[figure],
         equations: &[ledger::EquationEntry {
             number: 18,
             section: 7,
@@ -368,6 +372,22 @@ fn documents_refer_to_each_other() {
         right.iter().map(|(path, text)| (*path, if *path == "more.md" { &again } else { *text }));
     let error = made(&twice.collect::<Vec<_>>()).unwrap_err().to_string();
     assert!(error.contains("fig:3: two things"), "{error}");
+}
+
+#[test]
+fn numerals_that_were_typed_outside_the_prose_are_refused() {
+    let n = 12;
+    let drawn = |description| Figure { description, ..figure() };
+    let judged = |reason: &str| Check { reason: reason.into(), ..claim() };
+    let fine = made_of(PROSE, None, drawn(crate::seen!("{n} of {}, k = 1.", n + 1)), claim());
+    fine.unwrap();
+    for (made, words) in [
+        (made_of(PROSE, None, drawn(crate::seen!("{n} of 12.")), claim()), "what fig03 shows: "),
+        (made_of(PROSE, None, figure(), judged("within 12 of it")), "the reason of rise: "),
+    ] {
+        let error = made.unwrap_err().to_string();
+        assert!(error.starts_with(words) && error.contains("12"), "{error}");
+    }
 }
 
 #[test]
