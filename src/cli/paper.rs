@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 ///
 /// Results of long runs are saved and used again as long as parameters and simulating code are the
 /// same. Files are moved into place at the very end: Ctrl-C (exit code 130) leaves the report as it was. Only files
-/// that an earlier run wrote, and nobody edited since, are replaced. Ends with exit code 1 if a claim,
+/// that an earlier run wrote, and nobody edited since, are replaced; pages, and what they load, are made anew each time. Ends with exit code 1 if a claim,
 /// a target of accuracy or counted work, or a check fails; the report is written all the same.
 #[derive(clap::Args)]
 pub struct Args {

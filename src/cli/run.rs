@@ -9,10 +9,11 @@ use std::path::PathBuf;
 
 /// Runs all experiments, or one shard of their units of work, and saves what they give.
 ///
-/// An ensemble is cut into units of about half a second, other experiments are one unit each. Each unit is saved
-/// as soon as it is there, whole or not at all, and none is run twice: after Ctrl-C (exit code 130), a
-/// crash or a lost machine the same command goes on where it was. Shards may save in one folder, or in
-/// several that are copied together; `paper` joins the units that it finds there, and runs what is missing.
+/// An ensemble is cut into units of about half a second, other experiments are one unit each. Each
+/// unit is saved as soon as it is there, whole or not at all, and none is run twice: after Ctrl-C
+/// (exit code 130), a crash or a lost machine the same command goes on where it was. Shards may save
+/// in one folder, or in several that are copied together; `paper` joins the units that it finds
+/// there, and runs what is missing.
 ///
 /// On three machines:  impact-paper run --shard 1/3 --results DIR   (and 2/3, 3/3),
 /// then on one:        impact-paper paper --results DIR

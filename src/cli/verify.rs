@@ -1,5 +1,6 @@
 //! `impact-paper verify`.
 
+use impact_numerics::text::count;
 use impact_paper::experiments::Store;
 use impact_paper::params::Profile;
 use impact_paper::program::sources::Sources;
@@ -59,8 +60,11 @@ pub fn run(args: Args) -> Result<(), Failure> {
         return Ok(());
     }
     stdout::print(&(faults.join("\n") + "\n"))?;
-    let what = "are not as they should be; `impact-paper paper --force` writes the report anew";
-    Err(Failure::check(format!("{place}: {} files {what}", faults.len())))
+    Err(Failure::check(format!(
+        "{place}: not as it should be: {}; `impact-paper paper --out {place} --force` writes the report anew, what is not \
+         listed is yours to move",
+        count(faults.len(), "file")
+    )))
 }
 
 /// The profile of the report, by its values.

@@ -278,7 +278,7 @@ fn written(number: &Number) -> String {
 /// A unit as Markdown.
 fn markdown(unit: &str) -> String {
     match unit {
-        "1" => String::new(),
+        "1" | "text" => String::new(),
         unit => format!("${}$", unit.replace("omega", r"\omega ").replace(" ^", "^").trim_end()),
     }
 }

@@ -138,7 +138,7 @@ impl Cards<'_> {
         let all = self.ids();
         let part = all.iter().filter(|id| !lower.is_empty() && id.to_lowercase().contains(&lower));
         let part: Vec<String> = part.cloned().collect();
-        let digits = |value: &&Value| !lower.is_empty() && value.plain().starts_with(&lower);
+        let digits = |value: &&Value| !lower.is_empty() && value.plain().starts_with(&asked);
         match part.is_empty() {
             false => part,
             true => self.values.iter().filter(digits).map(|value| value.id.clone()).collect(),
@@ -264,6 +264,9 @@ fn lead(value: &Value) -> String {
     let what = match &value.kind {
         Kind::Exact => "Computed exactly".into(),
         Kind::Deterministic => "Computed without chance".into(),
+        Kind::Ensemble { realisations: 0, .. } => {
+            "An estimate from several samples, with its standard error in brackets".into()
+        }
         Kind::Ensemble { realisations, .. } => {
             format!("Found from {realisations} realisations, with its standard error in brackets")
         }

@@ -188,7 +188,10 @@ pub fn refuse(
 /// one knows both.
 pub fn write(folder: &Path, files: &Files, beside: &Files, force: bool) -> Result<Written, Error> {
     let whole = files.contains_key(SUMS);
-    let over = refuse(folder, files, whole, force)?;
+    let mut over = refuse(folder, files, whole, force)?;
+    if ours(folder)?.is_none() {
+        over.extend(beside.keys().filter(|path| folder.join(path).exists()).cloned());
+    }
     for below in ["data", "figures"].map(|below| folder.join(below)) {
         if below.is_symlink() {
             return Err(Error::Link(below.display().to_string()));
@@ -324,7 +327,9 @@ mod tests {
         let folder = temporary.path();
         let old = report(&[("data/a.csv", "1"), ("data/b.csv", "1"), ("report.md", "a")]);
         let new = report(&[("README.md", "c"), ("data/a.csv", "2"), ("report.md", "b")]);
-        fs::write(folder.join("README.md"), "by hand").unwrap();
+        for path in ["README.md", "report.html"] {
+            fs::write(folder.join(path), "by hand").unwrap();
+        }
         // A list of other files, or one that leads out, is none of a report.
         for list in ["foo.tar.gz", "../out.md", "data/../out", ".git/config"]
             .map(|path| format!("{}  {path}\n", sha256("")))
@@ -334,7 +339,7 @@ mod tests {
         }
         fs::remove_file(folder.join(SUMS)).unwrap();
         assert!(matches!(new.write(folder, false), Err(Error::NotOurs(_))));
-        old.write(folder, true).unwrap();
+        assert_eq!(old.write(folder, true).unwrap().over, ["report.html"]);
         // One that would be replaced, one that would go, and one that no list has.
         for path in ["data/a.csv", "data/b.csv"] {
             fs::write(folder.join(path), "by hand").unwrap();

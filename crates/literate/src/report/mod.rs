@@ -55,7 +55,7 @@ pub enum Error {
     Template(String),
     #[error("{path}: {source}; {}", crate::input::remedy(source, "check --templates"))]
     Read { path: String, source: std::io::Error },
-    #[error("{}; see the manual, `literate::manual`", one_line(.0, 200))]
+    #[error("{}; the manual has all markup (page `manual` of the documentation of `literate`)", one_line(.0, 200))]
     Markup(String),
     #[error("{place}: {error}")]
     At { place: String, error: Box<Error> },
@@ -68,7 +68,7 @@ pub enum Error {
     #[error("[@{}]: nothing in the report has this id; correct or remove the reference{}", one_line(.0, 200), several(.0))]
     Reference(String),
     #[error(
-        "no LaTeX is known for the character '{}' (U+{:04X}); write it otherwise, or add it to report::tex",
+        "no LaTeX is known for the character '{}' (U+{:04X}); write it otherwise, as TeX between $ signs or in words",
         one_line(&.0.to_string(), 1), u32::from(*.0)
     )]
     NoLatex(char),
@@ -77,8 +77,8 @@ pub enum Error {
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Several(Vec<Error>),
     #[error(
-        "the naked numeral {0}; name a value «v.…», declare «literal(text=\"{0}\", why=\"…\")», or the phrase about it in \
-         literals.toml"
+        "the naked numeral {0}; name a value «v.…», or give the reason of a number that nobody computed, by «literal(text=…, \
+         why=…)» or by the phrase about it in literals.toml"
     )]
     Numeral(String),
     #[error("{0} is not shown; put ![caption](figures/{0}.svg) into the prose")]

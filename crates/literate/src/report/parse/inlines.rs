@@ -229,7 +229,8 @@ impl Reader<'_> {
     }
 }
 
-const LEFTOVER: &str = "markup without its other end, or none of this project; complete it, or write a backslash before the sign";
+const LEFTOVER: &str = "markup without its other end, or a row where a cell is meant (table[\"row\"].column); complete it, or write a \
+     backslash before a sign that is meant";
 
 /// How lines begin that Markdown reads as a list, a heading or a quotation, and ends a formula there.
 const LINES: [&str; 7] = ["+ ", "- ", "* ", "1. ", "# ", "## ", ">"];
