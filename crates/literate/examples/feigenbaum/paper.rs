@@ -177,12 +177,12 @@ fn diagram(limit: &Table) -> Result<Figure, literate::figures::Error> {
         }
     }
     panel.marks("orbits", &points, (Mark::Disc, 9, Stroke::solid(INK, 4)), Outside::Refuse)?;
-    let onset = limit.number(&[], "onset").unwrap_or(f64::NAN);
+    let [split, onset] = ["stable", "onset"].map(|own| limit.number(&[], own).unwrap_or(f64::NAN));
     let line = [(onset, 0.0), (onset, 1.0)];
     panel.guide("onset", &line, Stroke::solid(BLUE, THIN))?;
     let words = seen!(
-        "Points of orbits against the parameter r. A single branch splits near r = 3 into two, these into four, and so \
-         on; from r = {onset:.3}, marked by a line, whole ranges of x are covered, with windows between."
+        "Points of orbits against the parameter r. A single branch splits at r = {split:.3}, its branches split again, and \
+         so on; from r = {onset:.3}, marked by a line, whole ranges of x are covered, with windows between."
     );
     Ok(Figure {
         source: "paper::diagram".into(),
@@ -209,8 +209,8 @@ fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, literate::figure
         panel.marked(column, &of(column), (stroke, (mark, 60, stroke)), Outside::Cut)?;
     }
     let words = seen!(
-        "Distances of the ratios from those of the last orbit, n = {}, against n, on a logarithmic axis. From \
-         n = 4 on both fall along one straight line, by the ratio delta from orbit to orbit.",
+        "Distances of the ratios from those of the last orbit, n = {}, against n, on a logarithmic axis. Soon \
+         both fall along one straight line, by the ratio delta from orbit to orbit.",
         number(last, 0)
     );
     let figure = sheet.finish("fig02", "Convergence of the ratios", words);
