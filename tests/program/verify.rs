@@ -16,7 +16,10 @@ fn faults_are_named_and_pages_are_no_part_of_the_list() {
     }
     let (code, told, note) = run(here, "verify");
     assert_eq!((code, told.as_str()), (1, "differs  report.md\nunlisted more.csv\n"));
-    assert!(note.contains("paper: 2 files") && note.contains("--force"), "{note}");
+    assert!(
+        note.contains("should be: 2 files; `impact-paper paper --out paper --force`"),
+        "{note}"
+    );
 }
 
 #[test]
