@@ -116,7 +116,13 @@ impl Drawing {
 
     /// An element of a page, which holds the rules of the colours and the outlines of the glyphs.
     pub fn on_page(&self, id: &str, title: &str, description: &str) -> String {
-        self.written("", id, title, description.trim(), "")
+        // Within a page the description is read, and labels of groups have no role.
+        let svg = self.written("", id, title, description.trim(), "");
+        let after =
+            |part: &str| part.split_once('"').map_or(String::new(), |(_, rest)| rest.into());
+        let mut parts = svg.split(" aria-label=\"");
+        let first = parts.next().unwrap_or_default().to_string();
+        parts.fold(first, |all, part| all + &after(part))
     }
 
     fn written(&self, space: &str, id: &str, title: &str, words: &str, within: &str) -> String {
