@@ -57,7 +57,7 @@ pub fn needs(id: &str) -> &'static [Need] {
 /// # Errors
 /// If a statement has no row or a row no statement, or if a result was not run.
 pub fn all(results: &Results, published: &Published) -> Result<Vec<Check>, Error> {
-    // An id that was changed is told by its new name, which has a line.
+    // An id that was changed is reported by its new name, which has a line.
     published.statements.iter().try_for_each(|s| row(&s.id, published).map(drop))?;
     rows().try_for_each(|row| published.statement(row.id).map(drop))?;
     published.statements.iter().map(|s| one(&s.id, results, published)).collect()

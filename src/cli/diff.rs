@@ -49,7 +49,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
 }
 
-/// A report by its folder or revision, without what is built beside it.
+/// A report by its folder or revision, without the files that are never committed.
 fn parts(name: &str) -> Result<Parts, Failure> {
     let files = if Path::new(name).is_dir() { standing(name)? } else { committed(name)? };
     Parts::of(name, files).map_err(|what| Failure::input(format!("{what}; is it a report?")))

@@ -7,7 +7,7 @@ use crate::claims::{Basis, Check, Kind, Verdict, score};
 use crate::experiments::Results;
 use literate::input::count;
 
-/// Everything that can be asked of results beside the statements of the paper.
+/// All checks of results but the statements of the paper: targets and relations.
 ///
 /// # Errors
 /// If a result was not run.

@@ -4,7 +4,7 @@ use crate::{QUICK, TEMPLATES, answer, digest, ended, program, put, run};
 use std::fs;
 use std::process::Stdio;
 
-/// What can be wrong is told by the unit tests of `report::folder`.
+/// The unit tests of `report::folder` have the faults.
 #[test]
 fn faults_are_named_and_pages_are_no_part_of_the_list() {
     let folder = tempfile::tempdir().unwrap();

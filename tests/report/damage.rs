@@ -1,5 +1,5 @@
 //! Text from outside that is nearly right: for each of its readers a valid text is damaged in a seeded way. No reader
-//! panics or hangs, and each fault is told in one line.
+//! panics or hangs, and each fault is reported in one line.
 
 use crate::quick::QUICK;
 use impact_chain::Scenario;

@@ -24,7 +24,7 @@ fn pages() -> impl Iterator<Item = (&'static str, Document<'static>)> {
 /// A card: title, first line, and which rows it has.
 type Card = (String, String, Vec<usize>);
 
-/// Rows and cards that lie beside the pages.
+/// Rows and cards in cards.js.
 fn cards(report: &Report) -> (Vec<String>, BTreeMap<String, Card>) {
     let text = std::str::from_utf8(&report.beside["cards.js"]).unwrap();
     let json = text.strip_prefix("CARDS = ").and_then(|text| text.strip_suffix(";\n"));

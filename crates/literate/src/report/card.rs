@@ -1,4 +1,4 @@
-//! What a reader is told about one thing: the card that opens in HTML and in the terminal.
+//! The card of one thing, with all that is known of it: for pages and for the terminal.
 //!
 //! Cards are made of values.json and ledger.json alone, with the parameters of the profile, so that
 //! no run is needed.

@@ -1,7 +1,7 @@
 //! A report in its folder: written whole and over nothing that somebody edited, and compared with its list.
 //!
 //! SHA256SUMS lists, as `sha256sum` does, every file of a report that is committed, or the figures that were written
-//! alone. Pages and figures for LaTeX stand beside them; they are made anew each time, and no list has them.
+//! alone. Pages and figures for LaTeX are on no list: they are made anew each time.
 
 use super::assemble::{Files, Report};
 use crate::digest::sha256;
@@ -115,7 +115,7 @@ pub fn walk(folder: &Path) -> Result<Vec<String>, Error> {
     Ok(paths)
 }
 
-/// Whether a file is built beside those of a report, and never committed: .gitignore names the same.
+/// Whether a file is built with a report and never committed: .gitignore names the same.
 pub fn is_beside(path: &str) -> bool {
     match path.split_once('/') {
         Some((folder, name)) => match folder {
@@ -283,7 +283,7 @@ mod tests {
         pairs.iter().map(|(path, text)| (path.to_string(), text.as_bytes().to_vec())).collect()
     }
 
-    /// A whole report with a page beside it.
+    /// A whole report with a page.
     fn report(pairs: &[(&str, &str)]) -> Report {
         let mut committed = files(pairs);
         committed.insert(SUMS.into(), sums(&committed).into_bytes());

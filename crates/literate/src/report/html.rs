@@ -34,7 +34,7 @@ pub struct Site<'a> {
     pub figures: &'a [Figure],
     /// The places of all documents.
     pub labels: &'a Labels,
-    /// Whether lab.js lies beside the pages, by which readers run the program themselves.
+    /// Whether there is a lab.js, by which readers run the program themselves.
     pub lab: bool,
     /// The way from the pages to the files of the project, as `../`, if there is one.
     pub top: Option<&'a str>,

@@ -168,7 +168,7 @@ impl Reader<'_> {
                             u32::from(c)
                         )));
                     }
-                    // What LaTeX does not know is told here, where its place is known.
+                    // A character that LaTeX does not know is an error here, where its place is known.
                     tex::text(words)?;
                     match out.last_mut() {
                         Some(Inline::Text(before)) => before.push_str(words),

@@ -85,7 +85,7 @@ fn broken_prose_is_told_with_its_place() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    // All that is wrong is told at once.
+    // All faults are reported at once.
     let several = assembled(&format!("{PROSE}\n\na *b\n\n12\n\n- at $\\nosuch x$\n")).unwrap_err();
     let places: Vec<String> = several.to_string().lines().map(|line| line[..15].into()).collect();
     assert_eq!(places, ["report.md:14:3:", "report.md:16:1:", "report.md:18:6:"]);
