@@ -24,7 +24,7 @@ use crate::experiments::{Need, Results};
 
 pub use literate::claims::*;
 
-pub use row::{Error, Evidence, Row};
+pub use row::{Evidence, Row};
 
 /// What the paper printed, as it is committed.
 ///
@@ -55,25 +55,27 @@ pub fn needs(id: &str) -> &'static [Need] {
 /// Computes the checks of all statements of `published`, in its order.
 ///
 /// # Errors
-/// If a statement has no row or a row no statement, or if a result was not run.
+/// If a row has no statement, or if a result was not run.
 pub fn all(results: &Results, published: &Published) -> Result<Vec<Check>, Error> {
-    // An id that was changed is reported by its new name, which has a line.
-    published.statements.iter().try_for_each(|s| row(&s.id, published).map(drop))?;
-    rows().try_for_each(|row| published.statement(row.id).map(drop))?;
-    published.statements.iter().map(|s| one(&s.id, results, published)).collect()
-}
-
-fn row(id: &str, published: &Published) -> Result<&'static Row, PublishedError> {
-    rows().find(|row| row.id == id).ok_or_else(|| published.unjudged(id))
+    let rule = |row: &'static Row| -> (&str, Box<Rule<'_>>) {
+        let check = move |case: &Case<'_>| {
+            let level = if row.statistical { case.level() } else { level() };
+            row.check(&Evidence { results, published, level })
+        };
+        (row.id, Box::new(check))
+    };
+    let rules: Vec<_> = rows().map(rule).collect();
+    Ok(judge_all(published, &rules, results.tables())?.0)
 }
 
 /// Computes one check.
 ///
 /// # Errors
-/// If there is no statement or no row of that id, or if a result was not run.
+/// If there is no statement of that id, or if a result was not run.
 pub fn one(id: &str, results: &Results, published: &Published) -> Result<Check, Error> {
-    published.statement(id)?;
-    row(id, published)?.check(&Evidence { results, published, level: level() })
+    let open = || Ok(published.statement(id)?.open("–"));
+    let check = |row: &Row| row.check(&Evidence { results, published, level: level() });
+    rows().find(|row| row.id == id).map_or_else(open, check)
 }
 
 #[cfg(test)]

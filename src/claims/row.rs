@@ -1,9 +1,9 @@
 //! How a row of the ledger is made: evidence in, a check out.
 
 pub(super) use super::Basis::{Exact, OurMeasure, PrintedDigit, Rounding};
-use super::{Basis, Level, Published, PublishedError};
-pub(super) use super::{Check, Statement, Text, chosen, integer, significant};
-use crate::experiments::{self, Need, Results, sweep};
+use super::{Basis, Level, Published};
+pub(super) use super::{Error, Judged, Statement, Text, chosen, integer, significant};
+use crate::experiments::{Need, Results, sweep};
 use impact_chain::rise::Counted;
 use impact_numerics::statistics::Estimate;
 use literate::value::Number;
@@ -18,23 +18,6 @@ pub struct Evidence<'a> {
     /// The level of a statistical check.
     pub level: Level,
 }
-
-/// Why a check could not be computed.
-#[derive(Debug, thiserror::Error)]
-pub enum Error {
-    /// The file of statements and the checks do not fit together.
-    #[error(transparent)]
-    Published(#[from] PublishedError),
-    /// A result is missing.
-    #[error(transparent)]
-    Experiment(#[from] experiments::Error),
-    /// The samples are too small for what is asked.
-    #[error("the results at hand do not decide it")]
-    Undecided,
-}
-
-/// A check, or why there is none.
-pub type Judged = Result<Check, Error>;
 
 /// What the results have where the samples are large enough for it.
 pub fn some<T>(found: Option<T>) -> Result<T, Error> {
@@ -202,10 +185,7 @@ impl Row {
             }
             Find::By(find) => find(e, s),
         };
-        let check = match found {
-            Err(Error::Undecided) => s.open("–").note("The results at hand do not decide it."),
-            found => found?,
-        };
+        let check = s.decided(found)?;
         // What reads as a number is the number that is judged.
         let other =
             s.printed.chars().all(|c| c.is_ascii_digit() || c == '.') && s.printed != number;

@@ -73,13 +73,15 @@ fn few_below(e: &Evidence, s: &Statement) -> Judged {
     let reason = "ours: “very few” as a twentieth of all gaps, at two thirds of the printed threshold; and the \
                   statistical error at the level of the table";
     Ok(s.found(found, kept.value <= limit + room * kept.error)
-        .explained(all.value <= limit + room * all.error)
         .within(Text::of("at most {}", [significant(limit, 2)]), reason)
-        .note(Text::of(
-            "Judged by the mean of the kept, as the paper counts. Only {} of {} chains have impacts, but in these they \
-             have spread. With the others the mean is within the tolerance.",
-            [integer(row.kept), integer(row.ran)],
-        )))
+        .explained(
+            Text::of(
+                "Judged by the mean of the kept, as the paper counts. Only {} of {} chains have impacts, but in these \
+                 they have spread. With the others the mean is within the tolerance.",
+                [integer(row.kept), integer(row.ran)],
+            ),
+            all.value <= limit + room * all.error,
+        ))
 }
 
 fn rise_exists(e: &Evidence, s: &Statement) -> Judged {
@@ -129,15 +131,17 @@ fn onset(e: &Evidence, s: &Statement) -> Judged {
     let near =
         (kept.value / predicted - 1.0).abs() <= 0.05 + e.level.quantile * kept.error / predicted;
     Ok(s.found(Text::of("σ = {}", [estimate(&onset)]), e.rounds(s, &onset)?)
-        .explained(near && e.rounds(s, &half)?)
         .within(plus_minus(s.half_unit()), LAST_DIGIT)
-        .note(Text::of(
-            "The printed σ is that of half the height. Judged by the mean of all: where any chain is kept, the mean of \
-             the kept is above a twentieth. Impacts begin where a gap first closes by itself, and spread at larger σ. \
-             Half of the chains have impacts at σ = {}; from the probability of such a gap after a start from rest \
-             follows {}, within the 5 % that neighbouring gaps with a common mass and the finite time cost.",
-            [estimate(&kept), significant(predicted, 4)],
-        )))
+        .explained(
+            Text::of(
+                "The printed σ is that of half the height. Judged by the mean of all: where any chain is kept, the mean \
+                 of the kept is above a twentieth. Impacts begin where a gap first closes by itself, and spread at larger \
+                 σ. Half of the chains have impacts at σ = {}; from the probability of such a gap after a start from \
+                 rest follows {}, within the 5 % that neighbouring gaps with a common mass and the finite time cost.",
+                [estimate(&kept), significant(predicted, 4)],
+            ),
+            near && e.rounds(s, &half)?,
+        ))
 }
 
 fn mode_rise(e: &Evidence, s: &Statement) -> Judged {

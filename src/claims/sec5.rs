@@ -48,13 +48,12 @@ fn masses_of_circuit(e: &Evidence, s: &Statement) -> Judged {
     let walls = gaps.iter().filter(|&&gap| gap == 0 || gap == segment.masses).count();
     let printed = s.number()?;
     Ok(s.found(integer(found), found as f64 == printed)
-        .explained(found == gaps.len() + runs - walls && printed == (gaps.len() + 1) as f64)
         .within("none", "an integer is exact")
-        .note(Text::of(
+        .explained(Text::of(
             "k different gaps in {} runs of neighbours touch k + {} bodies, of which {} are walls; k + 1 masses need one \
              run without walls.",
             [integer(runs), integer(runs), integer(walls)],
-        )))
+        ), found == gaps.len() + runs - walls && printed == (gaps.len() + 1) as f64))
 }
 
 fn eq8(e: &Evidence, s: &Statement) -> Judged {
@@ -62,16 +61,15 @@ fn eq8(e: &Evidence, s: &Statement) -> Judged {
     let [ratio, exceptions, first] =
         e.numbers("theory.lengths", ["before_last", "exceptions", "first_exception"])?;
     Ok(s.found(Text::of("at k = N − 1: {}", [significant(ratio, 4)]), exceptions == 0.0)
-        .explained((ratio * (n - 1.0) / n - 1.0).abs() < 1e-13 && first + 4.0 > n)
         .within(
             Text::of("at most {}", [significant(0.1, 1)]),
             "ours: “far below one” as at most a tenth",
         )
-        .note(Text::of(
+        .explained(Text::of(
             "The ratio at k = N − 1 is N/(N − 1), above one. Above a tenth are the {} lengths next to N, where most \
              circuits are; below them Eq. (8) holds.",
             [integer(exceptions as usize)],
-        )))
+        ), (ratio * (n - 1.0) / n - 1.0).abs() < 1e-13 && first + 4.0 > n))
 }
 
 fn majority(e: &Evidence, s: &Statement) -> Judged {

@@ -67,17 +67,16 @@ fn expected_jump(e: &Evidence, s: &Statement) -> Judged {
         [significant(one, 2), significant(slope, 4)],
     );
     Ok(s.found(found, one >= half && !slope.is_finite())
-        .explained(ratio > 1.5 && (slope / variance - 1.0).abs() < 1e-6)
         .within(
             Text::of("a step of at least {}; no finite slope", [significant(half, 3)]),
             "ours: a jump is a step of half the height or more, and has no slope",
         )
-        .note(Text::of(
+        .explained(Text::of(
             "Only the mode of the theory jumps. The simulated rise is steep but gradual: over two steps of the grid the \
              mean of the kept increases {} times as much as over one (a slope gives 2, a jump 1); the largest step of \
              the mean of all is {}. The slope of μ is the variance of X over p, finite for every finite N.",
             [significant(ratio, 2), significant(all, 2)],
-        )))
+        ), ratio > 1.5 && (slope / variance - 1.0).abs() < 1e-6))
 }
 
 /// Eq. (20) in the simulation: a chain with random free parts that overlaps at its start, or has an
@@ -201,16 +200,15 @@ fn threshold_shift(e: &Evidence, s: &Statement) -> Judged {
         [significant(theory, 4), estimate(&half)],
     );
     Ok(s.found(found, (theory - half.value).abs() <= allowed)
-        .explained(holds)
         .within(
             plus_minus(allowed),
             "ours: agreement over the whole range as half heights that agree within half a unit of the last digit \
              in which the paper prints the threshold",
         )
-        .note(note.then(
+        .explained(note.then(
             ". The explanation asks that the start make up more than half of the difference at each T. The \
              simulation goes on falling with T, and the theory knows no time.",
-        )))
+        ), holds))
 }
 
 /// Width of the mode's bootstrap interval over that of the mean, in the rise: the median.

@@ -56,13 +56,12 @@ fn eq30(e: &Evidence, s: &Statement) -> Judged {
         [significant(printed, 1), integer(counted as usize)],
     );
     Ok(s.found(found, printed == counted)
-        .explained(failed == 0 && compared > 0)
         .within("none", INTEGER)
-        .note(Text::of(
+        .explained(Text::of(
             "A factor N is missing, the choice of the vertex that is visited twice; Eq. (33) has it. With it the formula \
              agrees in {} of {} cases.",
             [integer(compared), integer(compared)],
-        )))
+        ), failed == 0 && compared > 0))
 }
 
 fn class_range(e: &Evidence, s: &Statement, equation: u32) -> Judged {
@@ -72,18 +71,17 @@ fn class_range(e: &Evidence, s: &Statement, equation: u32) -> Judged {
     // A printed "k > 3" means from 4 on; without a printed range every length is meant.
     let printed_from = s.value.map_or(1.0, |k| k + 1.0);
     let agrees = right_from == printed_from && failed == 0.0 && compared > 3.0;
-    let check = s
-        .found(Text::of("right from k = {} on", [integer(right_from as usize)]), agrees)
-        .within("none", INTEGER)
-        .note(Text::of(
-            "One length below, on three vertices, the formula gives {} and enumeration finds {}: sequences that repeat a \
-             shorter one.",
-            [chosen(formula), integer(counted as usize)],
-        ));
+    let why = Text::of(
+        "One length below, on three vertices, the formula gives {} and enumeration finds {}: sequences that repeat a \
+         shorter one.",
+        [chosen(formula), integer(counted as usize)],
+    );
+    let found = Text::of("right from k = {} on", [integer(right_from as usize)]);
+    let check = s.found(found, agrees).within("none", INTEGER);
     Ok(match s.value {
-        Some(_) => check,
+        Some(_) => check.note(why),
         // Without a range: wrong only where both loops are alike and so counted as half.
-        None => check.explained(compared > 3.0 && right_from == 3.0 && counted == 0.0),
+        None => check.explained(why, compared > 3.0 && right_from == 3.0 && counted == 0.0),
     })
 }
 
@@ -99,14 +97,13 @@ fn even_small_p(e: &Evidence, s: &Statement) -> Judged {
     let found = Text::of("higher orders hold {} %", [significant(100.0 * (1.0 - share), 2)]);
     let predicted = 100.0 * first_order / (1.0 + first_order);
     Ok(s.found(found, 1.0 - share >= 0.05)
-        .explained(higher > first_order && higher < 2.0 * first_order)
         .within("at least 5 %", "ours: the least that can be seen in a figure")
-        .note(Text::of(
+        .explained(Text::of(
             "A doubled vertex has relative weight p k²/2, which is below one for the small k that hold nearly \
              everything; this first order alone predicts {} %, and further orders less than as much again. They \
              dominate only in the tail.",
             [significant(predicted, 2)],
-        )))
+        ), higher > first_order && higher < 2.0 * first_order))
 }
 
 fn dominate(e: &Evidence, s: &Statement) -> Judged {

@@ -4,7 +4,7 @@ use super::{ALL, Error, Need, Progress, Store, TOGETHER, identities, theory};
 use crate::params::Profile;
 use literate::experiments::experiment::Given;
 use literate::experiments::{Found, Typed};
-use literate::table::{Missing, Table, number, table_of};
+use literate::table::{Table, Tables, number_at};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
@@ -17,7 +17,7 @@ pub struct Results {
     /// Of each experiment that was run, by its name.
     found: BTreeMap<&'static str, Found>,
     /// Tables of the results, made when first looked at.
-    tables: OnceLock<BTreeMap<&'static str, Arc<Table>>>,
+    tables: OnceLock<Tables>,
 }
 
 impl Results {
@@ -45,7 +45,7 @@ impl Results {
     }
 
     /// The tables of the theory and of all results that there are, by name.
-    pub fn tables(&self) -> &BTreeMap<&'static str, Arc<Table>> {
+    pub fn tables(&self) -> &Tables {
         // Made before the lock is taken: a thread that waits in it for others may begin something else that looks here.
         match self.tables.get() {
             Some(tables) => tables,
@@ -56,7 +56,7 @@ impl Results {
         }
     }
 
-    fn made(&self) -> BTreeMap<&'static str, Arc<Table>> {
+    fn made(&self) -> Tables {
         let of = |experiment: &Need| {
             self.found(experiment.name()).map_or_else(Vec::new, |own| experiment.tables(own))
         };
@@ -79,11 +79,7 @@ impl Results {
     /// The number with this address: `theory.jump.p_jump`.
     #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
-        let table = table_of(address).and_then(|name| self.tables().get(name));
-        match table.and_then(|table| number(table.at(address)?)) {
-            Some(found) => Ok(found),
-            None => Err(Missing::new(address).into()),
-        }
+        Ok(number_at(self.tables(), address)?)
     }
 
     /// Results of which nothing was run yet.

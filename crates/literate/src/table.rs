@@ -11,6 +11,7 @@ use crate::value::{Digits, Kind, Number, Origin, Value, origin_of};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// Rows with keys, and columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,23 +34,66 @@ struct Column {
 
 /// There is no such cell, or it has no number.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "{address}: there is no such number in the results; run a fuller profile, or mend the address in {place}"
-)]
+#[error("{address}: {what}; run a fuller profile, or mend the address in {place}")]
 pub struct Missing {
     /// What was asked for.
     address: String,
+    /// What is missing, and the nearest names that there are.
+    what: String,
     /// File and line that ask.
     place: String,
 }
 
 impl Missing {
-    /// That there is no number at an address that the caller asks for.
     #[track_caller]
-    pub fn new(address: impl Into<String>) -> Missing {
+    fn new(address: impl Into<String>, what: impl Into<String>) -> Missing {
         let place = std::panic::Location::caller();
-        Missing { address: address.into(), place: format!("{}:{}", place.file(), place.line()) }
+        let place = format!("{}:{}", place.file(), place.line());
+        Missing { address: address.into(), what: what.into(), place }
     }
+}
+
+/// Tables by their names.
+pub type Tables = BTreeMap<&'static str, Arc<Table>>;
+
+/// The cell with an address, `cascade.orbits[n=3].delta`.
+#[track_caller]
+pub fn cell<'a>(tables: &'a Tables, address: &str) -> Result<&'a Value, Missing> {
+    let name = table_of(address).unwrap_or(address);
+    let what = match tables.get(name) {
+        Some(table) => match table.at(address) {
+            Some(cell) => return Ok(cell),
+            None => table.nearest(address),
+        },
+        None => {
+            let names = nearest(name, tables.keys().copied()).join(", ");
+            format!("there is no table {name}; nearest: {names}")
+        }
+    };
+    Err(Missing::new(address, what))
+}
+
+/// The number with an address.
+#[track_caller]
+pub fn number_at(tables: &Tables, address: &str) -> Result<f64, Missing> {
+    match number(cell(tables, address)?) {
+        Some(number) => Ok(number),
+        None => Err(Missing::new(address, NO_NUMBER)),
+    }
+}
+
+/// What is said of a cell of words or of *none*.
+const NO_NUMBER: &str = "this cell has no number";
+
+/// The three names that are most like one: with the most characters alike at their beginnings and ends.
+pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let begin = |own: &str| own.chars().zip(name.chars()).take_while(|(a, b)| a == b).count();
+    let ends =
+        |own: &str| own.chars().rev().zip(name.chars().rev()).take_while(|(a, b)| a == b).count();
+    let mut names: Vec<&str> = names.collect();
+    names.sort_by_key(|own| std::cmp::Reverse(begin(own) + ends(own)));
+    names.truncate(3);
+    names
 }
 
 /// A table that is being made, of rows R.
@@ -100,6 +144,18 @@ impl Table {
         cells.find(|cell| cell.id == address)
     }
 
+    /// What an address has that is not there, with the nearest that is.
+    fn nearest(&self, address: &str) -> String {
+        let rest = address.strip_prefix(self.name).unwrap_or(address);
+        let (row, column) = rest.rsplit_once('.').unwrap_or(("", rest));
+        let row = row.trim_start_matches('[').trim_end_matches(']');
+        let (kind, nearest) = match self.rows().any(|name| name == row) {
+            true => ("column", nearest(column, self.columns.iter().map(|column| column.name))),
+            false => ("row", nearest(row, self.rows())),
+        };
+        format!("there is no such {kind}; nearest: {}", nearest.join(", "))
+    }
+
     fn column(&self, name: &str) -> Option<usize> {
         self.columns.iter().position(|column| column.name == name)
     }
@@ -122,7 +178,9 @@ impl Table {
             return Ok(cell);
         }
         let keys: Vec<String> = keys.iter().map(|(name, key)| format!("{name}={key}")).collect();
-        Err(Missing::new(format!("{}[{}].{column}", self.name, keys.join(","))))
+        let address = format!("{}[{}].{column}", self.name, keys.join(","));
+        let what = self.nearest(&address);
+        Err(Missing::new(address, what))
     }
 
     /// The number of a cell.
@@ -131,7 +189,7 @@ impl Table {
         let cell = self.cell(keys, column)?;
         match number(cell) {
             Some(number) => Ok(number),
-            None => Err(Missing::new(&cell.id)),
+            None => Err(Missing::new(&cell.id, NO_NUMBER)),
         }
     }
 
@@ -509,7 +567,17 @@ mod tests {
         let lost = table.cell(&[("r", 0.8), ("sigma", 0.30000000000000004)], "mean").unwrap_err();
         assert_eq!(lost.address, "test.rise[r=0.8,sigma=0.30000000000000004].mean");
         assert!(lost.place.starts_with("crates/literate/src/table.rs:"), "{}", lost.place);
-        assert!(table.cell(&[("r", 0.8)], "meen").is_err());
+        assert!(
+            lost.what.ends_with("row; nearest: r=0.8,sigma=0.3, r=0.8,sigma=0.1, r=0,sigma=0.1")
+        );
+        let tables = Tables::from([(table.name(), Arc::new(table.clone()))]);
+        let what = |address| cell(&tables, address).unwrap_err().what;
+        assert!(
+            what("test.rise[r=0,sigma=0.1].meen")
+                .starts_with("there is no such column; nearest: mean")
+        );
+        assert!(what("test.ris.mean").ends_with("no table test.ris; nearest: test.rise"));
+        assert_eq!(number_at(&tables, "test.rise[r=0,sigma=0.1].mean"), Ok(1.5));
         // There is a cell, and it has no number.
         assert!(table.number(&[("r", 0.0), ("sigma", 0.3)], "mean").is_err());
         assert!(table.number(&[("r", 0.0), ("sigma", 0.1)], "inverse").is_err());

@@ -4,14 +4,14 @@
 //! prose. All of the paper is in this folder.
 
 use impact_numerics::double_double::DoubleDouble;
-use literate::claims::{Basis, Check, Published, Statement, decimals};
+use literate::claims::{Check, Published, Rule, judge_all};
 use literate::experiments::experiment::How;
 use literate::experiments::{Code, Error, Experiment, Profile, Progress, Store};
 use literate::figures::prelude::*;
 use literate::report::claims::printed;
 use literate::report::{self, Input, Registry, Report, Templates, assemble};
 use literate::source::{Listing, PLAIN, Program, Recipe};
-use literate::table::Table;
+use literate::table::{Table, Tables};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -218,24 +218,24 @@ fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, literate::figure
 }
 
 /// The statements, each held against a column of the limits.
-fn claims(published: &Published, limit: &Table) -> Result<Vec<Check>, Box<dyn std::error::Error>> {
-    let one = |statement: &Statement| {
-        let (printed, [low, high]) = (statement.number()?, statement.interval()?);
-        let found = limit.number(&[], &statement.id)?;
-        let digits = usize::from(statement.decimals) + 2;
-        let check = statement.found(decimals(found, digits), (low..=high).contains(&found));
-        let check = check
-            .within("half a unit of the last printed digit", "a printed number was rounded")
-            .on(Basis::PrintedDigit);
-        Ok(match statement.id.as_str() {
-            // The explanation can fail: ours, rounded to three decimals, must be what is printed.
-            "onset" => check
-                .explained((found * 1000.0).round() == printed * 1000.0)
-                .note("printed is the number rounded to three decimals, and a zero"),
-            _ => check,
-        })
-    };
-    published.statements.iter().map(one).collect()
+fn claims(published: &Published, tables: &Tables) -> Result<Vec<Check>, literate::claims::Error> {
+    let rules: [(&str, Box<Rule<'_>>); 5] = [
+        ("delta", Box::new(|s| s.cell("cascade.limit.delta").into())),
+        ("alpha", Box::new(|s| s.cell("cascade.limit.alpha").into())),
+        ("stable", Box::new(|s| s.cell("cascade.limit.stable").into())),
+        ("three", Box::new(|s| s.cell("cascade.limit.three").into())),
+        (
+            "onset",
+            Box::new(|s| {
+                // The explanation can fail: ours, rounded to three decimals, must be what is printed.
+                let rounded = (s.number("cascade.limit.onset")? * 1000.0).round() / 1000.0;
+                let why = "printed is the number rounded to three decimals, and a zero";
+                let check = s.cell("cascade.limit.onset");
+                Ok(check.explained(why, Some(rounded) == s.statement.value))
+            }),
+        ),
+    ];
+    Ok(judge_all(published, &rules, tables)?.0)
 }
 
 /// Makes the whole paper; the cascade is taken from the store if it is fresh there.
@@ -252,7 +252,8 @@ pub fn make(
     values.extend(printed(&published))?;
     values.add(report::Value::text("profile", profile.name()).data_only())?;
     tables.iter().try_for_each(|table| values.add_table(Arc::new(table.clone())))?;
-    let claims = claims(&published, &tables[1])?;
+    let by_name = tables.iter().map(|table| (table.name(), Arc::new(table.clone()))).collect();
+    let claims = claims(&published, &by_name)?;
     let figures = [diagram(&tables[1])?, convergence(&tables[0], &tables[1])?];
     Ok(assemble(&Input {
         templates: &templates,

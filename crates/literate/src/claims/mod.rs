@@ -1,9 +1,11 @@
 //! Statements of a paper, targets and relations, each held against what is found: [`Check`].
 
+mod judge;
 mod level;
 mod published;
 mod text;
 
+pub use judge::{Case, Error, Judged, Rule, judge_all};
 pub use level::{FAMILY_LEVEL, Level};
 pub use published::{Parameter, Published, PublishedError, Statement};
 pub use text::{Text, chosen, decimals, integer, significant, with_error};
@@ -136,6 +138,9 @@ pub struct Check {
     pub verdict: Verdict,
     /// What explains a difference, or what should be known besides.
     pub note: Text,
+    /// What a rule may still hold it against.
+    #[serde(skip)]
+    held: judge::Held,
 }
 
 impl Check {
@@ -153,6 +158,7 @@ impl Check {
             basis: Basis::Exact,
             verdict: Verdict::CannotBeJudged,
             note: Text::default(),
+            held: Default::default(),
         }
     }
 
@@ -164,13 +170,13 @@ impl Check {
 
     /// With an explanation, which predicts what is found or does not: one that fails makes the check fail whatever the
     /// finding.
-    pub fn explained(self, holds: bool) -> Check {
+    pub fn explained(self, why: impl Into<Text>, holds: bool) -> Check {
         let verdict = match (self.verdict, holds) {
             (_, false) => Verdict::Differs,
             (Verdict::Differs, true) => Verdict::DiffersAndExplained,
             (verdict, true) => verdict,
         };
-        Check { verdict, ..self }
+        Check { verdict, ..self }.note(why)
     }
 
     /// With its tolerance and why it has this size.
@@ -189,9 +195,11 @@ impl Check {
     }
 
     /// Whether a report is to be refused for it: a difference that nothing explains, or whose explanation no
-    /// longer holds. Times of the clock decide nothing.
+    /// longer holds, and a statement that is open without a reason. Times of the clock decide nothing.
     pub fn fails(&self) -> bool {
-        self.verdict == Verdict::Differs && self.basis != Basis::Clock
+        let open = self.verdict == Verdict::CannotBeJudged && self.note.is_empty();
+        let differs = self.verdict == Verdict::Differs && self.basis != Basis::Clock;
+        differs || open && self.kind == Kind::Statement
     }
 
     /// The verdict in words.
@@ -248,7 +256,7 @@ mod tests {
     #[test]
     fn a_check_is_saved_as_it_is_printed_and_its_explanation_can_fail() {
         let open = Check::new(Kind::Relation, "a", "b", with_error(0.11652, 0.0004));
-        let judged = |agrees, holds| open.clone().judged(agrees).explained(holds);
+        let judged = |agrees, holds| open.clone().judged(agrees).explained("c", holds);
         assert_eq!(judged(true, true).verdict, Verdict::Reproduced);
         assert_eq!(judged(false, true).verdict, Verdict::DiffersAndExplained);
         assert!(judged(true, false).fails() && judged(false, false).fails());

@@ -5,8 +5,8 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 
 /// Everything that the paper printed and this edition judges or uses.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Published {
     /// Numbers that the paper chose.
     #[serde(rename = "parameter")]
@@ -103,11 +103,6 @@ impl Published {
     fn fault(&self, id: &str, what: &str) -> PublishedError {
         let line = self.line(id);
         PublishedError::Line(format!("{line}: the id {:?}: {what}", one_line(id, 80)))
-    }
-
-    /// A statement that nothing judges.
-    pub fn unjudged(&self, id: &str) -> PublishedError {
-        self.fault(id, "no check judges it; write one, or remove it")
     }
 
     /// A statement of which other words are printed than those that its check judges.

@@ -10,7 +10,7 @@ use super::values::{Number, Registry, Value};
 use super::{Error, Templates};
 use crate::input::{line_and_column, plain};
 use crate::source::Program;
-use crate::table::Table;
+use crate::table::{Table, nearest};
 use serde_json::Value as Json;
 use std::collections::BTreeMap;
 use tera::{Context, Delimiters, ErrorKind, Kwargs, State, Tera};
@@ -241,17 +241,6 @@ fn numbered(files: &[&str]) -> Result<(), Error> {
         }
     }
     Ok(())
-}
-
-/// The names that are most like one: with the most characters alike at their beginnings and ends.
-pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let begin = |own: &str| own.chars().zip(name.chars()).take_while(|(a, b)| a == b).count();
-    let ends =
-        |own: &str| own.chars().rev().zip(name.chars().rev()).take_while(|(a, b)| a == b).count();
-    let mut names: Vec<&str> = names.collect();
-    names.sort_by_key(|own| std::cmp::Reverse(begin(own) + ends(own)));
-    names.truncate(3);
-    names
 }
 
 fn raw(value: &Value) -> Json {

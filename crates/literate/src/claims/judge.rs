@@ -1,0 +1,259 @@
+//! Statements judged each by one line of their author.
+//!
+//! ```
+//! # use literate::claims::{Case, Check};
+//! # let _: [fn(&Case<'_>) -> Check; 3] = [
+//! |s| s.cell("cascade.limit.delta"), // rounds to what was printed
+//! |s| s.cell("walk.fit.slope").within_errors(), // lies within its standard errors of it
+//! |s| s.cell("walk.fit.onset").near(0.01, "ours: a hundredth").explained("too few steps", true),
+//! # ];
+//! ```
+
+use super::{Basis, Check, Level, Published, PublishedError, Statement, Text};
+use super::{chosen, decimals, significant};
+use crate::experiments;
+use crate::table::{self, Missing, Tables};
+use crate::value::{Kind, Number};
+use std::cell::Cell;
+
+/// Why a check could not be computed.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The file of statements and the checks do not fit together.
+    #[error(transparent)]
+    Published(#[from] PublishedError),
+    /// A result is missing.
+    #[error(transparent)]
+    Experiment(#[from] experiments::Error),
+    /// The samples are too small for what is asked.
+    #[error("the results at hand do not decide it")]
+    Undecided,
+}
+
+impl From<Missing> for Error {
+    fn from(missing: Missing) -> Error {
+        experiments::Error::from(missing).into()
+    }
+}
+
+/// A check, or why there is none.
+pub type Judged = Result<Check, Error>;
+
+impl From<Check> for Judged {
+    fn from(check: Check) -> Judged {
+        match check.held.missing.clone() {
+            Some(missing) => Err(missing.into()),
+            None => Ok(check),
+        }
+    }
+}
+
+/// A statement with what its check may look at.
+#[derive(Debug)]
+pub struct Case<'a> {
+    /// The statement.
+    pub statement: &'a Statement,
+    tables: &'a Tables,
+    level: Level,
+    /// Whether the level was asked for.
+    statistical: Cell<bool>,
+}
+
+/// What a cell is held against; not saved.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Held {
+    missing: Option<Missing>,
+    found: f64,
+    error: f64,
+    printed: Option<f64>,
+    /// Standard errors that are allowed, and half a unit of the last printed digit.
+    quantile: f64,
+    half_unit: f64,
+}
+
+impl Case<'_> {
+    /// The level of the statistical checks; who asks for it is one of them.
+    pub fn level(&self) -> Level {
+        self.statistical.set(true);
+        self.level
+    }
+
+    /// The number with an address.
+    #[track_caller]
+    pub fn number(&self, address: &str) -> Result<f64, Error> {
+        Ok(table::number_at(self.tables, address)?)
+    }
+
+    /// Holds a cell against the printed number. Unless it is said otherwise it has to round to that, with room for its
+    /// standard error if it has one.
+    #[track_caller]
+    pub fn cell(&self, address: &str) -> Check {
+        let own = self.statement;
+        let (found, missing) = match table::cell(self.tables, address) {
+            Ok(cell) => (Some(cell), None),
+            Err(missing) => (None, Some(missing)),
+        };
+        let error = match found.map(|cell| &cell.kind) {
+            Some(Kind::Ensemble { standard_error, .. }) => *standard_error,
+            _ => 0.0,
+        };
+        let value = found.and_then(table::number).unwrap_or(f64::NAN);
+        let shown = match found.map(|cell| cell.number.clone()) {
+            Some(Number::Real { value, .. }) if error == 0.0 && own.value.is_some() => {
+                decimals(value, usize::from(own.decimals) + 2).into()
+            }
+            Some(number) => Text::from(number),
+            None => "–".into(),
+        };
+        let half_unit = own.half_unit();
+        let quantile = if error > 0.0 { self.level().quantile } else { 0.0 };
+        let held = Held { missing, found: value, error, printed: own.value, quantile, half_unit };
+        let reason = match error > 0.0 {
+            true => "half a unit of the last printed digit, and the statistical error",
+            false => "half a unit of the last printed digit",
+        };
+        let room = half_unit + quantile * error;
+        Check { held, ..own.open(shown) }.allowed(half_unit, room, reason).on(Basis::PrintedDigit)
+    }
+}
+
+impl Statement {
+    /// What was found of it; open where the results at hand do not decide it.
+    pub fn decided(&self, found: Judged) -> Judged {
+        match found {
+            Err(Error::Undecided) => {
+                Ok(self.open("–").note("The results at hand do not decide it."))
+            }
+            found => found,
+        }
+    }
+}
+
+impl Check {
+    /// Judged by the distance from the printed number.
+    fn allowed(self, shown: f64, room: f64, reason: &str) -> Check {
+        let off = self.held.printed.map(|printed| (self.held.found - printed).abs());
+        let check = self.within(Text::of("± {}", [significant(shown, 1)]), reason);
+        // A last bit is nobody's digit.
+        off.map_or(check.clone(), |off| check.judged(off <= room * (1.0 + 1e-9)))
+    }
+
+    /// Of a [cell](Case::cell): within so many standard errors of the printed number as the level of the table allows.
+    pub fn within_errors(self) -> Check {
+        let room = self.held.quantile * self.held.error;
+        self.allowed(room, room, "standard errors at the level of the table").on(Basis::Statistics)
+    }
+
+    /// Of a [cell](Case::cell): no further from the printed number than this.
+    pub fn near(self, tolerance: f64, reason: &str) -> Check {
+        let check = self.allowed(tolerance, tolerance, reason).on(Basis::OurMeasure);
+        Check { tolerance: Text::of("± {}", [chosen(tolerance)]), ..check }
+    }
+}
+
+/// How a statement is judged.
+pub type Rule<'a> = dyn Fn(&Case<'_>) -> Judged + Send + Sync + 'a;
+
+/// Judges all statements, in their order, each by the rule with its id, and says at which level the statistical ones
+/// were judged. A statement without a rule stays open, without a reason, so that it [fails](Check::fails).
+///
+/// # Errors
+/// If there is no statement for a rule, or if a rule asks for a number that there is not.
+pub fn judge_all(
+    published: &Published,
+    rules: &[(&str, Box<Rule<'_>>)],
+    tables: &Tables,
+) -> Result<(Vec<Check>, Level), Error> {
+    rules.iter().try_for_each(|(id, _)| published.statement(id).map(drop))?;
+    let judge = |statement: &Statement, level| {
+        let case = Case { statement, tables, level, statistical: Cell::new(false) };
+        let rule = rules.iter().find(|(id, _)| *id == statement.id);
+        let found = rule.map_or_else(|| Ok(statement.open("–")), |(_, rule)| rule(&case));
+        Ok((statement.decided(found)?, case.statistical.get()))
+    };
+    let first = published.statements.iter().map(|statement| judge(statement, Level::of(1)));
+    let first = first.collect::<Result<Vec<(Check, bool)>, Error>>()?;
+    let level = Level::of(first.iter().filter(|(_, statistical)| *statistical).count());
+    let again = |((check, statistical), statement): ((Check, bool), &Statement)| match statistical {
+        true => Ok(judge(statement, level)?.0),
+        false => Ok(check),
+    };
+    let checks = first.into_iter().zip(&published.statements).map(again);
+    Ok((checks.collect::<Result<_, Error>>()?, level))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{FAMILY_LEVEL, Verdict};
+    use super::*;
+    use crate::table::Table;
+    use impact_numerics::statistics::Estimate;
+
+    const PUBLISHED: &str = "statement = [
+        { id = \"rise\", place = \"a\", statement = \"b\", printed = \"0.12\", value = 0.12, decimals = 2 },
+        { id = \"mean\", place = \"a\", statement = \"b\", printed = \"0.11\", value = 0.11, decimals = 2 },
+        { id = \"words\", place = \"a\", statement = \"b\", printed = \"steep\" },
+        { id = \"nobody\", place = \"a\", statement = \"b\", printed = \"c\" }]";
+
+    fn judged(rules: &[(&str, Box<Rule<'_>>)]) -> Result<(Vec<Check>, Level), Error> {
+        let mean = |x: &f64| Some(Estimate { value: *x, error: 0.002, interval: [0.0; 2] });
+        let table = Table::of("toy.all", &[0.1152], |_| 9).real("rise", "1", 6, "A.", |x| *x);
+        let table = table.estimate("mean", "1", "A mean.", mean).done();
+        let tables = Tables::from([(table.name(), std::sync::Arc::new(table))]);
+        judge_all(&Published::parse(PUBLISHED).unwrap(), rules, &tables)
+    }
+
+    #[test]
+    fn a_cell_is_held_against_what_was_printed() {
+        let judge = |rule: fn(&Case<'_>) -> Check| {
+            let rule = |id| -> (&str, Box<Rule<'_>>) { (id, Box::new(move |s| rule(s).into())) };
+            let (checks, level) = judged(&["rise", "mean", "words"].map(rule)).unwrap();
+            (checks.iter().map(|check| check.verdict).collect::<Vec<_>>(), level.claims, checks)
+        };
+        use Verdict::{
+            CannotBeJudged as Open, Differs as No, DiffersAndExplained as Why, Reproduced as Yes,
+        };
+        // Printed are 0.12, 0.11 and a word; found is 0.1152, once with an error of 0.002.
+        let (verdicts, statistical, checks) = judge(|s| s.cell("toy.all.rise"));
+        assert_eq!((verdicts, statistical), (vec![Yes, No, Open, Open], 0));
+        assert_eq!(checks[0].found.to_string(), "0.1152");
+        assert_eq!(checks[0].tolerance.to_string(), "± 0.005");
+        let (verdicts, statistical, checks) = judge(|s| s.cell("toy.all.mean"));
+        assert_eq!((verdicts, statistical), (vec![Yes, Yes, Open, Open], 3));
+        assert_eq!(checks[1].found.to_string(), "0.115(2)");
+        let (verdicts, ..) = judge(|s| s.cell("toy.all.mean").within_errors());
+        assert_eq!(verdicts, [Yes, Yes, Open, Open]);
+        let (verdicts, ..) = judge(|s| s.cell("toy.all.rise").near(1e-3, "ours"));
+        assert_eq!(verdicts, [No, No, Open, Open]);
+        let (verdicts, ..) = judge(|s| s.cell("toy.all.rise").explained("why", true));
+        assert_eq!(verdicts, [Yes, Why, Open, Open]);
+        let (verdicts, _, checks) = judge(|s| s.cell("toy.all.rise").explained("why", false));
+        assert_eq!(verdicts, [No, No, No, Open]);
+        assert!(checks.iter().all(Check::fails), "what nobody judges fails too");
+        assert!(!checks[3].clone().note("It is a likeness in words.").fails());
+    }
+
+    #[test]
+    fn what_is_missing_is_told() {
+        let told = |id, address: &'static str| {
+            let rule: Box<Rule<'_>> = Box::new(move |s| s.cell(address).into());
+            judged(&[(id, rule)]).unwrap_err().to_string()
+        };
+        let error = told("rise", "toy.all.rse");
+        assert!(
+            error.contains("no such column; nearest: rise") && error.contains("judge.rs:"),
+            "{error}"
+        );
+        assert!(told("fall", "toy.all.rise").contains("no statement \"fall\""));
+    }
+
+    /// Printed tables of the normal distribution have z(0.995) = 2.5758: one check has the whole level.
+    #[test]
+    fn the_level_is_that_of_the_checks_that_ask_for_it() {
+        let rule: Box<Rule<'_>> = Box::new(|s| s.cell("toy.all.mean").within_errors().into());
+        let (checks, level) = judged(&[("mean", rule)]).unwrap();
+        assert_eq!((level.claims, level.quantile, FAMILY_LEVEL), (1, 2.58, 0.01));
+        assert_eq!(checks[1].verdict, Verdict::Differs, "0.0052 is 2.6 standard errors");
+        assert_eq!(checks[1].tolerance.to_string(), "± 0.005");
+    }
+}
