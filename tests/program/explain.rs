@@ -40,7 +40,7 @@ fn values_figures_equations_and_claims_are_explained() {
     let told = addresses.map(|id| answer(folder.path(), &format!("explain --paper r {id}")));
     assert!(told.count() > 0);
     let told = answer(folder.path(), "explain --paper r");
-    for id in ["sweep.rise.half_height ", "fig:15 ", "fig:s1 ", "eq:38 ", "claim:sec2_onset "] {
+    for id in ["sweep.rise.half_height ", "fig:15 ", "fig:S1 ", "eq:38 ", "claim:sec2_onset "] {
         assert!(told.lines().any(|line| line.starts_with(id)), "{id}");
     }
 }

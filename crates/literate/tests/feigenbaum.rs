@@ -23,12 +23,12 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
         "4 of 5 statements are reproduced, 1 differs and is",
         "| 1 | 3.236067977 | none | none |",
         "**Listing 1.** The search for the orbits.",
-        "[fig02.csv](data/fig02.csv). Code: [paper.rs](../crates/literate/examples/feigenbaum/paper.rs)",
+        "[convergence.csv](data/convergence.csv). Code: [paper.rs](../crates/literate/examples/feigenbaum/paper.rs)",
     ] {
         assert!(markdown.contains(part), "{part}: {markdown}");
     }
     // Where the two ratios are those of the last orbit, no logarithm has their distance.
-    let data = text("data/fig02.csv");
+    let data = text("data/convergence.csv");
     assert!(data.starts_with("series (text),n (1),distance from the last ratio (1)\ndelta,2,"));
     assert_eq!(data.lines().count(), 1 + 2 * 14, "{data}");
     assert!(text("data/cascade-orbits.csv").starts_with("n (1),parameter (1),delta (1),"));

@@ -186,7 +186,7 @@ fn diagram(limit: &Table) -> Result<Figure, literate::figures::Error> {
     );
     Ok(Figure {
         source: "paper::diagram".into(),
-        ..sheet.finish("fig01", "Period doubling", words)
+        ..sheet.finish("orbits", "Period doubling", words)
     })
 }
 
@@ -213,7 +213,7 @@ fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, literate::figure
          both fall along one straight line, by the ratio delta from orbit to orbit.",
         number(last, 0)
     );
-    let figure = sheet.finish("fig02", "Convergence of the ratios", words);
+    let figure = sheet.finish("convergence", "Convergence of the ratios", words);
     Ok(Figure { source: "paper::convergence".into(), experiments: vec![CASCADE.name], ..figure })
 }
 

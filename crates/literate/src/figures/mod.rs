@@ -32,21 +32,20 @@ pub mod prelude {
     pub use plotters::style::text_anchor::{HPos, VPos};
 }
 
-use crate::experiments;
+use crate::{experiments, report};
+use plotters::style::text_anchor::{HPos, VPos};
 use thiserror::Error;
 
 /// A figure: the picture, what it shows in words, and its data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// `fig01` … `fig15`, `s01` …; the picture's file name without its ending.
+    /// Its name, which is the picture's file name without its ending.
     pub id: String,
     /// A short name.
     pub title: String,
     /// What is seen, for those who do not see it.
     pub description: Seen,
-    /// The picture, a whole SVG document.
-    pub svg: String,
-    /// The picture as a list, for its other forms.
+    /// The picture.
     pub drawing: Drawing,
     /// Its data.
     pub data: Vec<DataFile>,
@@ -54,6 +53,28 @@ pub struct Figure {
     pub source: String,
     /// Names of the experiments whose results it shows.
     pub experiments: Vec<&'static str>,
+}
+
+impl Figure {
+    /// The picture as a file.
+    pub fn svg(&self) -> String {
+        self.drawing.svg(&self.id, &self.title, &self.description.text)
+    }
+
+    /// The figure of a name, among these.
+    pub fn named<'a>(name: &str, figures: &'a [Figure]) -> Result<&'a Figure, report::Error> {
+        let found = figures.iter().find(|figure| figure.id == name);
+        found.ok_or_else(|| report::Error::Picture(name.into()))
+    }
+
+    /// With a line at its foot about where it comes from.
+    pub fn with_foot(mut self, words: &str) -> Result<Figure, Error> {
+        self.drawing.height += 330;
+        let at = (style::WIDTH as i32 - 120, self.drawing.height as i32 - 110);
+        let look = (style::TINY, style::GREY, HPos::Right, VPos::Bottom);
+        self.drawing.label(words, at, look, false)?;
+        Ok(self)
+    }
 }
 
 /// What is seen in a figure: with its numbers, and as it was typed, so that a typed numeral is found. [`seen!`](crate::seen)

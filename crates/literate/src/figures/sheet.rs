@@ -10,7 +10,7 @@ use super::drawing::{Drawing, Look, Point};
 use super::panel::{Frame, Panel};
 use super::record::Record;
 use super::series::Marker;
-use super::style::{Colour, GREY, INK, Stroke, TINY, WIDTH};
+use super::style::{Colour, INK, Stroke, TINY};
 use super::{Error, Figure, Seen};
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -52,11 +52,8 @@ impl Entry {
 impl Sheet {
     /// An empty sheet of column width.
     pub fn new(height: u32) -> Self {
-        Sheet::on(Drawing::new(height))
-    }
-
-    fn on(drawing: Drawing) -> Self {
-        Sheet { drawing: Rc::new(RefCell::new(drawing)), records: RefCell::default() }
+        let drawing = Rc::new(RefCell::new(Drawing::new(height)));
+        Sheet { drawing, records: RefCell::default() }
     }
 
     /// A panel with its axes drawn.
@@ -147,35 +144,10 @@ impl Sheet {
     /// recorded, a file for each.
     pub fn finish(self, id: &str, title: &str, description: Seen) -> Figure {
         let drawing = self.drawing.take();
-        let svg = drawing.svg(id, title, &description.text);
         let records = self.records.take();
         let data = records.iter().filter_map(|record| record.borrow().file(id)).collect();
         let (id, title) = (id.to_string(), title.to_string());
-        Figure {
-            id,
-            title,
-            description,
-            svg,
-            drawing,
-            data,
-            source: String::new(),
-            experiments: Vec::new(),
-        }
+        let (source, experiments) = (String::new(), Vec::new());
+        Figure { id, title, description, drawing, data, source, experiments }
     }
 }
-
-impl Figure {
-    /// With a line at its foot about where it comes from.
-    pub fn with_foot(self, words: &str) -> Result<Figure, Error> {
-        let Figure { id, title, description, mut drawing, .. } = self;
-        drawing.height += FOOT;
-        let at = (WIDTH as i32 - 120, drawing.height as i32 - 110);
-        let sheet = Sheet::on(drawing);
-        sheet.text(words, at, (TINY, GREY, HPos::Right, VPos::Bottom))?;
-        let Figure { svg, drawing, .. } = sheet.finish(&id, &title, description.clone());
-        Ok(Figure { id, title, description, drawing, svg, ..self })
-    }
-}
-
-/// Height of the line at the foot.
-const FOOT: u32 = 330;

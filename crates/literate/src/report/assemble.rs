@@ -107,7 +107,14 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
 
     let declared = filler.declared.clone();
     let (parts, labels) = parts(input, &filled, &values, &declared)?;
-    let ledger = ledger::ledger(input.claims, input.figures, input.equations);
+    let mut ledger = ledger::ledger(input.claims, input.figures, input.equations);
+    for block in parts.iter().filter(|part| !part.of.repeats).flat_map(|part| &part.blocks) {
+        let Block::Figure { id, number, name, .. } = block else { continue };
+        let entry = ledger.figures.iter_mut().find(|figure| figure.id == *name);
+        if let Some(entry) = entry {
+            (entry.label, entry.number) = (id.clone(), number.clone());
+        }
+    }
 
     let (mut committed, mut beside) = (Files::new(), Files::new());
     let json = |e: serde_json::Error| Error::Template(format!("values.json: {e}"));
@@ -178,7 +185,7 @@ fn parts<'a>(
     if let Some(figure) = input.figures.iter().find(|figure| !shown.contains(&figure.id)) {
         return Err(Error::NotShown(figure.id.clone()));
     }
-    let missing = |entry: &&EquationEntry| labels.number(&format!("eq:{}", entry.number)).is_none();
+    let missing = |entry: &&EquationEntry| labels.get(&format!("eq:{}", entry.number)).is_none();
     if let Some(entry) = input.equations.iter().find(missing) {
         return Err(Error::NoEquation(entry.number.to_string()));
     }
@@ -192,7 +199,7 @@ fn parts<'a>(
 
 /// The picture of a figure and its data.
 pub fn files_of(figure: &Figure) -> Files {
-    let picture = (format!("figures/{}.svg", figure.id), figure.svg.clone().into_bytes());
+    let picture = (format!("figures/{}.svg", figure.id), figure.svg().into_bytes());
     std::iter::once(picture).chain(figure.data.iter().map(data)).collect()
 }
 
@@ -212,7 +219,8 @@ fn check_links(
     let leads = |to: &str| match (to.split_once("://"), to.strip_prefix('#')) {
         (Some((scheme, _)), _) => ["https", "http"].contains(&scheme),
         (_, Some(id)) => {
-            !id.contains(':') && labels.document(&id.replacen('-', ":", 1)) == Some(here)
+            let label = labels.get(&id.replacen('-', ":", 1));
+            !id.contains(':') && label.is_some_and(|label| label.of == here)
         }
         // Seen before it was led from where the report is written.
         _ if to.starts_with('.') || to.starts_with("mailto:") || is_page(to) => true,
@@ -235,10 +243,8 @@ fn check_links(
 fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Result<Vec<String>, Error> {
     let mut shown = Vec::new();
     for block in blocks.iter_mut() {
-        if let Block::Figure { path, alt, origin, .. } = block {
-            let own = |figure: &&Figure| *path == format!("figures/{}.svg", figure.id);
-            let figure =
-                input.figures.iter().find(own).ok_or_else(|| Error::NoFile(path.clone()))?;
+        if let Block::Figure { name, alt, origin, .. } = block {
+            let figure = Figure::named(name, input.figures)?;
             *alt = figure.description.text.clone();
             let words = |words: &str| Inline::Text(words.into());
             let data: Vec<String> =

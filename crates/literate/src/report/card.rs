@@ -5,7 +5,6 @@
 
 use super::document::Inline;
 use super::ledger::Ledger;
-use super::parse::number_of_figure;
 use super::print::{Asked, Style, print};
 use super::values::{Kind, Number, Registry, Value};
 use crate::figures::DataFile;
@@ -102,7 +101,8 @@ impl Cards<'_> {
         }
     }
 
-    /// The card of an id; a claim is found without its `claim:` too, a figure as `fig:s1`, `Fig:3`.
+    /// The card of an id; a claim is found without its `claim:` too, a figure as `fig:spread` or
+    /// by its number, `Fig:3`.
     pub fn get(&self, id: &str) -> Option<Card> {
         let id = id.trim();
         let lower = id.to_lowercase();
@@ -118,7 +118,7 @@ impl Cards<'_> {
     /// All ids, in the order values, figures, equations, claims.
     pub fn ids(&self) -> Vec<String> {
         let values = self.values.iter().map(|value| value.id.clone());
-        let figures = self.ledger.figures.iter().map(|figure| figure_id(&figure.id));
+        let figures = self.ledger.figures.iter().map(|figure| figure.label.clone());
         let equations = self.ledger.equations.iter().map(|e| format!("eq:{}", e.number));
         let claims = self.ledger.claims.iter().map(|claim| format!("claim:{}", claim.id));
         values.chain(figures).chain(equations).chain(claims).collect()
@@ -180,9 +180,11 @@ impl Cards<'_> {
     }
 
     fn figure(&self, asked: &str) -> Option<Card> {
-        let figure = self.ledger.figures.iter().find(|figure| figure_id(&figure.id) == asked)?;
+        let is = |label: &str| label.to_lowercase() == asked;
+        let mut figures = self.ledger.figures.iter();
+        let figure = figures.find(|own| is(&own.label) || is(&format!("fig:{}", own.number)))?;
         let title = vec![Inline::Text(figure.title.clone())];
-        let mut card = Card::of(asked.into(), title);
+        let mut card = Card::of(figure.label.clone(), title);
         card.words("shows", figure.description.clone());
         card.row("picture", links([&figure.picture]));
         card.row("data", links(&figure.data));
@@ -252,11 +254,6 @@ pub(super) fn links<'a>(paths: impl IntoIterator<Item = &'a String>) -> Vec<Inli
         out.push(link(path, Inline::Text(name.into())));
     }
     out
-}
-
-/// `fig03` → `fig:3`, `s01` → `fig:s1`.
-fn figure_id(figure: &str) -> String {
-    format!("fig:{}", number_of_figure(figure).to_lowercase())
 }
 
 /// What kind of number it is, and where it comes from.

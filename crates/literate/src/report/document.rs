@@ -27,10 +27,10 @@ pub enum Block {
     Figure {
         /// Id as `fig:3`.
         id: String,
-        /// Number as "3".
+        /// Number as "3" or "S1"; empty until it is given.
         number: String,
-        /// Path of the SVG relative to the report.
-        path: String,
+        /// Name of the figure: its picture is `figures/NAME.svg`.
+        name: String,
         /// What is seen, for those who do not see it.
         alt: String,
         /// Where its data is, and the code that draws it.
@@ -123,8 +123,10 @@ pub enum Inline {
     /// A displayed equation, as TeX without its tag.
     Display {
         tex: String,
-        /// The number in brackets, as "18"; its id is `eq:18`.
-        tag: Option<String>,
+        /// Id as `eq:18`; none if it has no number.
+        id: Option<String>,
+        /// Number as "18"; empty until it is given.
+        number: String,
     },
     /// A value: the words and mathematics that show it.
     Value {

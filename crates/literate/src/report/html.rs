@@ -59,8 +59,8 @@ pub fn write(
                 number.clone().unwrap_or_default(),
                 page.inlines(text)?,
             ]),
-            Block::Figure { id, number, path, .. } => {
-                let name = text(&page.figure(path)?.title);
+            Block::Figure { id, number, name, .. } => {
+                let name = text(&page.figure(name)?.title);
                 figures.push([id_of(Some(id), &[]), number.clone(), name]);
             }
             _ => (),
@@ -97,7 +97,7 @@ pub fn beside(values: &BTreeSet<String>, cards: Cards<'_>, site: Site<'_>) -> Re
         for row in &card.rows {
             let place = |inline: &Inline| match inline.clone() {
                 Inline::Reference { to, shown, .. } => {
-                    let within = site.labels.document(&to);
+                    let within = site.labels.get(&to).map(|label| label.of);
                     vec![Inline::Reference { to, within, shown }]
                 }
                 other => document::led(other, site.top),
@@ -166,15 +166,14 @@ impl Page<'_> {
                 format!("<h{level} id=\"{id}\"><a href=\"#{id}\">{words}</a></h{level}>\n")
             }
             Block::Paragraph(text) => self.paragraph(text)?,
-            Block::Figure { id, number, path, origin, caption, .. } => {
-                let figure = self.figure(path)?;
+            Block::Figure { id, number, name, origin, caption, .. } => {
+                let figure = self.figure(name)?;
                 self.glyphs.borrow_mut().extend(figure.drawing.glyphs.clone());
                 let svg =
                     figure.drawing.on_page(&figure.id, &figure.title, &figure.description.text);
-                let name = path.rsplit('/').next().unwrap_or(path);
                 format!(
                     "<figure id=\"{}\">{}<figcaption><strong>Figure {number}.</strong> {} <span class=\"origin\">\
-                     Picture: <a href=\"{path}\">{name}</a>. {}</span></figcaption></figure>\n",
+                     Picture: <a href=\"figures/{name}.svg\">{name}.svg</a>. {}</span></figcaption></figure>\n",
                     id_of(Some(id), &[]),
                     scroll(&format!("Figure {number}"), &svg),
                     self.inlines(caption)?,
@@ -238,9 +237,8 @@ impl Page<'_> {
         })
     }
 
-    fn figure(&self, path: &str) -> Result<&Figure, Error> {
-        let own = |figure: &&Figure| *path == format!("figures/{}.svg", figure.id);
-        self.site.figures.iter().find(own).ok_or_else(|| Error::NoFile(path.into()))
+    fn figure(&self, name: &str) -> Result<&Figure, Error> {
+        Figure::named(name, self.site.figures)
     }
 
     /// HTML lets no equation stand inside a `<p>`: the sentence goes on in the next one.
@@ -383,16 +381,17 @@ impl Page<'_> {
             Inline::Raised(inner) => format!("<sup>{}</sup>", self.inlines(inner)?),
             Inline::Strong(inner) => format!("<strong>{}</strong>", self.inlines(inner)?),
             Inline::Maths(tex) => mathml::write(self, tex, MathDisplay::Inline)?,
-            Inline::Display { tex, tag } => {
+            Inline::Display { tex, id, number } => {
                 let formula = mathml::write(self, tex, MathDisplay::Block)?;
-                let (id, number) = match tag {
-                    Some(tag) => (
-                        format!(" id=\"eq-{tag}\""),
-                        format!("<a class=\"number\" href=\"#eq-{tag}\">({tag})</a>"),
+                let name = if id.is_some() { number } else { "without number" };
+                let name = format!("Equation {name}");
+                let (id, number) = match id.as_deref().map(|id| id_of(Some(id), &[])) {
+                    Some(id) => (
+                        format!(" id=\"{id}\""),
+                        format!("<a class=\"number\" href=\"#{id}\">({number})</a>"),
                     ),
                     None => Default::default(),
                 };
-                let name = format!("Equation {}", tag.as_deref().unwrap_or("without number"));
                 let formula = scroll(&name, &formula);
                 format!("<div class=\"equation\"{id}>{formula}{number}</div>\n")
             }

@@ -4,17 +4,27 @@ use super::Error;
 use super::bibliography::Library;
 use super::document::{Block, Inline, rewrite, visit};
 use super::documents::Document;
-use super::parse::number_of_figure;
 use crate::claims::Check;
 use crate::figures::Figure;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-/// Everything that can be referred to, of all documents: id → number, and which document has it.
+/// What can be referred to by an id.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// What references show: a number, in brackets that of an equation, with its letter the part of a figure.
+    pub shown: String,
+    /// The document that has it.
+    pub of: Document,
+    /// Id of the place that references lead to.
+    to: String,
+}
+
+/// Everything that can be referred to, of all documents, by its id.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
-    labels: BTreeMap<String, (String, Document)>,
-    /// Parts of figures: `fig:8a`.
-    panels: BTreeSet<String>,
+    labels: BTreeMap<String, Label>,
+    /// Letters of the panels of each figure, by its name.
+    panels: BTreeMap<String, Vec<char>>,
     /// Anchors of each kind so far.
     anchors: BTreeMap<String, usize>,
 }
@@ -22,35 +32,47 @@ pub struct Labels {
 impl Labels {
     /// None yet, of a report with these figures.
     pub fn of(figures: &[Figure]) -> Self {
-        let panels = figures.iter().flat_map(|figure| {
-            let number = number_of_figure(&figure.id);
-            let drawn = |letter: &char| figure.svg.contains(&format!("aria-label=\"({letter})\""));
-            ('a'..='z').filter(drawn).map(move |letter| format!("fig:{number}{letter}"))
-        });
+        let panels = figures.iter().map(|figure| (figure.id.clone(), figure.drawing.panels()));
         Labels { panels: panels.collect(), ..Labels::default() }
     }
 
-    fn add(&mut self, id: &str, number: &str, of: Document) -> Result<(), Error> {
-        match self.labels.insert(id.to_string(), (number.to_string(), of)) {
+    fn add(&mut self, id: &str, shown: &str, of: Document, to: &str) -> Result<(), Error> {
+        let label = Label { shown: shown.into(), of, to: to.into() };
+        match self.labels.insert(id.to_string(), label) {
             None => Ok(()),
             Some(_) => Err(Error::Label(id.to_string())),
         }
     }
 
-    /// The number of an id.
-    pub fn number(&self, id: &str) -> Option<&str> {
-        self.labels.get(id).map(|(number, _)| number.as_str())
+    /// What an id refers to.
+    pub fn get(&self, id: &str) -> Option<&Label> {
+        self.labels.get(id)
     }
 
-    /// The document that has an id.
-    pub fn document(&self, id: &str) -> Option<Document> {
-        self.labels.get(id).map(|(_, of)| *of)
-    }
-
-    /// Gives numbers to the sections, captioned tables, listings and anchors of a document.
+    /// Gives numbers to the sections, figures, equations, captioned tables, listings and anchors of a document, in order;
+    /// figures and equations that have one keep it.
     pub fn number_all(&mut self, blocks: &mut [Block], of: Document) -> Result<(), Error> {
         let letter = of.letter;
         let (mut section, mut subsection, mut tables, mut listings) = (0, 0, 0, 0);
+        let mut given = Vec::new();
+        for block in blocks.iter() {
+            if let Block::Figure { number, .. } = block {
+                given.push(format!("fig{number}"));
+            }
+        }
+        visit(blocks, &mut |inline| {
+            if let Inline::Display { number, .. } = inline {
+                given.push(format!("eq{number}"));
+            }
+        });
+        let free = |kind: &str, count: &mut usize| loop {
+            *count += 1;
+            let number = format!("{letter}{count}");
+            if !given.contains(&format!("{kind}{number}")) {
+                return number;
+            }
+        };
+        let (mut figures, mut equations) = (0, 0);
         for block in blocks.iter_mut() {
             match block {
                 Block::Heading { level, number, id, .. } => {
@@ -64,46 +86,59 @@ impl Labels {
                         }
                     }
                     if let Some(id) = id {
-                        self.add(id, number.as_deref().unwrap_or_default(), of)?;
+                        self.add(id, number.as_deref().unwrap_or_default(), of, id)?;
                     }
                 }
                 // What is shown again has its place elsewhere.
-                Block::Figure { id, number, .. } if !of.repeats => self.add(id, number, of)?,
+                Block::Figure { id, number, name, .. } if !of.repeats => {
+                    if number.is_empty() {
+                        *number = free("fig", &mut figures);
+                    }
+                    self.add(id, number, of, id)?;
+                    for letter in self.panels.get(name).cloned().unwrap_or_default() {
+                        let dash = if *id == format!("fig:{number}") { "" } else { "-" };
+                        self.add(
+                            &format!("{id}{dash}{letter}"),
+                            &format!("{number}({letter})"),
+                            of,
+                            id,
+                        )?;
+                    }
+                }
                 Block::Listing { id, number, .. } => {
                     listings += 1;
                     *number = format!("{letter}{listings}");
-                    self.add(id, number, of)?;
+                    self.add(id, number, of, id)?;
                 }
                 Block::Table { id, number: Some(number), .. } => {
                     tables += 1;
                     *number = format!("{letter}{tables}");
                     if let Some(id) = id {
-                        self.add(id, number, of)?;
+                        self.add(id, number, of, id)?;
                     }
                 }
                 _ => {}
             }
         }
-        rewrite(blocks, &mut |inline| match inline {
-            Inline::Anchor { id, .. } => {
-                let kind = id.split(':').next().unwrap_or_default().to_string();
-                let count = self.anchors.entry(kind).or_default();
-                *count += 1;
-                let number = count.to_string();
-                self.add(&id, &number, of)?;
-                Ok(vec![Inline::Anchor { id, number }])
+        rewrite(blocks, &mut |mut inline| {
+            match &mut inline {
+                Inline::Anchor { id, number } => {
+                    let kind = id.split(':').next().unwrap_or_default().to_string();
+                    let count = self.anchors.entry(kind).or_default();
+                    *count += 1;
+                    *number = count.to_string();
+                    self.add(id, number, of, id)?;
+                }
+                Inline::Display { id: Some(id), number, .. } => {
+                    if number.is_empty() {
+                        *number = free("eq", &mut equations);
+                    }
+                    self.add(id, &format!("({number})"), of, id)?;
+                }
+                _ => {}
             }
-            other => Ok(vec![other]),
-        })?;
-        let mut result = Ok(());
-        visit(blocks, &mut |inline| {
-            if let Inline::Display { tag: Some(tag), .. } = inline
-                && result.is_ok()
-            {
-                result = self.add(&format!("eq:{tag}"), tag, of);
-            }
-        });
-        result
+            Ok(vec![inline])
+        })
     }
 
     /// Gives each judged statement that has its row more names: `row:id` and `mark:id`, shown as its verdict and number,
@@ -114,14 +149,13 @@ impl Labels {
             return Err(Error::Claim(id.to_string()));
         }
         for Check { id, verdict, .. } in claims {
-            let Some((number, of)) = self.labels.get(&format!("claim:{id}")).cloned() else {
-                continue;
-            };
+            let to = format!("claim:{id}");
+            let Some(Label { shown, of, .. }) = self.labels.get(&to).cloned() else { continue };
             let sign = verdict.sign();
             for kind in ["row", "mark"] {
-                self.add(&format!("{kind}:{id}"), &format!("{sign}\u{a0}{number}"), of)?;
+                self.add(&format!("{kind}:{id}"), &format!("{sign}\u{a0}{shown}"), of, &to)?;
             }
-            self.add(&format!("sign:{id}"), &sign.to_string(), of)?;
+            self.add(&format!("sign:{id}"), &sign.to_string(), of, &to)?;
         }
         Ok(())
     }
@@ -133,6 +167,13 @@ impl Labels {
         here: Document,
         library: &Library,
     ) -> Result<(), Error> {
+        for block in blocks.iter_mut() {
+            // A figure that is shown again has the number of its place.
+            if let Block::Figure { id, number, .. } = block {
+                let label = self.get(id).ok_or_else(|| Error::Reference(id.clone()))?;
+                *number = label.shown.clone();
+            }
+        }
         let mut cited = Vec::new();
         rewrite(blocks, &mut |inline| match inline {
             Inline::Unresolved(ids) => self.refer(&ids, here, library, &mut cited),
@@ -187,29 +228,16 @@ impl Labels {
         }
         for (i, id) in ids.iter().enumerate() {
             let id = format!("{lower}{}", &id[asked.len()..]);
-            // `[@fig:8a]` is part (a) of Fig. 8.
-            let (target, part) = match id.strip_suffix(|c: char| c.is_ascii_lowercase()) {
-                Some(whole) if self.panels.contains(&id) => {
-                    (whole, format!("({})", &id[whole.len()..]))
-                }
-                _ => (id.as_str(), String::new()),
-            };
-            let number = self.number(target).filter(|number| !number.is_empty());
-            let number = number.ok_or_else(|| Error::Reference(ids[i].clone()))?;
-            let number =
-                if lower == "eq" { format!("({number})") } else { format!("{number}{part}") };
+            let label = self.get(&id).filter(|label| !label.shown.is_empty());
+            let Label { shown, of, to } = label.ok_or_else(|| Error::Reference(ids[i].clone()))?;
             if i > 0 {
                 let last = i + 1 == ids.len() && !is_verdict;
                 out.push(words(if last { " and " } else { ", " }));
             }
             let named = !several && !is_verdict;
-            let shown = if named { format!("{name}\u{a0}{number}") } else { number };
-            let to = match target.split_once(':') {
-                Some((_, id)) if is_verdict => format!("claim:{id}"),
-                _ => target.to_string(),
-            };
-            let within = self.document(&to).filter(|of| *of != here);
-            out.push(Inline::Reference { to, within, shown });
+            let shown = if named { format!("{name}\u{a0}{shown}") } else { shown.clone() };
+            let within = (*of != here).then_some(*of);
+            out.push(Inline::Reference { to: to.clone(), within, shown });
         }
         Ok(if lower == "row" { vec![Inline::Raised(out)] } else { out })
     }

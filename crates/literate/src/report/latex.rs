@@ -83,15 +83,12 @@ fn write_block(block: &Block) -> Result<String, Error> {
             }
         }
         Block::Paragraph(text) => inlines(text)?.trim_end().to_string(),
-        Block::Figure { id, number, path, caption, .. } => {
-            let pdf = path.strip_suffix(".svg").map_or(path.clone(), |stem| format!("{stem}.pdf"));
-            format!(
-                "\\begin{{figure}}[htbp]\n\\centering\n\
-                 \\includegraphics[width=0.8\\linewidth,height=0.62\\textheight,keepaspectratio]{{{pdf}}}\n\
-                 \\renewcommand{{\\thefigure}}{{{number}}}\n\\caption{{{}}}\\label{{{id}}}\n\\end{{figure}}",
-                inlines(caption)?
-            )
-        }
+        Block::Figure { id, number, name, caption, .. } => format!(
+            "\\begin{{figure}}[htbp]\n\\centering\n\
+             \\includegraphics[width=0.8\\linewidth,height=0.62\\textheight,keepaspectratio]{{figures/{name}.pdf}}\n\
+             \\renewcommand{{\\thefigure}}{{{number}}}\n\\caption{{{}}}\\label{{{id}}}\n\\end{{figure}}",
+            inlines(caption)?
+        ),
         Block::Table { id, number, caption, columns, head, rows } => {
             table(id.as_deref(), number.is_some(), caption, columns, head, rows)?
         }
@@ -173,11 +170,11 @@ fn inline(inline: &Inline) -> Result<String, Error> {
         Inline::Raised(inner) => format!("\\textsuperscript{{{}}}", inlines(inner)?),
         Inline::Strong(inner) => format!("\\textbf{{{}}}", inlines(inner)?),
         Inline::Maths(maths) => format!("${}$", tex::maths(maths)?),
-        Inline::Display { tex: maths, tag } => {
+        Inline::Display { tex: maths, id, number } => {
             let maths = tex::maths(maths)?;
-            match tag {
-                Some(tag) => format!(
-                    "\n\\begin{{equation}}\n{maths}\n\\tag{{{tag}}}\\label{{eq:{tag}}}\n\\end{{equation}}\n"
+            match id {
+                Some(id) => format!(
+                    "\n\\begin{{equation}}\n{maths}\n\\tag{{{number}}}\\label{{{id}}}\n\\end{{equation}}\n"
                 ),
                 None => format!("\n\\begin{{equation*}}\n{maths}\n\\end{{equation*}}\n"),
             }

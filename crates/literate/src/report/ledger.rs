@@ -27,6 +27,9 @@ pub struct Ledger {
 )]
 pub struct FigureEntry {
     pub id: String,
+    /// What the prose refers to it by, as `fig:3`.
+    pub label: String,
+    pub number: String,
     pub title: String,
     pub description: String,
     pub picture: String,
@@ -55,6 +58,8 @@ pub struct EquationEntry {
 pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
     let figure = |figure: &Figure| FigureEntry {
         id: figure.id.clone(),
+        label: String::new(),
+        number: String::new(),
         title: figure.title.clone(),
         description: figure.description.text.clone(),
         picture: format!("figures/{}.svg", figure.id),

@@ -33,11 +33,11 @@ fn block(block: &Block) -> String {
             format!("{hashes} {}{number}{}", id.unwrap_or_default(), inlines(text))
         }
         Block::Paragraph(text) => inlines(text),
-        Block::Figure { id, number, path, alt, origin, caption } => {
+        Block::Figure { id, number, name, alt, origin, caption } => {
             let (caption, origin) = (inlines(caption), inlines(origin));
             let origin = if origin.is_empty() { origin } else { format!("\n<sub>{origin}</sub>") };
             let (id, alt) = (anchor(id), alternative(alt));
-            format!("{id}\n![{alt}]({path})\n\n**Figure {number}.** {caption}{origin}")
+            format!("{id}\n![{alt}](figures/{name}.svg)\n\n**Figure {number}.** {caption}{origin}")
         }
         Block::Table { id, number, caption, columns, head, rows } => {
             let mut text = id.as_deref().map_or(String::new(), anchor);
@@ -175,6 +175,7 @@ impl Writer {
         match inline {
             Inline::Text(text) => self.text(text, out),
             Inline::Soft if self.in_table => out.push(' '),
+            Inline::Soft if out.ends_with('\n') => (),
             Inline::Soft => out.push('\n'),
             Inline::Code(code) => {
                 let fence = fence(code, 1);
@@ -185,18 +186,18 @@ impl Writer {
             Inline::Raised(inner) => out.push_str(&format!("<sup>{}</sup>", self.all(inner))),
             Inline::Strong(inner) => out.push_str(&format!("**{}**", self.all(inner))),
             Inline::Maths(tex) => out.push_str(&format!("${}$", maths(tex))),
-            Inline::Display { tex, tag } => {
+            Inline::Display { tex, id, number } => {
                 while out.ends_with([' ', '\n']) {
                     out.pop();
                 }
                 if !out.is_empty() {
                     out.push_str("\n\n");
                 }
-                if let Some(tag) = tag {
-                    out.push_str(&anchor(&format!("eq:{tag}")));
-                    out.push_str("\n\n");
+                let mut tag = String::new();
+                if let Some(id) = id {
+                    out.push_str(&format!("{}\n\n", anchor(id)));
+                    tag = format!("\n\\tag{{{number}}}");
                 }
-                let tag = tag.as_ref().map(|t| format!("\n\\tag{{{t}}}")).unwrap_or_default();
                 out.push_str(&format!("$$\n{}{tag}\n$$\n\n", maths(tex)));
             }
             Inline::Value { shown, .. } => out.push_str(&self.all(shown)),

@@ -63,6 +63,11 @@ pub enum Error {
     Claim(String),
     #[error("a link to {}: there is no such file or place; correct or remove it", one_line(.0, 200))]
     NoFile(String),
+    #[error(
+        "there is no figure {:?}: a picture is figures/NAME.svg, which the program draws; other files of pictures are not taken",
+        one_line(.0, 200)
+    )]
+    Picture(String),
     #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]
     Label(String),
     #[error("[@{}]: nothing in the report has this id; correct or remove the reference{}", one_line(.0, 200), several(.0))]

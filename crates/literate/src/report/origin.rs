@@ -126,7 +126,7 @@ impl<'a> Places<'a> {
             Error::Label(id) => format!("#{id}"),
             Error::Reference(id) => format!("@{id}"),
             Error::Claim(id) => format!("#claim:{id}"),
-            Error::NoFile(path) => format!("({path}"),
+            Error::NoFile(path) | Error::Picture(path) => format!("({path}"),
             _ => return error,
         };
         match self.found.iter().rev().find(|(own, _)| *own == thing) {

@@ -42,7 +42,7 @@ impl Reader<'_> {
                 }
                 Event::DisplayMath(tex) => {
                     self.formula(&range);
-                    out.push(self.display(&tex)?);
+                    out.push(self.display(&tex, range.end)?);
                 }
                 Event::SoftBreak => out.push(Inline::Soft),
                 Event::InlineHtml(html) => comment(&html)?,
@@ -150,8 +150,14 @@ impl Reader<'_> {
         out: &mut Vec<Inline>,
     ) -> Result<(), Error> {
         let source = &self.filled.text;
-        let range = range.start..range.end.min(self.until.max(range.start));
-        let text = &text[..text.len().min(range.len())];
+        let within = |offset: usize| offset.clamp(range.start, range.end) - range.start;
+        let (before, after) = (within(self.id_at.start), within(self.id_at.end));
+        if before < after {
+            // The id is in one piece of text, or at the end of several.
+            let begin = range.start;
+            self.text(&text[..before], begin..begin + before, out)?;
+            return self.text(&text[after..], begin + after..range.end, out);
+        }
         if let Some((at, what)) = leftover(source, range.start, text)
             && at >= self.quiet
         {
@@ -201,16 +207,25 @@ impl Reader<'_> {
         }
     }
 
-    /// Cuts `\tag{18}` out of an equation.
-    fn display(&mut self, tex: &str) -> Result<Inline, Error> {
-        let Some((before, after)) = tex.split_once(r"\tag{") else {
-            return Ok(Inline::Display { tex: self.maths(tex.trim())?, tag: None });
-        };
-        let (tag, after) =
-            after.split_once('}').ok_or_else(|| markup(r"a \tag{ without its end"))?;
-        self.id("eq", &format!("eq:{tag}"), self.at)?;
-        let tex = self.maths(format!("{}{}", before.trim(), after.trim_end()).trim())?;
-        Ok(Inline::Display { tex, tag: Some(tag.to_string()) })
+    /// An equation that ends at an offset: cuts `\tag{18}` out of it, or takes the id `{#eq:name}` behind it.
+    fn display(&mut self, tex: &str, end: usize) -> Result<Inline, Error> {
+        let behind = &self.filled.text[end..];
+        let id =
+            behind.trim_start_matches(' ').strip_prefix("{#").and_then(|id| id.split_once('}'));
+        if let Some((id, rest)) = id {
+            self.id_at = end..self.filled.text.len() - rest.len();
+            self.id("eq", id, self.at)?;
+        }
+        let mut id = id.map(|(id, _)| id.to_string());
+        let (mut tex, mut number) = (tex.to_string(), String::new());
+        if let Some((before, after)) = tex.split_once(r"\tag{") {
+            let (tag, after) =
+                after.split_once('}').ok_or_else(|| markup(r"a \tag{ without its end"))?;
+            let own = format!("eq:{tag}");
+            self.id("eq", &own, self.at)?;
+            (id, number, tex) = (Some(own), tag.into(), format!("{}{}", before.trim(), after));
+        }
+        Ok(Inline::Display { tex: self.maths(tex.trim())?, id, number })
     }
 
     /// Text in which values are digits alone: code, targets of links.

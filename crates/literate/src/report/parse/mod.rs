@@ -6,7 +6,7 @@
 mod inlines;
 
 use super::Error;
-use super::document::{Align, Block, Inline};
+use super::document::{Align, Block, Inline, plain};
 use super::labels::of_kind;
 use super::lint::Declared;
 use super::origin::{Filled, Places};
@@ -46,7 +46,7 @@ pub fn parse<'a>(
         declared,
         program,
         at: 0,
-        until: usize::MAX,
+        id_at: 0..0,
         quiet: 0,
         within: 0,
         hides: 0,
@@ -91,8 +91,8 @@ struct Reader<'a> {
     program: Program,
     /// Where in the filled text what is being read begins.
     at: usize,
-    /// Where the words of a caption end, before its id.
-    until: usize,
+    /// Where an id begins and ends that is no text: behind a caption, a picture or an equation.
+    id_at: Range<usize>,
     /// Where a formula ends that Markdown has cut, of which the first fault says all.
     quiet: usize,
     /// Lists and quotations about what is being read.
@@ -162,7 +162,7 @@ impl<'a> Reader<'a> {
                 Err(error) if within > 0 => return Err(error),
                 Err(error) => {
                     self.find(self.at, error);
-                    (self.within, self.hides, self.until) = (0, 0, usize::MAX);
+                    (self.within, self.hides) = (0, 0);
                     while self.events.next_if(|(_, range)| range.start < end).is_some() {}
                 }
             }
@@ -278,21 +278,21 @@ impl<'a> Reader<'a> {
             self.at = at;
             return Err(markup("a caption has its table or its code right behind it"));
         }
+        let source = self.source(&range).trim_end();
+        let own = source.strip_suffix('}').and_then(|source| source.rsplit_once("{#"));
+        let id_at = own.map_or(0..0, |(words, _)| range.start + words.len()..range.end);
+        let id = own.map(|(_, id)| id.to_string());
         if let Some(Event::Start(Tag::Image { dest_url, .. })) = self.peek() {
             let path = dest_url.to_string();
             self.next();
-            return self.figure(path, range.start).map(Some);
+            self.id_at = id_at;
+            return self.figure(&path, range.start, id).map(Some);
         }
-        let source = self.source(&range).trim_end();
         let caption = CAPTIONS.iter().find(|(word, _)| source.starts_with(word));
-        let own = source.strip_suffix('}').and_then(|source| source.rsplit_once("{#"));
-        let own = own.filter(|_| caption.is_some());
-        self.until = own.map_or(usize::MAX, |(words, _)| range.start + words.len());
+        self.id_at = if caption.is_some() { id_at } else { 0..0 };
         let mut inlines = self.inlines()?;
-        self.until = usize::MAX;
         self.at = range.start;
         if let Some((word, kind)) = caption {
-            let id = own.map(|(_, id)| id.to_string());
             id.iter().try_for_each(|id| self.id(kind, id, range.start))?;
             if let Some(Inline::Text(last)) = inlines.last_mut() {
                 last.truncate(last.trim_end().len());
@@ -319,19 +319,26 @@ impl<'a> Reader<'a> {
         Ok(Some(Block::Paragraph(inlines)))
     }
 
-    /// A picture, which stands alone in its paragraph.
-    fn figure(&mut self, path: String, at: usize) -> Result<Block, Error> {
+    /// A picture, which stands alone in its paragraph, with its id behind it: that of `figures/NAME.svg` is `fig:NAME`
+    /// else. An id that is a number gives it, as `fig:3` and `fig:S1` do.
+    fn figure(&mut self, path: &str, at: usize, id: Option<String>) -> Result<Block, Error> {
         let caption = self.line()?;
         self.next();
-        if !matches!(self.peek(), Some(Event::End(TagEnd::Paragraph))) {
-            self.at = at;
+        let behind = self.inlines()?;
+        self.at = at;
+        if !plain(&behind).trim().is_empty() {
             return Err(markup(ALONE));
         }
-        let number = number_of_figure(&path);
-        let id = format!("fig:{number}");
-        self.places.add(format!("#{id}"), at);
-        self.places.add(format!("({path}"), at);
-        Ok(Block::Figure { id, number, path, alt: String::new(), origin: Vec::new(), caption })
+        let name = path.strip_prefix("figures/").and_then(|name| name.strip_suffix(".svg"));
+        let name = name.ok_or_else(|| Error::Picture(path.into()))?.to_string();
+        let id = id.unwrap_or_else(|| format!("fig:{name}"));
+        self.id("fig", &id, at)?;
+        self.places.add(format!("({name}"), at);
+        let given = id.trim_start_matches("fig:");
+        let digits = given.trim_start_matches(|c: char| c.is_ascii_uppercase());
+        let is_number = !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit());
+        let number = if is_number { given.into() } else { String::new() };
+        Ok(Block::Figure { id, number, name, alt: String::new(), origin: Vec::new(), caption })
     }
 
     /// A block of code, or the listing of an item of the source.
@@ -394,16 +401,6 @@ impl<'a> Reader<'a> {
 const ELSE: &str = "this markup has no place in all formats";
 const ALONE: &str = "a picture stands alone in its paragraph";
 const FENCE: &str = "a block of code stands between two lines ```";
-
-/// figures/fig03.svg → 3, figures/s01.svg → S1.
-pub(super) fn number_of_figure(path: &str) -> String {
-    let stem = path.rsplit('/').next().unwrap_or(path);
-    let stem = stem.split('.').next().unwrap_or(stem);
-    let digits = stem.trim_start_matches(|c: char| c.is_ascii_alphabetic());
-    let prefix = &stem[..stem.len() - digits.len()];
-    let digits = digits.trim_start_matches('0');
-    if prefix == "fig" { digits.to_string() } else { format!("{}{digits}", prefix.to_uppercase()) }
-}
 
 /// Comments are for writers; other HTML has no place in four formats.
 fn comment(html: &str) -> Result<(), Error> {

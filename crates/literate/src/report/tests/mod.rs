@@ -4,6 +4,7 @@ mod broken;
 
 use super::*;
 use crate::claims::{Check, Kind, decimals, with_error};
+use crate::figures::prelude::{HPos, INK, VPos};
 use crate::figures::{DataFile, Drawing, Figure};
 use crate::source::{Program, TOY};
 
@@ -25,7 +26,13 @@ $$
 \begin{aligned} a &= b \\ c &= d \end{aligned} \tag{25}
 $$
 
-![The rise, at «v.half_height» or $\sigma$ ≥ 0.12.](figures/fig03.svg)
+![The rise, at «v.half_height» or $\sigma$ ≥ 0.12.](figures/fig03.svg){#fig:3}
+
+Of [@eq:map],
+$$
+x \to f(x)
+$$ {#eq:map}
+follows $x^2$ («v.tiny»).
 
 ### The protocol {#sec:protocol}
 
@@ -103,6 +110,7 @@ fn markdown_for_a_host() {
         "$\\Phi'_{N,p}\\thinspace(k) \\lt 1$ moves *fast*, **very** fast",
         "<a id=\"eq-18\"></a>\n\n$$\np_{\\mathrm{crit}} = \\left(\\frac{1 + \\sqrt{N+1}}{N}\\right)^2\n\\tag{18}\n$$\n",
         "\n\\begin{aligned} a &= b \\cr c &= d \\end{aligned}\n",
+        "Of [Eq.\u{a0}(1)](#eq-map),\n\n<a id=\"eq-map\"></a>\n\n$$\nx \\to f(x)\n\\tag{1}\n$$\n\nfollows",
         "<a id=\"fig-3\"></a>\n![](figures/fig03.svg)\n\n**Figure 3.** The rise, at 0.1165(4) or",
         "<a id=\"tab-sigma\"></a>**Table 1.** What σ gives\n\n| Check | Statement | Ours |\n|---|---|--:|\n",
         "| <a id=\"claim-jump\"></a>2 | a_b \\* c | 94.5(8)\u{a0}% |\n",
@@ -134,6 +142,7 @@ fn latex_for_pdflatex() {
         "\\tag{18}\\label{eq:18}\n\\end{equation}\nwhere $N$ is large, so\n\\begin{equation}\n",
         "\\includegraphics[width=0.8\\linewidth,height=0.62\\textheight,keepaspectratio]{figures/fig03.pdf}",
         "\\caption{The rise, at \\origin{half_height}{0.1165(4)} or $\\sigma$ \\ensuremath{\\ge} 0.12.}\\label{fig:3}",
+        "Of \\hyperref[eq:map]{Eq.~(1)},\n\\begin{equation}\nx \\to f(x)\n\\tag{1}\\label{eq:map}\n\\end{equation}\nfollows",
         "\\begin{longtable}{llr}\n\\caption{What \\ensuremath{\\sigma} gives}\\label{tab:sigma}\\\\\n",
         "\\phantomsection\\label{claim:jump}2 & a\\_b * c & \\origin{kept}{94.5(8)~\\%} \\\\\n",
         "\\phantomsection\\section*{References}",
@@ -156,7 +165,8 @@ fn latex_for_pdflatex() {
 }
 
 fn figure() -> Figure {
-    let drawing = Drawing::new(400);
+    let mut drawing = Drawing::new(400);
+    drawing.label("(a)", (0, 300), (200, INK, HPos::Left, VPos::Bottom), false).unwrap();
     let words = |row: [&str; 2]| row.map(String::from).to_vec();
     let (name, rows) = ("fig03.csv".into(), vec![words(["0.1", "2"])]);
     let data = DataFile { name, header: words(["sigma", "mean"]), rows };
@@ -164,9 +174,6 @@ fn figure() -> Figure {
         id: "fig03".into(),
         title: "The rise".into(),
         description: crate::seen!("It rises [steeply]."),
-        svg: drawing
-            .svg("fig03", "The rise", "It rises [steeply].")
-            .replace("</svg>", "<g aria-label=\"(a)\"/></svg>"),
         drawing,
         data: vec![data],
         source: String::new(),
@@ -317,7 +324,7 @@ fn documents_refer_to_each_other() {
         ),
         (
             "more.md",
-            "# More\n\n## A {#sec:a}\n\n### B {#sec:b}\n\n«v.half_height», [@fig:3], [@sec:last].\n\n\
+            "# More\n\n## A {#sec:a}\n\n### B {#sec:b}\n\n«v.half_height», [@fig:fig03], [@fig:fig03-a], [@sec:last].\n\n\
           Table: T {#tab:t}\n\n| a |\n|---|\n| [!claim:rise] |",
         ),
         ("references.bib", ""),
@@ -350,6 +357,7 @@ fn documents_refer_to_each_other() {
         String::from_utf8(bytes.clone()).unwrap()
     };
     for (file, part) in [
+        ("README.md", "**Figure 1.** Again."),
         (
             "README.md",
             "See [Sec.\u{a0}S1.1](more.md#sec-b), [✓](more.md#claim-rise) and [more](more.md).",
@@ -359,7 +367,10 @@ fn documents_refer_to_each_other() {
         ("index.html", "<li><a href=\"index.html\" aria-current=\"page\">Front</a></li>"),
         ("report.md", "Words, <sup>[✓\u{a0}1](more.md#claim-rise)</sup> and"),
         ("report.tex", "Words, \\textsuperscript{\\ensuremath{\\checkmark}~1} and Sec.~S1.1"),
-        ("more.md", "[Fig.\u{a0}3](report.md#fig-3), [Sec.\u{a0}2](report.md#sec-last)."),
+        (
+            "more.md",
+            "[Fig.\u{a0}1](report.md#fig-fig03), [Fig.\u{a0}1(a)](report.md#fig-fig03), [Sec.\u{a0}2](report.md#sec-last).",
+        ),
         ("more.md", "**Table S1.** T"),
         ("more.tex", "\\renewcommand{\\thesection}{S\\arabic{section}}"),
     ] {
@@ -372,7 +383,7 @@ fn documents_refer_to_each_other() {
     let twice =
         right.iter().map(|(path, text)| (*path, if *path == "more.md" { &again } else { *text }));
     let error = made(&twice.collect::<Vec<_>>()).unwrap_err().to_string();
-    assert!(error.contains("fig:3: two things"), "{error}");
+    assert!(error.contains("fig:fig03: two things"), "{error}");
 }
 
 #[test]
