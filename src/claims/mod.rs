@@ -8,8 +8,8 @@
 //! difference that we explain no longer has the size that the explanation predicts. [`relations`] and
 //! [`targets`] hold numbers of this edition against one another, and against what it promises.
 
+mod judge;
 pub mod relations;
-mod row;
 pub(crate) mod sec2;
 mod sec3;
 pub(crate) mod sec5;
@@ -24,7 +24,7 @@ use crate::experiments::{Need, Results};
 
 pub use literate::claims::*;
 
-pub use row::{Evidence, Row};
+pub use judge::{Evidence, Judge};
 
 /// What the paper printed, as it is committed.
 ///
@@ -36,7 +36,7 @@ pub fn published() -> Result<Published, PublishedError> {
 }
 
 /// The rows of all sections, in the order of the paper.
-pub fn rows() -> impl Iterator<Item = &'static Row> {
+pub fn rows() -> impl Iterator<Item = &'static Judge> {
     let sections =
         [sec2::ROWS, sec3::ROWS, sec5::ROWS, sec6::ROWS, sec7::ROWS, sec8::ROWS, sec9::ROWS];
     sections.into_iter().flatten()
@@ -57,7 +57,7 @@ pub fn needs(id: &str) -> &'static [Need] {
 /// # Errors
 /// If a row has no statement, or if a result was not run.
 pub fn all(results: &Results, published: &Published) -> Result<Vec<Check>, Error> {
-    let rule = |row: &'static Row| -> (&str, Box<Rule<'_>>) {
+    let rule = |row: &'static Judge| -> (&str, Box<Rule<'_>>) {
         let check = move |case: &Case<'_>| {
             let level = if row.statistical { case.level() } else { level() };
             row.check(&Evidence { results, published, level })
@@ -74,7 +74,7 @@ pub fn all(results: &Results, published: &Published) -> Result<Vec<Check>, Error
 /// If there is no statement of that id, or if a result was not run.
 pub fn one(id: &str, results: &Results, published: &Published) -> Result<Check, Error> {
     let open = || Ok(published.statement(id)?.open("–"));
-    let check = |row: &Row| row.check(&Evidence { results, published, level: level() });
+    let check = |row: &Judge| row.check(&Evidence { results, published, level: level() });
     rows().find(|row| row.id == id).map_or_else(open, check)
 }
 

@@ -1,7 +1,7 @@
 //! Relations between numbers of this edition that must hold whatever was drawn: each between two independent routes,
 //! as two samples of one thing, or a simulation and its bound.
 
-use super::row::{Error, Evidence};
+use super::judge::{Error, Evidence};
 use super::{Basis, Check, Kind, Text, integer, level, published, significant};
 use crate::experiments::rise::Curve;
 use crate::experiments::{BRANCHES, NUCLEATION, PROTOCOL, Results, branches};

@@ -1,6 +1,6 @@
 //! Section 2: the simulation.
 
-use super::row::*;
+use super::judge::*;
 use crate::experiments::branches::from_rest;
 use crate::experiments::ensembles::named;
 use crate::experiments::starts::half_height as half_of;
@@ -10,7 +10,7 @@ use crate::params::{NEAR_SIMULTANEOUS, Protocol, SLOW};
 use impact_chain::rise;
 use impact_numerics::estimates::difference;
 
-pub const ROWS: &[Row] = &[
+pub const ROWS: &[Judge] = &[
     measured("sec2_parameters", Exact, &[&SWEEP], parameters),
     statistical("sec2_few_below", OurMeasure, &[&SWEEP], few_below),
     statistical("sec2_rise_exists", OurMeasure, &[&SWEEP], rise_exists),
@@ -51,7 +51,7 @@ fn parameters(e: &Evidence, s: &Statement) -> Judged {
 }
 
 /// Of small σ, the largest that is not above two thirds of the printed threshold.
-pub(super) fn small<'a>(e: &Evidence<'a>) -> Result<&'a rise::Row, Error> {
+pub(super) fn small<'a>(e: &Evidence<'a>) -> Result<&'a rise::RisePoint, Error> {
     let threshold = e.published.statement("sec2_half_height")?.number()?;
     some(e.sweep()?.first().rows.iter().rev().find(|row| row.sigma < 0.67 * threshold))
 }

@@ -1,12 +1,12 @@
 //! Sections 3 and 4: the graph, and what its circuits stand for.
 
-use super::row::*;
+use super::judge::*;
 use super::sec2::small;
 use super::with_error;
 use crate::experiments::SWEEP;
 use impact_chain::rise;
 
-pub const ROWS: &[Row] = &[
+pub const ROWS: &[Judge] = &[
     cases("sec3_impact_types", "Every number of masses up to the number of cases.")
         .of("n + 1 = (n − 1) + 2"),
     theory("sec3_vertices", Exact, |e, s| size(e.number("theory.graph.vertices")?, s)),
@@ -21,7 +21,7 @@ fn size(found: f64, s: &Statement) -> Judged {
 
 /// Different impacts of a chain in the window, as Sec. 6 counts them.
 fn few_and_many(e: &Evidence, s: &Statement) -> Judged {
-    let mean = |row: &rise::Row| Some((row.sigma, row.mean?.value, row.mean?.error?));
+    let mean = |row: &rise::RisePoint| Some((row.sigma, row.mean?.value, row.mean?.error?));
     let (low, few, error) = some(mean(small(e)?))?;
     let (high, many, many_error) = some(e.sweep()?.first().rows.last().and_then(mean))?;
     let quarter = e.gaps()? / 4.0;

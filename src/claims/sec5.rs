@@ -1,12 +1,12 @@
 //! Section 5: counting orbits.
 
-use super::row::*;
+use super::judge::*;
 use crate::experiments::SEGMENTS;
 use crate::experiments::segments::Segment;
 use crate::params::VERTICES;
 use std::collections::BTreeSet;
 
-pub const ROWS: &[Row] = &[
+pub const ROWS: &[Judge] = &[
     measured("sec5_fig5", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig05, s)),
     measured("sec5_fig6", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig06, s)),
     measured("sec5_masses_of_circuit", Exact, &[&SEGMENTS], masses_of_circuit).of("k + 1"),

@@ -1,11 +1,11 @@
 //! Section 6: probability.
 
-use super::row::*;
+use super::judge::*;
 use super::sec2;
 use crate::experiments::SWEEP;
 use crate::params::{DISTRIBUTION_P, VERTICES};
 
-pub const ROWS: &[Row] = &[
+pub const ROWS: &[Judge] = &[
     theory("sec6_normalised", Rounding, |e, s| {
         let off = e.difference(s)?.max((s.number()? - 1.0).abs());
         Ok(s.rounding(off, 1e-13).note("Over ten values of p up to one."))

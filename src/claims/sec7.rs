@@ -1,8 +1,8 @@
 //! Section 7: the discontinuity of the most likely number.
 
-use super::row::*;
+use super::judge::*;
 
-pub const ROWS: &[Row] = &[
+pub const ROWS: &[Judge] = &[
     cases("sec7_eq11", "Every k at ten values of p.").of("Φ(k + 1) − Φ(k) ∝ f(k)"),
     difference("sec7_eq13", 1e-13, "f at its zeros, over its largest term.").of("k±"),
     difference("sec7_eq14_15", 1e-13, "At ten values of p.").of("−1 and −(N + 1)"),

@@ -1,6 +1,6 @@
 //! Section 8: a relation between σ and p, and what it leaves out.
 
-use super::row::*;
+use super::judge::*;
 use super::sec2::NEGLIGIBLE;
 use crate::experiments::ensembles::named;
 use crate::experiments::protocol::range;
@@ -12,7 +12,7 @@ use impact_chain::rise::{Counted, Curve};
 use impact_numerics::estimates::{difference as apart, share};
 use impact_numerics::statistics::{Estimate, wilson};
 
-pub const ROWS: &[Row] = &[
+pub const ROWS: &[Judge] = &[
     measured("sec8_expected_jump", OurMeasure, &[&SWEEP], expected_jump),
     difference(
         "sec8_separation",
@@ -215,7 +215,7 @@ fn threshold_shift(e: &Evidence, s: &Statement) -> Judged {
 fn mode_over_mean(sweep: &Counted) -> Option<f64> {
     let rise = [sweep.first().rise.onset?.value, sweep.first().rise.half_height_all?.value];
     let rows = sweep.first().rows.iter().filter(|row| rise[0] <= row.sigma && row.sigma <= rise[1]);
-    let ratio = |row: &impact_chain::rise::Row| {
+    let ratio = |row: &impact_chain::rise::RisePoint| {
         let ([low, high], [from, to]) = (row.mode_interval?, row.mean?.interval?);
         (to > from).then(|| (high - low) as f64 / (to - from))
     };

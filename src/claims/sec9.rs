@@ -1,11 +1,11 @@
 //! Sections 9 and 10: circuits that repeat impacts, and the conclusions.
 
-use super::row::*;
+use super::judge::*;
 use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::experiments::{SEGMENTS, SWEEP};
 use crate::params::{CONVERGENCE_P, HIGHER_P, REMARK_P};
 
-pub const ROWS: &[Row] = &[
+pub const ROWS: &[Judge] = &[
     measured("sec9_fig6_repeats", Exact, &[&SEGMENTS], fig6_repeats),
     cases(
         "sec9_eq29",

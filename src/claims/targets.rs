@@ -5,7 +5,7 @@
 
 use super::{Basis, Check, Error, Kind, Text, chosen, significant};
 use crate::experiments::accuracy::trials::right;
-use crate::experiments::measured::{Row, What};
+use crate::experiments::measured::{Measurement, What};
 use crate::experiments::{MEASURED, RACE, SCALE, TRIALS};
 use crate::experiments::{Measured, Results};
 use crate::params::MethodName;
@@ -72,7 +72,7 @@ pub fn targets(results: &Results) -> Result<Vec<Check>, Error> {
     Ok(all)
 }
 
-fn engine(measured: &Measured, n: u64) -> Option<&Row> {
+fn engine(measured: &Measured, n: u64) -> Option<&Measurement> {
     let own = measured.of(What::Engine).filter(|row| row.n == n && row.chains == 1);
     own.filter(|row| row.note.is_empty()).find(|row| row.microseconds_per_impact.is_some())
 }
@@ -80,7 +80,7 @@ fn engine(measured: &Measured, n: u64) -> Option<&Row> {
 /// How many times faster we are than heyoka at its tightest tolerance, with a horizon no shorter
 /// and no more segments missed.
 fn against(measured: &Measured, said: (&str, &str), n: u64, bound: f64) -> Check {
-    let reach = |row: &Row| row.horizon_impact.or(row.compared);
+    let reach = |row: &Measurement| row.horizon_impact.or(row.compared);
     let peers = measured.of(What::Peer).filter(|row| row.n == n && row.name.starts_with("heyoka"));
     let both = peers.max_by_key(|row| reach(row)).zip(engine(measured, n));
     let found = both.and_then(|(peer, own)| {
@@ -164,7 +164,7 @@ mod tests {
             assert_eq!(verdict(&results, id), Verdict::CannotBeJudged, "{id}");
         }
         row.microseconds_per_impact = Some(0.2);
-        let peer = Row {
+        let peer = Measurement {
             what: What::Peer,
             name: "heyoka".into(),
             microseconds_per_impact: Some(19.0),

@@ -1,7 +1,7 @@
 //! `impact-paper explain`.
 
 use super::{Failure, stdout};
-use impact_paper::report::card::{Card, Cards, Row};
+use impact_paper::report::card::{Card, Cards, Fact};
 use impact_paper::report::document::{Inline, spelt};
 use impact_paper::report::{Error, PROGRAM, compare, ledger};
 use literate::input::{is_obeyed, one_line, regular_text};
@@ -101,7 +101,7 @@ fn clean(text: &str) -> String {
     text.replace(is_obeyed, " ")
 }
 
-fn row_json(row: &Row) -> serde_json::Value {
+fn row_json(row: &Fact) -> serde_json::Value {
     let mut out = json!({"name": row.name, "text": words(&row.text)});
     if let Some(file) = file(row) {
         out["file"] = json!(file);
@@ -110,6 +110,6 @@ fn row_json(row: &Row) -> serde_json::Value {
 }
 
 /// The file of the item that a row names.
-fn file(row: &Row) -> Option<&'static str> {
+fn file(row: &Fact) -> Option<&'static str> {
     PROGRAM.file(row.item.as_ref()?)
 }

@@ -65,7 +65,7 @@ fn at_least_one(text: &str) -> Result<usize, String> {
 
 /// A printed row; the names are the columns.
 #[derive(Debug, Serialize)]
-struct Row {
+struct Printed {
     sigma: f64,
     realisations: usize,
     kept: usize,
@@ -119,7 +119,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
 }
 
 /// Runs all σ.
-fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Row>, Failure> {
+fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Printed>, Failure> {
     let cutting: Cutting<Vec<Ensemble>, Counts, Vec<Counts>> = Cutting {
         rows: CUTTING.rows,
         part: CUTTING.part,
@@ -133,7 +133,7 @@ fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Row>, Failure> {
     Ok(all[0].sigmas.iter().zip(&counts).map(row).collect())
 }
 
-fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Row {
+fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Printed {
     let (all, rejected) = (ensemble.realisations, counts.rejected);
     if let Some(first) = &counts.first_failure {
         let failed = counts.failed;
@@ -149,8 +149,8 @@ fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Row {
         ));
     }
     let (row, total) =
-        (rise::Row::new(sigma, counts, 0, ensemble.chain.gaps(), [None; 2]), &counts.total);
-    Row {
+        (rise::RisePoint::new(sigma, counts, 0, ensemble.chain.gaps(), [None; 2]), &counts.total);
+    Printed {
         sigma,
         realisations: all,
         kept: row.kept,
@@ -166,7 +166,7 @@ fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Row {
     }
 }
 
-fn csv(rows: &[Row], out: impl Write) -> io::Result<()> {
+fn csv(rows: &[Printed], out: impl Write) -> io::Result<()> {
     let mut csv = csv::Writer::from_writer(out);
     for row in rows {
         csv.serialize(row).map_err(|error| match error.into_kind() {
@@ -177,7 +177,7 @@ fn csv(rows: &[Row], out: impl Write) -> io::Result<()> {
     csv.flush()
 }
 
-fn json(rows: &[Row], mut out: impl Write) -> io::Result<()> {
+fn json(rows: &[Printed], mut out: impl Write) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut out, rows)?;
     writeln!(out)?;
     out.flush()

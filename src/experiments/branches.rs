@@ -79,6 +79,7 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
 fn half_heights(both: &[Both<'_>]) -> Table {
     Table::of("branches.half_heights", both, |own| own.rest.0.ensemble.realisations)
         .key("transient", TIME, Both::transient)
+        .chosen("masses", "1", "masses of a chain", |own| Some(masses(own.rest.0) as f64))
         .computed_by(origin(Curve::new))
         .estimate("from_rest", SIGMA, HALF_HEIGHT, |own| own.rest.1.rise.half_height_all)
         .estimate("from_above", SIGMA, HALF_HEIGHT, |own| own.above.1.rise.half_height_all)
@@ -107,10 +108,9 @@ fn shares(both: &[Both<'_>]) -> Table {
         .done()
 }
 
-/// Of the other lengths, from rest.
+/// Of the chains from rest without any from above beside them.
 fn lengths(found: &[Counted], both: &[Both<'_>]) -> Table {
-    let other =
-        |(own, _): &(&Counted, _)| both.iter().all(|both| masses(both.rest.0) != masses(own));
+    let other = |(own, _): &(&Counted, _)| both.iter().all(|both| !std::ptr::eq(both.rest.0, *own));
     let rows: Vec<_> = from_rest(found).filter(other).collect();
     Table::of("branches.lengths", &rows, |row| row.0.ensemble.realisations)
         .key("masses", "1", |row| masses(row.0) as f64)
@@ -141,7 +141,7 @@ fn all(found: &[Counted], both: &[Both<'_>]) -> Table {
     let heated = found.iter().find_map(|own| own.ensemble.heating.map(|heating| (own, heating)));
     Table::of("branches.all", &[()], |()| 0)
         .chosen("longest", "1", "masses of the longest chains", |()| longest.map(|n| n as f64))
-        .chosen("masses", "1", "masses of the chains of both branches", |()| {
+        .chosen("masses", "1", "masses of the chains of both branches, the first of them", |()| {
             heated.map(|(own, _)| masses(own) as f64)
         })
         .chosen("stretch", "1", "masses of a stretch that is counted like a chain", |()| {

@@ -2,7 +2,7 @@
 
 use crate::experiments::prelude::*;
 use impact_chain::{Counts, Ensemble};
-use literate::experiments::cutting::{Cutting, Row, Unit};
+use literate::experiments::cutting::{Cutting, Unit, UnitRow};
 use literate::experiments::progress::Stage;
 use rayon::prelude::*;
 
@@ -14,8 +14,8 @@ fn cases(all: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
     all.iter().flat_map(|own| own.sigmas.iter().map(move |&sigma| (own, sigma)))
 }
 
-fn rows(all: &Vec<Ensemble>) -> Vec<Row> {
-    let row = |(own, sigma): (&Ensemble, f64)| Row {
+fn rows(all: &Vec<Ensemble>) -> Vec<UnitRow> {
+    let row = |(own, sigma): (&Ensemble, f64)| UnitRow {
         covers: format!("{}, sigma = {sigma}", own.name),
         realisations: own.realisations_at(sigma),
         weight: own.work(sigma),

@@ -20,7 +20,7 @@ pub struct Measured {
     /// What it ran on.
     pub machine: Machine,
     /// One for each run.
-    pub rows: Vec<Row>,
+    pub rows: Vec<Measurement>,
 }
 
 /// A machine, without its name.
@@ -61,7 +61,7 @@ pub enum What {
 /// reference of 106 bits: impacts one after the other up to the first wrong one (the *horizon*),
 /// and the next impact alone from the true state after each impact (*segments*).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub struct Measurement {
     /// What the row tells.
     pub what: What,
     /// Name of engine, method, peer or command.
@@ -105,7 +105,7 @@ impl Measured {
     }
 
     /// Rows of one kind.
-    pub fn of(&self, what: What) -> impl Iterator<Item = &Row> {
+    pub fn of(&self, what: What) -> impl Iterator<Item = &Measurement> {
         self.rows.iter().filter(move |row| row.what == what)
     }
 

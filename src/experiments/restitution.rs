@@ -2,19 +2,19 @@
 
 use super::starts::half_height;
 use crate::experiments::prelude::*;
-use impact_chain::rise::Row;
+use impact_chain::rise::RisePoint;
 
 /// All tables.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let restitution = |own: &Counted| own.ensemble.chain.restitution;
-    let mut rows: Vec<(&Counted, &Row)> = Vec::new();
+    let mut rows: Vec<(&Counted, &RisePoint)> = Vec::new();
     for own in found {
         rows.extend(own.first().rows.iter().map(|row| (own, row)));
     }
     let rise = Table::of("restitution.rise", &rows, |(_, row)| row.ran)
         .key("r", "1", |(own, _)| restitution(own))
         .key("sigma", SIGMA, |(_, row)| row.sigma)
-        .computed_by(origin(Row::new))
+        .computed_by(origin(RisePoint::new))
         .estimate("mean_count", "1", "different gaps with an impact, mean of all", |(_, row)| {
             row.mean_all?.estimate()
         })

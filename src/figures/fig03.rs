@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 use super::simulated::{CROSS, CROSSES, count_axis, crosses, last_sigma, means, sigma_axis};
-use crate::experiments::rise::{Counted, Row};
+use crate::experiments::rise::{Counted, RisePoint};
 
 pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let sheet = Sheet::new(7450);
@@ -63,6 +63,6 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     Ok(sheet.finish("fig03", "Expected number of impacts", description))
 }
 
-fn kept_fraction(row: &Row) -> Option<f64> {
+fn kept_fraction(row: &RisePoint) -> Option<f64> {
     (row.ran > 0).then(|| row.kept as f64 / row.ran as f64)
 }

@@ -5,7 +5,7 @@ use crate::experiments::theory::law::{f, k_star, simple, stages, zeros};
 use crate::params::VERTICES as N;
 
 /// What a row shows.
-struct Row {
+struct Stage {
     /// Points of f.
     f: Vec<(f64, f64)>,
     zeros: Option<[f64; 2]>,
@@ -15,7 +15,7 @@ struct Row {
 }
 
 pub fn draw() -> Result<Figure, Error> {
-    let row = |p| Row { f: f(p), zeros: zeros(p), weights: simple(p), k_star: k_star(p) };
+    let row = |p| Stage { f: f(p), zeros: zeros(p), weights: simple(p), k_star: k_star(p) };
     let rows = stages().map(row);
     let sheet = Sheet::new(850 + 2350 * rows.len() as u32);
     // Beyond this k nothing changes sign again.
@@ -65,7 +65,7 @@ pub fn draw() -> Result<Figure, Error> {
 }
 
 /// The axis of f: around zero, as high as its maximum.
-fn signs(row: &Row) -> Axis {
+fn signs(row: &Stage) -> Axis {
     let top = row.f.iter().map(|point| point.1).fold(0.0, f64::max);
     let (hi, step) = if top <= 1.0 {
         (1.0, 1.0)
@@ -78,7 +78,7 @@ fn signs(row: &Row) -> Axis {
     Axis::linear(-3.0 * step, hi, step, 1, "*f*_{*N*,*p*}(*k*)")
 }
 
-fn sign(panel: &Panel, row: &Row) -> Result<(), Error> {
+fn sign(panel: &Panel, row: &Stage) -> Result<(), Error> {
     let zero = Stroke::solid(GREY, HAIR);
     panel.level("zero", 0.0, zero)?;
     panel.curve("f", &row.f, Stroke::solid(BLUE, LINE), Outside::Cut)?;
@@ -99,7 +99,7 @@ fn sign(panel: &Panel, row: &Row) -> Result<(), Error> {
     Ok(())
 }
 
-fn weight(panel: &Panel, row: &Row, shown: &[f64]) -> Result<(), Error> {
+fn weight(panel: &Panel, row: &Stage, shown: &[f64]) -> Result<(), Error> {
     panel.columns("weight", shown, Stroke::solid(GREEN, THIN))?;
     let first = shown.first().copied().unwrap_or(0.0);
     let level = Stroke::dashed(INK, HAIR, Dash::Short);

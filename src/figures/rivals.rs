@@ -3,7 +3,7 @@
 use super::prelude::*;
 use crate::experiments::Measured;
 use crate::experiments::accuracy::tables::name;
-use crate::experiments::measured::{Row, What};
+use crate::experiments::measured::{Measurement, What};
 use crate::params::{MethodName, Setting};
 
 /// The look of a method; its line joins the settings of the method.
@@ -56,7 +56,7 @@ pub struct Timed {
 
 /// All rows of one chain with a time.
 pub fn timed(measured: &Measured) -> Vec<Timed> {
-    let one = |row: &Row| {
+    let one = |row: &Measurement| {
         let method = match row.what {
             What::Engine => Some(MethodName::Certified),
             What::Method => MethodName::ALL.into_iter().find(|m| m.id() == row.name),

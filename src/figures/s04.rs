@@ -36,12 +36,11 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
     let map = map.points(&[("window", WINDOW)], "transient", "half_height_all");
     let line = Stroke::solid(PURPLE, HAIR);
     panel.curve("map, n = 100", &map, line, Outside::Cut)?;
-    let masses = results.number("branches.all.masses")?;
     let mut entries = Vec::new();
     for (column, name, colour) in BRANCHES {
         let look = (Mark::Disc, MEDIUM, Stroke::solid(colour, THIN));
         panel.joined(name, &both.estimates(&[], "transient", column), look)?;
-        entries.push(Entry::both(look.2, look, &format!("{name}, *n* = {masses}")));
+        entries.push(Entry::both(look.2, look, &format!("{name}, long chains")));
     }
     let lengths = results.table("branches.lengths")?;
     for (masses, (mark, colour)) in lengths.values("masses").into_iter().zip(LENGTHS) {

@@ -5,11 +5,11 @@ use super::rivals::{Timed, by_method, entries, look, most_accurate, timed};
 use crate::experiments::Measured;
 use crate::experiments::accuracy::scale::Scale as Costs;
 use crate::experiments::accuracy::tables::name;
-use crate::experiments::measured::{Row, What};
+use crate::experiments::measured::{Measurement, What};
 use crate::params::MethodName;
 
 /// The engine's own measured rows: one chain, one thread.
-fn own(measured: &Measured) -> Vec<&Row> {
+fn own(measured: &Measured) -> Vec<&Measurement> {
     measured.of(What::Engine).filter(|row| row.chains == 1 && row.note.is_empty()).collect()
 }
 

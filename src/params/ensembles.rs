@@ -117,8 +117,8 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
             (BOTH, 2000, ABOVE, [35, 100, 5], 4, &[500.0]),
             (BOTH, 2000, REST, [85, 120, 5], 2, &[5e3]),
             (BOTH, 2000, ABOVE, [70, 100, 5], 2, &[5e3]),
-            (BOTH, 2000, REST, [85, 105, 5], 1, late),
-            (BOTH, 2000, ABOVE, [75, 100, 5], 1, late),
+            (BOTH, 1000, REST, [85, 105, 5], 1, late),
+            (BOTH, 1000, ABOVE, [75, 100, 5], 1, late),
         ],
         Profile::Quick => &[
             (LENGTH, 20, REST, [140, 180, 20], 10, &[50.0]),

@@ -102,6 +102,6 @@ fn every_origin_is_a_function() {
     let means: Vec<&String> = values.keys().filter(means).collect();
     assert!(means.len() > 1, "{means:?}");
     for mean in means {
-        assert_eq!(values[mean]["source"], "impact_chain::rise::Row::new");
+        assert_eq!(values[mean]["source"], "impact_chain::rise::RisePoint::new");
     }
 }

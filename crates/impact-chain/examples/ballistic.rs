@@ -16,16 +16,16 @@ struct Flight {
 }
 
 /// Masses at unit distances between walls, which are masses that never move.
-struct Row(Vec<Flight>, Earliest);
+struct Gas(Vec<Flight>, Earliest);
 
-impl Row {
+impl Gas {
     fn new(masses: usize) -> Self {
         let mut normals = NormalPairs::new("ballistic", 1, 0);
         let flight = |j: usize| {
             let velocity = if j == 0 || j > masses { 0.0 } else { normals.pair()[0] };
             Flight { place: j as f64, since: Instant::ZERO, velocity }
         };
-        let mut row = Row((0..masses + 2).map(flight).collect(), Earliest::new(masses + 1));
+        let mut row = Gas((0..masses + 2).map(flight).collect(), Earliest::new(masses + 1));
         (0..=masses).for_each(|gap| row.1.set(gap, [row.closes(gap, Instant::ZERO)]));
         row
     }
@@ -82,8 +82,8 @@ fn main() {
         eprintln!("give the numbers of masses and of impacts: 100 1000000");
         std::process::exit(2)
     };
-    let mut row = Row::new(masses.max(2));
-    let energy = |row: &Row| row.0.iter().map(|own| own.velocity * own.velocity).sum::<f64>();
+    let mut row = Gas::new(masses.max(2));
+    let energy = |row: &Gas| row.0.iter().map(|own| own.velocity * own.velocity).sum::<f64>();
     let before = energy(&row);
     let began = std::time::Instant::now();
     (0..impacts).for_each(|_| row.step());

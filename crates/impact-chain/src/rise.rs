@@ -53,7 +53,7 @@ pub struct Curve {
     /// The window.
     pub protocol: Protocol,
     /// One row for each σ, rising.
-    pub rows: Vec<Row>,
+    pub rows: Vec<RisePoint>,
     /// Where the rise is.
     pub rise: Rise,
 }
@@ -83,7 +83,7 @@ impl Mean {
 /// Counts at one σ, of chains or of the pieces in which they are counted. Those that count have at least one impact in the
 /// window: the paper discards the others.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub struct RisePoint {
     /// Standard deviation σ of the amplitudes.
     pub sigma: f64,
     /// Realisations that ran to the end of the window.
@@ -155,7 +155,7 @@ impl Counted {
     }
 
     /// Its rows that may be compared with others.
-    pub fn comparable(&self) -> impl Iterator<Item = &Row> {
+    pub fn comparable(&self) -> impl Iterator<Item = &RisePoint> {
         let both = self.first().rows.iter().zip(&self.runs);
         let most = self.ensemble.most_rejected;
         let few = move |own: &Runs| own.rejected as f64 <= most * own.realisations as f64;
@@ -282,9 +282,9 @@ impl Curve {
         let sample = Sample { sigmas: &ensemble.sigmas, counts: used, gaps };
         let found = Resampled::new(&sample, ensemble.seed);
         let interval = |pick: &dyn Fn(&Places) -> Option<f64>| Some(found.estimate(pick)?.interval);
-        let row = |(row, (&sigma, own)): (usize, (&f64, &Counts))| Row {
+        let row = |(row, (&sigma, own)): (usize, (&f64, &Counts))| RisePoint {
             mode_interval: found.mode_interval(row),
-            ..Row::new(
+            ..RisePoint::new(
                 sigma,
                 own,
                 window,
@@ -297,7 +297,7 @@ impl Curve {
     }
 }
 
-impl Row {
+impl RisePoint {
     /// The row of a σ in one window, without the interval of the mode; counts reach to `largest`, and the intervals are
     /// those of both means.
     pub fn new(
@@ -306,7 +306,7 @@ impl Row {
         window: usize,
         largest: usize,
         intervals: [Option<[f64; 2]>; 2],
-    ) -> Row {
+    ) -> RisePoint {
         let mut counts = vec![0; largest + 1];
         of.distinct[window].iter().flatten().for_each(|&k| counts[k as usize] += 1);
         let all: Vec<f64> = of.distinct[window].iter().flatten().map(|&k| f64::from(k)).collect();
@@ -319,7 +319,7 @@ impl Row {
         let phases = &of.phases[window];
         let both = phases.iter().zip(&of.impacts[window]);
         let touched = phases.iter().any(|&phases| phases > 0);
-        Row {
+        RisePoint {
             sigma,
             ran: all.len(),
             kept: kept.len(),
@@ -396,7 +396,7 @@ mod tests {
         let all = all.map(|(k, impacts, masses, phases)| one(k, impacts, masses, phases));
         let rejected = Counts { rejected: 1, ..one(None, 0, 0, 0) };
         let counts: Counts = all.into_iter().chain([rejected]).collect();
-        let row = Row::new(0.1, &counts, 0, 10, [None; 2]);
+        let row = RisePoint::new(0.1, &counts, 0, 10, [None; 2]);
         assert_eq!((row.ran, row.kept, row.mode, row.phases), (4, 3, Some(4), 1));
         let mean = |own: Option<Mean>| own.map(|own| (own.value, own.error.unwrap()));
         assert_eq!(mean(row.mean), Some((6.0, 2.0))); // s = √12, over √3

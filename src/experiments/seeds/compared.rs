@@ -4,7 +4,7 @@
 use crate::experiments::prelude::*;
 use crate::experiments::protocol::address;
 use crate::experiments::{PROTOCOL, SEEDS};
-use impact_chain::rise::Row;
+use impact_chain::rise::RisePoint;
 
 /// One transient, by its half height in the map and its means there, with the cells that predict them.
 struct Line<'a> {
@@ -21,7 +21,7 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let (means, rise, found) = (of("seeds.means")?, of("seeds.rise")?, of("sweep.rows")?);
     let (seeds, map) = (&results.of(&SEEDS).ok()?.parameters, &results.of(&PROTOCOL).ok()?[0]);
     let window = seeds.window as f64 * seeds.bin;
-    let mean = |row: &Row| Some((row.sigma, row.mean_all?.value));
+    let mean = |row: &RisePoint| Some((row.sigma, row.mean_all?.value));
     let curve = |&transient: &f64| {
         let rows = &map.curve(transient, window)?.rows;
         Some((transient, rows.iter().filter_map(mean).collect::<Vec<_>>()))

@@ -11,7 +11,7 @@ use impact_circuits::impact_probability::ImpactProbability;
 use rayon::prelude::*;
 
 /// The runs at one σ.
-struct Row<'a> {
+struct RunsAtSigma<'a> {
     parameters: &'a SeedsParams,
     sigma: f64,
     closing: &'a [Vec<f64>; 2],
@@ -39,9 +39,9 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
         let fronts = Fronts { parameters, runs: waits };
         let seen = ByDistance::sum(&groups[place], GROUPS);
         let (sigma, closing) = (parameters.sigmas[place], &closing[place]);
-        Row { parameters, sigma, closing, runs, seen, fronts }
+        RunsAtSigma { parameters, sigma, closing, runs, seen, fronts }
     };
-    let rows: Vec<Row<'_>> = (0..seeds.rows.len()).into_par_iter().map(row).collect();
+    let rows: Vec<RunsAtSigma<'_>> = (0..seeds.rows.len()).into_par_iter().map(row).collect();
     let predicted = predictions(parameters, &closing, &groups);
     vec![
         course(&rows),
@@ -55,8 +55,8 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
 }
 
 /// How things stand when the window after each transient ends.
-fn course(rows: &[Row<'_>]) -> Table {
-    let rows: Vec<(&Row<'_>, usize)> = rows
+fn course(rows: &[RunsAtSigma<'_>]) -> Table {
+    let rows: Vec<(&RunsAtSigma<'_>, usize)> = rows
         .iter()
         .flat_map(|row| row.parameters.transients.iter().map(move |&from| (row, from)))
         .collect();
@@ -83,8 +83,8 @@ fn course(rows: &[Row<'_>]) -> Table {
 }
 
 /// The advance against time.
-fn advance(rows: &[Row<'_>]) -> Table {
-    let rows: Vec<(&Row<'_>, usize)> =
+fn advance(rows: &[RunsAtSigma<'_>]) -> Table {
+    let rows: Vec<(&RunsAtSigma<'_>, usize)> =
         rows.iter().flat_map(|row| (1..=row.parameters.bins).map(move |bin| (row, bin))).collect();
     Table::of("seeds.advance", &rows, |(row, _)| row.runs.len())
         .key("sigma", SIGMA, |(row, _)| row.sigma)
@@ -95,13 +95,13 @@ fn advance(rows: &[Row<'_>]) -> Table {
         .done()
 }
 
-fn whole(row: &&Row<'_>) -> bool {
+fn whole(row: &&RunsAtSigma<'_>) -> bool {
     (100.0 * row.sigma).round() / 100.0 == row.sigma
 }
 
 /// What fronts do, at whole hundredths.
-fn fronts(rows: &[Row<'_>]) -> Table {
-    let rows: Vec<&Row<'_>> = rows.iter().filter(whole).collect();
+fn fronts(rows: &[RunsAtSigma<'_>]) -> Table {
+    let rows: Vec<&RunsAtSigma<'_>> = rows.iter().filter(whole).collect();
     Table::of("seeds.fronts", &rows, |row| row.runs.len())
         .key("sigma", SIGMA, |row| row.sigma)
         .real("exponent", "1", 2, "d ln(advance)/d ln t over the last three quarters", |row| {
@@ -119,9 +119,10 @@ fn fronts(rows: &[Row<'_>]) -> Table {
 }
 
 /// The mean counts that follow, and those of circuits.
-fn means(rows: &[Row<'_>], predicted: &[Prediction]) -> Table {
+fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
     let sigmas = |own| rows.iter().enumerate().map(move |(place, row)| (own, place, row));
-    let rows: Vec<(&Prediction, usize, &Row<'_>)> = predicted.iter().flat_map(sigmas).collect();
+    let rows: Vec<(&Prediction, usize, &RunsAtSigma<'_>)> =
+        predicted.iter().flat_map(sigmas).collect();
     Table::of("seeds.means", &rows, |(.., row)| row.parameters.realisations)
         .key("transient", TIME, |(own, _, row)| own.transient as f64 * row.parameters.bin)
         .key("sigma", SIGMA, |(.., row)| row.sigma)
@@ -171,9 +172,9 @@ fn rise(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
 }
 
 /// Numbers of all σ together.
-fn all(parameters: &SeedsParams, rows: &[Row<'_>]) -> Table {
+fn all(parameters: &SeedsParams, rows: &[RunsAtSigma<'_>]) -> Table {
     let last = parameters.transients.last().copied().unwrap_or(0);
-    let alive = |row: &Row<'_>| row.alive(last) as f64 / row.runs.len().max(1) as f64;
+    let alive = |row: &RunsAtSigma<'_>| row.alive(last) as f64 / row.runs.len().max(1) as f64;
     let least = rows.iter().min_by(|a, b| alive(a).total_cmp(&alive(b)));
     let count = |of: fn(&Waits) -> u64| rows.iter().flat_map(|row| &row.fronts.runs).map(of).sum();
     Table::of("seeds.all", &[parameters], |own| own.realisations)
@@ -194,7 +195,7 @@ fn all(parameters: &SeedsParams, rows: &[Row<'_>]) -> Table {
         .done()
 }
 
-impl Row<'_> {
+impl RunsAtSigma<'_> {
     /// The bin with which the window after a transient ends.
     fn end(&self, transient: usize) -> usize {
         transient + self.parameters.window

@@ -7,7 +7,7 @@ use super::{SECOND_SEED, SWEEP};
 use crate::experiments::prelude::*;
 use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
 use impact_chain::counts::Total;
-use impact_chain::rise::{Mean, Rise, Row, Runs};
+use impact_chain::rise::{Mean, Rise, RisePoint, Runs};
 
 /// A σ above the rise.
 const ABOVE: f64 = 0.2;
@@ -93,7 +93,7 @@ fn rows(sweep: &Counted) -> Table {
     let estimate = |own: Option<Mean>| own?.estimate();
     Table::of("sweep.rows", &sweep.first().rows, |row| row.ran)
         .key("sigma", SIGMA, |row| row.sigma)
-        .computed_by(origin(Row::new))
+        .computed_by(origin(RisePoint::new))
         .estimate("kept", "1", "share of the realisations with an impact in the window", |row| {
             share(row.kept as u64, row.ran as u64)
         })
@@ -147,7 +147,7 @@ fn rise_table(name: &'static str, sweep: &Counted) -> Table {
 
 /// Where the mode is.
 fn modes(sweep: &Counted) -> Table {
-    let width = |row: &Row| row.mode_interval.map_or(0, |[low, high]| high - low.min(high));
+    let width = |row: &RisePoint| row.mode_interval.map_or(0, |[low, high]| high - low.min(high));
     let noisiest =
         sweep.first().rows.iter().filter(|row| width(row) > 0).max_by_key(|row| width(row));
     let half = mode_half(sweep);
@@ -236,8 +236,8 @@ const FEWEST: usize = 30;
 
 /// The largest difference between the curves of two seeds, in standard errors, and the rows.
 pub fn largest_between_seeds(first: &Curve, second: &Curve) -> Option<(f64, usize)> {
-    let estimate = |own: &Row| own.mean.filter(|_| own.kept >= FEWEST)?.estimate();
-    let apart = |b: &Row| {
+    let estimate = |own: &RisePoint| own.mean.filter(|_| own.kept >= FEWEST)?.estimate();
+    let apart = |b: &RisePoint| {
         let a = first.rows.iter().find(|a| a.sigma == b.sigma)?;
         let apart = difference(estimate(a)?, estimate(b)?);
         (apart.error > 0.0).then(|| apart.value.abs() / apart.error)

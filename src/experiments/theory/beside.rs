@@ -2,7 +2,7 @@
 
 use crate::experiments::prelude::*;
 use crate::experiments::sweep;
-use impact_chain::rise::{Mean, Row};
+use impact_chain::rise::{Mean, RisePoint};
 
 /// The σ at which the text sets means side by side, as far as the sweep has them.
 const SIGMAS: [f64; 8] = [0.1, 0.11, 0.12, 0.13, 0.14, 0.15, 0.2, 0.3];
@@ -53,7 +53,7 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let [simple, higher, rest] = &curves;
     let found = |number: Option<f64>| number.unwrap_or(f64::NAN);
     let rows = &sweep.first().rows;
-    let of = |mean: fn(&Row) -> Option<Mean>| -> Vec<(f64, f64)> {
+    let of = |mean: fn(&RisePoint) -> Option<Mean>| -> Vec<(f64, f64)> {
         rows.iter().filter_map(|row| Some((row.sigma, mean(row)?.value))).collect()
     };
     let means = of(|row| row.mean);

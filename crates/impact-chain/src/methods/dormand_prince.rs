@@ -50,7 +50,7 @@ pub struct Stages {
 
 impl Stages {
     /// Of a state with `row`'s displacements and velocities.
-    pub fn new(row: &Row, at: Instant) -> Stages {
+    pub fn new(row: &Bodies, at: Instant) -> Stages {
         let y: Vec<f64> = row.u.iter().chain(&row.v).copied().collect();
         let zero = vec![0.0; y.len()];
         let k = std::array::from_fn(|_| zero.clone());
@@ -60,13 +60,13 @@ impl Stages {
     }
 
     /// Begins anew at `y`, which an impact has changed.
-    pub fn restart(&mut self, row: &Row, at: Instant) {
+    pub fn restart(&mut self, row: &Bodies, at: Instant) {
         derivative(row, at, &self.y, &mut self.k[0]);
     }
 
     /// Tries a step of length `h`. Returns its error in units of what `tolerance` allows: root mean
     /// square over all components, absolute and relative.
-    pub fn attempt(&mut self, row: &Row, from: Instant, h: f64, tolerance: f64) -> f64 {
+    pub fn attempt(&mut self, row: &Bodies, from: Instant, h: f64, tolerance: f64) -> f64 {
         self.h = h;
         for (stage, coefficients) in STAGES.iter().enumerate() {
             for i in 0..self.y.len() {
@@ -115,7 +115,7 @@ impl Stages {
 }
 
 /// (u, v)' = (v, −ω² u + forcing).
-fn derivative(row: &Row, at: Instant, y: &[f64], out: &mut [f64]) {
+fn derivative(row: &Bodies, at: Instant, y: &[f64], out: &mut [f64]) {
     let bodies = row.u.len();
     out[..bodies].copy_from_slice(&y[bodies..]);
     row.accelerations(at, &y[..bodies], &mut out[bodies..]);

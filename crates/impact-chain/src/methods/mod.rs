@@ -6,6 +6,7 @@
 //! what its method is, where it comes from, of which order it is, and where it fails.
 
 mod advancement;
+mod bodies;
 mod certified;
 mod crossing;
 mod dormand_prince;
@@ -13,7 +14,6 @@ mod flights;
 mod forcing;
 mod moreau_jean;
 mod penalty;
-mod row;
 mod runge_kutta;
 mod sampled;
 mod state;
@@ -37,9 +37,9 @@ pub use crate::engine::Sink;
 
 /// What the files of the methods use.
 mod prelude {
+    pub use super::bodies::{Bodies, Stepper, run_steps};
     pub use super::crossing::{crossing, is_rounding};
     pub use super::flights::{Flights, Look};
-    pub use super::row::{Row, Stepper, run_steps};
     pub use super::steps::{Step, check_end, check_tolerance, steps};
     pub use super::tally::{Stop, Tally};
     pub use super::{Cost, Method, Sink, State, Task};

@@ -34,7 +34,7 @@ impl Method for MoreauJean {
     }
 
     fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        let begin = |row: &Row| Impulses::begin(row, Instant::at(start.time));
+        let begin = |row: &Bodies| Impulses::begin(row, Instant::at(start.time));
         run_steps((scenario, start, until), self.step, sink, begin)
     }
 }
@@ -60,7 +60,7 @@ struct Impulses {
 }
 
 impl Stepper for Impulses {
-    fn step(&mut self, row: &mut Row, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+    fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
         let half = 0.5 * step.h;
         let gaps = row.topology.gaps();
         self.active.clear();
@@ -95,7 +95,7 @@ impl Stepper for Impulses {
 }
 
 impl Impulses {
-    fn begin(row: &Row, at: Instant) -> Impulses {
+    fn begin(row: &Bodies, at: Instant) -> Impulses {
         let mut forces = vec![0.0; row.u.len()];
         row.forces(at, &mut forces);
         Impulses {
@@ -108,7 +108,7 @@ impl Impulses {
     }
 
     /// Projected Gauss–Seidel over the active gaps.
-    fn solve(&mut self, row: &mut Row, lightness: f64) {
+    fn solve(&mut self, row: &mut Bodies, lightness: f64) {
         for _ in 0..SWEEPS {
             let (mut change, mut largest) = (0.0f64, 0.0f64);
             for gap in &mut self.active {
@@ -138,7 +138,7 @@ mod tests {
     fn impulses_solve_their_problem() {
         let json = r#"{"forcing":[[0,0],[0,0],[0,0],[0,0],[0,0],[0,0]],"restitution":0.5}"#;
         let scenario = Scenario::from_json(json).unwrap();
-        let mut row = Row::new(&scenario, &State::of(&scenario)).unwrap();
+        let mut row = Bodies::new(&scenario, &State::of(&scenario)).unwrap();
         row.u[1..7].copy_from_slice(&[-1.0, -2.0, -3.0, -4.0, -5.0, -6.0]);
         row.v[6] = -1.0;
         let mut impulses = Impulses::begin(&row, Instant::ZERO);

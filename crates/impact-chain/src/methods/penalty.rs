@@ -38,7 +38,7 @@ impl Method for Penalty {
 
     fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
         let step = self.step * scenario.natural_frequency;
-        let begin = |row: &Row| Springs::begin(row, Instant::at(start.time), step, self.step);
+        let begin = |row: &Bodies| Springs::begin(row, Instant::at(start.time), step, self.step);
         run_steps((scenario, start, until), self.step, sink, begin)
     }
 }
@@ -66,7 +66,7 @@ struct Springs {
 
 impl Springs {
     /// For steps of length `h`, which is `step` in units of 1/ω.
-    fn begin(row: &Row, at: Instant, step: f64, h: f64) -> Springs {
+    fn begin(row: &Bodies, at: Instant, step: f64, h: f64) -> Springs {
         let steps = (DURATION / step).sqrt().max(STEPS);
         let contact = PI / (steps * h);
         let mut springs = Springs {
@@ -81,7 +81,7 @@ impl Springs {
     }
 
     /// The accelerations at the row's displacements and velocities.
-    fn push(&mut self, row: &Row, at: Instant) {
+    fn push(&mut self, row: &Bodies, at: Instant) {
         row.accelerations(at, &row.u, &mut self.accelerations);
         if self.contacts == 0 {
             return;
@@ -98,7 +98,7 @@ impl Springs {
 }
 
 impl Stepper for Springs {
-    fn step(&mut self, row: &mut Row, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+    fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
         let half = 0.5 * step.h;
         for ((u, v), a) in row.u.iter_mut().zip(&mut row.v).zip(&self.accelerations) {
             *v += half * a;

@@ -31,7 +31,7 @@ impl Method for RungeKutta {
     }
 
     fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        let row = Row::new(scenario, start)?;
+        let row = Bodies::new(scenario, start)?;
         check_tolerance(self.tolerance)?;
         check_end(until)?;
         let mut tally = Tally::new(scenario, sink);
@@ -47,7 +47,7 @@ impl Method for RungeKutta {
 
 struct Run {
     /// The row; its own displacements and velocities are stale but at impacts.
-    row: Row,
+    row: Bodies,
     stages: Stages,
     now: Instant,
     tolerance: f64,

@@ -25,7 +25,7 @@ impl Method for Verlet {
     }
 
     fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        let begin = |row: &Row| Flip::begin(row, Instant::at(start.time));
+        let begin = |row: &Bodies| Flip::begin(row, Instant::at(start.time));
         run_steps((scenario, start, until), self.step, sink, begin)
     }
 }
@@ -35,7 +35,7 @@ struct Flip {
 }
 
 impl Flip {
-    fn begin(row: &Row, at: Instant) -> Flip {
+    fn begin(row: &Bodies, at: Instant) -> Flip {
         let mut accelerations = vec![0.0; row.u.len()];
         row.accelerations(at, &row.u, &mut accelerations);
         Flip { accelerations }
@@ -43,7 +43,7 @@ impl Flip {
 }
 
 impl Stepper for Flip {
-    fn step(&mut self, row: &mut Row, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+    fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
         let half = 0.5 * step.h;
         for ((u, v), a) in row.u.iter_mut().zip(&mut row.v).zip(&self.accelerations) {
             *v += half * a;

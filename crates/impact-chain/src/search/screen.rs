@@ -15,7 +15,7 @@ use wide::f64x2;
 const N: usize = 8;
 
 /// One number for each of the coefficients b₁ … b₈.
-type Row = [f64x2; N / 2];
+type CoefficientPairs = [f64x2; N / 2];
 
 /// The values of a function at the ends of the eighths of the reach.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +50,7 @@ impl<const M: usize> Eighths<M> {
 
 /// A bit for each of eight comparisons.
 #[inline(always)]
-fn signs(masks: Row) -> u32 {
+fn signs(masks: CoefficientPairs) -> u32 {
     let [a, b, c, d] = masks.map(|mask| mask.to_bitmask());
     (a | b << 2) | (c << 4 | d << 6)
 }
@@ -72,7 +72,7 @@ pub struct Piece<const M: usize> {
 /// The Bernstein coefficients of one piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Coefficients {
-    row: Row,
+    row: CoefficientPairs,
     /// What rounding can have done to each of them, twice.
     slack: f64,
 }
@@ -87,7 +87,7 @@ fn weight(i: usize, k: usize, w: f64) -> f64 {
 }
 
 /// b₁ … b₈ of the Hermite polynomial with the given value and three derivatives at both ends.
-fn hermite(left: Taylor, right: Taylor, w: f64) -> Row {
+fn hermite(left: Taylor, right: Taylor, w: f64) -> CoefficientPairs {
     let mut b = [0.0; N + 1];
     for i in 0..4 {
         for k in 0..=i {
@@ -101,7 +101,7 @@ fn hermite(left: Taylor, right: Taylor, w: f64) -> Row {
     row(b[1..].try_into().expect("eight of nine"))
 }
 
-fn row(b: [f64; N]) -> Row {
+fn row(b: [f64; N]) -> CoefficientPairs {
     std::array::from_fn(|i| f64x2::from([b[2 * i], b[2 * i + 1]]))
 }
 

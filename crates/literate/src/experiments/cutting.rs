@@ -19,7 +19,7 @@ const MANY: u64 = 2000;
 
 /// One row of an experiment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct UnitRow {
     /// What it is about: `sigma = 0.12`.
     pub covers: String,
     /// Number of realisations.
@@ -28,7 +28,7 @@ pub struct Row {
     pub weight: u64,
 }
 
-impl Row {
+impl UnitRow {
     /// Work of all its realisations, in impacts.
     pub fn work(&self) -> u64 {
         self.weight.saturating_mul(self.realisations as u64)
@@ -78,7 +78,7 @@ pub type Join<P, U, T> = fn(&P, Vec<Vec<U>>, &Progress) -> Result<T, Error>;
 /// How an experiment with parameters P is cut into parts U and joined to a result T.
 pub struct Cutting<P, U, T> {
     /// The rows, in their order.
-    pub rows: fn(&P) -> Vec<Row>,
+    pub rows: fn(&P) -> Vec<UnitRow>,
     /// Runs realisations of a row, and advances the stage by the row's weight for each.
     pub part: fn(&P, &Unit, &Stage, &Progress) -> Result<U, Error>,
     /// Makes the result.
@@ -89,7 +89,7 @@ impl<P, U, T> Cutting<P, U, T> {
     /// All units: row by row, realisation by realisation.
     pub fn units(&self, parameters: &P) -> Vec<Unit> {
         let rows = (self.rows)(parameters);
-        let all = rows.iter().map(Row::work).fold(0, u64::saturating_add);
+        let all = rows.iter().map(UnitRow::work).fold(0, u64::saturating_add);
         let heavy = HEAVY.max(all / MANY);
         let units = rows.iter().enumerate().flat_map(|(place, row)| cut(place, row, heavy));
         units.enumerate().map(|(number, unit)| Unit { number, ..unit }).collect()
@@ -126,7 +126,7 @@ impl<P, U, T> Cutting<P, U, T> {
 }
 
 /// Cuts a row into the fewest pieces of about equal size of which none is heavy.
-fn cut(place: usize, row: &Row, heavy: u64) -> Vec<Unit> {
+fn cut(place: usize, row: &UnitRow, heavy: u64) -> Vec<Unit> {
     let all = row.realisations;
     let pieces = row.work().div_ceil(heavy).clamp(1, all.max(1) as u64);
     let at = |piece: u64| (all as u128 * u128::from(piece) / u128::from(pieces)) as usize;
@@ -148,7 +148,7 @@ mod tests {
         for (realisations, weight) in
             [(1, 1), (1000, 19_000), (7, 400_000), (3, 5_000_000), (10, 0)]
         {
-            let row = Row { covers: "sigma = 0.1".into(), realisations, weight };
+            let row = UnitRow { covers: "sigma = 0.1".into(), realisations, weight };
             let units = cut(4, &row, HEAVY);
             let all: Vec<usize> = units.iter().flat_map(|unit| unit.realisations.clone()).collect();
             assert_eq!(all, (0..realisations).collect::<Vec<_>>());
@@ -156,7 +156,7 @@ mod tests {
             let light = |unit: &Unit| unit.realisations.len() == 1 || unit.weight <= HEAVY + weight;
             assert!(units.iter().all(light), "{units:?}");
         }
-        let row = Row { covers: String::new(), realisations: 100, weight: 1 };
+        let row = UnitRow { covers: String::new(), realisations: 100, weight: 1 };
         assert_eq!(cut(0, &row, HEAVY).len(), 1);
     }
 
@@ -164,7 +164,7 @@ mod tests {
     fn a_billion_realisations_are_thousands_of_units() {
         let cutting: Cutting<u64, (), ()> = Cutting {
             rows: |&realisations| {
-                let row = |weight| Row {
+                let row = |weight| UnitRow {
                     covers: String::new(),
                     realisations: realisations as usize,
                     weight,

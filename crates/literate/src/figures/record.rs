@@ -8,35 +8,35 @@ use impact_numerics::statistics::Estimate;
 
 /// A place of a series, and what is known there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct DataPoint {
     x: f64,
     y: Option<f64>,
     error: Option<f64>,
     bar: Option<[f64; 2]>,
 }
 
-impl From<(f64, f64)> for Row {
+impl From<(f64, f64)> for DataPoint {
     fn from((x, y): (f64, f64)) -> Self {
-        Row { x, y: Some(y), error: None, bar: None }
+        DataPoint { x, y: Some(y), error: None, bar: None }
     }
 }
 
-impl From<(f64, f64, f64)> for Row {
+impl From<(f64, f64, f64)> for DataPoint {
     /// A bar between two heights.
     fn from((x, low, high): (f64, f64, f64)) -> Self {
-        Row { x, y: None, error: None, bar: Some([low, high]) }
+        DataPoint { x, y: None, error: None, bar: Some([low, high]) }
     }
 }
 
-impl From<(f64, Estimate)> for Row {
+impl From<(f64, Estimate)> for DataPoint {
     fn from((x, own): (f64, Estimate)) -> Self {
-        Row { x, y: Some(own.value), error: Some(own.error), bar: None }
+        DataPoint { x, y: Some(own.value), error: Some(own.error), bar: None }
     }
 }
 
-impl Row {
+impl DataPoint {
     /// Whether another row says more about the same place, and then takes that over.
-    fn joins(&mut self, new: &Row) -> bool {
+    fn joins(&mut self, new: &DataPoint) -> bool {
         fn agree<T: PartialEq>(a: Option<T>, b: Option<T>) -> bool {
             a.is_none() || b.is_none() || a == b
         }
@@ -57,7 +57,7 @@ pub(super) struct Record {
     pub(super) suffix: String,
     x: (String, String),
     y: (String, String),
-    series: Vec<(String, Vec<Row>)>,
+    series: Vec<(String, Vec<DataPoint>)>,
 }
 
 impl Record {
@@ -67,10 +67,10 @@ impl Record {
     }
 
     /// Adds rows to a series: bars, marks and curves of one name are one set of rows, by rising x.
-    pub(super) fn add(&mut self, name: &str, rows: impl IntoIterator<Item = Row>) {
+    pub(super) fn add(&mut self, name: &str, rows: impl IntoIterator<Item = DataPoint>) {
         let name = spelled(name);
         let Some((_, known)) = self.series.iter_mut().find(|(own, _)| *own == name) else {
-            let mut rows: Vec<Row> = rows.into_iter().collect();
+            let mut rows: Vec<DataPoint> = rows.into_iter().collect();
             rows.dedup();
             return self.series.push((name, rows));
         };
@@ -96,7 +96,7 @@ impl Record {
         if bars {
             header.extend(["low", "high"].map(|end| format!("{end} ({unit})")));
         }
-        let cells = |(name, row): (&String, &Row)| {
+        let cells = |(name, row): (&String, &DataPoint)| {
             let number = |value: Option<f64>| value.map_or(String::new(), shortest);
             let mut cells = vec![name.clone(), shortest(row.x), number(row.y)];
             cells.extend(errors.then(|| number(row.error)));
@@ -123,7 +123,7 @@ mod tests {
         assert_eq!(record.file("s01"), None);
         record.add("*σ* = 3", [(0.3, 0.1, 0.9).into()]);
         let twice = [(0.5, 0.5), (0.5, 0.5), (0.5, 0.6), (0.1, 0.2)];
-        record.add("other", twice.map(Row::from));
+        record.add("other", twice.map(DataPoint::from));
         record.add("*σ* = 3", [(0.1, 0.2).into(), (0.3, 0.25).into()]);
         let error = Estimate { value: 0.2, error: 0.01, interval: [0.2; 2] };
         record.add("*σ* = 3", [(0.1, error).into()]);

@@ -9,7 +9,7 @@ use super::Error;
 use super::clip::clip;
 use super::drawing::{Drawing, Element, Point};
 use super::panel::Panel;
-use super::record::Row;
+use super::record::DataPoint;
 use super::style::{Colour, Mark, Stroke};
 use impact_numerics::statistics::Estimate;
 
@@ -58,7 +58,7 @@ impl Panel {
     }
 
     /// Keeps rows of a series for the data file, as a picture may show them in another way.
-    pub fn record<R: Into<Row>>(&self, name: &str, rows: impl IntoIterator<Item = R>) {
+    pub fn record<R: Into<DataPoint>>(&self, name: &str, rows: impl IntoIterator<Item = R>) {
         if self.recorded {
             let name = self.series.as_deref().unwrap_or(name);
             self.record.borrow_mut().add(name, rows.into_iter().map(R::into));

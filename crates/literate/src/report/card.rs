@@ -21,12 +21,12 @@ pub struct Card {
     /// What it is in one plain sentence; may be empty.
     pub lead: String,
     /// What is known of it.
-    pub rows: Vec<Row>,
+    pub rows: Vec<Fact>,
 }
 
 /// One thing that is known.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct Fact {
     /// Its name, as "standard error".
     pub name: &'static str,
     /// The thing.
@@ -42,7 +42,7 @@ impl Card {
 
     fn row(&mut self, name: &'static str, text: Vec<Inline>) {
         if !text.is_empty() {
-            self.rows.push(Row { name, text, item: None });
+            self.rows.push(Fact { name, text, item: None });
         }
     }
 
@@ -63,7 +63,7 @@ impl Card {
             Some(file) => vec![link(&format!("../{file}"), code)],
             None => vec![code],
         };
-        self.rows.push(Row { name, text, item: Some(item.to_string()) });
+        self.rows.push(Fact { name, text, item: Some(item.to_string()) });
     }
 
     /// Rows for an experiment: where it is, and its parameters.

@@ -4,7 +4,7 @@ use super::forcing::Component;
 use super::prelude::*;
 
 /// A state with its forces; bodies are numbered from the left wall (0) to the right one (n + 1).
-pub struct Row {
+pub struct Bodies {
     pub topology: Topology,
     is_ring: bool,
     pub spacing: f64,
@@ -18,11 +18,11 @@ pub struct Row {
     pub v: Vec<f64>,
 }
 
-impl Row {
-    pub fn new(scenario: &Scenario, start: &State) -> Result<Row, Error> {
+impl Bodies {
+    pub fn new(scenario: &Scenario, start: &State) -> Result<Bodies, Error> {
         let u = start.displacements(scenario)?;
         let masses = scenario.forcing.len();
-        let mut row = Row {
+        let mut row = Bodies {
             topology: Topology::new(masses, scenario.boundary),
             is_ring: scenario.boundary == Boundary::Ring,
             spacing: scenario.spacing,
@@ -116,7 +116,7 @@ impl Row {
 /// One method with a fixed step.
 pub trait Stepper {
     /// Advances the row by one step and hands its impacts to the tally.
-    fn step(&mut self, row: &mut Row, step: &Step, tally: &mut Tally) -> Result<(), Stop>;
+    fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop>;
 }
 
 /// Runs a method with a fixed step, made by `begin` from the start.
@@ -124,9 +124,9 @@ pub fn run_steps<S: Stepper>(
     (scenario, start, until): Task,
     step: f64,
     sink: Sink,
-    begin: impl FnOnce(&Row) -> S,
+    begin: impl FnOnce(&Bodies) -> S,
 ) -> Result<Cost, Error> {
-    let mut row = Row::new(scenario, start)?;
+    let mut row = Bodies::new(scenario, start)?;
     let mut steps = steps(scenario, start, until, step)?;
     let mut tally = Tally::new(scenario, sink);
     let mut stepper = begin(&row);

@@ -91,7 +91,7 @@ pub fn plus_minus(half: f64) -> Text {
 }
 
 /// A check of a statement before it is computed.
-pub struct Row {
+pub struct Judge {
     /// Id of the statement that it judges.
     pub id: &'static str,
     /// What its verdict rests on.
@@ -115,17 +115,17 @@ enum Find {
     By(fn(&Evidence, &Statement) -> Judged),
 }
 
-const fn new(id: &'static str, basis: Basis, needs: &'static [Need], find: Find) -> Row {
-    Row { id, basis, reads: None, statistical: false, needs, find }
+const fn new(id: &'static str, basis: Basis, needs: &'static [Need], find: Find) -> Judge {
+    Judge { id, basis, reads: None, statistical: false, needs, find }
 }
 
 /// A statement about the theory that whole cases decide.
-pub const fn cases(id: &'static str, note: &'static str) -> Row {
+pub const fn cases(id: &'static str, note: &'static str) -> Judge {
     new(id, Exact, &[], Find::Cases(note))
 }
 
 /// A statement about the theory that is an equality of real numbers.
-pub const fn difference(id: &'static str, allowed: f64, note: &'static str) -> Row {
+pub const fn difference(id: &'static str, allowed: f64, note: &'static str) -> Judge {
     new(id, Rounding, &[], Find::Difference(allowed, note))
 }
 
@@ -134,7 +134,7 @@ pub const fn theory(
     id: &'static str,
     basis: Basis,
     find: fn(&Evidence, &Statement) -> Judged,
-) -> Row {
+) -> Judge {
     new(id, basis, &[], Find::By(find))
 }
 
@@ -144,7 +144,7 @@ pub const fn measured(
     basis: Basis,
     needs: &'static [Need],
     find: fn(&Evidence, &Statement) -> Judged,
-) -> Row {
+) -> Judge {
     new(id, basis, needs, Find::By(find))
 }
 
@@ -154,14 +154,14 @@ pub const fn statistical(
     basis: Basis,
     needs: &'static [Need],
     find: fn(&Evidence, &Statement) -> Judged,
-) -> Row {
-    Row { statistical: true, ..new(id, basis, needs, Find::By(find)) }
+) -> Judge {
+    Judge { statistical: true, ..new(id, basis, needs, Find::By(find)) }
 }
 
-impl Row {
+impl Judge {
     /// Says which words or formula it judges.
     pub const fn of(self, reads: &'static str) -> Self {
-        Row { reads: Some(reads), ..self }
+        Judge { reads: Some(reads), ..self }
     }
 
     /// Computes the check.
