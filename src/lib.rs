@@ -15,25 +15,23 @@
 //! - [Section 9](../../../paper/report.html#sec-higher), circuits that are not simple:
 //!   [`impact_circuits::higher_order`].
 //! - What is run, with which parameters: [`experiments`] and [`params`].
-//! - What is shown: [`figures`], [`claims`] and [`report`].
+//! - What is shown: [`figures`], [`claims`] and [`contents`]; `src/main.rs` puts it together.
 //! - Mathematics that knows no physics: [`impact_numerics`]; what that means for
 //!   [the method](../../../paper/methods.html#sec-method) and its
 //!   [speed and accuracy](../../../paper/methods.html#sec-accuracy).
 //!
 //! Imports flow one way: `impact-numerics` → `impact-chain` → `impact-circuits` (crates of their own) → `experiments` →
-//! `figures`, `claims` → `report` → `program`; `params` may be read by all.
+//! `figures`, `claims` → `contents`; `params` may be read by all.
 //!
-//! Where each equation lives is in [`report::equations`].
+//! Where each equation lives is in [`mod@equations`].
 // What writes to a closed pipe or a full disk by a macro panics: `experiments::say` does not.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![warn(clippy::print_stderr, clippy::print_stdout)]
 
 pub mod claims;
-pub mod committed;
+pub mod contents;
+pub mod equations;
 pub mod experiments;
 pub mod figures;
+pub mod lab;
 pub mod params;
-// A browser sends no signals, and reads no command line.
-#[cfg(not(target_family = "wasm"))]
-pub mod program;
-pub mod report;

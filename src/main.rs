@@ -1,21 +1,83 @@
-//! The command line of the literate paper.
+//! What the literate paper is made of, and its command line.
 
-// What writes to a closed pipe or a full disk by a macro panics: `say` and `program::stdout` do not.
+// What writes to a closed pipe or a full disk by a macro panics: `literate::cli::terminal` does not.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![warn(clippy::print_stderr, clippy::print_stdout)]
 
 mod cli;
 
-use impact_paper::program::{tell, threads};
+use impact_paper::{claims, contents, equations, experiments, figures, lab};
+use literate::Paper;
+use literate::report::Document;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    std::panic::set_hook(Box::new(tell));
-    let thread = std::thread::Builder::new().stack_size(threads::STACK).spawn(cli::main);
-    match thread.map(std::thread::JoinHandle::join) {
-        Ok(Ok(code)) => code,
-        // The hook has told it.
-        Ok(Err(_)) => ExitCode::FAILURE,
-        Err(_) => cli::main(),
+    paper().cli_with(cli::run)
+}
+
+/// The paper.
+pub fn paper() -> Paper {
+    Paper {
+        authors: vec![("The impact-paper authors", "")],
+        date: "2026-11-24",
+        license: "MIT OR Apache-2.0",
+        crates: vec![
+            ("impact_numerics", "crates/numerics/src"),
+            ("impact_chain", "crates/impact-chain/src"),
+            ("impact_circuits", "crates/circuits/src"),
+            ("literate", "crates/literate/src"),
+            ("", "src"),
+        ],
+        figures: figures::ALL.to_vec(),
+        statements: vec![claims::all],
+        relations: vec![claims::targets::targets, claims::relations::relations],
+        judged_by: |claim| format!("claims::{}", claim.split('_').next().unwrap_or_default()),
+        values: vec![contents::values],
+        rows: vec![contents::rows],
+        equations: equations::equations(),
+        lab: Some(lab::lab),
+        documents: DOCUMENTS.to_vec(),
+        ..experiments::bare()
     }
 }
+
+/// A reader has five minutes, half an hour, or a day.
+const DOCUMENTS: [Document; 5] = [
+    Document {
+        prose: "front",
+        name: "Overview",
+        markdown: "README.md",
+        page: "index.html",
+        print: None,
+        repeats: true,
+        ..Document::REPORT
+    },
+    Document { prose: "edition", name: "Edition", ..Document::REPORT },
+    Document {
+        prose: "beyond",
+        name: "Beyond the paper",
+        letter: "S",
+        markdown: "beyond.md",
+        page: "beyond.html",
+        print: Some("beyond"),
+        ..Document::REPORT
+    },
+    Document {
+        prose: "methods",
+        name: "Methods",
+        letter: "M",
+        markdown: "methods.md",
+        page: "methods.html",
+        print: Some("methods"),
+        ..Document::REPORT
+    },
+    Document {
+        prose: "ledger",
+        name: "Ledger",
+        letter: "L",
+        markdown: "ledger.md",
+        page: "ledger.html",
+        print: None,
+        ..Document::REPORT
+    },
+];

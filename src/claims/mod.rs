@@ -19,21 +19,12 @@ pub(crate) mod sec8;
 pub(crate) mod sec9;
 pub mod targets;
 
-use crate::committed;
-use crate::experiments::{Need, Results};
+use crate::experiments::Results;
+use literate::Failure;
 
 pub use literate::claims::*;
 
 pub use judge::{Evidence, Judge};
-
-/// What the paper printed, as it is committed.
-///
-/// # Errors
-/// As [`Published::parse`]; and if the file cannot be read.
-pub fn published() -> Result<Published, PublishedError> {
-    let text = committed::text("templates/published.toml");
-    Published::parse(&text.map_err(PublishedError::Unread)?)
-}
 
 /// The rows of all sections, in the order of the paper.
 pub fn rows() -> impl Iterator<Item = &'static Judge> {
@@ -47,16 +38,11 @@ pub fn level() -> Level {
     Level::of(rows().filter(|row| row.statistical).count())
 }
 
-/// The experiments that a check needs (an empty list also for an id that no row has).
-pub fn needs(id: &str) -> &'static [Need] {
-    rows().find(|row| row.id == id).map_or(&[], |row| row.needs)
-}
-
 /// Computes the checks of all statements of `published`, in its order.
 ///
 /// # Errors
 /// If a row has no statement, or if a result was not run.
-pub fn all(results: &Results, published: &Published) -> Result<Vec<Check>, Error> {
+pub fn all(results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
     let rule = |row: &'static Judge| -> (&str, Box<Rule<'_>>) {
         let check = move |case: &Case<'_>| {
             let level = if row.statistical { case.level() } else { level() };
@@ -81,15 +67,19 @@ pub fn one(id: &str, results: &Results, published: &Published) -> Result<Check, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::Profile;
+    use crate::experiments::{THEORY, quick};
+
+    fn published() -> Published {
+        Published::parse(include_str!("../../templates/published.toml")).unwrap()
+    }
 
     /// Every check that needs no run, on the paper's own numbers.
     #[test]
     fn exact_checks_hold_or_are_explained() {
-        let published = published().unwrap();
+        let published = published();
         let printed: Vec<&str> = published.statements.iter().map(|s| s.id.as_str()).collect();
         assert_eq!(printed, rows().map(|row| row.id).collect::<Vec<_>>());
-        let results = Results::empty(Profile::Quick);
+        let results = quick(&[&THEORY]);
         let exact = rows().filter(|row| row.needs.is_empty());
         let checks: Vec<Check> =
             exact.map(|row| one(row.id, &results, &published).unwrap()).collect();
@@ -103,8 +93,8 @@ mod tests {
     /// Changing what the paper is said to have printed changes verdicts: none is fixed.
     #[test]
     fn a_wrong_printed_number_is_noticed() {
-        let results = Results::empty(Profile::Quick);
-        let mut published = published().unwrap();
+        let results = quick(&[&THEORY]);
+        let mut published = published();
         for (id, value, printed) in
             [("sec3_edges", 12.0, "12"), ("sec9_eq35", 2.0, "valid for k > 2")]
         {

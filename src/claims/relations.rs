@@ -2,11 +2,12 @@
 //! as two samples of one thing, or a simulation and its bound.
 
 use super::judge::{Error, Evidence};
-use super::{Basis, Check, Kind, Text, integer, level, published, significant};
+use super::{Basis, Check, Kind, Published, Text, integer, level, significant};
 use crate::experiments::rise::Curve;
 use crate::experiments::{BRANCHES, NUCLEATION, PROTOCOL, Results, branches};
 use impact_numerics::estimates::difference;
 use impact_numerics::statistics::Estimate;
+use literate::Failure;
 
 /// Departures from a relation, each over what chance and what a formula leaves out allow: at most one.
 type Departures = Result<Vec<f64>, Error>;
@@ -51,9 +52,8 @@ const RELATIONS: [Relation; 6] = [
 ///
 /// # Errors
 /// If a result was not run.
-pub fn relations(results: &Results) -> Result<Vec<Check>, Error> {
-    let published = published()?;
-    let e = Evidence { results, published: &published, level: level() };
+pub fn relations(results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
+    let e = Evidence { results, published, level: level() };
     let one = |(id, statement, find): Relation| {
         let found = match find(&e) {
             Err(Error::Undecided) => Vec::new(),

@@ -3,12 +3,13 @@
 //! A target that rests on counted work or on accuracy is decided by the results; one that rests on
 //! the clock by the committed measurements, and is open while nobody measured it.
 
-use super::{Basis, Check, Error, Kind, Text, chosen, significant};
+use super::{Basis, Check, Kind, Published, Text, chosen, significant};
 use crate::experiments::accuracy::trials::right;
 use crate::experiments::measured::{Measurement, What};
 use crate::experiments::{MEASURED, RACE, SCALE, TRIALS};
 use crate::experiments::{Measured, Results};
 use crate::params::MethodName;
+use literate::Failure;
 
 /// A target: id, what it says, bound and unit.
 type Said = (&'static str, &'static str, f64, &'static str);
@@ -39,7 +40,7 @@ fn target(
 }
 
 /// All targets, those of the clock first.
-pub fn targets(results: &Results) -> Result<Vec<Check>, Error> {
+pub fn targets(results: &Results, _: &Published) -> Result<Vec<Check>, Failure> {
     let measured = results.of(&MEASURED)?;
     let ensemble = measured.of(What::Ensemble).filter(|row| row.threads == 1);
     let ensemble = ensemble.filter_map(|row| row.microseconds_per_impact).min_by(f64::total_cmp);
@@ -93,7 +94,7 @@ fn against(measured: &Measured, said: (&str, &str), n: u64, bound: f64) -> Check
 }
 
 /// Targets of counted work and of accuracy.
-fn exact(results: &Results) -> Result<Vec<Check>, Error> {
+fn exact(results: &Results) -> Result<Vec<Check>, Failure> {
     let (scale, race) = (results.of(&SCALE)?, results.of(&RACE)?);
     let own = || scale.iter().filter(|row| row.0.method == MethodName::Certified);
     let largest = own().max_by_key(|row| row.1).zip(own().find(|row| row.1 == 100));
@@ -121,17 +122,19 @@ fn exact(results: &Results) -> Result<Vec<Check>, Error> {
 mod tests {
     use super::*;
     use crate::claims::Verdict;
-    use crate::experiments::{Need, Progress, Store, run};
-    use crate::params::Profile;
+    use crate::experiments::quick;
 
     fn results() -> Results {
-        let none = |_: &str| Err("not needed".to_string());
-        let needs: [Need; 4] = [&RACE, &SCALE, &TRIALS, &MEASURED];
-        run(&needs, Profile::Quick, &none, &Store::nowhere(), &Progress::silent()).unwrap()
+        quick(&[&RACE, &SCALE, &TRIALS, &MEASURED])
     }
 
     fn verdict(results: &Results, id: &str) -> Verdict {
-        targets(results).unwrap().iter().find(|target| target.id == id).unwrap().verdict
+        targets(results, &Published::default())
+            .unwrap()
+            .iter()
+            .find(|target| target.id == id)
+            .unwrap()
+            .verdict
     }
 
     /// Each target can be missed: make the results worse and it is.

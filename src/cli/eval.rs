@@ -1,12 +1,13 @@
 //! `impact-paper eval`: one quantity of the theory as JSON.
 
-use super::{Failure, stdout, within};
+use super::within;
 use clap::builder::PossibleValuesParser;
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::{Error, LARGEST_N, counting, jump};
-use impact_paper::experiments::say;
 use impact_paper::params::{Chain, VERTICES};
+use literate::Failure;
+use literate::cli::terminal::{print, warn};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -173,7 +174,7 @@ impl Inputs {
                 return Err(Failure::input(what));
             }
             if !given && option == need && needs(need) {
-                let what = format!("--{option}: {name} needs it; see `impact-paper eval --help`");
+                let what = format!("--{option}: {name} needs it; see `eval --help`");
                 return Err(Failure::input(what));
             }
         }
@@ -209,7 +210,7 @@ impl Inputs {
 pub fn run(args: Args) -> Result<(), Failure> {
     let asked = |quantity: &&Quantity| args.quantity.as_deref() == Some(quantity.name);
     let Some(quantity) = QUANTITIES.iter().find(asked).filter(|_| !args.list) else {
-        return stdout::print(&list());
+        return print(&list());
     };
     let inputs = args.inputs.of(quantity)?;
     let value = (quantity.evaluate)(&inputs).map_err(|error| {
@@ -227,11 +228,11 @@ pub fn run(args: Args) -> Result<(), Failure> {
         )));
     }
     if quantity.name == "p-crit" && value.as_f64() > Some(1.0) {
-        say("impact-paper: p_crit is above 1, so no probability reaches it: N is too small");
+        warn("p_crit is above 1, so no probability reaches it: N is too small");
     }
     let answer = Answer { quantity: quantity.name, value, inputs };
     let json = serde_json::to_string(&answer).map_err(|error| Failure::check(error.to_string()))?;
-    stdout::print(&(json + "\n"))
+    print(&(json + "\n"))
 }
 
 /// One line for each quantity: name, equation, what it needs, what it is.

@@ -1,13 +1,15 @@
-//! `impact-paper sweep`.
+//! The verb `sweep`.
 
-use super::{Failure, memory, sigmas, signals, stdout, threads, within};
+use super::{sigmas, within};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
 use impact_chain::rise;
 use impact_chain::search::clock::LATEST;
 use impact_chain::{Boundary, Chain, Counts, Engine, Ensemble, Protocol, Start};
+use impact_paper::experiments::Progress;
 use impact_paper::experiments::ensembles::CUTTING;
-use impact_paper::experiments::{Progress, say};
 use impact_paper::params::SEED;
+use literate::Failure;
+use literate::cli::terminal::{Threads, fits, progress, warn, written};
 use literate::experiments::cutting::Cutting;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -47,9 +49,8 @@ pub struct Args {
     /// Master seed of the random streams.
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
-    /// Number of threads; all cores without it. It changes no bit of the result.
-    #[arg(long, value_name = "K", value_parser = threads::read)]
-    threads: Option<usize>,
+    #[command(flatten)]
+    threads: Threads,
     /// Form of the table.
     #[arg(long, default_value = "csv", value_parser = ["csv", "json"])]
     format: String,
@@ -103,19 +104,19 @@ pub fn run(args: Args) -> Result<(), Failure> {
         ..Ensemble::default()
     };
     // Each thread has a chain, and a few words for each of its gaps; each realisation leaves its counts.
-    let threads = args.threads.unwrap_or_else(threads::cores) as u128;
+    let threads = args.threads.number() as u128;
     let chain = Engine::memory(args.masses, 1) + 64 * args.masses as u128;
     let needed = threads * chain + (1 << 10) * args.realisations as u128;
-    memory::fits(needed, "--masses, --realisations", "give fewer")?;
+    fits(needed, "--masses, --realisations", "give fewer")?;
     if args.transient + args.window > LATEST {
         return Err(Failure::input(
             "--transient, --window: they end after t = 1e12; give shorter ones",
         ));
     }
-    let progress = signals::progress();
-    let rows = threads::run(args.threads, || rows(ensemble, &progress))?;
+    let progress = progress();
+    let rows = args.threads.run(|| rows(ensemble, &progress))?;
     let out = io::BufWriter::new(io::stdout().lock());
-    stdout::written(if args.format == "json" { json(&rows, out) } else { csv(&rows, out) })
+    written(if args.format == "json" { json(&rows, out) } else { csv(&rows, out) })
 }
 
 /// Runs all σ.
@@ -137,14 +138,14 @@ fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Printed {
     let (all, rejected) = (ensemble.realisations, counts.rejected);
     if let Some(first) = &counts.first_failure {
         let failed = counts.failed;
-        say(&format!(
-            "impact-paper: sigma {sigma:?}: {failed} of {all} realisations ended early and are in no mean; the \
+        warn(&format!(
+            "sigma {sigma:?}: {failed} of {all} realisations ended early and are in no mean; the \
              first: {first}"
         ));
     }
     if rejected as f64 > ensemble.most_rejected * all as f64 {
-        say(&format!(
-            "impact-paper: sigma {sigma:?}: {rejected} of {all} starts overlapped and were rejected; the row is not \
+        warn(&format!(
+            "sigma {sigma:?}: {rejected} of {all} starts overlapped and were rejected; the row is not \
              comparable with others"
         ));
     }

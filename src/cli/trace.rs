@@ -1,12 +1,13 @@
-//! `impact-paper trace`.
+//! The verb `trace`.
 
-use super::{Failure, memory, stdout, within};
+use super::within;
 use impact_chain::methods::State;
 use impact_chain::search::clock::LATEST;
 use impact_chain::{Engine, Error, Impact, Scenario, rounding};
-use impact_paper::experiments::{alive, say};
+use impact_paper::experiments::alive;
 use impact_paper::params::MethodName;
-use literate::input;
+use literate::cli::terminal::{fits, warn, written as printed};
+use literate::{Failure, input};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -114,19 +115,19 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if let Err(error) =
         written.and_then(|()| out.write_all(lines.as_bytes())).and_then(|()| out.flush())
     {
-        return stdout::written(Err(error));
+        return printed(Err(error));
     }
     if slower > SLOW.1 {
-        say(&format!(
-            "impact-paper: {slower} of {all} impacts closed more slowly than 1e-6 d w: a chatter, in which bodies come \
+        warn(&format!(
+            "{slower} of {all} impacts closed more slowly than 1e-6 d w: a chatter, in which bodies come \
              to rest on one another by ever weaker impacts; the smaller r, the more; --max-impacts bounds them"
         ));
     }
     if let Ok(cost) = &ran
         && cost.simultaneous > 0
     {
-        say(&format!(
-            "impact-paper: impacts at exactly the same instant as one in a neighbouring gap: {}; they were taken one after \
+        warn(&format!(
+            "impacts at exactly the same instant as one in a neighbouring gap: {}; they were taken one after \
              the other, lowest gap first",
             cost.simultaneous
         ));
@@ -137,8 +138,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         && width > rounding::TOLD * scenario.spacing
         && matches!(ran, Ok(_) | Err(Error::Work { .. }))
     {
-        say(&format!(
-            "impact-paper: rounding of large amplitudes may move each impact at closing speed v by {width:.1e}/v, and \
+        warn(&format!(
+            "rounding of large amplitudes may move each impact at closing speed v by {width:.1e}/v, and \
              errors grow from impact to impact"
         ));
     }
@@ -151,11 +152,11 @@ fn read(path: &Path) -> Result<(String, Scenario), Failure> {
     let name = if piped { "standard input".into() } else { path.display().to_string() };
     let text = if piped { input::read_from(io::stdin()) } else { input::read(path) };
     let text = text.map_err(|error| {
-        Failure::input(format!("{name}: {error}; give a scenario, see `impact-paper trace --help`"))
+        Failure::input(format!("{name}: {error}; give a scenario, see `trace --help`"))
     })?;
     let numbers = text.bytes().filter(|byte| *byte == b',').count();
     let most = NUMBER * numbers as u128 + Engine::memory(numbers / 2, 1);
-    memory::fits(most, &name, "give fewer masses")?;
+    fits(most, &name, "give fewer masses")?;
     let scenario = Scenario::from_json(&text).map_err(|error| in_file(&name, error))?;
     Ok((name, scenario))
 }

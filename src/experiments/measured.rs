@@ -4,7 +4,6 @@
 //! depends on them. `make measure` writes them, with date and machine, and they are committed; the
 //! report only reads them, and so keeps its bytes until somebody measures again.
 
-use crate::committed;
 use crate::experiments::prelude::*;
 use literate::input::one_line;
 
@@ -93,9 +92,11 @@ pub struct Measurement {
 
 impl Measured {
     /// The committed file.
-    pub fn committed() -> Result<Self, Error> {
+    pub fn committed(session: &Session<'_>) -> Result<Self, Error> {
         let again = "run make measure again, or restore the file";
-        let text = committed::text(FILE)
+        let project = &session.paper.project;
+        let text = project
+            .text(FILE)
             .map_err(|error| Error::input("measured.json", error.to_string(), again))?;
         let mut reader = serde_json::Deserializer::from_str(&text);
         serde_path_to_error::deserialize(&mut reader).map_err(|error| {
@@ -149,10 +150,11 @@ mod tests {
 
     #[test]
     fn the_committed_file_reads() {
-        let measured = Measured::committed().unwrap();
+        let results = crate::experiments::quick(&[&crate::experiments::MEASURED]);
+        let measured = results.of(&crate::experiments::MEASURED).unwrap();
         assert!(measured.of(What::Engine).count() > 0);
         assert!(measured.impact(What::Method, "advancement") > 0.0);
-        let text = serde_json::to_string(&measured).unwrap();
+        let text = serde_json::to_string(measured).unwrap();
         assert!(!text.contains("/home") && !text.contains("/root"));
     }
 }

@@ -23,13 +23,10 @@ pub mod sweep;
 pub mod theory;
 pub mod two_masses;
 
-pub mod built;
-mod results;
-
 /// What experiments and their tables use.
 pub(crate) mod prelude {
     pub use super::ensembles::{each, named};
-    pub use super::{Error, Progress, Results};
+    pub use super::{Error, Progress, Results, Session};
     pub use crate::params::Chain;
     pub use impact_chain::methods::State;
     pub use impact_chain::rise::{Counted, Curve};
@@ -49,25 +46,25 @@ pub(crate) mod prelude {
 
 pub use impact_chain::rise;
 pub use literate::experiments::{
-    Entry, Error, Experiment, Need, Progress, Store, alive, be_quiet, say,
+    Entry, Error, Experiment, Need, Progress, Results, Session, Store, Together, alive, say,
 };
 pub use measured::Measured;
-pub use results::{Results, run};
 
 use crate::params::{
     self, BiasParams, NucleationParams, Profile, RaceParams, Runs, ScaleParams, SeedsParams,
     TrialParams, TwoMassesParams,
 };
 use accuracy::{bias, race, scale, tables, trials};
-use built::code;
 use ensembles::CUTTING;
 use impact_chain::rise::Counted;
 use impact_chain::{Counts, Ensemble};
 use literate::experiments::experiment::How::{Cut, Read, Whole};
 use literate::table::Table;
+use literate::{Paper, Project};
 
 /// All experiments, in the order in which they run.
 pub const ALL: &[Need] = &[
+    &THEORY,
     &SEGMENTS,
     &MEASURED,
     &SWEEP,
@@ -88,22 +85,68 @@ pub const ALL: &[Need] = &[
     &REPLAY,
 ];
 
-/// Makes tables of the results of several experiments and of their own tables; none where one was not asked for.
-pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
-
 /// Tables that need several experiments.
 pub const TOGETHER: [Together; 4] =
     [theory::beside::tables, sweep::of_both, seeds::compared::tables, starts::beside_theory];
 
-/// The experiments whose results are saved.
-pub fn saved() -> Vec<Need> {
-    ALL.iter().copied().filter(|one| one.is_saved()).collect()
+/// What every result depends on.
+const SHARED: &[&str] = &[
+    "Cargo.lock",
+    "crates/numerics/src",
+    "crates/impact-chain/src",
+    "crates/circuits/src",
+    "crates/literate/src/experiments/cutting.rs",
+    "src/params.rs",
+    "src/params",
+    "src/experiments/ensembles.rs",
+];
+
+/// The paper with its experiments, and nothing yet that shows them.
+pub fn bare() -> Paper {
+    let sources = literate::sources!("src", "crates");
+    let project = Project::new(sources);
+    let title = "A literate, reproducible edition of Homer & Hogan (2007), Impact Dynamics of Large Dimensional Systems";
+    // Tables are made of results anew each time.
+    let project = Project { shared: SHARED, left_out: &["/tables.rs"], ..project };
+    #[cfg(feature = "embed")]
+    let project =
+        Project { copy: literate::texts!("templates", "benches/measured.json"), ..project };
+    Paper {
+        project,
+        prose: "templates",
+        experiments: ALL.to_vec(),
+        together: TOGETHER.to_vec(),
+        ..Paper::new(title, sources)
+    }
 }
+
+/// Results of the quick profile, of runs that are not saved, for tests.
+///
+/// # Panics
+/// If one fails.
+#[cfg(test)]
+pub(crate) fn quick(needs: &[Need]) -> Results {
+    let (paper, store) = (bare(), Store::nowhere());
+    let session = Session::of(&paper, None, Profile::Quick, store, Progress::silent()).unwrap();
+    Results::run(needs, &session).unwrap()
+}
+
+/// The graph theory, which costs nothing and is never saved.
+pub const THEORY: Experiment<serde_json::Value, ()> = Experiment {
+    name: "theory",
+    code: &["src/experiments/theory"],
+    parameters: |_| serde_json::json!({ "N": params::VERTICES }),
+    how: Read(|_| Ok(())),
+    tables: |()| {
+        let (theory, identities) = rayon::join(theory::tables, identities::tables);
+        [theory, identities].concat()
+    },
+};
 
 /// The motions of Figs. 5(b) and 6(b).
 pub const SEGMENTS: Experiment<(), segments::Segments> = Experiment {
     name: "segments",
-    code: code(&["src/experiments/segments.rs"]),
+    code: &["src/experiments/segments.rs"],
     parameters: |_| (),
     how: Read(segments::read),
     tables: segments::tables,
@@ -112,9 +155,9 @@ pub const SEGMENTS: Experiment<(), segments::Segments> = Experiment {
 /// Times that were measured once.
 pub const MEASURED: Experiment<(), Measured> = Experiment {
     name: "measured",
-    code: code(&["src/experiments/measured.rs"]),
+    code: &["src/experiments/measured.rs", measured::FILE],
     parameters: |_| (),
-    how: Read(|_| Measured::committed()),
+    how: Read(Measured::committed),
     tables: measured::tables,
 };
 
@@ -127,7 +170,7 @@ const fn ensembles(
     parameters: fn(Profile) -> Vec<Ensemble>,
     tables: fn(&Vec<Counted>) -> Vec<Table>,
 ) -> Ensembles {
-    let code = code(&["src/experiments/ensembles.rs"]);
+    let code = &["src/experiments/ensembles.rs"];
     Experiment { name, code, parameters, how: Cut(title, CUTTING), tables }
 }
 
@@ -148,7 +191,7 @@ pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, st
 /// Chaos and its horizon.
 pub const HORIZON: Experiment<Runs, horizon::Horizon> = Experiment {
     name: "horizon",
-    code: code(&["src/experiments/horizon.rs"]),
+    code: &["src/experiments/horizon.rs"],
     parameters: Runs::horizon,
     how: Whole {
         run: horizon::run,
@@ -160,7 +203,7 @@ pub const HORIZON: Experiment<Runs, horizon::Horizon> = Experiment {
 /// Two masses under a low force.
 pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Experiment {
     name: "two_masses",
-    code: code(&["src/experiments/two_masses.rs"]),
+    code: &["src/experiments/two_masses.rs"],
     parameters: TwoMassesParams::new,
     how: Whole {
         run: two_masses::run,
@@ -175,7 +218,7 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Exper
 /// One long run.
 pub const SPACE_TIME: Experiment<Runs, spacetime::SpaceTime> = Experiment {
     name: "spacetime",
-    code: code(&["src/experiments/spacetime.rs"]),
+    code: &["src/experiments/spacetime.rs"],
     parameters: Runs::spacetime,
     how: Whole {
         run: spacetime::run,
@@ -187,11 +230,11 @@ pub const SPACE_TIME: Experiment<Runs, spacetime::SpaceTime> = Experiment {
 /// Every method against the true motion.
 pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
     name: "race",
-    code: code(&[
+    code: &[
         "src/experiments/accuracy/race.rs",
         "src/experiments/accuracy",
         "src/experiments/horizon.rs",
-    ]),
+    ],
     parameters: RaceParams::new,
     how: Whole { run: race::run, weight: |p| 30_000 * (p.chains * p.settings.len()) as u64 },
     tables: tables::race,
@@ -200,7 +243,7 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
 /// What methods do to the mean count.
 pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
     name: "bias",
-    code: code(&["src/experiments/accuracy/bias.rs", "src/experiments/accuracy"]),
+    code: &["src/experiments/accuracy/bias.rs", "src/experiments/accuracy"],
     parameters: BiasParams::new,
     how: Whole {
         run: bias::run,
@@ -212,7 +255,7 @@ pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
 /// Every method in the scenes where methods fail.
 pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
     name: "trials",
-    code: code(&["src/experiments/accuracy/trials.rs", "src/experiments/accuracy"]),
+    code: &["src/experiments/accuracy/trials.rs", "src/experiments/accuracy"],
     parameters: TrialParams::new,
     how: Whole {
         run: trials::run,
@@ -224,7 +267,7 @@ pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
 /// Counted work against the number of masses.
 pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
     name: "scale",
-    code: code(&["src/experiments/accuracy/scale.rs", "src/experiments/accuracy"]),
+    code: &["src/experiments/accuracy/scale.rs", "src/experiments/accuracy"],
     parameters: ScaleParams::new,
     how: Whole { run: scale::run, weight: |p| 300_000 + 7 * p.masses.iter().sum::<usize>() as u64 },
     tables: tables::scale,
@@ -233,7 +276,7 @@ pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
 /// First impacts of chains from rest.
 pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation> = Experiment {
     name: "nucleation",
-    code: code(&["src/experiments/nucleation"]),
+    code: &["src/experiments/nucleation"],
     parameters: NucleationParams::new,
     how: Whole {
         run: nucleation::run,
@@ -246,7 +289,7 @@ pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation> = Exp
 /// What one gap that closes by itself sets off.
 pub const SEEDS: Experiment<SeedsParams, seeds::Seeds> = Experiment {
     name: "seeds",
-    code: code(&["src/experiments/seeds"]),
+    code: &["src/experiments/seeds"],
     parameters: SeedsParams::new,
     how: Whole {
         run: seeds::run,
@@ -270,7 +313,7 @@ pub const BRANCHES: Ensembles =
 /// Runs that a page repeats.
 pub const REPLAY: Experiment<replay::Runs, replay::Replays> = Experiment {
     name: "replay",
-    code: code(&["src/experiments/replay.rs"]),
+    code: &["src/experiments/replay.rs"],
     parameters: replay::runs,
     how: Whole {
         run: replay::run,

@@ -1,7 +1,6 @@
 //! The motions of Figs. 5(b) and 6(b): saved scenarios, replayed by the engine.
 
 use crate::experiments::prelude::*;
-use literate::experiments::experiment::Given;
 use literate::input::one_line;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -123,9 +122,10 @@ struct Saved {
 }
 
 /// Replays both segments from the files of [`FILES`].
-pub fn read(given: Given<'_>) -> Result<Segments, Error> {
+pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
     let one = |file: &str| {
-        given(file).and_then(|text| replay(&text)).map_err(|problem| {
+        let text = session.templates.text(file).map_err(|error| error.to_string());
+        text.and_then(replay).map_err(|problem| {
             let remedy = "restore it, or find it anew by the directed search";
             Error::input(file, one_line(&problem, 500), remedy)
         })

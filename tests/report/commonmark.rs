@@ -2,11 +2,11 @@
 //! mathematics. What it makes of the text must be what the document means.
 
 use crate::quick::QUICK;
-use impact_paper::report::{Document, PROGRAM, Report};
+use literate::report::{Document, Report};
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
 fn texts() -> impl Iterator<Item = (&'static Document, &'static str)> {
-    PROGRAM.documents.iter().map(|document| (document, QUICK.markdown(document)))
+    QUICK.paper.documents.iter().map(|document| (document, QUICK.markdown(document)))
 }
 
 fn events(text: &str) -> Vec<Event<'_>> {
@@ -33,7 +33,7 @@ fn every_link_lands_wherever_the_report_is_written() {
             let text = std::str::from_utf8(&report.committed[of.markdown]).unwrap();
             (of.markdown.to_string(), links(text))
         };
-        PROGRAM.documents.iter().map(text).collect()
+        QUICK.paper.documents.iter().map(text).collect()
     };
     crate::quick::links_land(texts, 200, 150);
 }

@@ -5,16 +5,15 @@ use crate::quick::QUICK;
 use impact_chain::Scenario;
 use impact_numerics::random::generator;
 use impact_paper::claims::Published;
-use impact_paper::experiments::built::code;
-use impact_paper::report::bibliography::Library;
-use impact_paper::report::filler::Filler;
-use impact_paper::report::labels::Labels;
-use impact_paper::report::{Document, Error, PROGRAM, Templates};
-use impact_paper::report::{compare, folder, latex, ledger, markdown, parse};
 use literate::digest::sha256;
 use literate::experiments::Profile;
 use literate::experiments::identity::Identity;
 use literate::experiments::store;
+use literate::report::bibliography::Library;
+use literate::report::filler::Filler;
+use literate::report::labels::Labels;
+use literate::report::{Document, Error, Templates};
+use literate::report::{compare, folder, latex, ledger, markdown, parse};
 use rand::RngExt;
 use std::{fs, sync::LazyLock, sync::mpsc::channel, time::Duration};
 
@@ -88,9 +87,9 @@ static LIBRARY: LazyLock<Library> =
 /// What documents make of a text.
 fn prose(text: &str) -> Result<(), Error> {
     let (values, templates) = (&QUICK.values, Templates::of([("report.md", text)]));
-    let filler = Filler::new(&templates, PROGRAM)?.with(values);
+    let filler = Filler::new(&templates, &[Document::REPORT])?.with(values);
     let filled = filler.prose(&Document::REPORT)?;
-    let (mut blocks, _) = parse::parse(&filled, values, &filler.declared, PROGRAM)?;
+    let (mut blocks, _) = parse::parse(&filled, values, &filler.declared, &QUICK.paper)?;
     let (here, mut labels) = (Document::REPORT, Labels::default());
     labels.number_all(&mut blocks, here)?;
     labels.resolve(&mut blocks, here, &LIBRARY)?;
@@ -115,7 +114,8 @@ fn no_reader_panics_or_hangs() {
     let scenario = |text: &str| line(Scenario::from_json(text).and_then(|own| own.validate()));
     survives("scenario", SCENARIO.into(), 2000, scenario);
     // Saved results with a checksum that fits, as no accident makes it.
-    let identity = Identity::new("test", Profile::Quick, code(&[]), &[1.5, 0.25]);
+    let identity =
+        Identity::new("test", Profile::Quick, QUICK.paper.project.code(&[]), &[1.5, 0.25]);
     let saved = serde_json::to_string(&identity).unwrap() + "\n[[\"row\",0.5],[\"\",null]]\n";
     survives("saved", saved, 1000, |text| {
         let whole = format!("{}\n{text}", sha256(text));

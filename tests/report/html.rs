@@ -2,14 +2,14 @@
 //! quick profile.
 
 use crate::quick::QUICK;
-use impact_paper::report::{PROGRAM, Report, compare, recipe};
+use literate::report::{Report, compare};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 static PAGES: LazyLock<BTreeMap<&str, String>> = LazyLock::new(|| {
     let text = |page: &str| String::from_utf8(QUICK.report.beside[page].clone()).unwrap();
-    PROGRAM.documents.iter().map(|document| (document.page, text(document.page))).collect()
+    QUICK.paper.documents.iter().map(|document| (document.page, text(document.page))).collect()
 });
 
 fn page(name: &str) -> Document<'static> {
@@ -54,13 +54,13 @@ fn every_link_lands_wherever_the_report_is_written() {
     };
     crate::quick::links_land(
         |report| {
-            let page = |of: &impact_paper::report::Document| {
+            let page = |of: &literate::report::Document| {
                 let text = std::str::from_utf8(&report.beside[of.page]).unwrap();
                 (of.page.to_string(), links(&text.replace("href=\"data:,\"", "")))
             };
             let cards = format!("<p>{}</p>", cards(report).0.concat());
             let cards = ("cards.js".to_string(), links(&cards));
-            PROGRAM.documents.iter().map(page).chain([cards]).collect()
+            QUICK.paper.documents.iter().map(page).chain([cards]).collect()
         },
         500,
         150,
@@ -107,7 +107,7 @@ fn every_value_has_one_card() {
     assert!(page.descendants().any(|node| headline(&node)));
     let values = std::str::from_utf8(&QUICK.report.committed["values.json"]).unwrap();
     for value in compare::read(values).unwrap().iter().filter(|v| !v.experiment.is_empty()) {
-        let known = recipe::recipe(&value.experiment, "quick").is_some();
+        let known = QUICK.paper.find_experiment(&value.experiment).is_some();
         assert!(known, "{}: no recipe of {:?}", value.id, value.experiment);
     }
 }

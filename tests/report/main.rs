@@ -5,6 +5,10 @@ mod commonmark;
 mod damage;
 mod figures;
 mod html;
+// What the paper is made of.
+#[path = "../../src/main.rs"]
+#[allow(dead_code)]
+mod program;
 mod prose;
 mod quick;
 mod structure;

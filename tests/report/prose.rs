@@ -5,20 +5,21 @@
 use crate::quick::QUICK;
 use impact_chain::rise::Mean;
 use impact_paper::claims::{self, Verdict};
-use impact_paper::experiments::{Need, Progress, Results, Store, run};
-use impact_paper::experiments::{STARTS, SWEEP};
+use impact_paper::experiments::{Progress, Results, Session, Store};
+use impact_paper::experiments::{STARTS, SWEEP, THEORY};
 use impact_paper::figures;
 use impact_paper::params::Profile;
-use impact_paper::report::PROGRAM;
 
 #[test]
 fn the_report_has_every_equation_and_figure() {
-    let own = PROGRAM.documents.iter().filter(|document| !document.repeats);
+    let own = QUICK.paper.documents.iter().filter(|document| !document.repeats);
     let text: String = own.map(|document| QUICK.markdown(document)).collect();
     for number in 1..=38 {
         assert_eq!(text.matches(&format!("\\tag{{{number}}}")).count(), 1, "Eq. ({number})");
     }
-    for number in figures::ALL.iter().map(|figure| figure.number.to_uppercase()) {
+    for name in figures::ALL.iter().map(|figure| figure.name) {
+        let number = name.trim_start_matches("fig").trim_start_matches('0').to_uppercase();
+        let number = number.replace("S0", "S");
         assert_eq!(text.matches(&format!("**Figure {number}.**")).count(), 1, "Fig. {number}");
     }
 }
@@ -26,7 +27,7 @@ fn the_report_has_every_equation_and_figure() {
 /// A reader meets our own figures in the order of their numbers.
 #[test]
 fn own_figures_are_numbered_by_first_mention() {
-    let template = PROGRAM.documents.iter().map(|document| QUICK.prose(document));
+    let template = QUICK.paper.documents.iter().map(|document| QUICK.prose(document));
     let template = template.collect::<Vec<_>>().join("\n");
     let first = |n: usize| {
         let named = [format!("ig:S{n}]"), format!("ig:S{n};"), format!("figures/s{n:02}.svg")];
@@ -39,7 +40,8 @@ fn own_figures_are_numbered_by_first_mention() {
 
 #[test]
 fn every_claim_is_spoken_of_once_in_the_text() {
-    let template: String = PROGRAM.documents.iter().map(|document| QUICK.prose(document)).collect();
+    let template: String =
+        QUICK.paper.documents.iter().map(|document| QUICK.prose(document)).collect();
     for row in claims::rows() {
         let tag = format!("@row:{}", row.id);
         let ends = [format!("{tag}]"), format!("{tag};")];
@@ -51,11 +53,10 @@ fn every_claim_is_spoken_of_once_in_the_text() {
 /// Verdicts follow the simulated numbers: shift, flatten or crowd them, and the claims fail.
 #[test]
 fn claims_fail_when_the_results_say_so() {
-    let none = |_: &str| Err("not needed".to_string());
-    let needs: [Need; 2] = [&SWEEP, &STARTS];
-    let mut results =
-        run(&needs, Profile::Quick, &none, &Store::nowhere(), &Progress::silent()).unwrap();
-    let published = claims::published().unwrap();
+    let (paper, store) = (&QUICK.paper, Store::nowhere());
+    let session = Session::of(paper, None, Profile::Quick, store, Progress::silent()).unwrap();
+    let mut results = Results::run(&[&THEORY, &SWEEP, &STARTS], &session).unwrap();
+    let published = session.published().unwrap();
     let verdict =
         |id: &str, results: &Results| claims::one(id, results, &published).unwrap().verdict;
 

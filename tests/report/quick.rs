@@ -1,17 +1,18 @@
 //! The whole report of the quick profile in memory, for the tests that read it.
 
-use impact_paper::claims::{self, Published};
-use impact_paper::experiments::{ALL, Progress, Results, Store, run};
-use impact_paper::figures::{self, Figure};
+use crate::program;
+use impact_paper::experiments::{ALL, Progress, Results, Session, Store};
 use impact_paper::params::Profile;
-use impact_paper::report::{
-    Document, Input, PROGRAM, Registry, Report, Templates, assemble, contents, equations,
-};
+use impact_paper::{claims, contents};
+use literate::Paper;
+use literate::figures::Figure;
+use literate::report::{Document, Input, Registry, Report, Templates, assemble};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
 
 pub struct Quick {
+    pub paper: Paper,
     pub templates: Templates,
     pub figures: Vec<Figure>,
     pub report: Report,
@@ -75,40 +76,37 @@ pub fn links_land(files: impl Fn(&Report) -> Links, least: usize, across: usize)
 }
 
 pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
-    let templates = Templates::read(Path::new("templates")).unwrap();
-    let scenario = |file: &str| {
-        std::fs::read_to_string(Path::new("templates").join(file)).map_err(|e| e.to_string())
-    };
+    let paper = program::paper();
     let folder = tempfile::tempdir().unwrap();
     let store = Store::open(folder.path()).unwrap();
+    let session = Session::of(&paper, None, Profile::Quick, store, Progress::silent()).unwrap();
     // Run, then read again as it was saved.
-    let [results, mut full] =
-        [(); 2].map(|()| run(ALL, Profile::Quick, &scenario, &store, &Progress::silent()).unwrap());
+    let [results, mut full] = [(); 2].map(|()| Results::run(ALL, &session).unwrap());
     full.profile = Profile::Full;
-    let published = Published::parse(templates.text("published.toml").unwrap()).unwrap();
+    let published = session.published().unwrap();
     let claims = claims::all(&results, &published).unwrap();
-    let values = contents::registry(&results, &published).unwrap();
+    let values = paper.registry(&results, &published).unwrap();
     let rows = contents::rows(&results, &claims).unwrap();
     let [figures, full] = [&results, &full].map(|results| -> Vec<_> {
-        figures::ALL.iter().map(|figure| figure.draw(results).unwrap()).collect()
+        paper.figures.iter().map(|figure| figure.figure(results).unwrap()).collect()
     });
-    let equations = equations::entries();
     let made = |top| {
         let input = Input {
-            templates: &templates,
+            templates: &session.templates,
             values: &values,
             rows: &rows,
             claims: &claims,
             figures: &figures,
-            equations: &equations,
+            equations: &paper.equations,
             lab: Some(""),
             top,
-            program: PROGRAM,
+            paper: &paper,
         };
         assemble(&input).unwrap_or_else(|error| panic!("{error}"))
     };
     let report = made(Some("../"));
     assert!(report == made(Some("../")), "the same input gives other bytes");
     let elsewhere = [made(Some("../../")), made(None)];
-    Quick { templates, figures, report, elsewhere, results, values, full }
+    let templates = session.templates.clone();
+    Quick { paper: program::paper(), templates, figures, report, elsewhere, results, values, full }
 });

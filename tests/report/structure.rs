@@ -1,6 +1,7 @@
 //! Rules about the source that no compiler checks: who imports whom, and a README that is current.
 
-use impact_paper::report::{PROGRAM, Templates};
+use crate::quick::QUICK;
+use literate::report::ledger::EquationEntry;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -28,7 +29,7 @@ fn files(folder: &str, endings: &[&str]) -> Vec<(String, String)> {
 }
 
 /// Layers of src/, each of which may use those before it, and none after; crates are layers that Cargo keeps apart.
-const LAYERS: [&str; 6] = ["params", "experiments", "figures", "claims", "report", "program"];
+const LAYERS: [&str; 6] = ["params", "experiments", "figures", "claims", "contents", "lab"];
 
 #[test]
 fn imports_flow_one_way() {
@@ -52,12 +53,11 @@ fn links_of_the_documentation_land() {
     let links = page.split("../../../paper/").skip(1).map(|rest| rest.split(')').next().unwrap());
     let links: Vec<(&str, &str)> = links.map(|link| link.split_once('#').unwrap()).collect();
     assert!(links.len() >= 8, "{links:?}");
-    let templates = Templates::read(&root().join("templates")).unwrap();
     for (file, id) in links {
-        let document = PROGRAM.documents.iter().find(|document| document.page == file).unwrap();
+        let document = QUICK.paper.documents.iter().find(|document| document.page == file).unwrap();
         let id = format!("{{#{}}}", id.replacen('-', ":", 1));
-        let has = |path: &str| templates.text(path).unwrap().contains(&id);
-        assert!(document.files(&templates).into_iter().any(has), "{file}: {id}");
+        let has = |path: &str| QUICK.templates.text(path).unwrap().contains(&id);
+        assert!(document.files(&QUICK.templates).into_iter().any(has), "{file}: {id}");
     }
 }
 
@@ -66,7 +66,7 @@ fn no_path_of_a_machine() {
     // In two parts, so that this file does not find itself.
     let paths = ["/wo:rk/", "/ro:ot/", "/ho:me/", "/tm:p/", "/Us:ers/"].map(|p| p.replace(':', ""));
     let all = [".rs", ".toml", ".md", ".tex", ".bib", ".json", ".csv", ".svg", "run"];
-    let folders = ["src", "crates", "build", "tests", "templates", "paper", ".ci"];
+    let folders = ["src", "crates", "tests", "templates", "paper", ".ci"];
     let mut texts: Vec<_> = folders
         .iter()
         .filter(|folder| root().join(folder).is_dir())
@@ -113,5 +113,55 @@ fn links_of_the_readme_land() {
         if !target.contains("://") && !target.starts_with("paper/") {
             assert!(root().join(target).exists(), "the README links to {target}");
         }
+    }
+}
+
+/// The comment of an equation's home says its number, and belongs to the item.
+#[test]
+fn each_equation_has_one_home() {
+    let paper = &QUICK.paper;
+    for EquationEntry { number, home, step_towards, .. } in &paper.equations {
+        let step = step_towards.as_ref().map(|next| format!(" (step towards {next}):"));
+        let mark = format!("**Eq. ({number})**{}", step.unwrap_or_default());
+        let found = paper.project.sources.files.iter().filter(|(_, text)| text.contains(&mark));
+        let found: Vec<_> = found.collect();
+        let [(path, text)] = found.as_slice() else { panic!("{mark}: {} homes", found.len()) };
+        assert_eq!(Some(*path), paper.file(home), "{mark}");
+        let (_, rest) = text.split_once(&mark).unwrap();
+        assert!(!rest.contains(&mark), "{mark} stands twice in {path}");
+        let is_code = |line: &&str| !line.trim_start().starts_with(['/', '#']);
+        let item = rest.lines().skip(1).find(is_code).unwrap();
+        let name = home.rsplit("::").next().unwrap();
+        assert!(home == "impact_chain" || item.contains(&format!(" {name}")), "{mark}: {item}");
+    }
+}
+
+/// What documents quote is a whole item.
+#[test]
+fn each_listing_is_one_whole_item() {
+    let prose = QUICK.templates.iter().flat_map(|(_, text)| text.split("code(item=\"").skip(1));
+    let items: Vec<&str> = prose.map(|rest| rest.split('"').next().unwrap()).collect();
+    assert!(items.len() >= 8, "{items:?}");
+    for item in items {
+        let lines = QUICK.paper.listing(item).unwrap();
+        assert!(lines.starts_with("///") && lines.ends_with("\n}"), "{lines}");
+        assert!(lines.contains(&format!("fn {}", item.rsplit("::").next().unwrap())), "{lines}");
+    }
+}
+
+/// Files and folders that an experiment names are there.
+#[test]
+fn each_experiment_depends_on_files_that_are_there() {
+    let paper = &QUICK.paper;
+    let all = paper.project.code(&[]);
+    for place in paper.project.shared {
+        assert!(all.keys().any(|path| path.starts_with(place)), "there is no {place}");
+    }
+    for experiment in paper.experiments.iter().filter(|own| own.is_saved()) {
+        let code = experiment.code(&paper.project);
+        assert!(code.contains_key("crates/impact-chain/src/engine.rs"));
+        let path = paper.file(&experiment.item()).unwrap();
+        assert!(code.contains_key(path), "{path}");
+        assert!(code.keys().all(|path| !path.ends_with("/tables.rs") && !path.contains("claims/")));
     }
 }

@@ -2,12 +2,16 @@
 
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
-use impact_paper::experiments::Results;
 use impact_paper::experiments::theory::{large, law};
+use impact_paper::experiments::{Progress, Results, Session, Store, THEORY, bare};
 use impact_paper::params::{Profile, VERTICES};
 use std::sync::LazyLock;
 
-static RESULTS: LazyLock<Results> = LazyLock::new(|| Results::empty(Profile::Quick));
+static RESULTS: LazyLock<Results> = LazyLock::new(|| {
+    let (paper, store) = (bare(), Store::nowhere());
+    let session = Session::of(&paper, None, Profile::Quick, store, Progress::silent()).unwrap();
+    Results::run(&[&THEORY], &session).unwrap()
+});
 
 fn number(address: &str) -> f64 {
     RESULTS.number(address).unwrap()

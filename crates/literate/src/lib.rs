@@ -30,14 +30,25 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+// The macros of this crate's examples name it.
+extern crate self as literate;
+
 pub mod claims;
+pub mod cli;
 pub mod digest;
 pub mod experiments;
+mod failure;
 pub mod figures;
 pub mod input;
 #[doc = include_str!("manual.md")]
 pub mod manual {}
+mod paper;
+pub mod project;
 pub mod report;
-pub mod source;
 pub mod table;
 pub mod value;
+
+pub use failure::{Failure, INTERRUPTED};
+pub use literate_sources::{sources, texts};
+pub use paper::{Illustration, Judge, Lab, Paper, Rows, Values};
+pub use project::{Project, Sources};

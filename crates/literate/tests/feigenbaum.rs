@@ -3,18 +3,24 @@
 #[path = "../examples/feigenbaum/paper.rs"]
 mod paper;
 
-use literate::experiments::{Profile, Progress, Store};
+use literate::cli::whole;
+use literate::experiments::{Profile, Progress, Session, Store};
 use std::path::Path;
 
 #[test]
 fn the_second_paper_is_made_and_its_run_is_used_again() {
     let folder = tempfile::tempdir().unwrap();
     let store = Store::open(folder.path()).unwrap();
-    let report = paper::make(Profile::Full, &store, &Progress::silent()).unwrap();
+    let paper = paper::paper();
+    let prose = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/feigenbaum"));
+    let quiet = Progress::silent();
+    let session = Session::of(&paper, prose.as_deref(), Profile::Full, store, quiet).unwrap();
+    let (report, checks) = whole(&session, Path::new("paper")).unwrap();
+    assert!(checks.iter().all(|check| !check.fails()));
     let saved = folder.path().join("cascade-full.json");
     let written = || std::fs::metadata(&saved).unwrap().modified().unwrap();
     let first = written();
-    assert!(report == paper::make(Profile::Full, &store, &Progress::silent()).unwrap());
+    assert!(report == whole(&session, Path::new("paper")).unwrap().0);
     assert_eq!(written(), first, "it is run once");
 
     let text = |path: &str| String::from_utf8(report.committed[path].clone()).unwrap();
@@ -41,8 +47,11 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
 /// The constants to the digits that the literature has: 4.669 201 609 102… and 2.502 907 875 095….
 #[test]
 fn the_ratios_settle_where_the_literature_has_them() {
-    let cascade =
-        paper::CASCADE.get(Profile::Full, &Store::nowhere(), &Progress::silent()).unwrap();
+    let paper = paper::paper();
+    let prose = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/feigenbaum"));
+    let (store, quiet) = (Store::nowhere(), Progress::silent());
+    let session = Session::of(&paper, prose.as_deref(), Profile::Full, store, quiet).unwrap();
+    let cascade = paper::CASCADE.get(&session).unwrap();
     let tables = (paper::CASCADE.tables)(&cascade);
     let limit = |column: &str| tables[1].values(column)[0];
     assert!((limit("delta") - 4.669_201_609_102_99).abs() < 1e-10, "{}", limit("delta"));

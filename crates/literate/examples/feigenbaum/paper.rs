@@ -6,46 +6,10 @@
 use impact_numerics::double_double::DoubleDouble;
 use literate::claims::{Check, Published, Rule, judge_all};
 use literate::experiments::experiment::How;
-use literate::experiments::{Code, Error, Experiment, Profile, Progress, Store};
+use literate::experiments::{Error, Experiment, Profile, Progress, Results};
 use literate::figures::prelude::*;
-use literate::report::claims::printed;
-use literate::report::{self, Input, Registry, Report, Templates, assemble};
-use literate::source::{Listing, PLAIN, Program, Recipe};
-use literate::table::{Table, Tables};
-use std::collections::BTreeMap;
-use std::sync::Arc;
-
-/// Prose and data.
-const FILES: [(&str, &str); 4] = [
-    ("report.md", include_str!("report.md")),
-    ("references.bib", include_str!("references.bib")),
-    ("literals.toml", include_str!("literals.toml")),
-    ("published.toml", include_str!("published.toml")),
-];
-
-/// This file, which the paper quotes, and on which saved results depend.
-const SOURCE: &str = "crates/literate/examples/feigenbaum/paper.rs";
-
-const PROGRAM: Program = Program {
-    files: &[(SOURCE, "")],
-    crates: &[("", "crates/literate/examples/feigenbaum")],
-    name: "feigenbaum::",
-    listings: &[Listing { item: "paper::cascade", file: SOURCE, text: include_str!("paper.rs") }],
-    recipe: |name, profile| {
-        let profile = if profile == "quick" { Profile::Quick } else { Profile::Full };
-        let parameters = serde_json::to_value((CASCADE.parameters)(profile)).ok()?;
-        (name == CASCADE.name).then(|| Recipe::of(name, "paper::cascade".into(), &parameters))
-    },
-    judge: |_| "paper::claims".into(),
-    ..PLAIN
-};
-
-const CODE: Code = Code {
-    own: &[SOURCE],
-    files: |_| {
-        BTreeMap::from([(SOURCE.into(), literate::digest::sha256(include_str!("paper.rs")))])
-    },
-};
+use literate::table::Table;
+use literate::{Failure, Paper};
 
 /// How far the cascade of period doublings is followed.
 #[derive(serde::Serialize)]
@@ -70,7 +34,7 @@ pub struct Orbit {
 /// The experiment: it is run once, saved, and used again.
 pub const CASCADE: Experiment<Depth, Vec<Orbit>> = Experiment {
     name: "cascade",
-    code: CODE,
+    code: &[],
     parameters: |profile| Depth { deepest: if profile == Profile::Quick { 8 } else { 16 } },
     how: How::Whole { run: cascade, weight: |depth| 1 << depth.deepest },
     tables: |cascade| tables(cascade),
@@ -158,7 +122,8 @@ fn three() -> f64 {
 }
 
 /// Fig. 1: where orbits go, against the parameter.
-fn diagram(limit: &Table) -> Result<Figure, literate::figures::Error> {
+fn diagram(results: &Results) -> Result<Figure, literate::figures::Error> {
+    let limit = results.table("cascade.limit")?;
     let sheet = Sheet::new(5150);
     let panel = sheet.panel(
         Frame::new(1100, 300, 8100, 4200),
@@ -191,7 +156,8 @@ fn diagram(limit: &Table) -> Result<Figure, literate::figures::Error> {
 }
 
 /// Fig. 2: how fast the two ratios settle.
-fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, literate::figures::Error> {
+fn convergence(results: &Results) -> Result<Figure, literate::figures::Error> {
+    let [orbits, limit] = [results.table("cascade.orbits")?, results.table("cascade.limit")?];
     let sheet = Sheet::new(4400);
     let last = orbits.values("n").last().copied().unwrap_or(1.0);
     let panel = sheet.panel(
@@ -214,11 +180,11 @@ fn convergence(orbits: &Table, limit: &Table) -> Result<Figure, literate::figure
         number(last, 0)
     );
     let figure = sheet.finish("convergence", "Convergence of the ratios", words);
-    Ok(Figure { source: "paper::convergence".into(), experiments: vec![CASCADE.name], ..figure })
+    Ok(Figure { source: "paper::convergence".into(), ..figure })
 }
 
 /// The statements, each held against a column of the limits.
-fn claims(published: &Published, tables: &Tables) -> Result<Vec<Check>, literate::claims::Error> {
+fn claims(results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
     let rules: [(&str, Box<Rule<'_>>); 5] = [
         ("delta", Box::new(|s| s.cell("cascade.limit.delta").into())),
         ("alpha", Box::new(|s| s.cell("cascade.limit.alpha").into())),
@@ -235,35 +201,20 @@ fn claims(published: &Published, tables: &Tables) -> Result<Vec<Check>, literate
             }),
         ),
     ];
-    Ok(judge_all(published, &rules, tables)?.0)
+    Ok(judge_all(published, &rules, results.tables())?.0)
 }
 
-/// Makes the whole paper; the cascade is taken from the store if it is fresh there.
-pub fn make(
-    profile: Profile,
-    store: &Store,
-    progress: &Progress,
-) -> Result<Report, Box<dyn std::error::Error>> {
-    let cascade = CASCADE.get(profile, store, progress)?;
-    let tables = (CASCADE.tables)(&cascade);
-    let templates = Templates::of(FILES);
-    let published = Published::parse(templates.text("published.toml")?)?;
-    let mut values = Registry::new();
-    values.extend(printed(&published))?;
-    values.add(report::Value::text("profile", profile.name()).data_only())?;
-    tables.iter().try_for_each(|table| values.add_table(Arc::new(table.clone())))?;
-    let by_name = tables.iter().map(|table| (table.name(), Arc::new(table.clone()))).collect();
-    let claims = claims(&published, &by_name)?;
-    let figures = [diagram(&tables[1])?, convergence(&tables[0], &tables[1])?];
-    Ok(assemble(&Input {
-        templates: &templates,
-        values: &values,
-        rows: &Default::default(),
-        claims: &claims,
-        figures: &figures,
-        equations: &[],
-        lab: None,
-        top: Some("../"),
-        program: PROGRAM,
-    })?)
+/// The whole paper.
+pub fn paper() -> Paper {
+    let sources = literate::sources!("examples/feigenbaum");
+    let paper = Paper::new("The constants of period doubling, found again", sources)
+        .experiment(&CASCADE)
+        .figure("diagram", &[&CASCADE], diagram)
+        .figure("convergence", &[&CASCADE], convergence);
+    Paper {
+        prose: "crates/literate/examples/feigenbaum",
+        crates: vec![("", "examples/feigenbaum")],
+        statements: vec![claims],
+        ..paper
+    }
 }

@@ -3,8 +3,9 @@
 use super::cutting::{Cutting, Unit};
 use super::identity::Identity;
 use super::store::Store;
-use super::{Code, Error, Profile, Progress};
+use super::{Error, Profile, Progress, Session};
 use crate::input::count;
+use crate::project::Project;
 use crate::table::Table;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -17,8 +18,9 @@ use std::sync::Arc;
 pub struct Experiment<P: 'static, T: 'static, U: 'static = ()> {
     /// Its name, as values and saved files carry it.
     pub name: &'static str,
-    /// Its code.
-    pub code: Code,
+    /// The files and folders of its source, from the top of the project, the main one first: a saved result is fresh as
+    /// long as they, and what all experiments share, are the same. None: as long as the whole source is.
+    pub code: &'static [&'static str],
     /// Its parameters in a profile.
     pub parameters: fn(Profile) -> P,
     /// How it is run.
@@ -29,8 +31,8 @@ pub struct Experiment<P: 'static, T: 'static, U: 'static = ()> {
 
 /// How an experiment is run.
 pub enum How<P, T, U> {
-    /// Read from a file that is committed, and never saved.
-    Read(fn(Given<'_>) -> Result<T, Error>),
+    /// Read from a file that is committed, or known without a run; never saved.
+    Read(fn(&Session<'_>) -> Result<T, Error>),
     /// As one unit of work.
     Whole {
         /// Runs it.
@@ -41,9 +43,6 @@ pub enum How<P, T, U> {
     /// Cut into units; the name is for people who wait.
     Cut(&'static str, Cutting<P, U, T>),
 }
-
-/// Gives the text of a file of the templates, or says why there is none.
-pub type Given<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
 /// What is saved as JSON.
 pub trait Json: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static {}
@@ -56,8 +55,9 @@ pub type Found = Arc<dyn Any + Send + Sync>;
 impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     /// The result: the saved one if it is fresh, else that of a run, which is then saved. Units that are in the store
     /// are not run again; each of the others is saved as soon as it is there.
-    pub fn get(&self, profile: Profile, store: &Store, progress: &Progress) -> Result<T, Error> {
-        let (parameters, identity) = self.known_by(profile);
+    pub fn get(&self, session: &Session<'_>) -> Result<T, Error> {
+        let (store, progress) = (&session.store, &session.progress);
+        let (parameters, identity) = self.known_by(session);
         let why = match store.look(&identity) {
             Ok(result) => {
                 progress.say(&format!("{}: fresh", self.name));
@@ -83,9 +83,10 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     }
 
     /// Its parameters in a profile, and what its result depends on.
-    fn known_by(&self, profile: Profile) -> (P, Identity) {
-        let parameters = (self.parameters)(profile);
-        let identity = Identity::new(self.name, profile, self.code, &parameters);
+    fn known_by(&self, session: &Session<'_>) -> (P, Identity) {
+        let parameters = (self.parameters)(session.profile);
+        let code = Entry::code(self, &session.paper.project);
+        let identity = Identity::new(self.name, session.profile, code, &parameters);
         (parameters, identity)
     }
 }
@@ -141,16 +142,18 @@ pub trait Entry: Sync {
     /// Its name, as values and saved files carry it.
     fn name(&self) -> &'static str;
 
-    /// Its code.
-    fn code(&self) -> Code;
+    /// Path and hash of every file on which its result depends.
+    fn code(&self, project: &Project) -> BTreeMap<String, String>;
 
     /// With which parameters it is run in a profile.
     fn parameters(&self, profile: Profile) -> serde_json::Value;
 
     /// Path of the item that is its code: `src/experiments/sweep` is `experiments::sweep`.
-    fn item(&self) -> String {
-        let path = self.code().own.first().copied().unwrap_or_default();
-        path.trim_start_matches("src/").trim_end_matches(".rs").replace('/', "::")
+    fn item(&self) -> String;
+
+    /// A committed file that it reads, from the top of the project.
+    fn data(&self) -> Option<&'static str> {
+        None
     }
 
     /// Whether its result is saved; else it is read from a committed file.
@@ -161,28 +164,22 @@ pub trait Entry: Sync {
 
     /// Runs those of some of its units that are not in the store, and saves what each gives as soon as it is there; none if
     /// the result is fresh. Returns how many were run.
-    fn run_units(
-        &self,
-        profile: Profile,
-        units: &[Unit],
-        store: &Store,
-        progress: &Progress,
-    ) -> Result<usize, Error>;
+    fn run_units(&self, units: &[Unit], session: &Session<'_>) -> Result<usize, Error>;
 
     /// What would be run, and why; none if the saved result is fresh.
-    fn stale(&self, profile: Profile, store: &Store) -> Option<String>;
+    fn stale(&self, session: &Session<'_>) -> Option<String>;
 
     /// Its result.
-    fn found(
-        &self,
-        profile: Profile,
-        given: Given<'_>,
-        store: &Store,
-        progress: &Progress,
-    ) -> Result<Found, Error>;
+    fn found(&self, session: &Session<'_>) -> Result<Found, Error>;
 
     /// The tables of a result.
     fn tables(&self, found: &Found) -> Vec<Table>;
+}
+
+impl std::fmt::Debug for dyn Entry {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
 }
 
 /// An experiment whose result has a type that is known.
@@ -196,12 +193,22 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
         self.name
     }
 
-    fn code(&self) -> Code {
-        self.code
+    fn code(&self, project: &Project) -> BTreeMap<String, String> {
+        project.code(self.code)
+    }
+
+    fn data(&self) -> Option<&'static str> {
+        let is_data = |path: &&&str| path.contains('.') && !path.ends_with(".rs");
+        self.code.iter().find(is_data).copied()
     }
 
     fn parameters(&self, profile: Profile) -> serde_json::Value {
-        self.known_by(profile).1.parameters
+        serde_json::to_value((self.parameters)(profile)).unwrap_or_default()
+    }
+
+    fn item(&self) -> String {
+        let path = self.code.first().copied().unwrap_or_default();
+        path.trim_start_matches("src/").trim_end_matches(".rs").replace('/', "::")
     }
 
     fn is_saved(&self) -> bool {
@@ -217,14 +224,9 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
         }
     }
 
-    fn run_units(
-        &self,
-        profile: Profile,
-        units: &[Unit],
-        store: &Store,
-        progress: &Progress,
-    ) -> Result<usize, Error> {
-        let (parameters, identity) = self.known_by(profile);
+    fn run_units(&self, units: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
+        let (store, progress) = (&session.store, &session.progress);
+        let (parameters, identity) = self.known_by(session);
         if store.look::<T>(&identity).is_ok() {
             return Ok(0);
         }
@@ -234,12 +236,13 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
                 let given = Units { cutting, words, parameters: &parameters, identity: &identity };
                 Ok(given.parts(units, store, progress)?.1)
             }
-            _ => self.get(profile, store, progress).map(|_| units.len()),
+            _ => self.get(session).map(|_| units.len()),
         }
     }
 
-    fn stale(&self, profile: Profile, store: &Store) -> Option<String> {
-        let (parameters, identity) = self.known_by(profile);
+    fn stale(&self, session: &Session<'_>) -> Option<String> {
+        let store = &session.store;
+        let (parameters, identity) = self.known_by(session);
         let why = store.look::<T>(&identity).err().filter(|_| self.is_saved())?;
         let why = format!("{}: {why}", self.name);
         let How::Cut(_, cutting) = &self.how else { return Some(why) };
@@ -249,16 +252,10 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
         Some(format!("{why}; {there} of {} there", count(units.len(), "unit")))
     }
 
-    fn found(
-        &self,
-        profile: Profile,
-        given: Given<'_>,
-        store: &Store,
-        progress: &Progress,
-    ) -> Result<Found, Error> {
+    fn found(&self, session: &Session<'_>) -> Result<Found, Error> {
         Ok(Arc::new(match &self.how {
-            How::Read(read) => read(given)?,
-            _ => self.get(profile, store, progress)?,
+            How::Read(read) => read(session)?,
+            _ => self.get(session)?,
         }))
     }
 

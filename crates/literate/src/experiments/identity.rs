@@ -11,22 +11,6 @@ const SCHEMA: u32 = 3;
 /// What is said of a file of another form.
 pub(super) const FORM: &str = "saved in another form";
 
-/// The code of an experiment.
-#[derive(Clone, Copy)]
-pub struct Code {
-    /// Its own files and folders, from the top of the project, that of its main item first.
-    pub own: &'static [&'static str],
-    /// Path and hash of every file that the code in these depends on, themselves among them.
-    pub files: fn(&[&str]) -> BTreeMap<String, String>,
-}
-
-/// The code of experiments in tests.
-#[cfg(test)]
-pub(crate) const TOY: Code = Code {
-    own: &["toy.rs"],
-    files: |own| own.iter().map(|file| (file.to_string(), "hash".into())).collect(),
-};
-
 /// Everything that a result depends on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Identity {
@@ -50,7 +34,7 @@ impl Identity {
     pub fn new(
         experiment: &str,
         profile: Profile,
-        code: Code,
+        code: BTreeMap<String, String>,
         parameters: &impl Serialize,
     ) -> Self {
         Identity {
@@ -59,7 +43,7 @@ impl Identity {
             schema: SCHEMA,
             parameters: serde_json::to_value(parameters).unwrap_or_default(),
             unit: None,
-            code: (code.files)(code.own),
+            code,
         }
     }
 
@@ -111,7 +95,7 @@ mod tests {
         let of = |hash: &'static str| {
             let code = BTreeMap::from([("Cargo.lock", "0"), ("sweep/mod.rs", hash)]);
             let code = code.into_iter().map(|(path, hash)| (path.into(), hash.into())).collect();
-            Identity { code, ..Identity::new("sweep", Profile::Quick, TOY, &1) }
+            Identity::new("sweep", Profile::Quick, code, &1)
         };
         assert_eq!(of("a").differences(&of("a")), "");
         assert_eq!(of("a").differences(&of("b")), "sweep/mod.rs changed");

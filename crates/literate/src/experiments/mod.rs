@@ -7,14 +7,17 @@ pub mod experiment;
 pub mod identity;
 mod profile;
 pub mod progress;
+mod results;
+mod session;
 pub mod shards;
 pub mod store;
 
 pub use error::Error;
-pub use experiment::{Entry, Experiment, Found, Given, Typed};
-pub use identity::Code;
+pub use experiment::{Entry, Experiment, Found, Typed};
 pub use profile::Profile;
 pub use progress::{Progress, alive, be_quiet, say};
+pub use results::{Results, Together};
+pub use session::Session;
 pub use store::Store;
 
 /// An experiment of any parameters and result.

@@ -1,8 +1,7 @@
 //! The units of work of all experiments, shared out to machines that save what they give in one store.
 
 use super::cutting::Unit;
-use super::store::Store;
-use super::{Error, Need, Profile, Progress};
+use super::{Error, Need, Session};
 use std::cmp::Reverse;
 
 /// Into so many shards a profile may be divided; more would have nothing to do.
@@ -26,21 +25,20 @@ fn shared_out(weights: &[u64], of: usize) -> Vec<usize> {
 /// Runs the units of one shard that are not in the store. Returns how many were run, and how many were there.
 pub fn run(
     experiments: &[Need],
-    profile: Profile,
     (shard, of): (usize, usize),
-    store: &Store,
-    progress: &Progress,
+    session: &Session<'_>,
 ) -> Result<[usize; 2], Error> {
-    let units: Vec<Vec<Unit>> = experiments.iter().map(|own| own.units(profile)).collect();
+    let units = experiments.iter().map(|experiment| experiment.units(session.profile));
+    let units: Vec<Vec<Unit>> = units.collect();
     let weights: Vec<u64> = units.iter().flatten().map(|unit| unit.weight).collect();
     let mut shards = shared_out(&weights, of).into_iter();
     let [mut run, mut all] = [0, 0];
     for (experiment, units) in experiments.iter().zip(units) {
-        progress.check()?;
+        session.progress.check()?;
         let own: Vec<Unit> = units.into_iter().filter(|_| shards.next() == Some(shard)).collect();
         if !own.is_empty() {
             all += own.len();
-            run += experiment.run_units(profile, &own, store, progress)?;
+            run += experiment.run_units(&own, session)?;
         }
     }
     Ok([run, all - run])

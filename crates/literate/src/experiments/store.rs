@@ -145,11 +145,10 @@ fn digest(lines: &[&str]) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::Profile;
-    use super::super::identity::TOY;
     use super::*;
 
     fn identity() -> Identity {
-        Identity::new("test", Profile::Quick, TOY, &1.5)
+        Identity::new("test", Profile::Quick, Default::default(), &1.5)
     }
 
     #[test]

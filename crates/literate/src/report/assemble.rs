@@ -17,7 +17,7 @@ use super::values::Registry;
 use super::{Error, html, latex, ledger, lint, markdown, parse};
 use crate::claims::Check;
 use crate::figures::{DataFile, Figure};
-use crate::source::Program;
+use crate::paper::Paper;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -46,8 +46,8 @@ pub struct Input<'a> {
     pub lab: Option<&'a str>,
     /// The way from where it is written to the files of the project, as `../`; none if it is written elsewhere.
     pub top: Option<&'a str>,
-    /// The program that makes it.
-    pub program: Program,
+    /// The paper.
+    pub paper: &'a Paper,
 }
 
 /// A report in memory.
@@ -71,7 +71,7 @@ struct Part<'a> {
 fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     let mut values = input.values.clone();
     values.extend(scorecard(input.claims))?;
-    let mut filler = Filler::new(input.templates, input.program)?.with(&values);
+    let mut filler = Filler::new(input.templates, &input.paper.documents)?.with(&values);
     let reasons =
         input.claims.iter().map(|c| (format!("the reason of {}", c.id), c.reason.clone()));
     // What stands in braces is computed where the figure is drawn.
@@ -88,7 +88,7 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     for (name, rows) in input.rows {
         filler.insert(name, rows);
     }
-    let filled = input.program.documents.iter().map(|of| filler.prose(of));
+    let filled = input.paper.documents.iter().map(|of| filler.prose(of));
     let filled = filled.collect::<Result<_, _>>()?;
     Ok((values, filler, filled))
 }
@@ -103,7 +103,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         return Err(Error::Unused(unused.join(", ")));
     }
     values.keep_cells(used.iter().map(String::as_str));
-    values.shorten(input.program);
+    values.shorten(input.paper);
 
     let declared = filler.declared.clone();
     let (parts, labels) = parts(input, &filled, &values, &declared)?;
@@ -121,9 +121,9 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let values_json = serde_json::to_string_pretty(&values).map_err(json)? + "\n";
     committed.insert("values.json".into(), values_json.into_bytes());
     committed.insert("ledger.json".into(), ledger::json(&ledger).map_err(json)?.into_bytes());
-    let cards = Cards { values: &values, ledger: &ledger, program: input.program };
-    let (program, figures, top) = (input.program, input.figures, input.top);
-    let site = html::Site { program, figures, labels: &labels, lab: input.lab.is_some(), top };
+    let cards = Cards { values: &values, ledger: &ledger, paper: input.paper };
+    let (paper, figures, top) = (input.paper, input.figures, input.top);
+    let site = html::Site { paper, figures, labels: &labels, lab: input.lab.is_some(), top };
     let mut shown = BTreeSet::new();
     let written = parts.par_iter().with_max_len(1).map(|Part { of, blocks, .. }| {
         Ok((latex::write(blocks, *of)?, html::write(blocks, *of, site)?))
@@ -154,14 +154,14 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     beside.extend(input.figures.par_iter().map(pdf).collect::<Vec<_>>());
     committed.insert(SUMS.into(), folder::sums(&committed).into_bytes());
     for Part { of, blocks, places } in &parts {
-        check_links(blocks, *of, &labels, &committed, input.program).map_err(|e| places.tell(e))?;
+        check_links(blocks, *of, &labels, &committed, input.paper).map_err(|e| places.tell(e))?;
     }
     Ok(Report { committed, beside })
 }
 
 /// All documents as trees, with their figures, numbers and references.
 fn parts<'a>(
-    input: &Input<'_>,
+    input: &Input<'a>,
     filled: &'a [Filled],
     values: &'a Registry,
     declared: &'a Declared,
@@ -169,11 +169,11 @@ fn parts<'a>(
     let library = Library::read(input.templates.text("references.bib")?)?;
     let (mut labels, mut shown) = (Labels::of(input.figures), BTreeSet::new());
     let mut parts = Vec::new();
-    let read = |filled| parse::parse(filled, values, declared, input.program);
+    let read = |filled| parse::parse(filled, values, declared, input.paper);
     let read = filled.par_iter().with_max_len(1).map(read).collect::<Vec<_>>();
     let (read, faults): (Vec<_>, Vec<_>) = read.into_iter().partition(Result::is_ok);
     Error::all(faults.into_iter().filter_map(Result::err).collect())?;
-    for ((of, filled), read) in input.program.documents.iter().zip(filled).zip(read) {
+    for ((of, filled), read) in input.paper.documents.iter().zip(filled).zip(read) {
         let (mut blocks, places) = read?;
         document::title(&blocks).map_err(|error| error.at(filled.place(0)))?;
         let own = illustrate(&mut blocks, input)
@@ -213,9 +213,9 @@ fn check_links(
     here: Document,
     labels: &Labels,
     files: &Files,
-    program: Program,
+    paper: &Paper,
 ) -> Result<(), Error> {
-    let is_page = |to: &str| program.documents.iter().any(|of| of.page == to);
+    let is_page = |to: &str| paper.documents.iter().any(|of| of.page == to);
     let leads = |to: &str| match (to.split_once("://"), to.strip_prefix('#')) {
         (Some((scheme, _)), _) => ["https", "http"].contains(&scheme),
         (_, Some(id)) => {
@@ -249,7 +249,7 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Result<Vec<String>, Er
             let words = |words: &str| Inline::Text(words.into());
             let data: Vec<String> =
                 figure.data.iter().map(|file| format!("data/{}", file.name)).collect();
-            let code = input.program.file(&figure.source).map(|file| format!("../{file}"));
+            let code = input.paper.file(&figure.source).map(|file| format!("../{file}"));
             for (name, files) in [("Data: ", data), ("Code: ", code.into_iter().collect())] {
                 if !files.is_empty() {
                     origin.push(words(if origin.is_empty() { "" } else { " " }));
@@ -263,7 +263,7 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Result<Vec<String>, Er
     }
     document::rewrite(blocks, &mut |inline| match &inline {
         Inline::Link { to, .. } => match to.strip_prefix("../") {
-            Some(path) if !(input.program.exists)(path) => Err(Error::NoFile(to.clone())),
+            Some(path) if !input.paper.project.exists(path) => Err(Error::NoFile(to.clone())),
             _ => Ok(document::led(inline, input.top)),
         },
         _ => Ok(vec![inline]),

@@ -7,8 +7,9 @@ use super::document::Inline;
 use super::ledger::Ledger;
 use super::print::{Asked, Style, print};
 use super::values::{Kind, Number, Registry, Value};
+use crate::experiments::Profile;
 use crate::figures::DataFile;
-use crate::source::{Program, Recipe};
+use crate::paper::{Paper, settings};
 use crate::table::table_of;
 
 /// A card: a title and rows, for any format.
@@ -54,12 +55,12 @@ impl Card {
     }
 
     /// A row with an item of the source, which links to its file.
-    fn item(&mut self, name: &'static str, item: &str, program: Program) {
+    fn item(&mut self, name: &'static str, item: &str, paper: &Paper) {
         if item.is_empty() {
             return;
         }
         let code = Inline::Code(item.to_string());
-        let text = match program.file(item) {
+        let text = match paper.file(item) {
             Some(file) => vec![link(&format!("../{file}"), code)],
             None => vec![code],
         };
@@ -68,13 +69,15 @@ impl Card {
 
     /// Rows for an experiment: where it is, and its parameters.
     fn experiment(&mut self, name: &str, cards: &Cards<'_>) {
-        let recipe = (cards.program.recipe)(name, cards.profile());
-        let Some(Recipe { item, parameters, data, .. }) = recipe else { return };
-        self.item("experiment", &item, cards.program);
+        let Some(experiment) = cards.paper.find_experiment(name) else { return };
+        self.item("experiment", &experiment.item(), cards.paper);
+        let quick = cards.profile() == Profile::Quick.name();
+        let profile = if quick { Profile::Quick } else { Profile::Full };
+        let pairs = settings(&experiment.parameters(profile)).into_iter();
         let pairs: Vec<String> =
-            parameters.iter().map(|(name, setting)| format!("{name}: {setting}")).collect();
+            pairs.map(|(name, setting)| format!("{name}: {setting}")).collect();
         self.words("its parameters", pairs.join("; "));
-        if let Some(path) = data {
+        if let Some(path) = experiment.data() {
             let name = path.rsplit('/').next().unwrap_or(path);
             self.row("its data", vec![link(&format!("../{path}"), Inline::Text(name.into()))]);
         }
@@ -88,8 +91,8 @@ pub struct Cards<'a> {
     pub values: &'a Registry,
     /// Claims, figures, equations.
     pub ledger: &'a Ledger,
-    /// The program that they lead to.
-    pub program: Program,
+    /// The paper that they lead to.
+    pub paper: &'a Paper,
 }
 
 impl Cards<'_> {
@@ -164,7 +167,7 @@ impl Cards<'_> {
         if let Kind::Printed { place } = &value.kind {
             card.words("place", place.clone());
         }
-        card.item("computed by", &value.source, self.program);
+        card.item("computed by", &value.source, self.paper);
         let home = self.ledger.equations.iter().find(|equation| equation.home == value.source);
         if let Some(number) = home.map(|equation| equation.number) {
             let (to, shown) = (format!("eq:{number}"), format!("Eq.\u{a0}({number})"));
@@ -188,7 +191,7 @@ impl Cards<'_> {
         card.words("shows", figure.description.clone());
         card.row("picture", links([&figure.picture]));
         card.row("data", links(&figure.data));
-        card.item("drawn by", &figure.source, self.program);
+        card.item("drawn by", &figure.source, self.paper);
         for name in &figure.experiments {
             card.experiment(name, self);
         }
@@ -200,7 +203,7 @@ impl Cards<'_> {
         let title = words_and_maths(&equation.what);
         let mut card = Card::of(format!("eq:{number}"), title);
         card.words("stands in", format!("Sec. {}", equation.section));
-        card.item("home", &equation.home, self.program);
+        card.item("home", &equation.home, self.paper);
         if let Some(towards) = &equation.step_towards {
             card.words("is", format!("a step towards {towards}"));
         }
@@ -225,7 +228,7 @@ impl Cards<'_> {
         ] {
             card.words(name, words);
         }
-        card.item("judged by", &(self.program.judge)(&claim.id), self.program);
+        card.item("judged by", &(self.paper.judged_by)(&claim.id), self.paper);
         Some(card)
     }
 }

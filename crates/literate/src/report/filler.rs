@@ -9,7 +9,6 @@ use super::print::MOST_DIGITS;
 use super::values::{Number, Registry, Value};
 use super::{Error, Templates};
 use crate::input::{line_and_column, plain};
-use crate::source::Program;
 use crate::table::{Table, nearest};
 use serde_json::Value as Json;
 use std::collections::BTreeMap;
@@ -32,7 +31,7 @@ impl Filler {
     ///
     /// # Errors
     /// A tag that cannot be read, a file with a wrong name, a fault of `literals.toml`.
-    pub fn new(templates: &Templates, program: Program) -> Result<Self, Error> {
+    pub fn new(templates: &Templates, documents: &[Document]) -> Result<Self, Error> {
         let mut tera = Tera::new();
         let delimiters = Delimiters {
             block_start: "<%".into(),
@@ -44,14 +43,14 @@ impl Filler {
         };
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
-        register(&mut tera, program);
+        register(&mut tera);
         let declared =
             templates.text("literals.toml").map_or(Ok(Declared::default()), Declared::read)?;
         let (context, names) = (Context::new(), Json::Null);
         let templates = templates.clone();
         let mut filler = Filler { tera, templates, declared, context, names };
         set.map_err(|error| filler.failure(&error))?;
-        for document in program.documents {
+        for document in documents {
             numbered(&document.files(&filler.templates))?;
         }
         let sources: Vec<(String, String)> = filler.templates.iter().filter_map(source).collect();
@@ -264,7 +263,7 @@ fn put(tree: &mut Json, name: &str, thing: Json) {
 
 /// The filters on values; `literal` for a number that the prose may type with a reason; and `code`
 /// for an item of the source, which [`super::parse`] makes a listing.
-fn register(tera: &mut Tera, program: Program) {
+fn register(tera: &mut Tera) {
     for name in ["percent", "no_error", "significant"] {
         tera.register_filter(name, move |text: &str, arguments: Kwargs, _: &State| {
             let digits = || {
@@ -291,9 +290,8 @@ fn register(tera: &mut Tera, program: Program) {
             false => Ok(text),
         }
     });
-    tera.register_function("code", move |arguments: Kwargs, _: &State| {
+    tera.register_function("code", |arguments: Kwargs, _: &State| {
         let item: String = arguments.must_get("item")?;
-        program.listing(&item).map_err(tera::Error::message)?;
         Ok::<_, tera::Error>(format!("```rust {item}\n```"))
     });
 }
@@ -301,7 +299,6 @@ fn register(tera: &mut Tera, program: Program) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::TOY;
 
     fn filler(files: &[(&str, &str)]) -> Result<Filler, Error> {
         let mut values = Registry::new();
@@ -310,7 +307,7 @@ mod tests {
         let table = Table::of("sweep.rows", &[0.12, 0.13], |_| 1).key("sigma", "1", |x| *x);
         let table = table.real("mean", "1", 3, "A mean.", |x| *x).done();
         values.add_table(std::sync::Arc::new(table)).unwrap();
-        Ok(Filler::new(&Templates::of(files.iter().copied()), TOY)?.with(&values))
+        Ok(Filler::new(&Templates::of(files.iter().copied()), &[Document::REPORT])?.with(&values))
     }
 
     fn fill(text: &str) -> Result<String, Error> {

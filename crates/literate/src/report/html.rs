@@ -10,7 +10,7 @@ use super::labels::Labels;
 use super::{Error, Files, latex, mathml};
 use crate::claims::Verdict;
 use crate::figures::{Figure, Glyphs, escape as text, outlines};
-use crate::source::Program;
+use crate::paper::Paper;
 use math_core::MathDisplay;
 use serde_json::{Value as Json, json};
 use std::cell::RefCell;
@@ -29,7 +29,7 @@ const FONTS: [(&str, &[u8]); 4] = [
 #[derive(Clone, Copy, Debug)]
 pub struct Site<'a> {
     /// The program that makes them.
-    pub program: Program,
+    pub paper: &'a Paper,
     /// The figures.
     pub figures: &'a [Figure],
     /// The places of all documents.
@@ -49,7 +49,7 @@ pub fn write(
     let page = Page { site, values: RefCell::default(), glyphs: RefCell::default() };
     let title = document::title(blocks)?;
     let meta: Vec<_> =
-        site.program.about.iter().map(|(name, words)| (*name, text(words))).collect();
+        site.paper.about().into_iter().map(|(name, words)| (name, text(&words))).collect();
     let (heading, body) = (page.inlines(title)?, page.blocks(blocks)?);
     let (mut sections, mut figures) = (Vec::new(), Vec::new());
     for block in blocks {
@@ -66,7 +66,7 @@ pub fn write(
             _ => (),
         }
     }
-    let documents = site.program.documents.iter().map(|of| (of.page, text(of.name)));
+    let documents = site.paper.documents.iter().map(|of| (of.page, text(of.name)));
     let parts = json!({
         "file": here.page,
         "markdown": here.markdown,
@@ -404,7 +404,7 @@ impl Page<'_> {
             }
             Inline::Link { to, shown } => {
                 // A document is another file here.
-                let of = self.site.program.documents.iter().find(|of| of.markdown == to);
+                let of = self.site.paper.documents.iter().find(|of| of.markdown == to);
                 let to = of.map_or(to.as_str(), |of| of.page);
                 format!("<a href=\"{}\">{}</a>", text(to), self.inlines(shown)?)
             }

@@ -1,7 +1,7 @@
 //! All values of a report: those with a name of their own, and the cells of tables under their addresses.
 
 use super::Error;
-use crate::source::Program;
+use crate::paper::Paper;
 use crate::table::Table;
 pub use crate::value::{Digits, Kind, Number, Origin, Value, origin};
 use serde::{Deserialize, Serialize};
@@ -58,9 +58,9 @@ impl Registry {
     }
 
     /// Shows the paths of items as documents do.
-    pub fn shorten(&mut self, program: Program) {
+    pub fn shorten(&mut self, paper: &Paper) {
         for value in self.values.values_mut() {
-            value.source = program.short(&value.source).to_string();
+            value.source = paper.short(&value.source).to_string();
         }
     }
 

@@ -6,7 +6,7 @@ use super::*;
 use crate::claims::{Check, Kind, decimals, with_error};
 use crate::figures::prelude::{HPos, INK, VPos};
 use crate::figures::{DataFile, Drawing, Figure};
-use crate::source::{Program, TOY};
+use crate::paper::{Paper, toy};
 
 /// One document with everything that the prose may use.
 const SAMPLE: &str = r#"# A title
@@ -84,9 +84,9 @@ fn values() -> Registry {
 fn tree(text: &str) -> Vec<document::Block> {
     let literals = "[[literal]]\nwhy = \"a test\"\nphrases = [\"100 %\", \"0.12\", \"two\"]";
     let templates = Templates::of([("report.md", text), ("literals.toml", literals)]);
-    let filler = filler::Filler::new(&templates, TOY).unwrap().with(&values());
+    let filler = filler::Filler::new(&templates, &[Document::REPORT]).unwrap().with(&values());
     let filled = filler.prose(&Document::REPORT).unwrap();
-    let (mut blocks, _) = parse::parse(&filled, &values(), &filler.declared, TOY).unwrap();
+    let (mut blocks, _) = parse::parse(&filled, &values(), &filler.declared, &toy()).unwrap();
     let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
     let library = bibliography::Library::read(bib).unwrap();
     resolve(&mut blocks, &library).unwrap();
@@ -219,7 +219,7 @@ fn made_of(prose: &str, lab: Option<&str>, figure: Figure, claim: Check) -> Resu
         }],
         lab,
         top: Some("../"),
-        program: TOY,
+        paper: &toy(),
     })
 }
 
@@ -311,7 +311,7 @@ fn documents_refer_to_each_other() {
         print: Some("more"),
         repeats: false,
     };
-    let program = Program { documents: &[FRONT, Document::REPORT, MORE], ..TOY };
+    let paper = Paper { documents: vec![FRONT, Document::REPORT, MORE], ..toy() };
     let files = [
         (
             "front.md",
@@ -343,7 +343,7 @@ fn documents_refer_to_each_other() {
             equations: &[],
             lab: None,
             top: Some("../"),
-            program,
+            paper: &paper,
         })
     };
     // A mistake in the second file of a document has its place there.

@@ -1,13 +1,33 @@
 //! lab.js, which a page loads when a reader asks it to compute: the engine, what to hold its runs against, and the script.
 
-use super::contents::Error;
 use crate::experiments::rise::Mean;
 use crate::experiments::sweep;
-use crate::experiments::{REPLAY, Results};
+use crate::experiments::{REPLAY, Results, Session};
+use literate::{Failure, input};
 use serde_json::json;
 
+/// The engine as WebAssembly, where `.ci/module` has put it: the machine may have no compiler for that.
+const MODULE: &str = "target/page.wasm";
+
+/// The file; none without the engine.
+///
+/// # Errors
+/// If a result was not run, or the prose has no script.
+pub fn lab(session: &Session<'_>, results: &Results) -> Result<Option<String>, Failure> {
+    let found = session.paper.project.find(MODULE).and_then(|path| input::regular(&path).ok());
+    match found.filter(|module| module.starts_with(b"\0asm")) {
+        Some(module) => Ok(Some(script(&module, results, session.templates.text("lab.js")?)?)),
+        None => {
+            let what =
+                "is not there or no module, so the pages run nothing; `make paper` builds it";
+            session.progress.say(&format!("{MODULE} {what}"));
+            Ok(None)
+        }
+    }
+}
+
 /// The file, from the module in WebAssembly and the script.
-pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Error> {
+fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Failure> {
     let (replays, sweep) = (results.of(&REPLAY)?, sweep::main(results)?);
     let runs = replays.parameters.iter().zip(&replays.found);
     let runs: Vec<_> = runs
@@ -40,16 +60,11 @@ fn base64(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiments::{Progress, Store, run};
-    use crate::experiments::{REPLAY, SWEEP};
-    use crate::params::Profile;
+    use crate::experiments::{REPLAY, SWEEP, quick};
 
     #[test]
     fn the_page_has_each_run_with_its_digest_and_the_module() {
-        let needs: [crate::experiments::Need; 2] = [&SWEEP, &REPLAY];
-        let none = |_: &str| Err(String::new());
-        let results =
-            run(&needs, Profile::Quick, &none, &Store::nowhere(), &Progress::silent()).unwrap();
+        let results = quick(&[&SWEEP, &REPLAY]);
         let text = script(b"foobar", &results, "end();").unwrap();
         let data = text.split("const LAB = ").nth(1).unwrap().strip_suffix(";\nend();").unwrap();
         let data: serde_json::Value = serde_json::from_str(data).unwrap();

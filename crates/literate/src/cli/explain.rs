@@ -1,10 +1,12 @@
-//! `impact-paper explain`.
+//! The verb `explain`.
 
-use super::{Failure, stdout};
-use impact_paper::report::card::{Card, Cards, Fact};
-use impact_paper::report::document::{Inline, spelt};
-use impact_paper::report::{Error, PROGRAM, compare, ledger};
-use literate::input::{is_obeyed, one_line, regular_text};
+use super::terminal::print;
+use crate::failure::Failure;
+use crate::input::{is_obeyed, one_line, regular_text};
+use crate::paper::Paper;
+use crate::report::card::{Card, Cards, Fact};
+use crate::report::document::{Inline, spelt};
+use crate::report::{Error, compare, ledger};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -14,7 +16,7 @@ use std::path::{Path, PathBuf};
 /// (0.1159), "Fig. 3", "Eq. (18)" or a statement (sec7_jump); without it, all are listed. Nothing is run: the answer is
 /// read from the report's folder.
 #[derive(clap::Args)]
-pub struct Args {
+pub(super) struct Args {
     /// What to explain.
     #[arg(value_name = "ID")]
     ids: Vec<String>,
@@ -26,14 +28,14 @@ pub struct Args {
     json: bool,
 }
 
-pub fn run(args: Args) -> Result<(), Failure> {
+pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let values = compare::read(&read(&args.paper, "values.json")?).map_err(fault)?;
     let ledger = ledger::read(&read(&args.paper, "ledger.json")?).map_err(fault)?;
-    let cards = Cards { values: &values, ledger: &ledger, program: PROGRAM };
+    let cards = Cards { values: &values, ledger: &ledger, paper };
     let of =
         |ids: Vec<String>| -> Vec<Card> { ids.iter().filter_map(|id| cards.get(id)).collect() };
     if args.ids.is_empty() {
-        return stdout::print(&list(&of(cards.ids()), args.json));
+        return print(&list(&of(cards.ids()), args.json));
     }
     let mut found = Vec::new();
     for asked in &args.ids {
@@ -44,18 +46,18 @@ pub fn run(args: Args) -> Result<(), Failure> {
                 return Err(Failure::input(format!("explain: {what}; without it all are listed")));
             }
             [one] => found.push(one.clone()),
-            many if args.ids.len() == 1 => return stdout::print(&list(many, args.json)),
+            many if args.ids.len() == 1 => return print(&list(many, args.json)),
             many => found.extend_from_slice(many),
         }
     }
-    stdout::print(&if args.json {
+    print(&if args.json {
         let one = |card: &Card| {
-            let rows: Vec<_> = card.rows.iter().map(row_json).collect();
+            let rows: Vec<_> = card.rows.iter().map(|row| row_json(row, paper)).collect();
             json!({"id": card.id, "title": words(&card.title), "lead": card.lead, "rows": rows})
         };
         format!("{:#}\n", json!(found.iter().map(one).collect::<Vec<_>>()))
     } else {
-        found.iter().map(shown).collect::<Vec<_>>().join("\n")
+        found.iter().map(|card| shown(card, paper)).collect::<Vec<_>>().join("\n")
     })
 }
 
@@ -66,7 +68,7 @@ fn read(paper: &Path, name: &str) -> Result<String, Failure> {
 }
 
 fn fault(error: Error) -> Failure {
-    Failure::input(format!("--paper: {error}; make the report anew with `impact-paper paper`"))
+    Failure::input(format!("--paper: {error}; make the report anew with `paper`"))
 }
 
 /// One line for each thing.
@@ -80,13 +82,13 @@ fn list(cards: &[Card], as_json: bool) -> String {
 }
 
 /// All that is known of one thing.
-fn shown(card: &Card) -> String {
+fn shown(card: &Card, paper: &Paper) -> String {
     let mut out = format!("{}: {}\n", clean(&card.id), words(&card.title));
     if !card.lead.is_empty() {
         out += &format!("  {}\n", clean(&card.lead));
     }
     for row in card.rows.iter().filter(|row| row.name != "id") {
-        let place = file(row).map(|file| format!(" ({file})"));
+        let place = file(row, paper).map(|file| format!(" ({file})"));
         out += &format!("  {:15} {}{}\n", row.name, words(&row.text), place.unwrap_or_default());
     }
     out
@@ -101,15 +103,15 @@ fn clean(text: &str) -> String {
     text.replace(is_obeyed, " ")
 }
 
-fn row_json(row: &Fact) -> serde_json::Value {
+fn row_json(row: &Fact, paper: &Paper) -> serde_json::Value {
     let mut out = json!({"name": row.name, "text": words(&row.text)});
-    if let Some(file) = file(row) {
+    if let Some(file) = file(row, paper) {
         out["file"] = json!(file);
     }
     out
 }
 
 /// The file of the item that a row names.
-fn file(row: &Fact) -> Option<&'static str> {
-    PROGRAM.file(row.item.as_ref()?)
+fn file(row: &Fact, paper: &Paper) -> Option<&'static str> {
+    paper.file(row.item.as_ref()?)
 }

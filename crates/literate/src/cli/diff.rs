@@ -1,18 +1,20 @@
-//! `impact-paper diff`.
+//! The verb `diff`.
 
-use super::{Failure, folder, git, shown, stdout};
-use impact_paper::report::Files;
-use impact_paper::report::compare::{self, Parts};
-use literate::input::one_line;
+use super::terminal::{print, shown};
+use crate::failure::Failure;
+use crate::input::one_line;
+use crate::report::compare::{self, Parts};
+use crate::report::{Files, folder};
 use serde_json::json;
 use std::path::Path;
+use std::process::Command;
 
 /// Says what differs between two reports: verdicts, numbers, files.
 ///
 /// OLD and NEW are folders of reports, or else revisions of git, whose folder paper/ is meant. A
 /// difference is no failure: the exit code is 0 unless --exit-code asks for more.
 #[derive(clap::Args)]
-pub struct Args {
+pub(super) struct Args {
     /// The earlier report.
     #[arg(value_name = "OLD")]
     old: String,
@@ -30,7 +32,7 @@ pub struct Args {
     exit_code: bool,
 }
 
-pub fn run(args: Args) -> Result<(), Failure> {
+pub(super) fn run(args: Args) -> Result<(), Failure> {
     let [before, after] = [parts(&args.old)?, parts(&args.new)?];
     let diff = compare::diff(&before, &after);
     let [old, new] = [&args.old, &args.new].map(|name| shown(Path::new(name)));
@@ -42,7 +44,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         }
         _ => diff.text(&old, &new),
     };
-    stdout::print(&told)?;
+    print(&told)?;
     match diff.is_empty() || !args.exit_code {
         true => Ok(()),
         false => Err(Failure::check(format!("{} and {} differ", args.old, args.new))),
@@ -67,6 +69,14 @@ fn standing(name: &str) -> Result<Files, Failure> {
     paths.into_iter().filter(|path| !folder::is_beside(path)).map(read).collect()
 }
 
+/// What git prints, or why it does not.
+fn git(arguments: &[&str]) -> Result<Vec<u8>, String> {
+    let output = Command::new("git").arg("--no-pager").args(arguments).output();
+    let output = output.map_err(|error| format!("git: {error}"))?;
+    let words = String::from_utf8_lossy(&output.stderr);
+    if output.status.success() { Ok(output.stdout) } else { Err(words.into_owned()) }
+}
+
 /// The files of a revision below paper/, from where the program runs, as git has stored them.
 fn committed(name: &str) -> Result<Files, Failure> {
     let neither = |told: String| {
@@ -75,7 +85,7 @@ fn committed(name: &str) -> Result<Files, Failure> {
         let remedy = "give the folder of a report, a tag or a commit";
         Failure::input(format!("{name}: {what} ({told}); {remedy}"))
     };
-    let git = |arguments: &[&str]| git::git(arguments).map_err(neither);
+    let git = |arguments: &[&str]| git(arguments).map_err(neither);
     // What git would take for an option, a path or a range is no revision.
     let odd = |c: char| c.is_control() || c.is_whitespace() || c == ':';
     if name.is_empty() || name.starts_with('-') || name.contains(odd) || name.contains("..") {

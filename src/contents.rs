@@ -4,57 +4,30 @@
 //! compiler gives ([`super::values::origin`]). Groups are `v` (ours), `paper` (numbers that the paper chose) and
 //! `printed` (numbers in its statements).
 
-use super::claims::printed;
-use super::mark::framed;
-use super::values::{Registry, Value, origin};
 use crate::claims::{self, Basis, Check, FAMILY_LEVEL, Published, Verdict};
 use crate::experiments::accuracy::case;
 use crate::experiments::accuracy::tables::titled;
 use crate::experiments::accuracy::trials::{Trial, right, trouble};
 use crate::experiments::{Results, TRIALS};
+use literate::Failure;
+use literate::report::mark::framed;
+use literate::value::{Value, origin};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 
-/// What can go wrong between results and values.
-#[derive(Debug, thiserror::Error)]
-pub enum Error {
-    /// A result or a printed number is missing.
-    #[error(transparent)]
-    Claims(#[from] claims::Error),
-    /// An experiment was not run.
-    #[error(transparent)]
-    Experiment(#[from] crate::experiments::Error),
-    /// A value that the registry refuses.
-    #[error(transparent)]
-    Report(#[from] super::Error),
-    /// A table that is not JSON.
-    #[error("the rows of a table: {0}")]
-    Rows(#[from] serde_json::Error),
-}
-
-/// All values of the report.
+/// The level of the checks, and what this copy was made with.
 ///
 /// # Errors
-/// If a result is missing, or two values have one id.
-pub fn registry(results: &Results, published: &Published) -> Result<Registry, Error> {
-    let mut registry = Registry::new();
-    registry.extend(printed(published))?;
-    registry.extend(about(results))?;
-    results.tables().values().try_for_each(|table| registry.add_table(table.clone()))?;
-    Ok(registry)
-}
-
-/// The level of the checks, and what this copy was made with.
-fn about(results: &Results) -> impl Iterator<Item = Value> {
+/// None.
+pub fn values(_: &Results, _: &Published) -> Result<Vec<Value>, Failure> {
     let level = claims::level();
     let values = [
         Value::integer("statistical_claims", level.claims),
         Value::real("claim_quantile", level.quantile, 3),
         Value::real("family_level", FAMILY_LEVEL, 1),
-        Value::text("profile", results.profile.name()),
         Value::text("version", env!("CARGO_PKG_VERSION")),
     ];
-    values.into_iter().map(|value| value.source(origin(claims::level), ""))
+    Ok(values.map(|value| value.source(origin(claims::level), "")).into())
 }
 
 /// The rows of the generated tables, by the name that templates use; beside them heads and words that depend on the
@@ -62,7 +35,7 @@ fn about(results: &Results) -> impl Iterator<Item = Value> {
 ///
 /// # Errors
 /// If a result is missing.
-pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str, Json>, Error> {
+pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure> {
     let trials = results.of(&TRIALS)?;
     let heads: Vec<String> = trials.parameters.settings.iter().map(|s| titled(*s)).collect();
     Ok(BTreeMap::from([

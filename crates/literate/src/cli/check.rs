@@ -1,0 +1,178 @@
+//! The verb `check`.
+
+use super::make::{Sources, of, scores, verdict};
+use super::terminal::print;
+use crate::claims::{Check, Kind, Published, Verdict, score};
+use crate::experiments::Results;
+use crate::failure::Failure;
+use crate::paper::Paper;
+use serde_json::{Value, json};
+
+/// Judges the statements of the paper, its targets, and relations between its numbers.
+///
+/// Saved results are used where they are fresh; what is missing is run. Prints a line for each statement
+/// that differs or cannot be judged, what fails first; -v prints all of each. Ends with exit code 1 if
+/// one differs without an explanation that holds, if a target is missed that does not depend on the
+/// clock, or if a relation between numbers does not hold.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Only these: ids of statements, or their numbers in the ledger.
+    #[arg(value_name = "ID")]
+    ids: Vec<String>,
+    /// Print all that is known of each, and also those that are reproduced, met or held.
+    #[arg(long, short)]
+    verbose: bool,
+    /// Form of what is printed: `github` annotates what fails and the ten worst others.
+    #[arg(long, default_value = "text")]
+    format: Format,
+    #[command(flatten)]
+    sources: Sources,
+}
+
+/// Forms for people and machines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    Text,
+    Json,
+    Github,
+}
+
+pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
+    let session = args.sources.session(paper)?;
+    let published = session.published()?;
+    let number = |id: &str| published.statements.iter().position(|own| own.id == id).map(|i| i + 1);
+    let asked = |id: &str| {
+        let number = number(id).map_or_else(String::new, |number| number.to_string());
+        args.ids.is_empty() || args.ids.iter().any(|own| own == id || *own == number)
+    };
+    let mut checks = args.sources.threads.run(|| {
+        let results = Results::run(&paper.experiments, &session)?;
+        paper.checks(&results, &published)
+    })?;
+    checks.retain(|check| asked(&check.id));
+    if checks.is_empty() && !args.ids.is_empty() {
+        let known: Vec<&str> = published.statements.iter().map(|own| own.id.as_str()).collect();
+        let (ids, known) = (args.ids.join(", "), known.join(", "));
+        return Err(Failure::input(format!("there is no statement {ids}; there are {known}")));
+    }
+    let prose = args.sources.templates.clone().unwrap_or_else(|| paper.prose.into());
+    let here = std::env::current_dir().unwrap_or_default();
+    let file = prose.strip_prefix(here).unwrap_or(&prose).join("published.toml");
+    let file = file.display().to_string();
+    print(&match args.format {
+        Format::Text => text(&checks, &args, number),
+        Format::Json => json(&checks, &published, &file),
+        Format::Github => github(&checks, &published, &file),
+    })?;
+    verdict(&checks)
+}
+
+/// What is known of a check, by names.
+fn fields(check: &Check) -> impl Iterator<Item = (&'static str, String)> {
+    let tolerance = match check.reason.as_str() {
+        "" => check.tolerance.to_string(),
+        reason => format!("{} ({reason})", check.tolerance),
+    };
+    let fields = [
+        ("printed", check.expected.clone()),
+        ("found", check.found.to_string()),
+        ("tolerance", tolerance),
+        ("note", check.note.to_string()),
+    ];
+    fields.into_iter().filter(|(_, text)| !text.is_empty())
+}
+
+/// A line for each check that is not simply reproduced, met or held, what fails first, and the scores; of those that were
+/// asked for, and with -v, all lines of all.
+fn text(checks: &[Check], args: &Args, number: impl Fn(&str) -> Option<usize>) -> String {
+    let all = args.verbose || !args.ids.is_empty();
+    let mut listed: Vec<&Check> =
+        checks.iter().filter(|check| all || check.verdict != Verdict::Reproduced).collect();
+    listed.sort_by_key(|check| !check.fails());
+    let mut out = String::new();
+    for check in listed {
+        let sign = if check.fails() { "FAILS" } else { &check.verdict.sign().to_string() };
+        let number = number(&check.id).map_or_else(String::new, |number| number.to_string());
+        let (id, words) = (&check.id, check.words());
+        out += &format!("{sign:5} {number:>2} {id}: {words}");
+        if !all {
+            let sides = [("paper", check.expected.clone()), ("here", check.found.to_string())];
+            let sides = sides.into_iter().filter(|(_, text)| !text.is_empty());
+            sides.for_each(|(side, text)| out += &format!("; {side}: {text}"));
+            out += "\n";
+            continue;
+        }
+        let place = if check.place.is_empty() { "" } else { &format!("{}, ", check.place) };
+        out += &format!(" ({place}{})\n         {}\n", check.basis.words(), check.statement);
+        fields(check).for_each(|(name, text)| out += &format!("         {name:10} {text}\n"));
+    }
+    scores(checks).iter().for_each(|line| out += &format!("{line}\n"));
+    if !all {
+        out += "`check -v` prints all, `check ID` all of one\n";
+    }
+    out
+}
+/// All that is known, as JSON: checks as ledger.json has them, and the line of each statement.
+fn json(checks: &[Check], published: &Published, file: &str) -> String {
+    let one = |check: &Check| {
+        let mut own = json!(check);
+        own["fails"] = check.fails().into();
+        own["words"] = check.words().into();
+        if check.kind == Kind::Statement {
+            (own["file"], own["line"]) = (file.into(), published.line(&check.id).into());
+        }
+        own
+    };
+    let list = |kind| of(checks, kind).map(one).collect::<Vec<Value>>();
+    let counts = Verdict::ALL.iter().zip(score(of(checks, Kind::Statement)));
+    let counts = counts.map(|(verdict, count)| (verdict.words().into(), count.into()));
+    let all = json!({
+        "score": counts.collect::<serde_json::Map<String, Value>>(),
+        "claims": list(Kind::Statement),
+        "targets": list(Kind::Target),
+        "relations": list(Kind::Relation),
+    });
+    format!("{all:#}\n")
+}
+
+/// Most annotations that are worth a reader's time.
+const ANNOTATIONS: usize = 10;
+
+/// Commands of GitHub's log: what fails, and the worst statements, each at its line.
+fn github(checks: &[Check], published: &Published, file: &str) -> String {
+    let kind = |check: &Check| match check.verdict {
+        _ if check.fails() => Some("error"),
+        _ if check.kind != Kind::Statement => None,
+        Verdict::CannotBeJudged => Some("warning"),
+        Verdict::DiffersAndExplained => Some("notice"),
+        _ => None,
+    };
+    let mut worst: Vec<(&str, &Check)> =
+        checks.iter().filter_map(|check| Some((kind(check)?, check))).collect();
+    let order = ["error", "warning", "notice"];
+    worst.sort_by_key(|(kind, _)| order.iter().position(|own| own == kind));
+    let mut out = String::new();
+    for (kind, check) in worst.into_iter().take(ANNOTATIONS) {
+        let place = match check.kind {
+            Kind::Statement => {
+                format!("file={},line={},", property(file), published.line(&check.id))
+            }
+            _ => String::new(),
+        };
+        let title = property(&format!("{}: {}", check.id, check.words()));
+        let more: String = fields(check).map(|(name, text)| format!("; {name}: {text}")).collect();
+        let text = data(&format!("{}{more}", check.statement));
+        out += &format!("::{kind} {place}title={title}::{text}\n");
+    }
+    out
+}
+
+/// Text of a workflow command.
+fn data(text: &str) -> String {
+    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+}
+
+/// A property of a workflow command.
+fn property(text: &str) -> String {
+    data(text).replace(':', "%3A").replace(',', "%2C")
+}

@@ -1,0 +1,208 @@
+//! The whole report, from experiments to files in memory, and what holds in it.
+
+use super::terminal::{Threads, progress};
+use crate::claims::{Basis, Check, Kind, Published, Verdict, score};
+use crate::experiments::{Profile, Progress, Results, Session, Store};
+use crate::failure::Failure;
+use crate::figures::Figure;
+use crate::input::count;
+use crate::paper::{Illustration, Paper};
+use crate::report::claims::printed;
+use crate::report::filler::Filler;
+use crate::report::{Input, Registry, Report, Templates, Value, assemble};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Options common to verbs that make a report or judge it.
+#[derive(clap::Args)]
+pub(super) struct Sources {
+    /// Sample sizes.
+    #[arg(long, default_value = "full", value_parser = super::profiles())]
+    pub profile: Profile,
+    #[command(flatten)]
+    pub threads: Threads,
+    /// Folder of the prose [default: that of the project, or the copy inside the program].
+    #[arg(long, value_name = "DIR")]
+    pub templates: Option<PathBuf>,
+    /// Folder in which results of long runs are kept.
+    #[arg(long, value_name = "DIR", default_value = "target/results")]
+    pub results: PathBuf,
+}
+
+impl Sources {
+    /// The run that is asked for.
+    pub fn session<'a>(&self, paper: &'a Paper) -> Result<Session<'a>, Failure> {
+        let store = Store::open(&self.results)?;
+        Session::of(paper, self.templates.as_deref(), self.profile, store, progress())
+    }
+}
+
+impl<'a> Session<'a> {
+    /// A run with the prose of a folder, or else that of the project, or the copy inside the program.
+    ///
+    /// # Errors
+    /// If there is no prose, or it cannot be read.
+    pub fn of(
+        paper: &'a Paper,
+        prose: Option<&Path>,
+        profile: Profile,
+        store: Store,
+        progress: Progress,
+    ) -> Result<Self, Failure> {
+        let project = &paper.project;
+        let folder = prose.map(Path::to_path_buf).or_else(|| project.find(paper.prose));
+        let templates = match folder {
+            Some(folder) => Templates::read(&folder)?,
+            None if project.copy.is_empty() => {
+                let what = format!("{}: there is no such folder of prose", paper.prose);
+                return Err(Failure::input(format!("{what}; run this in the project")));
+            }
+            None => Templates::of(project.copy.iter().filter_map(|(path, text)| {
+                Some((path.strip_prefix(paper.prose)?.strip_prefix('/')?, *text))
+            })),
+        };
+        Ok(Session { paper, templates, profile, store, progress })
+    }
+
+    /// What was printed; nothing without a file `published.toml`.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn published(&self) -> Result<Published, Failure> {
+        Ok(Published::parse(self.templates.text("published.toml")?)?)
+    }
+}
+
+impl Paper {
+    /// All checks: the statements, in the order of the paper, then targets and relations.
+    ///
+    /// # Errors
+    /// If a statement cannot be judged for want of a result, or is judged by nobody.
+    pub fn checks(&self, results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
+        let judged = self.statements.iter().chain(&self.relations);
+        let judged =
+            judged.map(|judge| judge(results, published)).collect::<Result<Vec<_>, _>>()?;
+        Ok(judged.concat())
+    }
+
+    /// All values that the prose may name.
+    ///
+    /// # Errors
+    /// If a result is missing, or two values have one name.
+    pub fn registry(&self, results: &Results, published: &Published) -> Result<Registry, Failure> {
+        let mut registry = Registry::new();
+        registry.extend(printed(published))?;
+        let profile = Value::text("profile", results.profile.name());
+        registry.add(profile.source(crate::value::origin(Paper::registry), "").data_only())?;
+        for values in &self.values {
+            for value in values(results, published)? {
+                registry.put(value);
+            }
+        }
+        results.tables().values().try_for_each(|table| registry.add_table(Arc::clone(table)))?;
+        Ok(registry)
+    }
+}
+
+/// Runs every experiment that is not in the store, and makes every file of a report in the folder `out`. Returns also what
+/// was judged.
+///
+/// # Errors
+/// Of the prose, which is read before the long runs, of a run, or of a figure.
+pub fn whole(session: &Session<'_>, out: &Path) -> Result<(Report, Vec<Check>), Failure> {
+    let Session { paper, templates, progress, .. } = session;
+    Filler::new(templates, &paper.documents)?;
+    let published = session.published()?;
+    let results = Results::run(&paper.experiments, session)?;
+    results.tables();
+    let figure = |drawing: &Illustration| {
+        progress.check()?;
+        drawn(drawing, &results)
+    };
+    let figures = paper.figures.par_iter().map(figure).collect::<Result<Vec<Figure>, _>>()?;
+    let checks = paper.checks(&results, &published)?;
+    let statements: Vec<Check> = of(&checks, Kind::Statement).cloned().collect();
+    let values = paper.registry(&results, &published)?;
+    let mut rows = BTreeMap::new();
+    for more in &paper.rows {
+        rows.extend(more(&results, &statements)?);
+    }
+    let lab = paper.lab.map(|lab| lab(session, &results)).transpose()?.flatten();
+    progress.check()?;
+    let report = assemble(&Input {
+        templates,
+        values: &values,
+        rows: &rows,
+        claims: &statements,
+        figures: &figures,
+        equations: &paper.equations,
+        lab: lab.as_deref(),
+        top: paper.project.way_up(out).as_deref(),
+        paper,
+    })?;
+    Ok((report, checks))
+}
+
+/// A figure of the results; a fault names it.
+pub(super) fn drawn(drawing: &Illustration, results: &Results) -> Result<Figure, Failure> {
+    let named = |error| Failure::from(error).of(format!("figure {}", drawing.name));
+    drawing.figure(results).map_err(named)
+}
+
+/// The checks of one kind.
+pub(super) fn of(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> + Clone {
+    checks.iter().filter(move |check| check.kind == kind)
+}
+
+/// The scores, a line each: of the statements of the paper, of targets and of relations where there are any.
+pub(super) fn scores(checks: &[Check]) -> Vec<String> {
+    let mut lines = Vec::new();
+    let statements = of(checks, Kind::Statement);
+    let number = statements.clone().count();
+    if number > 0 {
+        let counts = Verdict::ALL.iter().zip(score(statements.clone()));
+        let counts: Vec<_> =
+            counts.map(|(own, count)| format!("{} {count}", own.words())).collect();
+        lines.push(format!("{} of the paper: {}", count(number, "statement"), counts.join(", ")));
+        let bases = Basis::ALL.iter().filter_map(|basis| {
+            let counts = score(statements.clone().filter(|check| check.basis == *basis));
+            let all: usize = counts.iter().sum();
+            (all > 0).then(|| format!("{} of {all} {}", counts[0], basis.words()))
+        });
+        let bases: Vec<String> = bases.collect();
+        lines.push(format!("reproduced, by what the verdict rests on: {}", bases.join(", ")));
+    }
+    let [held, _, broken, open] = score(of(checks, Kind::Relation));
+    if held + broken + open > 0 {
+        let all = held + broken + open;
+        lines.push(format!("our own checks: {held} of {all} relations between numbers hold"));
+    }
+    let [met, _, missed, open] = score(of(checks, Kind::Target));
+    if met + missed + open > 0 {
+        let late = of(checks, Kind::Target);
+        let late = late.filter(|own| own.verdict == Verdict::Differs && !own.fails()).count();
+        lines.push(format!(
+            "{} targets: {met} met, {missed} missed ({late} of these by the clock), {open} not measured",
+            met + missed + open
+        ));
+    }
+    lines
+}
+
+/// Exit code 1, with names, for what does not hold. Times of the clock decide nothing.
+pub(super) fn verdict(checks: &[Check]) -> Result<(), Failure> {
+    let faults = [
+        (Kind::Statement, "statements differ without an explanation that holds"),
+        (Kind::Target, "targets of accuracy or counted work are missed"),
+        (Kind::Relation, "relations between numbers of the report do not hold"),
+    ];
+    let found = faults.into_iter().filter_map(|(kind, what)| {
+        let names = of(checks, kind).filter(|check| check.fails()).map(|check| check.id.as_str());
+        let names: Vec<&str> = names.collect();
+        (!names.is_empty()).then(|| format!("{what}: {}", names.join(", ")))
+    });
+    let found: Vec<String> = found.collect();
+    if found.is_empty() { Ok(()) } else { Err(Failure::check(found.join("; "))) }
+}

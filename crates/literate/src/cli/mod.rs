@@ -1,0 +1,142 @@
+//! The command line of a paper: `paper`, `check`, `explain`, `diff`, `verify`, `run`, and what a paper adds.
+
+mod check;
+mod diff;
+mod explain;
+mod make;
+mod paper;
+mod run;
+pub mod terminal;
+mod verify;
+
+use crate::experiments::{Profile, be_quiet};
+use crate::failure::Failure;
+use crate::input::{one_line, plain};
+use crate::paper::Paper;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::process::ExitCode;
+
+pub use make::whole;
+
+/// The contract of exit codes.
+const EXIT_CODES: &str = "Exit codes:
+  0    fine
+  1    a statement, target, check or comparison failed, and what was asked for is written all
+       the same; a rule of the prose is broken (a naked numeral, an unused value) or a run
+       failed, and nothing is; or saved results are stale, says `paper --dry-run`
+  2    wrong usage or input, broken prose too, or a place that cannot be read or written
+  130  ended by Ctrl-C or SIGTERM";
+
+#[derive(Parser)]
+struct Cli<V: Subcommand> {
+    #[command(subcommand)]
+    verb: Verb<V>,
+    /// Say nothing of progress; errors are said all the same.
+    #[arg(long, short, global = true)]
+    quiet: bool,
+}
+
+#[derive(Subcommand)]
+enum Verb<V: Subcommand> {
+    Paper(paper::Args),
+    Check(check::Args),
+    Explain(explain::Args),
+    Diff(diff::Args),
+    Verify(verify::Args),
+    Run(run::Args),
+    #[command(flatten)]
+    More(V),
+}
+
+/// No verb beyond those of every paper.
+#[derive(Subcommand)]
+enum None {}
+
+impl Paper {
+    /// Runs the command line of this paper, and returns its exit code.
+    pub fn cli(self) -> ExitCode {
+        self.cli_with(|none: None| match none {})
+    }
+
+    /// The same with more verbs, and what each of them does.
+    pub fn cli_with<V: Subcommand + Send + 'static>(
+        self,
+        more: impl FnOnce(V) -> Result<(), Failure> + Send + 'static,
+    ) -> ExitCode {
+        std::panic::set_hook(Box::new(terminal::tell));
+        let thread = std::thread::Builder::new().stack_size(terminal::STACK);
+        let joined = thread.spawn(move || self.obey(more)).map(std::thread::JoinHandle::join);
+        // What went wrong in it was said by the hook.
+        joined.ok().and_then(Result::ok).unwrap_or(ExitCode::FAILURE)
+    }
+
+    /// Parses the command line and runs its verb.
+    fn obey<V: Subcommand>(&self, more: impl FnOnce(V) -> Result<(), Failure>) -> ExitCode {
+        let crate::project::Sources { version, .. } = self.project.sources;
+        let name: &'static str = self.project.sources.name;
+        let command: Command = Cli::<V>::command().name(name).bin_name(name).version(version);
+        let command = command.about(self.title).after_help(EXIT_CODES);
+        let parsed = command.try_get_matches().and_then(|all| Cli::<V>::from_arg_matches(&all));
+        let Cli { verb, quiet } = match parsed {
+            Ok(cli) => cli,
+            Err(error) => return usage(&error),
+        };
+        if quiet {
+            be_quiet();
+        }
+        terminal::obey_signals();
+        let result = match verb {
+            Verb::Paper(args) => paper::run(self, args),
+            Verb::Check(args) => check::run(self, args),
+            Verb::Explain(args) => explain::run(self, args),
+            Verb::Diff(args) => diff::run(args),
+            Verb::Verify(args) => verify::run(self, args),
+            Verb::Run(args) => run::run(self, args),
+            Verb::More(verb) => more(verb),
+        };
+        match result {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(failure) => {
+                failure.message.lines().for_each(terminal::warn);
+                ExitCode::from(failure.code)
+            }
+        }
+    }
+}
+
+/// Help and version go to standard output; a wrong command line becomes one line, exit code 2.
+fn usage(error: &clap::Error) -> ExitCode {
+    use clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
+    if !error.use_stderr() || error.kind() == DisplayHelpOnMissingArgumentOrSubcommand {
+        let code = error.exit_code() as u8;
+        return match terminal::written(error.print()) {
+            Ok(()) => ExitCode::from(code),
+            Err(failure) => {
+                terminal::warn(&failure.message);
+                ExitCode::from(failure.code)
+            }
+        };
+    }
+    let text = plain(&error.to_string());
+    // No verb takes a value that looks like an option.
+    let helps = |line: &&str| !line.is_empty() && !line.starts_with("tip: to pass '");
+    let line = text.lines().map(str::trim).filter(helps).collect::<Vec<_>>().join("; ");
+    terminal::warn(&one_line(line.strip_prefix("error: ").unwrap_or(&line), 4000));
+    ExitCode::from(2)
+}
+
+/// The profile of a name.
+fn profile(name: &str) -> Option<Profile> {
+    Profile::ALL.into_iter().find(|profile| profile.name() == name)
+}
+
+/// Reads sample sizes.
+fn profiles() -> impl TypedValueParser<Value = Profile> {
+    let about = |profile| match profile {
+        Profile::Quick => "To try out: small samples",
+        Profile::Full => "The committed report",
+    };
+    let known = Profile::ALL.map(|own| PossibleValue::new(own.name()).help(about(own)));
+    PossibleValuesParser::new(known).try_map(|name| profile(&name).ok_or("unknown"))
+}

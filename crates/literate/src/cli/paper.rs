@@ -1,0 +1,130 @@
+//! The verb `paper`.
+
+use super::make::{self, Sources};
+use super::terminal::{print, shown, warn};
+use crate::experiments::{Need, Profile, Results, Session};
+use crate::failure::Failure;
+use crate::input::{count, listed};
+use crate::paper::{Illustration, Paper};
+use crate::report::values::Number;
+use crate::report::{Files, Report, compare, files_of, folder};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Runs every experiment, draws all figures and writes the report.
+///
+/// Results of long runs are saved and used again as long as parameters and source are the same. Files
+/// are moved into place at the very end: Ctrl-C (exit code 130) leaves the report as it was. Only files
+/// that an earlier run wrote, and nobody edited since, are replaced; pages, and what they load, are made
+/// anew each time. Ends with exit code 1 if a statement, a target of accuracy or counted work, or a
+/// relation fails; the report is written all the same.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Draw this figure only, by name or number (may be repeated): its SVG and its CSV are written.
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    figure: Vec<String>,
+    /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Say which experiments would be run, and why (exit code 1 if any), and run nothing.
+    #[arg(long)]
+    dry_run: bool,
+    /// Write over files that this program did not make, or that were edited since; says which.
+    #[arg(long)]
+    force: bool,
+    #[command(flatten)]
+    sources: Sources,
+}
+
+pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
+    let began = Instant::now();
+    let Args { sources, force, .. } = args;
+    let out = args.out.unwrap_or_else(|| match sources.profile {
+        Profile::Full => "paper".into(),
+        Profile::Quick => "target/paper-quick".into(),
+    });
+    let find = |text: &String| paper.find_figure(text).map_err(|error| error.of("--figure"));
+    let chosen = args.figure.iter().map(find).collect::<Result<Vec<&Illustration>, Failure>>()?;
+    let whole = chosen.is_empty();
+    let needs: Vec<Need> = match whole {
+        true => paper.experiments.clone(),
+        false => chosen.iter().flat_map(|figure| figure.needs).copied().collect(),
+    };
+    let session = sources.session(paper)?;
+    if args.dry_run {
+        return dry_run(&session, &needs);
+    }
+    refuse_over_other(sources.profile, &out, whole)?;
+    let option = |error: folder::Error| Failure::from(error).of("--out");
+    folder::refuse(&out, &Files::new(), whole, force).map_err(option)?;
+    let (report, checks) = sources.threads.run(|| match whole {
+        true => make::whole(&session, &out),
+        false => {
+            let results = Results::run(&needs, &session)?;
+            let figures = chosen.iter().map(|figure| Ok(files_of(&make::drawn(figure, &results)?)));
+            let files = figures.collect::<Result<Vec<Files>, Failure>>()?;
+            let committed = files.into_iter().flatten().collect();
+            Ok((Report { committed, beside: Files::new() }, Vec::new()))
+        }
+    })?;
+    let written = report.write(&out, force).map_err(option)?;
+    for (what, files) in [("removed", written.removed), ("--force: wrote over", written.over)] {
+        if !files.is_empty() {
+            warn(&format!("{what} {}", listed(&files)));
+        }
+    }
+    let pages: Vec<&str> = paper.documents.iter().map(|document| document.page).collect();
+    let documents = if whole { format!(": {}", pages.join(", ")) } else { String::new() };
+    let number = count(report.committed.len() + report.beside.len(), "file");
+    let scores: String = make::scores(&checks).into_iter().map(|line| line + "\n").collect();
+    let time = duration(began.elapsed());
+    // It is said also where a check fails.
+    let printed = print(&format!("{}: {number} in {time}{documents}\n{scores}", shown(&out)));
+    let more = |failure: Failure| {
+        let message = format!("{}; `check` says more", failure.message);
+        Failure { message, ..failure }
+    };
+    make::verdict(&checks).map_err(more).and(printed)
+}
+
+/// Lesser samples must not take the place of the committed report, and single figures not stand among those
+/// of other samples.
+fn refuse_over_other(profile: Profile, out: &Path, whole: bool) -> Result<(), Failure> {
+    match profile_in(out) {
+        Some(name) if name != profile.name() && (!whole || name == Profile::Full.name()) => {
+            let place = out.display();
+            let what = format!("--out: {place} holds a report of the {name} profile");
+            Err(Failure::input(format!("{what}; give another folder")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The profile that a report names, if there is one in a folder.
+pub(super) fn profile_in(root: &Path) -> Option<String> {
+    let text = String::from_utf8(folder::read(root, "values.json").ok()?).ok()?;
+    match &compare::read(&text).ok()?.get("profile")?.number {
+        Number::Text(name) => Some(name.clone()),
+        _ => None,
+    }
+}
+
+/// One line for each experiment that would be run.
+fn dry_run(session: &Session<'_>, needs: &[Need]) -> Result<(), Failure> {
+    let stale: Vec<String> =
+        needs.iter().filter_map(|need| Some(need.stale(session)? + "\n")).collect();
+    print(&stale.concat())?;
+    match stale.len() {
+        0 => Ok(()),
+        stale => Err(Failure::check(format!("{} to be run", count(stale, "experiment")))),
+    }
+}
+
+/// `3 min 20 s` or `4.2 s`.
+fn duration(time: Duration) -> String {
+    match time.as_secs_f64() {
+        seconds if seconds < 0.1 => "less than 0.1 s".into(),
+        seconds if seconds < 60.0 => format!("{seconds:.1} s"),
+        _ => format!("{} min {} s", time.as_secs() / 60, time.as_secs() % 60),
+    }
+}

@@ -1,0 +1,55 @@
+//! The verb `run`.
+
+use super::make::Sources;
+use super::terminal::{print, shown};
+use crate::experiments::shards::{self, MOST};
+use crate::experiments::{Need, Results};
+use crate::failure::Failure;
+use crate::input::count;
+use crate::paper::Paper;
+
+/// Runs all experiments, or one shard of their units of work, and saves what they give.
+///
+/// On three machines:  run --shard 1/3 --results DIR   (and 2/3, 3/3),
+/// then on one:        paper --results DIR
+///
+/// An experiment may be cut into units, others are one unit each. Each unit is saved as soon as it
+/// is there, whole or not at all, and none is run twice: after Ctrl-C (exit code 130), a crash or a
+/// lost machine the same command goes on where it was. Shards may save in one folder, or in several
+/// that are copied together; `paper` joins the units that it finds there, and runs what is missing.
+#[derive(clap::Args)]
+#[command(verbatim_doc_comment)]
+pub(super) struct Args {
+    /// Which share of how many, like 2/3: the second of three.
+    #[arg(long, value_name = "i/N", value_parser = share, allow_hyphen_values = true)]
+    shard: Option<(usize, usize)>,
+    #[command(flatten)]
+    sources: Sources,
+}
+
+/// "2/3".
+fn share(text: &str) -> Result<(usize, usize), String> {
+    let read = |text: &str| text.parse::<usize>().ok().filter(|number| (1..=MOST).contains(number));
+    match text.split_once('/').map(|(i, n)| (read(i), read(n))) {
+        Some((Some(i), Some(n))) if i <= n => Ok((i, n)),
+        _ => Err(format!("a shard is i/N with 1 <= i <= N <= {MOST}, like 2/3")),
+    }
+}
+
+pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
+    let Args { shard, sources } = args;
+    let session = sources.session(paper)?;
+    let saved: Vec<Need> = paper.experiments.iter().copied().filter(|one| one.is_saved()).collect();
+    let done = sources.threads.run(|| match shard {
+        Some(shard) => {
+            let [run, there] = shards::run(&saved, shard, &session)?;
+            let (i, of) = shard;
+            Ok(format!("shard {i}/{of}: {} run, {there} there before", count(run, "unit")))
+        }
+        None => {
+            Results::run(&saved, &session)?;
+            Ok(format!("results of {}", count(saved.len(), "experiment")))
+        }
+    })?;
+    print(&format!("{}: {done}\n", shown(&sources.results)))
+}

@@ -1,0 +1,140 @@
+//! Standard output and error, signals, threads, and memory at hand: for verbs that a paper adds too.
+
+use crate::experiments::{Progress, say};
+use crate::failure::{Failure, INTERRUPTED};
+use crate::input::one_line;
+use std::io::{self, ErrorKind, Write};
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, LazyLock};
+
+/// Stack of a thread that works, in bytes: the system, or RUST_MIN_STACK, may give less.
+pub(super) const STACK: usize = 8 << 20;
+
+/// More threads than any machine of today has cores.
+const MOST: usize = 1024;
+
+/// Whether the work is to end.
+static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
+
+/// Says one line on standard error, behind the name of the program.
+pub fn warn(line: &str) {
+    let program = std::env::current_exe().unwrap_or_default();
+    let name = program.file_stem().unwrap_or_default().to_string_lossy();
+    say(&format!("{name}: {line}"));
+}
+
+/// Says a fault of the program itself in one line: what failed, and where.
+pub(super) fn tell(fault: &std::panic::PanicHookInfo<'_>) {
+    let words = fault.payload_as_str().unwrap_or("no words");
+    let place = fault.location().map_or_else(String::new, |at| format!(" at {at}"));
+    let line = format!(
+        "a fault of the program{place}: {words}; if saved results were edited, remove them"
+    );
+    warn(&one_line(&line, 4000));
+}
+
+/// A path as messages on standard output show it, in one line.
+pub(super) fn shown(path: &Path) -> String {
+    one_line(&path.display().to_string(), 500)
+}
+
+/// What became of writing to standard output: who closed the pipe has read enough.
+pub fn written(result: io::Result<()>) -> Result<(), Failure> {
+    match result {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::io(&error, "standard output", "direct it to a file that can be written"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints text on standard output.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
+}
+
+/// From now on Ctrl-C and SIGTERM end the program within a second, with exit code 130. Files that are being put into
+/// place are first all there.
+#[cfg(unix)]
+pub(super) fn obey_signals() {
+    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+    let follow = |mut signals: Signals| {
+        let ended = move || {
+            if signals.forever().next().is_some() {
+                STOP.store(true, std::sync::atomic::Ordering::Relaxed);
+                std::thread::sleep(std::time::Duration::from_millis(700));
+                let _moment = crate::input::WRITING.write();
+                warn("interrupted");
+                std::process::exit(i32::from(INTERRUPTED));
+            }
+        };
+        std::thread::Builder::new().stack_size(1 << 20).spawn(ended)
+    };
+    // Without, such a signal just ends the program.
+    let _ = Signals::new([SIGINT, SIGTERM]).and_then(follow);
+}
+
+/// Elsewhere the system ends the program.
+#[cfg(not(unix))]
+pub(super) fn obey_signals() {}
+
+/// Progress on standard error of work that a signal ends.
+pub fn progress() -> Progress {
+    Progress::on_stderr(Arc::clone(&STOP))
+}
+
+/// The option of a verb that works on several threads.
+#[derive(clap::Args)]
+pub struct Threads {
+    /// Number of threads; all cores without it. It changes no bit of the result.
+    #[arg(long = "threads", value_name = "K", allow_hyphen_values = true, value_parser = threads)]
+    asked: Option<usize>,
+}
+
+fn threads(text: &str) -> Result<usize, String> {
+    let threads = text.parse().ok().filter(|threads| (1..=MOST).contains(threads));
+    threads.ok_or_else(|| format!("give 1 to {MOST}"))
+}
+
+impl Threads {
+    /// How many there will be.
+    pub fn number(&self) -> usize {
+        self.asked.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
+    }
+
+    /// Runs `work` on them: all cores, or as many as RAYON_NUM_THREADS says, if none were asked for.
+    ///
+    /// # Errors
+    /// Of the work; and if the system gives no threads.
+    pub fn run<T: Send>(
+        &self,
+        work: impl FnOnce() -> Result<T, Failure> + Send,
+    ) -> Result<T, Failure> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.asked.unwrap_or(0));
+        let pool = pool.stack_size(STACK).build().map_err(|error| {
+            Failure::input(format!("--threads: {error}; give a smaller number of threads"))
+        })?;
+        pool.install(work)
+    }
+}
+
+/// Refuses what needs more memory than there is: an estimate in bytes, the option that asks for it, and what
+/// to give instead.
+pub fn fits(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
+    // Linux says it, elsewhere 4 GiB are taken for granted. No process has more addresses than half of all.
+    let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let free = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
+    let kib = free.and_then(|line| line.split_whitespace().next()?.parse::<u128>().ok());
+    let at_hand = kib.map_or(4 << 30, |kib| kib << 10).min(usize::MAX as u128 / 2);
+    if needed <= at_hand {
+        return Ok(());
+    }
+    let gib = |bytes: u128| format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30));
+    let (needed, at_hand) = (gib(needed), gib(at_hand));
+    Err(Failure::input(format!(
+        "{option}: about {needed} of memory are needed and {at_hand} are at hand; {remedy}"
+    )))
+}

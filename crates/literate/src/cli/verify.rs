@@ -1,0 +1,68 @@
+//! The verb `verify`.
+
+use super::paper::profile_in;
+use super::terminal::{Threads, print, progress, shown};
+use super::{make, profile};
+use crate::experiments::{Session, Store};
+use crate::failure::Failure;
+use crate::input::count;
+use crate::paper::Paper;
+use crate::report::folder;
+use std::path::PathBuf;
+
+/// Says whether a report is what its SHA256SUMS lists; with --rerun, what is made here.
+///
+/// Ends with exit code 1 if a file differs, is missing, or stands there without being listed. Pages and
+/// figures for LaTeX are built with a report and not listed; --rerun, which makes the report again and
+/// compares byte by byte, compares them too. Writes nothing.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Folder of the report.
+    #[arg(value_name = "DIR", default_value = "paper")]
+    folder: PathBuf,
+    /// Make the report again, with the profile that it has and without saved results, and compare byte by byte.
+    #[arg(long)]
+    rerun: bool,
+    /// Take results of long runs from this folder, where they are fresh, and keep them there.
+    #[arg(long, value_name = "DIR", requires = "rerun")]
+    results: Option<PathBuf>,
+    /// Folder of the prose [default: that of the project, or the copy inside the program].
+    #[arg(long, value_name = "DIR", requires = "rerun")]
+    templates: Option<PathBuf>,
+    #[command(flatten)]
+    threads: Threads,
+}
+
+pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
+    let Args { folder, rerun, results, templates, threads } = args;
+    let place = shown(&folder);
+    let (files, mut faults) = folder::verify(&folder)?;
+    if faults.is_empty() {
+        let sums = folder::SUMS;
+        print(&format!("{place}: {files} files, all as {sums} lists them\n"))?;
+    }
+    if rerun {
+        let profile = profile_in(&folder).and_then(|name| profile(&name));
+        let profile = profile
+            .ok_or_else(|| Failure::input(format!("{place}: values.json names no profile")))?;
+        let store = results.as_deref().map_or(Ok(Store::nowhere()), Store::open)?;
+        let session = Session::of(paper, templates.as_deref(), profile, store, progress())?;
+        let made = threads.run(|| make::whole(&session, &folder))?.0;
+        let (files, again) = made.compare(&folder)?;
+        if again.is_empty() {
+            let name = profile.name();
+            let fine = format!("made again with the {name} profile, the same bytes");
+            print(&format!("{place}: {files} files {fine}\n"))?;
+        }
+        faults.extend(again.into_iter().map(|fault| format!("rerun: {fault}")));
+    }
+    if faults.is_empty() {
+        return Ok(());
+    }
+    print(&(faults.join("\n") + "\n"))?;
+    let number = count(faults.len(), "file");
+    Err(Failure::check(format!(
+        "{place}: not as it should be: {number}; `paper --out {place} --force` writes the report anew, what is not listed \
+         is yours to move"
+    )))
+}

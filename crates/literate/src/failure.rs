@@ -1,0 +1,61 @@
+//! Why something ended without success: a message of one line, and an exit code.
+
+use crate::claims::PublishedError;
+use crate::experiments::Error;
+use crate::input::{one_line, remedy};
+use crate::report::{self, folder};
+use std::fmt::Display;
+use std::io;
+
+/// What a shell calls a program that Ctrl-C ended: 128 + SIGINT.
+pub const INTERRUPTED: u8 = 130;
+
+/// Characters of a message at most.
+const LONGEST: usize = 4000;
+
+/// Why something ended without success. Any error becomes one by `?`.
+#[derive(Debug)]
+pub struct Failure {
+    /// The exit code: 1 where something does not hold, is stale or failed, 2 for wrong usage or input, 130 after Ctrl-C.
+    pub code: u8,
+    /// One line: what, where, and what to do; several findings in the prose have a line each.
+    pub message: String,
+}
+
+impl Failure {
+    /// Wrong usage or input: exit code 2.
+    pub fn input(message: impl Into<String>) -> Self {
+        Failure { code: 2, message: one_line(&message.into(), LONGEST) }
+    }
+
+    /// Something does not hold, is stale, or failed: exit code 1.
+    pub fn check(message: impl Into<String>) -> Self {
+        Failure { code: 1, message: one_line(&message.into(), LONGEST) }
+    }
+
+    /// The system refused to read or write `what`: exit code 2.
+    pub fn io(error: &io::Error, what: impl Display, otherwise: &str) -> Self {
+        Failure::input(format!("{what}: {error}; {}", remedy(error, otherwise)))
+    }
+
+    /// The same with a place or an option before it.
+    pub fn of(self, place: impl Display) -> Self {
+        Failure { message: format!("{place}: {}", self.message), ..self }
+    }
+}
+
+impl<E: std::error::Error + 'static> From<E> for Failure {
+    fn from(error: E) -> Self {
+        let any = &error as &(dyn std::error::Error + 'static);
+        let code = match any.downcast_ref::<Error>() {
+            Some(Error::Interrupted) => INTERRUPTED,
+            Some(Error::Store { .. } | Error::Input { .. }) => 2,
+            _ if any.is::<folder::Error>() || any.is::<PublishedError>() => 2,
+            _ if any.downcast_ref().is_some_and(|error: &report::Error| !error.is_of_rules()) => 2,
+            _ => 1,
+        };
+        let lines = error.to_string();
+        let lines: Vec<String> = lines.lines().map(|line| one_line(line, LONGEST)).collect();
+        Failure { code, message: lines.join("\n") }
+    }
+}

@@ -1,0 +1,372 @@
+//! A paper: what it is made of. [`Paper::cli`] gives it a command line.
+
+use crate::claims::{Check, Published};
+use crate::experiments::{Need, Profile, Results, Session, Together};
+use crate::failure::Failure;
+use crate::figures::{self, Figure};
+use crate::project::{Project, Sources};
+use crate::report::ledger::EquationEntry;
+use crate::report::{Document, Value};
+use serde_json::Value as Json;
+use std::collections::BTreeMap;
+
+/// A figure of a paper: its name, the experiments whose results it shows, and how it is drawn.
+#[derive(Clone, Copy)]
+pub struct Illustration {
+    /// Its name; its picture is `figures/NAME.svg`.
+    pub name: &'static str,
+    /// The experiments that it needs.
+    pub needs: &'static [Need],
+    /// Draws it.
+    pub draw: fn(&Results) -> Result<Figure, figures::Error>,
+}
+
+impl Illustration {
+    /// Draws it. A figure of lesser samples says so in its foot.
+    ///
+    /// # Errors
+    /// [`figures::Error::Data`] without the results that it needs, and others of drawing.
+    pub fn figure(&self, results: &Results) -> Result<Figure, figures::Error> {
+        let sampled = self.needs.iter().any(|need| need.is_saved());
+        let mut figure = (self.draw)(results)?;
+        if sampled && results.profile < Profile::Full {
+            let foot = format!("profile {}: not for citation", results.profile.name());
+            figure = figure.with_foot(&foot)?;
+        }
+        let experiments = self.needs.iter().map(|need| need.name()).collect();
+        // The item that draws it has its name, unless it says another.
+        if figure.source.is_empty() {
+            figure.source = format!("figures::{}", self.name);
+        }
+        Ok(Figure { experiments, ..figure })
+    }
+
+    /// Whether it is asked for by `text`: its name, or `3` for `fig03`.
+    fn is(&self, text: &str) -> bool {
+        let plain = |name: &str| {
+            let name = name.to_lowercase();
+            let name = name.strip_prefix("fig").unwrap_or(&name).to_string();
+            let digits = name.trim_start_matches(|c: char| !c.is_ascii_digit());
+            let letters = &name[..name.len() - digits.len()];
+            format!("{letters}{}", digits.trim_start_matches('0'))
+        };
+        self.name == text || plain(self.name) == plain(text)
+    }
+}
+
+/// Judges statements, or holds numbers of the paper against one another.
+pub type Judge = fn(&Results, &Published) -> Result<Vec<Check>, Failure>;
+
+/// Values with names, which the prose may use like the cells of tables.
+pub type Values = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
+
+/// Rows of tables in the prose that are neither values nor checks, by the names that the prose uses.
+pub type Rows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure>;
+
+/// Makes the text of `lab.js`, which a page loads when a reader asks it to compute; none if it cannot be had here.
+pub type Lab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
+
+/// A paper: its description, its experiments, figures and checks, and the documents that are written.
+pub struct Paper {
+    /// What it is, in a line: the help says it.
+    pub title: &'static str,
+    /// Name and affiliation of each author.
+    pub authors: Vec<(&'static str, &'static str)>,
+    /// Day of this version, YYYY-MM-DD; may be empty.
+    pub date: &'static str,
+    /// Its licence, as SPDX writes it; may be empty.
+    pub license: &'static str,
+    /// Its files.
+    pub project: Project,
+    /// Folder of the prose, from the top of the project.
+    pub prose: &'static str,
+    /// Crates as paths of items name them, and the folders of their source; an empty name for the program.
+    pub crates: Vec<(&'static str, &'static str)>,
+    /// All experiments, in the order in which they run.
+    pub experiments: Vec<Need>,
+    /// Tables that need several experiments.
+    pub together: Vec<Together>,
+    /// All figures.
+    pub figures: Vec<Illustration>,
+    /// Judge the statements of `published.toml`.
+    pub statements: Vec<Judge>,
+    /// Judge what is no statement: targets, relations between numbers.
+    pub relations: Vec<Judge>,
+    /// Path of the item that judges the statement with this id, for its card.
+    pub judged_by: fn(&str) -> String,
+    /// More values.
+    pub values: Vec<Values>,
+    /// More rows.
+    pub rows: Vec<Rows>,
+    /// Equations that must have their place in the documents.
+    pub equations: Vec<EquationEntry>,
+    /// What pages load to compute.
+    pub lab: Option<Lab>,
+    /// What is written.
+    pub documents: Vec<Document>,
+}
+
+impl std::fmt::Debug for Paper {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Paper {:?}", self.title)
+    }
+}
+
+impl Paper {
+    /// A paper with this title and source, one document `report`, and its prose in the folder `paper`.
+    pub fn new(title: &'static str, sources: Sources) -> Self {
+        Paper {
+            title,
+            authors: Vec::new(),
+            date: "",
+            license: "",
+            project: Project::new(sources),
+            prose: "prose",
+            crates: vec![("", "src")],
+            experiments: Vec::new(),
+            together: Vec::new(),
+            figures: Vec::new(),
+            statements: Vec::new(),
+            relations: Vec::new(),
+            judged_by: |_| String::new(),
+            values: Vec::new(),
+            rows: Vec::new(),
+            equations: Vec::new(),
+            lab: None,
+            documents: vec![Document::REPORT],
+        }
+    }
+
+    /// With one author more.
+    pub fn author(mut self, name: &'static str, affiliation: &'static str) -> Self {
+        self.authors.push((name, affiliation));
+        self
+    }
+
+    /// With one experiment more.
+    pub fn experiment(mut self, experiment: Need) -> Self {
+        self.experiments.push(experiment);
+        self
+    }
+
+    /// With one figure more, which shows results of these experiments.
+    pub fn figure(
+        mut self,
+        name: &'static str,
+        needs: &'static [Need],
+        draw: fn(&Results) -> Result<Figure, figures::Error>,
+    ) -> Self {
+        self.figures.push(Illustration { name, needs, draw });
+        self
+    }
+
+    /// The figure that is asked for by its name or number: `spread`, `3`, `s1`.
+    ///
+    /// # Errors
+    /// With the names of all, if there is none.
+    pub fn find_figure(&self, text: &str) -> Result<&Illustration, Failure> {
+        self.figures.iter().find(|figure| figure.is(text)).ok_or_else(|| {
+            let names: Vec<&str> = self.figures.iter().map(|figure| figure.name).collect();
+            Failure::input(format!("there is no figure {text:?}; there are {}", names.join(", ")))
+        })
+    }
+
+    /// The experiment of a name.
+    pub fn find_experiment(&self, name: &str) -> Option<Need> {
+        self.experiments.iter().copied().find(|experiment| experiment.name() == name)
+    }
+
+    /// What the head of each page says: names of `<meta>` and their content.
+    pub(crate) fn about(&self) -> Vec<(&'static str, String)> {
+        let Sources { name, version, .. } = self.project.sources;
+        let authors: Vec<&str> = self.authors.iter().map(|author| author.0).collect();
+        let about = [
+            ("author", authors.join(", ")),
+            ("citation_author", authors.join("; ")),
+            ("citation_title", name.into()),
+            ("citation_publication_date", self.date.into()),
+            ("version", version.into()),
+            ("license", self.license.into()),
+        ];
+        about.into_iter().filter(|(_, words)| !words.is_empty()).collect()
+    }
+
+    /// A path as the documents show it, from that of the compiler.
+    pub(crate) fn short<'a>(&self, path: &'a str) -> &'a str {
+        let (first, rest) = path.split_once("::").unwrap_or(("", path));
+        if first == self.project.sources.name.replace('-', "_") { rest } else { path }
+    }
+
+    /// The listing of an item: what stands in its file between the lines `// listing: NAME`, with the last name of its path,
+    /// and `// end`, moved to the left edge.
+    ///
+    /// # Errors
+    /// One line, if there is none.
+    pub fn listing(&self, item: &str) -> Result<String, String> {
+        let file = self.file(item);
+        let text = self.project.sources.files.iter().find(|(path, _)| Some(*path) == file);
+        let name = item.rsplit("::").next().unwrap_or_default();
+        let mark = format!("// listing: {name}");
+        let lines = text.map_or("", |(_, text)| text).lines();
+        let inside = lines.skip_while(|line| line.trim() != mark).skip(1);
+        let lines: Vec<&str> = inside.take_while(|line| line.trim() != "// end").collect();
+        if lines.is_empty() {
+            let marks = format!("the lines `{mark}` and `// end` in its file");
+            return Err(format!("there is no listing `{item}`; it needs {marks}"));
+        }
+        let indent = lines.first().map_or(0, |line| line.len() - line.trim_start().len());
+        let lines = lines.iter().map(|line| line.get(indent..).unwrap_or_default());
+        Ok(lines.collect::<Vec<_>>().join("\n"))
+    }
+
+    /// The file of an item or a module, by its path: `impact_circuits::jump::p_jump` is in
+    /// `crates/circuits/src/jump.rs`. None if the program has no such file.
+    pub fn file(&self, item: &str) -> Option<&'static str> {
+        let inside =
+            |(name, folder): &(&str, &'static str)| Some((*folder, item.strip_prefix(name)?));
+        let (folder, rest) = self.crates.iter().find_map(inside)?;
+        let mut parts: Vec<&str> = rest.split("::").filter(|part| !part.is_empty()).collect();
+        loop {
+            let module = format!("{folder}/{}", parts.join("/"));
+            let is = |path: &str| match path.strip_prefix(&module) {
+                Some(".rs" | "/mod.rs") => true,
+                Some("lib.rs" | "main.rs") => parts.is_empty(),
+                _ => false,
+            };
+            let mut files = self.project.sources.files.iter();
+            if let Some((path, _)) = files.find(|(path, _)| is(path)) {
+                return Some(path);
+            }
+            parts.pop()?;
+        }
+    }
+}
+
+/// Name and setting of each parameter, the seed among them, field by field.
+pub(crate) fn settings(parameters: &Json) -> Vec<(String, String)> {
+    let mut flat = Vec::new();
+    flatten("", parameters, &mut flat);
+    flat
+}
+
+/// Fields of fields get both names; long lists are told by their ends.
+fn flatten(name: &str, value: &Json, into: &mut Vec<(String, String)>) {
+    match value {
+        Json::Null => {}
+        Json::Object(fields) => {
+            for (field, value) in fields {
+                let field = field.replace('_', " ");
+                let whole = if name.is_empty() { field } else { format!("{name} {field}") };
+                flatten(&whole, value, into);
+            }
+        }
+        Json::Array(list) => match merged(list) {
+            Some(one) => flatten(name, &one, into),
+            None => into.push((name.into(), listed(list))),
+        },
+        scalar => into.push((name.into(), shown(scalar))),
+    }
+}
+
+/// Several objects as one: a field in which they differ is the list of its values.
+fn merged(list: &[Json]) -> Option<Json> {
+    let all: Vec<_> = list.iter().map(Json::as_object).collect::<Option<_>>()?;
+    let of = |name: &String| {
+        let values = all.iter().filter_map(|own| own.get(name)).filter(|own| !own.is_null());
+        let values: Vec<Json> = values.cloned().collect();
+        let value = match values.as_slice() {
+            [] => Json::Null,
+            [first, others @ ..] if others.iter().all(|own| own == first) => first.clone(),
+            _ => merged(&values).unwrap_or(Json::Array(values)),
+        };
+        (name.clone(), value)
+    };
+    Some(Json::Object(all.first()?.keys().map(of).collect()))
+}
+
+fn listed(list: &[Json]) -> String {
+    let plain = list.iter().all(|one| one.is_number() || one.is_string());
+    match list {
+        [first, .., last] if plain && list.len() > 8 => {
+            format!("{} from {} to {}", list.len(), shown(first), shown(last))
+        }
+        _ if plain => list.iter().map(shown).collect::<Vec<_>>().join(", "),
+        _ => format!("{} of them", list.len()),
+    }
+}
+
+fn shown(value: &Json) -> String {
+    match value {
+        Json::String(text) => text.clone(),
+        Json::Number(number) => number
+            .as_f64()
+            .filter(|_| number.is_f64())
+            .map_or(number.to_string(), |x| x.to_string()),
+        other => other.to_string(),
+    }
+}
+
+/// A paper for tests.
+#[cfg(test)]
+pub(crate) fn toy() -> Paper {
+    const FLIGHT: &str = "//! Free flight.\n\nimpl Motion {\n    // listing: kick\n    /// A jump of the velocity by ω \
+               `kick`.\n    pub fn kick<const M: usize>(&mut self, kick: f64, p: &Phases<M>) {\n        self.a -= kick * \
+               p.sin;\n        self.b += kick * p.cos;\n    }\n    // end\n}\n";
+    let files = &[("src/flight.rs", FLIGHT), ("src/flight/drag/mod.rs", ""), ("src/lib.rs", "")];
+    let sources = Sources { name: "toy-paper", version: "1", files };
+    Paper { crates: vec![("toy", "src")], ..Paper::new("toy", sources) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_listing_is_what_stands_between_its_marks() {
+        let kick = toy().listing("toy::flight::Motion::kick").unwrap();
+        assert!(kick.starts_with("/// A jump") && kick.ends_with("p.cos;\n}"), "{kick}");
+        let error = toy().listing("toy::flight::kik").unwrap_err();
+        assert!(
+            error.contains("`toy::flight::kik`") && error.contains("// listing: kik"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn an_item_has_the_file_of_its_module() {
+        for (item, file) in [
+            ("toy::flight::Motion::kick", Some("src/flight.rs")),
+            ("toy::flight::drag::of", Some("src/flight/drag/mod.rs")),
+            ("toy::Chain", Some("src/lib.rs")),
+            ("other::kick", None),
+        ] {
+            assert_eq!(toy().file(item), file, "{item}");
+        }
+        assert_eq!(toy().short("toy_paper::claims::sec2"), "claims::sec2");
+    }
+
+    #[test]
+    fn a_figure_is_found_by_its_name_and_its_number() {
+        let named = |name| Illustration {
+            name,
+            needs: &[],
+            draw: |_| Err(figures::Error::Drawing(String::new())),
+        };
+        let figures = ["fig03", "s01", "spread"].map(named).to_vec();
+        let paper = Paper { figures, ..toy() };
+        for (text, name) in
+            [("3", "fig03"), ("fig03", "fig03"), ("S1", "s01"), ("spread", "spread")]
+        {
+            assert_eq!(paper.find_figure(text).map(|own| own.name).unwrap(), name);
+        }
+        assert!(paper.find_figure("16").err().unwrap().message.contains("fig03, s01, spread"));
+    }
+
+    #[test]
+    fn parameters_of_parameters_have_both_names() {
+        let parameters = serde_json::json!({"seed": 7, "chain": {"masses": 3}, "r": [0.5, 0.25]});
+        let shown: Vec<String> =
+            settings(&parameters).iter().map(|(k, v)| format!("{k}={v}")).collect();
+        assert_eq!(shown, ["chain masses=3", "r=0.5, 0.25", "seed=7"]);
+    }
+}

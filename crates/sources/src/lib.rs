@@ -1,0 +1,70 @@
+//! Macros that put the text of files into a program. The compiler watches these files: after a change of one of them the
+//! program is built again, and so what it says of its source is what it was made of.
+
+use proc_macro::{TokenStream, TokenTree};
+use std::path::{Path, PathBuf};
+
+/// The source of a program, as `literate::Sources`: `sources!("src")` has Cargo.lock and every Rust file below `src`.
+/// Folders are given from that of the crate's Cargo.toml.
+#[proc_macro]
+pub fn sources(folders: TokenStream) -> TokenStream {
+    let mut files = found(folders, &["rs"]);
+    if let Ok(files) = &mut files {
+        files.extend(Path::new(&top()).join("Cargo.lock").is_file().then(|| "Cargo.lock".into()));
+    }
+    code(files, |list| {
+        format!(
+            "::literate::Sources {{ name: env!(\"CARGO_PKG_NAME\"), version: env!(\"CARGO_PKG_VERSION\"), files: &[{list}] }}"
+        )
+    })
+}
+
+/// Paths and texts of files, as `&[(&str, &str)]`: of those that are named, and of every text below the folders that are.
+#[proc_macro]
+pub fn texts(places: TokenStream) -> TokenStream {
+    let endings = ["md", "tex", "bib", "toml", "html", "css", "js", "json"];
+    code(found(places, &endings), |list| format!("&[{list}]"))
+}
+
+/// The folder of the crate's Cargo.toml.
+fn top() -> String {
+    std::env::var("CARGO_MANIFEST_DIR").unwrap_or_default()
+}
+
+/// The code that a list of files expands to, or an error of compilation.
+fn code(files: Result<Vec<String>, String>, whole: impl Fn(&str) -> String) -> TokenStream {
+    let entry =
+        |path: &String| format!("({path:?}, include_str!({:?})),", Path::new(&top()).join(path));
+    let text = match files {
+        Ok(files) => whole(&files.iter().map(entry).collect::<String>()),
+        Err(error) => format!("compile_error!({error:?})"),
+    };
+    text.parse().unwrap_or_default()
+}
+
+/// Paths of all files with one of these endings below the places that were given, sorted.
+fn found(places: TokenStream, endings: &[&str]) -> Result<Vec<String>, String> {
+    let name = |token: TokenTree| match &token {
+        TokenTree::Literal(literal) => Some(literal.to_string().trim_matches('"').to_string()),
+        _ => None,
+    };
+    let (mut files, mut open) =
+        (Vec::new(), places.into_iter().filter_map(name).collect::<Vec<_>>());
+    while let Some(place) = open.pop() {
+        let path: PathBuf = Path::new(&top()).join(&place);
+        if path.is_file() {
+            files.push(place);
+            continue;
+        }
+        for entry in std::fs::read_dir(&path).map_err(|error| format!("{place}: {error}"))? {
+            let path = entry.map_err(|error| format!("{place}: {error}"))?.path();
+            let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+            let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+            if path.is_dir() && name != "target" || endings.contains(&ending) {
+                open.push(format!("{place}/{name}"));
+            }
+        }
+    }
+    files.sort();
+    Ok(files)
+}
