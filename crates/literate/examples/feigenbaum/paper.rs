@@ -158,28 +158,20 @@ fn diagram(results: &Results) -> Result<Figure, literate::figures::Error> {
 /// Fig. 2: how fast the two ratios settle.
 fn convergence(results: &Results) -> Result<Figure, literate::figures::Error> {
     let [orbits, limit] = [results.table("cascade.orbits")?, results.table("cascade.limit")?];
-    let sheet = Sheet::new(4400);
     let last = orbits.values("n").last().copied().unwrap_or(1.0);
-    let panel = sheet.panel(
-        Frame::new(1350, 300, 8100, 3450),
-        Axis::linear(1.5, last, 2.0, 2, "*n*"),
-        Axis::decades(-10, 0, 2, "distance from the last ratio"),
-    )?;
-    let of = |column: &str| -> Vec<(f64, f64)> {
+    let mut plot = Plot::new().x("*n*").log_y("distance from the last ratio");
+    for (column, mark) in [("delta", Mark::Disc), ("alpha", Mark::Ring)] {
         let end = limit.number(&[], column).unwrap_or(f64::NAN);
         let far = |(n, ratio): (f64, f64)| (n, (ratio - end).abs());
-        orbits.points(&[], "n", column).into_iter().map(far).collect()
-    };
-    for (column, mark, colour) in [("delta", Mark::Disc, INK), ("alpha", Mark::Ring, BLUE)] {
-        let stroke = Stroke::solid(colour, LINE);
-        panel.marked(column, &of(column), (stroke, (mark, 60, stroke)), Outside::Cut)?;
+        let points: Vec<_> = orbits.points(&[], "n", column).into_iter().map(far).collect();
+        plot = plot.line(column, &points).points(column, &points, mark);
     }
     let words = seen!(
         "Distances of the ratios from those of the last orbit, n = {}, against n, on a logarithmic axis. Soon \
          both fall along one straight line, by the ratio delta from orbit to orbit.",
         number(last, 0)
     );
-    let figure = sheet.finish("convergence", "Convergence of the ratios", words);
+    let figure = plot.finish("convergence", "Convergence of the ratios", words)?;
     Ok(Figure { source: "paper::convergence".into(), ..figure })
 }
 

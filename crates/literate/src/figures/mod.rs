@@ -9,6 +9,7 @@ pub mod font;
 pub mod markup;
 pub mod panel;
 pub mod pdf;
+pub mod plot;
 pub mod record;
 pub mod series;
 pub mod sheet;
@@ -24,6 +25,7 @@ pub mod prelude {
     pub use super::axis::{Axis, Scale, Tick, number};
     pub use super::chart::*;
     pub use super::panel::{Frame, Panel};
+    pub use super::plot::Plot;
     pub use super::series::{Marker, Outside};
     pub use super::sheet::{Entry, Sheet};
     pub use super::style::*;

@@ -55,6 +55,11 @@ const TICK: i32 = 85;
 const MINOR_TICK: i32 = 50;
 const GAP: i32 = 70;
 
+/// From a frame to the base of the label beside it, but for the numbers between.
+pub(super) const BESIDE: i32 = TICK + 4 * GAP;
+/// From a frame to the top of the label below it.
+pub(super) const BELOW: i32 = TICK + 3 * GAP + SMALL;
+
 impl Panel {
     /// A panel without anything in it yet, not even its axes.
     pub(super) fn new(drawing: &Rc<RefCell<Drawing>>, frame: Frame, x: Axis, y: Axis) -> Self {

@@ -1,0 +1,304 @@
+//! A plot of one panel whose ranges, ticks, frame and legend follow from its data; [`super::sheet`] is for figures that
+//! place these by hand.
+//!
+//! ```
+//! use literate::figures::prelude::*;
+//!
+//! let found = [(1.0, 0.26, 0.02), (2.0, 0.98, 0.05), (4.0, 4.1, 0.2)];
+//! let figure = Plot::new()
+//!     .x("*k*")
+//!     .log_y("mean square distance (1/s)")
+//!     .errorbars("simulated", &found)
+//!     .curve("random phases", |k| k * k / 4.0)
+//!     .finish("spread", "Spread of the balls", seen!("Both rise as the square of k."))?;
+//! assert_eq!(figure.data[0].name, "spread.csv");
+//! # Ok::<(), Error>(())
+//! ```
+
+use super::prelude::*;
+use super::{font, panel, style};
+use impact_numerics::statistics::Estimate;
+use pxfm::{f_exp10, f_log10};
+
+type Points = Vec<(f64, f64)>;
+
+/// How a series is shown.
+enum Shown {
+    Line(Points),
+    Marks(Points, Mark),
+    Estimates(Vec<(f64, Estimate)>),
+    Curve(Box<dyn Fn(f64) -> f64>),
+}
+
+/// Label, scale and, if it is given, the range of an axis.
+#[derive(Default)]
+struct Along {
+    label: String,
+    is_log: bool,
+    range: Option<[f64; 2]>,
+}
+
+/// A plot in the making. Series of one name have one colour and one place in the legend.
+#[derive(Default)]
+pub struct Plot {
+    x: Along,
+    y: Along,
+    series: Vec<(String, Shown)>,
+}
+
+const COLOURS: [Colour; 6] = [INK, BLUE, RED, GREEN, ORANGE, PURPLE];
+const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Alternate];
+
+impl Plot {
+    /// A plot without data.
+    pub fn new() -> Self {
+        Plot::default()
+    }
+
+    /// The label of the horizontal axis, with its unit in brackets behind it: `*σ* (N/kg)`.
+    pub fn x(mut self, label: &str) -> Self {
+        self.x.label = label.into();
+        self
+    }
+
+    /// The label of the vertical axis.
+    pub fn y(mut self, label: &str) -> Self {
+        self.y.label = label.into();
+        self
+    }
+
+    /// The label of a horizontal axis that is logarithmic: numbers that are not positive are left out.
+    pub fn log_x(mut self, label: &str) -> Self {
+        self.x.is_log = true;
+        self.x(label)
+    }
+
+    /// The label of a vertical axis that is logarithmic.
+    pub fn log_y(mut self, label: &str) -> Self {
+        self.y.is_log = true;
+        self.y(label)
+    }
+
+    /// The horizontal range; data outside is cut. Without it the range holds all data.
+    pub fn x_range(mut self, low: f64, high: f64) -> Self {
+        self.x.range = Some([low, high]);
+        self
+    }
+
+    /// The vertical range.
+    pub fn y_range(mut self, low: f64, high: f64) -> Self {
+        self.y.range = Some([low, high]);
+        self
+    }
+
+    fn add(mut self, name: &str, shown: Shown) -> Self {
+        self.series.push((name.into(), shown));
+        self
+    }
+
+    /// A line through points (x, y).
+    pub fn line(self, name: &str, points: &[(f64, f64)]) -> Self {
+        self.add(name, Shown::Line(points.to_vec()))
+    }
+
+    /// Markers at points (x, y).
+    pub fn points(self, name: &str, points: &[(f64, f64)], mark: Mark) -> Self {
+        self.add(name, Shown::Marks(points.to_vec(), mark))
+    }
+
+    /// Discs at (x, y) with bars of the given error to both sides, in the unit of y.
+    pub fn errorbars(self, name: &str, points: &[(f64, f64, f64)]) -> Self {
+        let of = |&(x, value, error)| (x, Estimate { value, error, interval: [value; 2] });
+        self.estimates(name, &points.iter().map(of).collect::<Vec<_>>())
+    }
+
+    /// Discs at estimates with bars of one standard error, as a table gives them.
+    pub fn estimates(self, name: &str, estimates: &[(f64, Estimate)]) -> Self {
+        self.add(name, Shown::Estimates(estimates.to_vec()))
+    }
+
+    /// A function of x across the plot; the range of y follows from it only where there is no other data.
+    pub fn curve(self, name: &str, of: impl Fn(f64) -> f64 + 'static) -> Self {
+        self.add(name, Shown::Curve(Box::new(of)))
+    }
+
+    /// Draws the figure; `id` is its name, and that of its files.
+    ///
+    /// # Errors
+    /// For a number that is not finite, and for a label with a character that the shipped fonts lack.
+    pub fn finish(mut self, id: &str, title: &str, description: Seen) -> Result<Figure, Error> {
+        let bars = |(x, own): &(f64, Estimate)| {
+            [own.value, own.value - own.error, own.value + own.error].map(|y| (*x, y))
+        };
+        let given = self.series.iter().flat_map(|(_, shown)| match shown {
+            Shown::Line(points) | Shown::Marks(points, _) => points.clone(),
+            Shown::Estimates(estimates) => estimates.iter().flat_map(bars).collect(),
+            Shown::Curve(_) => Vec::new(),
+        });
+        let has_place =
+            |p: &(f64, f64)| (p.0 > 0.0 || !self.x.is_log) && (p.1 > 0.0 || !self.y.is_log);
+        let mut data: Points = given.filter(has_place).collect();
+        let x = self.x.axis(data.iter().map(|point| point.0));
+        let (from, to) = x.ends();
+        for (_, shown) in &mut self.series {
+            if let Shown::Curve(of) = shown {
+                let place = |i: i32| from + (to - from) * f64::from(i) / 400.0;
+                let value = |at: f64| if self.x.is_log { f_exp10(at) } else { at };
+                let points = (0..=400).map(|i| value(place(i))).map(|x| (x, of(x)));
+                *shown = Shown::Line(points.filter(|point| point.1.is_finite()).collect());
+            }
+        }
+        if data.is_empty() {
+            let lines = self.series.iter().filter_map(|(_, shown)| match shown {
+                Shown::Line(points) => Some(points.clone()),
+                _ => None,
+            });
+            data = lines.flatten().collect();
+        }
+        let y = self.y.axis(data.iter().map(|point| point.1));
+
+        let mut names: Vec<&str> = self.series.iter().map(|(name, _)| name.as_str()).collect();
+        let mut seen = std::collections::BTreeSet::new();
+        names.retain(|name| seen.insert(*name));
+        let wide =
+            |text: &str, size: i32| Ok::<i32, Error>(font::set(text)?.width * size / font::EM);
+        let labels = |axis: &Axis| -> Result<Vec<i32>, Error> {
+            axis.ticks.iter().flat_map(|tick| &tick.label).map(|own| wide(own, SMALL)).collect()
+        };
+        let left = labels(&y)?.into_iter().max().unwrap_or(0) + panel::BESIDE + 2 * TEXT;
+        let right = WIDTH as i32 - 150 - labels(&x)?.last().map_or(0, |width| width / 2);
+        let frame = Frame::new(left, 250, right, 4250);
+        let longest = names.iter().map(|name| wide(name, SMALL)).collect::<Result<Vec<_>, _>>()?;
+        let apart = longest.into_iter().max().unwrap_or(0) + 1100;
+        let columns = ((right - left) / apart).clamp(1, names.len().max(1) as i32);
+        let rows = if names.len() > 1 { names.len().div_ceil(columns as usize) } else { 0 };
+        let below = frame.bottom + panel::BELOW + 2 * TEXT;
+
+        let sheet = Sheet::new((below + 400 * rows as i32) as u32);
+        let panel = sheet.panel(frame, x, y)?;
+        let mut entries: Vec<Entry> = names
+            .iter()
+            .map(|name| Entry { line: None, mark: None, text: name.to_string() })
+            .collect();
+        for (name, shown) in &self.series {
+            let i = names.iter().position(|own| own == name).unwrap_or_default();
+            let colour = COLOURS[i % COLOURS.len()];
+            let line = Stroke::dashed(colour, LINE, DASHES[i % DASHES.len()]);
+            let marker = |mark| (mark, style::MEDIUM, Stroke::solid(colour, THIN));
+            match shown {
+                Shown::Line(points) => {
+                    entries[i].line = Some(line);
+                    panel.curve(name, points, line, Outside::Cut)?;
+                }
+                Shown::Marks(points, mark) => {
+                    entries[i].mark = Some(marker(*mark));
+                    panel.marks(name, points, marker(*mark), Outside::Cut)?;
+                }
+                Shown::Estimates(estimates) => {
+                    entries[i].mark = Some(marker(Mark::Disc));
+                    panel.estimates(name, estimates, marker(Mark::Disc))?;
+                }
+                Shown::Curve(_) => (),
+            }
+        }
+        if rows > 0 {
+            sheet.legend_in_columns((left, below + 60), (SMALL, 400), (rows, apart), &entries)?;
+        }
+        Ok(sheet.finish(id, title, description))
+    }
+}
+
+impl Along {
+    /// The axis that holds these values: whole decades, or a margin of a twenty-fifth and ticks at 1, 2 or 5 times a power
+    /// of ten.
+    fn axis(&self, values: impl Iterator<Item = f64>) -> Axis {
+        let ends =
+            values.filter(|value| value.is_finite()).fold(None, |ends: Option<[f64; 2]>, own| {
+                Some(ends.map_or([own; 2], |[low, high]| [low.min(own), high.max(own)]))
+            });
+        let [low, high] = self.range.or(ends).unwrap_or([0.1, 1.0]);
+        if self.is_log {
+            let [low_power, high_power] = [low, high].map(f_log10);
+            let every = (high_power - low_power).ceil() as i32 / 8 + 1;
+            let axis = Axis::around([low, high].into_iter(), every, &self.label);
+            return if self.range.is_some() { axis.from(low, high) } else { axis };
+        }
+        // What does not vary stands in the middle.
+        let span = if high > low { high - low } else { low.abs().max(1.0) };
+        let margin = match self.range {
+            Some(_) => 0.0,
+            None if high > low => span / 25.0,
+            None => span / 2.0,
+        };
+        let rough = format!("{:e}", span / 5.0);
+        let (digits, power) = rough.split_once('e').unwrap_or(("1", "0"));
+        let (step, minor) = match digits.parse().unwrap_or(1.0) {
+            d if d < 1.5 => ("1", 5),
+            d if d < 3.5 => ("2", 2),
+            d if d < 7.5 => ("5", 5),
+            _ => ("10", 5),
+        };
+        let step = format!("{step}e{power}").parse().unwrap_or(span);
+        Axis::linear(low - margin, high + margin, step, minor, &self.label)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(along: &Along, values: &[f64]) -> (f64, f64, Vec<String>) {
+        let axis = along.axis(values.iter().copied());
+        (axis.lo, axis.hi, axis.ticks.into_iter().filter_map(|tick| tick.label).collect())
+    }
+
+    #[test]
+    fn ranges_and_ticks_follow_from_the_data() {
+        let [linear, log] = [false, true].map(|is_log| Along { is_log, ..Along::default() });
+        let (low, high, ticks) = labels(&linear, &[0.3, 12.8, f64::NAN]);
+        assert_eq!((low, high), (0.3 - 0.5, 12.8 + 0.5));
+        assert_eq!(ticks, ["0", "2", "4", "6", "8", "10", "12"]);
+        assert_eq!(labels(&linear, &[1e-2, 9e-2]).2, ["0.02", "0.04", "0.06", "0.08"]);
+        assert_eq!(
+            labels(&linear, &[3.0, 3.0]).2,
+            ["1.5", "2.0", "2.5", "3.0", "3.5", "4.0", "4.5"]
+        );
+        assert_eq!(
+            labels(&log, &[0.02, 30.0]).2,
+            ["10^{−2}", "10^{−1}", "10^{0}", "10^{1}", "10^{2}"]
+        );
+        assert_eq!(labels(&log, &[1e-20, 1.0]).2.len(), 7);
+        let given = Along { range: Some([0.0, 1.0]), ..Along::default() };
+        assert_eq!(
+            labels(&given, &[7.0]),
+            (0.0, 1.0, ["0", "0.2", "0.4", "0.6", "0.8", "1.0"].map(String::from).into())
+        );
+    }
+
+    #[test]
+    fn all_of_a_plot_lies_on_its_sheet() {
+        let points = [(1.0, 0.5), (20.0, 3e4), (300.0, 0.0)];
+        let plot = Plot::new().log_x("*k*").log_y("*D* (m²)").line("line", &points);
+        let plot = plot.points("line", &points, Mark::Ring).errorbars("found", &[(2.0, 1.0, 1.5)]);
+        let figure =
+            plot.curve("theory", |k| k * k).finish("spread", "Spread", seen!("It rises.")).unwrap();
+        let series: Vec<&str> = figure.data[0].rows.iter().map(|row| row[0].as_str()).collect();
+        assert_eq!(
+            (series.iter().filter(|own| **own == "line").count(), series.len()),
+            (2, 2 + 1 + 401)
+        );
+        let high = figure.drawing.height as i32;
+        for element in &figure.drawing.elements {
+            if let super::super::drawing::Element::Label(label) = element {
+                assert!(
+                    label.at.0 > 0
+                        && label.at.0 < WIDTH as i32
+                        && label.at.1 > 0
+                        && label.at.1 < high
+                );
+            }
+        }
+        let wrong = Plot::new().line("a", &[(0.0, f64::NAN)]).finish("a", "A", seen!("A"));
+        assert!(matches!(wrong, Err(Error::Outside { .. })));
+    }
+}
