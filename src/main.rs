@@ -29,7 +29,7 @@ pub fn paper() -> Paper {
             ("", "src"),
         ],
         figures: figures::ALL.to_vec(),
-        statements: vec![claims::all],
+        rules: claims::rules(),
         relations: vec![claims::targets::targets, claims::relations::relations],
         judged_by: |claim| format!("claims::{}", claim.split('_').next().unwrap_or_default()),
         values: vec![contents::values],

@@ -43,12 +43,26 @@ pub mod input;
 #[doc = include_str!("manual.md")]
 pub mod manual {}
 mod paper;
+/// What a paper needs, for one line of imports.
+pub mod prelude {
+    pub use crate::claims::{Basis, Case, Check, Judged, Text};
+    pub use crate::experiments::{Command, Error, Experiment, Profile, Progress, Results};
+    pub use crate::figures::prelude::{Error as FigureError, *};
+    pub use crate::table::Table;
+    pub use crate::{Failure, Paper, sources};
+    pub use impact_numerics::estimates::{
+        average, difference, jackknife, ratio, share, with_error,
+    };
+    pub use impact_numerics::random::{NormalPairs, generator};
+    pub use impact_numerics::statistics::Estimate;
+}
 pub mod project;
 pub mod report;
 pub mod table;
 pub mod value;
 
 pub use failure::{Failure, INTERRUPTED};
+pub use impact_numerics::{double_double, estimates, random, statistics};
 pub use literate_sources::{sources, texts};
 pub use paper::{Illustration, Judge, Lab, Paper, Rows, Values};
 pub use project::{Project, Sources};

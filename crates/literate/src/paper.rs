@@ -1,7 +1,7 @@
 //! A paper: what it is made of. [`Paper::cli`] gives it a command line.
 
-use crate::claims::{Check, Published};
-use crate::experiments::{Need, Profile, Results, Session, Together};
+use crate::claims::{Case, Check, Judged, Published, Rule};
+use crate::experiments::{Command, Need, Profile, Results, Session, Together};
 use crate::failure::Failure;
 use crate::figures::{self, Figure};
 use crate::project::{Project, Sources};
@@ -54,7 +54,7 @@ impl Illustration {
     }
 }
 
-/// Judges statements, or holds numbers of the paper against one another.
+/// Holds numbers of the paper against one another.
 pub type Judge = fn(&Results, &Published) -> Result<Vec<Check>, Failure>;
 
 /// Values with names, which the prose may use like the cells of tables.
@@ -88,8 +88,8 @@ pub struct Paper {
     pub together: Vec<Together>,
     /// All figures.
     pub figures: Vec<Illustration>,
-    /// Judge the statements of `published.toml`.
-    pub statements: Vec<Judge>,
+    /// How each statement of `published.toml` is judged, by its id.
+    pub rules: Vec<(&'static str, Box<Rule<'static>>)>,
     /// Judge what is no statement: targets, relations between numbers.
     pub relations: Vec<Judge>,
     /// Path of the item that judges the statement with this id, for its card.
@@ -126,7 +126,7 @@ impl Paper {
             experiments: Vec::new(),
             together: Vec::new(),
             figures: Vec::new(),
-            statements: Vec::new(),
+            rules: Vec::new(),
             relations: Vec::new(),
             judged_by: |_| String::new(),
             values: Vec::new(),
@@ -146,6 +146,21 @@ impl Paper {
     /// With one experiment more.
     pub fn experiment(mut self, experiment: Need) -> Self {
         self.experiments.push(experiment);
+        self
+    }
+
+    /// With a [command](crate::experiments::command) in another language as one experiment more.
+    pub fn command(self, name: &'static str, line: &'static str) -> Self {
+        self.experiment(Box::leak(Box::new(Command::new(name, line))))
+    }
+
+    /// With a rule that judges the statement with this id.
+    pub fn check<C: Into<Judged>>(
+        mut self,
+        id: &'static str,
+        rule: impl Fn(&Case<'_>) -> C + Send + Sync + 'static,
+    ) -> Self {
+        self.rules.push((id, Box::new(move |case| rule(case).into())));
         self
     }
 

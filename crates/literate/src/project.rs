@@ -77,6 +77,11 @@ impl Project {
         found.ancestors().nth(path.split('/').count()).map(Path::to_path_buf)
     }
 
+    /// The folder in which commands run: the top of the checkout, or the current one.
+    pub fn folder(&self) -> PathBuf {
+        self.top().unwrap_or_else(|| ".".into())
+    }
+
     /// Whether a file or folder of the project is there. Without a checkout nobody can say, and it is believed.
     pub fn exists(&self, path: &str) -> bool {
         self.top().is_none_or(|top| top.join(path).exists())

@@ -222,6 +222,13 @@ impl Value {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin(String);
 
+impl Origin {
+    /// What no function of the program computes: a command.
+    pub fn of(words: &str) -> Origin {
+        Origin(words.into())
+    }
+}
+
 /// The origin of what a function computes. The compiler knows the function, so its path is never
 /// typed: it follows a function that moves, and one that is gone is an error.
 pub fn origin<F>(_: F) -> Origin {

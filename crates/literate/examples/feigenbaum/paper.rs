@@ -4,12 +4,12 @@
 //! prose. All of the paper is in this folder.
 
 use impact_numerics::double_double::DoubleDouble;
-use literate::claims::{Check, Published, Rule, judge_all};
+use literate::Paper;
+use literate::claims::Judged;
 use literate::experiments::experiment::How;
 use literate::experiments::{Error, Experiment, Profile, Progress, Results};
 use literate::figures::prelude::*;
 use literate::table::Table;
-use literate::{Failure, Paper};
 
 /// How far the cascade of period doublings is followed.
 #[derive(serde::Serialize)]
@@ -175,38 +175,27 @@ fn convergence(results: &Results) -> Result<Figure, literate::figures::Error> {
     Ok(Figure { source: "paper::convergence".into(), ..figure })
 }
 
-/// The statements, each held against a column of the limits.
-fn claims(results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
-    let rules: [(&str, Box<Rule<'_>>); 5] = [
-        ("delta", Box::new(|s| s.cell("cascade.limit.delta").into())),
-        ("alpha", Box::new(|s| s.cell("cascade.limit.alpha").into())),
-        ("stable", Box::new(|s| s.cell("cascade.limit.stable").into())),
-        ("three", Box::new(|s| s.cell("cascade.limit.three").into())),
-        (
-            "onset",
-            Box::new(|s| {
-                // The explanation can fail: ours, rounded to three decimals, must be what is printed.
-                let rounded = (s.number("cascade.limit.onset")? * 1000.0).round() / 1000.0;
-                let why = "printed is the number rounded to three decimals, and a zero";
-                let check = s.cell("cascade.limit.onset");
-                Ok(check.explained(why, Some(rounded) == s.statement.value))
-            }),
-        ),
-    ];
-    Ok(judge_all(published, &rules, results.tables())?.0)
-}
-
 /// The whole paper.
 pub fn paper() -> Paper {
     let sources = literate::sources!("examples/feigenbaum");
     let paper = Paper::new("The constants of period doubling, found again", sources)
         .experiment(&CASCADE)
         .figure("diagram", &[&CASCADE], diagram)
-        .figure("convergence", &[&CASCADE], convergence);
+        .figure("convergence", &[&CASCADE], convergence)
+        .check("delta", |s| s.cell("cascade.limit.delta"))
+        .check("alpha", |s| s.cell("cascade.limit.alpha"))
+        .check("stable", |s| s.cell("cascade.limit.stable"))
+        .check("three", |s| s.cell("cascade.limit.three"))
+        .check("onset", |s| {
+            // The explanation can fail: ours, rounded to three decimals, must be what is printed.
+            let rounded = (s.number("cascade.limit.onset")? * 1000.0).round() / 1000.0;
+            let why = "printed is the number rounded to three decimals, and a zero";
+            let check = s.cell("cascade.limit.onset");
+            Judged::from(check.explained(why, Some(rounded) == s.statement.value))
+        });
     Paper {
         prose: "crates/literate/examples/feigenbaum",
         crates: vec![("", "examples/feigenbaum")],
-        statements: vec![claims],
         ..paper
     }
 }

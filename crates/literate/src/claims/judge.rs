@@ -11,8 +11,8 @@
 
 use super::{Basis, Check, Level, Published, PublishedError, Statement, Text};
 use super::{chosen, decimals, significant};
-use crate::experiments;
-use crate::table::{self, Missing, Tables};
+use crate::experiments::{self, Results};
+use crate::table::{self, Missing};
 use crate::value::{Kind, Number};
 use std::cell::Cell;
 
@@ -53,7 +53,10 @@ impl From<Check> for Judged {
 pub struct Case<'a> {
     /// The statement.
     pub statement: &'a Statement,
-    tables: &'a Tables,
+    /// All results.
+    pub results: &'a Results,
+    /// All that was printed.
+    pub published: &'a Published,
     level: Level,
     /// Whether the level was asked for.
     statistical: Cell<bool>,
@@ -81,7 +84,7 @@ impl Case<'_> {
     /// The number with an address.
     #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
-        Ok(table::number_at(self.tables, address)?)
+        Ok(self.results.number(address)?)
     }
 
     /// Holds a cell against the printed number. Unless it is said otherwise it has to round to that, with room for its
@@ -89,7 +92,7 @@ impl Case<'_> {
     #[track_caller]
     pub fn cell(&self, address: &str) -> Check {
         let own = self.statement;
-        let (found, missing) = match table::cell(self.tables, address) {
+        let (found, missing) = match table::cell(self.results.tables(), address) {
             Ok(cell) => (Some(cell), None),
             Err(missing) => (None, Some(missing)),
         };
@@ -162,11 +165,12 @@ pub type Rule<'a> = dyn Fn(&Case<'_>) -> Judged + Send + Sync + 'a;
 pub fn judge_all(
     published: &Published,
     rules: &[(&str, Box<Rule<'_>>)],
-    tables: &Tables,
+    results: &Results,
 ) -> Result<(Vec<Check>, Level), Error> {
     rules.iter().try_for_each(|(id, _)| published.statement(id).map(drop))?;
     let judge = |statement: &Statement, level| {
-        let case = Case { statement, tables, level, statistical: Cell::new(false) };
+        let statistical = Cell::new(false);
+        let case = Case { statement, results, published, level, statistical };
         let rule = rules.iter().find(|(id, _)| *id == statement.id);
         let found = rule.map_or_else(|| Ok(statement.open("–")), |(_, rule)| rule(&case));
         Ok((statement.decided(found)?, case.statistical.get()))
@@ -199,8 +203,7 @@ mod tests {
         let mean = |x: &f64| Some(Estimate { value: *x, error: 0.002, interval: [0.0; 2] });
         let table = Table::of("toy.all", &[0.1152], |_| 9).real("rise", "1", 6, "A.", |x| *x);
         let table = table.estimate("mean", "1", "A mean.", mean).done();
-        let tables = Tables::from([(table.name(), std::sync::Arc::new(table))]);
-        judge_all(&Published::parse(PUBLISHED).unwrap(), rules, &tables)
+        judge_all(&Published::parse(PUBLISHED).unwrap(), rules, &Results::made_up(vec![table]))
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The whole report, from experiments to files in memory, and what holds in it.
 
 use super::terminal::{Threads, progress};
-use crate::claims::{Basis, Check, Kind, Published, Verdict, score};
+use crate::claims::{Basis, Check, Kind, Published, Verdict, judge_all, score};
 use crate::experiments::{Profile, Progress, Results, Session, Store};
 use crate::failure::Failure;
 use crate::figures::Figure;
@@ -79,12 +79,13 @@ impl Paper {
     /// All checks: the statements, in the order of the paper, then targets and relations.
     ///
     /// # Errors
-    /// If a statement cannot be judged for want of a result, or is judged by nobody.
+    /// If a statement cannot be judged for want of a result.
     pub fn checks(&self, results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
-        let judged = self.statements.iter().chain(&self.relations);
-        let judged =
-            judged.map(|judge| judge(results, published)).collect::<Result<Vec<_>, _>>()?;
-        Ok(judged.concat())
+        let (mut checks, _) = judge_all(published, &self.rules, results)?;
+        for judge in &self.relations {
+            checks.extend(judge(results, published)?);
+        }
+        Ok(checks)
     }
 
     /// All values that the prose may name.

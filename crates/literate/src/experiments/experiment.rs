@@ -37,11 +37,23 @@ pub enum How<P, T, U> {
     Whole {
         /// Runs it.
         run: fn(&P, &Progress) -> Result<T, Error>,
-        /// Work in impacts, roughly.
+        /// Its work, in a unit that all experiments of a paper share: by it they are shared among machines.
         weight: fn(&P) -> u64,
     },
     /// Cut into units; the name is for people who wait.
     Cut(&'static str, Cutting<P, U, T>),
+}
+
+impl<P, T> Experiment<P, T> {
+    /// An experiment that is run as a whole, and again whenever the source of the paper changes.
+    pub const fn new(
+        name: &'static str,
+        parameters: fn(Profile) -> P,
+        run: fn(&P, &Progress) -> Result<T, Error>,
+        tables: fn(&T) -> Vec<Table>,
+    ) -> Self {
+        Experiment { name, code: &[], parameters, how: How::Whole { run, weight: |_| 1 }, tables }
+    }
 }
 
 /// What is saved as JSON.

@@ -1,6 +1,7 @@
 //! Experiments: parameters, units of work, runs, tables; results that save and reload exactly, and are used again
 //! as long as what they are made of is the same.
 
+pub mod command;
 pub mod cutting;
 mod error;
 pub mod experiment;
@@ -12,6 +13,7 @@ mod session;
 pub mod shards;
 pub mod store;
 
+pub use command::Command;
 pub use error::Error;
 pub use experiment::{Entry, Experiment, Found, Typed};
 pub use profile::Profile;

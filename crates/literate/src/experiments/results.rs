@@ -47,6 +47,14 @@ impl Results {
         }
     }
 
+    /// Results of which only tables are known.
+    #[cfg(test)]
+    pub(crate) fn made_up(tables: Vec<Table>) -> Self {
+        let tables: Tables = tables.into_iter().map(|table| (table.name(), Arc::new(table))).collect();
+        let (made_by, found) = (Default::default(), BTreeMap::new());
+        Results { profile: Profile::Full, made_by, found, tables: OnceLock::from(tables) }
+    }
+
     fn made(&self) -> Tables {
         let (experiments, together) = &self.made_by;
         let of = |experiment: &Need| {

@@ -44,8 +44,7 @@ impl Filler {
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
         register(&mut tera);
-        let declared =
-            templates.text("literals.toml").map_or(Ok(Declared::default()), Declared::read)?;
+        let declared = Declared::read(templates.text("literals.toml")?)?;
         let (context, names) = (Context::new(), Json::Null);
         let templates = templates.clone();
         let mut filler = Filler { tera, templates, declared, context, names };

@@ -8,8 +8,11 @@ use std::path::Path;
 /// Endings of the files that are templates or data for them (fonts live there too).
 const TEXT: [&str; 8] = [".md", ".tex", ".bib", ".toml", ".html", ".css", ".js", ".json"];
 
-/// What stands around the text of the documents, where a folder has none of its own.
-const SKIN: [(&str, &str); 4] = [
+/// What stands around the text of the documents, and files that say nothing, where a folder has none of its own.
+const SKIN: [(&str, &str); 7] = [
+    ("literals.toml", ""),
+    ("published.toml", ""),
+    ("references.bib", ""),
     ("report.css", include_str!("../../skin/report.css")),
     ("report.html", include_str!("../../skin/report.html")),
     ("report.js", include_str!("../../skin/report.js")),

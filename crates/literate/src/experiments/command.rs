@@ -1,0 +1,353 @@
+//! An experiment that is a command in another language.
+//!
+//! It is started in the folder of the project, reads one JSON object, `{"profile": "full", "parameters": {…}}`, and prints one
+//! that has its tables by name: `{"throws": {"keys": ["needles"], "columns": ["pi", "pi_error"], "rows": [[100, 3.1, 0.2]]}}`.
+//! A row has its keys first; `pi_error` is the standard error of `pi`; `null` is no number. `"units": {"pi": "1"}` may be added.
+
+use super::cutting::Unit;
+use super::identity::Identity;
+use super::{Entry, Error, Found, Profile, Session};
+use crate::digest::sha256;
+use crate::project::Project;
+use crate::table::Table;
+use crate::value::Origin;
+use impact_numerics::estimates::with_error;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value as Json, json};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{Read, Write};
+use std::path::Path;
+use std::process::Stdio;
+use std::sync::Arc;
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+/// A command as an experiment.
+#[derive(Clone, Copy, Debug)]
+pub struct Command {
+    /// The name of the experiment.
+    pub name: &'static str,
+    /// The program and its arguments, with blanks between. Those that are files belong to what a saved result is known by.
+    pub line: &'static str,
+    /// Its parameters in a profile: an object.
+    pub parameters: fn(Profile) -> Json,
+}
+
+/// The tables that a command printed, by name.
+type Printed = BTreeMap<String, Rows>;
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Rows {
+    #[serde(default)]
+    keys: Vec<String>,
+    columns: Vec<String>,
+    #[serde(default)]
+    units: BTreeMap<String, String>,
+    rows: Vec<Vec<Item>>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+enum Item {
+    Number(f64),
+    Words(String),
+    None,
+}
+
+impl Rows {
+    fn names(&self) -> impl Iterator<Item = &String> {
+        self.keys.iter().chain(&self.columns)
+    }
+
+    /// What is wrong with them.
+    fn fault(&self) -> Option<String> {
+        let names = self.names().count();
+        let mut seen = BTreeSet::new();
+        self.rows.iter().zip(1..).find_map(|(row, at)| match row.get(..self.keys.len()) {
+            Some(keys) if row.len() == names => {
+                let twice = !seen.insert(format!("{keys:?}"));
+                twice.then(|| format!("row {at} has the keys of one before"))
+            }
+            _ => Some(format!("row {at} has {} cells for {names} names", row.len())),
+        })
+    }
+
+    fn table(&self, name: &str, command: &Command) -> Table {
+        let number = |at: usize| {
+            move |row: &Vec<Item>| match row[at] {
+                Item::Number(number) => Some(number),
+                _ => None,
+            }
+        };
+        let words = |at: usize| {
+            move |row: &Vec<Item>| match &row[at] {
+                Item::Words(words) => words.clone(),
+                Item::Number(number) => number.to_string(),
+                Item::None => "none".into(),
+            }
+        };
+        let place = |name: String| self.names().position(|own| *own == name);
+        let name = leaked(&format!("{}.{name}", command.name));
+        let mut table = Table::of(name, &self.rows, |_| 0).computed_by(Origin::of(command.line));
+        for (at, name) in self.names().enumerate() {
+            let unit = self.units.get(name).map_or("1", |unit| leaked(unit));
+            let is_words = self.rows.iter().any(|row| matches!(row[at], Item::Words(_)));
+            let name = leaked(name);
+            table = match place(format!("{name}_error")) {
+                _ if name.strip_suffix("_error").is_some_and(|of| place(of.into()).is_some()) => {
+                    table
+                }
+                _ if is_words && at < self.keys.len() => table.text_key(name, words(at)),
+                _ if is_words => table.words(name, "", words(at)),
+                _ if at < self.keys.len() => {
+                    table.key(name, unit, move |row| number(at)(row).unwrap_or(f64::NAN))
+                }
+                Some(error) => table.estimate(name, unit, "", move |row| {
+                    Some(with_error(number(at)(row)?, number(error)(row)?))
+                }),
+                None => table.chosen(name, unit, "", number(at)),
+            };
+        }
+        table.done()
+    }
+}
+
+/// Names of tables live as long as the program.
+fn leaked(text: &str) -> &'static str {
+    Box::leak(text.to_string().into_boxed_str())
+}
+
+impl Command {
+    /// A command without parameters.
+    pub const fn new(name: &'static str, line: &'static str) -> Self {
+        Command { name, line, parameters: |_| Json::Null }
+    }
+
+    /// Those of its words that are files.
+    fn files<'a>(&self, top: &'a Path) -> impl Iterator<Item = &'static str> + use<'a> {
+        self.line.split_whitespace().filter(move |word| top.join(word).is_file())
+    }
+
+    fn identity(&self, session: &Session<'_>) -> Identity {
+        let code = self.code(&session.paper.project);
+        let parameters = Entry::parameters(self, session.profile);
+        Identity::new(self.name, session.profile, code, &parameters)
+    }
+
+    /// Runs it.
+    fn run(&self, session: &Session<'_>) -> Result<Printed, Error> {
+        let fail = |what: String| {
+            let source = format!("`{}` {what}", self.line).into();
+            Error::Failed { experiment: self.name, source }
+        };
+        let _stage = session.progress.stage(self.name, 1);
+        let mut words = self.line.split_whitespace();
+        let mut command = std::process::Command::new(words.next().unwrap_or_default());
+        command.args(words).current_dir(session.paper.project.folder());
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let missing =
+            |error| fail(format!("cannot be started: {error}; install it, or mend the command"));
+        let mut child = command.spawn().map_err(missing)?;
+        let given =
+            json!({"profile": session.profile, "parameters": (self.parameters)(session.profile)});
+        if let Some(mut input) = child.stdin.take() {
+            // A command that reads nothing has closed it.
+            let _ = writeln!(input, "{given}");
+        }
+        let (said, told) = (text(child.stdout.take()), text(child.stderr.take()));
+        let status = loop {
+            if let Err(stop) = session.progress.check() {
+                let _ = child.kill();
+                return Err(stop);
+            }
+            match child.try_wait().map_err(|error| fail(error.to_string()))? {
+                Some(status) => break status,
+                None => thread::sleep(Duration::from_millis(20)),
+            }
+        };
+        let (said, told) = (said.join().unwrap_or_default(), told.join().unwrap_or_default());
+        if !status.success() {
+            let last = told.lines().last().unwrap_or("it said nothing");
+            return Err(fail(format!("ended with {status}: {last}")));
+        }
+        let wrong = |what| fail(format!("printed {what}; the manual has the form of tables"));
+        let printed: Printed = serde_json::from_str(&said)
+            .map_err(|error| wrong(format!("no tables in JSON: {error}")))?;
+        let fault = |(name, rows): (&String, &Rows)| Some(format!("{name}: {}", rows.fault()?));
+        printed.iter().find_map(fault).map_or(Ok(()), |fault| Err(wrong(fault)))?;
+        Ok(printed)
+    }
+
+    /// What it printed: as it was saved if that is fresh, else anew.
+    fn get(&self, session: &Session<'_>) -> Result<Printed, Error> {
+        let (identity, store) = (self.identity(session), &session.store);
+        let (found, why) = match store.look(&identity) {
+            Ok(found) => (Some(found), "fresh".into()),
+            Err(why) => (None, why),
+        };
+        session.progress.say(&format!("{}: {why}", self.name));
+        if let Some(found) = found {
+            return Ok(found);
+        }
+        store.prepare()?;
+        let found = self.run(session)?;
+        store.put(&identity, &found)?;
+        Ok(found)
+    }
+}
+
+/// All that a pipe has, read in a thread: a command whose pipe is full waits.
+fn text(pipe: Option<impl Read + Send + 'static>) -> JoinHandle<String> {
+    thread::spawn(move || {
+        let mut bytes = Vec::new();
+        let _ = pipe.map(|mut pipe| pipe.read_to_end(&mut bytes));
+        String::from_utf8_lossy(&bytes).into_owned()
+    })
+}
+
+impl Entry for Command {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn code(&self, project: &Project) -> BTreeMap<String, String> {
+        let top = project.folder();
+        let hash = |file: &str| Some(sha256(std::fs::read_to_string(top.join(file)).ok()?));
+        self.files(&top).filter_map(|file| Some((file.to_string(), hash(file)?))).collect()
+    }
+
+    fn parameters(&self, profile: Profile) -> Json {
+        json!({"command": self.line, "parameters": (self.parameters)(profile)})
+    }
+
+    fn item(&self) -> String {
+        self.line.into()
+    }
+
+    fn is_saved(&self) -> bool {
+        true
+    }
+
+    fn units(&self, _: Profile) -> Vec<Unit> {
+        vec![Unit::whole(1)]
+    }
+
+    fn run_units(&self, _: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
+        let stale = self.stale(session).is_some();
+        self.get(session).map(|_| usize::from(stale))
+    }
+
+    fn stale(&self, session: &Session<'_>) -> Option<String> {
+        let why = session.store.look::<Printed>(&self.identity(session)).err()?;
+        Some(format!("{}: {why}", self.name))
+    }
+
+    fn found(&self, session: &Session<'_>) -> Result<Found, Error> {
+        Ok(Arc::new(self.get(session)?))
+    }
+
+    fn tables(&self, found: &Found) -> Vec<Table> {
+        let printed = found.downcast_ref::<Printed>().into_iter().flatten();
+        printed.map(|(name, rows)| rows.table(name, self)).collect()
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::super::{Progress, Results, Store};
+    use super::*;
+    use crate::paper::Paper;
+    use crate::project::Sources;
+    use crate::report::Templates;
+
+    const SCRIPT: &str = r#"read given
+case $given in *quick*) n=100 ;; *) n=1000 ;; esac
+echo '{"throws": {"keys": ["needles"], "columns": ["pi", "pi_error", "by", "seed"], "rows": '
+echo "[[$n, 3.125, 0.04, \"sh\", 7], [2, null, 0.1, \"sh\", null]]}}"
+"#;
+
+    /// Runs a command on a script with this text.
+    fn with<T>(
+        script: &str,
+        look: impl Fn(&dyn Fn(&str) -> Result<Results, Error>, &Path) -> T,
+    ) -> T {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("toy.sh");
+        std::fs::write(&path, script).unwrap();
+        let store = Store::open(&folder.path().join("results")).unwrap();
+        let run = |program: &str| {
+            let line = leaked(&format!("{program} {}", path.display()));
+            let paper = Paper::new("Toy", Sources { name: "toy", version: "1", files: &[] });
+            let paper = paper.command("toy", line);
+            let (templates, progress) = (Templates::of([]), Progress::silent());
+            let (profile, store) = (Profile::Quick, store.clone());
+            let session = Session { paper: &paper, templates, profile, store, progress };
+            let found = Results::run(&paper.experiments, &session);
+            assert_eq!(found.is_ok(), paper.experiments[0].stale(&session).is_none());
+            found
+        };
+        look(&run, &path)
+    }
+
+    #[test]
+    fn its_tables_are_those_of_any_experiment() {
+        with(SCRIPT, |run, path| {
+            let results = run("sh").unwrap();
+            assert_eq!(results.number("toy.throws[needles=100].pi").unwrap(), 3.125);
+            let throws = results.table("toy.throws").unwrap();
+            let shown = |address: &str| throws.at(address).unwrap().plain();
+            assert_eq!(shown("toy.throws[needles=100].pi"), "3.12(4)");
+            assert_eq!(shown("toy.throws[needles=100].by"), "sh");
+            assert_eq!(shown("toy.throws[needles=100].seed"), "7");
+            assert_eq!(shown("toy.throws[needles=2].pi"), "none");
+            assert!(throws.at("toy.throws[needles=100].pi_error").is_none());
+            // The script is part of what a result is known by.
+            std::fs::write(path, SCRIPT.replace("3.125", "3.25")).unwrap();
+            let results = run("sh").unwrap();
+            assert_eq!(results.number("toy.throws[needles=100].pi").unwrap(), 3.25);
+        });
+    }
+
+    #[test]
+    fn what_goes_wrong_is_told_in_one_line() {
+        for (script, program, told) in [
+            (
+                "echo a >&2; echo no needle >&2; exit 3",
+                "sh",
+                "ended with exit status: 3: no needle",
+            ),
+            ("exit 1", "sh", "it said nothing"),
+            ("echo '{\"a\": NaN}'", "sh", "printed no tables in JSON: "),
+            (
+                "echo '{\"a\": {\"columns\": [\"b\"], \"rows\": [[1, 2]]}}'",
+                "sh",
+                "a: row 1 has 2 cells for 1 names",
+            ),
+            (
+                "echo '{\"a\": {\"columns\": [\"b\"], \"rows\": [[1], [2]]}}'",
+                "sh",
+                "a: row 2 has the keys of one before",
+            ),
+            ("", "no-such-program", "cannot be started: "),
+        ] {
+            let error = with(script, |run, _| run(program).unwrap_err().to_string());
+            assert!(
+                error.starts_with(&format!("toy: `{program} ")) && error.contains(told),
+                "{error}"
+            );
+            assert!(!error.contains('\n'), "{error}");
+        }
+    }
+
+    #[test]
+    fn an_interruption_ends_it() {
+        let stop = Arc::new(std::sync::atomic::AtomicBool::new(true));
+        let paper = Paper::new("Toy", Sources { name: "toy", version: "1", files: &[] });
+        let (templates, progress) = (Templates::of([]), Progress::on_stderr(stop));
+        let (profile, store) = (Profile::Quick, Store::nowhere());
+        let session = Session { paper: &paper, templates, profile, store, progress };
+        let found = Command::new("toy", "sleep 600").found(&session);
+        assert!(matches!(found, Err(Error::Interrupted)));
+    }
+}
