@@ -29,7 +29,7 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
         "4 of 5 statements are reproduced, 1 differs and is",
         "| 1 | 3.236067977 | none | none |",
         "**Listing 1.** The search for the orbits.",
-        "[convergence.csv](data/convergence.csv). Code: [paper.rs](../crates/literate/examples/feigenbaum/paper.rs)",
+        "[convergence.csv](data/convergence.csv). Code: [paper.rs](../examples/feigenbaum/paper.rs)",
     ] {
         assert!(markdown.contains(part), "{part}: {markdown}");
     }
