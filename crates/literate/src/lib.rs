@@ -1,6 +1,6 @@
 //! A paper that computes its own numbers: what stands between a program that runs experiments and the documents that
-//! people read. It knows nothing of what a paper is about: `examples/feigenbaum` is a whole one, in four hundred lines, and
-//! `cargo run -p literate --example feigenbaum -- FOLDER` makes it.
+//! people read. It knows nothing of what a paper is about. The [manual] has two pages: a paper of your own, and prose.
+//! `examples/feigenbaum` is a whole paper, in 250 lines of Rust: `cargo run -p literate --example feigenbaum -- paper --out FOLDER`.
 //!
 //! 1. An [experiment](experiments) has parameters for each [profile](experiments::Profile) and a run. What a run gave is saved in a
 //!    [store](experiments::Store), and used again as long as its [identity](experiments::identity::Identity) is the same: parameters, seed,
@@ -11,7 +11,7 @@
 //! 3. A [figure](figures) is one list of shapes, written as SVG, into the page and as PDF, with its data beside it.
 //! 4. A [statement](claims) that was printed is held against what was found; its verdict is a function of numbers, and can fail.
 //! 5. The [report](mod@report) fills people's prose with all of it: Markdown, LaTeX and HTML, a ledger of the claims, all values as
-//!    data, a card for each number. A numeral that nobody computed is refused by file and line. The [manual] has the markup.
+//!    data, a card for each number. A numeral that nobody computed is refused by file and line.
 //!
 //! A table, and a number by its address:
 //!

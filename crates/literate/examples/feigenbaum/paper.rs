@@ -3,13 +3,8 @@
 //! It shows what a paper needs beside [`literate`]: an experiment, its tables, figures, verdicts on what was printed, and
 //! prose. All of the paper is in this folder.
 
-use impact_numerics::double_double::DoubleDouble;
-use literate::Paper;
-use literate::claims::Judged;
-use literate::experiments::experiment::How;
-use literate::experiments::{Error, Experiment, Profile, Progress, Results};
-use literate::figures::prelude::*;
-use literate::table::Table;
+use literate::double_double::DoubleDouble;
+use literate::prelude::*;
 
 /// How far the cascade of period doublings is followed.
 #[derive(serde::Serialize)]
@@ -32,13 +27,12 @@ pub struct Orbit {
 }
 
 /// The experiment: it is run once, saved, and used again.
-pub const CASCADE: Experiment<Depth, Vec<Orbit>> = Experiment {
-    name: "cascade",
-    code: &[],
-    parameters: |profile| Depth { deepest: if profile == Profile::Quick { 8 } else { 16 } },
-    how: How::Whole { run: cascade, weight: |depth| 1 << depth.deepest },
-    tables: |cascade| tables(cascade),
-};
+pub const CASCADE: Experiment<Depth, Vec<Orbit>> = Experiment::new(
+    "cascade",
+    |profile| Depth { deepest: if profile == Profile::Quick { 8 } else { 16 } },
+    cascade,
+    |cascade| tables(cascade),
+);
 
 /// The orbit of x = 1/2 after so many steps of x → r x (1 − x), and its derivative by r.
 fn orbit(r: DoubleDouble, steps: u64) -> [DoubleDouble; 2] {
@@ -122,7 +116,7 @@ fn three() -> f64 {
 }
 
 /// Fig. 1: where orbits go, against the parameter.
-fn diagram(results: &Results) -> Result<Figure, literate::figures::Error> {
+fn diagram(results: &Results) -> Result<Figure, FigureError> {
     let limit = results.table("cascade.limit")?;
     let sheet = Sheet::new(5150);
     let panel = sheet.panel(
@@ -156,7 +150,7 @@ fn diagram(results: &Results) -> Result<Figure, literate::figures::Error> {
 }
 
 /// Fig. 2: how fast the two ratios settle.
-fn convergence(results: &Results) -> Result<Figure, literate::figures::Error> {
+fn convergence(results: &Results) -> Result<Figure, FigureError> {
     let [orbits, limit] = [results.table("cascade.orbits")?, results.table("cascade.limit")?];
     let last = orbits.values("n").last().copied().unwrap_or(1.0);
     let mut plot = Plot::new().x("*n*").log_y("distance from the last ratio");
@@ -177,10 +171,10 @@ fn convergence(results: &Results) -> Result<Figure, literate::figures::Error> {
 
 /// The whole paper.
 pub fn paper() -> Paper {
-    let sources = literate::sources!("examples/feigenbaum");
+    let sources = sources!("examples/feigenbaum");
     let paper = Paper::new("The constants of period doubling, found again", sources)
         .experiment(&CASCADE)
-        .figure("diagram", &[&CASCADE], diagram)
+        .figure("orbits", &[&CASCADE], diagram)
         .figure("convergence", &[&CASCADE], convergence)
         .check("delta", |s| s.cell("cascade.limit.delta"))
         .check("alpha", |s| s.cell("cascade.limit.alpha"))

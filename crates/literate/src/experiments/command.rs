@@ -171,7 +171,11 @@ impl Command {
             let last = told.lines().last().unwrap_or("it said nothing");
             return Err(fail(format!("ended with {status}: {last}")));
         }
-        let wrong = |what| fail(format!("printed {what}; the manual has the form of tables"));
+        let wrong = |what| {
+            fail(format!(
+                "printed {what}; the manual of literate, *A paper of your own*, has the form"
+            ))
+        };
         let printed: Printed = serde_json::from_str(&said)
             .map_err(|error| wrong(format!("no tables in JSON: {error}")))?;
         let fault = |(name, rows): (&String, &Rows)| Some(format!("{name}: {}", rows.fault()?));

@@ -50,7 +50,8 @@ impl Results {
     /// Results of which only tables are known.
     #[cfg(test)]
     pub(crate) fn made_up(tables: Vec<Table>) -> Self {
-        let tables: Tables = tables.into_iter().map(|table| (table.name(), Arc::new(table))).collect();
+        let tables: Tables =
+            tables.into_iter().map(|table| (table.name(), Arc::new(table))).collect();
         let (made_by, found) = (Default::default(), BTreeMap::new());
         Results { profile: Profile::Full, made_by, found, tables: OnceLock::from(tables) }
     }

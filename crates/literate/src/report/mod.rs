@@ -55,7 +55,7 @@ pub enum Error {
     Template(String),
     #[error("{path}: {source}; {}", crate::input::remedy(source, "check --templates"))]
     Read { path: String, source: std::io::Error },
-    #[error("{}; the manual has all markup (page `manual` of the documentation of `literate`)", one_line(.0, 200))]
+    #[error("{}; the manual of literate has all markup on its page *Prose*", one_line(.0, 200))]
     Markup(String),
     #[error("{place}: {error}")]
     At { place: String, error: Box<Error> },
