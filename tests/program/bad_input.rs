@@ -140,9 +140,9 @@ paper --figure 4 --out file|file/below => --out
 paper --profile quick --out file => --out: file: ; a file is in the way
 paper --profile quick --figure 3 --results file => --results: file: not a directory
 paper --templates nowhere => nowhere
-paper --templates empty => published.toml: no such file
-check --templates empty => published.toml: no such file
-check --claim no-such-claim => --claim
+paper --templates empty => empty: no prose is there; front
+check --templates empty => empty: no prose is there
+check --profile quick --results r no-such => no statement no-such; sec2_onset
 check --profile quick --results file => --results: file: not a directory
 verify => paper/SHA256SUMS: 
 run --profile quick --shard 0/3|4/3 --results d => 1 <= i <= N
@@ -229,7 +229,7 @@ fn files_without_end_are_refused() {
     long("report/values.json");
     crate::refused(folder, "explain --paper=report", &["values.json", "8 MiB"]);
     long("templates/report.md");
-    let check = "check --profile=quick --claim=sec3_edges --templates=templates";
+    let check = "check --profile=quick --templates=templates";
     crate::refused(folder, check, &["report.md", "8 MiB"]);
 }
 

@@ -12,26 +12,34 @@ fn check(folder: &Path, more: &str) -> (i32, String, String) {
 #[test]
 fn every_form_has_every_statement_at_its_line() {
     let folder = tempfile::tempdir().unwrap();
-    let (code, text, _) = check(folder.path(), "--all");
+    let (code, text, _) = check(folder.path(), "-v");
+    // The sign, the number, the id, the verdict, the place and the basis.
     let verdicts: Vec<(String, String)> = text
         .lines()
-        .filter(|line| !line.starts_with(' ') && line[6.min(line.len())..].starts_with("sec"))
+        .filter(|line| !line.starts_with(' ') && line.contains(" sec") && line.ends_with(')'))
         .map(|line| {
-            let (head, verdict) = line[6..].rsplit_once(": ").unwrap();
-            let (verdict, basis) = verdict.split_once(" (").unwrap();
-            assert!(Basis::ALL.iter().any(|own| format!("{})", own.words()) == basis), "{line}");
-            assert_eq!(line.starts_with("open"), verdict == "cannot be judged", "{line}");
-            (head.split(' ').next().unwrap().to_string(), verdict.to_string())
+            let words: Vec<&str> = line.split_whitespace().collect();
+            let verdict = line.split_once(": ").unwrap().1.split(" (").next().unwrap();
+            let own = Basis::ALL.iter().any(|own| line.ends_with(&format!("{})", own.words())));
+            assert!(own && words[1].parse::<usize>().is_ok(), "{line}");
+            assert_eq!(line.starts_with('?'), verdict == "cannot be judged", "{line}");
+            (words[2].trim_end_matches(':').to_string(), verdict.to_string())
         })
         .collect();
     assert_eq!(verdicts.len(), 71, "{text}");
-    // Without --all only what is not simply reproduced.
+    // Else a line for each that is not simply reproduced, with both sides.
     let (_, short, _) = check(folder.path(), "");
-    assert!(!short.contains(": reproduced (") && short.contains("--all"), "{short}");
+    let explained = verdicts.iter().filter(|(_, own)| own == "differs and explained").count();
+    let lines = short.lines().filter(|line| line.starts_with('≠'));
+    assert_eq!(lines.clone().count(), explained, "{short}");
+    assert!(lines.clone().all(|line| line.contains("; paper: ") && line.contains("; here: ")));
+    assert!(!short.contains(": reproduced;") && short.contains("check -v"), "{short}");
+    // One by its number in the ledger.
+    let (_, one, _) = check(folder.path(), "1");
+    assert!(one.contains(&verdicts[0].0) && one.contains("1 statement of the paper"), "{one}");
     // The statements of the paper and our own checks are scored apart.
     let scores: Vec<&str> = text.lines().rev().take(4).collect();
     assert!(scores[3].starts_with("71 statements of the paper: "), "{text}");
-    let explained = verdicts.iter().filter(|(_, own)| own == "differs and explained").count();
     assert!(scores[3].contains(&format!(", differs and explained {explained}, ")), "{text}");
     assert!(scores[2].starts_with("reproduced, by what the verdict rests on: "), "{text}");
     assert!(scores[1].starts_with("our own checks: ") && scores[0].contains("targets"), "{text}");
@@ -79,11 +87,11 @@ fn what_does_not_hold_is_an_error_in_every_form() {
     // The file is named from the folder of work, however it was given.
     let given = folder.path().canonicalize().unwrap().join("t");
     for (form, sign) in [
-        ("text", "FAILS sec3_edges"),
+        ("text", "FAILS"),
         ("json", "\"fails\": true"),
         ("github", "::error file=t/published.toml,line="),
     ] {
-        let check = "check --profile quick --results r --claim sec3_edges --templates";
+        let check = "check --profile quick --results r sec3_edges --templates";
         let (code, out, note) =
             run(folder.path(), &format!("{check} {} --format {form}", given.display()));
         assert!(

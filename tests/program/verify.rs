@@ -16,10 +16,7 @@ fn faults_are_named_and_pages_are_no_part_of_the_list() {
     }
     let (code, told, note) = run(here, "verify");
     assert_eq!((code, told.as_str()), (1, "differs  report.md\nunlisted more.csv\n"));
-    assert!(
-        note.contains("should be: 2 files; `impact-paper paper --out paper --force`"),
-        "{note}"
-    );
+    assert!(note.contains("should be: 2 files; `paper --out paper --force`"), "{note}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Why something ended without success: a message of one line, and an exit code.
 
-use crate::claims::PublishedError;
+use crate::claims::{self, PublishedError};
 use crate::experiments::Error;
 use crate::input::{one_line, remedy};
 use crate::report::{self, folder};
@@ -47,10 +47,15 @@ impl Failure {
 impl<E: std::error::Error + 'static> From<E> for Failure {
     fn from(error: E) -> Self {
         let any = &error as &(dyn std::error::Error + 'static);
-        let code = match any.downcast_ref::<Error>() {
+        let run = match any.downcast_ref::<claims::Error>() {
+            Some(claims::Error::Experiment(error)) => Some(error),
+            _ => any.downcast_ref::<Error>(),
+        };
+        let code = match run {
             Some(Error::Interrupted) => INTERRUPTED,
             Some(Error::Store { .. } | Error::Input { .. }) => 2,
             _ if any.is::<folder::Error>() || any.is::<PublishedError>() => 2,
+            _ if matches!(any.downcast_ref(), Some(claims::Error::Published(_))) => 2,
             _ if any.downcast_ref().is_some_and(|error: &report::Error| !error.is_of_rules()) => 2,
             _ => 1,
         };

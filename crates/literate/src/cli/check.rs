@@ -97,7 +97,7 @@ fn text(checks: &[Check], args: &Args, number: impl Fn(&str) -> Option<usize>) -
         out += &format!("{sign:5} {number:>2} {id}: {words}");
         if !all {
             let sides = [("paper", check.expected.clone()), ("here", check.found.to_string())];
-            let sides = sides.into_iter().filter(|(_, text)| !text.is_empty());
+            let sides = sides.into_iter().filter(|(_, text)| !["", "–"].contains(&text.as_str()));
             sides.for_each(|(side, text)| out += &format!("; {side}: {text}"));
             out += "\n";
             continue;

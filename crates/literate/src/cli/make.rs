@@ -63,6 +63,12 @@ impl<'a> Session<'a> {
                 Some((path.strip_prefix(paper.prose)?.strip_prefix('/')?, *text))
             })),
         };
+        if paper.documents.iter().all(|document| document.files(&templates).is_empty()) {
+            let names: Vec<&str> = paper.documents.iter().map(|document| document.prose).collect();
+            let folder = prose.unwrap_or(Path::new(paper.prose)).display();
+            let what = format!("{folder}: no prose is there; give the folder of");
+            return Err(Failure::input(format!("{what} {}", names.join(", "))));
+        }
         Ok(Session { paper, templates, profile, store, progress })
     }
 
