@@ -3,7 +3,7 @@
 pub(super) use super::Basis::{Exact, OurMeasure, PrintedDigit, Rounding};
 use super::{Basis, Level, Published};
 pub(super) use super::{Error, Judged, Statement, Text, chosen, integer, significant};
-use crate::experiments::{Need, Results, sweep};
+use crate::experiments::{Results, sweep};
 use impact_chain::rise::Counted;
 use impact_numerics::statistics::Estimate;
 use literate::value::Number;
@@ -101,8 +101,6 @@ pub struct Judge {
     pub reads: Option<&'static str>,
     /// Whether it compares random numbers within their standard errors.
     pub statistical: bool,
-    /// The experiments that it needs, the theory apart.
-    pub needs: &'static [Need],
     /// Computes the check.
     find: Find,
 }
@@ -115,47 +113,36 @@ enum Find {
     By(fn(&Evidence, &Statement) -> Judged),
 }
 
-const fn new(id: &'static str, basis: Basis, needs: &'static [Need], find: Find) -> Judge {
-    Judge { id, basis, reads: None, statistical: false, needs, find }
+const fn new(id: &'static str, basis: Basis, find: Find) -> Judge {
+    Judge { id, basis, reads: None, statistical: false, find }
+}
+
+/// A statement that is judged by this function; its tolerance has no room for standard errors.
+pub const fn by(
+    id: &'static str,
+    basis: Basis,
+    find: fn(&Evidence, &Statement) -> Judged,
+) -> Judge {
+    new(id, basis, Find::By(find))
+}
+
+/// A statement whose tolerance has room for standard errors.
+pub const fn statistical(
+    id: &'static str,
+    basis: Basis,
+    find: fn(&Evidence, &Statement) -> Judged,
+) -> Judge {
+    Judge { statistical: true, ..by(id, basis, find) }
 }
 
 /// A statement about the theory that whole cases decide.
 pub const fn cases(id: &'static str, note: &'static str) -> Judge {
-    new(id, Exact, &[], Find::Cases(note))
+    new(id, Exact, Find::Cases(note))
 }
 
 /// A statement about the theory that is an equality of real numbers.
 pub const fn difference(id: &'static str, allowed: f64, note: &'static str) -> Judge {
-    new(id, Rounding, &[], Find::Difference(allowed, note))
-}
-
-/// Another statement about the theory, without a run.
-pub const fn theory(
-    id: &'static str,
-    basis: Basis,
-    find: fn(&Evidence, &Statement) -> Judged,
-) -> Judge {
-    new(id, basis, &[], Find::By(find))
-}
-
-/// A statement about runs that compares no errors.
-pub const fn measured(
-    id: &'static str,
-    basis: Basis,
-    needs: &'static [Need],
-    find: fn(&Evidence, &Statement) -> Judged,
-) -> Judge {
-    new(id, basis, needs, Find::By(find))
-}
-
-/// A statement about runs whose tolerance has room for standard errors.
-pub const fn statistical(
-    id: &'static str,
-    basis: Basis,
-    needs: &'static [Need],
-    find: fn(&Evidence, &Statement) -> Judged,
-) -> Judge {
-    Judge { statistical: true, ..new(id, basis, needs, Find::By(find)) }
+    new(id, Rounding, Find::Difference(allowed, note))
 }
 
 impl Judge {

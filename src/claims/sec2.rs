@@ -5,23 +5,23 @@ use crate::experiments::branches::from_rest;
 use crate::experiments::ensembles::named;
 use crate::experiments::starts::half_height as half_of;
 use crate::experiments::sweep::{laws, mode_half, total};
-use crate::experiments::{BRANCHES, STARTS, SWEEP, TWO_MASSES, two_masses};
+use crate::experiments::{BRANCHES, STARTS, TWO_MASSES, two_masses};
 use crate::params::{NEAR_SIMULTANEOUS, Protocol, SLOW};
 use impact_chain::rise;
 use impact_numerics::estimates::difference;
 
 pub const ROWS: &[Judge] = &[
-    measured("sec2_parameters", Exact, &[&SWEEP], parameters),
-    statistical("sec2_few_below", OurMeasure, &[&SWEEP], few_below),
-    statistical("sec2_rise_exists", OurMeasure, &[&SWEEP], rise_exists),
-    statistical("sec2_half_height", PrintedDigit, &[&SWEEP], half_height).of("σ ≈ {}"),
-    statistical("sec2_onset", PrintedDigit, &[&SWEEP], onset).of("σ ≈ {}"),
-    measured("sec2_mode_rise", PrintedDigit, &[&SWEEP], mode_rise).of("σ ≈ {}"),
-    statistical("sec2_three_way", OurMeasure, &[&SWEEP], three_way),
-    measured("sec2_sticking", OurMeasure, &[&SWEEP], sticking),
-    measured("sec2_two_masses", Exact, &[&TWO_MASSES], without_impact),
-    measured("sec2_percolation", OurMeasure, &[&BRANCHES, &SWEEP], percolation),
-    statistical("sec2_walls_like_masses", PrintedDigit, &[&STARTS], walls_like_masses),
+    by("sec2_parameters", Exact, parameters),
+    statistical("sec2_few_below", OurMeasure, few_below),
+    statistical("sec2_rise_exists", OurMeasure, rise_exists),
+    statistical("sec2_half_height", PrintedDigit, half_height).of("σ ≈ {}"),
+    statistical("sec2_onset", PrintedDigit, onset).of("σ ≈ {}"),
+    by("sec2_mode_rise", PrintedDigit, mode_rise).of("σ ≈ {}"),
+    statistical("sec2_three_way", OurMeasure, three_way),
+    by("sec2_sticking", OurMeasure, sticking),
+    by("sec2_two_masses", Exact, without_impact),
+    by("sec2_percolation", OurMeasure, percolation),
+    statistical("sec2_walls_like_masses", PrintedDigit, walls_like_masses),
 ];
 
 fn parameters(e: &Evidence, s: &Statement) -> Judged {

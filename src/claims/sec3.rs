@@ -3,15 +3,14 @@
 use super::judge::*;
 use super::sec2::small;
 use super::with_error;
-use crate::experiments::SWEEP;
 use impact_chain::rise;
 
 pub const ROWS: &[Judge] = &[
     cases("sec3_impact_types", "Every number of masses up to the number of cases.")
         .of("n + 1 = (n − 1) + 2"),
-    theory("sec3_vertices", Exact, |e, s| size(e.number("theory.graph.vertices")?, s)),
-    theory("sec3_edges", Exact, |e, s| size(e.number("theory.graph.edges")?, s)),
-    statistical("sec4_few_and_many", OurMeasure, &[&SWEEP], few_and_many),
+    by("sec3_vertices", Exact, |e, s| size(e.number("theory.graph.vertices")?, s)),
+    by("sec3_edges", Exact, |e, s| size(e.number("theory.graph.edges")?, s)),
+    statistical("sec4_few_and_many", OurMeasure, few_and_many),
 ];
 
 fn size(found: f64, s: &Statement) -> Judged {

@@ -7,13 +7,13 @@ use crate::params::VERTICES;
 use std::collections::BTreeSet;
 
 pub const ROWS: &[Judge] = &[
-    measured("sec5_fig5", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig05, s)),
-    measured("sec5_fig6", Exact, &[&SEGMENTS], |e, s| motion(&e.results.of(&SEGMENTS)?.fig06, s)),
-    measured("sec5_masses_of_circuit", Exact, &[&SEGMENTS], masses_of_circuit).of("k + 1"),
+    by("sec5_fig5", Exact, |e, s| motion(&e.results.of(&SEGMENTS)?.fig05, s)),
+    by("sec5_fig6", Exact, |e, s| motion(&e.results.of(&SEGMENTS)?.fig06, s)),
+    by("sec5_masses_of_circuit", Exact, masses_of_circuit).of("k + 1"),
     cases("sec5_eq6", ENUMERATION).of("(N − 1)!/(N − k)!"),
     cases("sec5_eq7", ENUMERATION).of("N!/(k (N − k)!)"),
-    theory("sec5_eq8", OurMeasure, eq8).of("≪ 1"),
-    theory("sec5_majority", OurMeasure, majority).of("length ≈ N"),
+    by("sec5_eq8", OurMeasure, eq8).of("≪ 1"),
+    by("sec5_majority", OurMeasure, majority).of("length ≈ N"),
 ];
 
 const ENUMERATION: &str = "Formula against enumeration on graphs of one to six vertices.";

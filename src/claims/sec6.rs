@@ -2,18 +2,17 @@
 
 use super::judge::*;
 use super::sec2;
-use crate::experiments::SWEEP;
 use crate::params::{DISTRIBUTION_P, VERTICES};
 
 pub const ROWS: &[Judge] = &[
-    theory("sec6_normalised", Rounding, |e, s| {
+    by("sec6_normalised", Rounding, |e, s| {
         let off = e.difference(s)?.max((s.number()? - 1.0).abs());
         Ok(s.rounding(off, 1e-13).note("Over ten values of p up to one."))
     }),
-    theory("sec6_fig8_few", OurMeasure, few),
-    theory("sec6_fig8_rise", OurMeasure, rise),
-    theory("sec6_fig9_step", OurMeasure, step),
-    measured("sec6_like_simulation", OurMeasure, &[&SWEEP], like_simulation),
+    by("sec6_fig8_few", OurMeasure, few),
+    by("sec6_fig8_rise", OurMeasure, rise),
+    by("sec6_fig9_step", OurMeasure, step),
+    by("sec6_like_simulation", OurMeasure, like_simulation),
 ];
 
 fn few(e: &Evidence, s: &Statement) -> Judged {

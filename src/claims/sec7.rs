@@ -7,16 +7,16 @@ pub const ROWS: &[Judge] = &[
     difference("sec7_eq13", 1e-13, "f at its zeros, over its largest term.").of("k±"),
     difference("sec7_eq14_15", 1e-13, "At ten values of p.").of("−1 and −(N + 1)"),
     cases("sec7_eq16_17", "Sign and slope at every k.").of("−(k + 1) < 0; k (N − k) > 0"),
-    theory("sec7_start", Exact, start),
+    by("sec7_start", Exact, start),
     difference("sec7_maximum", 1e-13, "f is even about that place.").of("(Np − 1)/2p"),
-    theory("sec7_p_crit", Rounding, p_crit).of("((1 + √(N + 1))/N)²"),
+    by("sec7_p_crit", Rounding, p_crit).of("((1 + √(N + 1))/N)²"),
     cases("sec7_other_root", "Every N up to the number of cases.").of("k < 0"),
-    theory("sec7_inflexion", Rounding, inflexion),
-    theory("sec7_extrema", Exact, extrema),
-    theory("sec7_still_one", Exact, still_one),
-    theory("sec7_jump", OurMeasure, jump).of("much larger than 1"),
+    by("sec7_inflexion", Rounding, inflexion),
+    by("sec7_extrema", Exact, extrema),
+    by("sec7_still_one", Exact, still_one),
+    by("sec7_jump", OurMeasure, jump).of("much larger than 1"),
     cases("sec7_monotone", "On a grid of p from the jump to one."),
-    theory("sec7_limit", Exact, limit).of("N − 1"),
+    by("sec7_limit", Exact, limit).of("N − 1"),
 ];
 
 const INTEGER: &str = "an integer is exact";

@@ -6,22 +6,21 @@ use crate::experiments::ensembles::named;
 use crate::experiments::protocol::range;
 use crate::experiments::starts::{half_height, share_of_start};
 use crate::experiments::theory::beside::LARGE_SIGMA;
-use crate::experiments::{BRANCHES, PROTOCOL, RESTITUTION, STARTS, SWEEP};
+use crate::experiments::{BRANCHES, PROTOCOL, RESTITUTION, STARTS};
 use crate::params::{Protocol, VERTICES};
 use impact_chain::rise::{Counted, Curve};
 use impact_numerics::estimates::{difference as apart, share};
 use impact_numerics::statistics::{Estimate, wilson};
 
 pub const ROWS: &[Judge] = &[
-    measured("sec8_expected_jump", OurMeasure, &[&SWEEP], expected_jump),
+    by("sec8_expected_jump", OurMeasure, expected_jump),
     difference(
         "sec8_separation",
         1e-13,
         "Against the equations of motion solved by variation of constants, at five times.",
     )
     .of("Eq. (19)"),
-    statistical("sec8_no_impact", OurMeasure, &[&STARTS], no_impact)
-        .of("1 − p = P(Y₀ + Y₁/|ω² − Ω²| < d)"),
+    statistical("sec8_no_impact", OurMeasure, no_impact).of("1 − p = P(Y₀ + Y₁/|ω² − Ω²| < d)"),
     difference("sec8_amplitude", 1e-13, "Against √2 times the root mean square over a period.")
         .of("Eq. (21)"),
     difference(
@@ -30,28 +29,18 @@ pub const ROWS: &[Judge] = &[
         "The probability of Y ≤ x at five x and three σ, against the integral of the two normal \
          densities over a disc; the second also at |ω² − Ω²| = 1/2.",
     ),
-    theory("sec8_eq25", Rounding, |e, s| {
+    by("sec8_eq25", Rounding, |e, s| {
         Ok(s.rounding(e.number("theory.relation.difference")?, 1e-12).note(
             "Closed form against the double integral at five σ where the latter has digits left.",
         ))
     })
     .of("Eq. (25)"),
-    theory("sec8_p_small", OurMeasure, p_small).of("extremely small for σ < {}"),
-    measured("sec8_large_sigma", OurMeasure, &[&SWEEP], large_sigma),
-    statistical(
-        "sec8_threshold_shift",
-        OurMeasure,
-        &[&SWEEP, &PROTOCOL, &BRANCHES],
-        threshold_shift,
-    ),
-    measured("sec8_mean_is_easier", OurMeasure, &[&SWEEP], mean_is_easier),
-    statistical(
-        "sec8_restitution_omitted",
-        OurMeasure,
-        &[&RESTITUTION, &STARTS, &PROTOCOL],
-        restitution_omitted,
-    ),
-    measured("sec8_restitution_ensures", OurMeasure, &[&SWEEP, &RESTITUTION], restitution_ensures),
+    by("sec8_p_small", OurMeasure, p_small).of("extremely small for σ < {}"),
+    by("sec8_large_sigma", OurMeasure, large_sigma),
+    statistical("sec8_threshold_shift", OurMeasure, threshold_shift),
+    by("sec8_mean_is_easier", OurMeasure, mean_is_easier),
+    statistical("sec8_restitution_omitted", OurMeasure, restitution_omitted),
+    by("sec8_restitution_ensures", OurMeasure, restitution_ensures),
 ];
 
 /// A jump stays in one step of the grid, however fine; a slope is shared by all. And weights in

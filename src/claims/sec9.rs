@@ -2,37 +2,37 @@
 
 use super::judge::*;
 use crate::experiments::theory::beside::LARGE_SIGMA;
-use crate::experiments::{SEGMENTS, SWEEP};
+use crate::experiments::SEGMENTS;
 use crate::params::{CONVERGENCE_P, HIGHER_P, REMARK_P};
 
 pub const ROWS: &[Judge] = &[
-    measured("sec9_fig6_repeats", Exact, &[&SEGMENTS], fig6_repeats),
+    by("sec9_fig6_repeats", Exact, fig6_repeats),
     cases(
         "sec9_eq29",
         "Circuits through one vertex twice, by the lengths of their loops, on graphs of one to six vertices.",
     )
     .of("(N − 1)!/(N − (k − 1))!"),
-    theory("sec9_eq30", Exact, eq30).of("γ(k, 2)/2 · (N − 1)!/(N − (k − 1))!"),
+    by("sec9_eq30", Exact, eq30).of("γ(k, 2)/2 · (N − 1)!/(N − (k − 1))!"),
     cases("sec9_eq32", "Every n up to ten, one sum at a time.").of("(n − 1)!/((j − 1)! (n − j)!)"),
-    theory("sec9_eq33", Exact, |e, s| class_range(e, s, 33)).of("(k − 1)/2 · N!/(N − (k − 1))!"),
-    theory("sec9_eq35", Exact, |e, s| class_range(e, s, 35)).of("valid for k > {}"),
-    theory("sec9_eq36", Exact, |e, s| class_range(e, s, 36)).of("valid for k > {}"),
-    theory("sec9_eq37", Exact, |e, s| class_range(e, s, 37)).of("valid for k > {}"),
+    by("sec9_eq33", Exact, |e, s| class_range(e, s, 33)).of("(k − 1)/2 · N!/(N − (k − 1))!"),
+    by("sec9_eq35", Exact, |e, s| class_range(e, s, 35)).of("valid for k > {}"),
+    by("sec9_eq36", Exact, |e, s| class_range(e, s, 36)).of("valid for k > {}"),
+    by("sec9_eq37", Exact, |e, s| class_range(e, s, 37)).of("valid for k > {}"),
     cases(
         "sec9_eq38",
         "From k = 3 on, where each formula is used in the range that is printed with it. For k = 1 and \
          2, which the distribution needs too, it is not.",
     )
     .of("Eq. (38)"),
-    theory("sec9_even_small_p", OurMeasure, even_small_p).of("significant at p = {}"),
-    theory("sec9_dominate", OurMeasure, dominate),
-    theory("sec9_convergence", OurMeasure, convergence),
-    theory("sec9_mean_large_p", OurMeasure, mean_large_p),
-    theory("sec9_mean_small_p", OurMeasure, mean_small_p),
-    theory("sec9_higher_jump", OurMeasure, higher_jump),
-    theory("sec9_fig15_modest", OurMeasure, fig15_modest),
-    theory("sec9_relation_matters", Exact, relation_matters),
-    measured("sec10_improves", OurMeasure, &[&SWEEP], improves),
+    by("sec9_even_small_p", OurMeasure, even_small_p).of("significant at p = {}"),
+    by("sec9_dominate", OurMeasure, dominate),
+    by("sec9_convergence", OurMeasure, convergence),
+    by("sec9_mean_large_p", OurMeasure, mean_large_p),
+    by("sec9_mean_small_p", OurMeasure, mean_small_p),
+    by("sec9_higher_jump", OurMeasure, higher_jump),
+    by("sec9_fig15_modest", OurMeasure, fig15_modest),
+    by("sec9_relation_matters", Exact, relation_matters),
+    by("sec10_improves", OurMeasure, improves),
 ];
 
 const INTEGER: &str = "integers are exact";
