@@ -191,6 +191,16 @@ impl Paper {
         self.experiments.iter().copied().find(|experiment| experiment.name() == name)
     }
 
+    /// The authors with their affiliations and the date, in a line.
+    pub(crate) fn byline(&self) -> String {
+        let author = |(name, affiliation): &(&str, &str)| match affiliation.is_empty() {
+            true => name.to_string(),
+            false => format!("{name} ({affiliation})"),
+        };
+        let date = Some(self.date.to_string()).filter(|date| !date.is_empty());
+        self.authors.iter().map(author).chain(date).collect::<Vec<_>>().join(", ")
+    }
+
     /// What the head of each page says: names of `<meta>` and their content.
     pub(crate) fn about(&self) -> Vec<(&'static str, String)> {
         let Sources { name, version, .. } = self.project.sources;

@@ -14,7 +14,7 @@ use super::lint::Declared;
 use super::mark::ids;
 use super::origin::{Filled, Places};
 use super::values::Registry;
-use super::{Error, html, latex, ledger, lint, markdown, parse};
+use super::{Error, html, latex, ledger, lint, markdown, parse, tex};
 use crate::claims::Check;
 use crate::figures::{DataFile, Figure};
 use crate::paper::Paper;
@@ -129,9 +129,18 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         Ok((latex::write(blocks, *of)?, html::write(blocks, *of, site)?))
     });
     let written = written.collect::<Vec<Result<_, Error>>>();
+    let authors =
+        paper.authors.iter().map(|(name, place)| Ok([tex::text(name)?, tex::text(place)?]));
+    filler.insert("authors", &authors.collect::<Result<Vec<_>, Error>>()?);
+    filler.insert("date", &paper.date);
     for (Part { of, blocks, .. }, written) in parts.iter().zip(written) {
         let (print, (page, values)) = written?;
-        committed.insert(of.markdown.into(), markdown::write(blocks).into_bytes());
+        let mut text = markdown::write(blocks);
+        if of.is_signed(paper) {
+            let byline = format!("\n\n*{}*\n\n", markdown::escaped(&paper.byline()));
+            text = text.replacen("\n\n", &byline, 1);
+        }
+        committed.insert(of.markdown.into(), text.into_bytes());
         if let Some(name) = of.print {
             filler.insert("print", &print);
             committed.insert(format!("{name}.tex"), filler.fill("report.tex")?.into_bytes());

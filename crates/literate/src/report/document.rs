@@ -171,6 +171,11 @@ pub fn is_equation(block: &Block) -> bool {
     matches!(block, Block::Paragraph(inlines) if matches!(inlines[..], [Inline::Display { .. }]))
 }
 
+/// Is it the heading of the abstract, which goes to the next heading?
+pub fn is_abstract(block: &Block) -> bool {
+    matches!(block, Block::Heading { text, .. } if plain(text) == "Abstract")
+}
+
 /// Does this paragraph go on with the sentence before it?
 pub fn continues(block: &Block) -> bool {
     let Block::Paragraph(inlines) = block else { return false };

@@ -2,6 +2,7 @@
 //! are shared.
 
 use super::Templates;
+use crate::paper::Paper;
 
 /// A document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +34,11 @@ impl Document {
         print: Some("report"),
         repeats: false,
     };
+
+    /// Whether authors and date stand below its title: where it is printed, and there are any.
+    pub(super) fn is_signed(&self, paper: &Paper) -> bool {
+        self.print.is_some() && !paper.byline().is_empty()
+    }
 
     /// Paths of its prose in the templates, in its order; none if there is no such file.
     pub fn files<'a>(&self, templates: &'a Templates) -> Vec<&'a str> {

@@ -77,6 +77,7 @@ pub fn write(
         "title": text(&spelt(title)),
         "bibtex": text(&latex::inlines(title)?),
         "heading": heading,
+        "byline": if here.is_signed(site.paper) { text(&site.paper.byline()) } else { String::new() },
         "sections": sections,
         "figures": figures,
         "body": body,
@@ -149,7 +150,17 @@ pub(super) struct Page<'a> {
 
 impl Page<'_> {
     fn blocks(&self, blocks: &[Block]) -> Result<String, Error> {
-        blocks.iter().map(|block| self.block(block)).collect()
+        let (mut out, mut end) = (String::new(), "");
+        for block in blocks {
+            if matches!(block, Block::Heading { .. }) {
+                out += std::mem::take(&mut end);
+            }
+            if document::is_abstract(block) {
+                (out, end) = (out + "<section class=\"abstract\">\n", "</section>\n");
+            }
+            out += &self.block(block)?;
+        }
+        Ok(out + end)
     }
 
     fn block(&self, block: &Block) -> Result<String, Error> {

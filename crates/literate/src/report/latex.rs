@@ -1,7 +1,8 @@
 //! The tree → a document for LaTeX; what stands around it is the template report.tex.
 
 use super::Error;
-use super::document::{self, Align, Block, Inline, continues, is_equation, plain, spelt};
+use super::document::{self, Align, Block, Inline};
+use super::document::{continues, is_abstract, is_equation, plain, spelt};
 use super::documents::Document;
 use super::tex;
 use serde_json::{Value as Json, json};
@@ -21,8 +22,16 @@ pub fn write(blocks: &[Block], of: Document) -> Result<Json, Error> {
 
 fn body(blocks: &[Block]) -> Result<String, Error> {
     let mut out = String::new();
-    let mut before: Option<&Block> = None;
+    let (mut before, mut end): (Option<&Block>, _) = (None, "");
     for block in blocks {
+        if matches!(block, Block::Heading { .. }) {
+            out.push_str(std::mem::take(&mut end));
+        }
+        if is_abstract(block) {
+            out.push_str("\n\\begin{abstract}\n");
+            (before, end) = (None, "\\end{abstract}\n");
+            continue;
+        }
         // An equation belongs to the sentence around it: no paragraph begins before it, nor after
         // it when the sentence goes on.
         let goes_on = before.is_some_and(|before| {
@@ -35,7 +44,7 @@ fn body(blocks: &[Block]) -> Result<String, Error> {
         out.push_str(if text.is_empty() { "" } else { "\n" });
         before = Some(block);
     }
-    Ok(out)
+    Ok(out + end)
 }
 
 fn listings(blocks: &[Block]) -> Result<String, Error> {

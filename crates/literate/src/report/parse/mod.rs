@@ -213,7 +213,8 @@ impl<'a> Reader<'a> {
                 if text.is_empty() || text.iter().any(leads) {
                     return Err(markup("a heading has words, and leads nowhere else"));
                 }
-                let number = (!unnumbered && level > 1).then(String::new);
+                let bare = unnumbered || level == 1 || plain(&text) == "Abstract";
+                let number = (!bare).then(String::new);
                 Some(Block::Heading { level, number, id, text })
             }
             Tag::BlockQuote(_) => Some(Block::Quote(self.inner()?)),
