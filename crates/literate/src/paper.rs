@@ -339,7 +339,9 @@ pub(crate) fn toy() -> Paper {
                p.sin;\n        self.b += kick * p.cos;\n    }\n    // end\n}\n";
     let files = &[("src/flight.rs", FLIGHT), ("src/flight/drag/mod.rs", ""), ("src/lib.rs", "")];
     let sources = Sources { name: "toy-paper", version: "1", files };
-    Paper { crates: vec![("toy", "src")], ..Paper::new("toy", sources) }
+    let paper =
+        Paper { crates: vec![("toy", "src")], date: "2026-11-24", ..Paper::new("toy", sources) };
+    paper.author("A. Uthor", "R & D").author("B. Uthor", "")
 }
 
 #[cfg(test)]

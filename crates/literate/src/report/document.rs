@@ -183,39 +183,30 @@ pub fn continues(block: &Block) -> bool {
 }
 
 /// All running texts of a block, in reading order, nested ones too.
-macro_rules! texts {
-    ($name:ident, $block:ty, $text:ty, $iter:ident) => {
-        fn $name(block: $block) -> Vec<$text> {
-            match block {
-                Block::Heading { text, .. } | Block::Paragraph(text) => vec![text],
-                Block::Lab { caption, .. } => vec![caption],
-                Block::Figure { caption, origin, .. } | Block::Listing { caption, origin, .. } => {
-                    vec![caption, origin]
-                }
-                Block::Table { caption, head, rows, .. } => {
-                    let cells = head.$iter().chain(rows.$iter().flatten());
-                    [caption].into_iter().chain(cells).collect()
-                }
-                Block::List { items, .. } => items.$iter().flatten().flat_map($name).collect(),
-                Block::Quote(inner) => inner.$iter().flat_map($name).collect(),
-                Block::Code { .. } | Block::Bibliography(_) => Vec::new(),
-            }
+fn texts(block: &mut Block) -> Vec<&mut Vec<Inline>> {
+    match block {
+        Block::Heading { text, .. } | Block::Paragraph(text) => vec![text],
+        Block::Lab { caption, .. } => vec![caption],
+        Block::Figure { caption, origin, .. } | Block::Listing { caption, origin, .. } => {
+            vec![caption, origin]
         }
-    };
-}
-texts!(texts, &Block, &Vec<Inline>, iter);
-texts!(texts_mut, &mut Block, &mut Vec<Inline>, iter_mut);
-
-/// Calls `visit` on each piece of running text of the blocks, in reading order, nested ones too.
-pub fn visit(blocks: &[Block], visit: &mut impl FnMut(&Inline)) {
-    blocks.iter().flat_map(texts).for_each(|text| visit_inlines(text, visit));
-}
-
-fn visit_inlines(inlines: &[Inline], visit: &mut impl FnMut(&Inline)) {
-    for inline in inlines {
-        visit(inline);
-        visit_inlines(inner(inline), visit);
+        Block::Table { caption, head, rows, .. } => {
+            let cells = head.iter_mut().chain(rows.iter_mut().flatten());
+            [caption].into_iter().chain(cells).collect()
+        }
+        Block::List { items, .. } => items.iter_mut().flatten().flat_map(texts).collect(),
+        Block::Quote(inner) => inner.iter_mut().flat_map(texts).collect(),
+        Block::Code { .. } | Block::Bibliography(_) => Vec::new(),
     }
+}
+
+/// Calls `visit` on each piece of running text of the blocks, nested ones too.
+pub fn visit(blocks: &[Block], visit: &mut impl FnMut(&Inline)) {
+    let mut each = |inline: Inline| {
+        visit(&inline);
+        Ok::<_, std::convert::Infallible>(vec![inline])
+    };
+    let Ok(()) = rewrite(&mut blocks.to_vec(), &mut each);
 }
 
 /// What stands within a piece of running text.
@@ -232,7 +223,7 @@ pub fn rewrite<E>(
     blocks: &mut [Block],
     change: &mut impl FnMut(Inline) -> Result<Vec<Inline>, E>,
 ) -> Result<(), E> {
-    let mut texts = blocks.iter_mut().flat_map(texts_mut);
+    let mut texts = blocks.iter_mut().flat_map(texts);
     texts.try_for_each(|text| rewrite_inlines(text, change))
 }
 

@@ -54,6 +54,7 @@ impl Labels {
     pub fn number_all(&mut self, blocks: &mut [Block], of: Document) -> Result<(), Error> {
         let letter = of.letter;
         let (mut section, mut subsection, mut tables, mut listings) = (0, 0, 0, 0);
+        self.anchors.remove("note");
         let mut given = Vec::new();
         for block in blocks.iter() {
             if let Block::Figure { number, .. } = block {
@@ -265,7 +266,7 @@ pub(super) fn names(kind: &str) -> Option<[&'static str; 4]> {
         "claim" => ["claim", "claims", "Claim", "Claims"],
         "lst" => ["Listing", "Listings", "Listing", "Listings"],
         // Signs need no name.
-        "row" | "mark" | "sign" => [""; 4],
+        "row" | "mark" | "sign" | "note" => [""; 4],
         "slip" => ["slip", "slips", "Slip", "Slips"],
         _ => return None,
     })

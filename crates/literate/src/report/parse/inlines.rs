@@ -7,7 +7,6 @@ use super::super::mark::{self, Piece, bare, framed, pieces};
 use super::super::print::{Printed, print};
 use super::super::{Error, macros, mathml, tex};
 use super::{ALONE, ELSE, Reader, comment, is_block, markup};
-use crate::input::is_no_text;
 use pulldown_cmark::{Event, LinkType, Tag};
 use std::ops::Range;
 
@@ -46,6 +45,10 @@ impl Reader<'_> {
                 }
                 Event::SoftBreak => out.push(Inline::Soft),
                 Event::InlineHtml(html) => comment(&html)?,
+                Event::FootnoteReference(label) => {
+                    let note = self.reference(&format!("@note:{label}"), range.start)?;
+                    out.push(Inline::Raised(vec![note]));
+                }
                 Event::Start(tag) => out.push(self.span(tag, range)?),
                 _ => return Err(markup(ELSE)),
             }
@@ -168,12 +171,6 @@ impl Reader<'_> {
         for piece in pieces(text) {
             match piece {
                 Piece::Text(words) => {
-                    if let Some(c) = words.chars().find(|c| is_no_text(*c)) {
-                        return Err(markup(format!(
-                            "the character U+{:04X} is none of a text",
-                            u32::from(c)
-                        )));
-                    }
                     // A character that LaTeX does not know is an error here, where its place is known.
                     tex::text(words)?;
                     match out.last_mut() {
@@ -198,7 +195,7 @@ impl Reader<'_> {
         };
         let tex: String = pieces(tex).into_iter().map(one).collect::<Result<_, Error>>()?;
         let bare = bare(&tex);
-        if bare.contains(|c| "«»`".contains(c) || is_no_text(c)) {
+        if bare.contains(['«', '»', '`']) {
             return Err(markup(LEFTOVER));
         }
         match macros::refused(&tex) {
@@ -247,12 +244,11 @@ impl Reader<'_> {
 const LEFTOVER: &str = "markup without its other end, or a row where a cell is meant (table[\"row\"].column); complete it, or write a \
      backslash before a sign that is meant";
 
-/// How lines begin that Markdown reads as a list, a heading or a quotation, and ends a formula there.
-const LINES: [&str; 7] = ["+ ", "- ", "* ", "1. ", "# ", "## ", ">"];
+const CUT: &str = "a formula without its other end: Markdown ends it at an empty line, and at a line that begins with +, -, *, # or >";
 
 /// The first sign of markup that Markdown took for text, since its other end is missing, and what is wrong there. The text
 /// stands at `start`; behind a backslash a sign is meant as it stands.
-fn leftover(source: &str, start: usize, text: &str) -> Option<(usize, String)> {
+fn leftover(source: &str, start: usize, text: &str) -> Option<(usize, &'static str)> {
     let escaped = source[..start].ends_with('\\');
     let left = |(i, c): &(usize, char)| {
         let (before, after) = source.split_at(start + i);
@@ -269,30 +265,10 @@ fn leftover(source: &str, start: usize, text: &str) -> Option<(usize, String)> {
         }
     };
     let (i, sign) = text.char_indices().skip(usize::from(escaped)).find(left)?;
-    let at = start + i;
-    if sign == '|' {
-        return Some((
-            at,
-            "a table needs a line of dashes below its head with as many columns".into(),
-        ));
-    }
-    let mut offset = at;
-    for line in source[at..].split_inclusive('\n').take_while(|_| source[at..].starts_with("$$")) {
-        let begin = line.trim_start();
-        if offset > at
-            && (begin.is_empty()
-                || line.contains("$$") && !LINES.iter().any(|own| begin.starts_with(own)))
-        {
-            break;
-        }
-        if let Some(own) = LINES.iter().find(|own| begin.starts_with(**own)) {
-            let what = "a list, a heading or a quotation; end the line before with the sign";
-            return Some((
-                offset,
-                format!("Markdown reads a line of a formula that begins with {own:?} as {what}"),
-            ));
-        }
-        offset += line.len();
-    }
-    Some((at, LEFTOVER.into()))
+    let what = match sign {
+        '|' => "a table needs a line of dashes below its head with as many columns",
+        '$' if source[start + i..].starts_with("$$") => CUT,
+        _ => LEFTOVER,
+    };
+    Some((start + i, what))
 }

@@ -28,17 +28,28 @@ pub fn parse<'a>(
     declared: &'a Declared,
     paper: &'a Paper,
 ) -> Result<(Vec<Block>, Places<'a>), Error> {
-    let options =
-        Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_HEADING_ATTRIBUTES;
+    let options = Options::ENABLE_MATH
+        | Options::ENABLE_TABLES
+        | Options::ENABLE_FOOTNOTES
+        | Options::ENABLE_HEADING_ATTRIBUTES;
     let callback = |link: BrokenLink<'_>| {
         let own = link.reference.starts_with('@') || link.reference.starts_with('!');
         own.then(|| (CowStr::from(link.reference.to_string()), CowStr::from("")))
     };
     let parser = Parser::new_with_broken_link_callback(&filled.text, options, Some(callback));
-    let definitions = parser.reference_definitions().iter().map(|(_, own)| own.span.start);
-    let definitions: Vec<usize> = definitions.collect();
     let events: Vec<(Event<'_>, Range<usize>)> = parser.into_offset_iter().collect();
-    let deep = deepest(&events);
+    // What reads and writes lists, quotations and emphasis calls itself.
+    let mut depth = 0;
+    let deep = events.iter().find(|(event, _)| {
+        depth += i32::from(matches!(event, Event::Start(_)));
+        depth -= i32::from(matches!(event, Event::End(_)));
+        depth > 40
+    });
+    if let Some((_, range)) = deep {
+        return Err(
+            markup("lists or emphasis within each other, too deep").at(filled.place(range.start))
+        );
+    }
     let mut reader = Reader {
         events: events.into_iter().peekable(),
         filled,
@@ -54,33 +65,13 @@ pub fn parse<'a>(
         places: Places::of(filled),
         found: Vec::new(),
     };
-    for at in definitions.into_iter().chain(deep) {
-        reader.find(at, markup("this is shown nowhere, or lies too deep; remove it"));
-    }
-    let mut blocks = Vec::new();
-    if deep.is_none() {
-        blocks = reader.blocks()?;
-    }
+    let blocks = reader.blocks()?;
     Error::all(reader.found).map(|()| (blocks, reader.places))
 }
 
 /// An error of the markup.
 fn markup(what: impl Into<String>) -> Error {
     Error::Markup(what.into())
-}
-
-/// Lists, quotations and spans within each other, at most: what reads and writes them calls itself.
-const DEEPEST: i32 = 40;
-
-/// Where something lies deeper than any prose.
-fn deepest(events: &[(Event<'_>, Range<usize>)]) -> Option<usize> {
-    let mut depth = 0;
-    let deep = |(event, range): &(Event<'_>, Range<usize>)| {
-        depth += i32::from(matches!(event, Event::Start(_)));
-        depth -= i32::from(matches!(event, Event::End(_)));
-        (depth > DEEPEST).then_some(range.start)
-    };
-    events.iter().find_map(deep)
 }
 
 struct Reader<'a> {
@@ -218,6 +209,18 @@ impl<'a> Reader<'a> {
                 Some(Block::Heading { level, number, id, text })
             }
             Tag::BlockQuote(_) => Some(Block::Quote(self.inner()?)),
+            Tag::FootnoteDefinition(label) => {
+                let id = format!("note:{label}");
+                self.id("note", &id, range.start)?;
+                let mut inner = self.inner()?;
+                self.at = range.start;
+                let (Some(Block::Paragraph(text)), None) = (inner.pop(), inner.pop()) else {
+                    return Err(markup("a footnote is one paragraph"));
+                };
+                let anchor = Inline::Anchor { id, number: String::new() };
+                let mark = [Inline::Raised(vec![anchor]), Inline::Text(" ".into())];
+                Some(Block::Paragraph(mark.into_iter().chain(text).collect()))
+            }
             Tag::List(start) => {
                 let mut items = Vec::new();
                 while let Some(Event::Start(Tag::Item)) = self.peek() {
@@ -430,13 +433,16 @@ fn stands_within(block: &Block) -> bool {
 }
 
 fn is_block(tag: &Tag<'_>) -> bool {
-    use Tag::{BlockQuote, CodeBlock, Heading, HtmlBlock, Item, List, Paragraph, Table};
+    use Tag::{
+        BlockQuote, CodeBlock, FootnoteDefinition, Heading, HtmlBlock, Item, List, Paragraph, Table,
+    };
     matches!(
         tag,
         Paragraph
             | Heading { .. }
             | BlockQuote(_)
             | CodeBlock(_)
+            | FootnoteDefinition(_)
             | HtmlBlock
             | List(_)
             | Item

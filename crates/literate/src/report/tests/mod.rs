@@ -55,6 +55,10 @@ Table: What σ gives {#tab:sigma}
 
 > An aside.
 
+A note[^wait] in passing.
+
+[^wait]: It waits.
+
 Lab toy: You run *them*.
 
 ```rust
@@ -116,6 +120,7 @@ fn markdown_for_a_host() {
         "| <a id=\"claim-jump\"></a>2 | a_b \\* c | 94.5(8)\u{a0}% |\n",
         "\n. and [Claim\u{a0}2](#claim-jump) of [Table\u{a0}1](#tab-sigma) and [Fig.\u{a0}3(a)](#fig-3).\n",
         "1. one\n2. two\n\n   more\n",
+        "\nA note<sup>[1](#note-wait)</sup> in passing.\n\n<sup><a id=\"note-wait\"></a>1</sup> It waits.\n",
         "```rust\nfn f() -> σ { 1 }\n```\n",
         "\nBy [Listing\u{a0}1](#lst-kick), in words.\n",
         "<a id=\"lst-kick\"></a>**Listing 1.** What $\\delta v$ does.\n\n<details>\n<summary><code>toy::flight::Motion::kick</code></summary>\n\n```rust\n/// ",
@@ -145,6 +150,7 @@ fn latex_for_pdflatex() {
         "Of \\hyperref[eq:map]{Eq.~(1)},\n\\begin{equation}\nx \\to f(x)\n\\tag{1}\\label{eq:map}\n\\end{equation}\nfollows",
         "\\begin{longtable}{llr}\n\\caption{What \\ensuremath{\\sigma} gives}\\label{tab:sigma}\\\\\n",
         "\\phantomsection\\label{claim:jump}2 & a\\_b * c & \\origin{kept}{94.5(8)~\\%} \\\\\n",
+        "A note\\textsuperscript{\\hyperref[note:wait]{1}} in passing.\n",
         "\\phantomsection\\section*{References}",
         "\nBy \\hyperref[lst:kick]{Listing~1}, in words.\n",
     ] {
@@ -320,7 +326,7 @@ fn documents_refer_to_each_other() {
         ("report/02-second.md", "## Last {#sec:last}\n\nWords, [@row:rise] and [@sec:b.]"),
         (
             "report/01-first.md",
-            "# Report\n\n## First {#sec:first}\n\n![The rise.](figures/fig03.svg)",
+            "# Report\n\n## Abstract\n\nIt *rises*.\n\n## First {#sec:first}\n\n![The rise.](figures/fig03.svg)",
         ),
         (
             "more.md",
@@ -357,7 +363,30 @@ fn documents_refer_to_each_other() {
         String::from_utf8(bytes.clone()).unwrap()
     };
     for (file, part) in [
-        ("README.md", "**Figure 1.** Again."),
+        (
+            "README.md",
+            "# Front\n\n<a id=\"fig-fig03\"></a>\n![It rises \\[steeply\\].](figures/fig03.svg)\n\n**Figure 1.**",
+        ),
+        (
+            "report.md",
+            "# Report\n\n*A. Uthor (R & D), B. Uthor, 2026-11-24*\n\n## Abstract\n\nIt *rises*.\n\n## ",
+        ),
+        (
+            "report.html",
+            "</h1>\n<p class=\"byline\">A. Uthor (R &amp; D), B. Uthor, 2026-11-24</p>",
+        ),
+        (
+            "report.html",
+            "<section class=\"abstract\">\n<h2 id=\"abstract\"><a href=\"#abstract\">Abstract</a></h2>\n<p>It <em>rises</em>.</p>\n</section>\n<h2",
+        ),
+        (
+            "report.tex",
+            "\\author{A. Uthor\\\\{\\small R \\& D} \\and B. Uthor}\n\\date{2026-11-24}\n",
+        ),
+        (
+            "report.tex",
+            "\\maketitle\n\n\\begin{abstract}\n\nIt \\emph{rises}.\n\\end{abstract}\n\n\\section{First}",
+        ),
         (
             "README.md",
             "See [Sec.\u{a0}S1.1](more.md#sec-b), [✓](more.md#claim-rise) and [more](more.md).",
