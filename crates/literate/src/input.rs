@@ -91,7 +91,7 @@ pub fn listed(names: &[impl AsRef<str>]) -> String {
 }
 
 /// Files and folders that wait until they are complete begin with this.
-pub const STAGING: &str = ".staging-impact-paper-";
+pub const STAGING: &str = ".staging-literate-";
 
 /// Held for reading while files are put into place, so that who ends the program waits for that by holding it for writing.
 pub static WRITING: RwLock<()> = RwLock::new(());
