@@ -1,8 +1,8 @@
 //! Sections 9 and 10: circuits that repeat impacts, and the conclusions.
 
 use super::judge::*;
-use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::experiments::SEGMENTS;
+use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::params::{CONVERGENCE_P, HIGHER_P, REMARK_P};
 
 pub const ROWS: &[Judge] = &[

@@ -13,7 +13,6 @@ const FAULTS: &str = r##"2 front.md +«v.p | nofilter» => :$:
 2 literals.toml why = "what the model is -> why = " " # => : [
 2 references.bib +@article{aa, title={b}} => : aa lacks its author
 2 references.bib +@misc{aa, author={B}, title={b}, year={1999}} => : aa has the type @misc
-2 published.toml value = 100 -> value = nan => :11: the id "masses": a text is empty
 2 published.toml place = "Sec. 2" -> place = Sec. 2 => :12: this is neither a number nor text in quotes
 2 published.toml printed = "N − 1" -> printed = "N − 2" => :385: the id "sec7_limit": its check judges "N − 1", and not its printed
 2 published.toml "sec2_half_height" -> "sec2_new" => : no statement "sec2_half_height""##;

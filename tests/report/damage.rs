@@ -87,7 +87,7 @@ static LIBRARY: LazyLock<Library> =
 /// What documents make of a text.
 fn prose(text: &str) -> Result<(), Error> {
     let (values, templates) = (&QUICK.values, Templates::of([("report.md", text)]));
-    let filler = Filler::new(&templates, &[Document::REPORT])?.with(values);
+    let filler = Filler::new(&templates)?.with(values);
     let filled = filler.prose(&Document::REPORT)?;
     let (mut blocks, _) = parse::parse(&filled, values, &filler.declared, &QUICK.paper)?;
     let (here, mut labels) = (Document::REPORT, Labels::default());

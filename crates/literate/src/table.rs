@@ -208,25 +208,22 @@ impl Table {
 
     /// The different values of a column, in order of the rows.
     pub fn values(&self, column: &str) -> Vec<f64> {
-        let mut found = Vec::new();
-        if let Some(at) = self.column(column) {
-            for value in self.rows.iter().filter_map(|(_, cells)| number(&cells[at])) {
-                if !found.contains(&value) {
-                    found.push(value);
-                }
-            }
-        }
-        found
+        self.different(column, number)
     }
 
     /// The different values of a key as addresses write them, in order of the rows.
     pub fn called(&self, key: &str) -> Vec<String> {
+        self.different(key, |cell| Some(called(cell)))
+    }
+
+    fn different<T: PartialEq>(&self, column: &str, of: impl Fn(&Value) -> Option<T>) -> Vec<T> {
+        let at = self.column(column);
+        let cells =
+            at.into_iter().flat_map(|at| self.rows.iter().map(move |(_, cells)| &cells[at]));
         let mut found = Vec::new();
-        if let Some(at) = self.column(key) {
-            for name in self.rows.iter().map(|(_, cells)| called(&cells[at])) {
-                if !found.contains(&name) {
-                    found.push(name);
-                }
+        for value in cells.filter_map(of) {
+            if !found.contains(&value) {
+                found.push(value);
             }
         }
         found

@@ -151,21 +151,16 @@ impl Value {
         Value::new(id, Number::Text(text.into()), Kind::Exact)
     }
 
-    /// A number as somebody printed it ("0.12", "100"), with the place where it stands; all its
-    /// printed digits are kept. What is not a number becomes a text.
-    pub fn printed(id: impl Into<String>, text: &str, place: impl Into<String>) -> Self {
-        let number = match (text.parse::<i64>(), text.parse::<f64>()) {
-            (Ok(n), _) => Number::Integer(n),
-            (_, Ok(value)) if value.is_finite() && !text.contains(['e', 'E']) => {
-                let decimals = text.split_once('.').map_or(0, |(_, after)| after.len());
-                Number::Real { value, digits: Digits::Decimals(decimals) }
-            }
-            (_, Ok(value)) if value.is_finite() => {
-                let mantissa = text.split(['e', 'E']).next().unwrap_or(text);
-                let significant = mantissa.chars().filter(char::is_ascii_digit).count();
-                Number::Real { value, digits: Digits::Significant(significant) }
-            }
-            _ => Number::Text(text.to_string()),
+    /// A number as somebody printed it, with so many decimals, and the place where it stands.
+    pub fn printed(
+        id: impl Into<String>,
+        value: f64,
+        decimals: usize,
+        place: impl Into<String>,
+    ) -> Self {
+        let number = match decimals == 0 && value.fract() == 0.0 {
+            true => Number::Integer(value as i64),
+            false => Number::Real { value, digits: Digits::Decimals(decimals) },
         };
         Value::new(id, number, Kind::Printed { place: place.into() })
     }
@@ -245,21 +240,4 @@ pub fn origin_of<F>() -> Origin {
     // of a generic type the parameters go.
     let other = path[from..to].strip_prefix("<impl ").and_then(|own| own.rsplit("::").next());
     Origin(format!("{}{}{}", &path[..from], other.unwrap_or_default(), &path[to + 1..]))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn printed_numbers_keep_their_digits() {
-        let number = |text| Value::printed("x", text, "Sec. 2").number;
-        assert_eq!(number("100"), Number::Integer(100));
-        assert_eq!(number("0.120"), Number::Real { value: 0.12, digits: Digits::Decimals(3) });
-        assert_eq!(
-            number("1.50e-4"),
-            Number::Real { value: 1.5e-4, digits: Digits::Significant(3) }
-        );
-        assert_eq!(number("seldom"), Number::Text("seldom".into()));
-    }
 }

@@ -1,6 +1,6 @@
 //! What the paper printed: `templates/published.toml`.
 
-use crate::input::{is_no_text, is_obeyed, one_line, toml_fault};
+use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 
@@ -68,33 +68,17 @@ impl Published {
     /// Reads the file.
     ///
     /// # Errors
-    /// What is no such file, an id that stands twice, and words that a table cannot hold, with the line.
+    /// What is no such file, and an id that stands twice, with the line.
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
         let mut published: Published =
             toml::from_str(text).map_err(|error| PublishedError::Line(toml_fault(text, &error)))?;
         published.text = text.into();
-        let chosen =
-            published.parameters.iter().map(|p| (&p.id, Some(p.value), vec![&p.place, &p.symbol]));
-        let stated = published
-            .statements
-            .iter()
-            .map(|s| (&s.id, s.value, vec![&s.place, &s.statement, &s.printed]));
+        let ids = published.parameters.iter().map(|own| &own.id);
         let mut seen = BTreeSet::new();
-        for (id, value, words) in chosen.chain(stated) {
-            if !seen.insert(id) {
-                return Err(published.fault(id, "it stands twice; give each entry its own"));
-            }
-            let odd = |c: char| is_no_text(c) || is_obeyed(c) || ['«', '»'].contains(&c);
-            let bad = |words: &&String| {
-                words.trim().is_empty()
-                    || words.contains(odd)
-                    || !words.matches('$').count().is_multiple_of(2)
-            };
-            if words.iter().any(bad) || value.is_some_and(|x| !x.is_finite()) {
-                let what = "a text is empty, has a control character or an odd number of $, or the value is not \
-                            finite; correct it";
-                return Err(published.fault(id, what));
-            }
+        let twice =
+            ids.chain(published.statements.iter().map(|own| &own.id)).find(|id| !seen.insert(*id));
+        if let Some(id) = twice {
+            return Err(published.fault(id, "it stands twice; give each entry its own"));
         }
         Ok(published)
     }

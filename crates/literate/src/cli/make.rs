@@ -120,7 +120,7 @@ impl Paper {
 /// Of the prose, which is read before the long runs, of a run, or of a figure.
 pub fn whole(session: &Session<'_>, out: &Path) -> Result<(Report, Vec<Check>), Failure> {
     let Session { paper, templates, progress, .. } = session;
-    Filler::new(templates, &paper.documents)?;
+    Filler::new(templates)?;
     let published = session.published()?;
     let results = Results::run(&paper.experiments, session)?;
     results.tables();

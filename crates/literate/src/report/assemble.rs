@@ -71,7 +71,7 @@ struct Part<'a> {
 fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     let mut values = input.values.clone();
     values.extend(scorecard(input.claims))?;
-    let mut filler = Filler::new(input.templates, &input.paper.documents)?.with(&values);
+    let mut filler = Filler::new(input.templates)?.with(&values);
     let reasons =
         input.claims.iter().map(|c| (format!("the reason of {}", c.id), c.reason.clone()));
     // What stands in braces is computed where the figure is drawn.

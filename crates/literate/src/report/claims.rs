@@ -64,12 +64,13 @@ fn symbols(text: &str) -> String {
 /// What was printed, as values: the groups `paper` (parameters) and `printed` (statements).
 pub fn printed(published: &Published) -> Vec<Value> {
     let chosen = published.parameters.iter().map(|p| {
-        let id = format!("paper.{}", p.id);
-        Value::printed(id, &format!("{}", p.value), &p.place).data_only()
+        let text = p.value.to_string();
+        let decimals = text.split_once('.').map_or(0, |(_, after)| after.len());
+        Value::printed(format!("paper.{}", p.id), p.value, decimals, &p.place).data_only()
     });
     let stated = published.statements.iter().filter_map(|s| {
-        let text = format!("{:.*}", usize::from(s.decimals), s.value?);
-        Some(Value::printed(format!("printed.{}", s.id), &text, &s.place).data_only())
+        let id = format!("printed.{}", s.id);
+        Some(Value::printed(id, s.value?, s.decimals.into(), &s.place).data_only())
     });
     chosen.chain(stated).collect()
 }

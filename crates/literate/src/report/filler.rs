@@ -30,8 +30,8 @@ impl Filler {
     /// Sets Tera up with all `.md`, `.tex` and `.html` files, without values yet.
     ///
     /// # Errors
-    /// A tag that cannot be read, a file with a wrong name, a fault of `literals.toml`.
-    pub fn new(templates: &Templates, documents: &[Document]) -> Result<Self, Error> {
+    /// A tag that cannot be read, a fault of `literals.toml`.
+    pub fn new(templates: &Templates) -> Result<Self, Error> {
         let mut tera = Tera::new();
         let delimiters = Delimiters {
             block_start: "<%".into(),
@@ -49,9 +49,6 @@ impl Filler {
         let templates = templates.clone();
         let mut filler = Filler { tera, templates, declared, context, names };
         set.map_err(|error| filler.failure(&error))?;
-        for document in documents {
-            numbered(&document.files(&filler.templates))?;
-        }
         let sources: Vec<(String, String)> = filler.templates.iter().filter_map(source).collect();
         filler.tera.add_raw_templates(sources).map_err(|error| filler.failure(&error))?;
         Ok(filler)
@@ -216,31 +213,6 @@ fn source((path, text): (&str, &str)) -> Option<(String, String)> {
     }
 }
 
-/// Holds the files of a document to their names: in a folder `NN-name.md`, without a gap or a number twice.
-fn numbered(files: &[&str]) -> Result<(), Error> {
-    let number = |path: &str| {
-        let name = path.rsplit('/').next()?.strip_suffix(".md")?;
-        let (number, words) = name.split_once('-')?;
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
-        let good = number.len() == 2 && words.chars().all(plain);
-        number.parse::<usize>().ok().filter(|_| good)
-    };
-    let mut expected = None;
-    for path in files.iter().filter(|path| path.contains('/')) {
-        let fault = |what: String| Err(Error::Template(format!("{path}: {what}")));
-        let Some(found) = number(path) else {
-            return fault("a file of a folder is called NN-name.md; rename or remove it".into());
-        };
-        match expected.replace(found + 1) {
-            Some(next) if next != found => {
-                return fault(format!("number {next:02} stands here; one is missing or twice"));
-            }
-            _ => (),
-        }
-    }
-    Ok(())
-}
-
 fn raw(value: &Value) -> Json {
     match &value.number {
         Number::Integer(n) => (*n).into(),
@@ -302,11 +274,11 @@ mod tests {
     fn filler(files: &[(&str, &str)]) -> Result<Filler, Error> {
         let mut values = Registry::new();
         values.add(Value::real("p_crit", 0.0122, 3)).unwrap();
-        values.add(Value::printed("printed.rise", "0.12", "Sec. 2")).unwrap();
+        values.add(Value::printed("printed.rise", 0.12, 2, "Sec. 2")).unwrap();
         let table = Table::of("sweep.rows", &[0.12, 0.13], |_| 1).key("sigma", "1", |x| *x);
         let table = table.real("mean", "1", 3, "A mean.", |x| *x).done();
         values.add_table(std::sync::Arc::new(table)).unwrap();
-        Ok(Filler::new(&Templates::of(files.iter().copied()), &[Document::REPORT])?.with(&values))
+        Ok(Filler::new(&Templates::of(files.iter().copied()))?.with(&values))
     }
 
     fn fill(text: &str) -> Result<String, Error> {
@@ -357,22 +329,6 @@ mod tests {
             let error = fill(text).unwrap_err().to_string();
             assert!(error.starts_with("report.md:") && error.contains(told), "{text}: {error}");
             assert!(!error.contains('\n') && !error.contains("-->"), "{error}");
-        }
-    }
-
-    #[test]
-    fn files_of_a_folder_have_numbers() {
-        let told = |name: &str| {
-            let first = ("report/01-a.md", "a");
-            filler(&[first, (name, "b")]).map_or_else(|error| error.to_string(), |_| String::new())
-        };
-        assert_eq!(told("report/02-b.md"), "");
-        for (name, what) in [
-            ("report/01-a copy.md", "report/01-a copy.md: a file of a folder is called NN-name.md"),
-            ("report/03-b.md", "report/03-b.md: number 02 stands here; one is missing or twice"),
-            ("report/01-b.md", "report/01-b.md: number 02 stands here"),
-        ] {
-            assert!(told(name).starts_with(what), "{}", told(name));
         }
     }
 }

@@ -88,7 +88,7 @@ fn values() -> Registry {
 fn tree(text: &str) -> Vec<document::Block> {
     let literals = "[[literal]]\nwhy = \"a test\"\nphrases = [\"100 %\", \"0.12\", \"two\"]";
     let templates = Templates::of([("report.md", text), ("literals.toml", literals)]);
-    let filler = filler::Filler::new(&templates, &[Document::REPORT]).unwrap().with(&values());
+    let filler = filler::Filler::new(&templates).unwrap().with(&values());
     let filled = filler.prose(&Document::REPORT).unwrap();
     let (mut blocks, _) = parse::parse(&filled, &values(), &filler.declared, &toy()).unwrap();
     let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
