@@ -9,8 +9,7 @@ pub fn text(text: &str) -> String {
     text.split('$').enumerate().map(piece).collect()
 }
 
-/// `p_{\mathrm{crit}}` as `p_crit`, `f_{N,p}` as `f_(N,p)`, `\sigma^{-3}` as `σ^-3`. A name that is not
-/// known stands without its backslash.
+/// `p_{\mathrm{crit}}` as `p_crit`, `\sigma^{-3}` as `σ^-3`. A name that is not known stands without its backslash.
 pub fn maths(tex: &str) -> String {
     let mut out = String::new();
     let mut rest = tex;
@@ -24,39 +23,12 @@ pub fn maths(tex: &str) -> String {
                 rest = after;
                 out.push_str(named(name));
             }
-            '_' | '^' => {
-                let (low, after) = group(rest);
-                rest = after;
-                let low = maths(low);
-                let word = |c: char| c.is_alphanumeric() || "+-−±*'.".contains(c);
-                out.push(c);
-                out.push_str(&if low.chars().all(word) { low } else { format!("({low})") });
-            }
             '{' | '}' => (),
             '~' => out.push(' '),
             c => out.push(c),
         }
     }
     out
-}
-
-/// What a subscript holds, and what comes after it: a group, a name or one character.
-fn group(text: &str) -> (&str, &str) {
-    let mut depth = 0;
-    for (i, c) in text.char_indices() {
-        match c {
-            '{' => depth += 1,
-            '}' => depth -= 1,
-            _ => (),
-        }
-        if depth == 0 {
-            let end = i + c.len_utf8();
-            let name = text[end..].find(|c: char| !c.is_ascii_alphabetic());
-            let name = name.map_or(text.len(), |length| end + length);
-            return text.split_at(if c == '\\' { name } else { end });
-        }
-    }
-    (text, "")
 }
 
 fn named(name: &str) -> &str {
@@ -87,7 +59,7 @@ mod tests {
     fn tex_is_read_aloud() {
         for (tex, told) in [
             (r"p_{\mathrm{crit}}", "p_crit"),
-            (r"f_{N,p}(k)", "f_(N,p)(k)"),
+            (r"f_{N,p}(k)", "f_N,p(k)"),
             (r"\mathrm{tol} = 10^{-3}", "tol = 10^-3"),
             (r"k_\pm", "k_±"),
             (r"\phi_N^1(k)", "φ_N^1(k)"),

@@ -288,9 +288,9 @@ fn titles_are_clean() {
     let page = String::from_utf8(report.beside["report.html"].clone()).unwrap();
     let tex = String::from_utf8(report.committed["report.tex"].clone()).unwrap();
     for (text, part) in [
-        (&page, "<title>Impact_dynamics &amp; large % systems: R&amp;D σ_(1/2)</title>"),
+        (&page, "<title>Impact_dynamics &amp; large % systems: R&amp;D σ_1/2</title>"),
         (&tex, r"\title{Impact\_dynamics \& large \% systems: R\&D $\sigma_{1/2}$}"),
-        (&tex, r"pdftitle={Impact\_dynamics \& large \% systems: R\&D sigma\_(1/2)}"),
+        (&tex, r"pdftitle={Impact\_dynamics \& large \% systems: R\&D sigma\_1/2}"),
     ] {
         assert!(text.contains(part), "{part} is not in {text}");
     }
