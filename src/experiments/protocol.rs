@@ -23,9 +23,6 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
         .same("largest", |_| same(most))
         .estimate("least", SIGMA, "least half height", |_| half(least))
         .same("least", |_| same(least))
-        .estimate("range_all", SIGMA, "range of the half heights of the mean of all", |own| {
-            range(own.curves.iter().map(|cell| cell.rise.half_height_all))
-        })
         .done();
     vec![cells(map), all]
 }

@@ -102,29 +102,11 @@ pub fn tables(own: &SpaceTime) -> Vec<Table> {
         Table::of("spacetime.run", &[()], |()| 1)
             .chosen("sigma", SIGMA, "standard deviation σ", |()| Some(own.parameters.sigma))
             .chosen("until", TIME, "length of the run", |()| Some(until))
-            .chosen("last", TIME, "in which it has impacts", |()| Some(until / 10.0))
-            .chosen("quarter", TIME, "of the run", |()| Some(until / 4.0))
-            .chosen("half", TIME, "of the run", |()| Some(until / 2.0))
-            .computed_by(origin(run))
-            .count("passed_over", "realisations without late impacts", |()| own.realisation)
-            .count("impacts", "impacts", |()| own.times.len() as u64)
-            .real("first", TIME, 3, "the first impact", |()| {
-                own.times.first().copied().unwrap_or(none)
-            })
-            .computed_by(origin(SpaceTime::reached))
-            .count("reached", "gaps with an impact", |()| own.reached(until) as u64)
-            .computed_by(origin(SpaceTime::reached))
-            .count("reached_by_quarter", "gaps with an impact", |()| {
-                own.reached(until / 4.0) as u64
-            })
-            .count("reached_by_half", "gaps with an impact", |()| own.reached(until / 2.0) as u64)
             .computed_by(origin(SpaceTime::starts))
             .count("starts", "gaps hit when neither neighbour was", |()| own.starts().len() as u64)
             .computed_by(origin(SpaceTime::advances))
             .real("advance_median", TIME, 3, "median step of a front", |()| median.0)
             .real("advance_longest", TIME, 3, "longest step of a front", |()| longest.0)
-            .count("advance_gap", "gap that it reaches", |()| longest.1 as u64)
-            .real("advance_time", TIME, 3, "when it does", |()| longest.2)
             .done(),
     ]
 }

@@ -24,21 +24,8 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
             Some(difference(half_height(own)?, rest?))
         })
         .done();
-    let last = named(variants, "random").and_then(|random| random.runs.last());
-    let all = Table::of("starts.all", &[last], |_| last.map_or(0, |row| row.realisations))
-        .count("realisations", "chains at each σ", |_| realisations as u64)
-        .chosen(
-            "most_rejected",
-            "1",
-            "share of overlapping starts up to which a row is used",
-            |_| Some(variants[0].ensemble.most_rejected),
-        )
-        .chosen("rejected_at", SIGMA, "the last σ of random starts", |last| {
-            last.map(|row| row.sigma)
-        })
-        .estimate("rejected", "1", "share of the random starts there that overlap", |last| {
-            last.and_then(|row| share(row.rejected as u64, row.realisations as u64))
-        })
+    let all = Table::of("starts.all", &[realisations], |_| realisations)
+        .count("realisations", "chains at each σ", |own| *own as u64)
         .done();
     vec![table, all]
 }

@@ -24,7 +24,6 @@ mod s02;
 mod s03;
 mod s04;
 mod s05;
-mod s06;
 mod s07;
 mod s08;
 mod s09;
@@ -34,8 +33,8 @@ pub use literate::figures::*;
 
 use crate::experiments::sweep;
 use crate::experiments::{
-    BRANCHES, MEASURED, NUCLEATION, PROTOCOL, RACE, RESTITUTION, SCALE, SEEDS, SEGMENTS,
-    SPACE_TIME, SWEEP, THEORY,
+    BRANCHES, MEASURED, NUCLEATION, PROTOCOL, RACE, SCALE, SEEDS, SEGMENTS, SPACE_TIME, SWEEP,
+    THEORY,
 };
 use crate::experiments::{Need, Results};
 use literate::Illustration;
@@ -52,7 +51,7 @@ const fn drawing(
 }
 
 /// All figures: first the paper's, then those of this edition.
-pub const ALL: [Illustration; 24] = [
+pub const ALL: [Illustration; 23] = [
     drawing("fig01", &[], |_| fig01::draw()),
     drawing("fig02", &[&SWEEP], |all| fig02::draw(sweep::main(all)?)),
     drawing("fig03", &[&SWEEP], |all| fig03::draw(sweep::main(all)?)),
@@ -73,7 +72,6 @@ pub const ALL: [Illustration; 24] = [
     drawing("s03", &[&SEEDS, &SWEEP, &PROTOCOL], s03::draw),
     drawing("s04", &[&BRANCHES, &PROTOCOL], s04::draw),
     drawing("s05", &[&THEORY], s05::draw),
-    drawing("s06", &[&RESTITUTION], s06::draw),
     drawing("s07", &[&RACE], |all| s07::draw(all.of(&RACE)?)),
     drawing("s08", &[&RACE, &MEASURED], |all| s08::draw(all.of(&RACE)?, all.of(&MEASURED)?)),
     drawing("s09", &[&SCALE, &MEASURED], |all| s09::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),

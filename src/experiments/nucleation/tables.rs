@@ -66,7 +66,7 @@ pub fn tables(found: &Nucleation) -> Vec<Table> {
             .collect()
     });
     vec![
-        single(chain, &gaps),
+        single(&gaps),
         shares(parameters, &between),
         times(parameters, &gaps),
         chains_table(&chains),
@@ -75,23 +75,14 @@ pub fn tables(found: &Nucleation) -> Vec<Table> {
 }
 
 /// Single gaps and neighbours in unlimited time.
-fn single(chain: &Chain, gaps: &[Gaps]) -> Table {
+fn single(gaps: &[Gaps]) -> Table {
     Table::of("nucleation.gaps", gaps, |_| 0)
         .key("sigma", SIGMA, |row| row.sigma)
         .real("p", "1", 2, "chance of a gap between masses to close by itself", |row| row.ever.p)
-        .real("wall", "1", 2, "that of a gap at a wall", |row| row.ever.wall)
         .real("neighbour", "1", 2, "that of a gap between masses if its neighbour does", |row| {
             row.ever.pair / row.ever.p
         })
-        .real("zero", "1", 2, "P(Y₁ ≥ d): without a free part", |row| zero(chain, row.sigma))
         .done()
-}
-
-/// P(Y₁ ≥ d): without a free part.
-fn zero(chain: &Chain, sigma: f64) -> f64 {
-    let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
-    let least = chain.spacing * (omega * omega - big_omega * big_omega) / (2.0 * sigma);
-    pxfm::f_exp(-least * least)
 }
 
 /// The share of the chains with an impact by the latest time, at more σ.
@@ -141,8 +132,7 @@ fn chains_table(rows: &[Chains<'_>]) -> Table {
 
 /// Numbers of all of them.
 fn all(parameters: &NucleationParams, chains: &[Chains<'_>], half: f64) -> Table {
-    let lengths = || parameters.lengths.iter().map(|(masses, _)| *masses);
-    let shortest = lengths().min().unwrap_or(0);
+    let shortest = parameters.lengths.iter().map(|(masses, _)| *masses).min().unwrap_or(0);
     let last = parameters.times.last().copied();
     let off = |masses: usize| {
         let rows = chains.iter().filter(|row| row.masses == masses && Some(row.time) == last);
@@ -152,7 +142,6 @@ fn all(parameters: &NucleationParams, chains: &[Chains<'_>], half: f64) -> Table
     Table::of("nucleation.all", &[parameters], |_| 0)
         .real("half", SIGMA, 4, "σ where half of the chains have such a gap", |_| half)
         .count("shortest", "masses of the shortest chains", |_| shortest as u64)
-        .count("longest", "masses of the longest", |_| lengths().max().unwrap_or(0) as u64)
         .chosen("until", TIME, "the latest time", |_| last)
         .real("off", "1", 1, "largest distance of found and expected shares by then", |own| {
             off(own.chain.masses)

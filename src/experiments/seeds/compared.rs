@@ -44,18 +44,14 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         })
         .real("eq25", "1", 2, OFF, |line| line.off("eq25"))
         .real("from_rest", "1", 2, OFF, |line| line.off("from_rest"))
-        .real("by_then", "1", 2, OFF, |line| line.off("by_then"))
         .real("grown", "1", 2, OFF, |line| line.off("grown"))
         .done();
     // With the protocol of the main sweep.
     let transient = of("sweep.run")?.number(&[], "transient").ok()?;
-    let excess = |(sigma, grown): (f64, f64)| {
-        let simulated = found.number(&[("sigma", sigma)], "mean_all").ok()?;
-        Some((sigma, simulated, grown - simulated))
-    };
     let grown = means.points(&[("transient", transient)], "sigma", "grown");
-    let against: Vec<(f64, f64, f64)> = grown.into_iter().filter_map(excess).collect();
-    let worst = against.iter().max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
+    let simulated =
+        |(sigma, _): (f64, f64)| Some((sigma, found.number(&[("sigma", sigma)], "mean_all").ok()?));
+    let against: Vec<(f64, f64)> = grown.into_iter().filter_map(simulated).collect();
     let half = rise.estimates(&[("transient", transient)], "transient", "half_height");
     let swept = of("sweep.rise")?.estimates(&[], "half_height_all", "half_height_all");
     let theory = of("seeds.theory")?;
@@ -67,15 +63,9 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let by_circuits = |column: &str| root(&|sigma| theory.number(&[("sigma", sigma)], column).ok());
     let compared = Table::of("seeds.compared", &[()], |()| seeds.realisations)
         .count("sigmas", "values of σ that seeds and map have", |()| sigmas.len() as u64)
-        .chosen("from", SIGMA, "the first of them", |()| sigmas.first().copied())
-        .chosen("to", SIGMA, "the last", |()| sigmas.last().copied())
         .estimate("early", SIGMA, "half height of the main sweep less this", |()| {
             Some(difference(swept.first()?.1, half.first()?.1))
         })
-        .real("largest", "1", 2, "largest distance of mean counts from the main sweep", |()| {
-            worst.map_or(f64::NAN, |at| at.2.abs())
-        })
-        .chosen("largest_at", SIGMA, "where that is", |()| worst.map(|at| at.0))
         .count("swept", "values of σ that seeds and main sweep have", |()| against.len() as u64)
         .real("grown", "1", 2, OFF_SWEEP, |()| root(&|sigma| grown_at(means, transient, sigma)))
         .real("from_rest", "1", 2, OFF_SWEEP, |()| by_circuits("from_rest"))

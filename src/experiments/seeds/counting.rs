@@ -82,14 +82,6 @@ impl ByDistance {
         let ratio = self.advance(last) / self.advance(last / 4);
         pxfm::f_log(ratio) / pxfm::f_log(last as f64 / (last / 4) as f64)
     }
-
-    /// The root mean square distance from the seed of what was reached by the end of a bin, were all places far
-    /// from walls.
-    pub(super) fn radius(&self, bin: usize) -> f64 {
-        let shares = self.shares(&self.reached[bin]).enumerate().skip(1);
-        let squares: f64 = shares.map(|(l, share)| (l * l) as f64 * share).sum();
-        (squares / self.advance(bin).max(f64::MIN_POSITIVE)).sqrt()
-    }
 }
 
 #[cfg(test)]
@@ -97,12 +89,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exponent_and_radius_by_hand() {
-        // As many gaps at twice the distance: the mean of one and four; and after four times the time twice as many.
+    fn the_exponent_by_hand() {
+        // After four times the time twice as many.
         let far = |near: u64, far: u64| vec![1, near, far];
         let reached = vec![vec![0; 3], far(1, 0), far(1, 0), far(1, 0), far(1, 1)];
         let seen = ByDistance { places: vec![1, 2, 2], reached, active: Vec::new() };
-        assert_eq!(seen.radius(4), 2.5_f64.sqrt());
         assert!((seen.exponent() - 0.5).abs() < 1e-15);
     }
 }

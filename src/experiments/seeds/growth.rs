@@ -47,7 +47,7 @@ impl Prediction {
 }
 
 /// For each σ the chances that a gap at a wall, and any other, closes by itself in each bin.
-pub(super) fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 2]> {
+fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 2]> {
     let edges: Vec<f64> = (1..=parameters.bins).map(|bin| bin as f64 * parameters.bin).collect();
     let reaches = Reach::within(&parameters.chain, &edges, ANGLES);
     let by = |variance: f64| {
@@ -60,11 +60,8 @@ pub(super) fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 2]> {
 }
 
 /// The predictions of all transients, from what groups of runs saw at each σ.
-pub(super) fn predictions(
-    parameters: &SeedsParams,
-    closing: &[[Vec<f64>; 2]],
-    seen: &[Vec<ByDistance>],
-) -> Vec<Prediction> {
+pub(super) fn predictions(parameters: &SeedsParams, seen: &[Vec<ByDistance>]) -> Vec<Prediction> {
+    let closing = closing(parameters);
     let sum = |left| seen.iter().map(|own| ByDistance::sum(own, left)).collect();
     let sums: Vec<Vec<ByDistance>> = (0..=GROUPS).map(sum).collect();
     let of = |&transient: &usize| {

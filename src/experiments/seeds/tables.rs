@@ -2,7 +2,7 @@
 
 use super::counting::{bits, ran};
 use super::fronts::{Fronts, Waits, beat};
-use super::growth::{GROUPS, Prediction, closing, predictions};
+use super::growth::{GROUPS, Prediction, predictions};
 use super::{ByDistance, Seeds, Trace};
 use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
@@ -14,7 +14,6 @@ use rayon::prelude::*;
 struct RunsAtSigma<'a> {
     parameters: &'a SeedsParams,
     sigma: f64,
-    closing: &'a [Vec<f64>; 2],
     runs: Vec<(usize, &'a Trace)>,
     seen: ByDistance,
     fronts: Fronts<'a>,
@@ -23,7 +22,6 @@ struct RunsAtSigma<'a> {
 /// All tables.
 pub fn tables(seeds: &Seeds) -> Vec<Table> {
     let parameters = &seeds.parameters;
-    let closing = closing(parameters);
     let groups: Vec<Vec<ByDistance>> = seeds
         .rows
         .par_iter()
@@ -38,11 +36,10 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
         let waits = runs.iter().map(|run| Waits::of(parameters, *run)).collect();
         let fronts = Fronts { parameters, runs: waits };
         let seen = ByDistance::sum(&groups[place], GROUPS);
-        let (sigma, closing) = (parameters.sigmas[place], &closing[place]);
-        RunsAtSigma { parameters, sigma, closing, runs, seen, fronts }
+        RunsAtSigma { parameters, sigma: parameters.sigmas[place], runs, seen, fronts }
     };
     let rows: Vec<RunsAtSigma<'_>> = (0..seeds.rows.len()).into_par_iter().map(row).collect();
-    let predicted = predictions(parameters, &closing, &groups);
+    let predicted = predictions(parameters, &groups);
     vec![
         course(&rows),
         advance(&rows),
@@ -50,7 +47,7 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
         means(&rows, &predicted),
         theory(parameters),
         rise(parameters, &predicted),
-        all(parameters, &rows),
+        all(parameters),
     ]
 }
 
@@ -68,16 +65,6 @@ fn course(rows: &[RunsAtSigma<'_>]) -> Table {
         })
         .estimate("active", "1", "gaps that were hit in the window", |(row, from)| {
             row.hit(*from, row.parameters.window)
-        })
-        .real("active_share", "1", 2, "active gaps over those that were reached", |(row, from)| {
-            let both = row.hit(*from, row.parameters.window).zip(row.hit(0, row.end(*from)));
-            both.map_or(f64::NAN, |(active, reached)| active.value / reached.value)
-        })
-        .estimate("alive", "1", "share of the runs with an impact in the window", |(row, from)| {
-            share(row.alive(*from), row.runs.len() as u64)
-        })
-        .real("distance", "1", 2, "root mean square distance of those reached", |(row, from)| {
-            row.seen.radius(row.end(*from))
         })
         .done()
 }
@@ -107,11 +94,14 @@ fn fronts(rows: &[RunsAtSigma<'_>]) -> Table {
         .real("exponent", "1", 2, "d ln(advance)/d ln t over the last three quarters", |row| {
             row.seen.exponent()
         })
-        .estimate("speed", "omega", "steps over the time of all waits", |row| row.fronts.speed())
         .estimate("bursts", "1", "share of steps within a beat", |row| row.fronts.bursts())
-        .real("even", "1", 2, "the same at a constant hazard and this speed", |row| {
-            row.fronts.even()
-        })
+        .real(
+            "even",
+            "1",
+            2,
+            "the same at a constant hazard and the speed of these fronts",
+            |row| row.fronts.even(),
+        )
         .estimate("standing", "1", "share of fronts without a step in the second half", |row| {
             row.fronts.standing()
         })
@@ -130,20 +120,11 @@ fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
             own.mean(*place)
         })
         .real("eq25", "1", 3, "the same by circuits with p of Eq. (25)", |(.., row)| {
-            row.circuits(|law| law.p())
+            circuits(row.parameters, row.sigma, |law| law.p())
         })
         .real("from_rest", "1", 3, "with p for a start from rest", |(.., row)| {
-            row.circuits(|law| law.p_from_rest())
+            circuits(row.parameters, row.sigma, |law| law.p_from_rest())
         })
-        .real(
-            "by_then",
-            "1",
-            3,
-            "with the share of gaps that have closed by then",
-            |(own, _, row)| {
-                row.circuits(|_| Ok(row.closing[1].iter().take(row.end(own.transient)).sum()))
-            },
-        )
         .done()
 }
 
@@ -172,26 +153,12 @@ fn rise(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
 }
 
 /// Numbers of all σ together.
-fn all(parameters: &SeedsParams, rows: &[RunsAtSigma<'_>]) -> Table {
-    let last = parameters.transients.last().copied().unwrap_or(0);
-    let alive = |row: &RunsAtSigma<'_>| row.alive(last) as f64 / row.runs.len().max(1) as f64;
-    let least = rows.iter().min_by(|a, b| alive(a).total_cmp(&alive(b)));
-    let count = |of: fn(&Waits) -> u64| rows.iter().flat_map(|row| &row.fronts.runs).map(of).sum();
+fn all(parameters: &SeedsParams) -> Table {
     Table::of("seeds.all", &[parameters], |own| own.realisations)
         .count("realisations", "chains at each σ", |own| own.realisations as u64)
         .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
         .chosen("until", TIME, "time since the first impact", |own| Some(own.bin * own.bins as f64))
-        .chosen("window", TIME, "", |own| Some(own.bin * own.window as f64))
-        .estimate("least_alive", "1", "", |_| {
-            least.and_then(|row| share(row.alive(last), row.runs.len() as u64))
-        })
-        .same("least_alive", |own| {
-            let end = (last + own.window) as f64 * own.bin;
-            Some(format!("seeds.course[sigma={},until={end}].alive", least?.sigma))
-        })
         .real("beat", TIME, 3, "2π/|Ω − ω|", |own| beat(&own.chain))
-        .count("fronts", "fronts of all runs", |_| count(|run| run.fronts))
-        .count("steps", "steps of all of them", |_| count(Waits::steps))
         .done()
 }
 
@@ -206,21 +173,6 @@ impl RunsAtSigma<'_> {
         let mask = bits(from, count);
         let of = |trace: &Trace| trace.hits.iter().filter(|own| **own & mask != 0).count() as f64;
         average(&self.runs.iter().map(|(_, trace)| of(trace)).collect::<Vec<_>>())
-    }
-
-    /// Runs with an impact in the window after a transient.
-    fn alive(&self, transient: usize) -> u64 {
-        let mask = bits(transient, self.parameters.window);
-        let within = |trace: &Trace| trace.hits.iter().any(|own| own & mask != 0);
-        self.runs.iter().filter(|(_, trace)| within(trace)).count() as u64
-    }
-
-    /// [`circuits()`] at this σ.
-    fn circuits(
-        &self,
-        p: impl Fn(&ImpactProbability) -> Result<f64, impact_circuits::Error>,
-    ) -> f64 {
-        circuits(self.parameters, self.sigma, p)
     }
 }
 
@@ -258,18 +210,18 @@ mod tests {
             run([0b0010, 0b0001, 0b0010], [Some(30), Some(0), Some(40)]),
         ]];
         let found = tables(&Seeds { parameters, rows });
-        let [course, advance, fronts, _, _, _, all] = &found[..] else { panic!() };
+        let [course, advance, fronts, ..] = &found[..] else { panic!() };
         let at = |until: f64, column| course.number(&[("until", until)], column).unwrap();
-        let columns = ["reached", "active", "active_share", "alive", "distance"];
-        assert_eq!(columns.map(|column| at(50.0, column)), [2.5, 2.5, 1.0, 1.0, 1.0]);
-        assert_eq!(columns.map(|column| at(100.0, column)), [2.5, 0.5, 0.2, 0.5, 1.0]);
+        let columns = ["reached", "active"];
+        assert_eq!(columns.map(|column| at(50.0, column)), [2.5, 2.5]);
+        assert_eq!(columns.map(|column| at(100.0, column)), [2.5, 0.5]);
         // To each side there are two neighbours, of which three of four are hit.
         let advance = advance.points(&[], "time", "advance");
         assert_eq!(advance, [(25.0, 0.0), (50.0, 0.75), (75.0, 0.75), (100.0, 0.75)]);
-        // Waits of 30, 30 and 40, and one that is cut off at 100.
-        let speed = fronts.number(&[("sigma", 0.1)], "speed").unwrap();
-        assert_eq!(speed, 3.0 / 200.0);
-        let of = |column| all.number(&[], column).unwrap();
-        assert_eq!([of("fronts"), of("steps"), of("least_alive")], [4.0, 3.0, 0.5]);
+        // Waits of 30, 30 and 40, and one that is cut off at 100: of four fronts one stands.
+        let beat = std::f64::consts::TAU / (std::f64::consts::SQRT_2 - 1.0);
+        let of = |column| fronts.number(&[("sigma", 0.1)], column).unwrap();
+        assert!((of("even") + pxfm::f_expm1(-3.0 / 200.0 * beat)).abs() < 1e-12);
+        assert_eq!([of("bursts"), of("standing")], [0.0, 0.25]);
     }
 }

@@ -1,7 +1,6 @@
 //! The theory for many vertices, with p N held fixed as N grows: Fig. S5.
 
-use super::relation::{p_of, reaches};
-use super::{known, one};
+use super::known;
 use crate::experiments::prelude::*;
 use crate::params::{Grid, LARGE_VERTICES};
 use impact_circuits::distribution::SampleSpace::Simple;
@@ -33,12 +32,7 @@ pub(super) fn tables() -> Vec<Table> {
         })
         .real("p_n", "1", 5, "N p_jump", |(n, jump)| jump.p * n)
         .done();
-    let sigma = one("theory.large_relation", origin(reaches))
-        .real("sigma_jump", SIGMA, 3, "σ of the jump at the largest N", |()| {
-            jumps.last().map_or(f64::NAN, |(_, jump)| reaches(p_of, jump.p))
-        })
-        .done();
-    vec![table, sigma]
+    vec![table]
 }
 
 /// The limit of k*/N against p N.
