@@ -132,16 +132,4 @@ mod tests {
         assert!((found - 0.25).abs() < 1e-3, "{found}");
         assert_eq!(rate(&times().map(|time| (time, 1e-15)).collect::<Vec<_>>()), None);
     }
-
-    #[test]
-    fn twins_part_and_repeat_exactly() {
-        let mut parameters = Runs::horizon(crate::params::Profile::Quick);
-        parameters.realisations = 2;
-        let horizon = run(&parameters, &Progress::silent()).unwrap();
-        assert_eq!(horizon, run(&parameters, &Progress::silent()).unwrap());
-        // An independent simulator at quadruple precision: order to t about 175, tenfold in 12 to 15. Two twins know
-        // that to some ten per cent.
-        let order = horizon.over(|twins| Some(twins.order?.0)).unwrap().value;
-        assert!((100.0..260.0).contains(&order), "{order}");
-    }
 }

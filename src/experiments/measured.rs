@@ -143,18 +143,3 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         .measured();
     vec![table.done(), impact.done()]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_committed_file_reads() {
-        let results = crate::experiments::quick(&[&crate::experiments::MEASURED]);
-        let measured = results.of(&crate::experiments::MEASURED).unwrap();
-        assert!(measured.of(What::Engine).count() > 0);
-        assert!(measured.impact(What::Method, "advancement") > 0.0);
-        let text = serde_json::to_string(measured).unwrap();
-        assert!(!text.contains("/home") && !text.contains("/root"));
-    }
-}

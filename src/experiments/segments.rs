@@ -178,20 +178,3 @@ impl Segment {
         self.positions.iter_mut().zip(positions).for_each(|(track, x)| track.push(x));
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const SCENARIO: &str = r#"{"forcing":[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]}"#;
-
-    #[test]
-    fn a_scenario_must_do_what_it_was_saved_for() {
-        let text = format!(r#"{{"scenario":{SCENARIO},"from":1.0,"until":20.0,"order":[0,1,3]}}"#);
-        let error = replay(&text).unwrap_err();
-        assert!(error.starts_with("the engine has the impacts ["), "{error}");
-        let error = replay(&text.replace("0.9,", "")).unwrap_err();
-        assert!(!error.contains(" at line "), "{error}");
-        assert!(replay("{").is_err());
-    }
-}

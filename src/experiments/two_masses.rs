@@ -141,19 +141,3 @@ fn thresholds(
     }
     Ok((violations, found))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::params::Profile;
-
-    #[test]
-    fn thresholds_lie_above_the_bound_and_fall_towards_it() {
-        let mut parameters = TwoMassesParams::new(Profile::Quick);
-        parameters.directions.realisations = 6;
-        let found = run(&parameters, &Progress::silent()).unwrap();
-        assert_eq!(found.violations, 0);
-        assert!(found.excess.windows(2).all(|pair| pair[1][1] <= pair[0][1]));
-        assert!(found.excess.iter().all(|[least, _]| *least >= 1.0 && *least < 1.01));
-    }
-}

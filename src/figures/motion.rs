@@ -185,16 +185,3 @@ fn name_impacts(
 fn between(a: (i32, i32), b: (i32, i32), eighths: i32) -> (i32, i32) {
     (a.0 + (b.0 - a.0) * eighths / 8, a.1 + (b.1 - a.1) * eighths / 8)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_that_would_touch_move_apart() {
-        assert_eq!(apart(&[900, 500, 100], 340), [900, 500, 100]);
-        assert_eq!(apart(&[1200, 500, 400], 340), [1200, 620, 280]);
-        let crowd = apart(&[500, 500, 500], 340);
-        assert!(crowd.windows(2).all(|w| w[0] - w[1] >= 335), "{crowd:?}");
-    }
-}

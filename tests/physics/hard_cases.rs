@@ -91,17 +91,6 @@ fn chattering_ends_in_contact_and_contact_in_release() {
     assert!(counters.impacts < 2000, "a chatter is cut short: {counters:?}");
 }
 
-/// An almost elastic chatter, and a hard squeeze: finished, and cheaply.
-#[test]
-fn chatters_are_cut_short() {
-    for r in [0.99, 0.9, 0.0] {
-        let scenario = Scenario { initial: Initial::Rest, ..one([0.0; 2], [5.88, -4.94], r) };
-        let mut engine = Engine::new(&scenario).unwrap();
-        engine.run(100.0, |_| true).unwrap();
-        assert!(engine.counters().impacts < 60_000, "r = {r}: {:?}", engine.counters());
-    }
-}
-
 /// Next to resonance amplitudes are ten million times a gap, and hide that it hardly moves: the certified steps
 /// are to go by the gap.
 #[test]

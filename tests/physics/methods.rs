@@ -16,11 +16,6 @@ fn free(parts: &[[f64; 2]], restitution: f64) -> Scenario {
     Scenario { restitution, ..given(parts.to_vec(), vec![[0.0; 2]; parts.len()]) }
 }
 
-/// A mass that is pressed to the walls, where it chatters and comes to rest.
-fn pressed() -> Scenario {
-    Scenario { restitution: 0.2, forcing: vec![[5.88, -4.94]], ..chain(1, Boundary::Walls, 0.0, 0) }
-}
-
 fn trace(
     method: &dyn Method,
     scenario: &Scenario,
@@ -105,78 +100,6 @@ fn methods_have_their_order() {
     let grown = grown(tolerances.map(|method| method as &dyn Method));
     let [error, steps] = grown.map(|x| x.log10() / 5.0);
     assert!((error - 1.0).abs() < 0.15 && (steps - 0.2).abs() < 0.03, "{error} {steps}");
-}
-
-/// How many of 50 masses hit the wall of gap 1 first that their free motion reaches up to `depth`
-/// beyond (or, if negative, does not reach).
-fn grazes(method: &dyn Method, depth: f64) -> usize {
-    let hits = |phase: f64| {
-        let amplitude = 1.0 + depth;
-        let (a, b) = (-amplitude * phase.sin(), amplitude * phase.cos());
-        let found = impacts(method, &free(&[[a, b]], 0.8), 3.0);
-        found.first().is_some_and(|impact| impact.gap == 1)
-    };
-    (0..50).filter(|i| hits(0.5 + 0.0123456789 * f64::from(*i))).count()
-}
-
-/// Depth of the graze, a method, and how many of the 50 it sees.
-type Seen<'a> = (f64, &'a dyn Method, std::ops::RangeInclusive<usize>);
-
-#[test]
-fn grazes_are_missed_by_looking() {
-    let cases: [Seen; 12] = [
-        // A dip of depth δ is below zero for 2 √(2δ) = 0.0089 at δ = 1e-5: a step of 0.1 sees a tenth.
-        (1e-5, &Sampled { step: 0.1 }, 1..=14),
-        (1e-3, &Sampled { step: 0.01 }, 50..=50),
-        // What comes as near as the tolerance is hit too.
-        (-1e-6, &Advancement { tolerance: 1e-5 }, 50..=50),
-        (-1e-6, &Advancement { tolerance: 1e-7 }, 0..=0),
-        // Steps that a tolerance of 1e-9 allows are longer than that.
-        (1e-5, &RungeKutta { tolerance: 1e-9 }, 0..=14),
-        (1e-2, &RungeKutta { tolerance: 1e-9 }, 50..=50),
-        // Time stepping also hits what only comes near, to some h²/8: by the error of its flight, or by
-        // the forecast of its steps.
-        (-1e-6, &Verlet { step: 0.01 }, 11..=50),
-        (-1e-6, &Verlet { step: 0.001 }, 0..=0),
-        (-1e-6, &Penalty { step: 0.01 }, 11..=50),
-        (-1e-6, &Penalty { step: 0.001 }, 0..=0),
-        (-1e-6, &MoreauJean { step: 0.01 }, 11..=50),
-        (-1e-6, &MoreauJean { step: 0.001 }, 0..=0),
-    ];
-    for (depth, method, expected) in cases {
-        let seen = grazes(method, depth);
-        assert!(expected.contains(&seen), "{}, depth {depth:e}: {seen}", method.name());
-    }
-}
-
-/// At the wall: contact for the engine, an end of the run for events, one flip a step for Verlet.
-#[test]
-fn contact_is_where_events_end() {
-    let until = 20.0;
-    let exact = impacts(&Certified, &pressed(), until);
-    let events: [&dyn Method; 3] = [
-        &Sampled { step: 0.01 },
-        &Advancement { tolerance: 1e-12 },
-        &RungeKutta { tolerance: 1e-9 },
-    ];
-    for method in events {
-        let (found, cost) = trace(method, &pressed(), until);
-        match cost {
-            Err(Error::Work { gap: 0, time, .. }) => assert!((1.9..2.1).contains(&time), "{time}"),
-            other => panic!("{}: {other:?}", method.name()),
-        }
-        // The chatter before it is the same; the engine cuts it short.
-        for (a, b) in exact.iter().zip(&found).take(8) {
-            let off = (a.time - b.time).abs();
-            assert!(a.gap == b.gap && off < 1e-6, "{}: {a:?} {b:?}", method.name());
-        }
-        assert!(found.len() >= 8, "{}: {}", method.name(), found.len());
-    }
-    assert!(impacts(&Verlet { step: 1e-3 }, &pressed(), until).len() > 10 * exact.len());
-    let found = impacts(&MoreauJean { step: 1e-3 }, &pressed(), until);
-    assert!((10..exact.len()).contains(&found.len()), "{}", found.len());
-    // Both walls in turn, as it should be.
-    assert!([0, 1].iter().all(|gap| found.iter().any(|i| i.gap == *gap)));
 }
 
 /// A run that is stopped by its receiver ends right there, and one that goes on from a state in the

@@ -158,30 +158,3 @@ pub fn multiplicity(space: SampleSpace, p: DoubleDouble, k: usize) -> DoubleDoub
     // Horner's scheme in p; the excess lengths are 0, 1, 2, 3 and 2.
     real(simple) + p * (real(doubled) + p * (real(three + two) + p * real(four)))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::counting::phi;
-    use crate::graph::Graph;
-
-    #[test]
-    fn polynomials_are_quotients_of_what_enumeration_finds() {
-        for big_n in 1..=5 {
-            // By class and number of different vertices; k + 3 edges at most.
-            let mut found = [[0_u128; 6]; 5];
-            for circuit in Graph::of_chain(big_n - 1).circuits(big_n + 3) {
-                if let Some(at) = CLASSES.iter().position(|c| c.repeats == circuit.repeats()) {
-                    found[at][circuit.visits().len()] += 1;
-                }
-            }
-            for (class, found) in CLASSES.iter().zip(found) {
-                for (k, found) in (1..=big_n).zip(&found[1..]) {
-                    let ours = class.per_simple_circuit(SampleSpace::FiveClasses, k);
-                    let circuits = ours * phi(big_n, k).unwrap();
-                    assert_eq!(circuits, SHARED * found, "{class:?} N = {big_n} k = {k}");
-                }
-            }
-        }
-    }
-}

@@ -288,38 +288,3 @@ fn half_period_mean(f: impl Fn(f64) -> f64) -> f64 {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use impact_numerics::random::NormalPairs;
-
-    #[test]
-    fn amplitudes_of_random_gaps_exceed_the_spacing_as_often_as_p_says() {
-        // Eq. (21) sampled: 40 000 gaps, σ = 0.25; the bound is five standard errors.
-        let (sigma, gaps) = (0.25, 40_000);
-        let mut normals = NormalPairs::new("test of Eq. (21)", 1, 0);
-        let mut difference = || {
-            let [a, b] = normals.pair();
-            sigma * (a - b)
-        };
-        let mut hits = 0;
-        for _ in 0..gaps {
-            let free = amplitude(difference(), difference());
-            let forced = amplitude(difference(), difference());
-            hits += usize::from(free + forced > 1.0);
-        }
-        let p = ImpactProbability::of_paper(sigma).unwrap().p().unwrap();
-        let error = (p * (1.0 - p) / gaps as f64).sqrt();
-        assert!((hits as f64 / gaps as f64 - p).abs() < 5.0 * error);
-    }
-
-    #[test]
-    fn the_far_tail_keeps_its_digits_or_says_that_it_is_gone() {
-        let p = |sigma| ImpactProbability::of_paper(sigma).unwrap().p_from_rest();
-        // Laplace's method: leading exponent 1/(4σ² (1 + √2)²), so this ratio is near 4.
-        let log = |sigma: f64| -pxfm::f_log(p(sigma).unwrap());
-        assert!((log(0.01) / log(0.02) - 4.0).abs() < 0.1);
-        assert!(p(0.001).is_err());
-    }
-}

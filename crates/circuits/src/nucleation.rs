@@ -277,25 +277,6 @@ pub fn half(chain: &Chain, reach: &Reach, fewer: &Reach) -> f64 {
 mod tests {
     use super::*;
     use crate::impact_probability::ImpactProbability;
-    use impact_numerics::random::NormalPairs;
-
-    #[test]
-    fn the_curve_is_the_motion_of_a_chain_at_rest() {
-        // E solves E″ + ω² E = −(cos Ωt, sin Ωt), E(0) = E′(0) = 0; central differences.
-        let chain = Chain { natural_frequency: 1.3, ..Chain::default() };
-        let h = 1e-4;
-        for time in [0.3, 2.0, 17.5] {
-            let [left, here, right] = [time - h, time, time + h].map(|t| curve(&chain, t));
-            let (sin, cos) = pxfm::f_sincos(chain.forcing_frequency * time);
-            for (axis, force) in [cos, sin].into_iter().enumerate() {
-                let second = (left.0[axis] - 2.0 * here.0[axis] + right.0[axis]) / (h * h);
-                assert!((second + 1.69 * here.0[axis] + force).abs() < 1e-6);
-                let first = (right.0[axis] - left.0[axis]) / (2.0 * h);
-                assert!((first - here.1[axis]).abs() < 1e-7);
-            }
-        }
-        assert_eq!(curve(&chain, 0.0), ([0.0; 2], [0.0; 2]));
-    }
 
     #[test]
     fn no_sample_of_the_curve_lies_beyond_its_reach() {
@@ -323,45 +304,6 @@ mod tests {
             let law = ImpactProbability::of_paper(sigma).unwrap();
             let p = Reach::ever(&chain, 256).probability(1.0, 2.0 * sigma * sigma);
             assert!((p / law.p_from_rest().unwrap() - 1.0).abs() < 1e-13, "{sigma}: {p}");
-        }
-    }
-
-    #[test]
-    fn drawn_chains_are_near_the_value() {
-        let chain = Chain { masses: 30, ..Chain::default() };
-        let reach = Reach::ever(&chain, 32);
-        let draws = 4000;
-        let half = half(&chain, &reach, &reach);
-        for (sigma, index) in [(0.08, 0), (0.11, 1), (half, 2)] {
-            let mut normals = NormalPairs::new("test of clumps", 1, index);
-            let (mut some, mut clumps) = (0_u32, 0_u32);
-            for _ in 0..draws {
-                let mut forces: Vec<[f64; 2]> =
-                    (0..30).map(|_| normals.pair().map(|x| sigma * x)).collect();
-                forces.insert(0, [0.0; 2]);
-                forces.push([0.0; 2]);
-                let closes: Vec<bool> = forces
-                    .windows(2)
-                    .map(|pair| {
-                        let delta = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
-                        closes_by_itself(&chain, delta)
-                    })
-                    .collect();
-                some += u32::from(closes.contains(&true));
-                clumps += u32::from(closes[0]);
-                clumps += closes.windows(2).map(|pair| u32::from(!pair[0] && pair[1])).sum::<u32>();
-            }
-            let found =
-                Chances::new(&chain, &reach, &reach, sigma).at_least_one(30, Boundary::Walls);
-            let n = f64::from(draws);
-            let (share, mean) = (f64::from(some) / n, f64::from(clumps) / n);
-            let error = (share * (1.0 - share) / n).sqrt();
-            assert!((share - found.value).abs() < 0.01 + 5.0 * error, "{share} {found:?}");
-            assert!((mean - found.clumps).abs() < 5.0 * (mean / n).sqrt(), "{mean} {found:?}");
-            assert!(found.independent > found.value);
-            // That independent gaps are a bound is the Gaussian correlation inequality.
-            assert!(share < found.independent + 3.0 * error, "{share} {found:?}");
-            assert!(sigma != half || (found.value - 0.5).abs() < 1e-5, "{found:?}");
         }
     }
 }

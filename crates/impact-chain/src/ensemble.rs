@@ -233,14 +233,4 @@ mod tests {
         assert_eq!(cut.distinct[0], whole.distinct[0]);
         assert_eq!(cut.distinct[1..], vec![vec![None; 2]; 3]);
     }
-
-    #[test]
-    fn chains_from_above_are_still_active_where_those_from_rest_are_not() {
-        let heating = Some(Heating { sigma: 0.2, time: 100.0 });
-        let count = |heating| -> u32 {
-            let found = run(&Ensemble { heating, ..small() }, 0.07, 5);
-            found.distinct[0].iter().flatten().sum()
-        };
-        assert!(count(heating) > 20 && count(None) == 0);
-    }
 }

@@ -61,15 +61,6 @@ mod tests {
     use crate::random::NormalPairs;
 
     #[test]
-    fn weights_add_up_and_repeat() {
-        let first = weights(1, 2, 50);
-        assert_eq!(first.iter().sum::<u32>(), 50);
-        assert_eq!(first, weights(1, 2, 50));
-        assert_ne!(first, weights(1, 3, 50));
-        assert!(weights(1, 2, 0).is_empty());
-    }
-
-    #[test]
     fn the_error_of_a_mean_is_the_known_one() {
         // 400 standard normals: the standard error of the mean is s/√400 by theory, and the
         // bootstrap with 2000 resamples knows a standard deviation to 1.6 %: allow five times that.

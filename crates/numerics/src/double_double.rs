@@ -200,29 +200,6 @@ pub fn sin_cos(x: DoubleDouble) -> [DoubleDouble; 2] {
 mod tests {
     use super::*;
 
-    /// Addition theorems join different octants and arguments of different size.
-    #[test]
-    fn sines_obey_their_addition_theorem() {
-        let close = |a: DoubleDouble, b: DoubleDouble| (a - b).to_f64().abs() < 1e-28;
-        for (a, b) in [(0.3, 0.9), (2.0, 40.7), (-5.5, 100.25), (1e3, 0.125)] {
-            let of = |x: f64| sin_cos(DoubleDouble::from(x));
-            let ([sa, ca], [sb, cb]) = (of(a), of(b));
-            let [s, c] = sin_cos(DoubleDouble::from(a) + DoubleDouble::from(b));
-            assert!(close(s, sa * cb + ca * sb) && close(c, ca * cb - sa * sb), "{a} {b}");
-            assert!((s.to_f64() - pxfm::f_sin(a + b)).abs() < 2e-16);
-        }
-    }
-
-    #[test]
-    fn product_of_doubles_is_exact() {
-        // (2^27 + 1)² = 2^54 + 2^28 + 1 needs 55 bits: the integer is the second route.
-        let a = 134_217_729.0_f64;
-        let square = two_product(a, a);
-        let exact = 134_217_729_i128 * 134_217_729_i128;
-        assert_eq!(square.hi as i128 + square.lo as i128, exact);
-        assert_ne!(square.lo, 0.0);
-    }
-
     #[test]
     fn exponential_sees_the_second_part() {
         let x = DoubleDouble { hi: 700.0, lo: 5e-14 };

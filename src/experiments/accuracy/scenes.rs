@@ -237,26 +237,3 @@ fn elastic(impacts: usize) -> Vec<Case> {
     let flight = 2.0 * pxfm::f_asin(1.0 / 1.25);
     vec![case(scenario, flight * (impacts as f64 + 0.6), Expected::Steady(impacts, 0.75))]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::case::Verdict;
-    use super::*;
-
-    #[test]
-    fn the_engine_is_right_in_every_scene() {
-        for scene in all(false).unwrap() {
-            assert!(!scene.cases.is_empty(), "{}", scene.id);
-            for case in &scene.cases {
-                assert_eq!(case.judge(&Certified), Verdict::Right, "{}: {case:?}", scene.id);
-                let sticks = ["chattering", "squeezed", "valve"].contains(&scene.id);
-                let mut engine =
-                    case.start.as_scenario(&case.scenario).and_then(|own| Engine::new(&own)).ok();
-                if let Some(engine) = engine.as_mut().filter(|_| sticks) {
-                    engine.run(case.until, |_| true).unwrap();
-                    assert!(engine.counters().contact_phases > 0, "{} never sticks", scene.id);
-                }
-            }
-        }
-    }
-}

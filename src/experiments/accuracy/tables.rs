@@ -251,18 +251,3 @@ pub fn scale(scale: &Scale) -> Vec<Table> {
         .done();
     vec![table]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn settings_are_read_and_addressed() {
-        let of = |method, value| Setting { method, value };
-        assert_eq!(titled(of(MethodName::Verlet, 0.1)), "Verlet, $h = 0.1$");
-        let fine = of(MethodName::RungeKutta, 2e-9);
-        assert_eq!(spoken(fine), r"Runge–Kutta with $\mathrm{tol} = 2\times10^{-9}$");
-        assert_eq!(called(fine), "runge-kutta-0.000000002");
-        assert_eq!(power(1e-6), "10^{-6}");
-    }
-}

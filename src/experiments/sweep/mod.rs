@@ -245,22 +245,3 @@ pub fn largest_between_seeds(first: &Curve, second: &Curve) -> Option<(f64, usiz
     let all: Vec<f64> = second.rows.iter().filter_map(apart).collect();
     Some((all.iter().copied().reduce(f64::max)?, all.len()))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use impact_numerics::quadrature::GaussLegendre;
-
-    /// The amplitude of the difference of two forces is Rayleigh distributed with variance 2σ² in each
-    /// quadrature; the chance that it exceeds one is the integral of that density.
-    #[test]
-    fn the_chance_to_stick_is_the_integral_of_a_density() {
-        let rule = GaussLegendre::new(20);
-        for sigma in [PRINTED_THRESHOLD, ABOVE, STICKING] {
-            let variance = 2.0 * sigma * sigma;
-            let density = |x: f64| x / variance * pxfm::f_exp(-0.5 * x * x / variance);
-            let integral = rule.integrate_panels(1.0, 1.0 + 12.0 * sigma, 30, density);
-            assert!((can_stick(&sigma) / integral - 1.0).abs() < 1e-10, "{sigma}");
-        }
-    }
-}

@@ -70,36 +70,3 @@ fn resting(scenario: &Scenario, start: &State) -> Vec<usize> {
     };
     (0..topology.gaps()).filter(is_resting).map(|k| topology.label(k)).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Boundary, Chain};
-    use impact_numerics::random::NormalPairs;
-
-    /// Started anew right after each impact, it finds the next one of the whole run, and the gap
-    /// just hit is not hit again.
-    #[test]
-    fn segments_make_up_the_run() {
-        for (boundary, r) in [(Boundary::Walls, 0.8), (Boundary::Ring, 0.8), (Boundary::Walls, 0.0)]
-        {
-            let chain = Chain { masses: 20, boundary, restitution: r, ..Chain::default() };
-            let scenario = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("segments", 1, 0));
-            let mut engine = Engine::new(&scenario).unwrap();
-            let mut start = State::of(&scenario);
-            for count in 0..200 {
-                let hit = engine.next_impact(1e3).unwrap().unwrap();
-                let found =
-                    Certified.first((&scenario, &start, start.time + 100.0)).unwrap().unwrap();
-                assert_eq!(hit.gap, found.gap, "impact {count} at {}, r = {r}", hit.time);
-                let error = (hit.time - found.time).abs();
-                assert!(error * hit.closing_speed < 1e-13, "{count}: {error:e} at {hit:?}");
-                start = State {
-                    time: hit.time,
-                    positions: engine.positions(hit.time),
-                    velocities: engine.velocities(hit.time),
-                };
-            }
-        }
-    }
-}

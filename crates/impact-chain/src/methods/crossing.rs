@@ -45,25 +45,3 @@ pub fn crossing(low: f64, high: f64, first: f64, mut width: impl FnMut(f64) -> f
     }
     bracket(open, shut, |s| width(s) < 0.0)[0]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_root_after_the_known_one_is_found() {
-        // s (a − s): shut at 0, open until a.
-        for a in [0.3, 1e-3, 1e-12] {
-            let root = crossing(0.0, 1.0, 0.0, |s| s * (a - s));
-            assert!((root - a).abs() <= 1e-15 * a, "{a}: {root:e}");
-        }
-        assert_eq!(crossing(0.25, 1.0, 0.0, |_| -1.0), 0.25);
-        assert_eq!(crossing(0.25, 1.0, 2.0, |s| 0.5 - s), 0.5);
-        let mut count = 0;
-        crossing(0.0, 1.0, 0.0, |s| {
-            count += 1;
-            s * (1e-15 - s)
-        });
-        assert!(count <= 128, "{count}");
-    }
-}

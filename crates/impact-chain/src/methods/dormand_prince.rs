@@ -120,24 +120,3 @@ fn derivative(row: &Bodies, at: Instant, y: &[f64], out: &mut [f64]) {
     out[..bodies].copy_from_slice(&y[bodies..]);
     row.accelerations(at, &y[..bodies], &mut out[bodies..]);
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Each stage is consistent, and the solution has order 5: Σ b_i c_i^m = 1/(m + 1).
-    #[test]
-    fn coefficients_satisfy_their_conditions() {
-        for (node, row) in NODES.iter().zip(&STAGES) {
-            assert!((row.iter().sum::<f64>() - node).abs() < 1e-14);
-        }
-        let nodes: Vec<f64> = std::iter::once(0.0).chain(NODES).collect();
-        for m in 0..5 {
-            let sum: f64 = STAGES[5].iter().zip(&nodes).map(|(b, c)| b * c.powi(m)).sum();
-            assert!((sum - 1.0 / f64::from(m + 1)).abs() < 1e-14, "{m}");
-            let error: f64 = ERROR.iter().zip(&nodes).map(|(e, c)| e * c.powi(m)).sum();
-            assert!((error.abs() < 1e-14) == (m < 4), "{m}: {error}");
-        }
-        assert!(DENSE.iter().sum::<f64>().abs() < 1e-14);
-    }
-}

@@ -126,30 +126,3 @@ impl Impulses {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Scenario;
-    use crate::methods::State;
-
-    /// The problem of a step: a wall, five masses at rest that touch, a sixth that hits them.
-    #[test]
-    fn impulses_solve_their_problem() {
-        let json = r#"{"forcing":[[0,0],[0,0],[0,0],[0,0],[0,0],[0,0]],"restitution":0.5}"#;
-        let scenario = Scenario::from_json(json).unwrap();
-        let mut row = Bodies::new(&scenario, &State::of(&scenario)).unwrap();
-        row.u[1..7].copy_from_slice(&[-1.0, -2.0, -3.0, -4.0, -5.0, -6.0]);
-        row.v[6] = -1.0;
-        let mut impulses = Impulses::begin(&row, Instant::ZERO);
-        let active = |k| Active { k, rate: row.rate(k), impulse: 0.0 };
-        impulses.active = (0..6).map(active).collect();
-        impulses.solve(&mut row, 1.0);
-        for (k, gap) in impulses.active.iter().enumerate() {
-            let after = row.rate(k) + 0.5 * gap.rate;
-            // All take part.
-            assert!(gap.impulse > 0.1 && after > -1e-13, "{k}: {after:e}");
-            assert!(gap.impulse * after < 1e-13, "{k}: {} {after:e}", gap.impulse);
-        }
-    }
-}

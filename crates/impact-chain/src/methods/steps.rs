@@ -67,28 +67,3 @@ fn check(field: &str, x: f64, range: std::ops::RangeInclusive<f64>) -> Result<()
     let remedy = format!("give a number from {:?} to {:?}", range.start(), range.end());
     Err(Error::input(field, format!("{x:?} is out of range"), remedy))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn steps_end_at_the_end() {
-        let scenario = Scenario::from_json(r#"{"forcing":[[0.5,0.5]]}"#).unwrap();
-        let start = State { time: 3.0, ..State::of(&scenario) };
-        let of = |until: f64, h: f64| {
-            steps(&scenario, &start, until, h).map(Iterator::collect::<Vec<Step>>)
-        };
-        let all = of(4.05, 0.1).unwrap();
-        assert_eq!(all.len(), 11);
-        assert!(all.windows(2).all(|pair| pair[0].to == pair[1].from));
-        assert_eq!((all[0].from.time(), all[10].to.time()), (3.0, 4.05));
-        assert!((all[10].h - 0.05).abs() < 1e-15 && all[9].h == 0.1);
-        assert!(of(2.0, 0.1).unwrap().is_empty());
-        for (until, h) in [(4.0, 0.0), (4.0, f64::NAN), (4.0, 0.8), (4.0, 1e-10), (1e12, 0.1)] {
-            let error = of(until, h).err().unwrap().to_string();
-            assert!(error.starts_with("step: "), "{error}");
-        }
-        assert!(of(f64::NAN, 0.1).is_err());
-    }
-}

@@ -133,36 +133,7 @@ impl Rate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use dashu::float::{DBig, FBig, round::mode::HalfEven};
     use impact_numerics::random::NormalPairs;
-
-    type Big = FBig<HalfEven, 2>;
-
-    /// Second route: ω t / 2π with 400 bits.
-    fn turn_of(omega: f64, t: f64) -> f64 {
-        let tau: DBig = "6.28318530717958647692528676655900576839433879875021164194988918461563\
-                         281257241799725606965068423413596429617302656461329418768921910116446"
-            .parse()
-            .unwrap();
-        let tau: Big = tau.with_base_and_precision::<2>(440).value().with_rounding();
-        let x = |v: f64| Big::try_from(v).unwrap().with_precision(440).value();
-        let turns = x(omega) * x(t) / tau;
-        let whole = turns.clone().floor();
-        (turns - whole).to_f64().value()
-    }
-
-    #[test]
-    fn phases_hold_at_any_time() {
-        for omega in [1.0, std::f64::consts::SQRT_2, 1e-3, 0.7, 123.456, 1e6] {
-            let rate = Rate::new(omega);
-            for t in [0.0, 1e-3, 1.0, 10.5, 12345.678, 1e8 + 0.1, 1e12] {
-                let turn = rate.turn(Instant::at(t)) as f64 / (1u128 << 64) as f64;
-                let error = (turn - turn_of(omega, t)).abs();
-                let error = error.min(1.0 - error);
-                assert!(error < 2e-16, "omega {omega}, t {t}: {error:e}");
-            }
-        }
-    }
 
     /// The quick conversions are those of the language.
     #[test]

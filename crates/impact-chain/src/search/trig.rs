@@ -179,23 +179,6 @@ pub fn rough_angles(y: f64x2, x: f64x2) -> f64x2 {
 mod tests {
     use super::*;
 
-    /// The correctly rounded functions of `pxfm` are the second route.
-    #[test]
-    fn small_arguments_keep_relative_accuracy() {
-        for i in 1..=4000 {
-            let x = f64::from(i) * (RANGE / 4000.0);
-            let half = pxfm::f_sin(x / 2.0);
-            let c = 2.0 * half * half;
-            let [sin, cos] = small_sin_cos(x);
-            assert!((cos - c).abs() <= 1e-15 * c, "x = {x}");
-            let s = pxfm::f_sin(x) - x;
-            assert!((sin - s).abs() <= 4e-16 * x, "x = {x}: {:e}", (sin - s) / x);
-        }
-        let x = 1e-5;
-        let [sin, _] = small_sin_cos(x);
-        assert!((sin / (-x * x * x / 6.0) - 1.0).abs() < 1e-10);
-    }
-
     #[test]
     fn a_turn_is_reduced_exactly() {
         for i in 0..100_000u64 {
