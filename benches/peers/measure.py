@@ -147,14 +147,6 @@ def part_ours():
     text, _, _ = measure("engine", "--masses", 1_000_000, "--repetitions", 1)
     report = json.loads(text)
     yield engine(report["cases"][0], report["version"], note="memory: a single run")
-    say("  a ballistic chain of 100 masses")
-    impacts = 10_000_000
-    example = ["cargo", "run", "--quiet", "--release", "--locked", "-p", "impact-chain"]
-    example += ["--example", "ballistic", "--", "100", str(impacts)]
-    best = min(float(call(example, 300)[0]) for _ in range(5))
-    row = {"what": "model", "name": "ballistic", "version": report["version"], "n": 100}
-    row |= {"sigma": 0.0, "until": 0.0, "chains": 1, "threads": 1, "impacts": impacts}
-    yield row | {"microseconds_per_impact": best, "seconds": best * impacts * 1e-6}
     for threads in sorted({1, os.cpu_count() or 1}):
         say(f"  an ensemble on {threads} thread(s)")
         report = timed("--masses", 100, "--chains", 64, "--threads", threads)
@@ -274,7 +266,7 @@ def machine():
 
 def of_part(row):
     """The part that writes a row."""
-    by_what = dict.fromkeys(["engine", "ensemble", "model"], "ours")
+    by_what = dict.fromkeys(["engine", "ensemble"], "ours")
     by_what |= {"method": "methods", "command": "commands"}
     return by_what.get(row["what"], row["name"].split()[0].lower().strip(":"))
 

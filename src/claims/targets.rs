@@ -156,29 +156,4 @@ mod tests {
             assert_eq!(verdict(&results, id), Verdict::Differs, "{id}");
         }
     }
-
-    #[test]
-    fn times_decide_and_their_absence_leaves_open() {
-        let mut results = results();
-        let measured = results.of_mut(&MEASURED).unwrap();
-        let mut row = measured.of(What::Engine).find(|row| row.n == 100).unwrap().clone();
-        measured.rows.clear();
-        for id in ["one_chain", "ensemble", "heyoka_20", "full", "memory"] {
-            assert_eq!(verdict(&results, id), Verdict::CannotBeJudged, "{id}");
-        }
-        row.microseconds_per_impact = Some(0.2);
-        let peer = Measurement {
-            what: What::Peer,
-            name: "heyoka".into(),
-            microseconds_per_impact: Some(19.0),
-            ..row.clone()
-        };
-        results.of_mut(&MEASURED).unwrap().rows = vec![row, peer];
-        assert_eq!(verdict(&results, "one_chain"), Verdict::Reproduced);
-        assert_eq!(verdict(&results, "heyoka_100"), Verdict::Differs, "95 times faster");
-        results.of_mut(&MEASURED).unwrap().rows[1].microseconds_per_impact = Some(21.0);
-        assert_eq!(verdict(&results, "heyoka_100"), Verdict::Reproduced);
-        results.of_mut(&MEASURED).unwrap().rows[0].horizon_impact = Some(2);
-        assert_eq!(verdict(&results, "heyoka_100"), Verdict::Differs, "a shorter horizon");
-    }
 }

@@ -136,11 +136,10 @@ fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Printed>, Failure
 
 fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Printed {
     let (all, rejected) = (ensemble.realisations, counts.rejected);
-    if let Some(first) = &counts.first_failure {
+    if counts.failed > 0 {
         let failed = counts.failed;
         warn(&format!(
-            "sigma {sigma:?}: {failed} of {all} realisations ended early and are in no mean; the \
-             first: {first}"
+            "sigma {sigma:?}: {failed} of {all} realisations ended early and are in no mean"
         ));
     }
     if rejected as f64 > ensemble.most_rejected * all as f64 {

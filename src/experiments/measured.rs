@@ -46,8 +46,6 @@ pub enum What {
     Method,
     /// Another project.
     Peer,
-    /// Another model, written in this project for its speed (`impact-chain`, example `ballistic`).
-    Model,
     /// Wall time of a command of this project.
     Command,
     /// Another project that could not be run; the note says why.
@@ -130,13 +128,11 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
     let engine = measured.impact(What::Engine, "impact-paper");
     let [certified, advancement] =
         ["certified", "advancement"].map(|name| measured.impact(What::Method, name));
-    let ballistic = measured.impact(What::Model, "ballistic");
     let impact = Table::of("measured.impact", &[()], |()| 1)
         .computed_by(origin(Measured::committed))
         .real("engine", "us", 2, "time of an impact in the engine, one chain of 100 masses", |()| {
             engine
         })
-        .real("ballistic", "us", 2, "the same of masses that fly freely", |()| ballistic)
         .real("advancement", "1", 2, "time of conservative advancement over the engine's", |()| {
             advancement / certified
         })

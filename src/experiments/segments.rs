@@ -112,13 +112,10 @@ pub const FILES: [&str; 2] = ["scenarios/fig05.json", "scenarios/fig06.json"];
 
 /// A saved scenario.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 struct Saved {
     scenario: serde_json::Value,
     from: f64,
     until: f64,
-    /// Its impacts, as gaps, and at the end the first one again, which closes the circuit.
-    order: Vec<usize>,
 }
 
 /// Replays both segments from the files of [`FILES`].
@@ -135,18 +132,9 @@ pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
 
 fn replay(text: &str) -> Result<Segment, String> {
     let saved: Saved = serde_json::from_str(text).map_err(|error| error.to_string())?;
-    let run = Scenario::from_json(&saved.scenario.to_string())
-        .and_then(|scenario| record(&scenario, saved.from, saved.until));
-    // A place would be one in what is written out here, and not in the file.
-    let segment = run.map_err(|error| match error.to_string().split_once(" at line ") {
-        Some((problem, _)) => problem.to_string(),
-        None => error.to_string(),
-    })?;
-    let found: Vec<usize> = segment.impacts.iter().map(|impact| impact.gap).collect();
-    match found == saved.order {
-        true => Ok(segment),
-        false => Err(format!("the engine has the impacts {found:?}, not {:?}", saved.order)),
-    }
+    Scenario::from_json(&saved.scenario.to_string())
+        .and_then(|scenario| record(&scenario, saved.from, saved.until))
+        .map_err(|error| error.to_string())
 }
 
 /// Runs a scenario and records positions and impacts from `from` to `until`.

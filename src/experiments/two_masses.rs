@@ -65,13 +65,12 @@ pub fn tables(found: &TwoMasses) -> Vec<Table> {
         .key("time", TIME, |(time, _)| time.floor())
         .computed_by(origin(run))
         .real(
-            "least",
+            "greatest",
             "1",
             6,
-            "least force with an impact within the time, over its bound",
-            |(_, own)| own[0],
+            "least force with an impact within the time, over its bound, largest of all",
+            |(_, own)| own[1],
         )
-        .real("greatest", "1", 6, "the same, largest of all directions", |(_, own)| own[1])
         .done();
     vec![bound, excess]
 }

@@ -61,7 +61,7 @@ pub fn timed(measured: &Measured) -> Vec<Timed> {
             What::Engine => Some(MethodName::Certified),
             What::Method => MethodName::ALL.into_iter().find(|m| m.id() == row.name),
             What::Peer => None,
-            What::Ensemble | What::Model | What::Command | What::Absent => return None,
+            What::Ensemble | What::Command | What::Absent => return None,
         };
         Some(Timed {
             name: row.name.clone(),

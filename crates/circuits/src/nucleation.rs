@@ -215,17 +215,6 @@ pub struct Chances {
     pub wall_pair: f64,
 }
 
-/// The probability that at least one gap of a chain closes by itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AtLeastOne {
-    /// As if gaps knew nothing of one another.
-    pub independent: f64,
-    /// The mean number λ of clumps.
-    pub clumps: f64,
-    /// 1 − e^{−λ}.
-    pub value: f64,
-}
-
 impl Chances {
     /// The chances within a reach, for forces of standard deviation `sigma`; for neighbours, which take
     /// the square of the number of angles, that reach may be at `fewer` angles.
@@ -240,26 +229,20 @@ impl Chances {
         }
     }
 
-    /// For a chain of `masses` masses, one at least, between walls or in a ring.
-    pub fn at_least_one(&self, masses: usize, boundary: Boundary) -> AtLeastOne {
-        // Each gap's chance to close, and that of a clump to begin there.
+    /// The probability 1 − e^{−λ} that at least one gap closes by itself, of a chain of `masses` masses, one at least, between
+    /// walls or in a ring.
+    pub fn at_least_one(&self, masses: usize, boundary: Boundary) -> f64 {
+        // The chance of a clump to begin at a gap.
         let walls = boundary == Boundary::Walls && masses > 1;
         let gaps = if boundary == Boundary::Walls { masses + 1 } else { masses };
-        let closes =
-            |gap: usize| if walls && (gap == 0 || gap == masses) { self.wall } else { self.p };
         let begins = |gap: usize| match (walls, gap) {
             (true, 0) => self.wall,
             (true, 1) => self.p - self.wall_pair,
             (true, gap) if gap == masses => self.wall - self.wall_pair,
             _ => self.p - self.pair,
         };
-        let (mut clumps, mut none) = (0.0, 1.0);
-        for gap in 0..gaps {
-            clumps += begins(gap);
-            none *= 1.0 - closes(gap);
-        }
-        let value = -pxfm::f_expm1(-clumps);
-        AtLeastOne { independent: 1.0 - none, clumps, value }
+        let clumps = (0..gaps).map(begins).fold(0.0, |sum, own| sum + own);
+        -pxfm::f_expm1(-clumps)
     }
 }
 
@@ -267,7 +250,7 @@ impl Chances {
 /// angles is less exact.
 pub fn half(chain: &Chain, reach: &Reach, fewer: &Reach) -> f64 {
     let share = |sigma: f64| {
-        Chances::new(chain, reach, fewer, sigma).at_least_one(chain.masses, chain.boundary).value
+        Chances::new(chain, reach, fewer, sigma).at_least_one(chain.masses, chain.boundary)
     };
     let logarithms = [0.02, 2.0].map(|times: f64| pxfm::f_log(times * chain.spacing));
     pxfm::f_exp(crossing(logarithms, 1e-6, |log_sigma| share(pxfm::f_exp(log_sigma)) - 0.5))

@@ -30,8 +30,6 @@ pub struct Counts {
     pub rejected: usize,
     /// Realisations that the engine ended early.
     pub failed: usize,
-    /// What the engine said of the first of these.
-    pub first_failure: Option<String>,
     /// All impacts, of failed realisations too.
     pub total: Total,
 }
@@ -78,8 +76,8 @@ impl Counts {
     }
 
     /// One realisation that the engine ended.
-    pub(crate) fn failed(ensemble: &Ensemble, error: &Error) -> Counts {
-        Counts { failed: 1, first_failure: Some(error.to_string()), ..Counts::none(ensemble) }
+    pub(crate) fn failed(ensemble: &Ensemble) -> Counts {
+        Counts { failed: 1, ..Counts::none(ensemble) }
     }
 }
 
@@ -100,7 +98,6 @@ impl FromIterator<Counts> for Counts {
             extend(&mut whole.phases, own.phases);
             whole.rejected += own.rejected;
             whole.failed += own.failed;
-            whole.first_failure = whole.first_failure.or(own.first_failure);
             whole.total.add(&own.total);
         }
         whole
@@ -212,8 +209,8 @@ impl Watch {
         self.total.contact_phases = engine.counters().contact_phases;
         let mut counts = match ended {
             Ok(()) => Counts::none(ensemble),
-            Err(error @ Error::Work { .. }) => {
-                return Ok(Counts { total: self.total, ..Counts::failed(ensemble, &error) });
+            Err(Error::Work { .. }) => {
+                return Ok(Counts { total: self.total, ..Counts::failed(ensemble) });
             }
             Err(error) => return Err(error),
         };

@@ -143,7 +143,7 @@ impl Ensemble {
         let mut engine = match self.started(sigma, index, &stopped) {
             Ok(engine) => engine,
             Err(Error::Overlap { .. }) => return Ok(Counts::rejected(self)),
-            Err(error @ Error::Work { .. }) => return Ok(Counts::failed(self, &error)),
+            Err(Error::Work { .. }) => return Ok(Counts::failed(self)),
             Err(error) => return Err(error),
         };
         let mut watch = Watch::new(self);

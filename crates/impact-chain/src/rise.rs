@@ -41,8 +41,6 @@ pub struct Runs {
     pub rejected: usize,
     /// Ended by the engine before the last window did.
     pub failed: usize,
-    /// What the engine said of the first failed one.
-    pub first_failure: Option<String>,
     /// All impacts.
     pub total: Total,
 }
@@ -138,7 +136,6 @@ impl Counted {
             realisations: ensemble.realisations_at(sigma),
             rejected: own.rejected,
             failed: own.failed,
-            first_failure: own.first_failure.clone(),
             total: own.total.clone(),
         };
         Counted { runs: ensemble.sigmas.iter().zip(counts).map(runs).collect(), curves, ensemble }

@@ -3,7 +3,6 @@
 
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, MethodName, Protocol, Setting};
-use impact_chain::methods::Cost;
 
 /// All realisations by all methods.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -14,16 +13,8 @@ pub struct Biases {
     pub runs: Vec<Vec<Vec<Counted>>>,
 }
 
-/// One realisation by one method.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Counted {
-    /// Distinct gaps that impact in the window (T, T + W]; none if the run was given up.
-    pub distinct: Option<u32>,
-    /// Impacts.
-    pub impacts: u64,
-    /// Evaluations.
-    pub evaluations: u64,
-}
+/// Distinct gaps that impact in the window (T, T + W] of one realisation; none if the method gave it up.
+pub type Counted = Option<u32>;
 
 /// Runs everything.
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
@@ -64,7 +55,5 @@ fn count(
     let until = protocol.transient + protocol.window;
     let method = setting.method.with(setting.value);
     let ran = method.run((scenario, &State::of(scenario), until), &mut see).ok();
-    let distinct = ran.map(|_| hit.iter().map(|hit| u32::from(*hit)).sum());
-    let Cost { impacts, evaluations, .. } = ran.unwrap_or_default();
-    Counted { distinct, impacts, evaluations }
+    ran.map(|_| hit.iter().map(|hit| u32::from(*hit)).sum())
 }

@@ -5,7 +5,6 @@ use super::race::{self, DISPLACED, Entry, Race};
 use super::scale::{self, Scale};
 use crate::experiments::prelude::*;
 use crate::params::{MethodName, Setting};
-use impact_chain::methods::Cost;
 use impact_numerics::statistics::{mean, standard_error};
 
 /// What a method is called in figures and tables.
@@ -126,12 +125,10 @@ pub struct Compared {
     pub pairs: usize,
     /// Mean difference of their counts over the engine's mean count, with the error of differences chain by chain.
     pub share: Option<Estimate>,
-    /// Evaluations per impact.
-    pub work: Option<f64>,
 }
 
 fn counts(runs: &[Counted]) -> impl Iterator<Item = Option<f64>> {
-    runs.iter().map(|run| run.distinct.map(f64::from))
+    runs.iter().map(|run| run.map(f64::from))
 }
 
 /// The comparisons of all methods, settings outer.
@@ -148,18 +145,11 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
                 let own = own.filter(|own| *own > 0.0)?;
                 Some(with_error(mean(&differences)? / own, standard_error(&differences)? / own))
             };
-            let mut cost = Cost::default();
-            for run in theirs {
-                cost.impacts += run.impacts;
-                cost.evaluations += run.evaluations;
-            }
-            let (share, work) = (share(), cost.evaluations_per_impact());
             rows.push(Compared {
                 setting: *setting,
                 sigma: *sigma,
                 pairs: pairs.len(),
-                share,
-                work,
+                share: share(),
             });
         }
     }
@@ -193,44 +183,7 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
             or_nan(mean(own))
         })
         .done();
-    let at = |sigma: Option<f64>| {
-        let rows = rows.iter().filter(move |row| Some(row.sigma) == sigma);
-        rows.filter_map(|row| Some((row, row.share?)))
-    };
-    let sigmas = &biases.parameters.scenes;
-    let [low, high] = [sigmas.first(), sigmas.last()].map(|own| own.map(|own| own.0));
-    // The one that is large for sure: two standard errors less.
-    let surely = |own: &Estimate| own.value.abs() - 2.0 * own.error;
-    let worst = at(low).max_by(|a, b| surely(&a.1).total_cmp(&surely(&b.1)));
-    let verlet = Setting { method: MethodName::Verlet, value: 0.1 };
-    let [near, far] = [low, high].map(|sigma| at(sigma).find(|(row, _)| row.setting == verlet));
-    // Within one per cent, one standard error allowed for.
-    let good = || at(high).filter(|(_, own)| own.value.abs() - own.error <= 0.01).count();
-    let same = |own: Option<(&Compared, Estimate)>| {
-        let (setting, sigma) = own.map(|(row, _)| (called(row.setting), row.sigma))?;
-        Some(format!("bias.cells[setting={setting},sigma={sigma}].share"))
-    };
-    let ends = Table::of("bias.ends", &[()], |()| 0)
-        .chosen("low", SIGMA, "σ on the rise", |()| low)
-        .chosen("high", SIGMA, "σ far above it", |()| high)
-        .chosen("step", TIME, "of a coarse scheme of Verlet", |()| Some(verlet.value))
-        .words("worst", "the method with the largest bias on the rise", |()| {
-            worst.map_or("none".into(), |(row, _)| spoken(row.setting))
-        })
-        .computed_by(origin(bias::run))
-        .real("work", "1", 2, "evaluations per impact of that scheme", |()| {
-            or_nan(far.and_then(|(row, _)| row.work))
-        })
-        .count("good", "settings within one per cent far above the rise", |()| good() as u64)
-        .count("settings", "settings that were run there", |()| at(high).count() as u64)
-        .estimate("near", "1", "bias of that scheme on the rise", |()| near.map(|own| own.1))
-        .same("near", |()| same(near))
-        .estimate("far", "1", "the same far above it", |()| far.map(|own| own.1))
-        .same("far", |()| same(far))
-        .estimate("largest", "1", "the largest bias on the rise", |()| worst.map(|own| own.1))
-        .same("largest", |()| same(worst))
-        .done();
-    vec![cells, means, ends]
+    vec![cells, means]
 }
 
 /// Fig. S9.

@@ -3,7 +3,7 @@
 use super::{First, Nucleation, ensembles};
 use crate::experiments::prelude::*;
 use crate::params::NucleationParams;
-use impact_circuits::nucleation::{AtLeastOne, Chances, Reach, half};
+use impact_circuits::nucleation::{Chances, Reach, half};
 use rayon::prelude::*;
 
 /// Angles at which the reach of a gap is computed.
@@ -31,7 +31,7 @@ struct Chains<'a> {
     sigma: f64,
     time: f64,
     part: &'a [First],
-    expected: AtLeastOne,
+    expected: f64,
 }
 
 /// All tables.
@@ -94,7 +94,7 @@ fn shares(parameters: &NucleationParams, curve: &[Curve]) -> Table {
         .key("masses", "1", |(masses, _)| *masses as f64)
         .key("sigma", SIGMA, |(_, row)| row.sigma)
         .real("clumps", "1", 3, "expected with clumps", |(masses, row)| {
-            row.by_then.at_least_one(*masses, parameters.chain.boundary).value
+            row.by_then.at_least_one(*masses, parameters.chain.boundary)
         })
         .done()
 }
@@ -123,10 +123,7 @@ fn chains_table(rows: &[Chains<'_>]) -> Table {
         .estimate("found", "1", "share of the chains with an impact by then", |row| {
             share(row.hit(), row.part.len() as u64)
         })
-        .real("independent", "1", 3, "expected if gaps were independent", |row| {
-            row.expected.independent
-        })
-        .real("clumps", "1", 3, "expected with clumps", |row| row.expected.value)
+        .real("clumps", "1", 3, "expected with clumps", |row| row.expected)
         .done()
 }
 
@@ -136,7 +133,7 @@ fn all(parameters: &NucleationParams, chains: &[Chains<'_>], half: f64) -> Table
     let last = parameters.times.last().copied();
     let off = |masses: usize| {
         let rows = chains.iter().filter(|row| row.masses == masses && Some(row.time) == last);
-        let off = |row: &Chains<'_>| row.hit() as f64 / row.part.len() as f64 - row.expected.value;
+        let off = |row: &Chains<'_>| row.hit() as f64 / row.part.len() as f64 - row.expected;
         rows.map(|row| off(row).abs()).fold(0.0, f64::max)
     };
     Table::of("nucleation.all", &[parameters], |_| 0)
