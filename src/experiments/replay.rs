@@ -121,33 +121,3 @@ pub fn tables(own: &Replays) -> Vec<Table> {
         .done();
     vec![runs, all]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use impact_chain::Ensemble;
-
-    /// The count is that of the ensembles, and a name says what is in its run.
-    #[test]
-    fn runs_are_what_they_are_called() {
-        let Replays { parameters, found } =
-            run(&runs(Profile::Quick), &Progress::silent()).unwrap();
-        for ((name, asked), found) in parameters.iter().zip(&found) {
-            let protocol = Protocol { transient: asked.transient, window: asked.window };
-            if let Forces::Drawn { sigma, stream, seed, realisation } = &asked.forces {
-                let (chain, stream) = (asked.chain.clone(), stream.clone());
-                let protocols = vec![protocol];
-                let alone =
-                    Ensemble { chain, protocols, stream, seed: *seed, ..Ensemble::default() };
-                let counts = alone.realisation(*sigma, *realisation, || false).unwrap();
-                assert_eq!(counts.distinct[0], [Some(found.distinct as u32)], "{name}");
-                assert_eq!(counts.total.impacts, found.impacts, "{name}");
-            }
-            let sticks = name.starts_with("chatter") || name.starts_with("contact");
-            assert_eq!(found.contact_phases > 0, sticks, "{name}");
-            assert!(found.simultaneous > 0 || !name.contains("both sides"), "{name}");
-            assert_eq!(found.impacts == 0, name.ends_with("without an impact"), "{name}");
-        }
-        assert!(parameters.iter().any(|(_, asked)| asked.chain.boundary == Boundary::Ring));
-    }
-}

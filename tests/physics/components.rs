@@ -52,19 +52,6 @@ fn two_and_eight_components_have_the_impacts_of_the_reference() {
     assert!(early > 10, "{early}");
 }
 
-#[test]
-fn one_component_given_either_way_is_the_same_to_the_last_bit() {
-    let pairs = "[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]";
-    for more in ["", r#","restitution":0.3,"boundary":"ring""#, r#","initial":"zero""#] {
-        let one = format!(r#"{{"forcing_frequency":1.7,"forcing":{pairs}{more}}}"#);
-        let list = format!(r#"{{"forcing_frequencies":[1.7],"forcing":[{pairs}]{more}}}"#);
-        let [one, list] = [one, list].map(|text| Scenario::from_json(&text).unwrap());
-        assert_eq!(one, list);
-        let impacts = trace(&one, 60.0);
-        assert!(impacts.len() > 10 && impacts == trace(&list, 60.0));
-    }
-}
-
 /// Frequencies, lists of amplitudes (or how many good ones), and words of the refusal.
 const REFUSED: &str = "\
 2,3,4,5,6,7,8,9,10 | 9 => forcing; 1 to 8

@@ -93,18 +93,6 @@ fn jump_of_five_classes_is_bracketed_to_the_last_bit() {
 }
 
 #[test]
-fn small_graphs_have_no_jump() {
-    for big_n in 1..=3 {
-        let none = jump::p_jump(Simple, big_n).unwrap_err();
-        assert_eq!((none.field, none.remedy.as_str()), ("vertices", "give N ≥ 4"));
-        // By hand: at p = 1 no Φ(k) exceeds Φ(1) = N.
-        assert_eq!(Law::new(Simple, big_n, 1.0).unwrap().k_star(), 1);
-    }
-    assert_eq!(jump::p_jump(FiveClasses, 1).unwrap_err().remedy, "give N ≥ 2");
-    assert!(jump::p_jump(Simple, 0).is_err());
-}
-
-#[test]
 fn first_local_maximum_over_integers() {
     for big_n in 3..=60 {
         let (k, [top, below]) = jump::first_local_maximum(big_n).unwrap();

@@ -74,16 +74,6 @@ fn gaps_that_close_by_themselves_have_their_known_values() {
 }
 
 #[test]
-fn steps_are_where_k_star_changes() {
-    let steps = law::steps();
-    assert_eq!((steps[0], steps.last().unwrap().1), ((0.0, 1), law::k_star(1.0)));
-    for pair in steps.windows(2) {
-        let sides = [1.0 - 1e-14, 1.0 + 1e-14].map(|near| law::k_star(near * pair[1].0));
-        assert_eq!(sides, [pair[0].1, pair[1].1]);
-    }
-}
-
-#[test]
 fn large_graphs_go_on_from_the_paper() {
     let table = RESULTS.table("theory.large").unwrap();
     let column = |name| table.points(&[], "n", name);

@@ -59,12 +59,6 @@ impl Graph {
             Some(Circuit(word))
         })
     }
-
-    /// The circuit through vertices of these names, or nothing if one is unknown.
-    pub fn circuit(&self, labels: &[&str]) -> Option<Circuit> {
-        let vertex = |label: &&str| self.labels.iter().position(|own| own == label);
-        labels.iter().map(vertex).collect::<Option<_>>().map(Circuit::new)
-    }
 }
 
 impl Circuit {

@@ -283,50 +283,29 @@ impl Scenario {
         ))
     }
 
-    /// The same motion with time begun anew at `time`, from the free parts that its masses have then: every
-    /// phase is turned by what passed, and places, velocities and forces go on.
-    pub fn later(&self, free: &[[f64; 2]], time: f64) -> Scenario {
-        let turned = |pairs: &[[f64; 2]], frequency: f64| -> Vec<[f64; 2]> {
+    /// The scenario that goes on from a time at which all forces change by a factor, with time begun anew: every phase is
+    /// turned by what passed. Places and velocities stay, so the free parts, given as they are then, take what the
+    /// forced parts lose.
+    pub fn lowered(&self, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
+        let omega = self.natural_frequency;
+        let turned = |pairs: &[[f64; 2]], frequency: f64| -> Pairs {
             let (sin, cos) = pxfm::f_sincos(frequency * time);
             pairs.iter().map(|[a, b]| [a * cos + b * sin, b * cos - a * sin]).collect()
         };
-        let overtone = |own: &Overtone| Overtone {
-            frequency: own.frequency,
-            amplitudes: turned(&own.amplitudes, own.frequency),
-        };
-        Scenario {
-            initial: Initial::Free(turned(free, self.natural_frequency)),
-            forcing: turned(&self.forcing, self.forcing_frequency),
-            overtones: self.overtones.iter().map(overtone).collect(),
-            ..self.clone()
-        }
-    }
-
-    /// The scenario that goes on from a time at which all forces change by a factor: places and velocities stay, so the
-    /// free parts, given as they are then, take what the forced parts lose.
-    pub fn lowered(&self, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
-        let omega = self.natural_frequency;
-        let now = self.later(free, time);
-        let Initial::Free(mut parts) = now.initial.clone() else { return now };
-        for (big_omega, forces) in now.components() {
+        let mut parts = turned(free, omega);
+        let mut components = self.components().map(|(big_omega, forces)| {
+            let mut amplitudes = turned(forces, big_omega);
             let lost = (1.0 - factor) / (omega * omega - big_omega * big_omega);
-            for ([a, b], force) in parts.iter_mut().zip(forces) {
+            for ([a, b], force) in parts.iter_mut().zip(&mut amplitudes) {
                 *a += lost * force[0];
                 *b += lost * big_omega / omega * force[1];
+                *force = force.map(|x| factor * x);
             }
-        }
-        let lower =
-            |forces: &[[f64; 2]]| forces.iter().map(|own| own.map(|x| factor * x)).collect();
-        let overtone = |own: &Overtone| Overtone {
-            frequency: own.frequency,
-            amplitudes: lower(&own.amplitudes),
-        };
-        Scenario {
-            initial: Initial::Free(parts),
-            forcing: lower(&now.forcing),
-            overtones: now.overtones.iter().map(overtone).collect(),
-            ..now
-        }
+            Overtone { frequency: big_omega, amplitudes }
+        });
+        let forcing = components.next().map_or_else(Vec::new, |first| first.amplitudes);
+        let overtones = components.collect();
+        Scenario { initial: Initial::Free(parts), forcing, overtones, ..self.clone() }
     }
 
     /// The components of the forcing: frequency, and amplitudes of each mass.
