@@ -63,7 +63,8 @@ impl<'a> Session<'a> {
                 Some((path.strip_prefix(paper.prose)?.strip_prefix('/')?, *text))
             })),
         };
-        if paper.documents.iter().all(|document| document.files(&templates).is_empty()) {
+        let mut documents = paper.documents.iter();
+        if documents.len() > 0 && documents.all(|own| own.files(&templates).is_empty()) {
             let names: Vec<&str> = paper.documents.iter().map(|document| document.prose).collect();
             let folder = prose.unwrap_or(Path::new(paper.prose)).display();
             let what = format!("{folder}: no prose is there; give the folder of");
