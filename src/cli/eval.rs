@@ -11,14 +11,17 @@ use literate::cli::terminal::{print, warn};
 use serde::Serialize;
 use serde_json::Value;
 
-/// Evaluates one quantity of the theory (Secs. 3 to 9), as one JSON object.
+/// Evaluate one quantity of the theory (Secs. 3 to 9), as one JSON object
 ///
-/// `impact-paper eval p-jump --vertices 100` prints
-/// {"quantity":"p-jump","value":0.01303285872435575,"inputs":{"vertices":100}}.
+/// Examples:
+///   eval p-jump --vertices 100
+///   {"quantity":"p-jump","value":0.01303285872435575,"inputs":{"vertices":100}}
+///   eval p-of-sigma --sigma 0.12
+///   eval --list
 #[derive(clap::Args)]
-#[command(after_help = help())]
+#[command(verbatim_doc_comment, after_help = help())]
 pub struct Args {
-    /// What to evaluate, one of the names below.
+    /// Evaluate this, one of the names below.
     #[arg(value_name = "QUANTITY", required_unless_present = "list", hide_possible_values = true,
         value_parser = PossibleValuesParser::new(QUANTITIES.iter().map(|quantity| quantity.name)))]
     quantity: Option<String>,

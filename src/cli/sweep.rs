@@ -14,13 +14,18 @@ use literate::experiments::cutting::Cutting;
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// Runs an ensemble of random chains at each σ and prints a row for each σ.
+/// Run an ensemble of random chains at each σ and print a row for each σ
 ///
-/// A row counts the distinct gaps that impact in the window (T, T + W]; realisations without any
+/// Examples:
+///   sweep --sigma 0.08..0.16:0.01
+///   sweep --sigma 0.12,0.13 --masses 1000 --realisations 100 --format json
+///
+/// Read in a row how many distinct gaps impact in the window (T, T + W]; realisations without any
 /// are not kept. Realisation i has the same standard normals at every σ. Rows come together at the
-/// end, so that Ctrl-C (exit code 130) leaves no half a table. Realisations that the engine ended
-/// early, and rows with more than a tenth of the starts rejected, are named on stderr.
+/// end. Standard error names realisations that the engine ended early, and rows with more than a
+/// tenth of the starts rejected.
 #[derive(clap::Args)]
+#[command(verbatim_doc_comment)]
 pub struct Args {
     /// Standard deviations: a list 0.1,0.12 or a range A..B:STEP (B included when hit).
     #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true, value_parser = sigmas::parse)]
@@ -51,7 +56,7 @@ pub struct Args {
     seed: u64,
     #[command(flatten)]
     threads: Threads,
-    /// Form of the table.
+    /// Print the table in this form.
     #[arg(long, default_value = "csv", value_parser = ["csv", "json"])]
     format: String,
 }

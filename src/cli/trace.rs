@@ -13,13 +13,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-/// Prints the impacts of one scenario as CSV: time, gap, closing speed
+/// Print the impacts of one scenario as CSV: time, gap, closing speed
 ///
 /// Examples:
-///   impact-paper trace chain.json --until 100
-///   impact-paper trace - --until 100 --max-impacts 20 < chain.json
-///   impact-paper trace chain.json --until 100 --method verlet --step 0.01
-///   impact-paper trace chain.json --until 100 --method truth
+///   trace chain.json --until 100
+///   trace - --until 100 --max-impacts 20 < chain.json
+///   trace chain.json --until 100 --method verlet --step 0.01
+///   trace chain.json --until 100 --method truth
 ///
 /// Count gaps from the left wall: gap 0 lies between it and mass 1, gap j between masses j and
 /// j + 1; on a ring gap n lies between masses n and 1. Of neighbouring gaps that close at exactly

@@ -142,7 +142,7 @@ paper --profile quick --figure 3 --results file => --results: file: not a direct
 paper --templates nowhere => nowhere
 paper --templates empty => empty: no prose is there; front
 check --templates empty => empty: no prose is there
-check --profile quick --results r no-such => no statement no-such; sec2_onset
+check --profile quick --results r no-such => no statement no-such; check -v
 check --profile quick --results file => --results: file: not a directory
 verify => paper/SHA256SUMS: 
 run --profile quick --shard 0/3|4/3 --results d => 1 <= i <= N

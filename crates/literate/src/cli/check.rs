@@ -5,24 +5,31 @@ use super::terminal::print;
 use crate::claims::{Check, Kind, Published, Verdict, score};
 use crate::experiments::Results;
 use crate::failure::Failure;
+use crate::input::one_line;
 use crate::paper::Paper;
 use serde_json::{Value, json};
 
-/// Judges the statements of the paper, its targets, and relations between its numbers.
+/// Judge the statements of the paper, its targets, and relations between its numbers
 ///
-/// Saved results are used where they are fresh; what is missing is run. Prints a line for each statement
-/// that differs or cannot be judged, what fails first; -v prints all of each. Ends with exit code 1 if
-/// one differs without an explanation that holds, if a target is missed that does not depend on the
-/// clock, or if a relation between numbers does not hold.
+/// Examples:
+///   check                       a line for each statement that differs or cannot be judged
+///   check -v                    all that is known of all of them
+///   check 12 sec7_jump          of two, by number in the ledger or by id
+///   check --format github       annotations of a pull request
+///
+/// Saved results are used where they are fresh; what is missing is run. Exit code 1 says that a
+/// statement differs without an explanation that holds, that a target is missed which does not
+/// depend on the clock, or that a relation between numbers does not hold.
 #[derive(clap::Args)]
+#[command(verbatim_doc_comment)]
 pub(super) struct Args {
-    /// Only these: ids of statements, or their numbers in the ledger.
+    /// Judge only these statements, by id or by number in the ledger.
     #[arg(value_name = "ID")]
     ids: Vec<String>,
     /// Print all that is known of each, and also those that are reproduced, met or held.
     #[arg(long, short)]
     verbose: bool,
-    /// Form of what is printed: `github` annotates what fails and the ten worst others.
+    /// Print in this form; `github` annotates what fails and the ten worst others.
     #[arg(long, default_value = "text")]
     format: Format,
     #[command(flatten)]
@@ -41,19 +48,23 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let session = args.sources.session(paper)?;
     let published = session.published()?;
     let number = |id: &str| published.statements.iter().position(|own| own.id == id).map(|i| i + 1);
-    let asked = |id: &str| {
-        let number = number(id).map_or_else(String::new, |number| number.to_string());
-        args.ids.is_empty() || args.ids.iter().any(|own| own == id || *own == number)
+    let names = |asked: &str, id: &str| {
+        asked == id || number(id).is_some_and(|number| number.to_string() == asked)
     };
+    for asked in &args.ids {
+        if !published.statements.iter().any(|own| names(asked, &own.id)) {
+            let asked = one_line(asked, 60);
+            return Err(Failure::input(format!(
+                "there is no statement {asked}; `check -v` lists all"
+            )));
+        }
+    }
     let mut checks = args.sources.threads.run(|| {
         let results = Results::run(&paper.experiments, &session)?;
         paper.checks(&results, &published)
     })?;
-    checks.retain(|check| asked(&check.id));
-    if checks.is_empty() && !args.ids.is_empty() {
-        let known: Vec<&str> = published.statements.iter().map(|own| own.id.as_str()).collect();
-        let (ids, known) = (args.ids.join(", "), known.join(", "));
-        return Err(Failure::input(format!("there is no statement {ids}; there are {known}")));
+    if !args.ids.is_empty() {
+        checks.retain(|check| args.ids.iter().any(|asked| names(asked, &check.id)));
     }
     let prose = args.sources.templates.clone().unwrap_or_else(|| paper.prose.into());
     let here = std::env::current_dir().unwrap_or_default();

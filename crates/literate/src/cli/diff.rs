@@ -9,11 +9,15 @@ use serde_json::json;
 use std::path::Path;
 use std::process::Command;
 
-/// Says what differs between two reports: verdicts, numbers, files.
+/// Say what differs between two reports: verdicts, numbers, files
 ///
-/// OLD and NEW are folders of reports, or else revisions of git, whose folder paper/ is meant. A
-/// difference is no failure: the exit code is 0 unless --exit-code asks for more.
+/// Examples:
+///   diff paper target/paper          two folders
+///   diff v1.0.0 paper --markdown     a revision of git, whose folder paper/ is meant, and a folder
+///
+/// A difference is no failure: the exit code is 0 unless --exit-code asks for more.
 #[derive(clap::Args)]
+#[command(verbatim_doc_comment)]
 pub(super) struct Args {
     /// The earlier report.
     #[arg(value_name = "OLD")]
@@ -21,10 +25,10 @@ pub(super) struct Args {
     /// The later one.
     #[arg(value_name = "NEW")]
     new: String,
-    /// For a comment on a pull request: the largest differences, in tables.
+    /// Print the largest differences in tables, for a comment on a pull request.
     #[arg(long)]
     markdown: bool,
-    /// For programs: everything, as JSON.
+    /// Print everything as JSON.
     #[arg(long, conflicts_with = "markdown")]
     json: bool,
     /// End with exit code 1 if anything differs.

@@ -10,20 +10,25 @@ use crate::report::{Error, compare, ledger};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// Says where a number, a figure, an equation or a claim of the report comes from.
+/// Say where a number, a figure, an equation or a statement of the report comes from
 ///
-/// What is asked for is the address of a value (sweep.rise.half_height) or a part of it, a number as it is printed
-/// (0.1159), "Fig. 3", "Eq. (18)" or a statement (sec7_jump); without it, all are listed. Nothing is run: the answer is
-/// read from the report's folder.
+/// Examples:
+///   explain "Fig. 3"            or "Eq. (18)", or the id of a statement
+///   explain rise.half_height    an address of a value, or a part of it
+///   explain 0.1159              a number as it is printed
+///   explain                     a list of all
+///
+/// Nothing is run: the answer is read from the folder of the report.
 #[derive(clap::Args)]
+#[command(verbatim_doc_comment)]
 pub(super) struct Args {
-    /// What to explain.
+    /// Explain these; without any, list all.
     #[arg(value_name = "ID")]
     ids: Vec<String>,
-    /// Folder of the report.
+    /// Read the report in this folder.
     #[arg(long, value_name = "DIR", default_value = "paper")]
     paper: PathBuf,
-    /// As JSON.
+    /// Print JSON.
     #[arg(long)]
     json: bool,
 }

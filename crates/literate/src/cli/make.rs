@@ -18,15 +18,15 @@ use std::sync::Arc;
 /// Options common to verbs that make a report or judge it.
 #[derive(clap::Args)]
 pub(super) struct Sources {
-    /// Sample sizes.
+    /// Take these sample sizes.
     #[arg(long, default_value = "full", value_parser = super::profiles())]
     pub profile: Profile,
     #[command(flatten)]
     pub threads: Threads,
-    /// Folder of the prose [default: that of the project, or the copy inside the program].
+    /// Read the prose from this folder [default: that of the project, or the copy inside the program].
     #[arg(long, value_name = "DIR")]
     pub templates: Option<PathBuf>,
-    /// Folder in which results of long runs are kept.
+    /// Keep results of long runs in this folder.
     #[arg(long, value_name = "DIR", default_value = "target/results")]
     pub results: PathBuf,
 }

@@ -11,19 +11,25 @@ use crate::report::{Files, Report, compare, files_of, folder};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Runs every experiment, draws all figures and writes the report.
+/// Run all experiments, draw all figures and write the report
 ///
-/// Results of long runs are saved and used again as long as parameters and source are the same. Files
-/// are moved into place at the very end: Ctrl-C (exit code 130) leaves the report as it was. Only files
-/// that an earlier run wrote, and nobody edited since, are replaced; pages, and what they load, are made
-/// anew each time. Ends with exit code 1 if a statement, a target of accuracy or counted work, or a
-/// relation fails; the report is written all the same.
+/// Examples:
+///   paper                                    the report of the full profile, into paper/
+///   paper --dry-run                          what would be run, and why
+///   paper --profile quick                    small samples, into target/paper-quick/
+///   paper --figure 3 --out target/figure     one figure and its data
+///
+/// Stop it whenever you like: files are moved into place at the very end, results of long runs are
+/// saved, and used again as long as parameters and source are the same. Only files that an earlier
+/// run wrote, and nobody edited since, are replaced. Exit code 1 says that a statement, a target of
+/// accuracy or counted work, or a relation fails; the report is written all the same.
 #[derive(clap::Args)]
+#[command(verbatim_doc_comment)]
 pub(super) struct Args {
-    /// Draw this figure only, by name or number (may be repeated): its SVG and its CSV are written.
+    /// Draw this figure only, by name or number (may be repeated), and write its SVG and CSV.
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     figure: Vec<String>,
-    /// Folder to write into [default: paper for the full profile, else target/paper-PROFILE].
+    /// Write into this folder [default: paper for the full profile, else target/paper-PROFILE].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Say which experiments would be run, and why (exit code 1 if any), and run nothing.

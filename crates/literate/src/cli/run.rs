@@ -8,19 +8,19 @@ use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::Paper;
 
-/// Runs all experiments, or one shard of their units of work, and saves what they give.
+/// Run all experiments, or one shard of their units of work, and save what they give
 ///
-/// On three machines:  run --shard 1/3 --results DIR   (and 2/3, 3/3),
-/// then on one:        paper --results DIR
+/// Examples:
+///   run --shard 1/3 --results DIR     on the first of three machines, 2/3 and 3/3 on the others,
+///   paper --results DIR               then on one, which joins the units and runs what is missing
 ///
-/// An experiment may be cut into units, others are one unit each. Each unit is saved as soon as it
-/// is there, whole or not at all, and none is run twice: after Ctrl-C (exit code 130), a crash or a
-/// lost machine the same command goes on where it was. Shards may save in one folder, or in several
-/// that are copied together; `paper` joins the units that it finds there, and runs what is missing.
+/// Start it again after Ctrl-C, a crash or a lost machine: each unit is saved as soon as it is
+/// there, whole or not at all, and none is run twice. Shards may save in one folder, or in several
+/// that are copied together.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
-    /// Which share of how many, like 2/3: the second of three.
+    /// Run this share of the work, like 2/3: the second of three.
     #[arg(long, value_name = "i/N", value_parser = share, allow_hyphen_values = true)]
     shard: Option<(usize, usize)>,
     #[command(flatten)]

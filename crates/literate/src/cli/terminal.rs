@@ -89,7 +89,7 @@ pub fn progress() -> Progress {
 /// The option of a verb that works on several threads.
 #[derive(clap::Args)]
 pub struct Threads {
-    /// Number of threads; all cores without it. It changes no bit of the result.
+    /// Work on this many threads, else on all cores; no bit of the result depends on it.
     #[arg(long = "threads", value_name = "K", allow_hyphen_values = true, value_parser = threads)]
     asked: Option<usize>,
 }

@@ -10,12 +10,17 @@ use crate::paper::Paper;
 use crate::report::folder;
 use std::path::PathBuf;
 
-/// Says whether a report is what its SHA256SUMS lists; with --rerun, what is made here.
+/// Hold a report against its SHA256SUMS, and with --rerun against what is made here
 ///
-/// Ends with exit code 1 if a file differs, is missing, or stands there without being listed. Pages and
-/// figures for LaTeX are built with a report and not listed; --rerun, which makes the report again and
-/// compares byte by byte, compares them too. Writes nothing.
+/// Examples:
+///   verify                                      paper/ and its list
+///   verify --rerun                              every number from nothing, every byte compared
+///   verify --rerun --results target/results     the same with saved results
+///
+/// Nothing is written. Exit code 1 says that a file differs, is missing, or is there without being
+/// listed. Pages and figures for LaTeX are on no list; --rerun compares them too.
 #[derive(clap::Args)]
+#[command(verbatim_doc_comment)]
 pub(super) struct Args {
     /// Folder of the report.
     #[arg(value_name = "DIR", default_value = "paper")]
@@ -26,7 +31,7 @@ pub(super) struct Args {
     /// Take results of long runs from this folder, where they are fresh, and keep them there.
     #[arg(long, value_name = "DIR", requires = "rerun")]
     results: Option<PathBuf>,
-    /// Folder of the prose [default: that of the project, or the copy inside the program].
+    /// Read the prose from this folder [default: that of the project, or the copy inside the program].
     #[arg(long, value_name = "DIR", requires = "rerun")]
     templates: Option<PathBuf>,
     #[command(flatten)]
