@@ -42,7 +42,7 @@ pub struct Change {
 pub struct Diff {
     /// Checks with another verdict or another measure, gained and lost.
     pub verdicts: Vec<Change>,
-    /// Values with another number, unit or kind, gained and lost, the largest change first.
+    /// Values with another number or unit, gained and lost, the largest change first.
     pub numbers: Vec<Change>,
     /// Files that only the later report has.
     pub gained: Vec<String>,
@@ -129,13 +129,13 @@ fn verdict(id: &str, before: Option<&Check>, after: Option<&Check>) -> Option<Ch
     })
 }
 
-/// All changes of numbers, units and kinds; other fields (notes, sources) do not count. What is of another kind
+/// All changes of numbers and units; other fields (notes, sources) do not count. What is a number no more
 /// comes first, then the largest differences in standard errors, and last what only one report has.
 fn numbers(before: &Registry, after: &Registry) -> Vec<Change> {
     let ids: BTreeSet<&str> = before.iter().chain(after.iter()).map(|v| v.id.as_str()).collect();
     let change = |id: &str| {
         let (old, new) = (before.get(id), after.get(id));
-        let meant = |value: Option<&Value>| value.map(|v| (v.number.clone(), kind(v)));
+        let meant = |value: Option<&Value>| value.map(|v| (v.number.clone(), v.unit.clone()));
         if meant(old) == meant(new) {
             return None;
         }
@@ -151,37 +151,24 @@ fn numbers(before: &Registry, after: &Registry) -> Vec<Change> {
         let error =
             both.map(|(old, new)| (error(old) * error(old) + error(new) * error(new)).sqrt());
         let sigmas = difference.zip(error).map(|(difference, error)| difference / error);
-        let kinds = both.map(|(old, new)| [kind(old), kind(new)]).filter(|[old, new]| old != new);
         Some(Change {
             id: id.to_string(),
             before: old.map(shown),
             after: new.map(shown),
             difference,
             sigmas: sigmas.filter(|sigmas| sigmas.is_finite()),
-            also: kinds.into_iter().map(|kinds| ("kind", kinds)).collect(),
+            ..Change::default()
         })
     };
     let mut changes: Vec<Change> = ids.into_iter().filter_map(change).collect();
     let weight = |change: &Change| match (change.sigmas, change.difference) {
         _ if change.before.is_none() || change.after.is_none() => -1.0,
         (Some(sigmas), _) => sigmas.abs(),
-        (None, Some(difference)) if change.also.is_empty() || difference == 0.0 => 0.0,
+        (None, Some(_)) => 0.0,
         _ => f64::INFINITY,
     };
     changes.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
     changes
-}
-
-/// Kind and unit in words.
-fn kind(value: &Value) -> String {
-    let kind = match &value.kind {
-        Kind::Exact => "exact".into(),
-        Kind::Deterministic => "deterministic".into(),
-        Kind::Ensemble { realisations, .. } => format!("ensemble of {realisations}"),
-        Kind::Printed { place } => format!("printed at {place}"),
-        Kind::Measured => "measured".into(),
-    };
-    if value.unit.is_empty() { kind } else { format!("{kind}, in {}", spell::text(&value.unit)) }
 }
 
 fn real(value: &Value) -> Option<f64> {
@@ -337,14 +324,14 @@ mod tests {
         let diff = diff(&report(before, &[]), &report(after, &[]));
         let text = diff.text("x", "y");
         for line in [
-            "no check and 5 numbers changed\n  unit: 2.0 -> @two; kind: deterministic -> exact\n  b: 1.0(3) -> ",
+            "no check and 5 numbers changed\n  unit: 2.0 -> @two\n  b: 1.0(3) -> ",
             "2.0(4); Δ +1.00, +2.00 σ\n  a: 0.1 -> 0.100000001; Δ +1.00e-9\n",
             "  gone: gone, was 1\n  new: new, 1\n",
         ] {
             assert!(text.contains(line), "{line}: {text}");
         }
         let markdown = diff.markdown("x", "y");
-        for row in ["| +1.00 | +2.00 |  |\n", "@\u{200b}two |", "deterministic → exact |\n"] {
+        for row in ["| +1.00 | +2.00 |  |\n", "@\u{200b}two |"] {
             assert!(markdown.contains(row), "{row}: {markdown}");
         }
     }
