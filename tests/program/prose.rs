@@ -5,14 +5,10 @@ use crate::{QUICK, templates};
 /// What is wrong with a file of the templates, and what is said behind its name: text in the place of other text, or lines
 /// at its end (`+`; $ is the last line).
 const FAULTS: &str = r##"2 front.md +«v.p | nofilter» => :$:
-2 front.md +<% endfor %> => :$:
 1 front.md +About 12 of them. => :$:7: the naked numeral 12
 2 front.md +It is «sweep.rise.half_heigth». => :$:
-2 front.md +It is «sweep.rise.half_height now. => :$:
-2 front.md # -> ## => :1:1: a report begins with its title
 2 literals.toml why = "what the model is -> why = " " # => : [
 2 references.bib +@article{aa, title={b}} => : aa lacks its author
-2 references.bib +@misc{aa, author={B}, title={b}, year={1999}} => : aa has the type @misc
 2 published.toml place = "Sec. 2" -> place = Sec. 2 => :12: this is neither a number nor text in quotes
 2 published.toml printed = "N − 1" -> printed = "N − 2" => :385: the id "sec7_limit": its check judges "N − 1", and not its printed
 2 published.toml "sec2_half_height" -> "sec2_new" => : no statement "sec2_half_height""##;

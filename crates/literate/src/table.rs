@@ -345,7 +345,7 @@ fn as_chosen(value: f64) -> Value {
         true => Number::Integer(value as i64),
         false => Number::Real { value, digits: Digits::of(value) },
     };
-    Value::real("", value, 1).with_number(number)
+    Value { number, ..Value::real("", value, 1) }
 }
 
 /// The cell of a row that has no number.

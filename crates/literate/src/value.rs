@@ -165,21 +165,9 @@ impl Value {
         Value::new(id, number, Kind::Printed { place: place.into() })
     }
 
-    /// With another number.
-    pub fn with_number(mut self, number: Number) -> Self {
-        self.number = number;
-        self
-    }
-
     /// With a unit (Markdown, as `$1/\omega$`).
     pub fn unit(mut self, unit: impl Into<String>) -> Self {
         self.unit = unit.into();
-        self
-    }
-
-    /// With another kind.
-    pub fn kind(mut self, kind: Kind) -> Self {
-        self.kind = kind;
         self
     }
 

@@ -202,7 +202,10 @@ pub(super) fn scores(checks: &[Check]) -> Vec<String> {
 /// Exit code 1, with names, for what does not hold. Times of the clock decide nothing.
 pub(super) fn verdict(checks: &[Check]) -> Result<(), Failure> {
     let faults = [
-        (Kind::Statement, "statements differ without an explanation that holds"),
+        (
+            Kind::Statement,
+            "statements are judged by nobody or differ without an explanation that holds",
+        ),
         (Kind::Target, "targets of accuracy or counted work are missed"),
         (Kind::Relation, "relations between numbers of the report do not hold"),
     ];

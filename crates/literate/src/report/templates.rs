@@ -19,9 +19,6 @@ const SKIN: [(&str, &str); 7] = [
     ("report.tex", include_str!("../../skin/report.tex")),
 ];
 
-/// Files that may stand in the folder: somebody might give the root.
-const FILES: usize = 1000;
-
 /// All template files, by path relative to their folder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Templates(BTreeMap<String, String>);
@@ -52,10 +49,6 @@ impl Templates {
             } else if TEXT.iter().any(|end| name.ends_with(end)) {
                 let text = input::regular_text(&path).map_err(|e| fail(&path, e))?;
                 self.0.insert(format!("{prefix}{name}"), text);
-            }
-            if self.0.len() > FILES {
-                let what = format!("more than {FILES} files; give the folder of templates alone");
-                return Err(Error::Template(format!("{}: {what}", folder.display())));
             }
         }
         Ok(())
