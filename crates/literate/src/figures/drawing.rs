@@ -27,26 +27,8 @@ pub enum Step {
     Close,
 }
 
-/// What ink a shape is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Paint {
-    /// Inside: colour and opacity in hundredths.
-    pub fill: Option<(Colour, u8)>,
-    /// Along the edge; corners of a line that encloses nothing are round.
-    pub stroke: Option<Stroke>,
-}
-
-impl From<Stroke> for Paint {
-    fn from(stroke: Stroke) -> Self {
-        Paint { fill: None, stroke: Some(stroke) }
-    }
-}
-
-impl From<(Colour, u8)> for Paint {
-    fn from(fill: (Colour, u8)) -> Self {
-        Paint { fill: Some(fill), stroke: None }
-    }
-}
+/// What is inside a shape: a colour, and its opacity in hundredths.
+pub type Fill = Option<(Colour, u8)>;
 
 /// Size of an em and colour of words, and where their place is.
 pub type Look = (i32, Colour, HPos, VPos);
@@ -78,8 +60,8 @@ pub enum Element {
     Open(String, Frame),
     /// It ends.
     Close,
-    /// A shape.
-    Shape(Vec<Step>, Paint),
+    /// A path, filled and along its edge; corners of one that encloses nothing are round.
+    Shape(Vec<Step>, Fill, Option<Stroke>),
     /// Words.
     Label(Label),
 }
@@ -142,25 +124,26 @@ impl Drawing {
         ('a'..='z').filter(|letter| is(&format!("({letter})"))).collect()
     }
 
-    fn shape(&mut self, path: Vec<Step>, paint: impl Into<Paint>) {
-        self.elements.push(Element::Shape(path, paint.into()));
+    fn shape(&mut self, path: Vec<Step>, fill: Fill, stroke: Option<Stroke>) {
+        self.elements.push(Element::Shape(path, fill, stroke));
     }
 
     /// A line through points; repetitions are left out.
     pub fn line(&mut self, mut points: Vec<Point>, stroke: Stroke) {
         points.dedup();
-        self.shape(through(points), stroke);
+        self.shape(through(points), None, Some(stroke));
     }
 
     /// A straight stroke from each first point to the second.
     pub fn strokes(&mut self, ends: &[Point], stroke: Stroke) {
         let pairs = ends.chunks_exact(2);
-        self.shape(pairs.flat_map(|pair| through([pair[0], pair[1]])).collect(), stroke);
+        let path = pairs.flat_map(|pair| through([pair[0], pair[1]])).collect();
+        self.shape(path, None, Some(stroke));
     }
 
     /// A polygon without an edge.
     pub fn area(&mut self, points: impl IntoIterator<Item = Point>, fill: Colour, opacity: u8) {
-        self.shape(polygon(points), (fill, opacity));
+        self.shape(polygon(points), Some((fill, opacity)), None);
     }
 
     /// A filled rectangle.
@@ -171,7 +154,7 @@ impl Drawing {
 
     /// A filled circle with an edge.
     pub fn disc(&mut self, centre: Point, radius: i32, fill: Colour, edge: Stroke) {
-        self.shape(circle(centre, radius), Paint { fill: Some((fill, 100)), stroke: Some(edge) });
+        self.shape(circle(centre, radius), Some((fill, 100)), Some(edge));
     }
 
     /// A line that ends in an arrow head. The line ends inside the head; a short last stretch must not turn the head,
@@ -247,7 +230,7 @@ impl Drawing {
         };
         let path = points.into_iter().flat_map(one).collect();
         let fill = inside.map(|colour| (colour, 100));
-        self.shape(path, Paint { fill, stroke: Some(stroke) });
+        self.shape(path, fill, Some(stroke));
     }
 
     /// Words.

@@ -100,8 +100,6 @@ macro_rules! seen {
 #[derive(Debug, Error)]
 #[expect(missing_docs, reason = "the messages tell")]
 pub enum Error {
-    #[error("there is no figure {0:?}; `paper --help` lists those that there are")]
-    Number(String),
     #[error("a figure lacks its data: {0}")]
     Data(#[from] experiments::Error),
     #[error("{series}: the point ({x}, {y}) lies outside its frame")]

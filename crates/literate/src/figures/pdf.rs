@@ -1,9 +1,9 @@
 //! A drawing as a one-page PDF, for LaTeX: the same bytes everywhere.
 
-use super::drawing::{Drawing, Element, Label, Paint, Point, Step};
+use super::drawing::{Drawing, Element, Fill, Label, Point, Step};
 use super::font;
 use super::panel::Frame;
-use super::style::{Colour, WHITE, WIDTH};
+use super::style::{Colour, Stroke, WHITE, WIDTH};
 use super::svg::PIXELS_PER_HUNDRED;
 use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, TextStr};
@@ -23,7 +23,7 @@ impl Drawing {
         for element in ground.elements.iter().chain(&self.elements) {
             match element {
                 Element::Open(..) | Element::Close => (),
-                Element::Shape(path, paint) => page.shape(path, paint),
+                Element::Shape(path, fill, stroke) => page.shape(path, *fill, *stroke),
                 Element::Label(label) => page.label(label),
             }
         }
@@ -68,10 +68,10 @@ struct Page<'a> {
 
 impl Page<'_> {
     /// Fills and strokes a shape.
-    fn shape(&mut self, path: &[Step], paint: &Paint) {
+    fn shape(&mut self, path: &[Step], fill: Fill, stroke: Option<Stroke>) {
         let content = &mut self.content;
         content.save_state();
-        if let Some((colour, opacity)) = paint.fill {
+        if let Some((colour, opacity)) = fill {
             if opacity < 100 {
                 self.opacities.insert(opacity);
                 content.set_parameters(Name(state(opacity).as_bytes()));
@@ -81,7 +81,7 @@ impl Page<'_> {
         } else {
             content.set_line_join(LineJoinStyle::RoundJoin);
         }
-        if let Some(stroke) = paint.stroke {
+        if let Some(stroke) = stroke {
             let [r, g, b] = shares(stroke.colour);
             content.set_stroke_rgb(r, g, b).set_line_width(stroke.width as f32);
             let dashes = stroke.dashes().iter().map(|length| *length as f32);
@@ -99,7 +99,7 @@ impl Page<'_> {
                 Step::Close => content.close_path(),
             };
         }
-        match (path.is_empty(), paint.fill, paint.stroke) {
+        match (path.is_empty(), fill, stroke) {
             (true, ..) | (_, None, None) => content.end_path(),
             (_, Some(_), None) => content.fill_nonzero(),
             (_, None, Some(_)) => content.stroke(),
@@ -122,7 +122,7 @@ impl Page<'_> {
             self.content.save_state().transform(place);
             let drawing = self.drawing;
             if let Some(steps) = drawing.glyphs.get(&font::id(placed)) {
-                self.shape(steps, &(label.colour, 100).into());
+                self.shape(steps, Some((label.colour, 100)), None);
             }
             self.content.restore_state();
         }
@@ -133,7 +133,7 @@ impl Page<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::style::{Dash, INK, Stroke};
+    use crate::figures::style::{Dash, INK};
 
     #[test]
     fn shapes_become_operators() {

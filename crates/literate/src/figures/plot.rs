@@ -122,38 +122,37 @@ impl Plot {
         self.add(name, Shown::Curve(Box::new(of)))
     }
 
+    /// All points that have a place, with the ends of bars.
+    fn data(&self) -> Points {
+        let bars = |(x, own): &(f64, Estimate)| {
+            [own.value, own.value - own.error, own.value + own.error].map(|y| (*x, y))
+        };
+        let points = self.series.iter().flat_map(|(_, shown)| match shown {
+            Shown::Line(points) | Shown::Marks(points, _) => points.clone(),
+            Shown::Estimates(estimates) => estimates.iter().flat_map(bars).collect(),
+            Shown::Curve(_) => Vec::new(),
+        });
+        points.filter(|p| (p.0 > 0.0 || !self.x.is_log) && (p.1 > 0.0 || !self.y.is_log)).collect()
+    }
+
     /// Draws the figure; `id` is its name, and that of its files.
     ///
     /// # Errors
     /// For a number that is not finite, and for a label with a character that the shipped fonts lack.
     pub fn finish(mut self, id: &str, title: &str, description: Seen) -> Result<Figure, Error> {
-        let bars = |(x, own): &(f64, Estimate)| {
-            [own.value, own.value - own.error, own.value + own.error].map(|y| (*x, y))
-        };
-        let given = self.series.iter().flat_map(|(_, shown)| match shown {
-            Shown::Line(points) | Shown::Marks(points, _) => points.clone(),
-            Shown::Estimates(estimates) => estimates.iter().flat_map(bars).collect(),
-            Shown::Curve(_) => Vec::new(),
-        });
-        let has_place =
-            |p: &(f64, f64)| (p.0 > 0.0 || !self.x.is_log) && (p.1 > 0.0 || !self.y.is_log);
-        let mut data: Points = given.filter(has_place).collect();
+        let mut data = self.data();
         let x = self.x.axis(data.iter().map(|point| point.0));
         let (from, to) = x.ends();
+        let place = |i: i32| from + (to - from) * f64::from(i) / 400.0;
+        let value = |at: f64| if self.x.is_log { f_exp10(at) } else { at };
         for (_, shown) in &mut self.series {
             if let Shown::Curve(of) = shown {
-                let place = |i: i32| from + (to - from) * f64::from(i) / 400.0;
-                let value = |at: f64| if self.x.is_log { f_exp10(at) } else { at };
                 let points = (0..=400).map(|i| value(place(i))).map(|x| (x, of(x)));
                 *shown = Shown::Line(points.filter(|point| point.1.is_finite()).collect());
             }
         }
         if data.is_empty() {
-            let lines = self.series.iter().filter_map(|(_, shown)| match shown {
-                Shown::Line(points) => Some(points.clone()),
-                _ => None,
-            });
-            data = lines.flatten().collect();
+            data = self.data();
         }
         let y = self.y.axis(data.iter().map(|point| point.1));
 

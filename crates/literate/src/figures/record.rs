@@ -6,45 +6,43 @@ use super::data::shortest;
 use super::markup::spelled;
 use impact_numerics::statistics::Estimate;
 
-/// A place of a series, and what is known there.
+/// A place of a series, and what is known there: value, standard error, and both ends of a bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DataPoint {
     x: f64,
-    y: Option<f64>,
-    error: Option<f64>,
-    bar: Option<[f64; 2]>,
+    known: [Option<f64>; 4],
 }
+
+/// What data files call these, but for the value.
+const KNOWN: [&str; 4] = ["", "standard_error", "low", "high"];
 
 impl From<(f64, f64)> for DataPoint {
     fn from((x, y): (f64, f64)) -> Self {
-        DataPoint { x, y: Some(y), error: None, bar: None }
+        DataPoint { x, known: [Some(y), None, None, None] }
     }
 }
 
 impl From<(f64, f64, f64)> for DataPoint {
     /// A bar between two heights.
     fn from((x, low, high): (f64, f64, f64)) -> Self {
-        DataPoint { x, y: None, error: None, bar: Some([low, high]) }
+        DataPoint { x, known: [None, None, Some(low), Some(high)] }
     }
 }
 
 impl From<(f64, Estimate)> for DataPoint {
     fn from((x, own): (f64, Estimate)) -> Self {
-        DataPoint { x, y: Some(own.value), error: Some(own.error), bar: None }
+        DataPoint { x, known: [Some(own.value), Some(own.error), None, None] }
     }
 }
 
 impl DataPoint {
     /// Whether another row says more about the same place, and then takes that over.
     fn joins(&mut self, new: &DataPoint) -> bool {
-        fn agree<T: PartialEq>(a: Option<T>, b: Option<T>) -> bool {
-            a.is_none() || b.is_none() || a == b
-        }
-        let same = self.x == new.x && agree(self.y, new.y) && agree(self.bar, new.bar);
+        let mut both = self.known.iter().zip(&new.known);
+        let same = self.x == new.x && both.all(|(a, b)| a.is_none() || b.is_none() || a == b);
         if same {
-            self.y = self.y.or(new.y);
-            self.error = self.error.or(new.error);
-            self.bar = self.bar.or(new.bar);
+            let join = |i: usize| self.known[i].or(new.known[i]);
+            self.known = [0, 1, 2, 3].map(join);
         }
         same
     }
@@ -87,23 +85,15 @@ impl Record {
         let rows =
             || self.series.iter().flat_map(|(name, rows)| rows.iter().map(move |r| (name, r)));
         rows().next()?;
-        let errors = rows().any(|(_, row)| row.error.is_some());
-        let bars = rows().any(|(_, row)| row.bar.is_some());
+        let has = |i: &usize| *i == 0 || rows().any(|(_, row)| row.known[*i].is_some());
+        let columns: Vec<usize> = (0..KNOWN.len()).filter(has).collect();
         let unit = &self.y.1;
         let mut header = vec!["series (text)".to_string()];
         header.extend([&self.x, &self.y].map(|(name, unit)| format!("{name} ({unit})")));
-        header.extend(errors.then(|| format!("standard_error ({unit})")));
-        if bars {
-            header.extend(["low", "high"].map(|end| format!("{end} ({unit})")));
-        }
+        header.extend(columns.iter().skip(1).map(|i| format!("{} ({unit})", KNOWN[*i])));
         let cells = |(name, row): (&String, &DataPoint)| {
-            let number = |value: Option<f64>| value.map_or(String::new(), shortest);
-            let mut cells = vec![name.clone(), shortest(row.x), number(row.y)];
-            cells.extend(errors.then(|| number(row.error)));
-            if bars {
-                cells.extend([0, 1].map(|end| number(row.bar.map(|ends| ends[end]))));
-            }
-            cells
+            let known = columns.iter().map(|i| row.known[*i].map_or(String::new(), shortest));
+            [name.clone(), shortest(row.x)].into_iter().chain(known).collect()
         };
         let rows = rows().map(cells).collect();
         Some(DataFile { name: format!("{id}{}.csv", self.suffix), header, rows })

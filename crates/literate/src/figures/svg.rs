@@ -4,8 +4,8 @@
 //! file has the rules itself, and a page in its style sheet, for light and dark; glyphs are shared by all drawings of a
 //! page.
 
-use super::drawing::{Drawing, Element, Glyphs, Label, Paint, Point, Step};
-use super::style::{Colour, WHITE, WIDTH};
+use super::drawing::{Drawing, Element, Fill, Glyphs, Label, Point, Step};
+use super::style::{Colour, Stroke, WHITE, WIDTH};
 use super::{font, palette};
 use std::fmt::Write as _;
 
@@ -56,10 +56,10 @@ fn class(what: &str, colour: Colour) -> String {
     format!("{what}-{}", name.unwrap_or(&"ink"))
 }
 
-fn shape(path: &[Step], paint: &Paint) -> String {
+fn shape(path: &[Step], fill: &Fill, stroke: &Option<Stroke>) -> String {
     let mut classes = Vec::new();
     let mut more = String::new();
-    match paint.fill {
+    match *fill {
         None => more += " fill=\"none\" stroke-linejoin=\"round\"",
         Some((colour, opacity)) => {
             classes.push(class("fill", colour));
@@ -68,7 +68,7 @@ fn shape(path: &[Step], paint: &Paint) -> String {
             }
         }
     }
-    if let Some(stroke) = paint.stroke {
+    if let Some(stroke) = stroke {
         classes.push(class("stroke", stroke.colour));
         more += &format!(" stroke-width=\"{}\"", stroke.width);
         let dashes: Vec<String> = stroke.dashes().iter().map(u32::to_string).collect();
@@ -146,7 +146,7 @@ impl Drawing {
                     frame.bottom
                 ),
                 Element::Close => "</g>".into(),
-                Element::Shape(path, paint) => shape(path, paint),
+                Element::Shape(path, fill, stroke) => shape(path, fill, stroke),
                 Element::Label(own) => label(own),
             };
             out.push('\n');

@@ -122,8 +122,8 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     committed.insert("values.json".into(), values_json.into_bytes());
     committed.insert("ledger.json".into(), ledger::json(&ledger).map_err(json)?.into_bytes());
     let cards = Cards { values: &values, ledger: &ledger, paper: input.paper };
-    let (paper, figures, top) = (input.paper, input.figures, input.top);
-    let site = html::Site { paper, figures, labels: &labels, lab: input.lab.is_some(), top };
+    let paper = input.paper;
+    let site = html::Site { input, labels: &labels };
     let mut shown = BTreeSet::new();
     let written = parts.par_iter().with_max_len(1).map(|Part { of, blocks, .. }| {
         Ok((latex::write(blocks, *of)?, html::write(blocks, *of, site)?))

@@ -7,10 +7,9 @@ use super::card::Cards;
 use super::document::{self, Align, Block, Inline, plain, spelt};
 use super::documents::Document;
 use super::labels::Labels;
-use super::{Error, Files, latex, mathml};
+use super::{Error, Files, Input, latex, mathml};
 use crate::claims::Verdict;
 use crate::figures::{Figure, Glyphs, escape as text, outlines};
-use crate::paper::Paper;
 use math_core::MathDisplay;
 use serde_json::{Value as Json, json};
 use std::cell::RefCell;
@@ -25,19 +24,11 @@ const FONTS: [(&str, &[u8]); 4] = [
     ("LibertinusMath-Regular", include_bytes!("../../fonts/LibertinusMath-Regular.woff2")),
 ];
 
-/// What the pages of a report share.
+/// What the pages of a report share: what it is made of, and the places of all documents.
 #[derive(Clone, Copy, Debug)]
 pub struct Site<'a> {
-    /// The program that makes them.
-    pub paper: &'a Paper,
-    /// The figures.
-    pub figures: &'a [Figure],
-    /// The places of all documents.
+    pub input: &'a Input<'a>,
     pub labels: &'a Labels,
-    /// Whether there is a lab.js, by which readers run the program themselves.
-    pub lab: bool,
-    /// The way from the pages to the files of the project, as `../`, if there is one.
-    pub top: Option<&'a str>,
 }
 
 /// What the template report.html has places for, and the values that the page shows.
@@ -47,9 +38,9 @@ pub fn write(
     site: Site<'_>,
 ) -> Result<(Json, BTreeSet<String>), Error> {
     let page = Page { site, values: RefCell::default(), glyphs: RefCell::default() };
-    let title = document::title(blocks)?;
+    let (title, paper) = (document::title(blocks)?, site.input.paper);
     let meta: Vec<_> =
-        site.paper.about().into_iter().map(|(name, words)| (name, text(&words))).collect();
+        paper.about().into_iter().map(|(name, words)| (name, text(&words))).collect();
     let (heading, body) = (page.inlines(title)?, page.blocks(blocks)?);
     let (mut sections, mut figures) = (Vec::new(), Vec::new());
     for block in blocks {
@@ -60,13 +51,13 @@ pub fn write(
                 page.inlines(text)?,
             ]),
             Block::Figure { id, number, name, .. } => {
-                let name = text(&page.figure(name)?.title);
+                let name = text(&Figure::named(name, site.input.figures)?.title);
                 figures.push([id_of(Some(id), &[]), number.clone(), name]);
             }
             _ => (),
         }
     }
-    let documents = site.paper.documents.iter().map(|of| (of.page, text(of.name)));
+    let documents = paper.documents.iter().map(|of| (of.page, text(of.name)));
     let parts = json!({
         "file": here.page,
         "markdown": here.markdown,
@@ -77,7 +68,7 @@ pub fn write(
         "title": text(&spelt(title)),
         "bibtex": text(&latex::inlines(title)?),
         "heading": heading,
-        "byline": if here.is_signed(site.paper) { text(&site.paper.byline()) } else { String::new() },
+        "byline": if here.is_signed(paper) { text(&paper.byline()) } else { String::new() },
         "sections": sections,
         "figures": figures,
         "body": body,
@@ -101,7 +92,7 @@ pub fn beside(values: &BTreeSet<String>, cards: Cards<'_>, site: Site<'_>) -> Re
                     let within = site.labels.get(&to).map(|label| label.of);
                     vec![Inline::Reference { to, within, shown }]
                 }
-                other => document::led(other, site.top),
+                other => document::led(other, site.input.top),
             };
             let words: Vec<Inline> = row.text.iter().flat_map(place).collect();
             let row = format!("<dt>{}</dt><dd>{}</dd>", row.name, page.inlines(&words)?);
@@ -178,7 +169,7 @@ impl Page<'_> {
             }
             Block::Paragraph(text) => self.paragraph(text)?,
             Block::Figure { id, number, name, origin, caption, .. } => {
-                let figure = self.figure(name)?;
+                let figure = Figure::named(name, self.site.input.figures)?;
                 self.glyphs.borrow_mut().extend(figure.drawing.glyphs.clone());
                 let svg =
                     figure.drawing.on_page(&figure.id, &figure.title, &figure.description.text);
@@ -191,7 +182,7 @@ impl Page<'_> {
                     self.inlines(origin)?
                 )
             }
-            Block::Lab { .. } if !self.site.lab => String::new(),
+            Block::Lab { .. } if self.site.input.lab.is_none() => String::new(),
             Block::Lab { lab, caption } => format!(
                 "<figure class=\"lab\" id=\"lab-{lab}\" data-lab=\"{lab}\" hidden=\"\"><div class=\"controls\">\
                  <button type=\"button\">Run it here</button><span role=\"status\"></span></div>\
@@ -246,10 +237,6 @@ impl Page<'_> {
                 out + "</ul>\n"
             }
         })
-    }
-
-    fn figure(&self, name: &str) -> Result<&Figure, Error> {
-        Figure::named(name, self.site.figures)
     }
 
     /// HTML lets no equation stand inside a `<p>`: the sentence goes on in the next one.
@@ -415,7 +402,7 @@ impl Page<'_> {
             }
             Inline::Link { to, shown } => {
                 // A document is another file here.
-                let of = self.site.paper.documents.iter().find(|of| of.markdown == to);
+                let of = self.site.input.paper.documents.iter().find(|of| of.markdown == to);
                 let to = of.map_or(to.as_str(), |of| of.page);
                 format!("<a href=\"{}\">{}</a>", text(to), self.inlines(shown)?)
             }

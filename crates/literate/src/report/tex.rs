@@ -33,7 +33,7 @@ pub fn text(text: &str) -> Result<String, Error> {
     Ok(out)
 }
 
-/// Mathematics: TeX already, but for characters beyond ASCII. In words, as in `\text{…}`, they are text.
+/// Mathematics: TeX already, but for characters beyond ASCII, which are written so that they may stand in `\text{…}` too.
 pub fn maths(tex: &str) -> Result<String, Error> {
     let piece = |piece| match piece {
         Piece::Text(tex) => tex.to_string(),
@@ -41,22 +41,11 @@ pub fn maths(tex: &str) -> Result<String, Error> {
     };
     let tex: String = pieces(tex).into_iter().map(piece).collect();
     let mut out = String::with_capacity(tex.len());
-    // How deep in braces words are, if they are.
-    let mut words: Option<usize> = None;
     for c in tex.chars() {
-        match (c, words) {
-            ('{', Some(depth)) => words = Some(depth + 1),
-            ('{', None) if WORDS.iter().any(|name| out.ends_with(name)) => words = Some(1),
-            ('}', Some(depth)) => words = (depth > 1).then(|| depth - 1),
-            _ => {}
-        }
-        match (c.is_ascii(), in_maths(c), in_text(c)) {
-            (true, ..) => out.push(c),
-            (false, ..) if words.is_some() => out.push_str(&text(c.encode_utf8(&mut [0; 4]))?),
-            (_, Some(tex), _) => out.push_str(&format!("{tex} ")),
-            (_, None, Some(tex)) => out.push_str(&format!(r"\text{{{tex}}}")),
-            _ if ('\u{c0}'..='\u{17f}').contains(&c) => out.push(c),
-            _ => return Err(Error::NoLatex(c)),
+        match in_text(c) {
+            _ if c.is_ascii() => out.push(c),
+            Some(tex) => out.push_str(&format!(r"\text{{{tex}}}")),
+            None => out.push_str(&text(c.encode_utf8(&mut [0; 4]))?),
         }
     }
     Ok(out)
@@ -68,9 +57,6 @@ pub fn value(id: &str, shown: &str) -> String {
     let one = |c: u8| if plain(c) { char::from(c).into() } else { format!("\\%{c:02X}") };
     format!("\\origin{{{}}}{{{shown}}}", id.bytes().map(one).collect::<String>())
 }
-
-/// Macros of formulas whose argument is words.
-const WORDS: [&str; 3] = [r"\text", r"\textrm", r"\textbf"];
 
 /// A block of code inside `alltt`, where only `\`, `{` and `}` are special.
 pub fn code(code: &str) -> Result<String, Error> {
@@ -140,9 +126,9 @@ mod tests {
             text("50 % of σ ≥ 1–2 «x_1»").unwrap(),
             r"50 \% of \ensuremath{\sigma} \ensuremath{\ge} 1--2 \guillemotleft{}x\_1\guillemotright{}"
         );
-        assert_eq!(maths("σ+1").unwrap(), r"\sigma +1");
+        assert_eq!(maths("σ+1 – x").unwrap(), r"\ensuremath{\sigma}+1 \text{--} x");
         let words = r"\text{größer → {é}}→";
-        assert_eq!(maths(words).unwrap(), r"\text{größer \ensuremath{\to} {é}}\to ");
+        assert_eq!(maths(words).unwrap(), r"\text{größer \ensuremath{\to} {é}}\ensuremath{\to}");
         assert_eq!(code(r"a\{b_1}").unwrap(), r"a\textbackslash{}\{b_1\}");
         assert_eq!(text("é").unwrap(), "é");
     }

@@ -96,14 +96,7 @@ struct Reader<'a> {
     found: Vec<Error>,
 }
 
-/// A paragraph `Table: words {#tab:id}` or `Listing: words {#lst:id}` before what it belongs to.
-struct Caption {
-    kind: &'static str,
-    at: usize,
-    words: Vec<Inline>,
-    id: Option<String>,
-}
-
+/// How a paragraph `Table: words {#tab:id}` or `Listing: words {#lst:id}` begins, before what it belongs to.
 const CAPTIONS: [(&str, &str); 2] = [("Table: ", "tab"), ("Listing: ", "lst")];
 
 impl<'a> Reader<'a> {
@@ -143,11 +136,15 @@ impl<'a> Reader<'a> {
             if matches!(event, Event::End(_)) {
                 break;
             }
-            match self.block(None) {
+            match self.block() {
                 Ok(Some(block)) if within > 0 && !stands_within(&block) => {
                     self.at = start;
                     let what = "what has a number or a place stands in no list and no quotation";
                     return Err(markup(what));
+                }
+                Ok(Some(Block::Listing { id, item, .. })) if id.is_empty() => {
+                    let what = "without the paragraph `Listing: caption {#lst:id}` before it";
+                    self.find(start, markup(format!("code of `{item}` {what}")));
                 }
                 Ok(block) => blocks.extend(block),
                 Err(error) if within > 0 => return Err(error),
@@ -169,19 +166,19 @@ impl<'a> Reader<'a> {
         Ok(blocks)
     }
 
-    /// The next block, with the caption before it; none for a comment.
-    fn block(&mut self, caption: Option<Caption>) -> Result<Option<Block>, Error> {
+    /// The next block; none for a comment.
+    fn block(&mut self) -> Result<Option<Block>, Error> {
         let begins = |event: &Event<'_>| matches!(event, Event::Start(tag) if is_block(tag));
         let Some((event, range)) = self.events.next_if(|(event, _)| begins(event)) else {
             // Text right inside an item of a tight list.
             let range = self.events.peek().map_or(0..0, |(_, range)| range.clone());
-            return self.paragraph(range, caption);
+            return self.paragraph(range);
         };
         self.at = range.start;
         let Event::Start(tag) = event else { return Ok(None) };
-        let mut block = match tag {
+        let block = match tag {
             Tag::Paragraph => {
-                let block = self.paragraph(range, caption);
+                let block = self.paragraph(range);
                 // A caption has gone on with what it belongs to.
                 self.events.next_if(|(event, _)| matches!(event, Event::End(TagEnd::Paragraph)));
                 return block;
@@ -244,44 +241,11 @@ impl<'a> Reader<'a> {
             _ => return Err(markup(ELSE)),
         };
         self.next();
-        match (caption, &mut block) {
-            (None, Some(Block::Listing { item, .. })) => {
-                let item = std::mem::take(item);
-                self.at = range.start;
-                let what = "without the paragraph `Listing: caption {#lst:id}` before it";
-                Err(markup(format!("code of `{item}` {what}")))
-            }
-            (None, _) => Ok(block),
-            (Some(own), Some(Block::Table { id, number, caption, .. })) if own.kind == "tab" => {
-                (*id, *number, *caption) = (own.id, Some(String::new()), own.words);
-                Ok(block)
-            }
-            (
-                Some(Caption { kind: "lst", id: Some(own), words, .. }),
-                Some(Block::Listing { id, caption, .. }),
-            ) => {
-                (*id, *caption) = (own, words);
-                Ok(block)
-            }
-            (Some(own), _) => {
-                self.at = own.at;
-                Err(markup(
-                    "a caption has its table, or an id {#lst:…} and its code, right behind it",
-                ))
-            }
-        }
+        Ok(block)
     }
 
     /// A paragraph, or what stands alone in it.
-    fn paragraph(
-        &mut self,
-        range: Range<usize>,
-        before: Option<Caption>,
-    ) -> Result<Option<Block>, Error> {
-        if let Some(Caption { at, .. }) = before {
-            self.at = at;
-            return Err(markup("a caption has its table or its code right behind it"));
-        }
+    fn paragraph(&mut self, range: Range<usize>) -> Result<Option<Block>, Error> {
         let source = self.source(&range).trim_end();
         let own = source.strip_suffix('}').and_then(|source| source.rsplit_once("{#"));
         let id_at = own.map_or(0..0, |(words, _)| range.start + words.len()..range.end);
@@ -304,7 +268,22 @@ impl<'a> Reader<'a> {
             self.events.next_if(|(event, _)| matches!(event, Event::End(TagEnd::Paragraph)));
             let Some(Inline::Text(first)) = inlines.first_mut() else { return Err(markup(ELSE)) };
             *first = first.trim_start_matches(word).to_string();
-            return self.block(Some(Caption { kind, at: range.start, words: inlines, id }));
+            let mut block = self.block()?;
+            match (&mut block, id) {
+                (Some(Block::Table { id: own, number, caption, .. }), id) if *kind == "tab" => {
+                    (*own, *number, *caption) = (id, Some(String::new()), inlines);
+                }
+                (Some(Block::Listing { id: own, caption, .. }), Some(id)) if *kind == "lst" => {
+                    (*own, *caption) = (id, inlines);
+                }
+                _ => {
+                    self.at = range.start;
+                    return Err(markup(
+                        "a caption has its table, or an id {#lst:…} and its code, right behind it",
+                    ));
+                }
+            }
+            return Ok(block);
         }
         if let [Inline::Unresolved(ids)] = inlines.as_slice()
             && ids == &["bibliography"]
