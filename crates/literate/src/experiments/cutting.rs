@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// No unit is meant to weigh more than this many impacts: a third of a second of one core, about ...
+/// No unit is meant to weigh more than this: a third of a second of one core, about ...
 const HEAVY: u64 = 1_000_000;
 
 /// ... unless an experiment had then more units than about this many: each has a file.
@@ -24,12 +24,12 @@ pub struct UnitRow {
     pub covers: String,
     /// Number of realisations.
     pub realisations: usize,
-    /// Work of one realisation, in impacts.
+    /// Work of one realisation: three million are about a second of one core.
     pub weight: u64,
 }
 
 impl UnitRow {
-    /// Work of all its realisations, in impacts.
+    /// Work of all its realisations.
     pub fn work(&self) -> u64 {
         self.weight.saturating_mul(self.realisations as u64)
     }
@@ -46,7 +46,7 @@ pub struct Unit {
     pub realisations: Range<usize>,
     /// What its row is about.
     pub covers: String,
-    /// Its work, in impacts.
+    /// Its work.
     pub weight: u64,
 }
 
