@@ -22,8 +22,13 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let mean = short(of("mean")?, 3);
         let lines = [format!("*k*^{{∗}} = {k_star}"), format!("*μ* = {mean}")];
         // The words go where the columns are low.
-        let side = if k_star > N as f64 / 2.0 { HPos::Left } else { HPos::Right };
-        corner(&panel, side, &lines)?;
+        let (side, x, dx) = match k_star > N as f64 / 2.0 {
+            true => (HPos::Left, panel.x.lo, 140),
+            false => (HPos::Right, panel.x.hi, 0),
+        };
+        for (line, dy) in lines.iter().zip([90, 420]) {
+            panel.note(line, (x, panel.y.hi), (dx, dy), (SMALL, INK, side, VPos::Top))?;
+        }
         seen.push(format!("{} p = {p}: mean {mean}", LETTERS[i]));
     }
     let description = seen!(

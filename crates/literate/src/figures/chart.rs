@@ -46,19 +46,6 @@ pub const FOUR: [Frame; 4] = [
 /// The letters of panels.
 pub const LETTERS: [&str; 4] = ["(a)", "(b)", "(c)", "(d)"];
 
-/// Lines of words in an upper corner of a panel.
-pub fn corner(panel: &Panel, side: HPos, lines: &[String]) -> Result<(), Error> {
-    let (x, dx) = match side {
-        HPos::Left => (panel.x.lo, 140),
-        _ => (panel.x.hi, 0),
-    };
-    for (i, line) in lines.iter().enumerate() {
-        let look = (SMALL, INK, side, VPos::Top);
-        panel.note(line, (x, panel.y.hi), (dx, 90 + 330 * i as i32), look)?;
-    }
-    Ok(())
-}
-
 /// The letter of a panel and the parameter it is drawn for, above its frame.
 pub fn heading(panel: &Panel, letter: &str, parameter: &str) -> Result<(), Error> {
     panel.letter(letter)?;

@@ -55,17 +55,16 @@ impl Labels {
         let letter = of.letter;
         let (mut section, mut subsection, mut tables, mut listings) = (0, 0, 0, 0);
         self.anchors.remove("note");
-        let mut given = Vec::new();
-        for block in blocks.iter() {
-            if let Block::Figure { number, .. } = block {
-                given.push(format!("fig{number}"));
-            }
-        }
+        let mut given: Vec<String> = Vec::new();
         visit(blocks, &mut |inline| {
             if let Inline::Display { number, .. } = inline {
                 given.push(format!("eq{number}"));
             }
         });
+        given.extend(blocks.iter().filter_map(|block| match block {
+            Block::Figure { number, .. } => Some(format!("fig{number}")),
+            _ => None,
+        }));
         let free = |kind: &str, count: &mut usize| loop {
             *count += 1;
             let number = format!("{letter}{count}");

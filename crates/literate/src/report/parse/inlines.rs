@@ -158,8 +158,10 @@ impl Reader<'_> {
         if before < after {
             // The id is in one piece of text, or at the end of several.
             let begin = range.start;
-            self.text(&text[..before], begin..begin + before, out)?;
-            return self.text(&text[after..], begin + after..range.end, out);
+            let [first, last] =
+                [text.get(..before), text.get(after..)].map(Option::unwrap_or_default);
+            self.text(first, begin..begin + before, out)?;
+            return self.text(last, begin + after..range.end, out);
         }
         if let Some((at, what)) = leftover(source, range.start, text)
             && at >= self.quiet

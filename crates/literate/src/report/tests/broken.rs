@@ -41,6 +41,7 @@ fn broken_prose_is_told_with_its_place() {
         ("| a | b |\n|---|\n| x | y |", "14:1", "a line of dashes"),
         ("| a | b |\n|---|---|\n| c | d | «v.half_height» |", "16:1", "a row of 3 cells"),
         ("Table: A. {#tab:b}\n\nwords", "14:1", "a caption has its table"),
+        ("Table: A. {#tab:&amp;}\n\n| a |\n|---|", "14:1", "write tab: and behind it"),
         (
             "Words.\n\n«code(item=\"toy::flight::Motion::kick\")»",
             "16:1",
