@@ -58,7 +58,8 @@ impl Rows {
         let mut seen = BTreeSet::new();
         self.rows.iter().zip(1..).find_map(|(row, at)| match row.get(..self.keys.len()) {
             Some(keys) if row.len() == names => {
-                let twice = !seen.insert(format!("{keys:?}"));
+                let called = |key: &Json| key.as_f64().map_or(key.to_string(), |x| x.to_string());
+                let twice = !seen.insert(keys.iter().map(called).collect::<Vec<_>>());
                 twice.then(|| format!("row {at} has the keys of one before"))
             }
             _ => Some(format!("row {at} has {} cells for {names} names", row.len())),
