@@ -29,7 +29,7 @@ pub struct Orbit {
 /// The experiment: it is run once, saved, and used again.
 pub const CASCADE: Experiment<Depth, Vec<Orbit>> = Experiment::new(
     "cascade",
-    |profile| Depth { deepest: if profile == Profile::Quick { 8 } else { 16 } },
+    |profile| Depth { deepest: if profile == Profile::Quick { 14 } else { 16 } },
     cascade,
     |cascade| tables(cascade),
 );
