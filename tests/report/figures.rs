@@ -95,7 +95,7 @@ fn label(group: &Node) -> Label {
 
 #[test]
 fn every_figure_is_a_titled_and_described_picture() {
-    assert_eq!(QUICK.figures.len(), 24);
+    assert_eq!(QUICK.figures.len(), 23);
     for (listed, figure) in figures::ALL.iter().zip(&QUICK.figures) {
         assert_eq!(figure.id, listed.name);
         let svg = figure.svg();
@@ -205,7 +205,7 @@ fn no_curve_runs_through_a_label() {
 }
 
 /// What is no data: levels, walls, printed values, rims.
-const GUIDES: &str = "equilibrium; wall; printed; half of all gaps; zero; counts as missed; row; \
+const GUIDES: &str = "equilibrium; wall; printed; zero; counts as missed; row; \
     limit 1; jump; bound by seeds; power; rims; first impacts";
 
 /// A series that is drawn as a curve, as marks and as bars, or again in an inset, stands there once, and a guide never.
