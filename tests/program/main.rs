@@ -10,19 +10,16 @@ mod explain;
 mod paper;
 mod prose;
 mod saved;
-mod shards;
 mod sweep;
 mod trace;
 mod verify;
-mod writing;
 
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 use std::sync::LazyLock;
-use std::time::{Duration, Instant};
 
 /// The program.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
@@ -86,33 +83,6 @@ fn refused(folder: &Path, arguments: &str, words: &[&str]) {
     for word in words {
         assert!(note.contains(word), "{arguments}: {word:?} is not in {note}");
     }
-}
-
-/// Starts a command, sends it a signal when it is at work, and holds it to the exit code 130: its stdout, and its stderr
-/// if that is piped. What does not end within a minute is killed, and fails.
-fn ended(command: &mut Command, signal: &str) -> [String; 2] {
-    let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
-    std::thread::sleep(Duration::from_secs(1));
-    let early = child.try_wait().unwrap();
-    let kill = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
-    let asked = Instant::now();
-    while child.try_wait().unwrap().is_none() && asked.elapsed() < Duration::from_secs(60) {
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    let _ = child.kill();
-    let output = child.wait_with_output().unwrap();
-    assert!(early.is_none() && kill.success(), "it must still be running: {early:?}");
-    let (code, out, note) = told(&output);
-    assert_eq!(code, 130, "{out}{note}");
-    [out, note]
-}
-
-/// Leaves a program so many milliseconds, and kills it without a chance to tidy up.
-fn killed(command: &mut Command, wait: u64) {
-    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-    std::thread::sleep(Duration::from_millis(wait));
-    let _ = child.kill();
-    child.wait().unwrap();
 }
 
 /// SHA-256 in hexadecimal digits.
@@ -184,10 +154,5 @@ static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let paper = "paper --profile quick --out report --results results --threads 4 --templates";
     let (code, _, note) = run(here, &format!("{paper} {TEMPLATES}"));
     assert_eq!(code, 0, "{note}");
-    // Whom the umask allows may read it.
-    fs::write(here.join("plain"), "").unwrap();
-    let [plain, result] = ["plain", "results/sweep-quick.json"]
-        .map(|path| here.join(path).metadata().unwrap().permissions());
-    assert_eq!(plain, result);
     Quick { report: tree(&here.join("report")), results: files(&here.join("results")) }
 });

@@ -1,100 +1,78 @@
-//! `impact-paper paper` and `check` as a user meets them: what runs, what is written, what is not.
+//! `impact-paper paper` as a user meets it: what runs, what is written, what is left as it is.
 
-use crate::{EXPERIMENTS, QUICK, TEMPLATES, answer, ended, files, program, tree};
+use crate::{EXPERIMENTS, QUICK, SCENARIO, TEMPLATES, files, program, put, told, tree};
+use std::fs;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::Stdio;
+use std::process::{Child, Command, Stdio};
 
 /// The program in a folder of its own, with the templates of the project.
-pub fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
+fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
     crate::run(folder, &format!("{arguments} --templates {TEMPLATES}"))
 }
 
 /// Refuses the same.
-pub fn refused(folder: &Path, arguments: &str, words: &[&str]) {
+fn refused(folder: &Path, arguments: &str, words: &[&str]) {
     crate::refused(folder, &format!("{arguments} --templates {TEMPLATES}"), words);
 }
 
 #[test]
-fn a_figure_runs_no_more_than_it_needs() {
+fn a_figure_alone_runs_and_writes_no_more_than_it_needs() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    for number in [4, 11] {
-        let (code, told, note) = run(here, &format!("paper --figure {number} --out f"));
-        assert_eq!((code, note.as_str()), (0, ""), "{told}");
-        assert!(told.starts_with("f: ") && told.contains(" in "), "{told}");
-        assert!(!told.contains("1 files") && !told.contains(" 0.0 s"), "{told}");
-        assert!(here.join(format!("f/figures/fig{number:02}.svg")).is_file());
-    }
-    assert!(!here.join("target").exists(), "nothing was run and saved");
-}
-
-#[test]
-fn only_the_figure_that_was_asked_for_is_written() {
-    let folder = tempfile::tempdir().unwrap();
-    let (code, ..) = run(folder.path(), "paper --profile quick --figure 3 --out f --results r");
-    assert_eq!(code, 0);
-    let written = tree(&folder.path().join("f"));
+    let (code, told, note) = run(here, "paper --figure 4 --out f --results none");
+    assert_eq!((code, note.as_str()), (0, ""), "{told}");
+    assert!(told.starts_with("f: 1 file in "), "{told}");
+    assert!(here.join("f/figures/fig04.svg").is_file() && !here.join("none").exists());
+    let paper = "paper --profile quick --figure 3 --out g --results r";
+    // Two at once do not disturb each other.
+    std::thread::scope(|scope| {
+        for one in [(); 2].map(|()| scope.spawn(|| run(here, paper))) {
+            assert_eq!(one.join().unwrap().0, 0);
+        }
+    });
+    let written = tree(&here.join("g"));
     assert!(written.contains_key("figures/fig03.svg"), "{:?}", written.keys());
-    let expected = |name: &String| name.contains("fig03") || name == "SHA256SUMS";
-    assert!(written.keys().all(expected), "{:?}", written.keys());
-    let saved: Vec<String> = tree(&folder.path().join("r")).into_keys().collect();
-    assert!(saved.len() == 1 && saved[0].starts_with("sweep-"), "{saved:?}");
+    assert!(written.keys().all(|name| name.contains("fig03") || name == "SHA256SUMS"));
+    let saved = files(&here.join("r"));
+    assert_eq!(
+        saved.into_iter().collect::<Vec<_>>(),
+        [("sweep-quick.json".to_string(), QUICK.results["sweep-quick.json"].clone())]
+    );
 }
 
 #[test]
-fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_report() {
+fn saved_results_change_no_byte_and_neither_edits_nor_full_reports_are_written_over() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
+    put(&at("r1"), &QUICK.results);
     let paper = "paper --profile quick --out one --results r1";
-    let (code, _, note) = run(folder.path(), &format!("{paper} --threads 1"));
-    assert_eq!(code, 0, "{note}");
-    let (report, saved) = (tree(&at("one")), files(&at("r1")));
-    assert!(report.contains_key("report.md") && report.len() > 40, "{:?}", report.keys());
-    assert_eq!(saved.len(), EXPERIMENTS);
-    assert!(report == QUICK.report && saved == QUICK.results, "1 and 4 threads differ");
-
-    // Again: nothing is run, nothing changes, not even the saved files' times.
-    let times = |name: &str| -> Vec<_> {
-        let files = std::fs::read_dir(at(name)).unwrap().map(|file| file.unwrap().path());
-        let mut times: Vec<_> =
-            files.map(|f| (f.clone(), f.metadata().unwrap().modified().unwrap())).collect();
-        times.sort();
-        times
+    // Nothing is run, nothing changes, not even the saved files' times.
+    let times = || -> Vec<_> {
+        let files = QUICK.results.keys().map(|name| at("r1").join(name));
+        files.map(|file| file.metadata().unwrap().modified().unwrap()).collect()
     };
-    let before = times("r1");
-    let (code, told, _) = run(folder.path(), paper);
-    assert_eq!((code, times("r1")), (0, before));
+    let before = times();
+    let (code, told, note) = run(folder.path(), paper);
+    assert_eq!((code, times()), (0, before), "{note}");
     assert!(told.contains("report.html") && told.contains(" statements of the paper: "), "{told}");
-    assert!(report == tree(&at("one")));
+    assert_eq!(note.matches(": fresh").count(), EXPERIMENTS, "{note}");
+    assert!(QUICK.report == tree(&at("one")));
 
-    // A file that was lost comes back.
-    std::fs::remove_file(at("one/ledger.json")).unwrap();
-    assert_eq!(run(folder.path(), paper).0, 0);
-    assert!(report == tree(&at("one")));
-
-    // What was edited is refused at once by its name.
-    let ledger = String::from_utf8(report["ledger.json"].clone()).unwrap();
-    let edited = ledger.replace("\"verdict\": \"reproduced\"", "\"verdict\": \"differs\"");
-    std::fs::write(at("one/ledger.json"), &edited).unwrap();
+    // A file that was lost comes back, one that was edited is refused by its name.
+    fs::remove_file(at("one/values.json")).unwrap();
+    fs::write(at("one/ledger.json"), "{}").unwrap();
     refused(folder.path(), paper, &["ledger.json", "--force"]);
-    assert_eq!(std::fs::read_to_string(at("one/ledger.json")).unwrap(), edited);
+    assert_eq!(fs::read(at("one/ledger.json")).unwrap(), b"{}");
     let (code, _, note) = run(folder.path(), &format!("{paper} --force"));
-    assert_eq!(code, 0, "{note}");
-    assert!(note.contains("--force: wrote over ledger.json"), "{note}");
-    assert!(report == tree(&at("one")));
+    assert!(code == 0 && note.contains("--force: wrote over ledger.json"), "{note}");
+    assert!(QUICK.report == tree(&at("one")));
 
-    // check takes the same saved results.
-    let (code, told, note) = run(folder.path(), "check --profile quick --results r1");
-    assert_eq!(code, i32::from(told.contains("FAILS")), "{note}");
-    assert!(told.contains(" statements of the paper: "), "{told}");
-    assert!(saved == files(&at("r1")));
-
-    // What would spoil a report is refused before anything is run: over one of the full profile a lesser one, and a figure
-    // of it too.
-    let values = String::from_utf8(report["values.json"].clone()).unwrap();
+    // What would spoil a report of the full profile is refused before anything is run.
+    let values = fs::read_to_string(at("one/values.json")).unwrap();
     let full = values.replace("\"text\": \"quick\"", "\"text\": \"full\"");
     assert_ne!(full, values);
-    std::fs::write(at("one/values.json"), full).unwrap();
+    fs::write(at("one/values.json"), full).unwrap();
     let before = tree(&at("one"));
     for arguments in ["--profile quick --force", "--profile quick --figure 4 --force"] {
         refused(folder.path(), &format!("paper {arguments} --out one"), &["full profile"]);
@@ -102,42 +80,61 @@ fn threads_and_saved_results_change_no_byte_and_lesser_profiles_replace_no_full_
     assert!(before == tree(&at("one")));
 }
 
+/// Sends a signal to a program that is at work, and holds it to exit code 130: its stdout and stderr.
+fn ended(mut child: Child, signal: &str) -> [String; 2] {
+    let early = child.try_wait().unwrap();
+    let kill = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+    assert!(early.is_none() && kill.success(), "it must still be running: {early:?}");
+    let (code, out, note) = told(&child.wait_with_output().unwrap());
+    assert_eq!(code, 130, "{out}{note}");
+    [out, note]
+}
+
+/// A run of minutes, and one that waits for its reader and says after some seconds that it is still there.
+#[cfg(unix)]
 #[test]
-fn ctrl_c_leaves_nothing_half_written() {
+fn signals_end_the_work_and_leave_nothing_half_written() {
     let folder = tempfile::tempdir().unwrap();
-    let paper = "paper --figure 3 --out paper --results r --threads 2 --templates";
+    fs::write(folder.path().join("s.json"), SCENARIO).unwrap();
+    let paper = "paper --figure 3 --out paper --results r --threads 1 --templates";
     let mut command = program(folder.path(), &format!("{paper} {TEMPLATES}"));
-    ended(command.stderr(Stdio::null()), "-TERM");
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    let [out, note] = ended(child, "-TERM");
+    assert!(out.is_empty() && note.contains("interrupted"), "{out}{note}");
     assert!(!folder.path().join("paper").exists());
     let saved = tree(&folder.path().join("r"));
     assert!(saved.keys().all(|name| name.starts_with("sweep-full-")), "whole units are kept");
+
+    let mut command = program(folder.path(), "trace s.json --until 1e12");
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
+    assert!(line.starts_with("trace: at t = ") && line.contains(", after 5 s"), "{line}");
+    let [out, _] = ended(child, "-INT");
+    assert!(out.ends_with('\n'), "whole lines");
 }
 
-/// What is no module of WebAssembly is none of the pages'.
+/// Whatever writes, writes over nothing that it did not make itself.
 #[test]
-fn a_module_is_looked_at() {
+fn what_others_made_is_left_as_it_is() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    crate::put(&here.join("r"), &QUICK.results);
-    std::fs::create_dir(here.join("target")).unwrap();
-    for (bytes, taken) in [("garbage", false), ("\0asm", true)] {
-        std::fs::write(here.join("target/page.wasm"), bytes).unwrap();
-        let (code, _, note) = run(here, "paper --profile quick --out p --results r");
-        let said = note.contains("target/page.wasm is not there or no module");
-        assert_eq!((code, said, here.join("p/lab.js").exists()), (0, !taken, taken), "{note}");
+    fs::create_dir_all(here.join("t/figures")).unwrap();
+    for name in ["README.md", "t/report.md", "t/figures/fig04.svg"] {
+        fs::write(here.join(name), "by hand").unwrap();
     }
-}
-
-/// --quiet hides progress and no error.
-#[test]
-fn quiet_work_says_nothing() {
-    let folder = tempfile::tempdir().unwrap();
-    let here = folder.path();
-    let sweep = "sweep --sigma 0.1 --masses 4 --realisations 2";
-    let (code, quiet, note) = crate::run(here, &format!("-q {sweep}"));
-    assert_eq!((code, note.as_str()), (0, ""));
-    assert_eq!(quiet, answer(here, sweep));
-    let (code, _, note) = run(here, "paper --profile quick --figure 3 --out f --results r --quiet");
-    assert_eq!((code, note.as_str()), (0, ""));
-    crate::refused(here, "sweep --sigma nan --quiet", &["sigma"]);
+    let before = tree(here);
+    for (arguments, says) in [
+        ("paper --profile quick --out .", "--out: .: it has files and no SHA256SUMS"),
+        ("paper --figure 4 --out t", "--out: t: it has files and no SHA256SUMS"),
+    ] {
+        refused(here, arguments, &[says, "--force"]);
+    }
+    assert!(tree(here) == before, "{:?}", tree(here).keys());
+    // Forced, it says what it wrote over, and a folder of its own is written again without.
+    let (code, _, note) = run(here, "paper --figure 4 --out t --force");
+    assert!(code == 0 && note.contains("wrote over figures/fig04.svg"), "{note}");
+    assert_eq!(run(here, "paper --figure 4 --figure 5 --out t").0, 0);
+    assert_eq!(fs::read_to_string(here.join("t/report.md")).unwrap(), "by hand");
 }

@@ -1,113 +1,160 @@
-//! Saved results: never stale, never half, whatever happens to the program or the disk.
+//! Saved results: never stale, never half, whatever happens to the program; and work shared out to several machines gives
+//! the bytes of one.
 
-use crate::{EXPERIMENTS, Files, PROGRAM, QUICK, TEMPLATES, files, forged, outcome, put, run};
+use crate::{EXPERIMENTS, Files, QUICK, TEMPLATES, files, forged, program, put, run};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::sync::LazyLock;
+use std::time::Duration;
 
-/// Needs every experiment that is saved.
-const PAPER: &str = concat!(
-    "paper --profile quick --out report --results results --templates ",
-    env!("CARGO_MANIFEST_DIR"),
-    "/templates"
-);
-
-/// Saved results by name.
-fn saved(folder: &Path) -> Files {
-    files(&folder.join("results"))
+/// One of three shards, into a folder of its own or a common one.
+fn shard(folder: &Path, i: usize, results: &str) -> (String, String) {
+    let line = format!("run --profile quick --shard {i}/3 --results {results} --threads {i}");
+    let (code, text, note) = run(folder, &line);
+    assert_eq!(code, 0, "{text}{note}");
+    (text, note)
 }
 
-/// A folder with all results of the quick profile.
-fn whole() -> tempfile::TempDir {
+/// What three shards save, in another order and on other numbers of threads.
+static SHARDS: LazyLock<[Files; 3]> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
-    put(&folder.path().join("results"), &QUICK.results);
+    for i in [3, 1, 2] {
+        shard(folder.path(), i, &i.to_string());
+    }
+    [1, 2, 3].map(|i| files(&folder.path().join(i.to_string())))
+});
+
+/// All of them copied into the folder `results`.
+fn together() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    SHARDS.iter().for_each(|shard| put(&folder.path().join("results"), shard));
     folder
+}
+
+/// Joins what is in `results`, which is then what one machine saves; what is said meanwhile.
+fn joined(folder: &Path) -> String {
+    let paper = "paper --profile quick --out report --results results --templates";
+    let (code, text, note) = run(folder, &format!("{paper} {TEMPLATES}"));
+    assert_eq!(code, 0, "{text}{note}");
+    assert!(files(&folder.join("results")) == QUICK.results, "{note}");
+    note
+}
+
+/// What `paper --dry-run` says of results, a line for each experiment that would be run.
+fn stale(folder: &Path, results: &str) -> String {
+    let dry = format!("paper --profile quick --dry-run --results {results}");
+    let (code, text, _) = run(folder, &dry);
+    assert_eq!(code, i32::from(!text.is_empty()), "{text}");
+    text
 }
 
 #[test]
 fn each_reason_is_told_and_nothing_else_is_run_again() {
-    let (folder, results) = (whole(), &QUICK.results);
+    let (folder, results) = (tempfile::tempdir().unwrap(), &QUICK.results);
     let folder = folder.path();
-    let (_, _, note) = run(folder, PAPER);
-    assert_eq!(note.matches(": fresh").count(), EXPERIMENTS, "{note}");
-    assert_eq!(saved(folder), *results);
+    assert_eq!(stale(folder, "nowhere").lines().count(), EXPERIMENTS);
+    assert!(!folder.join("nowhere").exists());
+    put(&folder.join("results"), results);
     // What another program, another Cargo.lock and other parameters would have left here. The
     // checksum is right, so only what the result was made of tells.
-    let forge = |name: &str, line: usize, from: &str, to: &str| {
-        let text = forged(&results[name], line, from, to);
-        fs::write(folder.join("results").join(name), text).unwrap();
-    };
     let simulation = "\"crates/impact-chain/src/simulation.rs\":\"";
-    forge("horizon-quick.json", 1, simulation, "\"crates/impact-chain/src/simulation.rs\":\"0");
-    forge("starts-quick.json", 1, "\"Cargo.lock\":\"", "\"Cargo.lock\":\"0");
-    forge("scale-quick.json", 1, "\"sigma\":", "\"sigma\":1");
-    forge("race-quick.json", 1, "\"schema\":", "\"schema\":9");
-    let protocol = folder.join("results/protocol-quick.json");
-    fs::write(&protocol, &results["protocol-quick.json"][..1000]).unwrap();
-    fs::remove_file(folder.join("results/trials-quick.json")).unwrap();
-    let (_, _, note) = run(folder, PAPER);
-    assert_eq!(note.matches(": fresh").count(), EXPERIMENTS - 6, "{note}");
-    for (experiment, told) in [
-        ("horizon", " again, crates/impact-chain/src/simulation.rs changed"),
-        ("starts", " again, Cargo.lock changed"),
-        ("scale", " again, other parameters"),
-        ("race", " again, saved in another form"),
-        ("protocol", " again, the saved result is cut short or has lines too many"),
-        ("trials", ""),
+    let mut expected = Vec::new();
+    for (name, from, more, reason) in [
+        ("race", "\"schema\":", "9", "saved in another form"),
+        ("two_masses", "\"Cargo.lock\":\"", "0", "Cargo.lock changed"),
+        ("horizon", simulation, "0", "crates/impact-chain/src/simulation.rs changed"),
+        ("scale", "\"sigma\":", "1", "other parameters"),
     ] {
-        assert!(note.contains(&format!("{experiment}: run{told}\n")), "{told}: {note}");
+        let file = format!("{name}-quick.json");
+        let text = forged(&results[&file], 1, from, &format!("{from}{more}"));
+        fs::write(folder.join("results").join(file), text).unwrap();
+        expected.push(format!("{name}: run again, {reason}"));
     }
-    assert!(saved(folder) == *results);
+    let trials = folder.join("results/trials-quick.json");
+    fs::write(trials, &results["trials-quick.json"][..1000]).unwrap();
+    expected.push("trials: run again, the saved result is cut short or has lines too many".into());
+    fs::remove_file(folder.join("results/seeds-quick.json")).unwrap();
+    expected.push("seeds: run".into());
+    let text = stale(folder, "results");
+    let [said, all]: [BTreeSet<&str>; 2] =
+        [text.lines().collect(), expected.iter().map(String::as_str).collect()];
+    assert_eq!(said, all);
+    // One of them is run again, and no other.
+    for (name, bytes) in results.iter().filter(|(name, _)| !name.starts_with("horizon")) {
+        fs::write(folder.join("results").join(name), bytes).unwrap();
+    }
+    let note = joined(folder);
+    assert!(
+        note.matches(": fresh").count() == EXPERIMENTS - 1 && note.contains(&expected[2]),
+        "{note}"
+    );
 }
 
 #[test]
-fn two_runs_at_once_do_not_disturb_each_other() {
-    let folder = tempfile::tempdir().unwrap();
-    std::thread::scope(|scope| {
-        for one in [(); 2].map(|()| scope.spawn(|| run(folder.path(), PAPER))) {
-            assert_eq!(one.join().unwrap().0, 0);
-        }
-    });
-    assert!(saved(folder.path()) == QUICK.results);
-}
-
-/// Results in a folder that cannot be written are used.
-#[test]
-fn a_read_only_folder_is_read() {
-    use std::os::unix::fs::PermissionsExt;
-    let (folder, results) = (whole(), &QUICK.results);
+fn shards_in_one_folder_give_the_bytes_of_one_machine() {
+    let folder = together();
     let folder = folder.path();
-    let set = |path: &Path, mode: u32| {
-        fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();
-    };
-    fs::copy(PROGRAM, folder.join("program")).unwrap();
-    // Who may do anything may write everywhere: the program runs as nobody then.
-    let root = Command::new("id").arg("-u").output().unwrap().stdout == b"0\n";
-    let nobody = if root { "setpriv --reuid=65534 --regid=65534 --clear-groups" } else { "env" };
-    let as_reader = || {
-        let paper = PAPER.replace("report", "open/report").replace(TEMPLATES, "templates");
-        let line = format!("exec {nobody} ./program {paper}");
-        outcome(Command::new("bash").args(["-c", &line]).current_dir(folder))
-    };
-    // What the program reads when it runs: the checkout may lie where nobody else may go.
-    let benches = concat!(env!("CARGO_MANIFEST_DIR"), "/benches");
-    let status =
-        Command::new("cp").args(["-r", benches, TEMPLATES, "."]).current_dir(folder).status();
-    assert!(status.unwrap().success());
-    fs::create_dir(folder.join("open")).unwrap();
-    set(&folder.join("open"), 0o777);
-    set(folder, 0o755);
-    set(&folder.join("results"), 0o555);
-    let (code, _, note) = as_reader();
-    assert_eq!(code, 0, "{note}");
-    assert_eq!(note.matches(": fresh").count(), EXPERIMENTS, "{note}");
-    set(&folder.join("results"), 0o755);
-    fs::remove_file(folder.join("results/second_seed-quick.json")).unwrap();
-    set(&folder.join("results"), 0o555);
-    let (code, _, note) = as_reader();
-    assert_eq!(code, 2, "{note}");
-    assert!(note.contains("--results"), "{note}");
-    set(&folder.join("results"), 0o755);
-    run(folder, PAPER);
-    assert!(saved(folder) == *results);
+    let units: usize = SHARDS.iter().map(Files::len).sum();
+    assert!(units > 60 && SHARDS.iter().all(|shard| shard.len() > units / 6), "{units}");
+    assert_eq!(files(&folder.join("results")).len(), units, "each in one shard");
+    assert!(stale(folder, "results").contains("sweep: run; 18 of 18 units there\n"));
+    let note = joined(folder);
+    assert!(!note.contains("run again") && note.contains("sweep: 18 of 18 units there"), "{note}");
+    // Now all is joined, and neither a shard nor a whole run has anything to do.
+    assert_eq!(stale(folder, "results"), "");
+    for verb in ["run --shard 1/3", "run"] {
+        let (code, text, note) = run(folder, &format!("{verb} --profile quick --results results"));
+        assert!(code == 0 && !note.contains(": run"), "{text}{note}");
+    }
+    assert!(files(&folder.join("results")) == QUICK.results);
+}
+
+#[test]
+fn a_unit_that_is_missing_or_not_to_be_used_is_run_again() {
+    let folder = together();
+    let folder = folder.path();
+    let path = folder.join("results/sweep-quick-0007.json");
+    let whole = fs::read(&path).unwrap();
+    for (bytes, says) in [
+        (None, None),
+        (Some(whole[..whole.len() - 9].into()), Some("the saved result is cut short")),
+        (Some(forged(&whole, 1, "\"number\":7", "\"number\":8")), Some("another unit of work")),
+        (Some(forged(&whole, 2, "[", "[[")), Some("saved in another form")),
+    ] {
+        match bytes {
+            Some(bytes) => fs::write(&path, bytes).unwrap(),
+            None => fs::remove_file(&path).unwrap(),
+        }
+        let place = SHARDS.iter().position(|shard| shard.contains_key("sweep-quick-0007.json"));
+        let (i, there) = (place.unwrap() + 1, SHARDS[place.unwrap()].len() - 1);
+        let (text, note) = shard(folder, i, "results");
+        assert_eq!(text, format!("results: shard {i}/3: 1 unit run, {there} there before\n"));
+        let line = says.map(|says| format!("sweep: 1 unit run again, {says}"));
+        assert!(line.is_none_or(|line| note.contains(&line)), "{says:?}: {note}");
+        assert!(fs::read(&path).unwrap() == whole);
+    }
+    fs::write(&path, &whole[..100]).unwrap();
+    let note = joined(folder);
+    assert_eq!(note.matches("run again").count(), 1, "{note}");
+}
+
+/// Killed without a chance to tidy up, at several moments, a run loses no unit that it saved.
+#[test]
+fn a_killed_run_goes_on_where_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for wait in [30, 300, 1000] {
+        let mut command = program(folder, "-q run --profile quick --results results");
+        let mut child = command.spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(wait));
+        let _ = child.kill();
+        child.wait().unwrap();
+        for (name, bytes) in files(&folder.join("results")) {
+            let unit = SHARDS.iter().find_map(|shard| shard.get(&name));
+            assert!(unit.or(QUICK.results.get(&name)) == Some(&bytes), "{name} after {wait} ms");
+        }
+    }
+    let note = joined(folder);
+    assert!(!note.contains("run again"), "{note}");
 }

@@ -71,7 +71,6 @@ fn the_truth_shows_from_where_on_a_run_is_off_and_refuses_what_it_does_not_know(
     assert!(truth.iter().zip(&own).any(apart), "{} impacts", truth.len());
     for (scenario, words) in [
         (r#"{"boundary":"ring","forcing":[[1,0],[0,0]]}"#, "walls only"),
-        (r#"{"forcing_frequencies":[2,3],"forcing":[[[1,0]],[[0,1]]]}"#, "one frequency only"),
         (r#"{"restitution":0.2,"forcing":[[5.88,-4.94]]}"#, "no contact"),
     ] {
         std::fs::write(folder.path().join("s.json"), scenario).unwrap();
@@ -100,10 +99,8 @@ fn a_chatter_that_makes_most_of_the_rows_is_named() {
     let slow = |line: &&str| line.split(',').next_back().unwrap().parse::<f64>().unwrap() < 1e-6;
     let found = out.lines().skip(1).filter(slow).count();
     assert!(
-        code == 0 && note.contains(&format!("{found} of {}", out.lines().count() - 1)),
+        code == 0 && note.contains(&format!("{found} of {} impacts", out.lines().count() - 1)),
         "{note}"
     );
-    let named = |note: &str| note.lines().filter(|line| line.contains("chatter")).count();
-    assert_eq!(named(&note), 1, "{note}");
-    assert_eq!(named(&run(folder.path(), "trace s.json --until 4").2), 0);
+    assert!(!run(folder.path(), "trace s.json --until 4").2.contains("chatter"));
 }

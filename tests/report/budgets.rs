@@ -65,9 +65,6 @@ fn no_document_outgrows_its_reader() {
         assert!(note.lines().filter(dashes).count() <= 1, "{title}: more than one table");
     }
     assert_eq!(notes.len(), 4, "notes of the second paper");
-    for (what, count, budget) in &counts {
-        println!("{count:6} of {budget:6} words: {what}");
-    }
     let passed: Vec<_> =
         counts.iter().filter(|(_, count, budget)| *count * 10 > budget * 11).collect();
     assert!(passed.is_empty(), "more than ten per cent too long: {passed:?}");

@@ -5,10 +5,6 @@ use crate::quick::QUICK;
 use impact_chain::Scenario;
 use impact_numerics::random::generator;
 use impact_paper::claims::Published;
-use literate::digest::sha256;
-use literate::experiments::Profile;
-use literate::experiments::identity::Identity;
-use literate::experiments::store;
 use literate::report::bibliography::Library;
 use literate::report::filler::Filler;
 use literate::report::labels::Labels;
@@ -113,13 +109,4 @@ fn no_reader_panics_or_hangs() {
     of("paper/SHA256SUMS", 1000, |text| folder::read_sums(text).map(drop).ok_or_else(String::new));
     let scenario = |text: &str| line(Scenario::from_json(text).and_then(|own| own.validate()));
     survives("scenario", SCENARIO.into(), 2000, scenario);
-    // Saved results with a checksum that fits, as no accident makes it.
-    let identity =
-        Identity::new("test", Profile::Quick, QUICK.paper.project.code(&[]), &[1.5, 0.25]);
-    let saved = serde_json::to_string(&identity).unwrap() + "\n[[\"row\",0.5],[\"\",null]]\n";
-    survives("saved", saved, 1000, |text| {
-        let whole = format!("{}\n{text}", sha256(text));
-        let (_, body) = store::parsed(&whole)?;
-        line(serde_json::from_str::<Vec<(String, Option<f64>)>>(body))
-    });
 }

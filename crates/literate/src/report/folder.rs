@@ -23,8 +23,6 @@ pub enum Error {
     NotOurs(String),
     #[error("{}: not as this program last wrote it: {}; move it away, or write over it with --force", .0, listed(.1))]
     Edited(String, Vec<String>),
-    #[error("{0}: it is a symbolic link out of the folder; remove it, or give another folder")]
-    Link(String),
     #[error("{0}: there is no {SUMS}; give the folder of a report")]
     NoList(String),
     #[error(
@@ -191,11 +189,6 @@ pub fn write(folder: &Path, files: &Files, beside: &Files, force: bool) -> Resul
     let mut over = refuse(folder, files, whole, force)?;
     if ours(folder)?.is_none() {
         over.extend(beside.keys().filter(|path| folder.join(path).exists()).cloned());
-    }
-    for below in ["data", "figures"].map(|below| folder.join(below)) {
-        if below.is_symlink() {
-            return Err(Error::Link(below.display().to_string()));
-        }
     }
     let standing = read(folder, SUMS).ok().and_then(|text| String::from_utf8(text).ok());
     let mut list = standing.and_then(|text| read_sums(&text)).unwrap_or_default();
