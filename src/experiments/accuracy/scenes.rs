@@ -1,7 +1,6 @@
 //! Scenes in which methods fail, as data: what each is, and what must come out.
 //!
-//! The tests of the engine and of its rivals and the table of the report use the same scenes. An
-//! expectation comes from a closed form where there is one, else from the motion to 106 bits.
+//! In each some method fails. An expectation comes from a closed form where there is one, else from the motion to 106 bits.
 
 use super::case::{Case, Expected, NEAR};
 use crate::experiments::prelude::*;

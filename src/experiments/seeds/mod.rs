@@ -1,4 +1,4 @@
-//! What one gap that closes by itself sets off: survival, spreading, and the mean count that
+//! What one gap that closes by itself sets off: spreading, and the mean count that
 //! nucleation and growth let expect.
 //!
 //! - [`run`](mod@run): chains with exactly one such gap, and where impacts get from there.

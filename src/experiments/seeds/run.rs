@@ -129,30 +129,21 @@ fn trace(
 mod tests {
     use super::*;
 
-    /// The differences of the amplitudes on both sides of each gap of a chain between walls, which are
-    /// not forced.
-    fn differences(forcing: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]> {
-        let wall = || std::iter::once([0.0; 2]);
-        let left = wall().chain(forcing.iter().copied());
-        let right = forcing.iter().copied().chain(wall());
-        left.zip(right).map(|(a, b)| [b[0] - a[0], b[1] - a[1]])
-    }
-
-    fn drawn(chain: &Chain, sigma: f64, index: u64) -> (Vec<[f64; 2]>, usize) {
-        let mut normals = NormalPairs::new("test of seeds", 1, index);
-        Search { chain, sigma, normals: &mut normals }.chain()
-    }
-
+    /// The gaps between walls that close by themselves.
     fn closing(chain: &Chain, forcing: &[[f64; 2]]) -> Vec<usize> {
-        let closes = differences(forcing).map(|delta| closes_by_itself(chain, delta));
-        closes.enumerate().filter_map(|(gap, closes)| closes.then_some(gap)).collect()
+        let wall = &[[0.0; 2]];
+        let bodies = [wall, forcing, wall].concat();
+        let closes = |gap: &usize| {
+            let [a, b] = [bodies[*gap], bodies[gap + 1]];
+            closes_by_itself(chain, [b[0] - a[0], b[1] - a[1]])
+        };
+        (0..chain.gaps()).filter(closes).collect()
     }
 
     /// As whole chains that are drawn until one is right: where its gap is, and how far the forces reach.
     #[test]
     fn a_drawn_chain_has_one_gap_that_closes_by_itself() {
-        let chain = Chain { masses: 5, ..Chain::default() };
-        let sigma = 0.25;
+        let (chain, sigma) = (Chain { masses: 5, ..Chain::default() }, 0.25);
         let mut normals = NormalPairs::new("test of seeds, whole chains", 1, 0);
         let mut whole = || loop {
             let forcing: Vec<[f64; 2]> =
@@ -163,9 +154,9 @@ mod tests {
         };
         // For each gap the shares of chains that have it, and the mean square of the forces then.
         let mut sums = [[[0.0; 2]; 6]; 2];
-        let chains = 20_000;
-        for index in 0..chains {
-            let own = drawn(&chain, sigma, index);
+        for index in 0..20_000 {
+            let mut normals = NormalPairs::new("test of seeds", 1, index);
+            let own = Search { chain: &chain, sigma, normals: &mut normals }.chain();
             assert_eq!(closing(&chain, &own.0), [own.1]);
             for (sums, (forcing, seed)) in sums.iter_mut().zip([own, whole()]) {
                 let square: f64 = forcing.as_flattened().iter().map(|x| x * x).sum();
@@ -175,10 +166,8 @@ mod tests {
         }
         for (own, whole) in sums[0].iter().zip(&sums[1]) {
             let [counts, squares] = [0, 1].map(|i| (own[i] - whole[i]) / whole[0].sqrt());
-            assert!(
-                whole[0] > 500.0 && counts.abs() < 5.0 && squares.abs() < 5.0,
-                "{own:?} {whole:?}"
-            );
+            let near = counts.abs() < 5.0 && squares.abs() < 5.0;
+            assert!(whole[0] > 500.0 && near, "{own:?} {whole:?}");
         }
     }
 }
