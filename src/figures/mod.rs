@@ -24,9 +24,9 @@ mod s02;
 mod s03;
 mod s04;
 mod s05;
+mod s06;
 mod s07;
 mod s08;
-mod s09;
 mod simulated;
 
 pub use literate::figures::*;
@@ -72,7 +72,7 @@ pub const ALL: [Illustration; 23] = [
     drawing("s03", &[&SEEDS, &SWEEP, &PROTOCOL], s03::draw),
     drawing("s04", &[&BRANCHES, &PROTOCOL], s04::draw),
     drawing("s05", &[&THEORY], s05::draw),
-    drawing("s07", &[&RACE], |all| s07::draw(all.of(&RACE)?)),
-    drawing("s08", &[&RACE, &MEASURED], |all| s08::draw(all.of(&RACE)?, all.of(&MEASURED)?)),
-    drawing("s09", &[&SCALE, &MEASURED], |all| s09::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),
+    drawing("s06", &[&RACE], |all| s06::draw(all.of(&RACE)?)),
+    drawing("s07", &[&RACE, &MEASURED], |all| s07::draw(all.of(&RACE)?, all.of(&MEASURED)?)),
+    drawing("s08", &[&SCALE, &MEASURED], |all| s08::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),
 ];

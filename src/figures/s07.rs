@@ -1,67 +1,118 @@
-//! Fig. S7: error and misses of the next impact against counted work, for every method.
+//! Fig. S7: how long a run is true, against its work, its error and its time.
 
 use super::prelude::*;
-use super::rivals::{by_method, entries, look};
+use super::rivals::{Timed, by_method, entries, entries_of_others, look, look_of, others, timed};
+use crate::experiments::Measured;
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
 use crate::experiments::accuracy::tables::name;
 use crate::params::MethodName;
 
-pub fn draw(race: &Race) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9500);
-    let costs = || race.entries.iter().filter_map(|entry| entry.work);
-    let cost_axis = || Axis::around(costs(), 1, "evaluations per impact");
-    let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
-    let (x, y) = (cost_axis().bare(), error.column("error of the next impact's time (1/omega)"));
-    let errors = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8150, 4030), x, y)?;
-    errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, Dash::Short))?;
-    let words = (TINY, INK, HPos::Right, VPos::Bottom);
-    errors.note("missed above", (errors.x.hi, DISPLACED), (-60, -60), words)?;
+/// The rounding of doubles, 2⁻⁵³.
+const ROUNDING: f64 = f64::EPSILON / 2.0;
 
-    let tried = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);
-    let bottom = -(pxfm::f_log10(tried as f64).ceil() as i32) - 1;
-    let mut axis = Axis::decades(bottom, 0, 1, "share missed");
-    // Below one in all that were tried there is nothing but zero.
-    axis.ticks.retain(|tick| tick.at <= axis.lo || tick.at >= 9.5 * axis.lo);
-    if let Some(first) = axis.ticks.first_mut() {
-        first.label = Some("none".into());
-    }
-    let misses = Frame::new(1300, 4650, 8150, 7250);
-    let misses = sheet.lettered(LETTERS[1], misses, cost_axis(), axis)?;
+/// Time after which an error ε has grown to [`DISPLACED`]: ln(10⁻³/ε)/λ, with λ and its error.
+fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
+    let growth = race.growth.growth()?;
+    let folds = pxfm::f_log(DISPLACED / error).max(0.0);
+    Some([growth.interval[1], growth.value, growth.interval[0]].map(|rate| folds / rate))
+}
 
-    let spread = |e: &Entry| Some((e.work?, e.errors?[1]));
-    let middle = |e: &Entry| Some((e.work?, e.errors?[0]));
-    let missed = |e: &Entry| {
-        let share = e.misses as f64 / e.tried.max(1) as f64;
-        Some((e.work?, share))
+pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
+    let sheet = Sheet::new(9950);
+    let top = (race.parameters.until / 50.0).ceil() * 50.0;
+    let costs = race.entries.iter().filter_map(|entry| entry.work);
+    let (x, y) =
+        (Axis::around(costs, 1, "evaluations per impact"), horizon(top, "horizon *t* (1/*ω*)"));
+    let by_cost = sheet.lettered(LETTERS[0], Frame::new(1100, 430, 8150, 3500), x, y)?;
+    let x = Axis::decades(-18, 0, 6, "error of the next impact (1/*ω*)");
+    let y = horizon(top, "horizon *t* (1/*ω*)");
+    let by_error = sheet.lettered(LETTERS[1], Frame::new(1100, 4900, 4300, 7350), x, y)?;
+
+    let points = |place: &dyn Fn(&Entry) -> Option<f64>| {
+        by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon()?.value)))
     };
-    let medians = by_method(&race.entries, |e| e.setting, middle);
-    for ((method, points), (_, ends)) in
-        medians.iter().zip(by_method(&race.entries, |e| e.setting, spread))
+    chaos(&by_error, race)?;
+    let ceiling = allowed(race, ROUNDING);
+    if let Some([_, ceiling, _]) = ceiling.filter(|c| c[1] < top) {
+        let line = Stroke::dashed(GREY, LINE, Dash::Short);
+        by_cost.level("what chaos allows to doubles", ceiling, line)?;
+        let look = (TINY, INK, HPos::Right, VPos::Bottom);
+        by_cost.note("what chaos allows to doubles", (by_cost.x.hi, ceiling), (0, -70), look)?;
+    }
+    let by_work = |e: &Entry| e.work;
+    let by_median = |e: &Entry| e.errors.map(|errors| errors[0]);
+    for (panel, place) in
+        [(&by_cost, &by_work as &dyn Fn(&Entry) -> Option<f64>), (&by_error, &by_median)]
     {
-        let look = look(*method);
-        let bars: Vec<_> = points.iter().zip(&ends).map(|(a, b)| (a.0, a.1, b.1)).collect();
-        let thin = Stroke::solid(look.2.colour, HAIR);
-        errors.bars(name(*method), &bars, 0, thin, Outside::Edge)?;
-        errors.marked(name(*method), points, (look.2, look), Outside::Edge)?;
+        let bars =
+            by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon()?.error)));
+        for ((method, points), (_, errors)) in points(place).iter().zip(bars) {
+            let look = look(*method);
+            let bars: Vec<_> =
+                points.iter().zip(errors).map(|(p, e)| (p.0, p.1 - e.1, p.1 + e.1)).collect();
+            panel.bars(name(*method), &bars, 0, look.2, Outside::Edge)?;
+            if std::ptr::eq(panel, &by_cost) {
+                panel.curve(name(*method), points, look.2, Outside::Refuse)?;
+            }
+            panel.marks(name(*method), points, look, Outside::Edge)?;
+        }
     }
-    for (method, points) in by_method(&race.entries, |e| e.setting, missed) {
-        let look = look(method);
-        misses.marked(name(method), &points, (look.2, look), Outside::Edge)?;
+    let present = points(&by_work);
+    let programs = timed(measured);
+    let mut legend = entries(|method| present.iter().any(|(m, _)| *m == method));
+    legend.extend(entries_of_others(&others(&programs)));
+    sheet.legend_in_columns((350, 8600), (SMALL, 370), (4, 2800), &legend)?;
+    clock(&sheet, measured, race.parameters.growth.chain.masses, top)?;
+    Ok(sheet.finish("s07", "How long a run is true", description(race)))
+}
+
+/// The axis of horizons.
+fn horizon(top: f64, label: &str) -> Axis {
+    let step = if top > 60.0 { 50.0 } else { 10.0 };
+    Axis::linear(0.0, top, step, 1, label).column("horizon (1/omega)")
+}
+
+/// The line that chaos allows, with the band of λ's interval.
+fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
+    let at = |error: f64| allowed(race, error).map(|t| (error, t));
+    let errors = (0..=72).map(|i| pxfm::f_exp10(-18.0 + 0.25 * f64::from(i)));
+    let grid: Vec<_> = errors.filter_map(at).collect();
+    let cut = |t: f64| t.min(panel.y.hi);
+    let below = grid.iter().map(|(x, t)| (*x, cut(t[0])));
+    let above = grid.iter().rev().map(|(x, t)| (*x, cut(t[2])));
+    panel.area("interval of the growth", &below.chain(above).collect::<Vec<_>>(), PALE, 100)?;
+    let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
+    let stroke = Stroke::dashed(GREY, LINE, Dash::Short);
+    panel.curve("what chaos allows", &line, stroke, Outside::Cut)
+}
+
+/// Panel (c): the horizon of programs on one chain against the time they take, as measured.
+fn clock(sheet: &Sheet, measured: &Measured, masses: usize, top: f64) -> Result<(), Error> {
+    // The engine is the certified method; as one of the methods it is the same, with more to count.
+    let again = MethodName::Certified.id();
+    let compared =
+        |row: &Timed| row.masses as usize == masses && row.horizon.is_some() && row.name != again;
+    let rows: Vec<Timed> = timed(measured).into_iter().filter(compared).collect();
+    let time = rows.iter().map(|row| row.microseconds);
+    let x = Axis::around(time, 1, "measured µs per impact").column("measured time per impact (us)");
+    let y = horizon(top, "");
+    let panel = sheet.lettered(LETTERS[2], Frame::new(5300, 4900, 8150, 7350), x, y)?;
+    let others = others(&rows);
+    for row in &rows {
+        let point = [(row.microseconds, row.horizon.unwrap_or(0.0))];
+        panel.marks(&row.name, &point, look_of(row, &others), Outside::Edge)?;
     }
-    let entries = entries(|method| medians.iter().any(|(m, _)| *m == method));
-    sheet.legend_in_columns((700, 8450), (SMALL, 370), (3, 2650), &entries)?;
-    Ok(sheet.finish("s07", "Error and misses of the next impact", description(race)))
+    Ok(())
 }
 
 fn description(race: &Race) -> Seen {
-    let certified = race.entries.iter().find(|e| e.setting.method == MethodName::Certified);
-    let largest = certified.and_then(|entry| Some(entry.errors?[1]));
+    let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
     seen!(
-        "Against counted work, a marker for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
-         impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
-         next impact is missed.",
+        "Time up to which a run has every impact right, mean of {} chains with n = {} and σ = {}: (a) against evaluations per \
+         impact, (b) against the median error of one impact, with the line that the growth λ = {growth} allows, (c) against \
+         measured time, on one chain.",
+        race.parameters.chains,
         race.parameters.growth.chain.masses,
         race.parameters.growth.sigma,
-        largest.map_or("unknown".into(), |error| short(error, 2)),
     )
 }

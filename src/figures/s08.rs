@@ -1,118 +1,114 @@
-//! Fig. S8: how long a run is true, against its work, its error and its time.
+//! Fig. S8: what an impact costs against the number of masses, counted and measured.
 
 use super::prelude::*;
-use super::rivals::{Timed, by_method, entries, entries_of_others, look, look_of, others, timed};
+use super::rivals::{Timed, by_method, entries, look, most_accurate, timed};
 use crate::experiments::Measured;
-use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
+use crate::experiments::accuracy::scale::Scale as Costs;
 use crate::experiments::accuracy::tables::name;
+use crate::experiments::measured::{Measurement, What};
 use crate::params::MethodName;
 
-/// The rounding of doubles, 2⁻⁵³.
-const ROUNDING: f64 = f64::EPSILON / 2.0;
-
-/// Time after which an error ε has grown to [`DISPLACED`]: ln(10⁻³/ε)/λ, with λ and its error.
-fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
-    let growth = race.growth.growth()?;
-    let folds = pxfm::f_log(DISPLACED / error).max(0.0);
-    Some([growth.interval[1], growth.value, growth.interval[0]].map(|rate| folds / rate))
+/// The engine's own measured rows: one chain, one thread.
+fn own(measured: &Measured) -> Vec<&Measurement> {
+    measured.of(What::Engine).filter(|row| row.chains == 1 && row.note.is_empty()).collect()
 }
 
-pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9950);
-    let top = (race.parameters.until / 50.0).ceil() * 50.0;
-    let costs = race.entries.iter().filter_map(|entry| entry.work);
-    let (x, y) =
-        (Axis::around(costs, 1, "evaluations per impact"), horizon(top, "horizon *t* (1/*ω*)"));
-    let by_cost = sheet.lettered(LETTERS[0], Frame::new(1100, 430, 8150, 3500), x, y)?;
-    let x = Axis::decades(-18, 0, 6, "error of the next impact (1/*ω*)");
-    let y = horizon(top, "horizon *t* (1/*ω*)");
-    let by_error = sheet.lettered(LETTERS[1], Frame::new(1100, 4900, 4300, 7350), x, y)?;
-
-    let points = |place: &dyn Fn(&Entry) -> Option<f64>| {
-        by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon()?.value)))
-    };
-    chaos(&by_error, race)?;
-    let ceiling = allowed(race, ROUNDING);
-    if let Some([_, ceiling, _]) = ceiling.filter(|c| c[1] < top) {
-        let line = Stroke::dashed(GREY, LINE, Dash::Short);
-        by_cost.level("what chaos allows to doubles", ceiling, line)?;
-        let look = (TINY, INK, HPos::Right, VPos::Bottom);
-        by_cost.note("what chaos allows to doubles", (by_cost.x.hi, ceiling), (0, -70), look)?;
+pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
+    let sheet = Sheet::new(12_800);
+    let own = own(measured);
+    // Somewhat wider than the sizes, which would stand on the other axis.
+    let masses = || Axis::decades(0, 5, 1, "number of masses *n*").from(7.0, 1.4e4);
+    let work = scale.iter().map(|row| row.2);
+    let (x, y) = (masses().bare(), Axis::around(work, 1, "evaluations per impact"));
+    let counted = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 2730), x, y)?;
+    let all = by_method(scale, |row| row.0, |row| Some((row.1 as f64, row.2)));
+    for (method, points) in &all {
+        let look = look(*method);
+        counted.marked(name(*method), points, (look.2, look), Outside::Refuse)?;
     }
-    let by_work = |e: &Entry| e.work;
-    let by_median = |e: &Entry| e.errors.map(|errors| errors[0]);
-    for (panel, place) in
-        [(&by_cost, &by_work as &dyn Fn(&Entry) -> Option<f64>), (&by_error, &by_median)]
-    {
-        let bars =
-            by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon()?.error)));
-        for ((method, points), (_, errors)) in points(place).iter().zip(bars) {
-            let look = look(*method);
-            let bars: Vec<_> =
-                points.iter().zip(errors).map(|(p, e)| (p.0, p.1 - e.1, p.1 + e.1)).collect();
-            panel.bars(name(*method), &bars, 0, look.2, Outside::Edge)?;
-            if std::ptr::eq(panel, &by_cost) {
-                panel.curve(name(*method), points, look.2, Outside::Refuse)?;
-            }
-            panel.marks(name(*method), points, look, Outside::Edge)?;
+
+    let programs: Vec<Timed> = timed(measured)
+        .into_iter()
+        .filter(|row| row.horizon.is_some() && row.name != MethodName::Certified.id())
+        .collect();
+    let programs = most_accurate(&programs);
+    let times = own.iter().filter_map(|row| row.microseconds_per_impact);
+    let (x, y) =
+        (masses(), Axis::around(times, 1, "µs per impact").finely().column("time per impact (us)"));
+    let clock = sheet.lettered(LETTERS[1], Frame::new(1200, 3450, 8150, 5150), x, y)?;
+    let red = look(MethodName::Certified);
+    let line: Vec<_> =
+        own.iter().filter_map(|row| Some((row.n as f64, row.microseconds_per_impact?))).collect();
+    clock.marked("this engine", &line, (red.2, red), Outside::Refuse)?;
+    let words = (TINY, INK, HPos::Right, VPos::Bottom);
+    let told = format!("measured on {}", measured.date);
+    clock.note(&told, (clock.x.hi, clock.y.hi), (0, -80), words)?;
+
+    let legend = entries(|method| all.iter().any(|(own, _)| *own == method));
+    sheet.legend_in_columns((500, 6350), (SMALL, 370), (2, 2650), &legend)?;
+    ranked(&sheet, &programs)?;
+    Ok(sheet.finish("s08", "Cost of an impact against n", description(scale, measured)))
+}
+
+/// A row for each program at its most accurate setting, the fastest at the top.
+fn ranked(sheet: &Sheet, programs: &[&Timed]) -> Result<(), Error> {
+    const ROW: i32 = 330;
+    let mut sizes: Vec<u64> = programs.iter().map(|row| row.masses).collect();
+    sizes.sort_unstable();
+    sizes.dedup();
+    let largest = sizes.last().copied().unwrap_or(0);
+    let mut rows: Vec<&Timed> =
+        programs.iter().copied().filter(|row| row.masses == largest).collect();
+    rows.sort_by(|a, b| a.microseconds.total_cmp(&b.microseconds));
+    let count = rows.len() as i32;
+    let top = 7500;
+    let times = programs.iter().map(|row| row.microseconds);
+    let places = Axis::new(Scale::Linear, [-0.5, f64::from(count) - 0.5], "", Vec::new());
+    let x =
+        Axis::around(times, 1, "measured µs per impact").column("measured time per impact (us)");
+    let y = places.column("place from below (1)");
+    let panel = sheet.panel(Frame::new(2900, top, 8150, top + ROW * count), x, y)?;
+    let panel = panel.file("c");
+    sheet.text(LETTERS[2], (260, top - 80), (TEXT, INK, HPos::Left, VPos::Bottom))?;
+    // The smaller disc leaves the ring to be seen.
+    let line = Stroke::solid(INK, THIN);
+    let marks = [(Mark::Ring, LARGE, line), (Mark::Disc, 36, line)];
+    for (place, own) in rows.iter().enumerate() {
+        let y = f64::from(count - 1) - place as f64;
+        let title: &str = match own.method {
+            Some(method) => name(method),
+            None => &own.name,
+        };
+        let colour = if own.method == Some(MethodName::Certified) { RED } else { INK };
+        let words = (SMALL, colour, HPos::Right, VPos::Center);
+        panel.note(title, (panel.x.lo, y), (-120, 0), words)?;
+        let guide = Stroke::dashed(PALE, HAIR, Dash::Dotted);
+        panel.level("row", y, guide)?;
+        for (masses, mark) in sizes.iter().zip(marks) {
+            let alike = |row: &&&Timed| row.name == own.name && row.masses == *masses;
+            let at: Vec<_> =
+                programs.iter().filter(alike).map(|row| (row.microseconds, y)).collect();
+            let panel = panel.series(&format!("{title}, n = {masses}"));
+            panel.marks(title, &at, mark, Outside::Refuse)?;
         }
     }
-    let present = points(&by_work);
-    let programs = timed(measured);
-    let mut legend = entries(|method| present.iter().any(|(m, _)| *m == method));
-    legend.extend(entries_of_others(&others(&programs)));
-    sheet.legend_in_columns((350, 8600), (SMALL, 370), (4, 2800), &legend)?;
-    clock(&sheet, measured, race.parameters.growth.chain.masses, top)?;
-    Ok(sheet.finish("s08", "How long a run is true", description(race)))
-}
-
-/// The axis of horizons.
-fn horizon(top: f64, label: &str) -> Axis {
-    let step = if top > 60.0 { 50.0 } else { 10.0 };
-    Axis::linear(0.0, top, step, 1, label).column("horizon (1/omega)")
-}
-
-/// The line that chaos allows, with the band of λ's interval.
-fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
-    let at = |error: f64| allowed(race, error).map(|t| (error, t));
-    let errors = (0..=72).map(|i| pxfm::f_exp10(-18.0 + 0.25 * f64::from(i)));
-    let grid: Vec<_> = errors.filter_map(at).collect();
-    let cut = |t: f64| t.min(panel.y.hi);
-    let below = grid.iter().map(|(x, t)| (*x, cut(t[0])));
-    let above = grid.iter().rev().map(|(x, t)| (*x, cut(t[2])));
-    panel.area("interval of the growth", &below.chain(above).collect::<Vec<_>>(), PALE, 100)?;
-    let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
-    let stroke = Stroke::dashed(GREY, LINE, Dash::Short);
-    panel.curve("what chaos allows", &line, stroke, Outside::Cut)
-}
-
-/// Panel (c): the horizon of programs on one chain against the time they take, as measured.
-fn clock(sheet: &Sheet, measured: &Measured, masses: usize, top: f64) -> Result<(), Error> {
-    // The engine is the certified method; as one of the methods it is the same, with more to count.
-    let again = MethodName::Certified.id();
-    let compared =
-        |row: &Timed| row.masses as usize == masses && row.horizon.is_some() && row.name != again;
-    let rows: Vec<Timed> = timed(measured).into_iter().filter(compared).collect();
-    let time = rows.iter().map(|row| row.microseconds);
-    let x = Axis::around(time, 1, "measured µs per impact").column("measured time per impact (us)");
-    let y = horizon(top, "");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(5300, 4900, 8150, 7350), x, y)?;
-    let others = others(&rows);
-    for row in &rows {
-        let point = [(row.microseconds, row.horizon.unwrap_or(0.0))];
-        panel.marks(&row.name, &point, look_of(row, &others), Outside::Edge)?;
+    for (i, (masses, mark)) in sizes.iter().zip(marks).enumerate() {
+        let text = format!("*n* = {masses}");
+        let entry = Entry::mark(mark, &text);
+        let at = (2900 + 2300 * i as i32, top + ROW * count + 1100);
+        sheet.legend(at, (SMALL, 370), &[entry])?;
     }
     Ok(())
 }
 
-fn description(race: &Race) -> Seen {
-    let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
+fn description(scale: &Costs, measured: &Measured) -> Seen {
+    let most = scale.iter().rfind(|row| row.0.method == MethodName::Certified);
+    let counted =
+        most.map_or("none".into(), |(_, n, work)| format!("{} at n = {n}", short(*work, 2)));
+    let last = own(measured).last().and_then(|row| Some((row.n, row.microseconds_per_impact?)));
+    let timed = last.map_or("none".into(), |(n, time)| format!("{} at n = {n}", short(time, 2)));
     seen!(
-        "Time up to which a run has every impact right, mean of {} chains with n = {} and σ = {}: (a) against evaluations per \
-         impact, (b) against the median error of one impact, with the line that the growth λ = {growth} allows, (c) against \
-         measured time, on one chain.",
-        race.parameters.chains,
-        race.parameters.growth.chain.masses,
-        race.parameters.growth.sigma,
+        "Cost against the number of masses n, all axes logarithmic. (a) Evaluations per impact: this engine lowest and nearly level, \
+         {counted}; Runge–Kutta grows with n. (b) Microseconds per impact of this engine, {timed}. (c) Programs by their time, this engine first."
     )
 }

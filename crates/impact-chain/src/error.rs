@@ -46,7 +46,11 @@ impl Error {
         remedy: impl Into<String>,
     ) -> Self {
         // Both may repeat what stands in a file.
-        let (field, problem) = (one_line(&field.into(), 80), one_line(&problem.into(), 300));
+        let field = match one_line(&field.into(), 80) {
+            empty if empty.is_empty() => "a field of no name".into(),
+            field => field,
+        };
+        let problem = one_line(&problem.into(), 300);
         Error::Input { field, problem, remedy: remedy.into() }
     }
 }

@@ -51,7 +51,7 @@ fn or_nan(value: Option<f64>) -> f64 {
     value.unwrap_or(f64::NAN)
 }
 
-/// Figs. S7 and S8.
+/// Figs. S6 and S7.
 pub fn race(race: &Race) -> Vec<Table> {
     let of = |method| race.entries.iter().filter(move |entry| entry.setting.method == method);
     let coarsest: Vec<&Entry> =
@@ -186,7 +186,7 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
     vec![cells, means]
 }
 
-/// Fig. S9.
+/// Fig. S8.
 pub fn scale(scale: &Scale) -> Vec<Table> {
     let ends = MethodName::ALL.into_iter().filter_map(|method| {
         let own = || scale.iter().filter(move |row| row.0.method == method);
