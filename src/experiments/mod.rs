@@ -114,6 +114,7 @@ pub fn bare() -> Paper {
     Paper {
         project,
         prose: "templates",
+        documents: Vec::new(),
         experiments: ALL.to_vec(),
         together: TOGETHER.to_vec(),
         ..Paper::new(title, sources)

@@ -118,7 +118,7 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
             (BOTH, 2000, REST, [85, 120, 5], 2, &[5e3]),
             (BOTH, 2000, ABOVE, [70, 100, 5], 2, &[5e3]),
             (BOTH, 1000, REST, [85, 105, 5], 1, late),
-            (BOTH, 1000, ABOVE, [75, 100, 5], 1, late),
+            (BOTH, 1000, ABOVE, [70, 100, 5], 1, late),
         ],
         Profile::Quick => &[
             (LENGTH, 20, REST, [140, 180, 20], 10, &[50.0]),
