@@ -27,12 +27,8 @@ pub struct Orbit {
 }
 
 /// The experiment: it is run once, saved, and used again.
-pub const CASCADE: Experiment<Depth, Vec<Orbit>> = Experiment::new(
-    "cascade",
-    |profile| Depth { deepest: if profile == Profile::Quick { 14 } else { 16 } },
-    cascade,
-    |cascade| tables(cascade),
-);
+pub const CASCADE: Experiment<Depth, Vec<Orbit>> =
+    Experiment::new("cascade", |_| Depth { deepest: 16 }, cascade, |cascade| tables(cascade));
 
 /// The orbit of x = 1/2 after so many steps of x → r x (1 − x), and its derivative by r.
 fn orbit(r: DoubleDouble, steps: u64) -> [DoubleDouble; 2] {
