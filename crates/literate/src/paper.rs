@@ -1,7 +1,7 @@
 //! A paper: what it is made of. [`Paper::cli`] gives it a command line.
 
 use crate::claims::{Case, Check, Judged, Published, Rule};
-use crate::experiments::{Command, Need, Profile, Results, Session, Together};
+use crate::experiments::{Need, Profile, Results, Session, Together};
 use crate::failure::Failure;
 use crate::figures::{self, Figure};
 use crate::project::{Project, Sources};
@@ -147,11 +147,6 @@ impl Paper {
     pub fn experiment(mut self, experiment: Need) -> Self {
         self.experiments.push(experiment);
         self
-    }
-
-    /// With a [command](crate::experiments::command) in another language as one experiment more.
-    pub fn command(self, name: &'static str, line: &'static str) -> Self {
-        self.experiment(Box::leak(Box::new(Command::new(name, line))))
     }
 
     /// With a rule that judges the statement with this id.

@@ -45,7 +45,7 @@ pub struct Statement {
     pub statement: String,
     /// What can be read there, in its shortest form.
     pub printed: String,
-    /// The number in it, if there is one.
+    /// The number in it, if there is one; that of `printed`, where this is a number alone.
     pub value: Option<f64>,
     /// Decimals that were printed; an integer has none.
     #[serde(default)]
@@ -73,6 +73,18 @@ impl Published {
         let mut published: Published =
             toml::from_str(text).map_err(|error| PublishedError::Line(toml_fault(text, &error)))?;
         published.text = text.into();
+        for at in 0..published.statements.len() {
+            let own = &mut published.statements[at];
+            let Ok(number) = own.printed.parse::<f64>() else { continue };
+            let digits = own.printed.split_once('.').map_or(0, |(_, digits)| digits.len() as u8);
+            if own.value.is_none() && number.is_finite() {
+                (own.value, own.decimals) = (Some(number), digits);
+            } else if own.value != Some(number) || own.decimals != digits {
+                let (id, what) =
+                    (own.id.clone(), "printed and value are not one number; leave value out");
+                return Err(published.fault(&id, what));
+            }
+        }
         let ids = published.parameters.iter().map(|own| &own.id);
         let mut seen = BTreeSet::new();
         let twice =

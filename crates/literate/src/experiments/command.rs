@@ -60,7 +60,12 @@ impl Rows {
             Some(keys) if row.len() == names => {
                 let called = |key: &Json| key.as_f64().map_or(key.to_string(), |x| x.to_string());
                 let twice = !seen.insert(keys.iter().map(called).collect::<Vec<_>>());
-                twice.then(|| format!("row {at} has the keys of one before"))
+                let mut errors = self.names().zip(row).filter(|(name, _)| name.ends_with("_error"));
+                let negative = |error: &Json| error.as_f64().is_some_and(|error| error < 0.0);
+                match errors.find(|(_, error)| negative(error)) {
+                    Some((name, _)) => Some(format!("row {at} has a negative {name}")),
+                    None => twice.then(|| format!("row {at} has the keys of one before")),
+                }
             }
             _ => Some(format!("row {at} has {} cells for {names} names", row.len())),
         })
@@ -160,8 +165,9 @@ impl Command {
                 "printed {what}; the manual of literate, *A paper of your own*, has the form"
             ))
         };
-        let printed: Printed = serde_json::from_str(&said)
-            .map_err(|error| wrong(format!("no tables in JSON: {error}")))?;
+        let printed: Printed = serde_json::from_str(&said).map_err(|error| {
+            wrong(format!("no tables in JSON, which has null for NaN: {error}"))
+        })?;
         let fault = |(name, rows): (&String, &Rows)| Some(format!("{name}: {}", rows.fault()?));
         printed.iter().find_map(fault).map_or(Ok(()), |fault| Err(wrong(fault)))?;
         Ok(printed)
@@ -267,7 +273,7 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7], [2, null, 0.1, \"sh\", null]]}}"
         let run = |program: &str| {
             let line = leaked(&format!("{program} {}", path.display()));
             let paper = Paper::new("Toy", Sources { name: "toy", version: "1", files: &[] });
-            let paper = paper.command("toy", line);
+            let paper = paper.experiment(Box::leak(Box::new(Command::new("toy", line))));
             let (templates, progress) = (Templates::of([]), Progress::silent());
             let (profile, store) = (Profile::Quick, store.clone());
             let session = Session { paper: &paper, templates, profile, store, progress };
@@ -305,7 +311,7 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7], [2, null, 0.1, \"sh\", null]]}}"
                 "sh",
                 "ended with exit status: 3: no needle",
             ),
-            ("echo '{\"a\": NaN}'", "sh", "printed no tables in JSON: "),
+            ("echo '{\"a\": NaN}'", "sh", "printed no tables in JSON"),
             (
                 "echo '{\"a\": {\"columns\": [\"b\"], \"rows\": [[1, 2]]}}'",
                 "sh",
