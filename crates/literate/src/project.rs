@@ -38,7 +38,7 @@ pub struct Project {
 impl Project {
     /// A project with this source, of which each result depends on all.
     pub fn new(sources: Sources) -> Self {
-        Project { sources, copy: &[], shared: &[], left_out: &[] }
+        Project { sources, copy: &[], shared: &["Cargo.lock"], left_out: &[] }
     }
 
     /// Path and hash of every file on which a result depends: those that all share, and those in these files and folders;
