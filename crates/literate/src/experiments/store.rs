@@ -99,7 +99,7 @@ impl Store {
 }
 
 /// What a saved result was made of, and the result, as text.
-pub fn parsed(text: &str) -> Result<(Identity, &str), &'static str> {
+fn parsed(text: &str) -> Result<(Identity, &str), &'static str> {
     let mut lines = text.split('\n');
     let (Some(checksum), Some(found), Some(body), Some(""), None) =
         (lines.next(), lines.next(), lines.next(), lines.next(), lines.next())

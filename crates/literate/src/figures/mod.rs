@@ -111,6 +111,6 @@ pub enum Error {
 }
 
 /// The colours of all figures: the name that style sheets use, and the colour as `#rrggbb`.
-pub fn palette() -> impl Iterator<Item = (&'static str, String)> {
+pub(crate) fn palette() -> impl Iterator<Item = (&'static str, String)> {
     style::PALETTE.into_iter().map(|(name, colour)| (name, colour.to_string()))
 }
