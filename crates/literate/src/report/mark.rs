@@ -87,21 +87,3 @@ pub fn style(words: &str) -> Style {
     }
     style
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn marks_come_off() {
-        let [half, k] = [framed("rows[x=1].half", "0.1165(4)"), framed("k", "3")];
-        let tex = format!(r"\sigma = {half}, k = {k}");
-        assert_eq!(bare(&tex), r"\sigma = 0.1165(4), k = 3");
-        assert_eq!(ids(&tex).collect::<Vec<_>>(), ["rows[x=1].half", "k"]);
-        let filtered = with(&with(&k, "percent").unwrap(), "significant2").unwrap();
-        let Some(Piece::Value { shown, .. }) = pieces(&filtered).pop() else { panic!() };
-        let digits = Some(Asked::Significant(2));
-        assert_eq!(style(shown), Style { percent: true, digits, no_error: false });
-        assert_eq!(with("x", "percent"), None);
-    }
-}

@@ -135,34 +135,3 @@ impl<'a> Places<'a> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_piece_knows_its_place() {
-        let template = "one «a» two\n<% for x in y -%>\n  | «x» |\n<%- endfor %>\nend $σ";
-        // What Tera makes of it, by hand.
-        let filled =
-            marked(template).replace("«a»", "7 VALUE").replace("<% for x in y -%>\n  ", "");
-        let filled = filled.replace("«x»", "cell").replace("\n<%- endfor %>", "");
-        let mut both = Filled::plain("first.md", "a");
-        both.add("report.md", template, &filled);
-        assert_eq!(both.text, "a\n\none 7 VALUE two\n| cell |\nend $σ");
-        for (word, place) in [
-            ("one", "1:1"),
-            ("LUE", "1:5"),
-            ("two", "1:9"),
-            ("| ", "3:3"),
-            ("ell", "3:5"),
-            ("end", "5:1"),
-            ("σ", "5:6"),
-        ] {
-            let offset = both.text.find(word).unwrap();
-            assert_eq!(both.place(offset), format!("report.md:{place}"), "{word}");
-            assert_eq!(both.is_typed(offset), !["LUE", "ell"].contains(&word), "{word}");
-        }
-        assert_eq!(both.place(0), "first.md:1:1");
-    }
-}

@@ -132,10 +132,4 @@ mod tests {
         assert_eq!(code(r"a\{b_1}").unwrap(), r"a\textbackslash{}\{b_1\}");
         assert_eq!(text("é").unwrap(), "é");
     }
-
-    #[test]
-    fn an_unknown_character_is_an_error() {
-        assert!(matches!(text("漢"), Err(Error::NoLatex('漢'))));
-        assert!(maths("漢").is_err());
-    }
 }

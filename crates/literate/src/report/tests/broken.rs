@@ -14,6 +14,14 @@ fn broken_prose_is_told_with_its_place() {
         ),
         ("<% if raw.half_heigth != 1 %>a<% endif %>", "14:7", "nearest: half_height"),
         ("at «v.half_height now", "14:", "»"),
+        ("at «nothing.at_all»", "14:5", "nothing"),
+        ("a <% if raw.half_height > 1 %>b", "1", "nexpected end"),
+        ("«v.half_height | nofilter»", "14:", "nofilter"),
+        (
+            "«literal(text=\"2007\", why=\" \")»",
+            "14:2",
+            "`literal` needs a number in `text` and its reason",
+        ),
         // A naked numeral.
         ("at 0.12, so", "14:4", "the naked numeral 0.12;"),
         ("a tenfold rise", "14:3", "the naked numeral tenfold;"),
@@ -53,6 +61,11 @@ fn broken_prose_is_told_with_its_place() {
         ("| $$x$$ |\n|---|", "14:3", "stands in a paragraph"),
         // A macro that hosts refuse, and what they see otherwise.
         (r"at $\operatorname{erf} x$", "14:4", r"write \mathrm"),
+        (r"at $\newcommand{\a}{b}$", "14:4", r"\newcommand is not"),
+        (r"at $\,\sigmma$", "14:4", r"\sigmma is not"),
+        (r"at $\alpha % x$", "14:4", r"write \%"),
+        (r"at $a \\ b$", "14:4", r"\begin{aligned}"),
+        (r"at $\begin{align} a \end{align}$", "14:4", "an environment is aligned, "),
         ("at $x^«v.half_height»$", "14:4", "a value is an index"),
         ("at «v.half_height»$x$", "14:19", "right behind a word or a number"),
         ("a *word with $x$*", "14:14", "inside emphasis"),
