@@ -33,7 +33,7 @@ pub fn draw() -> Result<Figure, Error> {
     }
     let middle = LEFT + 3 * SPACING + 300;
     for dx in [-170, 0, 170] {
-        sheet.disc((middle + dx, HEIGHT), 26, INK, Stroke::solid(INK, 4));
+        sheet.free().disc((middle + dx, HEIGHT), 26, INK, Stroke::solid(INK, 4));
     }
     floor_labels(&sheet, right)?;
     distances(&sheet)?;
@@ -50,17 +50,17 @@ fn walls(sheet: &Sheet, right: i32) {
     let (top, thick) = (470, 260);
     for (edge, out) in [(LEFT, -1), (right, 1)] {
         let (a, b) = (edge.min(edge + out * thick), edge.max(edge + out * thick));
-        sheet.rectangle(Frame::new(a, top, b, FLOOR), PALE);
-        sheet.line(&[(edge, top), (edge, FLOOR)], Stroke::solid(INK, 40));
+        sheet.free().rectangle(Frame::new(a, top, b, FLOOR), PALE);
+        sheet.free().line(vec![(edge, top), (edge, FLOOR)], Stroke::solid(INK, 40));
     }
-    sheet.rectangle(Frame::new(LEFT - thick, FLOOR, right + thick, FLOOR + 130), PALE);
-    sheet.line(&[(LEFT - thick, FLOOR), (right + thick, FLOOR)], Stroke::solid(INK, 24));
+    sheet.free().rectangle(Frame::new(LEFT - thick, FLOOR, right + thick, FLOOR + 130), PALE);
+    sheet.free().line(vec![(LEFT - thick, FLOOR), (right + thick, FLOOR)], Stroke::solid(INK, 24));
 }
 
 fn draw_mass(sheet: &Sheet, mass: &Mass) -> Result<(), Error> {
     let root = LEFT + mass.slot * SPACING;
     let rest = Stroke::dashed(GREY, HAIR, Dash::Short);
-    sheet.line(&[(root, 740), (root, FLOOR)], rest);
+    sheet.free().line(vec![(root, 740), (root, FLOOR)], rest);
     // A clamped stem with a load at its end: s²(3 − s)/2.
     let stem: Vec<_> = (0..=40)
         .map(|i| {
@@ -69,9 +69,9 @@ fn draw_mass(sheet: &Sheet, mass: &Mass) -> Result<(), Error> {
             (root + bend.round() as i32, FLOOR - (s * f64::from(FLOOR - HEIGHT)).round() as i32)
         })
         .collect();
-    sheet.line(&stem, Stroke::solid(INK, 50));
+    sheet.free().line(stem, Stroke::solid(INK, 50));
     let centre = (root + mass.bend, HEIGHT);
-    sheet.disc(centre, RADIUS, WHITE, Stroke::solid(INK, 36));
+    sheet.free().disc(centre, RADIUS, WHITE, Stroke::solid(INK, 36));
     let size = if mass.name.len() > 3 { TINY } else { SMALL };
     sheet.text(mass.name, centre, (size, INK, HPos::Center, VPos::Center))
 }
@@ -80,15 +80,15 @@ fn floor_labels(sheet: &Sheet, right: i32) -> Result<(), Error> {
     let y = FLOOR + 240;
     let places = MASSES.iter().map(|m| (LEFT + m.slot * SPACING, m.place));
     for (x, place) in [(LEFT, "0"), (right, "(*n*+1)*d*")].into_iter().chain(places) {
-        sheet.line(&[(x, FLOOR), (x, FLOOR + 130)], Stroke::solid(INK, HAIR));
+        sheet.free().line(vec![(x, FLOOR), (x, FLOOR + 130)], Stroke::solid(INK, HAIR));
         sheet.text(place, (x, y), (TEXT, INK, HPos::Center, VPos::Top))?;
     }
     Ok(())
 }
 
 fn double_arrow(sheet: &Sheet, a: (i32, i32), b: (i32, i32)) {
-    sheet.arrow(&[a, b], Stroke::solid(INK, HAIR));
-    sheet.arrow(&[b, a], Stroke::solid(INK, HAIR));
+    sheet.free().arrow(vec![a, b], Stroke::solid(INK, HAIR));
+    sheet.free().arrow(vec![b, a], Stroke::solid(INK, HAIR));
 }
 
 fn distances(sheet: &Sheet) -> Result<(), Error> {
@@ -100,12 +100,12 @@ fn distances(sheet: &Sheet) -> Result<(), Error> {
     double_arrow(sheet, (one, y), (two, y));
     label("*d*", ((one + two) / 2, y - 60), VPos::Bottom)?;
     for x in [one, two] {
-        sheet.line(&[(x, y - 90), (x, y + 90)], Stroke::solid(INK, HAIR));
+        sheet.free().line(vec![(x, y - 90), (x, y + 90)], Stroke::solid(INK, HAIR));
     }
     // The position of mass 1 and the gap between the masses 1 and 2, one behind the other.
     let y = HEIGHT - 430;
     for x in [x1, x2] {
-        sheet.line(&[(x, y - 90), (x, HEIGHT - RADIUS)], Stroke::solid(INK, HAIR));
+        sheet.free().line(vec![(x, y - 90), (x, HEIGHT - RADIUS)], Stroke::solid(INK, HAIR));
     }
     double_arrow(sheet, (LEFT + 20, y), (x1, y));
     label("*x*_{1}(*t*)", ((LEFT + x1) / 2, y - 80), VPos::Bottom)?;
@@ -113,7 +113,7 @@ fn distances(sheet: &Sheet) -> Result<(), Error> {
     label("Δ_{1}(*t*)", ((x1 + x2) / 2, y - 80), VPos::Bottom)?;
     // The force on mass 2.
     let start = x2 + RADIUS + 25;
-    sheet.arrow(&[(start, HEIGHT), (start + 480, HEIGHT)], Stroke::solid(BLUE, 40));
+    sheet.free().arrow(vec![(start, HEIGHT), (start + 480, HEIGHT)], Stroke::solid(BLUE, 40));
     let at = (start + 420, HEIGHT - 150);
     sheet.text("*F*_{2}(*t*)", at, (TEXT, BLUE, HPos::Center, VPos::Bottom))
 }

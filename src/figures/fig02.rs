@@ -21,7 +21,8 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
         .collect();
     let modes: Vec<_> =
         sweep.comparable().filter_map(|row| Some((row.sigma, row.mode? as f64))).collect();
-    panel.series("mode").bars("interval of the mode", &bars, 40, bar, Outside::Refuse)?;
+    panel.record("mode", bars.iter().copied());
+    panel.quiet().bars("interval of the mode", &bars, 40, bar, Outside::Refuse)?;
     crosses(&panel, "mode", &modes)?;
     let near = rise(&sheet, 0.075, count_axis(n, "impacts"))?;
     let (low, high) = (near.x.lo, near.x.hi);
@@ -33,7 +34,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
         Entry::mark(CROSSES, "mode of the kept"),
         Entry::line(Stroke::solid(GREY, HAIR), "its bootstrap interval, 95 %"),
     ];
-    sheet.legend_in_columns((1200, HEIGHTS.1), (SMALL, 400), (1, 3200), &entries)?;
+    sheet.legend((1200, HEIGHTS.1), (SMALL, 400), (1, 3200), &entries)?;
 
     let description = seen!(
         "Most likely number of different gaps that impact against σ, simulated with {} masses; bars are 95 % \

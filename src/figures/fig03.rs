@@ -19,8 +19,8 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
         .comparable()
         .filter_map(|row| row.mean?.interval.map(|[low, high]| (row.sigma, low, high)))
         .collect();
-    let intervals = panel.series("mean of the kept");
-    intervals.bars("interval of the mean", &bars, 40, CROSS, Outside::Refuse)?;
+    panel.record("mean of the kept", bars.iter().copied());
+    panel.quiet().bars("interval of the mean", &bars, 40, CROSS, Outside::Refuse)?;
     crosses(&panel, "mean of the kept", &kept)?;
     if let Some(half) = sweep.first().rise.half_height {
         let level = n as f64 / 2.0;
@@ -34,6 +34,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     sheet.legend(
         (4400, 2700),
         (SMALL, 400),
+        (9, 0),
         &[
             Entry::mark(CROSSES, "mean of the kept (95 % interval)"),
             Entry::line(broken, "mean of all"),

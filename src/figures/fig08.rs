@@ -16,8 +16,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let y = upwards_from_zero(1.04 * top, "*P*(*X* = *k*)");
         let panel = sheet.panel(FOUR[i], x, y)?;
         let p = short(at, 3);
-        let own = panel.series(&format!("probability at p = {p}"));
-        own.columns("probability", &probability, Stroke::solid(GREEN, THIN))?;
+        panel.record(&format!("probability at p = {p}"), over_k(&probability));
+        panel.quiet().columns("probability", &probability, Stroke::solid(GREEN, THIN))?;
         heading(&panel, LETTERS[i], &format!("*p* = {p}"))?;
         let mean = short(of("mean")?, 3);
         let lines = [format!("*k*^{{∗}} = {k_star}"), format!("*μ* = {mean}")];

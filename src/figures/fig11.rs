@@ -36,6 +36,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     sheet.legend(
         (1850, 900),
         (TEXT, 420),
+        (9, 0),
         &[Entry::line(main, "Eq. (25): random free parts"), Entry::line(rest, "start from rest")],
     )?;
 

@@ -34,11 +34,13 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     sheet.legend(
         (1200, HEIGHTS.1),
         (SMALL, 380),
+        (9, 0),
         &[Entry::mark(CROSSES, "simulation, mean of the kept")],
     )?;
     sheet.legend(
         (5100, HEIGHTS.1),
         (SMALL, 380),
+        (9, 0),
         &[
             Entry::line(main, &format!("graph theory, *N* = {big_n}")),
             Entry::line(thin, &format!("graph theory, *N* = {big_n_walls}")),
@@ -57,7 +59,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
 /// Where both come to half of all gaps, and how much later in σ the theory does, as an arrow with its length.
 fn lag(sheet: &Sheet, near: &Panel, [from, to]: [f64; 2], level: f64) -> Result<(), Error> {
-    sheet.arrow(&[near.at(from, level), near.at(to, level)], Stroke::solid(INK, THIN));
+    sheet.free().arrow(vec![near.at(from, level), near.at(to, level)], Stroke::solid(INK, THIN));
     let look = (TINY, INK, HPos::Center, VPos::Bottom);
     near.note(&short(to - from, 2), ((from + to) / 2.0, level), (60, -70), look)?;
     // The first is not beside the line at the printed σ, which has another value.

@@ -74,7 +74,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     entries.extend(CLASSES.iter().map(|&(name, symbol, colour, dash)| {
         Entry::line(Stroke::dashed(colour, LINE, dash), &format!("{name}, {symbol}"))
     }));
-    sheet.legend_in_columns((400, 10_250), (SMALL, 400), (3, 4100), &entries)?;
+    sheet.legend((400, 10_250), (SMALL, 400), (3, 4100), &entries)?;
     let share = |p: f64| {
         let share = results.number(&format!("theory.classes[p={p}].simple"));
         share.map(|share| short(share, 2))

@@ -27,7 +27,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         seen.push(format!("{} p = {p}: total variation distance {distance}", LETTERS[i]));
     }
     let entries = [Entry::line(line, "simple circuits"), Entry::line(higher, "with higher orders")];
-    sheet.legend_in_columns((1300, 3850), (SMALL, 400), (1, 3600), &entries)?;
+    sheet.legend((1300, 3850), (SMALL, 400), (1, 3600), &entries)?;
     let description = seen!(
         "Probability of k different impacts, N = {N}, of simple circuits and with higher orders (broken line). The two curves \
          lie apart in (a) and nearly on each other in (b). {}.",

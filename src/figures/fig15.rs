@@ -35,7 +35,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         Entry::line(blue, "with higher orders"),
         Entry::line(green, "simple circuits only"),
     ];
-    sheet.legend_in_columns((1200, HEIGHTS.1), (SMALL, 380), (2, 3900), &entries)?;
+    sheet.legend((1200, HEIGHTS.1), (SMALL, 380), (2, 3900), &entries)?;
 
     let description = seen!(
         "Expected number of impacts against σ: crosses for the simulation, {} at σ = {PRINTED}; lines for the theory with simple \

@@ -70,7 +70,7 @@ impl Layout {
     pub fn edges(&self, sheet: &Sheet, stroke: Stroke) -> Result<(), Error> {
         for from in 0..4 {
             for to in 0..4 {
-                sheet.arrow(&self.edge(from, to), stroke);
+                sheet.free().arrow(self.edge(from, to), stroke);
             }
         }
         Ok(())
@@ -82,7 +82,7 @@ impl Layout {
             let on = visited.contains(&vertex);
             let (edge, ink) =
                 if on { (Stroke::solid(INK, 30), INK) } else { (Stroke::solid(GREY, HAIR), GREY) };
-            sheet.disc(centre, self.radius, WHITE, edge);
+            sheet.free().disc(centre, self.radius, WHITE, edge);
             sheet.text(&name(vertex), centre, (TEXT, ink, HPos::Center, VPos::Center))?;
         }
         Ok(())
@@ -93,14 +93,14 @@ impl Layout {
         let steps: Vec<_> =
             (0..order.len()).map(|i| self.edge(order[i], order[(i + 1) % order.len()])).collect();
         for path in &steps {
-            sheet.arrow(path, Stroke::solid(colour, 42));
+            sheet.free().arrow(path.clone(), Stroke::solid(colour, 42));
         }
         for (i, path) in steps.iter().enumerate() {
             // Off the middle, where the diagonals cross.
             let crosses = order[i].abs_diff(order[(i + 1) % order.len()]) == 2;
             let share = if crosses { 24 } else { 50 };
             let at = path[path.len() * share / 100];
-            sheet.disc(at, 150, WHITE, Stroke::solid(colour, HAIR));
+            sheet.free().disc(at, 150, WHITE, Stroke::solid(colour, HAIR));
             let number = (i + 1).to_string();
             sheet.text(&number, at, (SMALL, INK, HPos::Center, VPos::Center))?;
         }

@@ -35,7 +35,7 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
 
     let tick = Entry::mark((Mark::Square, 16, INK_LINE), "impact");
     let disc = Entry::mark((START.0, START.1, RED_DISC), "gap that closes by itself");
-    sheet.legend_in_columns((1500, 9500), (SMALL, 370), (1, 2400), &[tick, disc])?;
+    sheet.legend((1500, 9500), (SMALL, 370), (1, 2400), &[tick, disc])?;
     Ok(sheet.finish("s01", "One long run", description(run)))
 }
 

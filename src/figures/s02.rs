@@ -42,11 +42,12 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result
         panel.curve(&name, &shares.points(&keys[..1], "sigma", "clumps"), line, Outside::Refuse)?;
         let thin = Stroke::solid(colour, THIN);
         let own = found.estimates(&keys, "sigma", "found");
-        panel.series(&format!("{name}, simulation")).estimates(&name, &own, (mark, LARGE, thin))?;
+        panel.record(&format!("{name}, simulation"), own.iter().copied());
+        panel.quiet().estimates(&name, &own, (mark, LARGE, thin))?;
         entries.push(Entry::both(line, (mark, LARGE, thin), &name));
     }
     entries.push(Entry::mark(kept_look, "kept, *n* = 100"));
-    sheet.legend((6350, 1150), (SMALL, 370), &entries)
+    sheet.legend((6350, 1150), (SMALL, 370), (9, 0), &entries)
 }
 
 /// The lowest, the middle and the highest σ.
@@ -73,7 +74,7 @@ fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
     let law = Stroke::dashed(INK, THIN, Dash::Short);
     panel.guide("power", &[(10.0, 10.0), (1e4, 1e-5)], law)?;
     entries.push(Entry::line(law, "∝ *T*^{ −2}"));
-    sheet.legend((1400, 6400), (SMALL, 370), &entries)
+    sheet.legend((1400, 6400), (SMALL, 370), (9, 0), &entries)
 }
 
 fn description(missing: &Table) -> Seen {

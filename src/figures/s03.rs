@@ -62,7 +62,7 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Resu
     let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
     panel.marks("simulation", &points, look, Outside::Refuse)?;
     entries.push(Entry::mark(look, "simulation"));
-    sheet.legend((1400, 700), (SMALL, 370), &entries)
+    sheet.legend((1400, 700), (SMALL, 370), (9, 0), &entries)
 }
 
 fn named(sigma: f64) -> String {
@@ -91,7 +91,7 @@ fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
     let straight = Stroke::dashed(INK, THIN, Dash::Short);
     panel.guide("constant speed", &[(10.0, 0.1), (1e4, 100.0)], straight)?;
     entries.push(Entry::line(straight, "∝ *t*"));
-    sheet.legend_in_columns((650, 8680), (SMALL, 320), (3, 1800), &entries)
+    sheet.legend((650, 8680), (SMALL, 320), (3, 1800), &entries)
 }
 
 fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
@@ -105,7 +105,7 @@ fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
     let found = scores.estimates(&[], "transient", "half_height");
     panel.estimates("simulation", &found, look)?;
     let entries = [Entry::both(GROWN.1.2, GROWN.1, GROWN.0), Entry::mark(look, "simulation")];
-    sheet.legend((4850, 8650), (SMALL, 370), &entries)
+    sheet.legend((4850, 8650), (SMALL, 370), (9, 0), &entries)
 }
 
 fn description(advance: &Table) -> Seen {

@@ -52,7 +52,7 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
     }
     entries.push(Entry::line(line, "the map, *n* = 100"));
     entries.push(Entry::line(bound, "bound from rest, *n* = 100"));
-    sheet.legend_in_columns((1150, 4800), (SMALL, 340), (4, 3900), &entries)
+    sheet.legend((1150, 4800), (SMALL, 340), (4, 3900), &entries)
 }
 
 /// Shares after the first transient and after the last.

@@ -49,7 +49,7 @@ fn shares(sheet: &Sheet) -> Result<(), Error> {
     let stroke = Stroke::dashed(INK, THIN, Dash::Short);
     panel.curve("limit", &limit, stroke, Outside::Cut)?;
     entries.push(Entry::line(stroke, "max(0, 1 − 1/(*p N*))"));
-    sheet.legend((5500, 2350), (SMALL, 370), &entries)
+    sheet.legend((5500, 2350), (SMALL, 370), (9, 0), &entries)
 }
 
 fn jumps(sheet: &Sheet, table: &Table) -> Result<(), Error> {
@@ -64,5 +64,5 @@ fn jumps(sheet: &Sheet, table: &Table) -> Result<(), Error> {
     let disc = (Mark::Disc, 55, Stroke::solid(GREEN, THIN));
     panel.marks("exact", &exact, disc, Outside::Refuse)?;
     let entries = [Entry::mark(disc, "exact"), Entry::line(line, "*k*^{2} = 2*N*(ln *k* − 1)")];
-    sheet.legend((5200, 5650), (SMALL, 370), &entries)
+    sheet.legend((5200, 5650), (SMALL, 370), (9, 0), &entries)
 }

@@ -49,7 +49,7 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
         misses.marked(name(method), &points, (look.2, look), Outside::Edge)?;
     }
     let entries = entries(|method| medians.iter().any(|(m, _)| *m == method));
-    sheet.legend_in_columns((700, 8450), (SMALL, 370), (3, 2650), &entries)?;
+    sheet.legend((700, 8450), (SMALL, 370), (3, 2650), &entries)?;
     Ok(sheet.finish("s06", "Error and misses of the next impact", description(race)))
 }
 

@@ -61,7 +61,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let programs = timed(measured);
     let mut legend = entries(|method| present.iter().any(|(m, _)| *m == method));
     legend.extend(entries_of_others(&others(&programs)));
-    sheet.legend_in_columns((350, 8600), (SMALL, 370), (4, 2800), &legend)?;
+    sheet.legend((350, 8600), (SMALL, 370), (4, 2800), &legend)?;
     clock(&sheet, measured, race.parameters.growth.chain.masses, top)?;
     Ok(sheet.finish("s07", "How long a run is true", description(race)))
 }

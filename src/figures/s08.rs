@@ -45,7 +45,7 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     clock.note(&told, (clock.x.hi, clock.y.hi), (0, -80), words)?;
 
     let legend = entries(|method| all.iter().any(|(own, _)| *own == method));
-    sheet.legend_in_columns((500, 6350), (SMALL, 370), (2, 2650), &legend)?;
+    sheet.legend((500, 6350), (SMALL, 370), (2, 2650), &legend)?;
     ranked(&sheet, &programs)?;
     Ok(sheet.finish("s08", "Cost of an impact against n", description(scale, measured)))
 }
@@ -88,17 +88,13 @@ fn ranked(sheet: &Sheet, programs: &[&Timed]) -> Result<(), Error> {
             let alike = |row: &&&Timed| row.name == own.name && row.masses == *masses;
             let at: Vec<_> =
                 programs.iter().filter(alike).map(|row| (row.microseconds, y)).collect();
-            let panel = panel.series(&format!("{title}, n = {masses}"));
-            panel.marks(title, &at, mark, Outside::Refuse)?;
+            panel.record(&format!("{title}, n = {masses}"), at.iter().copied());
+            panel.quiet().marks(title, &at, mark, Outside::Refuse)?;
         }
     }
-    for (i, (masses, mark)) in sizes.iter().zip(marks).enumerate() {
-        let text = format!("*n* = {masses}");
-        let entry = Entry::mark(mark, &text);
-        let at = (2900 + 2300 * i as i32, top + ROW * count + 1100);
-        sheet.legend(at, (SMALL, 370), &[entry])?;
-    }
-    Ok(())
+    let entry = |(masses, mark): (&u64, _)| Entry::mark(mark, &format!("*n* = {masses}"));
+    let entries: Vec<_> = sizes.iter().zip(marks).map(entry).collect();
+    sheet.legend((2900, top + ROW * count + 1100), (SMALL, 370), (1, 2300), &entries)
 }
 
 fn description(scale: &Costs, measured: &Measured) -> Seen {

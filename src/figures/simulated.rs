@@ -70,5 +70,5 @@ pub fn curve(table: &Table, end: f64, column: &str) -> Vec<(f64, f64)> {
 
 /// The value of a curve at some σ in words.
 pub fn at(points: &[(f64, f64)], sigma: f64) -> String {
-    beside::at(points, sigma).map_or("nothing".into(), |value| super::chart::short(value, 3))
+    beside::at(points, sigma).map_or("nothing".into(), |value| short(value, 3))
 }

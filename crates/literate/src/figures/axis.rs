@@ -15,17 +15,6 @@ pub enum Scale {
     Logarithm,
 }
 
-impl Scale {
-    /// Where a value lies.
-    pub fn of(self, value: f64) -> f64 {
-        match self {
-            Scale::Linear => value,
-            Scale::Logarithm if value <= 0.0 => f64::NEG_INFINITY,
-            Scale::Logarithm => f_log10(value),
-        }
-    }
-}
-
 /// A tick; minor ones have no label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
@@ -66,7 +55,8 @@ impl Axis {
     pub fn linear(lo: f64, hi: f64, step: f64, minor: u32, label: &str) -> Self {
         let minor = minor.max(1);
         let fine = step / f64::from(minor);
-        let decimals = (0..8).find(|&d| is_whole(step * POWERS[d])).unwrap_or(8);
+        let is_whole = |value: f64| (value - value.round()).abs() < 1e-6;
+        let decimals = (0..8).find(|&d| is_whole(step * decimal(1, d))).unwrap_or(8) as usize;
         let slack = 1e-9;
         let (first, last) = ((lo / fine - slack).ceil() as i64, (hi / fine + slack).floor() as i64);
         let ticks = (first..=last)
@@ -104,10 +94,7 @@ impl Axis {
 
     /// The decades that hold all values, labelled every `every`.
     pub fn around(values: impl Iterator<Item = f64>, every: i32, label: &str) -> Self {
-        let ends = values.map(f_log10).fold(None, |ends: Option<[f64; 2]>, own| {
-            Some(ends.map_or([own; 2], |[low, high]| [low.min(own), high.max(own)]))
-        });
-        let [low, high] = ends.unwrap_or([0.0, 1.0]);
+        let [low, high] = range(values.map(f_log10)).unwrap_or([0.0, 1.0]);
         let (low, high) = (low.floor() as i32, high.ceil() as i32);
         Axis::decades(low, high.max(low + 1), every, label)
     }
@@ -146,7 +133,11 @@ impl Axis {
 
     /// Where a value lies between the ends.
     pub fn at(&self, value: f64) -> f64 {
-        self.scale.of(value)
+        match self.scale {
+            Scale::Linear => value,
+            Scale::Logarithm if value <= 0.0 => f64::NEG_INFINITY,
+            Scale::Logarithm => f_log10(value),
+        }
     }
 
     /// Where its ends lie.
@@ -178,15 +169,14 @@ impl Axis {
     }
 }
 
+/// The smallest and the largest of some values.
+pub(super) fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    values.map(|own| [own; 2]).reduce(|[low, high], [own, _]| [low.min(own), high.max(own)])
+}
+
 /// m · 10^exponent, as the literal is.
 fn decimal(m: i32, exponent: i32) -> f64 {
     format!("{m}e{exponent}").parse().unwrap_or(f64::MIN_POSITIVE)
-}
-
-const POWERS: [f64; 8] = [1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6, 1e7];
-
-fn is_whole(value: f64) -> bool {
-    (value - value.round()).abs() < 1e-6
 }
 
 #[cfg(test)]

@@ -17,9 +17,7 @@ pub type Point = (i32, i32);
 /// A step of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// Begin at a place.
     Move(Point),
-    /// A straight line to a place.
     Line(Point),
     /// A cubic curve: two controls and its end.
     Curve([Point; 3]),
@@ -40,9 +38,7 @@ pub struct Label {
     pub words: String,
     /// Where they are anchored.
     pub at: Point,
-    /// Size of an em.
     pub size: i32,
-    /// Colour.
     pub colour: Colour,
     /// Whether they read from bottom to top.
     pub upwards: bool,

@@ -29,13 +29,10 @@ const SLANT_SPACE: i32 = 40;
 /// One glyph of a label, its origin in em units with y upwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placed {
-    /// The face.
     pub face: Face,
     /// Glyph number in the face.
     pub glyph: u16,
-    /// Horizontal origin.
     pub x: i32,
-    /// Vertical origin.
     pub y: i32,
     /// Whether it is set at [`SCRIPT`] size.
     pub small: bool,
@@ -46,7 +43,6 @@ pub struct Placed {
 pub struct Line {
     /// The glyphs in reading order, blanks left out.
     pub glyphs: Vec<Placed>,
-    /// Width of the label.
     pub width: i32,
 }
 
@@ -104,13 +100,8 @@ pub fn set(label: &str) -> Result<Line, Error> {
                 return Err(Error::Glyph { character, label: label.into() });
             }
             if !character.is_whitespace() {
-                line.glyphs.push(Placed {
-                    face: piece.face,
-                    glyph: id.0,
-                    x,
-                    y,
-                    small: scale != EM,
-                });
+                let (face, glyph, small) = (piece.face, id.0, scale != EM);
+                line.glyphs.push(Placed { face, glyph, x, y, small });
             }
             x += (face.h_advance_unscaled(id) * scale as f32 / EM as f32).round() as i32;
         }

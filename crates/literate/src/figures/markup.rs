@@ -5,7 +5,6 @@
 
 /// Which of the two shipped faces a character is set in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[expect(missing_docs, reason = "the names tell")]
 pub enum Face {
     Regular,
     Italic,
@@ -13,7 +12,6 @@ pub enum Face {
 
 /// Height of a piece of a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names tell")]
 pub enum Level {
     Base,
     Sub,
@@ -22,7 +20,6 @@ pub enum Level {
 
 /// Characters of one face at one height.
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names tell")]
 pub struct Piece {
     pub face: Face,
     pub level: Level,
@@ -68,13 +65,11 @@ pub fn plain(label: &str) -> String {
     let mut out = String::new();
     let mut before = Level::Base;
     for piece in parse(label) {
-        if piece.level != before {
-            match piece.level {
-                Level::Base => {}
-                Level::Sub => out.push('_'),
-                Level::Sup => out.push('^'),
-            }
-        }
+        out += match piece.level {
+            Level::Sub if before != Level::Sub => "_",
+            Level::Sup if before != Level::Sup => "^",
+            _ => "",
+        };
         before = piece.level;
         out.push_str(&piece.text);
     }

@@ -1,20 +1,20 @@
 //! Figures: frames, axes, curves and labels as one list of shapes, written as SVG, into a page and as PDF.
 
-pub mod axis;
-pub mod chart;
-pub mod clip;
-pub mod data;
-pub mod drawing;
-pub mod font;
-pub mod markup;
-pub mod panel;
-pub mod pdf;
-pub mod plot;
-pub mod record;
-pub mod series;
-pub mod sheet;
-pub mod style;
-pub mod svg;
+mod axis;
+mod chart;
+mod clip;
+mod data;
+mod drawing;
+mod font;
+mod markup;
+mod panel;
+mod pdf;
+mod plot;
+mod record;
+mod series;
+mod sheet;
+mod style;
+mod svg;
 
 pub use data::DataFile;
 pub use drawing::{Drawing, Glyphs};

@@ -47,8 +47,6 @@ pub struct Panel {
     pub(super) record: Rc<RefCell<Record>>,
     /// Whether series are recorded.
     pub(super) recorded: bool,
-    /// The name that they are recorded under, if it is not their own.
-    pub(super) series: Option<String>,
 }
 
 const TICK: i32 = 85;
@@ -68,7 +66,7 @@ impl Panel {
         let place = (frame.left..frame.right, frame.bottom..frame.top);
         let plane = Cartesian2d::new(from..to, low..high, place);
         let (drawing, numbers) = (drawing.clone(), SMALL);
-        Panel { drawing, plane, frame, x, y, numbers, record, recorded: true, series: None }
+        Panel { drawing, plane, frame, x, y, numbers, record, recorded: true }
     }
 
     /// Where a value stands on the sheet.
@@ -90,11 +88,6 @@ impl Panel {
     /// The same panel for what is no data of its own: repeated outlines, rims, details.
     pub fn quiet(&self) -> Self {
         Panel { recorded: false, ..self.clone() }
-    }
-
-    /// The same panel for a series that is recorded under another name than the picture has for it.
-    pub fn series(&self, name: &str) -> Self {
-        Panel { series: Some(name.into()), ..self.clone() }
     }
 
     fn text(&self, text: &str, at: Point, size: i32, h: HPos, v: VPos) -> Result<(), Error> {

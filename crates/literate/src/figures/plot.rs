@@ -16,7 +16,7 @@
 //! ```
 
 use super::prelude::*;
-use super::{font, panel, style};
+use super::{axis, font, panel, style};
 use impact_numerics::statistics::Estimate;
 use pxfm::{f_exp10, f_log10};
 
@@ -170,10 +170,10 @@ impl Plot {
         let longest = names.iter().map(|name| wide(name, SMALL)).collect::<Result<Vec<_>, _>>()?;
         let apart = longest.into_iter().max().unwrap_or(0) + 1100;
         let columns = ((right - left) / apart).clamp(1, names.len().max(1) as i32);
-        let rows = if names.len() > 1 { names.len().div_ceil(columns as usize) } else { 0 };
+        let rows = if names.len() > 1 { names.len().div_ceil(columns as usize) as i32 } else { 0 };
         let below = frame.bottom + panel::BELOW + 2 * TEXT;
 
-        let sheet = Sheet::new((below + 400 * rows as i32) as u32);
+        let sheet = Sheet::new((below + 400 * rows) as u32);
         let panel = sheet.panel(frame, x, y)?;
         let mut entries: Vec<Entry> = names
             .iter()
@@ -201,7 +201,7 @@ impl Plot {
             }
         }
         if rows > 0 {
-            sheet.legend_in_columns((left, below + 60), (SMALL, 400), (rows, apart), &entries)?;
+            sheet.legend((left, below + 60), (SMALL, 400), (rows, apart), &entries)?;
         }
         Ok(sheet.finish(id, title, description))
     }
@@ -211,10 +211,7 @@ impl Along {
     /// The axis that holds these values: whole decades, or a margin of a twenty-fifth and ticks at 1, 2 or 5 times a power
     /// of ten.
     fn axis(&self, values: impl Iterator<Item = f64>) -> Axis {
-        let ends =
-            values.filter(|value| value.is_finite()).fold(None, |ends: Option<[f64; 2]>, own| {
-                Some(ends.map_or([own; 2], |[low, high]| [low.min(own), high.max(own)]))
-            });
+        let ends = axis::range(values.filter(|value| value.is_finite()));
         let [low, high] = self.range.or(ends).unwrap_or([0.1, 1.0]);
         if self.is_log {
             let [low_power, high_power] = [low, high].map(f_log10);

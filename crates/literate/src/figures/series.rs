@@ -60,7 +60,6 @@ impl Panel {
     /// Keeps rows of a series for the data file, as a picture may show them in another way.
     pub fn record<R: Into<DataPoint>>(&self, name: &str, rows: impl IntoIterator<Item = R>) {
         if self.recorded {
-            let name = self.series.as_deref().unwrap_or(name);
             self.record.borrow_mut().add(name, rows.into_iter().map(R::into));
         }
     }
@@ -271,7 +270,7 @@ mod tests {
         let inset = sheet.inset(FRAME, axis(), axis()).unwrap();
         inset.columns("again", &[0.5], LINE).unwrap();
         let own = sheet.inset(FRAME, axis(), axis()).unwrap().file("-inset");
-        own.series("finer").curve("again", &[(0.1, 0.2)], LINE, Outside::Cut).unwrap();
+        own.curve("finer", &[(0.1, 0.2)], LINE, Outside::Cut).unwrap();
         let data = sheet.finish("s01", "", Default::default()).data;
         let told: Vec<_> = data.iter().map(|file| (&*file.name, file.csv())).collect();
         let csv = "series (text),x (1),x (1)\nfiner,0.1,0.2\n".to_string();

@@ -2,7 +2,7 @@
 //!
 //! Whatever draws fails if a label has a character that the shipped fonts lack.
 
-use std::cell::RefCell;
+use std::cell::{RefCell, RefMut};
 use std::rc::Rc;
 
 use super::axis::Axis;
@@ -10,7 +10,7 @@ use super::drawing::{Drawing, Look, Point};
 use super::panel::{Frame, Panel};
 use super::record::Record;
 use super::series::Marker;
-use super::style::{Colour, INK, Stroke, TINY};
+use super::style::{INK, Stroke, TINY};
 use super::{Error, Figure, Seen};
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -81,63 +81,38 @@ impl Sheet {
         Ok(panel)
     }
 
+    /// For free drawing.
+    pub fn free(&self) -> RefMut<'_, Drawing> {
+        self.drawing.borrow_mut()
+    }
+
     /// Words on the sheet.
     pub fn text(&self, text: &str, at: Point, look: Look) -> Result<(), Error> {
-        self.drawing.borrow_mut().label(text, at, look, false)
+        self.free().label(text, at, look, false)
     }
 
-    /// A line through points of the sheet.
-    pub fn line(&self, points: &[Point], stroke: Stroke) {
-        self.drawing.borrow_mut().line(points.to_vec(), stroke);
-    }
-
-    /// A line that ends in an arrow head.
-    pub fn arrow(&self, points: &[Point], stroke: Stroke) {
-        self.drawing.borrow_mut().arrow(points.to_vec(), stroke);
-    }
-
-    /// A filled circle with an edge.
-    pub fn disc(&self, centre: Point, radius: i32, fill: Colour, edge: Stroke) {
-        self.drawing.borrow_mut().disc(centre, radius, fill, edge);
-    }
-
-    /// A filled rectangle.
-    pub fn rectangle(&self, frame: Frame, fill: Colour) {
-        self.drawing.borrow_mut().rectangle(frame, fill);
-    }
-
-    /// A legend; `at` is the left end of its first sample line.
+    /// A legend in columns of so many rows; `at` is the left end of its first sample line, and `apart` how far the next
+    /// column is.
     pub fn legend(
         &self,
-        at: (i32, i32),
+        at: Point,
         (size, spacing): (i32, i32),
+        (rows, apart): (i32, i32),
         entries: &[Entry],
     ) -> Result<(), Error> {
         const SAMPLE: i32 = 560;
-        for (i, entry) in entries.iter().enumerate() {
-            let (x, y) = (at.0, at.1 + i as i32 * spacing);
+        for (i, entry) in (0..).zip(entries) {
+            let (x, y) = (at.0 + i / rows * apart, at.1 + i % rows * spacing);
             if let Some(stroke) = entry.line {
-                self.line(&[(x, y), (x + SAMPLE, y)], stroke);
+                self.free().line(vec![(x, y), (x + SAMPLE, y)], stroke);
             }
             if let Some(marker) = entry.mark {
-                self.drawing.borrow_mut().marks([(x + SAMPLE / 2, y)], marker);
+                self.free().marks([(x + SAMPLE / 2, y)], marker);
             }
             let look = (size, INK, HPos::Left, VPos::Center);
             self.text(&entry.text, (x + SAMPLE + 130, y), look)?;
         }
         Ok(())
-    }
-
-    /// A legend in columns of so many rows; `at` is where the first begins, and `apart` how far the next.
-    pub fn legend_in_columns(
-        &self,
-        at: (i32, i32),
-        look: (i32, i32),
-        (rows, apart): (usize, i32),
-        entries: &[Entry],
-    ) -> Result<(), Error> {
-        let mut columns = entries.chunks(rows.max(1)).zip(0..);
-        columns.try_for_each(|(own, i)| self.legend((at.0 + apart * i, at.1), look, own))
     }
 
     /// Closes a figure; its `id` is the picture's file name without its ending. Its data is what its panels have
