@@ -264,7 +264,7 @@ fn restitution_ensures(e: &Evidence, s: &Statement) -> Judged {
     // Without an impact there is no contact phase.
     let phases = |r: f64, sigma: f64| {
         let keys = [("r", r), ("sigma", sigma)];
-        rise.cell(&keys, "phases").ok()?;
+        rise.number(&keys, "sigma").ok()?;
         Some(rise.number(&keys, "phases_per_impact").unwrap_or(0.0))
     };
     let lowest = rs.first().copied().unwrap_or(own);

@@ -171,26 +171,17 @@ impl Table {
         self.rows.iter().map(|(_, cells)| cells.as_slice()).filter(move |cells| agrees(cells))
     }
 
-    /// The one cell in the row with these keys.
+    /// The number in the row with these keys.
     #[track_caller]
-    pub fn cell<'a>(&'a self, keys: Keys<'a>, column: &str) -> Result<&'a Value, Missing> {
-        if let Some(cell) = self.column(column).and_then(|at| self.select(keys).next()?.get(at)) {
-            return Ok(cell);
+    pub fn number<'a>(&'a self, keys: Keys<'a>, column: &str) -> Result<f64, Missing> {
+        let cell = self.column(column).and_then(|at| self.select(keys).next()?.get(at));
+        if let Some(number) = cell.and_then(number) {
+            return Ok(number);
         }
         let keys: Vec<String> = keys.iter().map(|(name, key)| format!("{name}={key}")).collect();
         let address = format!("{}[{}].{column}", self.name, keys.join(","));
-        let what = self.nearest(&address);
+        let what = cell.map_or_else(|| self.nearest(&address), |_| NO_NUMBER.into());
         Err(Missing::new(address, what))
-    }
-
-    /// The number of a cell.
-    #[track_caller]
-    pub fn number<'a>(&'a self, keys: Keys<'a>, column: &str) -> Result<f64, Missing> {
-        let cell = self.cell(keys, column)?;
-        match number(cell) {
-            Some(number) => Ok(number),
-            None => Err(Missing::new(&cell.id, NO_NUMBER)),
-        }
     }
 
     /// The numbers of a column where there are any, each with that of another column.
@@ -312,11 +303,7 @@ pub fn number(cell: &Value) -> Option<f64> {
 }
 
 fn estimate(cell: &Value) -> Option<Estimate> {
-    let value = number(cell)?;
-    let error = match cell.kind {
-        Kind::Ensemble { standard_error, .. } => standard_error,
-        _ => 0.0,
-    };
+    let (value, error) = (number(cell)?, cell.standard_error());
     Some(Estimate { value, error, interval: [value - error, value + error] })
 }
 
@@ -535,33 +522,27 @@ mod tests {
     #[test]
     fn a_cell_has_one_address_with_all_that_is_known_of_it() {
         let table = table();
-        let cell = table.cell(&[("r", 0.8), ("sigma", 0.3)], "mean").unwrap();
-        assert_eq!(cell.id, "test.rise[r=0.8,sigma=0.3].mean");
+        let at = |address| table.at(address).unwrap();
+        let cell = at("test.rise[r=0.8,sigma=0.3].mean");
         assert_eq!(cell.kind, Kind::Ensemble { realisations: 2, standard_error: 0.5 });
-        assert_eq!(
-            (cell.source.as_str(), cell.experiment.as_str()),
-            ("literate::table::tests::mean", "test")
-        );
-        assert_eq!(cell.note, "the mean");
-        assert_eq!(table.at(&cell.id), Some(cell));
+        assert_eq!(cell.source, "literate::table::tests::mean");
+        assert_eq!((cell.experiment.as_str(), cell.note.as_str()), ("test", "the mean"));
         assert_eq!(table_of(&cell.id), Some("test.rise"));
         assert_eq!(table.number(&[("r", 0.8), ("sigma", 0.3)], "mean"), Ok(7.5));
         // A closure's item is the function in which it stands.
-        let runs = table.cell(&[("r", 0.0), ("sigma", 0.1)], "runs").unwrap();
-        assert_eq!(runs.source, "literate::table::tests::table");
-        let inverse = table.cell(&[("r", 0.8), ("sigma", 0.1)], "inverse").unwrap();
-        assert_eq!(
-            (inverse.unit.as_str(), inverse.id.as_str()),
-            (r"$1/\omega$", "test.rise[r=0.8,sigma=0.1].inverse")
+        assert_eq!(at("test.rise[r=0,sigma=0.1].runs").source, "literate::table::tests::table");
+        assert_eq!(at("test.rise[r=0.8,sigma=0.1].inverse").unit, r"$1/\omega$");
+        assert_eq!(at("test.rise[r=0.8,sigma=0.1].sigma").unit, r"$d \omega^2$");
+        assert!(
+            table.at("test.rise[r=0.8,sigma=0.3].inverse").is_none() && table.at("other").is_some()
         );
-        assert_eq!(table.cell(&[("r", 0.8), ("sigma", 0.3)], "inverse").unwrap().id, "other");
-        assert_eq!(table.cell(&[("sigma", 0.1)], "sigma").unwrap().unit, r"$d \omega^2$");
     }
 
     #[test]
     fn what_is_not_there_is_an_error_with_the_place_that_asks() {
         let table = table();
-        let lost = table.cell(&[("r", 0.8), ("sigma", 0.30000000000000004)], "mean").unwrap_err();
+        let keys = [("r", 0.8), ("sigma", 0.30000000000000004)];
+        let lost = table.number(&keys, "mean").unwrap_err();
         assert_eq!(lost.address, "test.rise[r=0.8,sigma=0.30000000000000004].mean");
         assert!(lost.place.starts_with("crates/literate/src/table.rs:"), "{}", lost.place);
         assert!(
@@ -569,19 +550,14 @@ mod tests {
         );
         let tables = Tables::from([(table.name(), Arc::new(table.clone()))]);
         let what = |address| cell(&tables, address).unwrap_err().what;
-        assert!(
-            what("test.rise[r=0,sigma=0.1].meen")
-                .starts_with("there is no such column; nearest: mean")
-        );
+        assert!(what("test.rise[r=0,sigma=0.1].meen").contains("no such column; nearest: mean"));
         assert!(what("test.ris.mean").ends_with("no table test.ris; nearest: test.rise"));
-        assert_eq!(number_at(&tables, "test.rise[r=0,sigma=0.1].mean"), Ok(1.5));
         // There is a cell, and it has no number.
         assert!(table.number(&[("r", 0.0), ("sigma", 0.3)], "mean").is_err());
         assert!(table.number(&[("r", 0.0), ("sigma", 0.1)], "inverse").is_err());
         for no in ["half_height", "v.half_height", "a[b]c"] {
             assert_eq!(table_of(no), None, "{no}");
         }
-        assert_eq!(table_of("test.run.shift"), Some("test.run"));
     }
 
     #[test]

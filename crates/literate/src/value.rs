@@ -190,6 +190,14 @@ impl Value {
         self
     }
 
+    /// Its standard error, zero where it has none.
+    pub fn standard_error(&self) -> f64 {
+        match self.kind {
+            Kind::Ensemble { standard_error, .. } => standard_error,
+            _ => 0.0,
+        }
+    }
+
     /// All finite? JSON and readers know no NaN.
     pub(crate) fn is_finite(&self) -> bool {
         match self.number {

@@ -13,7 +13,7 @@ use super::{Basis, Check, Level, Published, PublishedError, Statement, Text};
 use super::{chosen, decimals, significant};
 use crate::experiments::{self, Results};
 use crate::table::{self, Missing};
-use crate::value::{Kind, Number};
+use crate::value::{Number, Value};
 use std::cell::Cell;
 
 /// Why a check could not be computed.
@@ -96,10 +96,7 @@ impl Case<'_> {
             Ok(cell) => (Some(cell), None),
             Err(missing) => (None, Some(missing)),
         };
-        let error = match found.map(|cell| &cell.kind) {
-            Some(Kind::Ensemble { standard_error, .. }) => *standard_error,
-            _ => 0.0,
-        };
+        let error = found.map_or(0.0, Value::standard_error);
         let value = found.and_then(table::number).unwrap_or(f64::NAN);
         let shown = match found.map(|cell| cell.number.clone()) {
             Some(Number::Real { value, .. }) if error == 0.0 && own.value.is_some() => {

@@ -9,7 +9,7 @@ use super::documents::Document;
 use super::filler::Filler;
 use super::folder::{self, SUMS};
 use super::labels::Labels;
-use super::ledger::EquationEntry;
+use super::ledger::{EquationEntry, Ledger};
 use super::lint::Declared;
 use super::mark::ids;
 use super::origin::{Filled, Places};
@@ -107,7 +107,11 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
 
     let declared = filler.declared.clone();
     let (parts, labels) = parts(input, &filled, &values, &declared)?;
-    let mut ledger = ledger::ledger(input.claims, input.figures, input.equations);
+    let mut ledger = Ledger {
+        claims: input.claims.to_vec(),
+        figures: ledger::figures(input.figures),
+        equations: input.equations.to_vec(),
+    };
     for block in parts.iter().filter(|part| !part.of.repeats).flat_map(|part| &part.blocks) {
         let Block::Figure { id, number, name, .. } = block else { continue };
         let entry = ledger.figures.iter_mut().find(|figure| figure.id == *name);
@@ -117,10 +121,12 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     }
 
     let (mut committed, mut beside) = (Files::new(), Files::new());
-    let json = |e: serde_json::Error| Error::Template(format!("values.json: {e}"));
-    let values_json = serde_json::to_string_pretty(&values).map_err(json)? + "\n";
-    committed.insert("values.json".into(), values_json.into_bytes());
-    committed.insert("ledger.json".into(), ledger::json(&ledger).map_err(json)?.into_bytes());
+    let [values_json, ledger_json] =
+        [serde_json::to_string_pretty(&values), serde_json::to_string_pretty(&ledger)];
+    for (name, json) in [("values.json", values_json), ("ledger.json", ledger_json)] {
+        let json = json.map_err(|error| Error::Template(format!("{name}: {error}")))? + "\n";
+        committed.insert(name.into(), json.into_bytes());
+    }
     let cards = Cards { values: &values, ledger: &ledger, paper: input.paper };
     let paper = input.paper;
     let site = html::Site { input, labels: &labels };

@@ -8,9 +8,6 @@ use crate::input::line_and_column;
 use biblatex::{Bibliography, ChunksExt, EntryType, Person};
 use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};
 
-/// Of more authors than this the list shows the first and the last.
-const MOST: usize = 20;
-
 /// All entries of a .bib file, in the order in which a list shows them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Library(Vec<Entry>);
@@ -129,9 +126,6 @@ fn listed(people: &[Person]) -> String {
     let names: Vec<String> = people.iter().map(inverted).collect();
     let list = match names.as_slice() {
         [first @ .., last] if last == "others" => format!("{}, et al", first.join(", ")),
-        [first @ .., last] if first.len() >= MOST => {
-            format!("{}, … {last}", first[..MOST - 1].join(", "))
-        }
         [first @ .., last] if !first.is_empty() => format!("{}, & {last}", first.join(", ")),
         one => one.concat(),
     };

@@ -163,9 +163,7 @@ impl Cards<'_> {
         if let Kind::Ensemble { realisations, standard_error } = &value.kind {
             card.words("standard error", format!("{standard_error}"));
             if *realisations > 0 {
-                if *realisations > 0 {
-                    card.words("n", format!("{realisations}"));
-                }
+                card.words("n", format!("{realisations}"));
             }
         }
         if let Kind::Printed { place } = &value.kind {

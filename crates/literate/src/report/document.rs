@@ -7,6 +7,7 @@
 use super::documents::Document;
 use super::mark::bare;
 use super::{Error, spell};
+use pulldown_cmark::Alignment;
 
 /// A block of the report.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +45,7 @@ pub enum Block {
         number: Option<String>,
         /// The caption; may be empty.
         caption: Vec<Inline>,
-        columns: Vec<Align>,
+        columns: Vec<Alignment>,
         head: Vec<Vec<Inline>>,
         rows: Vec<Vec<Vec<Inline>>>,
     },
@@ -94,15 +95,6 @@ pub struct Entry {
     pub label: String,
     /// The reference in words.
     pub text: Vec<Inline>,
-}
-
-/// How a column is aligned.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names tell")]
-pub enum Align {
-    Left,
-    Centre,
-    Right,
 }
 
 /// A piece of running text.

@@ -41,8 +41,8 @@ pub struct Written {
     pub removed: Vec<String>,
 }
 
-/// Digests by path: several where a run was killed.
-type Digests = BTreeMap<String, BTreeSet<String>>;
+/// Digests by path.
+type Digests = BTreeMap<String, String>;
 
 fn failed(place: &Path) -> impl Fn(io::Error) -> Error {
     let place = place.display().to_string();
@@ -50,11 +50,11 @@ fn failed(place: &Path) -> impl Fn(io::Error) -> Error {
 }
 
 /// The digest of each file.
-fn digests<'a>(files: impl Iterator<Item = (&'a String, &'a Vec<u8>)>) -> BTreeMap<String, String> {
+fn digests<'a>(files: impl Iterator<Item = (&'a String, &'a Vec<u8>)>) -> Digests {
     files.map(|(path, bytes)| (path.clone(), sha256(bytes))).collect()
 }
 
-fn lines(digests: &BTreeMap<String, String>) -> String {
+fn lines(digests: &Digests) -> String {
     digests.iter().map(|(path, digest)| format!("{digest}  {path}\n")).collect()
 }
 
@@ -65,7 +65,7 @@ pub fn sums(files: &Files) -> String {
 
 /// Reads the lines: path and digest. None if there is none, or one is no file of a report, so that no list leads out of the folder, or has
 /// what is not ours removed.
-pub fn read_sums(text: &str) -> Option<BTreeMap<String, String>> {
+pub fn read_sums(text: &str) -> Option<Digests> {
     let entry = |line: &str| {
         let (digest, path) = line.split_once("  ")?;
         let of_report = match path.split_once('/') {
@@ -74,7 +74,7 @@ pub fn read_sums(text: &str) -> Option<BTreeMap<String, String>> {
         };
         (of_report && digest.len() == 64).then(|| (path.to_string(), digest.to_string()))
     };
-    text.lines().map(entry).collect::<Option<BTreeMap<_, _>>>().filter(|list| !list.is_empty())
+    text.lines().map(entry).collect::<Option<Digests>>().filter(|list| !list.is_empty())
 }
 
 /// A file below a folder.
@@ -124,44 +124,16 @@ pub fn is_beside(path: &str) -> bool {
     }
 }
 
-/// What the lists say that was written into a folder: SHA256SUMS, and those that killed runs were about to put there.
-/// None if the folder has other files and no list.
+/// What the list says that was written into a folder. None if the folder has other files and no list.
 fn ours(folder: &Path) -> Result<Option<Digests>, Error> {
-    let names = names(folder)?;
-    let killed = names.iter().filter(|name| name.starts_with(STAGING));
-    let places = killed.map(|name| format!("{name}/{SUMS}")).chain([SUMS.into()]);
-    let list = |place: String| read_sums(&String::from_utf8(read(folder, &place).ok()?).ok()?);
-    let lists: Vec<_> = places.filter_map(list).collect();
-    if lists.is_empty() && names.iter().any(|name| !name.starts_with(STAGING)) {
-        return Ok(None);
-    }
-    let mut all = Digests::new();
-    for (path, digest) in lists.into_iter().flatten() {
-        all.entry(path).or_default().insert(digest);
-    }
-    Ok(Some(all))
+    let list = || read_sums(&String::from_utf8(read(folder, SUMS).ok()?).ok()?);
+    let is_empty = names(folder)?.iter().all(|name| name.starts_with(STAGING));
+    Ok(list().or_else(|| is_empty.then(Digests::new)))
 }
 
-/// Paths of files that stand there with other bytes than we wrote, and than `files` are about to bring.
-fn edited<'a>(
-    folder: &Path,
-    ours: &Digests,
-    files: &Files,
-    paths: impl Iterator<Item = &'a String>,
-) -> Vec<String> {
-    let is_edited = |path: &&String| match read(folder, path) {
-        Ok(bytes) => {
-            let wrote = ours.get(*path).is_some_and(|own| own.contains(&sha256(&bytes)));
-            !wrote && files.get(*path) != Some(&bytes)
-        }
-        Err(error) => !is_absent(&error),
-    };
-    let paths: BTreeSet<&String> = paths.filter(|path| *path != SUMS).collect();
-    paths.into_iter().filter(is_edited).cloned().collect()
-}
-
-/// Refuses a folder that is not ours, and files that were edited, by name: of `files` that are about to be written, and of a
-/// whole report also those that the list names. Forced, it returns what was edited.
+/// Refuses a folder that is not ours, and files that were edited, by name: those that stand there with other bytes than we
+/// wrote, and than `files` are about to bring; of a whole report also those that the list names. Forced, it returns what was
+/// edited.
 pub fn refuse(
     folder: &Path,
     files: &Files,
@@ -173,25 +145,27 @@ pub fn refuse(
         None if !force => return Err(Error::NotOurs(place())),
         ours => ours.unwrap_or_default(),
     };
-    let paths = ours.keys().filter(|_| whole).chain(files.keys());
-    match edited(folder, &ours, files, paths) {
-        edited if edited.is_empty() || force => Ok(edited),
-        edited => Err(Error::Edited(place(), edited)),
-    }
+    let paths = ours.keys().filter(|_| whole).chain(files.keys()).filter(|path| *path != SUMS);
+    let is_edited = |path: &&String| match read(folder, path) {
+        Ok(bytes) => ours.get(*path) != Some(&sha256(&bytes)) && files.get(*path) != Some(&bytes),
+        Err(error) => !is_absent(&error),
+    };
+    let edited: BTreeSet<&String> = paths.filter(is_edited).collect();
+    let edited: Vec<String> = edited.into_iter().cloned().collect();
+    if edited.is_empty() || force { Ok(edited) } else { Err(Error::Edited(place(), edited)) }
 }
 
 /// Writes files: first all into a temporary folder, then each is renamed into its place, the list last. With a list among
 /// them they are a whole report, and what only the list before has is removed; without one their lines are put into the
-/// list that is there. `beside` are files that no list has. A run that is killed leaves old and new files, and the next
-/// one knows both.
+/// list that is there. `beside` are files that no list has.
 pub fn write(folder: &Path, files: &Files, beside: &Files, force: bool) -> Result<Written, Error> {
     let whole = files.contains_key(SUMS);
     let mut over = refuse(folder, files, whole, force)?;
-    if ours(folder)?.is_none() {
+    let ours = ours(folder)?;
+    if ours.is_none() {
         over.extend(beside.keys().filter(|path| folder.join(path).exists()).cloned());
     }
-    let standing = read(folder, SUMS).ok().and_then(|text| String::from_utf8(text).ok());
-    let mut list = standing.and_then(|text| read_sums(&text)).unwrap_or_default();
+    let mut list = ours.unwrap_or_default();
     let gone = |path: &&String| whole && !files.contains_key(*path) && folder.join(path).exists();
     let gone: Vec<String> = list.keys().filter(gone).cloned().collect();
     list.retain(|_, _| !whole);
@@ -227,7 +201,7 @@ pub fn write(folder: &Path, files: &Files, beside: &Files, force: bool) -> Resul
 }
 
 /// What is wrong with the files of a folder, one line each: digests by path say what should be there.
-fn faults(folder: &Path, expected: &BTreeMap<String, String>) -> Result<Vec<String>, Error> {
+fn faults(folder: &Path, expected: &Digests) -> Result<Vec<String>, Error> {
     let fault = |(path, digest): (&String, &String)| match read(folder, path) {
         Ok(bytes) if sha256(&bytes) == *digest => None,
         Ok(_) => Some(format!("differs  {path}")),
@@ -315,65 +289,9 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_of_others_and_edited_files_are_refused_by_name() {
-        let temporary = tempfile::tempdir().unwrap();
-        let folder = temporary.path();
-        let old = report(&[("data/a.csv", "1"), ("data/b.csv", "1"), ("report.md", "a")]);
-        let new = report(&[("README.md", "c"), ("data/a.csv", "2"), ("report.md", "b")]);
-        for path in ["README.md", "report.html"] {
-            fs::write(folder.join(path), "by hand").unwrap();
-        }
-        // A list of other files, or one that leads out, is none of a report.
-        for list in ["foo.tar.gz", "../out.md", "data/../out", ".git/config"]
-            .map(|path| format!("{}  {path}\n", sha256("")))
-        {
-            fs::write(folder.join(SUMS), list).unwrap();
-            assert!(matches!(new.write(folder, false), Err(Error::NotOurs(_))));
-        }
-        fs::remove_file(folder.join(SUMS)).unwrap();
-        assert!(matches!(new.write(folder, false), Err(Error::NotOurs(_))));
-        assert_eq!(old.write(folder, true).unwrap().over, ["report.html"]);
-        // One that would be replaced, one that would go, and one that no list has.
-        for path in ["data/a.csv", "data/b.csv"] {
-            fs::write(folder.join(path), "by hand").unwrap();
-        }
-        let before = standing(folder);
-        let named = "README.md, data/a.csv, data/b.csv; ";
-        let told = new.write(folder, false).unwrap_err().to_string();
-        assert!(told.contains(named) && told.contains("--force"), "{told}");
-        assert!(refuse(folder, &Files::new(), true, false).is_err());
-        assert_eq!(standing(folder), before);
-        let done = new.write(folder, true).unwrap();
-        assert_eq!(done.over, ["README.md", "data/a.csv", "data/b.csv"]);
-        assert_eq!(standing(folder), whole(&new));
-    }
-
-    /// Wherever a run was killed, the next one writes its files.
-    #[test]
-    fn a_run_that_was_killed_is_mended() {
-        let [old, new, next] = ["old", "new", "next"].map(|word| {
-            report(&[("data/a.csv", word), ("report.md", word), ("values.json", word)])
-        });
-        let order: Vec<&String> = new.committed.keys().filter(|path| *path != SUMS).collect();
-        for first in [true, false] {
-            for replaced in 0..=order.len() {
-                let temporary = tempfile::tempdir().unwrap();
-                let folder = temporary.path();
-                if !first {
-                    old.write(folder, false).unwrap();
-                }
-                let staged = folder.join(format!("{STAGING}killed"));
-                for (path, bytes) in &new.committed {
-                    let moved = order[..replaced].contains(&path);
-                    let place = if moved { folder.join(path) } else { staged.join(path) };
-                    fs::create_dir_all(place.parent().unwrap()).unwrap();
-                    fs::write(place, bytes).unwrap();
-                }
-                refuse(folder, &Files::new(), true, false).unwrap();
-                next.write(folder, false).unwrap();
-                assert_eq!(standing(folder), whole(&next));
-                assert!(!staged.exists());
-            }
+    fn a_list_that_leads_out_is_none_of_a_report() {
+        for path in ["foo.tar.gz", "../out.md", "data/../out", ".git/config"] {
+            assert_eq!(read_sums(&format!("{}  {path}\n", sha256(""))), None, "{path}");
         }
     }
 

@@ -4,13 +4,14 @@
 //! well-formed XML, so that tests can read it.
 
 use super::card::Cards;
-use super::document::{self, Align, Block, Inline, plain, spelt};
+use super::document::{self, Block, Inline, plain, spelt};
 use super::documents::Document;
 use super::labels::Labels;
 use super::{Error, Files, Input, latex, mathml};
 use crate::claims::Verdict;
 use crate::figures::{Figure, Glyphs, escape as text, outlines};
 use math_core::MathDisplay;
+use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -257,7 +258,7 @@ impl Page<'_> {
 
     fn table(
         &self,
-        columns: &[Align],
+        columns: &[Alignment],
         head: &[Vec<Inline>],
         rows: &[Vec<Vec<Inline>>],
     ) -> Result<String, Error> {
@@ -267,8 +268,8 @@ impl Page<'_> {
         let class = |i: usize| {
             let long = |length: &usize| WIDTHS.iter().find(|(least, _)| length > least);
             let class = match columns.get(i) {
-                Some(Align::Right) => Some("right"),
-                Some(Align::Centre) => Some("centre"),
+                Some(Alignment::Right) => Some("right"),
+                Some(Alignment::Center) => Some("centre"),
                 _ => longest.get(i).and_then(long).map(|(_, class)| *class),
             };
             class.map_or(String::new(), |class| format!(" class=\"{class}\""))

@@ -1,10 +1,11 @@
 //! The tree → a document for LaTeX; what stands around it is the template report.tex.
 
 use super::Error;
-use super::document::{self, Align, Block, Inline};
+use super::document::{self, Block, Inline};
 use super::document::{continues, is_abstract, is_equation, plain, spelt};
 use super::documents::Document;
 use super::tex;
+use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};
 
 /// What the template report.tex has places for.
@@ -232,7 +233,7 @@ fn table(
     id: Option<&str>,
     captioned: bool,
     caption: &[Inline],
-    columns: &[Align],
+    columns: &[Alignment],
     head: &[Vec<Inline>],
     rows: &[Vec<Vec<Inline>>],
 ) -> Result<String, Error> {
@@ -293,11 +294,11 @@ fn least_width(width: usize, longest_word: usize) -> usize {
 
 /// Columns as wide as their words while all fit; else the long ones are as wide as their longest words, and share what is
 /// left.
-fn layout(columns: &[Align], widths: &[usize], words: &[usize], line: usize) -> String {
-    let letter = |align: &Align| match align {
-        Align::Left => "l",
-        Align::Centre => "c",
-        Align::Right => "r",
+fn layout(columns: &[Alignment], widths: &[usize], words: &[usize], line: usize) -> String {
+    let letter = |align: &Alignment| match align {
+        Alignment::Left | Alignment::None => "l",
+        Alignment::Center => "c",
+        Alignment::Right => "r",
     };
     if widths.iter().map(|w| w + 2).sum::<usize>() <= line {
         return columns.iter().map(letter).collect();
@@ -311,7 +312,7 @@ fn layout(columns: &[Align], widths: &[usize], words: &[usize], line: usize) -> 
     let share = |i: usize| {
         (least_width(widths[i], words[i]) as f64 + free * weight(i) / weights) / line as f64
     };
-    let column = |(i, align): (usize, &Align)| {
+    let column = |(i, align): (usize, &Alignment)| {
         if short(&i) {
             return letter(align).to_string();
         }

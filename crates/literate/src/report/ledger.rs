@@ -70,21 +70,7 @@ pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
     figures.iter().map(figure).collect()
 }
 
-/// The ledger of claims, figures and equations.
-pub fn ledger(claims: &[Check], figures: &[Figure], equations: &[EquationEntry]) -> Ledger {
-    Ledger {
-        claims: claims.to_vec(),
-        figures: self::figures(figures),
-        equations: equations.to_vec(),
-    }
-}
-
 /// Reads a ledger.json.
 pub fn read(text: &str) -> Result<Ledger, Error> {
     serde_json::from_str(text).map_err(|e| Error::Template(format!("ledger.json: {e}")))
-}
-
-/// ledger.json.
-pub fn json(ledger: &Ledger) -> serde_json::Result<String> {
-    Ok(serde_json::to_string_pretty(ledger)? + "\n")
 }

@@ -5,8 +5,9 @@
 //! `\\` `\cr`, `*` `\ast`, `<` `\lt`; a `_` that could open emphasis gets a space behind it; and what
 //! follows a closing `$` without a space (`$n$-th`) moves inside.
 
-use super::document::{Align, Block, Inline};
+use super::document::{Block, Inline};
 use super::mark::bare;
+use pulldown_cmark::Alignment;
 
 /// Writes report.md.
 pub fn write(blocks: &[Block]) -> String {
@@ -80,16 +81,16 @@ fn block(block: &Block) -> String {
     }
 }
 
-fn table(columns: &[Align], head: &[Vec<Inline>], rows: &[Vec<Vec<Inline>>]) -> String {
+fn table(columns: &[Alignment], head: &[Vec<Inline>], rows: &[Vec<Vec<Inline>>]) -> String {
     let writer = Writer { in_table: true };
     let row = |cells: &[Vec<Inline>]| {
         let cells: Vec<String> = cells.iter().map(|cell| writer.all(cell)).collect();
         format!("| {} |\n", cells.join(" | "))
     };
-    let rule = |align: &Align| match align {
-        Align::Left => "---",
-        Align::Centre => ":-:",
-        Align::Right => "--:",
+    let rule = |align: &Alignment| match align {
+        Alignment::Left | Alignment::None => "---",
+        Alignment::Center => ":-:",
+        Alignment::Right => "--:",
     };
     let rules: Vec<&str> = columns.iter().map(rule).collect();
     let mut out = row(head);
@@ -267,11 +268,7 @@ fn marker_length(chars: &[char]) -> Option<usize> {
 /// Length of what touches the closing dollar and would stop hosts from seeing it.
 fn glued(text: &str) -> usize {
     let touches = |c: char| c.is_alphanumeric() || matches!(c, '-' | '–' | '’' | '\'' | '“' | '”');
-    if !text.starts_with(touches) {
-        return 0;
-    }
-    let inside = |c: char| c.is_alphanumeric() || matches!(c, '-' | '–' | '’' | '\'' | '“' | '”');
-    text.find(|c| !inside(c)).unwrap_or(text.len())
+    text.find(|c| !touches(c)).unwrap_or(text.len())
 }
 
 /// TeX that survives Markdown.

@@ -102,7 +102,7 @@ impl Filled {
 }
 
 /// Where the things stand that a report has or names: `#fig:3` what can be referred to, `@fig:3` a
-/// reference, `(path` a link, `Lab name` what readers run.
+/// reference, `(path` a link.
 #[derive(Clone, Debug)]
 pub struct Places<'a> {
     filled: &'a Filled,

@@ -6,7 +6,7 @@
 mod inlines;
 
 use super::Error;
-use super::document::{Align, Block, Inline, plain};
+use super::document::{Block, Inline, plain};
 use super::labels::of_kind;
 use super::lint::Declared;
 use super::origin::{Filled, Places};
@@ -228,7 +228,7 @@ impl<'a> Reader<'a> {
                 Some(Block::List { start, items })
             }
             Tag::CodeBlock(kind) => Some(self.code(kind, &range)?),
-            Tag::Table(columns) => Some(self.table(&columns)?),
+            Tag::Table(columns) => Some(self.table(columns)?),
             Tag::HtmlBlock => {
                 let mut html = String::new();
                 while let Some(Event::Html(piece)) = self.peek() {
@@ -296,7 +296,6 @@ impl<'a> Reader<'a> {
         {
             let (lab, words) = (lab.to_string(), words.to_string());
             *first = words;
-            self.places.add(format!("Lab {lab}"), range.start);
             return Ok(Some(Block::Lab { lab, caption: inlines }));
         }
         Ok(Some(Block::Paragraph(inlines)))
@@ -351,7 +350,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn table(&mut self, columns: &[Alignment]) -> Result<Block, Error> {
+    fn table(&mut self, columns: Vec<Alignment>) -> Result<Block, Error> {
         let mut rows = Vec::new();
         while let Some(Event::Start(Tag::TableHead | Tag::TableRow)) = self.peek() {
             let Some((_, range)) = self.next() else { break };
@@ -371,12 +370,6 @@ impl<'a> Reader<'a> {
             self.next();
             rows.push(cells);
         }
-        let align = |column: &Alignment| match column {
-            Alignment::Right => Align::Right,
-            Alignment::Center => Align::Centre,
-            Alignment::Left | Alignment::None => Align::Left,
-        };
-        let columns = columns.iter().map(align).collect();
         let head = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
         Ok(Block::Table { id: None, number: None, caption: Vec::new(), columns, head, rows })
     }
@@ -412,19 +405,5 @@ fn stands_within(block: &Block) -> bool {
 }
 
 fn is_block(tag: &Tag<'_>) -> bool {
-    use Tag::{
-        BlockQuote, CodeBlock, FootnoteDefinition, Heading, HtmlBlock, Item, List, Paragraph, Table,
-    };
-    matches!(
-        tag,
-        Paragraph
-            | Heading { .. }
-            | BlockQuote(_)
-            | CodeBlock(_)
-            | FootnoteDefinition(_)
-            | HtmlBlock
-            | List(_)
-            | Item
-            | Table(_)
-    )
+    !matches!(tag, Tag::Emphasis | Tag::Strong | Tag::Link { .. } | Tag::Image { .. })
 }
