@@ -19,12 +19,8 @@ pub fn draw() -> Result<Figure, Error> {
         Axis::linear(0.0, N as f64 + 1.0, 25.0, 1, "*k*"),
         Axis::decades(lowest, 0, 40, "share"),
     )?;
-    inset.curve(
-        "logarithm of the share",
-        &over_k(&share),
-        Stroke::solid(GREEN, LINE),
-        Outside::Refuse,
-    )?;
+    let line = Stroke::solid(GREEN, LINE);
+    inset.curve("logarithm of the share", &over_k(&share), line, Outside::Refuse)?;
 
     let peak = share.iter().position(|&s| s == top).unwrap_or(0) + 1;
     let description = seen!(

@@ -29,18 +29,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         most_likely([p_jump, jump], panel)?;
     }
     let inset = &panels[0].1;
-    inset.marks(
-        "before the jump",
-        &[(p_jump, 1.0)],
-        (Mark::Disc, 50, Stroke::solid(GREEN, THIN)),
-        Outside::Refuse,
-    )?;
-    inset.marks(
-        "after the jump",
-        &[(p_jump, jump)],
-        (Mark::Ring, 50, Stroke::solid(GREEN, THIN)),
-        Outside::Refuse,
-    )?;
+    let look = |mark| (mark, 50, Stroke::solid(GREEN, THIN));
+    inset.marks("before the jump", &[(p_jump, 1.0)], look(Mark::Disc), Outside::Refuse)?;
+    inset.marks("after the jump", &[(p_jump, jump)], look(Mark::Ring), Outside::Refuse)?;
     let note = format!("from 1 to {jump} at *p* = {}", short(p_jump, 4));
     inset.note(&note, (p_jump, jump / 2.0), (110, 0), (TINY, INK, HPos::Left, VPos::Center))?;
 
@@ -65,16 +56,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 /// k* as a staircase; its jump from 1 is dotted, because no value lies between.
 fn most_likely([jump, first]: [f64; 2], panel: &Panel) -> Result<(), Error> {
     let solid = Stroke::solid(GREEN, LINE);
-    let mut stairs = Vec::new();
-    let mut level = None;
+    let mut stairs: Vec<(f64, f64)> = Vec::new();
     for (p, k_star) in steps().into_iter().filter(|(_, k_star)| *k_star > 1) {
-        if let Some(before) = level {
-            stairs.push((p, before));
-        }
-        level = Some(k_star as f64);
+        stairs.extend(stairs.last().map(|before| (p, before.1)));
         stairs.push((p, k_star as f64));
     }
-    stairs.extend(level.map(|k| (1.0, k)));
+    stairs.extend(stairs.last().map(|last| (1.0, last.1)));
     panel.curve("most likely number, 1", &[(0.0, 1.0), (jump, 1.0)], solid, Outside::Cut)?;
     panel.curve("most likely number", &stairs, solid, Outside::Cut)?;
     let dotted = Stroke::dashed(GREEN, THIN, Dash::Dotted);

@@ -27,48 +27,31 @@ const CLASSES: [Class; 5] = [
     ("two vertices twice", "*ϕ*_{*N*}^{2}", INK, Dash::Alternate),
 ];
 
-/// What a panel shows.
-struct Distribution {
-    p: f64,
-    total: Vec<f64>,
-    classes: [Vec<f64>; 5],
-}
-
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(11_350);
-    let all = HIGHER_P.map(|p| Distribution { p, total: five(p), classes: contributions(p) });
-    let [small, middle, large] = &all;
+    let [small, middle, large] = HIGHER_P;
     let whole = N as f64 + 1.0;
     let k = |end: f64| {
         let (step, minor) = if end < 50.0 { (end / 4.0, 5) } else { (20.0, 2) };
         Axis::linear(0.0, end, step, minor, "*k*")
     };
-    for (i, (distribution, end)) in
-        [(small, whole), (small, DETAIL as f64), (middle, 40.0), (large, whole)]
-            .into_iter()
-            .enumerate()
-    {
+    let rows = [small, small, middle, large].into_iter().zip([whole, DETAIL as f64, 40.0, whole]);
+    for (i, (p, end)) in rows.enumerate() {
         // The detail shows the higher orders: the simple circuits leave it at its upper edge.
-        let top = if i == 1 {
-            let higher = distribution.classes.iter().skip(1);
-            1.5 * higher.map(|class| largest(class)).fold(0.0, f64::max)
-        } else {
-            largest(&distribution.total)
-        };
+        let top =
+            if i == 1 { 1.5 * largest(&contributions(p)[1..].concat()) } else { largest(&five(p)) };
         let y = upwards_from_zero(top, "*P*(*X* = *k*)");
         let panel = sheet.panel(FOUR[i], k(end), y)?;
-        let p = short(distribution.p, 3);
         let detail = if i == 1 { ", detail" } else { "" };
-        heading(&panel, LETTERS[i], &format!("*p* = {p}{detail}"))?;
-        series(&panel, distribution, i == 1)?;
+        heading(&panel, LETTERS[i], &format!("*p* = {}{detail}", short(p, 3)))?;
+        series(&panel, p, i == 1)?;
     }
-    for (left, letter, distribution, end) in
-        [(1080, "(e)", small, DETAIL as f64), (5230, "(f)", large, whole)]
+    for (left, letter, p, end) in [(1080, "(e)", small, DETAIL as f64), (5230, "(f)", large, whole)]
     {
         let y = Axis::decades(LOWEST, 0, 2, "*P*(*X* = *k*)");
         let panel = sheet.panel(Frame::new(left, 7080, left + 2970, 9180), k(end), y)?;
-        heading(&panel, letter, &format!("*p* = {}", short(distribution.p, 3)))?;
-        series(&panel, distribution, false)?;
+        heading(&panel, letter, &format!("*p* = {}", short(p, 3)))?;
+        series(&panel, p, false)?;
     }
     let mut entries = vec![Entry::line(SUM, "all five classes")];
     entries.extend(CLASSES.iter().map(|&(name, symbol, colour, dash)| {
@@ -82,21 +65,20 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let description = seen!(
         "Probability of k different impacts, N = {N}, for five classes of circuits: a red line for the sum, broken ones for the \
          classes. (b) enlarges (a); (e), (f) are (a), (d) on a logarithmic axis. Simple circuits hold {} of the whole at p = {}, {} at p = {} and {} at p = {}.",
-        share(small.p)?,
-        short(small.p, 3),
-        share(middle.p)?,
-        short(middle.p, 3),
-        share(large.p)?,
-        short(large.p, 3),
+        share(small)?,
+        short(small, 3),
+        share(middle)?,
+        short(middle, 3),
+        share(large)?,
+        short(large, 3),
     );
     Ok(sheet.finish("fig13", "Distributions with higher-order circuits", description))
 }
 
-fn series(panel: &Panel, distribution: &Distribution, detail: bool) -> Result<(), Error> {
-    let shown = if detail { DETAIL } else { distribution.total.len() };
-    let of = |values: &[f64]| values[..shown.min(values.len())].to_vec();
-    panel.curve("all five classes", &over_k(&of(&distribution.total)), SUM, Outside::Cut)?;
-    for (class, &(name, _, colour, dash)) in distribution.classes.iter().zip(&CLASSES) {
+fn series(panel: &Panel, p: f64, detail: bool) -> Result<(), Error> {
+    let of = |values: &[f64]| values[..if detail { DETAIL } else { values.len() }].to_vec();
+    panel.curve("all five classes", &over_k(&of(&five(p))), SUM, Outside::Cut)?;
+    for (class, (name, _, colour, dash)) in contributions(p).iter().zip(CLASSES) {
         // On a logarithmic axis each is seen.
         let points = match panel.y.scale {
             Scale::Linear => visible(&of(class), panel.y.hi),

@@ -11,14 +11,11 @@ pub fn name(gap: usize) -> String {
 }
 
 /// Where the four vertices stand, clockwise from the upper left, and how large they are.
-#[derive(Clone, Copy, Debug)]
 pub struct Layout {
-    /// Centres.
-    pub centres: [(i32, i32); 4],
-    /// Radius of a vertex.
-    pub radius: i32,
+    centres: [(i32, i32); 4],
+    radius: i32,
     /// How far a loop reaches out.
-    pub reach: f64,
+    reach: f64,
 }
 
 impl Layout {
@@ -34,11 +31,12 @@ impl Layout {
 
     /// The edge from one vertex to another as a path that starts and ends at their circles. The
     /// two directions of a pair bend to opposite sides; a loop leaves its corner outwards.
-    pub fn edge(&self, from: usize, to: usize) -> Vec<(i32, i32)> {
+    fn edge(&self, from: usize, to: usize) -> Vec<(i32, i32)> {
         let (a, b) = (self.centre(from), self.centre(to));
         let control = if from == to {
-            let middle = self.middle();
-            let (sx, sy) = ((a.0 - middle.0).signum(), (a.1 - middle.1).signum());
+            let (first, last) = (self.centre(0), self.centre(2));
+            let sx = (a.0 - (first.0 + last.0) / 2.0).signum();
+            let sy = (a.1 - (first.1 + last.1) / 2.0).signum();
             // Two control points, turned by about 45 degrees to either side of the diagonal.
             let (near, far) = (0.12 * self.reach, self.reach);
             let one = (a.0 + sx * far, a.1 + sy * near);
@@ -61,19 +59,11 @@ impl Layout {
             .collect()
     }
 
-    fn middle(&self) -> (f64, f64) {
-        let (a, b) = (self.centre(0), self.centre(2));
-        ((a.0 + b.0) / 2.0, (a.1 + b.1) / 2.0)
-    }
-
     /// Draws all sixteen edges.
-    pub fn edges(&self, sheet: &Sheet, stroke: Stroke) -> Result<(), Error> {
-        for from in 0..4 {
-            for to in 0..4 {
-                sheet.free().arrow(self.edge(from, to), stroke);
-            }
+    pub fn edges(&self, sheet: &Sheet, stroke: Stroke) {
+        for edge in 0..16 {
+            sheet.free().arrow(self.edge(edge / 4, edge % 4), stroke);
         }
-        Ok(())
     }
 
     /// Draws the vertices; those that are `visited` stand out.
@@ -90,19 +80,17 @@ impl Layout {
 
     /// Draws a circuit: its edges, each with the number of its step.
     pub fn circuit(&self, sheet: &Sheet, order: &[usize], colour: Colour) -> Result<(), Error> {
-        let steps: Vec<_> =
-            (0..order.len()).map(|i| self.edge(order[i], order[(i + 1) % order.len()])).collect();
-        for path in &steps {
-            sheet.free().arrow(path.clone(), Stroke::solid(colour, 42));
+        let steps = || order.iter().zip(order.iter().cycle().skip(1)).zip(1..);
+        for ((&from, &to), _) in steps() {
+            sheet.free().arrow(self.edge(from, to), Stroke::solid(colour, 42));
         }
-        for (i, path) in steps.iter().enumerate() {
+        for ((&from, &to), step) in steps() {
             // Off the middle, where the diagonals cross.
-            let crosses = order[i].abs_diff(order[(i + 1) % order.len()]) == 2;
-            let share = if crosses { 24 } else { 50 };
+            let share = if from.abs_diff(to) == 2 { 24 } else { 50 };
+            let path = self.edge(from, to);
             let at = path[path.len() * share / 100];
             sheet.free().disc(at, 150, WHITE, Stroke::solid(colour, HAIR));
-            let number = (i + 1).to_string();
-            sheet.text(&number, at, (SMALL, INK, HPos::Center, VPos::Center))?;
+            sheet.text(&i32::to_string(&step), at, (SMALL, INK, HPos::Center, VPos::Center))?;
         }
         Ok(())
     }
@@ -111,9 +99,8 @@ impl Layout {
 fn bezier(a: (f64, f64), c: [(f64, f64); 2], b: (f64, f64), t: f64) -> (f64, f64) {
     let s = 1.0 - t;
     let w = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
-    let x = w[0] * a.0 + w[1] * c[0].0 + w[2] * c[1].0 + w[3] * b.0;
-    let y = w[0] * a.1 + w[1] * c[0].1 + w[2] * c[1].1 + w[3] * b.1;
-    (x, y)
+    let at = |p: [f64; 4]| w[0] * p[0] + w[1] * p[1] + w[2] * p[2] + w[3] * p[3];
+    (at([a.0, c[0].0, c[1].0, b.0]), at([a.1, c[0].1, c[1].1, b.1]))
 }
 
 fn distance(p: (f64, f64), q: (f64, f64)) -> f64 {

@@ -8,25 +8,17 @@ use crate::experiments::segments::Segment;
 const MASSES: [(Colour, Dash); 3] =
     [(BLUE, Dash::Solid), (GREEN, Dash::Long), (ORANGE, Dash::Alternate)];
 
-/// What differs between the two figures.
-pub struct Circuit {
-    /// Number of the figure.
-    pub figure: u8,
-    /// Title.
-    pub title: &'static str,
-    /// Gaps in the order of their impacts.
-    pub order: &'static [usize],
-    /// What kind of circuit it is.
-    pub kind: &'static str,
-}
-
-/// Draws one of the two figures.
-pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
+/// Draws one of the two figures; `order` are the gaps in the order of their impacts.
+pub fn draw(
+    (id, title, kind): (&str, &str, &str),
+    order: &[usize],
+    segment: &Segment,
+) -> Result<Figure, Error> {
     let sheet = Sheet::new(9250);
     let layout = Layout::rectangle((2700, 1150), (5700, 3400), 400, 2000.0);
-    layout.edges(&sheet, Stroke::solid(PALE, HAIR))?;
-    layout.circuit(&sheet, circuit.order, RED)?;
-    layout.vertices(&sheet, circuit.order)?;
+    layout.edges(&sheet, Stroke::solid(PALE, HAIR));
+    layout.circuit(&sheet, order, RED)?;
+    layout.vertices(&sheet, order)?;
     let look = (TEXT, INK, HPos::Left, VPos::Bottom);
     sheet.text(LETTERS[0], (260, 350), look)?;
 
@@ -42,16 +34,15 @@ pub fn draw(circuit: &Circuit, segment: &Segment) -> Result<Figure, Error> {
     let look = (TINY, GREY, HPos::Right, VPos::Bottom);
     sheet.text(foot, (WIDTH as i32 - 400, 4690), look)?;
 
-    let names: Vec<&str> = circuit.order.iter().map(|&gap| NAMES[gap]).collect();
+    let names: Vec<&str> = order.iter().map(|&gap| NAMES[gap]).collect();
     let description = seen!(
-        "(a) The graph of three masses with a {} circuit in red: {}. (b) Positions of the three masses against time, \
+        "(a) The graph of three masses with a {kind} circuit in red: {}. (b) Positions of the three masses against time, \
          over {} time units of a simulated motion, a segment and not a periodic orbit; each impact has the name of its \
          vertex.",
-        circuit.kind,
         names.join(", "),
         short(duration, 3),
     );
-    Ok(sheet.finish(&format!("fig{:02}", circuit.figure), circuit.title, description))
+    Ok(sheet.finish(id, title, description))
 }
 
 fn time_axis(duration: f64) -> Axis {
@@ -66,12 +57,10 @@ fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
     let (from, d) = (segment.from, segment.spacing);
     let walls = (segment.masses + 1) as f64;
     for j in 1..=segment.masses {
-        let rest = Stroke::solid(PALE, HAIR);
-        panel.level("equilibrium", j as f64, rest)?;
+        panel.level("equilibrium", j as f64, Stroke::solid(PALE, HAIR))?;
     }
-    for wall in [0.0, walls] {
-        panel.level("wall", wall, Stroke::solid(INK, LINE))?;
-    }
+    panel.level("wall", 0.0, Stroke::solid(INK, LINE))?;
+    panel.level("wall", walls, Stroke::solid(INK, LINE))?;
     let paths: Vec<Vec<(f64, f64)>> = segment
         .positions
         .iter()
