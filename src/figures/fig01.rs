@@ -8,28 +8,21 @@ const FLOOR: i32 = 2280;
 const HEIGHT: i32 = 1060;
 const RADIUS: i32 = 235;
 
-/// A mass as drawn: its place in units of the spacing on the sheet, its name, its place in the
-/// row, and how far it is bent from its equilibrium.
-struct Mass {
-    slot: i32,
-    name: &'static str,
-    place: &'static str,
-    bend: i32,
-}
-
-const MASSES: [Mass; 4] = [
-    Mass { slot: 1, name: "1", place: "*d*", bend: -300 },
-    Mass { slot: 2, name: "2", place: "2*d*", bend: 230 },
-    Mass { slot: 4, name: "*n*−1", place: "(*n*−1)*d*", bend: 190 },
-    Mass { slot: 5, name: "*n*", place: "*nd*", bend: -250 },
+/// The masses as drawn: the place on the sheet in units of the spacing, the name, the place in the row, and how far the
+/// mass is bent from its equilibrium.
+const MASSES: [(i32, &str, &str, i32); 4] = [
+    (1, "1", "*d*", -300),
+    (2, "2", "2*d*", 230),
+    (4, "*n*−1", "(*n*−1)*d*", 190),
+    (5, "*n*", "*nd*", -250),
 ];
 
 pub fn draw() -> Result<Figure, Error> {
     let sheet = Sheet::new(3280);
     let right = LEFT + 6 * SPACING;
     walls(&sheet, right);
-    for mass in &MASSES {
-        draw_mass(&sheet, mass)?;
+    for (slot, name, _, bend) in MASSES {
+        draw_mass(&sheet, LEFT + slot * SPACING, name, bend)?;
     }
     let middle = LEFT + 3 * SPACING + 300;
     for dx in [-170, 0, 170] {
@@ -57,28 +50,27 @@ fn walls(sheet: &Sheet, right: i32) {
     sheet.free().line(vec![(LEFT - thick, FLOOR), (right + thick, FLOOR)], Stroke::solid(INK, 24));
 }
 
-fn draw_mass(sheet: &Sheet, mass: &Mass) -> Result<(), Error> {
-    let root = LEFT + mass.slot * SPACING;
+fn draw_mass(sheet: &Sheet, root: i32, name: &str, bend: i32) -> Result<(), Error> {
     let rest = Stroke::dashed(GREY, HAIR, Dash::Short);
     sheet.free().line(vec![(root, 740), (root, FLOOR)], rest);
     // A clamped stem with a load at its end: s²(3 − s)/2.
     let stem: Vec<_> = (0..=40)
         .map(|i| {
             let s = f64::from(i) / 40.0;
-            let bend = s * s * (3.0 - s) / 2.0 * f64::from(mass.bend);
-            (root + bend.round() as i32, FLOOR - (s * f64::from(FLOOR - HEIGHT)).round() as i32)
+            let aside = s * s * (3.0 - s) / 2.0 * f64::from(bend);
+            (root + aside.round() as i32, FLOOR - (s * f64::from(FLOOR - HEIGHT)).round() as i32)
         })
         .collect();
     sheet.free().line(stem, Stroke::solid(INK, 50));
-    let centre = (root + mass.bend, HEIGHT);
+    let centre = (root + bend, HEIGHT);
     sheet.free().disc(centre, RADIUS, WHITE, Stroke::solid(INK, 36));
-    let size = if mass.name.len() > 3 { TINY } else { SMALL };
-    sheet.text(mass.name, centre, (size, INK, HPos::Center, VPos::Center))
+    let size = if name.len() > 3 { TINY } else { SMALL };
+    sheet.text(name, centre, (size, INK, HPos::Center, VPos::Center))
 }
 
 fn floor_labels(sheet: &Sheet, right: i32) -> Result<(), Error> {
     let y = FLOOR + 240;
-    let places = MASSES.iter().map(|m| (LEFT + m.slot * SPACING, m.place));
+    let places = MASSES.map(|(slot, _, place, _)| (LEFT + slot * SPACING, place));
     for (x, place) in [(LEFT, "0"), (right, "(*n*+1)*d*")].into_iter().chain(places) {
         sheet.free().line(vec![(x, FLOOR), (x, FLOOR + 130)], Stroke::solid(INK, HAIR));
         sheet.text(place, (x, y), (TEXT, INK, HPos::Center, VPos::Top))?;
@@ -93,7 +85,7 @@ fn double_arrow(sheet: &Sheet, a: (i32, i32), b: (i32, i32)) {
 
 fn distances(sheet: &Sheet) -> Result<(), Error> {
     let (one, two) = (LEFT + SPACING, LEFT + 2 * SPACING);
-    let (x1, x2) = (one + MASSES[0].bend, two + MASSES[1].bend);
+    let (x1, x2) = (one + MASSES[0].3, two + MASSES[1].3);
     let label = |text, at, v| sheet.text(text, at, (TEXT, INK, HPos::Center, v));
     // The spacing, between the equilibria 1 and 2.
     let y = FLOOR + 760;

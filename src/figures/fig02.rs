@@ -1,9 +1,7 @@
 //! Fig. 2: the most likely number of impacts against σ, simulated.
 
 use super::prelude::*;
-use super::simulated::{
-    CROSSES, HEIGHTS, MAIN, count_axis, crosses, last_sigma, printed, rise, sigma_axis,
-};
+use super::simulated::*;
 use crate::experiments::rise::Counted;
 
 pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
@@ -23,7 +21,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
         sweep.comparable().filter_map(|row| Some((row.sigma, row.mode? as f64))).collect();
     panel.record("mode", bars.iter().copied());
     panel.quiet().bars("interval of the mode", &bars, 40, bar, Outside::Refuse)?;
-    crosses(&panel, "mode", &modes)?;
+    panel.marks("mode", &modes, CROSSES, Outside::Refuse)?;
     let near = rise(&sheet, 0.075, count_axis(n, "impacts"))?;
     let (low, high) = (near.x.lo, near.x.hi);
     let shown: Vec<_> = bars.into_iter().filter(|bar| bar.0 >= low && bar.0 <= high).collect();

@@ -1,8 +1,8 @@
 //! Fig. 3: the expected number of impacts against σ, simulated, and how many runs it rests on.
 
 use super::prelude::*;
-use super::simulated::{CROSS, CROSSES, count_axis, crosses, last_sigma, means, sigma_axis};
-use crate::experiments::rise::{Counted, RisePoint};
+use super::simulated::*;
+use crate::experiments::rise::Counted;
 
 pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let sheet = Sheet::new(7450);
@@ -21,30 +21,23 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
         .collect();
     panel.record("mean of the kept", bars.iter().copied());
     panel.quiet().bars("interval of the mean", &bars, 40, CROSS, Outside::Refuse)?;
-    crosses(&panel, "mean of the kept", &kept)?;
+    panel.marks("mean of the kept", &kept, CROSSES, Outside::Refuse)?;
     if let Some(half) = sweep.first().rise.half_height {
         let level = n as f64 / 2.0;
         let guide = Stroke::dashed(INK, HAIR, Dash::Dotted);
-        let corner = [(half.value, level), (half.value, 0.0)];
-        panel.guide("half height", &corner, guide)?;
+        panel.guide("half height", &[(half.value, level), (half.value, 0.0)], guide)?;
         let text = format!("half height: *σ* = {}", short(half.value, 4));
         let look = (TINY, INK, HPos::Left, VPos::Center);
         panel.note(&text, (half.value, 0.12 * level), (130, 0), look)?;
     }
-    sheet.legend(
-        (4400, 2700),
-        (SMALL, 400),
-        (9, 0),
-        &[
-            Entry::mark(CROSSES, "mean of the kept (95 % interval)"),
-            Entry::line(broken, "mean of all"),
-        ],
-    )?;
+    let kept = Entry::mark(CROSSES, "mean of the kept (95 % interval)");
+    let entries = [kept, Entry::line(broken, "mean of all")];
+    sheet.legend((4400, 2700), (SMALL, 400), (9, 0), &entries)?;
 
     let (x, y) = (sigma_axis(end), Axis::linear(0.0, 1.0, 0.5, 2, "kept share"));
     let share = sheet.lettered(LETTERS[1], Frame::new(1200, 5100, 8150, 6550), x, y)?;
-    let fraction: Vec<_> =
-        sweep.comparable().filter_map(|row| Some((row.sigma, kept_fraction(row)?))).collect();
+    let ran = sweep.comparable().filter(|row| row.ran > 0);
+    let fraction: Vec<_> = ran.map(|row| (row.sigma, row.kept as f64 / row.ran as f64)).collect();
     let line = Stroke::solid(GREY, THIN);
     let dot = (Mark::Disc, 38, Stroke::solid(INK, HAIR));
     share.marked("kept fraction", &fraction, (line, dot), Outside::Refuse)?;
@@ -62,8 +55,4 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
         fraction.last().map_or("1".into(), |f| short(f.1, 3)),
     );
     Ok(sheet.finish("fig03", "Expected number of impacts", description))
-}
-
-fn kept_fraction(row: &RisePoint) -> Option<f64> {
-    (row.ran > 0).then(|| row.kept as f64 / row.ran as f64)
 }

@@ -23,14 +23,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
     let (main, rest) = (Stroke::solid(BLUE, LINE), Stroke::dashed(GREY, LINE, Dash::Short));
     // Both vanish with σ.
-    let from_zero = |mut points: Vec<(f64, f64)>| {
-        if points.first().is_some_and(|p| p.0 > 0.0) {
-            points.insert(0, (0.0, 0.0));
-        }
-        points
-    };
-    linear.curve("p for a start from rest", &from_zero(p_rest.clone()), rest, Outside::Refuse)?;
-    linear.curve("p of Eq. (25)", &from_zero(p.clone()), main, Outside::Refuse)?;
+    let from_zero = |points: &[(f64, f64)]| [&[(0.0, 0.0)], points].concat();
+    linear.curve("p for a start from rest", &from_zero(&p_rest), rest, Outside::Refuse)?;
+    linear.curve("p of Eq. (25)", &from_zero(&p), main, Outside::Refuse)?;
     decades.curve("p for a start from rest", &p_rest, rest, Outside::Cut)?;
     decades.curve("p of Eq. (25)", &p, main, Outside::Cut)?;
     sheet.legend(
@@ -44,30 +39,24 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let jump = results.number("theory.relation.sigma_jump")?;
     let jump_rest = results.number("theory.relation.sigma_jump_rest")?;
     let guide = Stroke::dashed(INK, HAIR, Dash::Dotted);
-    let corner = [(0.0, level), (jump, level), (jump, bottom)];
-    decades.guide("jump of k*", &corner, guide)?;
+    decades.guide("jump of k*", &[(0.0, level), (jump, level), (jump, bottom)], guide)?;
     let rest = [(jump_rest, level), (jump_rest, bottom)];
     decades.guide("jump of k* from rest", &rest, guide)?;
     let told = format!("*k*^{{∗}} jumps at *p* = {}", short(level, 4));
     let look = |side, v| (SMALL, INK, side, v);
-    let above = (jump, level);
-    decades.note(&told, above, (110, 260), look(HPos::Left, VPos::Top))?;
+    decades.note(&told, (jump, level), (110, 260), look(HPos::Left, VPos::Top))?;
     for (sigma, side, dx) in [(jump, HPos::Left, 70), (jump_rest, HPos::Right, -70)] {
         decades.note(&number(sigma, 4), (sigma, bottom), (dx, -110), look(side, VPos::Bottom))?;
     }
 
+    let above = p_rest.iter().zip(&p).rfind(|(rest, p)| rest.1 > p.1);
     let description = seen!(
         "Probability p that two neighbours meet against σ, on (a) a linear and (b) a logarithmic axis: it stays at zero and then \
          rises steeply, and passes {}, where k* jumps, at σ = {}. A broken curve for a start from rest lies above it \
          up to σ = {}.",
         short(level, 4),
         short(jump, 4),
-        p_rest
-            .iter()
-            .zip(&p)
-            .rev()
-            .find(|(rest, p)| rest.1 > p.1)
-            .map_or("0".into(), |(rest, _)| short(rest.0, 2)),
+        above.map_or("0".into(), |(rest, _)| short(rest.0, 2)),
     );
     Ok(sheet.finish("fig11", "Impact probability against forcing", description))
 }

@@ -1,10 +1,7 @@
 //! Fig. 12: the expected number of impacts, graph theory against simulation.
 
 use super::prelude::*;
-use super::simulated::{
-    CROSSES, HEIGHTS, MAIN, PRINTED, at, count_axis, crosses, curve, last_sigma, means, printed,
-    rise, sigma_axis,
-};
+use super::simulated::*;
 use crate::experiments::{Results, sweep};
 use crate::params::VERTICES;
 
@@ -20,7 +17,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let simple = curve(theory, end, "simple");
     panel.curve("theory", &simple, main, Outside::Refuse)?;
     let simulated = means(sweep);
-    crosses(&panel, "simulation", &simulated)?;
+    panel.marks("simulation", &simulated, CROSSES, Outside::Refuse)?;
     let (big_n, big_n_walls) = (VERTICES, VERTICES + 1);
     let near = rise(&sheet, 0.08, count_axis(n, "impacts"))?;
     printed(&near)?;
@@ -31,21 +28,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let theory = results.number("theory.relation.sigma_half")?;
         lag(&sheet, &near, [half.value, theory], n as f64 / 2.0)?;
     }
-    sheet.legend(
-        (1200, HEIGHTS.1),
-        (SMALL, 380),
-        (9, 0),
-        &[Entry::mark(CROSSES, "simulation, mean of the kept")],
-    )?;
-    sheet.legend(
-        (5100, HEIGHTS.1),
-        (SMALL, 380),
-        (9, 0),
-        &[
-            Entry::line(main, &format!("graph theory, *N* = {big_n}")),
-            Entry::line(thin, &format!("graph theory, *N* = {big_n_walls}")),
-        ],
-    )?;
+    let entry = [Entry::mark(CROSSES, "simulation, mean of the kept")];
+    sheet.legend((1200, HEIGHTS.1), (SMALL, 380), (9, 0), &entry)?;
+    let entry = |stroke, n| Entry::line(stroke, &format!("graph theory, *N* = {n}"));
+    let entries = [entry(main, big_n), entry(thin, big_n_walls)];
+    sheet.legend((5100, HEIGHTS.1), (SMALL, 380), (9, 0), &entries)?;
 
     let description = seen!(
         "Expected number of impacts against σ: crosses for the simulation, {} at σ = {PRINTED}; a line for the graph theory with N = \

@@ -1,10 +1,7 @@
 //! Fig. 15: as Fig. 12, with higher-order circuits.
 
 use super::prelude::*;
-use super::simulated::{
-    CROSSES, HEIGHTS, MAIN, PRINTED, at, count_axis, crosses, curve, last_sigma, means, rise,
-    sigma_axis,
-};
+use super::simulated::*;
 use crate::experiments::{Results, sweep};
 use crate::params::VERTICES;
 
@@ -21,7 +18,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let higher = curve(theory, end, "higher");
     panel.curve("theory, five classes", &higher, blue, Outside::Refuse)?;
     let simulated = means(sweep);
-    crosses(&panel, "simulation", &simulated)?;
+    panel.marks("simulation", &simulated, CROSSES, Outside::Refuse)?;
     // What the orders change, since the two lines nearly coincide.
     let change: Vec<_> =
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();

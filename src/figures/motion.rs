@@ -111,28 +111,8 @@ fn apart(heights: &[i32], least: i32) -> Vec<i32> {
 }
 
 /// Where a name may stand beside its impact, the best places first: offset of its middle.
-const PLACES: [(i32, i32); 20] = [
-    (0, -200),
-    (0, 200),
-    (330, 0),
-    (-330, 0),
-    (290, -170),
-    (-290, -170),
-    (290, 170),
-    (-290, 170),
-    (0, -330),
-    (0, 330),
-    (300, -300),
-    (-300, 300),
-    (420, 75),
-    (-420, 75),
-    (420, -75),
-    (-420, -75),
-    (0, -430),
-    (0, 430),
-    (0, -540),
-    (0, 540),
-];
+const PLACES: [(i32, i32); 7] =
+    [(0, -200), (0, 200), (290, 170), (0, -330), (420, 75), (420, -75), (0, -430)];
 
 /// Names the impacts, each at the first place where no path, no equilibrium and no other name is in its way.
 fn name_impacts(

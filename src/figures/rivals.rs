@@ -4,7 +4,9 @@ use super::prelude::*;
 use crate::experiments::Measured;
 use crate::experiments::accuracy::tables::name;
 use crate::experiments::measured::{Measurement, What};
-use crate::params::{MethodName, Setting};
+use crate::params::MethodName;
+
+const INK_LINE: Stroke = Stroke::solid(INK, THIN);
 
 /// The look of a method; its line joins the settings of the method.
 pub fn look(method: MethodName) -> Marker {
@@ -27,14 +29,13 @@ pub fn entries(methods: impl Fn(MethodName) -> bool) -> Vec<Entry> {
 }
 
 /// Points of each method that has some, in the order of [`MethodName::ALL`].
-pub fn by_method<T>(
+pub fn by_method<T, P>(
     rows: &[T],
-    setting: impl Fn(&T) -> Setting,
-    point: impl Fn(&T) -> Option<(f64, f64)>,
-) -> Vec<(MethodName, Vec<(f64, f64)>)> {
+    point: impl Fn(&T) -> Option<(MethodName, P)>,
+) -> Vec<(MethodName, Vec<P>)> {
     let of = |method: MethodName| {
-        let own = rows.iter().filter(|row| setting(row).method == method);
-        (method, own.filter_map(&point).collect::<Vec<_>>())
+        let own = rows.iter().filter_map(&point).filter(|own| own.0 == method);
+        (method, own.map(|own| own.1).collect::<Vec<_>>())
     };
     MethodName::ALL.into_iter().map(of).filter(|(_, points)| !points.is_empty()).collect()
 }
@@ -42,11 +43,9 @@ pub fn by_method<T>(
 /// A program that was timed, and held against the truth on one chain.
 #[derive(Clone, Debug)]
 pub struct Timed {
-    /// Name of the program.
     pub name: String,
     /// The method of this project, if it is one.
     pub method: Option<MethodName>,
-    /// Number of masses.
     pub masses: u64,
     /// Measured time of an impact.
     pub microseconds: f64,
@@ -76,13 +75,9 @@ pub fn timed(measured: &Measured) -> Vec<Timed> {
 
 /// The most accurate setting of each program at each number of masses; of several, the fastest.
 pub fn most_accurate(programs: &[Timed]) -> Vec<&Timed> {
-    let better = |a: &Timed, b: &Timed| {
-        let alike = a.name == b.name && a.masses == b.masses;
-        let quality = |t: &Timed| t.horizon.unwrap_or(0.0);
-        let ahead =
-            quality(a) > quality(b) || quality(a) == quality(b) && a.microseconds < b.microseconds;
-        alike && ahead
-    };
+    let quality = |t: &Timed| (t.horizon.unwrap_or(0.0), -t.microseconds);
+    let alike = |a: &Timed, b: &Timed| a.name == b.name && a.masses == b.masses;
+    let better = |a: &Timed, b: &Timed| alike(a, b) && quality(a) > quality(b);
     programs.iter().filter(|b| !programs.iter().any(|a| better(a, b))).collect()
 }
 
@@ -100,21 +95,11 @@ pub fn others(programs: &[Timed]) -> Vec<(&str, Marker)> {
         programs.iter().filter(|p| p.method.is_none()).map(|p| p.name.as_str()).collect();
     names.sort_unstable();
     names.dedup();
-    let look = |i: usize| (MARKS[i % MARKS.len()], LARGE, Stroke::solid(INK, THIN));
-    names.into_iter().enumerate().map(|(i, name)| (name, look(i))).collect()
+    names.into_iter().zip(MARKS.into_iter().cycle().map(|mark| (mark, LARGE, INK_LINE))).collect()
 }
 
 /// The look of a program: of its method, or that of the others.
 pub fn look_of(program: &Timed, others: &[(&str, Marker)]) -> Marker {
     let other = || others.iter().find(|(name, _)| *name == program.name).map(|(_, look)| *look);
-    program.method.map(look).or_else(other).unwrap_or((
-        Mark::Square,
-        LARGE,
-        Stroke::solid(INK, THIN),
-    ))
-}
-
-/// Legend entries of the other programs.
-pub fn entries_of_others(others: &[(&str, Marker)]) -> Vec<Entry> {
-    others.iter().map(|(name, look)| Entry::mark(*look, name)).collect()
+    program.method.map(look).or_else(other).unwrap_or((Mark::Square, LARGE, INK_LINE))
 }

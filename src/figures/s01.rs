@@ -7,15 +7,12 @@ use crate::experiments::spacetime::SpaceTime;
 const DETAIL: f64 = 400.0;
 
 /// A gap at which impacts start.
-const START: (Mark, i32, Stroke) = (Mark::Disc, 62, Stroke::solid(WHITE, HAIR));
+const START: Marker = (Mark::Disc, 62, Stroke::solid(RED, HAIR));
 
 pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let sheet = Sheet::new(9750);
     let until = run.parameters.until;
-    let gaps = || {
-        let last = (run.width() - 1) as f64;
-        Axis::linear(-1.0, last + 1.0, 20.0, 2, "gap")
-    };
+    let gaps = || Axis::linear(-1.0, run.width() as f64, 20.0, 2, "gap");
     let time = |from: f64, to: f64, step: f64| Axis::linear(from, to, step, 2, "time *t* (1/*ω*)");
 
     // Thousandths are finer than the picture, and a file of all digits would be twice as long.
@@ -27,26 +24,18 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     whole.record("impacts", impacts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     starts(&whole, run, until)?;
 
-    let (from, to) = detail(run);
+    // From a round time before the first impact on.
+    let from = (run.times.first().unwrap_or(&0.0) / 10.0).floor() * 10.0;
+    let to = from + DETAIL;
     let near = Frame::new(1200, 5250, 8150, 8550);
     let near = sheet.lettered(LETTERS[1], near, time(from, to, DETAIL / 4.0), gaps())?.quiet();
     near.ticks("first impacts", &points(run, from, to), 14, Stroke::solid(INK, 30))?;
     starts(&near, run, to)?;
 
-    let tick = Entry::mark((Mark::Square, 16, INK_LINE), "impact");
-    let disc = Entry::mark((START.0, START.1, RED_DISC), "gap that closes by itself");
+    let tick = Entry::mark((Mark::Square, 16, Stroke::solid(INK, HAIR)), "impact");
+    let disc = Entry::mark(START, "gap that closes by itself");
     sheet.legend((1500, 9500), (SMALL, 370), (1, 2400), &[tick, disc])?;
     Ok(sheet.finish("s01", "One long run", description(run)))
-}
-
-const INK_LINE: Stroke = Stroke::solid(INK, HAIR);
-const RED_DISC: Stroke = Stroke::solid(RED, HAIR);
-
-/// Where the second panel begins and ends: a round time before the first impact.
-fn detail(run: &SpaceTime) -> (f64, f64) {
-    let first = run.times.first().copied().unwrap_or(0.0);
-    let from = (first / 10.0).floor() * 10.0;
-    (from, from + DETAIL)
 }
 
 fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {
@@ -59,10 +48,10 @@ fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
     let firsts = run.firsts();
     let own = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
     let own: Vec<_> = own.filter(|(time, _)| *time <= until).collect();
-    let (mark, half, _) = START;
     // A white rim lifts the disc off the ticks.
-    panel.quiet().marks("rims", &own, (Mark::Disc, half + 22, START.2), Outside::Refuse)?;
-    panel.quiet().marks("starts", &own, (mark, half, RED_DISC), Outside::Refuse)?;
+    let rim = (Mark::Disc, START.1 + 22, Stroke::solid(WHITE, HAIR));
+    panel.quiet().marks("rims", &own, rim, Outside::Refuse)?;
+    panel.quiet().marks("starts", &own, START, Outside::Refuse)?;
     panel.record("starts", own.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     Ok(())
 }

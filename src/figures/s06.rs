@@ -28,27 +28,24 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     let misses = Frame::new(1300, 4650, 8150, 7250);
     let misses = sheet.lettered(LETTERS[1], misses, cost_axis(), axis)?;
 
-    let spread = |e: &Entry| Some((e.work?, e.errors?[1]));
-    let middle = |e: &Entry| Some((e.work?, e.errors?[0]));
+    let spread = |e: &Entry| Some((e.setting.method, (e.work?, e.errors?[0], e.errors?[1])));
     let missed = |e: &Entry| {
         let share = e.misses as f64 / e.tried.max(1) as f64;
-        Some((e.work?, share))
+        Some((e.setting.method, (e.work?, share)))
     };
-    let medians = by_method(&race.entries, |e| e.setting, middle);
-    for ((method, points), (_, ends)) in
-        medians.iter().zip(by_method(&race.entries, |e| e.setting, spread))
-    {
+    let spreads = by_method(&race.entries, spread);
+    for (method, bars) in &spreads {
         let look = look(*method);
-        let bars: Vec<_> = points.iter().zip(&ends).map(|(a, b)| (a.0, a.1, b.1)).collect();
+        let points: Vec<_> = bars.iter().map(|bar| (bar.0, bar.1)).collect();
         let thin = Stroke::solid(look.2.colour, HAIR);
-        errors.bars(name(*method), &bars, 0, thin, Outside::Edge)?;
-        errors.marked(name(*method), points, (look.2, look), Outside::Edge)?;
+        errors.bars(name(*method), bars, 0, thin, Outside::Edge)?;
+        errors.marked(name(*method), &points, (look.2, look), Outside::Edge)?;
     }
-    for (method, points) in by_method(&race.entries, |e| e.setting, missed) {
+    for (method, points) in by_method(&race.entries, missed) {
         let look = look(method);
         misses.marked(name(method), &points, (look.2, look), Outside::Edge)?;
     }
-    let entries = entries(|method| medians.iter().any(|(m, _)| *m == method));
+    let entries = entries(|method| spreads.iter().any(|(m, _)| *m == method));
     sheet.legend((700, 8450), (SMALL, 370), (3, 2650), &entries)?;
     Ok(sheet.finish("s06", "Error and misses of the next impact", description(race)))
 }

@@ -1,9 +1,9 @@
 //! Fig. S7: how long a run is true, against its work, its error and its time.
 
 use super::prelude::*;
-use super::rivals::{Timed, by_method, entries, entries_of_others, look, look_of, others, timed};
+use super::rivals::{Timed, by_method, entries, look, look_of, others, timed};
 use crate::experiments::Measured;
-use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
+use crate::experiments::accuracy::race::{DISPLACED, Race};
 use crate::experiments::accuracy::tables::name;
 use crate::params::MethodName;
 
@@ -28,9 +28,6 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let y = horizon(top, "horizon *t* (1/*ω*)");
     let by_error = sheet.lettered(LETTERS[1], Frame::new(1100, 4900, 4300, 7350), x, y)?;
 
-    let points = |place: &dyn Fn(&Entry) -> Option<f64>| {
-        by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon()?.value)))
-    };
     chaos(&by_error, race)?;
     let ceiling = allowed(race, ROUNDING);
     if let Some([_, ceiling, _]) = ceiling.filter(|c| c[1] < top) {
@@ -39,28 +36,25 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         let look = (TINY, INK, HPos::Right, VPos::Bottom);
         by_cost.note("what chaos allows to doubles", (by_cost.x.hi, ceiling), (0, -70), look)?;
     }
-    let by_work = |e: &Entry| e.work;
-    let by_median = |e: &Entry| e.errors.map(|errors| errors[0]);
-    for (panel, place) in
-        [(&by_cost, &by_work as &dyn Fn(&Entry) -> Option<f64>), (&by_error, &by_median)]
-    {
-        let bars =
-            by_method(&race.entries, |e| e.setting, |e| Some((place(e)?, e.horizon()?.error)));
-        for ((method, points), (_, errors)) in points(place).iter().zip(bars) {
+    let by_work = by_method(&race.entries, |e| Some((e.setting.method, (e.work?, e.horizon()?))));
+    let by_median =
+        by_method(&race.entries, |e| Some((e.setting.method, (e.errors?[0], e.horizon()?))));
+    for (panel, methods) in [(&by_cost, &by_work), (&by_error, &by_median)] {
+        for (method, found) in methods {
             let look = look(*method);
-            let bars: Vec<_> =
-                points.iter().zip(errors).map(|(p, e)| (p.0, p.1 - e.1, p.1 + e.1)).collect();
+            let points: Vec<_> = found.iter().map(|(x, time)| (*x, time.value)).collect();
+            let bars = found.iter().map(|(x, t)| (*x, t.value - t.error, t.value + t.error));
+            let bars: Vec<_> = bars.collect();
             panel.bars(name(*method), &bars, 0, look.2, Outside::Edge)?;
             if std::ptr::eq(panel, &by_cost) {
-                panel.curve(name(*method), points, look.2, Outside::Refuse)?;
+                panel.curve(name(*method), &points, look.2, Outside::Refuse)?;
             }
-            panel.marks(name(*method), points, look, Outside::Edge)?;
+            panel.marks(name(*method), &points, look, Outside::Edge)?;
         }
     }
-    let present = points(&by_work);
     let programs = timed(measured);
-    let mut legend = entries(|method| present.iter().any(|(m, _)| *m == method));
-    legend.extend(entries_of_others(&others(&programs)));
+    let mut legend = entries(|method| by_work.iter().any(|(m, _)| *m == method));
+    legend.extend(others(&programs).into_iter().map(|(name, look)| Entry::mark(look, name)));
     sheet.legend((350, 8600), (SMALL, 370), (4, 2800), &legend)?;
     clock(&sheet, measured, race.parameters.growth.chain.masses, top)?;
     Ok(sheet.finish("s07", "How long a run is true", description(race)))

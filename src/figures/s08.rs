@@ -21,7 +21,7 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     let work = scale.iter().map(|row| row.2);
     let (x, y) = (masses().bare(), Axis::around(work, 1, "evaluations per impact"));
     let counted = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 2730), x, y)?;
-    let all = by_method(scale, |row| row.0, |row| Some((row.1 as f64, row.2)));
+    let all = by_method(scale, |row| Some((row.0.method, (row.1 as f64, row.2))));
     for (method, points) in &all {
         let look = look(*method);
         counted.marked(name(*method), points, (look.2, look), Outside::Refuse)?;

@@ -56,11 +56,6 @@ pub fn means(sweep: &Counted) -> Vec<(f64, f64)> {
     sweep.comparable().filter_map(|row| Some((row.sigma, row.mean?.value))).collect()
 }
 
-/// Red crosses.
-pub fn crosses(panel: &Panel, name: &str, points: &[(f64, f64)]) -> Result<(), Error> {
-    panel.marks(name, points, CROSSES, Outside::Refuse)
-}
-
 /// A theory curve up to `end`.
 pub fn curve(table: &Table, end: f64, column: &str) -> Vec<(f64, f64)> {
     let mut points = table.points(&[], "sigma", column);
