@@ -101,20 +101,10 @@ pub struct Judge {
     pub reads: Option<&'static str>,
     /// Whether it compares random numbers within their standard errors.
     pub statistical: bool,
+    /// What its note says, where that does not depend on results.
+    note: &'static str,
     /// Computes the check.
-    find: Find,
-}
-
-enum Find {
-    /// Whole cases that must all agree, with a note.
-    Cases(&'static str),
-    /// A difference that rounding must explain, with its bound and a note.
-    Difference(f64, &'static str),
-    By(fn(&Evidence, &Statement) -> Judged),
-}
-
-const fn new(id: &'static str, basis: Basis, find: Find) -> Judge {
-    Judge { id, basis, reads: None, statistical: false, find }
+    find: fn(&Evidence, &Statement) -> Judged,
 }
 
 /// A statement that is judged by this function; its tolerance has no room for standard errors.
@@ -123,7 +113,7 @@ pub const fn by(
     basis: Basis,
     find: fn(&Evidence, &Statement) -> Judged,
 ) -> Judge {
-    new(id, basis, Find::By(find))
+    Judge { id, basis, reads: None, statistical: false, note: "", find }
 }
 
 /// A statement whose tolerance has room for standard errors.
@@ -137,12 +127,16 @@ pub const fn statistical(
 
 /// A statement about the theory that whole cases decide.
 pub const fn cases(id: &'static str, note: &'static str) -> Judge {
-    new(id, Exact, Find::Cases(note))
+    let find = |e: &Evidence, s: &Statement| {
+        let [all, failed] = e.cases(s)?;
+        Ok(s.all_cases(all, failed))
+    };
+    Judge { note, ..by(id, Exact, find) }
 }
 
-/// A statement about the theory that is an equality of real numbers.
-pub const fn difference(id: &'static str, allowed: f64, note: &'static str) -> Judge {
-    new(id, Rounding, Find::Difference(allowed, note))
+/// A statement about the theory that is an equality of real numbers, to 1e−13.
+pub const fn difference(id: &'static str, note: &'static str) -> Judge {
+    Judge { note, ..by(id, Rounding, |e, s| Ok(s.rounding(e.difference(s)?, 1e-13))) }
 }
 
 impl Judge {
@@ -163,15 +157,9 @@ impl Judge {
         if let Some(reads) = reads.filter(|reads| *reads != s.printed) {
             return Err(e.published.unread(self.id, &reads).into());
         }
-        let found = match self.find {
-            Find::Cases(note) => {
-                e.cases(s).map(|[all, failed]| s.all_cases(all, failed).note(note))
-            }
-            Find::Difference(allowed, note) => {
-                e.difference(s).map(|largest| s.rounding(largest, allowed).note(note))
-            }
-            Find::By(find) => find(e, s),
-        };
+        let found = (self.find)(e, s);
+        let found =
+            found.map(|found| if self.note.is_empty() { found } else { found.note(self.note) });
         let check = s.decided(found)?;
         // What reads as a number is the number that is judged.
         let other =

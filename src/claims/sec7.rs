@@ -4,11 +4,11 @@ use super::judge::*;
 
 pub const ROWS: &[Judge] = &[
     cases("sec7_eq11", "Every k at ten values of p.").of("Φ(k + 1) − Φ(k) ∝ f(k)"),
-    difference("sec7_eq13", 1e-13, "f at its zeros, over its largest term.").of("k±"),
-    difference("sec7_eq14_15", 1e-13, "At ten values of p.").of("−1 and −(N + 1)"),
+    difference("sec7_eq13", "f at its zeros, over its largest term.").of("k±"),
+    difference("sec7_eq14_15", "At ten values of p.").of("−1 and −(N + 1)"),
     cases("sec7_eq16_17", "Sign and slope at every k.").of("−(k + 1) < 0; k (N − k) > 0"),
     by("sec7_start", Exact, start),
-    difference("sec7_maximum", 1e-13, "f is even about that place.").of("(Np − 1)/2p"),
+    difference("sec7_maximum", "f is even about that place.").of("(Np − 1)/2p"),
     by("sec7_p_crit", Rounding, p_crit).of("((1 + √(N + 1))/N)²"),
     cases("sec7_other_root", "Every N up to the number of cases.").of("k < 0"),
     by("sec7_inflexion", Rounding, inflexion),

@@ -9,10 +9,9 @@ use impact_paper::experiments::Progress;
 use impact_paper::experiments::ensembles::CUTTING;
 use impact_paper::params::SEED;
 use literate::Failure;
-use literate::cli::terminal::{Threads, fits, progress, warn, written};
+use literate::cli::terminal::{Threads, fits, print, progress, warn};
 use literate::experiments::cutting::Cutting;
 use serde::Serialize;
-use std::io::{self, Write};
 
 /// Run an ensemble of random chains at each σ and print a row for each σ
 ///
@@ -120,8 +119,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     let progress = progress();
     let rows = args.threads.run(|| rows(ensemble, &progress))?;
-    let out = io::BufWriter::new(io::stdout().lock());
-    written(if args.format == "json" { json(&rows, out) } else { csv(&rows, out) })
+    print(&table(&rows, args.format == "json")?)
 }
 
 /// Runs all σ.
@@ -171,19 +169,12 @@ fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Printed {
     }
 }
 
-fn csv(rows: &[Printed], out: impl Write) -> io::Result<()> {
-    let mut csv = csv::Writer::from_writer(out);
-    for row in rows {
-        csv.serialize(row).map_err(|error| match error.into_kind() {
-            csv::ErrorKind::Io(error) => error,
-            other => io::Error::other(format!("{other:?}")),
-        })?;
+/// The table, as JSON or as CSV.
+fn table(rows: &[Printed], as_json: bool) -> Result<String, Failure> {
+    if as_json {
+        return Ok(serde_json::to_string_pretty(rows)? + "\n");
     }
-    csv.flush()
-}
-
-fn json(rows: &[Printed], mut out: impl Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut out, rows)?;
-    writeln!(out)?;
-    out.flush()
+    let mut csv = csv::Writer::from_writer(Vec::new());
+    rows.iter().try_for_each(|row| csv.serialize(row))?;
+    Ok(String::from_utf8(csv.into_inner().map_err(|error| error.into_error())?)?)
 }

@@ -4,7 +4,7 @@
 
 use crate::quick::QUICK;
 use impact_chain::rise::Mean;
-use impact_paper::claims::{self, Verdict};
+use impact_paper::claims::{self, Evidence, Verdict};
 use impact_paper::experiments::{Progress, Results, Session, Store};
 use impact_paper::experiments::{SWEEP, THEORY};
 use impact_paper::figures;
@@ -59,8 +59,11 @@ fn claims_fail_when_the_results_say_so() {
     let session = Session::of(paper, None, Profile::Quick, store, Progress::silent()).unwrap();
     let mut results = Results::run(&[&THEORY, &SWEEP], &session).unwrap();
     let published = session.published().unwrap();
-    let verdict =
-        |id: &str, results: &Results| claims::one(id, results, &published).unwrap().verdict;
+    let verdict = |id: &str, results: &Results| {
+        let row = claims::rows().find(|row| row.id == id).unwrap();
+        let e = Evidence { results, published: &published, level: claims::level() };
+        row.check(&e).unwrap().verdict
+    };
 
     assert_eq!(verdict("sec2_half_height", &results), Verdict::Reproduced);
     assert_eq!(verdict("sec2_onset", &results), Verdict::DiffersAndExplained);

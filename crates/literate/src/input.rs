@@ -60,16 +60,8 @@ pub fn is_absent(error: &Error) -> bool {
 
 /// What to do about what the system said: `otherwise`, unless it is not the place that is at fault.
 pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
-    if cfg!(unix) && matches!(error.raw_os_error(), Some(23 | 24)) {
-        return "allow more open files (ulimit -n)";
-    }
-    if cfg!(unix) && error.raw_os_error() == Some(5) {
-        return "see whether the disk is sound, and try again";
-    }
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::WriteZero => "make room",
-        ErrorKind::FileTooLarge => "allow larger files (ulimit -f)",
-        ErrorKind::OutOfMemory => "raise the limits of the process, or end other programs",
         ErrorKind::InvalidData => "save it as UTF-8",
         ErrorKind::NotADirectory | ErrorKind::AlreadyExists => {
             "a file is in the way; choose another folder"

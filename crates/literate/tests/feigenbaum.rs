@@ -42,15 +42,8 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
     assert_eq!(ledger.matches("\"reproduced\"").count(), 4, "{ledger}");
     assert_eq!(ledger.matches("\"differs and explained\"").count(), 1, "{ledger}");
     assert!(report.beside.contains_key("report.html"));
-}
 
-/// The constants to the digits that the literature has: 4.669 201 609 102… and 2.502 907 875 095….
-#[test]
-fn the_ratios_settle_where_the_literature_has_them() {
-    let paper = paper::paper();
-    let prose = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/feigenbaum"));
-    let (store, quiet) = (Store::nowhere(), Progress::silent());
-    let session = Session::of(&paper, prose.as_deref(), Profile::Full, store, quiet).unwrap();
+    // The constants to the digits that the literature has: 4.669 201 609 102… and 2.502 907 875 095….
     let cascade = paper::CASCADE.get(&session).unwrap();
     let tables = (paper::CASCADE.tables)(&cascade);
     let limit = |column: &str| tables[1].values(column)[0];
@@ -59,14 +52,4 @@ fn the_ratios_settle_where_the_literature_has_them() {
     assert!((limit("onset") - 3.569_945_671_870_945).abs() < 1e-12, "{}", limit("onset"));
     assert!((limit("stable") - 3.0).abs() < 1e-12);
     assert!((limit("three") - (1.0 + 8.0_f64.sqrt())).abs() < 1e-12, "{}", limit("three"));
-}
-
-/// Small enough to be read in one sitting.
-#[test]
-fn a_whole_paper_has_at_most_250_lines_of_rust() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/feigenbaum");
-    let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
-    let files = files.filter(|file| file.extension().is_some_and(|end| end == "rs"));
-    let lines: usize = files.map(|f| std::fs::read_to_string(f).unwrap().lines().count()).sum();
-    assert!(lines <= 250, "{lines}");
 }

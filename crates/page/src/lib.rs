@@ -254,31 +254,6 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_run_is_refused_in_a_line() {
-        let refused = |at: usize, value: f64| {
-            let mut numbers = NUMBERS;
-            numbers[at] = value;
-            opened("page", &numbers).err().unwrap()
-        };
-        for (at, value, word) in [
-            (0, f64::NAN, "transient"),
-            (0, 1e9, "T + W"),
-            (1, -1.0, "window"),
-            (2, 0.0, "forcing"),
-            (2, f64::NAN, "forcing"),
-            (2, 1e9, "1000000000 masses"),
-            (6, f64::NAN, "restitution"),
-            (9, f64::NAN, "forcing[0]"),
-            (9, f64::INFINITY, "forcing[0]"),
-        ] {
-            let line = refused(at, value);
-            assert!(line.starts_with(word) && line.lines().count() == 1, "{line}");
-        }
-        assert!(opened("page", &NUMBERS[..5]).is_err());
-        assert!(opened("page", &NUMBERS[..11]).is_err());
-    }
-
-    #[test]
     fn the_law_is_that_of_the_theory() {
         assert_eq!((law(100, 0.02), law(MOST + 2, 0.02), law(100, f64::NAN)), (0, 2, 2));
         assert_eq!(law(100, 0.02), 0);

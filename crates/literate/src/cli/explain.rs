@@ -57,7 +57,12 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     }
     print(&if args.json {
         let one = |card: &Card| {
-            let rows: Vec<_> = card.rows.iter().map(|row| row_json(row, paper)).collect();
+            let row = |row: &Fact| {
+                let mut out = json!({"name": row.name, "text": words(&row.text)});
+                file(row, paper).into_iter().for_each(|file| out["file"] = json!(file));
+                out
+            };
+            let rows: Vec<_> = card.rows.iter().map(row).collect();
             json!({"id": card.id, "title": words(&card.title), "lead": card.lead, "rows": rows})
         };
         format!("{:#}\n", json!(found.iter().map(one).collect::<Vec<_>>()))
@@ -106,14 +111,6 @@ fn words(text: &[Inline]) -> String {
 
 fn clean(text: &str) -> String {
     text.replace(is_obeyed, " ")
-}
-
-fn row_json(row: &Fact, paper: &Paper) -> serde_json::Value {
-    let mut out = json!({"name": row.name, "text": words(&row.text)});
-    if let Some(file) = file(row, paper) {
-        out["file"] = json!(file);
-    }
-    out
 }
 
 /// The file of the item that a row names.

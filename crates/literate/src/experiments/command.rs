@@ -172,23 +172,6 @@ impl Command {
         printed.iter().find_map(fault).map_or(Ok(()), |fault| Err(wrong(fault)))?;
         Ok(printed)
     }
-
-    /// What it printed: as it was saved if that is fresh, else anew.
-    fn get(&self, session: &Session<'_>) -> Result<Printed, Error> {
-        let (identity, store) = (self.identity(session), &session.store);
-        let (found, why) = match store.look(&identity) {
-            Ok(found) => (Some(found), "fresh".into()),
-            Err(why) => (None, why),
-        };
-        session.progress.say(&format!("{}: {why}", self.name));
-        if let Some(found) = found {
-            return Ok(found);
-        }
-        store.prepare()?;
-        let found = self.run(session)?;
-        store.put(&identity, &found)?;
-        Ok(found)
-    }
 }
 
 /// All that a pipe has, read in a thread: a command whose pipe is full waits.
@@ -229,7 +212,7 @@ impl Entry for Command {
 
     fn run_units(&self, _: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
         let stale = self.stale(session).is_some();
-        self.get(session).map(|_| usize::from(stale))
+        self.found(session).map(|_| usize::from(stale))
     }
 
     fn stale(&self, session: &Session<'_>) -> Option<String> {
@@ -238,7 +221,7 @@ impl Entry for Command {
     }
 
     fn found(&self, session: &Session<'_>) -> Result<Found, Error> {
-        Ok(Arc::new(self.get(session)?))
+        Ok(Arc::new(session.saved(&self.identity(session), || self.run(session))?))
     }
 
     fn tables(&self, found: &Found) -> Vec<Table> {
@@ -326,16 +309,5 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7], [2, null, 0.1, \"sh\", null]]}}"
             );
             assert!(!error.contains('\n'), "{error}");
         }
-    }
-
-    #[test]
-    fn an_interruption_ends_it() {
-        let stop = Arc::new(std::sync::atomic::AtomicBool::new(true));
-        let paper = Paper::new("Toy", Sources { name: "toy", version: "1", files: &[] });
-        let (templates, progress) = (Templates::of([]), Progress::on_stderr(stop));
-        let (profile, store) = (Profile::Quick, Store::nowhere());
-        let session = Session { paper: &paper, templates, profile, store, progress };
-        let found = Command::new("toy", "sleep 600").found(&session);
-        assert!(matches!(found, Err(Error::Interrupted)));
     }
 }

@@ -2,7 +2,6 @@
 
 use super::cutting::{Cutting, Unit};
 use super::identity::Identity;
-use super::store::Store;
 use super::{Error, Profile, Progress, Session};
 use crate::input::count;
 use crate::project::Project;
@@ -68,30 +67,16 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     /// The result: the saved one if it is fresh, else that of a run, which is then saved. Units that are in the store
     /// are not run again; each of the others is saved as soon as it is there.
     pub fn get(&self, session: &Session<'_>) -> Result<T, Error> {
-        let (store, progress) = (&session.store, &session.progress);
         let (parameters, identity) = self.known_by(session);
-        let why = match store.look(&identity) {
-            Ok(result) => {
-                progress.say(&format!("{}: fresh", self.name));
-                return Ok(result);
+        session.saved(&identity, || match &self.how {
+            How::Read(_) => Err(Error::NotRun(self.name)),
+            How::Whole { run, .. } => run(&parameters, &session.progress),
+            How::Cut(_, cutting) => {
+                let units = self.units(session.profile);
+                let (parts, _) = self.parts(&units, &parameters, &identity, session)?;
+                cutting.joined(&parameters, &units, parts, &session.progress)
             }
-            Err(why) => why,
-        };
-        store.prepare()?;
-        progress.say(&format!("{}: {why}", self.name));
-        let result = match &self.how {
-            How::Read(_) => return Err(Error::NotRun(self.name)),
-            How::Whole { run, .. } => run(&parameters, progress)?,
-            How::Cut(words, cutting) => {
-                let units = cutting.units(&parameters);
-                let given = Units { cutting, words, parameters: &parameters, identity: &identity };
-                let (parts, _) = given.parts(&units, store, progress)?;
-                cutting.joined(&parameters, &units, parts, progress)?
-            }
-        };
-        store.put(&identity, &result)?;
-        store.remove_units(&identity);
-        Ok(result)
+        })
     }
 
     /// Its parameters in a profile, and what its result depends on.
@@ -101,32 +86,25 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         let identity = Identity::new(self.name, session.profile, code, &parameters);
         (parameters, identity)
     }
-}
 
-/// An experiment that is cut, in one profile.
-struct Units<'a, P, T, U> {
-    cutting: &'a Cutting<P, U, T>,
-    words: &'a str,
-    parameters: &'a P,
-    identity: &'a Identity,
-}
-
-impl<P: Serialize + Sync, T, U: Json> Units<'_, P, T, U> {
-    /// What some units give, in their order, and how many of them were not in the store and had to be run.
+    /// What some units of one that is cut give, in their order, and how many of them were not in the store and had to be
+    /// run.
     fn parts(
         &self,
         units: &[Unit],
-        store: &Store,
-        progress: &Progress,
+        parameters: &P,
+        identity: &Identity,
+        session: &Session<'_>,
     ) -> Result<(Vec<U>, usize), Error> {
-        let look = |unit: &Unit| store.look::<U>(&self.identity.of_unit(unit));
+        let How::Cut(words, cutting) = &self.how else { return Ok((Vec::new(), 0)) };
+        let (store, progress, name) = (&session.store, &session.progress, self.name);
+        let look = |unit: &Unit| store.look::<U>(&identity.of_unit(unit));
         let saved: Vec<_> = units.par_iter().map(look).collect();
         let mut lost: BTreeMap<String, usize> = BTreeMap::new();
         for why in saved.iter().filter_map(|found| found.as_ref().err()) {
             *lost.entry(why.clone()).or_default() += 1;
         }
         let run: usize = lost.values().sum();
-        let name = &self.identity.experiment;
         if run < units.len() {
             let all = count(units.len(), "unit");
             progress.say(&format!("{name}: {} of {all} there", units.len() - run));
@@ -135,11 +113,11 @@ impl<P: Serialize + Sync, T, U: Json> Units<'_, P, T, U> {
             progress.say(&format!("{name}: {} {why}", count(*number, "unit")));
         }
         let open = units.iter().zip(&saved).filter(|(_, found)| found.is_err());
-        let stage = progress.stage(self.words, open.map(|(unit, _)| unit.weight).sum());
+        let stage = progress.stage(words, open.map(|(unit, _)| unit.weight).sum());
         let part = |(unit, found): (&Unit, Result<U, _>)| {
             found.or_else(|_| {
-                let part = (self.cutting.part)(self.parameters, unit, &stage, progress)?;
-                store.put(&self.identity.of_unit(unit), &part)?;
+                let part = (cutting.part)(parameters, unit, &stage, progress)?;
+                store.put(&identity.of_unit(unit), &part)?;
                 Ok(part)
             })
         };
@@ -194,12 +172,6 @@ impl std::fmt::Debug for dyn Entry {
     }
 }
 
-/// An experiment whose result has a type that is known.
-pub trait Typed: Entry {
-    /// The type.
-    type Result: Json;
-}
-
 impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
     fn name(&self) -> &'static str {
         self.name
@@ -237,19 +209,13 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
     }
 
     fn run_units(&self, units: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
-        let (store, progress) = (&session.store, &session.progress);
         let (parameters, identity) = self.known_by(session);
-        if store.look::<T>(&identity).is_ok() {
+        if session.store.look::<T>(&identity).is_ok() {
             return Ok(0);
         }
-        match &self.how {
-            How::Cut(words, cutting) => {
-                store.prepare()?;
-                let given = Units { cutting, words, parameters: &parameters, identity: &identity };
-                Ok(given.parts(units, store, progress)?.1)
-            }
-            _ => self.get(session).map(|_| units.len()),
-        }
+        let How::Cut(..) = self.how else { return self.get(session).map(|_| units.len()) };
+        session.store.prepare()?;
+        Ok(self.parts(units, &parameters, &identity, session)?.1)
     }
 
     fn stale(&self, session: &Session<'_>) -> Option<String> {
@@ -274,8 +240,4 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
     fn tables(&self, found: &Found) -> Vec<Table> {
         found.downcast_ref().map_or_else(Vec::new, self.tables)
     }
-}
-
-impl<P: Serialize + Sync, T: Json, U: Json> Typed for Experiment<P, T, U> {
-    type Result = T;
 }

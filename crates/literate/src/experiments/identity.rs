@@ -85,19 +85,3 @@ impl Identity {
         differences.join(", ")
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_changed_file_is_named_and_another_changes_nothing() {
-        let of = |hash: &'static str| {
-            let code = BTreeMap::from([("Cargo.lock", "0"), ("sweep/mod.rs", hash)]);
-            let code = code.into_iter().map(|(path, hash)| (path.into(), hash.into())).collect();
-            Identity::new("sweep", Profile::Quick, code, &1)
-        };
-        assert_eq!(of("a").differences(&of("a")), "");
-        assert_eq!(of("a").differences(&of("b")), "sweep/mod.rs changed");
-    }
-}

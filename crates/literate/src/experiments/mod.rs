@@ -15,7 +15,7 @@ pub mod store;
 
 pub use command::Command;
 pub use error::Error;
-pub use experiment::{Entry, Experiment, Found, Typed};
+pub use experiment::{Entry, Experiment, Found};
 pub use profile::Profile;
 pub use progress::{Progress, alive, be_quiet, say};
 pub use results::{Results, Together};

@@ -1,6 +1,7 @@
 //! All results together.
 
-use super::{Error, Found, Need, Profile, Session, Typed};
+use super::experiment::Json;
+use super::{Error, Experiment, Found, Need, Profile, Session};
 use crate::table::{Table, Tables, number_at};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -24,15 +25,15 @@ pub struct Results {
 
 impl Results {
     /// The result of an experiment.
-    pub fn of<E: Typed>(&self, experiment: &E) -> Result<&E::Result, Error> {
-        let found = self.found.get(experiment.name()).and_then(|found| found.downcast_ref());
-        found.ok_or(Error::NotRun(experiment.name()))
+    pub fn of<P, T: Json, U>(&self, experiment: &Experiment<P, T, U>) -> Result<&T, Error> {
+        let found = self.found.get(experiment.name).and_then(|found| found.downcast_ref());
+        found.ok_or(Error::NotRun(experiment.name))
     }
 
     /// The result of an experiment, to be changed where nobody else holds it; its tables are made anew.
-    pub fn of_mut<E: Typed>(&mut self, experiment: &E) -> Option<&mut E::Result> {
+    pub fn of_mut<P, T: Json, U>(&mut self, experiment: &Experiment<P, T, U>) -> Option<&mut T> {
         self.tables = OnceLock::new();
-        Arc::get_mut(self.found.get_mut(experiment.name())?)?.downcast_mut()
+        Arc::get_mut(self.found.get_mut(experiment.name)?)?.downcast_mut()
     }
 
     /// The tables of the theory and of all results that there are, by name.

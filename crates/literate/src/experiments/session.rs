@@ -1,6 +1,8 @@
 //! What a run of experiments is given.
 
-use super::{Profile, Progress, Store};
+use super::experiment::Json;
+use super::identity::Identity;
+use super::{Error, Profile, Progress, Store};
 use crate::paper::Paper;
 use crate::report::Templates;
 
@@ -17,4 +19,27 @@ pub struct Session<'a> {
     pub store: Store,
     /// How far work is, and whether it is to end.
     pub progress: Progress,
+}
+
+impl Session<'_> {
+    /// The saved result if it is fresh, else that of a run, which is then saved.
+    pub(super) fn saved<T: Json>(
+        &self,
+        identity: &Identity,
+        run: impl FnOnce() -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let (found, why) = match self.store.look(identity) {
+            Ok(found) => (Some(found), "fresh".into()),
+            Err(why) => (None, why),
+        };
+        self.progress.say(&format!("{}: {why}", identity.experiment));
+        if let Some(found) = found {
+            return Ok(found);
+        }
+        self.store.prepare()?;
+        let result = run()?;
+        self.store.put(identity, &result)?;
+        self.store.remove_units(identity);
+        Ok(result)
+    }
 }
