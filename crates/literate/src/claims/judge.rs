@@ -233,18 +233,4 @@ mod tests {
         assert!(checks.iter().all(Check::fails), "what nobody judges fails too");
         assert!(!checks[3].clone().note("It is a likeness in words.").fails());
     }
-
-    #[test]
-    fn what_is_missing_is_told() {
-        let told = |id, address: &'static str| {
-            let rule: Box<Rule<'_>> = Box::new(move |s| s.cell(address).into());
-            judged(&[(id, rule)]).unwrap_err().to_string()
-        };
-        let error = told("rise", "toy.all.rse");
-        assert!(
-            error.contains("no such column; nearest: rise") && error.contains("judge.rs:"),
-            "{error}"
-        );
-        assert!(told("fall", "toy.all.rise").contains("no statement \"fall\""));
-    }
 }

@@ -186,7 +186,6 @@ impl Writer {
             Inline::Emphasis(inner) => out.push_str(&format!("*{}*", self.all(inner))),
             Inline::Raised(inner) => out.push_str(&format!("<sup>{}</sup>", self.all(inner))),
             Inline::Strong(inner) => out.push_str(&format!("**{}**", self.all(inner))),
-            Inline::Maths(tex) => out.push_str(&format!("${}$", maths(tex))),
             Inline::Display { tex, id, number } => {
                 while out.ends_with([' ', '\n']) {
                     out.pop();
@@ -201,7 +200,8 @@ impl Writer {
                 }
                 out.push_str(&format!("$$\n{}{tag}\n$$\n\n", maths(tex)));
             }
-            Inline::Value { shown, .. } => out.push_str(&self.all(shown)),
+            // Formulas are written above, and values are flat.
+            Inline::Maths(_) | Inline::Value { .. } => (),
             Inline::Link { to, shown } => out.push_str(&format!("[{}]({to})", self.all(shown))),
             Inline::Reference { to, within, shown } => {
                 let file = within.map_or("", |document| document.markdown);

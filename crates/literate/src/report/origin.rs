@@ -71,13 +71,6 @@ impl Filled {
         }
     }
 
-    /// Text that nothing was filled into.
-    pub fn plain(path: &str, text: &str) -> Filled {
-        let mut filled = Filled::default();
-        filled.add(path, text, text);
-        filled
-    }
-
     fn origin(&self, offset: usize) -> Origin {
         let last = self.origins.partition_point(|origin| origin.start <= offset);
         self.origins[last.saturating_sub(1)]

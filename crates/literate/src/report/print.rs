@@ -56,18 +56,15 @@ pub enum Printed {
 pub fn print(number: &Number, style: Style) -> Printed {
     let most = |digits: usize| digits.min(MOST_DIGITS);
     let percent = if style.percent { 2 } else { 0 };
-    let finish = |decimal: Decimal| Decimal {
-        percent: style.percent,
-        error: decimal.error.filter(|_| !style.no_error),
-        ..decimal
-    };
     let asked = |x: f64, own: &dyn Fn(f64) -> Decimal| {
         let x = times_ten(x, percent);
-        finish(match style.digits {
+        let decimal = match style.digits {
             Some(Asked::Full) => shortest(x),
             Some(Asked::Significant(n)) => significant(x, most(n)),
             None => own(x),
-        })
+        };
+        let error = decimal.error.filter(|_| !style.no_error);
+        Decimal { percent: style.percent, error, ..decimal }
     };
     match *number {
         Number::Text(ref text) => Printed::Words(text.clone()),

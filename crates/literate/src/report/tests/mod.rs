@@ -93,15 +93,10 @@ fn tree(text: &str) -> Vec<document::Block> {
     let (mut blocks, _) = parse::parse(&filled, &values(), &filler.declared, &toy()).unwrap();
     let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
     let library = bibliography::Library::read(bib).unwrap();
-    resolve(&mut blocks, &library).unwrap();
-    blocks
-}
-
-/// Numbers and references of a document that is alone.
-fn resolve(blocks: &mut [document::Block], library: &bibliography::Library) -> Result<(), Error> {
     let mut labels = labels::Labels::of(&[figure()]);
-    labels.number_all(blocks, Document::REPORT)?;
-    labels.resolve(blocks, Document::REPORT, library)
+    labels.number_all(&mut blocks, Document::REPORT).unwrap();
+    labels.resolve(&mut blocks, Document::REPORT, &library).unwrap();
+    blocks
 }
 
 #[test]
@@ -197,11 +192,7 @@ fn claim() -> Check {
 
 /// Assembles a report with one figure, one claim and one value from this prose.
 fn assembled(prose: &str) -> Result<Report, Error> {
-    with_lab(prose, None)
-}
-
-fn with_lab(prose: &str, lab: Option<&str>) -> Result<Report, Error> {
-    made_of(prose, lab, figure(), claim())
+    made_of(prose, None, figure(), claim())
 }
 
 fn made_of(prose: &str, lab: Option<&str>, figure: Figure, claim: Check) -> Result<Report, Error> {
@@ -236,7 +227,8 @@ const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945]. $$x = y \\tag
 #[test]
 fn what_readers_run_is_offered_where_it_can_be_run() {
     let prose = PROSE.replace("[@bibliography]", "Lab toy: You run *them*.\n\n[@bibliography]");
-    let [without, with] = [None, Some("end();")].map(|lab| with_lab(&prose, lab).unwrap());
+    let [without, with] =
+        [None, Some("end();")].map(|lab| made_of(&prose, lab, figure(), claim()).unwrap());
     let page = |report: &Report| String::from_utf8(report.beside["report.html"].clone()).unwrap();
     let figure = "<figure class=\"lab\" id=\"lab-toy\" data-lab=\"toy\" hidden=\"\">";
     assert!(page(&with).contains(figure) && page(&with).contains("You run <em>them</em>."));
@@ -439,29 +431,22 @@ fn what_is_not_shown_is_refused() {
     assert!(matches!(fails("\\tag{18}", ""), Error::NoEquation(number) if number == "18"));
 }
 
-/// What another reader of Markdown would take for markup is kept from it.
+/// What another reader of Markdown would take for markup is kept from it, and a bracket behind a line's end from TeX.
 #[test]
-fn markdown_shows_what_is_meant() {
+fn each_format_shows_what_is_meant() {
     let text = "# T\n\n$a$–$b$ is \\` and ``a `b` c``, \\~\\~c\\~\\~, \\&lt; d.\n\n\\[x\\]: yes\n\n\
-        ````\n```\n12\n````\n\n[DOI](https://doi.org/10.1/S0(98)00123-4)\n";
-    let text = markdown::write(&tree(text));
-    for kept in [
-        r"$a\text{–}b$ is \` and ``a `b` c``, \~\~c\~\~, \&lt; d.",
-        "\n\\[x]: yes\n",
-        "\n````\n```\n12\n````\n",
-        "(https://doi.org/10.1/S0(98)00123-4)",
+        ````\n```\n12\n````\n\n[DOI](https://doi.org/10.1/S0(98)00123-4)\n\n\
+        | a | b |\n|---|---|\n| \\[q\\] | c |\n\n- \\[z\\] a\n";
+    let (tree, tex) = (tree(text), latex::write(&tree(text), Document::REPORT).unwrap());
+    let (markdown, tex) = (markdown::write(&tree), tex["body"].as_str().unwrap());
+    for (text, kept) in [
+        (&*markdown, r"$a\text{–}b$ is \` and ``a `b` c``, \~\~c\~\~, \&lt; d."),
+        (&markdown, "\n\\[x]: yes\n"),
+        (&markdown, "\n````\n```\n12\n````\n"),
+        (&markdown, "(https://doi.org/10.1/S0(98)00123-4)"),
+        (tex, "\n{}[q] & c"),
+        (tex, "\\item {}[z] a"),
     ] {
-        assert!(text.contains(kept), "{kept}: {text}");
-    }
-}
-
-/// Behind a line's end TeX takes a bracket or a star for its own.
-#[test]
-fn tex_takes_no_bracket_for_its_own() {
-    let text = "# T\n\n| a | b |\n|---|---|\n| \\[q\\] | c |\n\n- \\[z\\] a\n";
-    let parts = latex::write(&tree(text), Document::REPORT).unwrap();
-    let text = parts["body"].as_str().unwrap();
-    for kept in ["\n{}[q] & c", "\\item {}[z] a"] {
         assert!(text.contains(kept), "{kept}: {text}");
     }
 }
