@@ -224,7 +224,8 @@ mod tests {
         let (verdicts, _, checks) = judge(|s| s.cell("toy.all.mean").within_errors());
         assert_eq!(checks[0].tolerance.to_string(), "± 0.006", "2.94 standard errors");
         assert_eq!(verdicts, [Yes, Yes, Open, Open]);
-        let (verdicts, ..) = judge(|s| s.cell("toy.all.rise").near(1e-3, "ours"));
+        let (verdicts, _, checks) = judge(|s| s.cell("toy.all.rise").near(1e-3, "ours"));
+        assert_eq!(checks[0].tolerance.to_string(), "± 0.001");
         assert_eq!(verdicts, [No, No, Open, Open]);
         let (verdicts, ..) = judge(|s| s.cell("toy.all.rise").explained("why", true));
         assert_eq!(verdicts, [Yes, Why, Open, Open]);

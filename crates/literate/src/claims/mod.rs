@@ -55,18 +55,11 @@ impl Basis {
 
     /// The basis in words.
     pub fn words(self) -> &'static str {
-        match self {
-            Basis::Exact => "exact",
-            Basis::Rounding => "rounding",
-            Basis::PrintedDigit => "printed digit",
-            Basis::Statistics => "statistics",
-            Basis::OurMeasure => "our measure",
-            Basis::Clock => "clock",
-        }
+        ["exact", "rounding", "printed digit", "statistics", "our measure", "clock"][self as usize]
     }
 }
 
-/// The verdict on a statement, a target or a relation.
+/// The verdict on a statement, a target or a relation, in the order of a scorecard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     /// What is found lies within the tolerance.
@@ -92,24 +85,14 @@ impl Verdict {
         Verdict::CannotBeJudged,
     ];
 
-    /// The verdict in words, and as a sign, which needs no colour.
-    fn both(self) -> (&'static str, char) {
-        match self {
-            Verdict::Reproduced => ("reproduced", '✓'),
-            Verdict::DiffersAndExplained => ("differs and explained", '≠'),
-            Verdict::Differs => ("differs", '✗'),
-            Verdict::CannotBeJudged => ("cannot be judged", '?'),
-        }
-    }
-
     /// The verdict in words.
     pub fn words(self) -> &'static str {
-        self.both().0
+        ["reproduced", "differs and explained", "differs", "cannot be judged"][self as usize]
     }
 
-    /// The verdict as a sign.
+    /// The verdict as a sign, which needs no colour.
     pub fn sign(self) -> char {
-        self.both().1
+        ['✓', '≠', '✗', '?'][self as usize]
     }
 }
 

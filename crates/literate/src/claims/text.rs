@@ -89,17 +89,3 @@ impl fmt::Display for Text {
         self.0.iter().try_for_each(|piece| f.write_str(&print(piece, Style::default()).plain()))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_stand_in_their_places_with_their_digits() {
-        let text = Text::of("k* at {}, {}", [with_error(0.11652, 0.0004), significant(8.87e-4, 3)]);
-        assert_eq!(text.then(integer(12345)).to_string(), "k* at 0.1165(4), 8.87e-412345");
-        for (value, digits) in [(0.08, 1), (0.1175, 4), (4000.0, 1), (1e-9, 1), (0.0, 1)] {
-            assert_eq!(chosen(value), significant(value, digits), "{value}");
-        }
-    }
-}

@@ -161,9 +161,9 @@ impl Cards<'_> {
             card.words("in full", print(&value.number, full).plain());
         }
         if let Kind::Ensemble { realisations, standard_error } = &value.kind {
-            card.words("standard error", format!("{standard_error}"));
+            card.words("standard error", standard_error.to_string());
             if *realisations > 0 {
-                card.words("n", format!("{realisations}"));
+                card.words("n", realisations.to_string());
             }
         }
         if let Kind::Printed { place } = &value.kind {

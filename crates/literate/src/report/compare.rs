@@ -150,8 +150,8 @@ fn numbers(before: &Registry, after: &Registry) -> Vec<Change> {
         let difference = both.and_then(|(old, new)| Some(number(new)? - number(old)?));
         let difference = difference.filter(|difference| difference.is_finite());
         let error = both.map(|(old, new)| {
-            let [old, new] = [old, new].map(|value| value.standard_error().powi(2));
-            (old + new).sqrt()
+            let [old, new] = [old, new].map(Value::standard_error);
+            (old * old + new * new).sqrt()
         });
         let sigmas = difference.zip(error).map(|(difference, error)| difference / error);
         Some(Change {

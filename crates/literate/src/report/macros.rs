@@ -67,28 +67,3 @@ fn bare(between: &str) -> Option<String> {
     let sign = between.chars().find(|c| matches!(c, '%' | '#' | '$'))?;
     Some(format!("a bare {sign} is no sign in LaTeX; write \\{sign}"))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Each macro is one that math-core reads too.
-    #[test]
-    fn what_is_allowed_is_read() {
-        for name in ALLOWED.split_whitespace() {
-            let tex = match name {
-                "frac" | "dfrac" | "tfrac" | "binom" | "overset" | "underset" => {
-                    format!(r"\{name}{{a}}{{b}}")
-                }
-                "left" | "right" => r"\left( a \right)".into(),
-                "begin" | "end" => r"\begin{aligned} a &= b \\ c &= d \end{aligned}".into(),
-                "tag" => "a".into(),
-                big if big.to_lowercase().starts_with("big") => format!(r"\{name}("),
-                "limits" | "nolimits" => format!(r"\int\{name}_a"),
-                name => format!(r"\{name} {{a}}"),
-            };
-            let read = super::super::mathml::reads(&tex);
-            assert!(read.is_ok(), "{tex}: {read:?}");
-        }
-    }
-}

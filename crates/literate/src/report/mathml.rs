@@ -93,11 +93,4 @@ mod tests {
         assert_eq!(digits(r"\text{none}").unwrap(), "none");
         assert!(digits(r"\sigma").unwrap().starts_with("<math"));
     }
-
-    #[test]
-    fn depth_is_counted() {
-        for (tex, depth) in [(r"x_{", 1), (r"\left( x", 1), (r"\{a\}", 0), (r"\sqrt{2} =", 0)] {
-            assert_eq!(braces(tex), depth, "{tex}");
-        }
-    }
 }

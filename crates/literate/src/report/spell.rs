@@ -50,27 +50,3 @@ fn named(name: &str) -> &str {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tex_is_read_aloud() {
-        for (tex, told) in [
-            (r"p_{\mathrm{crit}}", "p_crit"),
-            (r"f_{N,p}(k)", "f_N,p(k)"),
-            (r"\mathrm{tol} = 10^{-3}", "tol = 10^-3"),
-            (r"k_\pm", "k_±"),
-            (r"\phi_N^1(k)", "φ_N^1(k)"),
-            (r"\Delta_j(t)", "Δ_j(t)"),
-            (r"8.87\times10^{-4}\,\%", "8.87×10^-4 %"),
-            (r"a_{b", "a_b"),
-            ("x^", "x^"),
-            ("\\", ""),
-        ] {
-            assert_eq!(maths(tex), told);
-        }
-        assert_eq!(text(r"Runge–Kutta with $\sigma_i$, 3"), "Runge–Kutta with σ_i, 3");
-    }
-}
