@@ -69,10 +69,8 @@ impl Layout {
     /// Draws the vertices; those that are `visited` stand out.
     pub fn vertices(&self, sheet: &Sheet, visited: &[usize]) -> Result<(), Error> {
         for (vertex, &centre) in self.centres.iter().enumerate() {
-            let on = visited.contains(&vertex);
-            let (edge, ink) =
-                if on { (Stroke::solid(INK, 30), INK) } else { (Stroke::solid(GREY, HAIR), GREY) };
-            sheet.free().disc(centre, self.radius, WHITE, edge);
+            let (ink, width) = if visited.contains(&vertex) { (INK, 30) } else { (GREY, HAIR) };
+            sheet.free().disc(centre, self.radius, WHITE, Stroke::solid(ink, width));
             sheet.text(&name(vertex), centre, (TEXT, ink, HPos::Center, VPos::Center))?;
         }
         Ok(())

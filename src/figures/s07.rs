@@ -1,11 +1,10 @@
 //! Fig. S7: how long a run is true, against its work, its error and its time.
 
 use super::prelude::*;
-use super::rivals::{Timed, by_method, entries, look, look_of, others, timed};
+use super::rivals::{by_method, entries, look, look_of, others, timed};
 use crate::experiments::Measured;
 use crate::experiments::accuracy::race::{DISPLACED, Race};
 use crate::experiments::accuracy::tables::name;
-use crate::params::MethodName;
 
 /// The rounding of doubles, 2⁻⁵³.
 const ROUNDING: f64 = f64::EPSILON / 2.0;
@@ -82,18 +81,15 @@ fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
 
 /// Panel (c): the horizon of programs on one chain against the time they take, as measured.
 fn clock(sheet: &Sheet, measured: &Measured, masses: usize, top: f64) -> Result<(), Error> {
-    // The engine is the certified method; as one of the methods it is the same, with more to count.
-    let again = MethodName::Certified.id();
-    let compared =
-        |row: &Timed| row.masses as usize == masses && row.horizon.is_some() && row.name != again;
-    let rows: Vec<Timed> = timed(measured).into_iter().filter(compared).collect();
+    let mut rows = timed(measured);
+    rows.retain(|row| row.masses as usize == masses);
     let time = rows.iter().map(|row| row.microseconds);
     let x = Axis::around(time, 1, "measured µs per impact").column("measured time per impact (us)");
     let y = horizon(top, "");
     let panel = sheet.lettered(LETTERS[2], Frame::new(5300, 4900, 8150, 7350), x, y)?;
     let others = others(&rows);
     for row in &rows {
-        let point = [(row.microseconds, row.horizon.unwrap_or(0.0))];
+        let point = [(row.microseconds, row.horizon)];
         panel.marks(&row.name, &point, look_of(row, &others), Outside::Edge)?;
     }
     Ok(())

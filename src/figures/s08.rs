@@ -27,11 +27,7 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
         counted.marked(name(*method), points, (look.2, look), Outside::Refuse)?;
     }
 
-    let programs: Vec<Timed> = timed(measured)
-        .into_iter()
-        .filter(|row| row.horizon.is_some() && row.name != MethodName::Certified.id())
-        .collect();
-    let programs = most_accurate(&programs);
+    let programs = timed(measured);
     let times = own.iter().filter_map(|row| row.microseconds_per_impact);
     let (x, y) =
         (masses(), Axis::around(times, 1, "µs per impact").finely().column("time per impact (us)"));
@@ -46,7 +42,7 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
 
     let legend = entries(|method| all.iter().any(|(own, _)| *own == method));
     sheet.legend((500, 6350), (SMALL, 370), (2, 2650), &legend)?;
-    ranked(&sheet, &programs)?;
+    ranked(&sheet, &most_accurate(&programs))?;
     Ok(sheet.finish("s08", "Cost of an impact against n", description(scale, measured)))
 }
 

@@ -33,10 +33,7 @@ pub fn parse(label: &str) -> Vec<Piece> {
     let mut chars = label.chars().peekable();
     while let Some(c) = chars.next() {
         let literal = match c {
-            '\\' => match chars.next() {
-                Some(next) => next,
-                None => break,
-            },
+            '\\' => chars.next().unwrap_or(c),
             '*' => {
                 face = if face == Face::Regular { Face::Italic } else { Face::Regular };
                 continue;

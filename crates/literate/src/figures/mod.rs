@@ -112,5 +112,6 @@ pub enum Error {
 
 /// The colours of all figures: the name that style sheets use, and the colour as `#rrggbb`.
 pub(crate) fn palette() -> impl Iterator<Item = (&'static str, String)> {
-    style::PALETTE.into_iter().map(|(name, colour)| (name, colour.to_string()))
+    let shown = |style::Colour(r, g, b)| format!("#{r:02x}{g:02x}{b:02x}");
+    style::PALETTE.into_iter().map(move |(name, colour)| (name, shown(colour)))
 }

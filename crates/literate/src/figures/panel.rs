@@ -116,16 +116,11 @@ impl Panel {
             }
         }
         if !self.x.label.is_empty() {
-            let below = bottom + TICK + GAP + cap(self.numbers) + 2 * GAP;
-            let at = ((left + right) / 2, below);
+            let numbers = self.numbers * font::CAP_HEIGHT / font::EM;
+            let at = ((left + right) / 2, bottom + TICK + numbers + 3 * GAP);
             self.text(&self.x.label, at, TEXT, HPos::Center, VPos::Top)?;
         }
-        self.vertical()
-    }
-
-    /// The vertical axis: its numbers' width decides where its label stands.
-    fn vertical(&self) -> Result<(), Error> {
-        let Frame { left, top, bottom, .. } = self.frame;
+        // The numbers' width decides where the label stands.
         let mut widest = 0;
         for tick in &self.y.ticks {
             let y = self.at(self.x.lo, tick.at).1;
@@ -161,8 +156,4 @@ impl Panel {
         let (px, py) = self.at(x, y);
         self.drawing.borrow_mut().label(text, (px + dx, py + dy), look, false)
     }
-}
-
-fn cap(size: i32) -> i32 {
-    size * font::CAP_HEIGHT / font::EM
 }

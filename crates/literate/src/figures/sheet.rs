@@ -24,12 +24,9 @@ pub struct Sheet {
 /// One entry of a legend.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Line, if the series has one.
-    pub line: Option<Stroke>,
-    /// Marker with half width, if the series has one.
-    pub mark: Option<Marker>,
-    /// Words, with mark-up.
-    pub text: String,
+    pub(super) line: Option<Stroke>,
+    pub(super) mark: Option<Marker>,
+    pub(super) text: String,
 }
 
 impl Entry {
@@ -58,7 +55,10 @@ impl Sheet {
 
     /// A panel with its axes drawn.
     pub fn panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
-        let panel = Panel::new(&self.drawing, frame, x, y);
+        self.with_axes(Panel::new(&self.drawing, frame, x, y))
+    }
+
+    fn with_axes(&self, panel: Panel) -> Result<Panel, Error> {
         self.records.borrow_mut().push(panel.record.clone());
         panel.axes()?;
         Ok(panel)
@@ -75,10 +75,7 @@ impl Sheet {
     /// it takes a [`Panel::file`].
     pub fn inset(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
         let panel = Panel::new(&self.drawing, frame, x, y);
-        self.records.borrow_mut().push(panel.record.clone());
-        let panel = Panel { numbers: TINY, recorded: false, ..panel };
-        panel.axes()?;
-        Ok(panel)
+        self.with_axes(Panel { numbers: TINY, recorded: false, ..panel })
     }
 
     /// For free drawing.

@@ -4,8 +4,6 @@
 //! Ito (2008), which colour-blind readers tell apart, orange darker for its contrast with paper; where a caption of the paper names a
 //! colour, that colour, and always a marker or a dash beside it.
 
-use std::fmt;
-
 /// Width of every figure: one column.
 pub const WIDTH: u32 = 8400;
 
@@ -36,12 +34,6 @@ pub const LARGE: i32 = 58;
 /// An opaque colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Colour(pub u8, pub u8, pub u8);
-
-impl fmt::Display for Colour {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
-    }
-}
 
 /// Text and axes.
 pub const INK: Colour = Colour(0x22, 0x22, 0x22);
