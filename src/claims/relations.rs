@@ -15,38 +15,19 @@ type Departures = Result<Vec<f64>, Error>;
 /// Its name, what it says, and its departures.
 type Relation = (&'static str, &'static str, fn(&Evidence) -> Departures);
 
-const RELATIONS: [Relation; 6] = [
-    (
-        "two_seeds",
-        "two seeds of the main sweep have one half height, and one mean at each σ",
-        two_seeds,
-    ),
-    (
-        "laws_of_chance",
-        "impacts near in time go with the time between, and slow ones with the square of their speed",
-        laws_of_chance,
-    ),
-    (
-        "map_meets_sweep",
-        "the map of protocols and the main sweep, which drew other forces, have one rise",
-        map_meets_sweep,
-    ),
-    (
-        "no_rise_before_seeds",
-        "from rest no share of the chains has impacts before as many have a gap that closes by itself",
-        no_rise_before_seeds,
-    ),
-    (
-        "above_stays_above",
-        "chains from above have at least as many gaps with an impact as chains from rest under the same forces",
-        above_stays_above,
-    ),
-    (
-        "first_impacts_as_expected",
-        "as many chains have an impact as the theory of clumps expects",
-        first_impacts_as_expected,
-    ),
-];
+/// What each function says holds; its name is the id.
+macro_rules! relations {
+    ($($name:ident: $what:literal;)*) => { [$((stringify!($name), $what, $name)),*] };
+}
+
+const RELATIONS: [Relation; 6] = relations! {
+    two_seeds: "two seeds of the main sweep have one half height, and one mean at each σ";
+    laws_of_chance: "impacts near in time go with the time between, and slow ones with the square of their speed";
+    map_meets_sweep: "the map of protocols and the main sweep, which drew other forces, have one rise";
+    no_rise_before_seeds: "from rest no share of the chains has impacts before as many have a gap that closes by itself";
+    above_stays_above: "chains from above have at least as many gaps with an impact as chains from rest under the same forces";
+    first_impacts_as_expected: "as many chains have an impact as the theory of clumps expects";
+};
 
 /// All relations, as checks.
 ///
@@ -75,12 +56,11 @@ fn apart(e: &Evidence, a: &Estimate, b: &Estimate) -> f64 {
 }
 
 fn two_seeds(e: &Evidence) -> Departures {
-    let halves = ["sweep.rise", "second_seed.rise"].map(|name| {
-        let table = e.results.table(name)?;
-        Ok::<_, Error>(table.estimates(&[], "half_height", "half_height").pop())
-    });
-    let [a, b] = halves;
-    let halves = a?.zip(b?).map(|((_, a), (_, b))| apart(e, &a, &b));
+    let half = |name| -> Result<_, Error> {
+        Ok(e.results.table(name)?.estimates(&[], "half_height", "half_height").pop())
+    };
+    let halves = half("sweep.rise")?.zip(half("second_seed.rise")?);
+    let halves = halves.map(|((_, a), (_, b))| apart(e, &a, &b));
     let means = e.numbers("second_seed.beside_first", ["largest", "compared"]).ok();
     let means = means.map(|[largest, compared]| largest / e.level.among(compared as usize));
     Ok(halves.into_iter().chain(means).collect())

@@ -8,7 +8,7 @@ use crate::experiments::starts::{half_height, share_of_start};
 use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::experiments::{BRANCHES, PROTOCOL, RESTITUTION, STARTS};
 use crate::params::{Protocol, VERTICES};
-use impact_chain::rise::{Counted, RisePoint};
+use impact_chain::rise::RisePoint;
 use impact_numerics::estimates::{difference as apart, share};
 use impact_numerics::statistics::{Estimate, wilson};
 
@@ -194,21 +194,18 @@ fn threshold_shift(e: &Evidence, s: &Statement) -> Judged {
         ), holds))
 }
 
-/// Width of the mode's bootstrap interval over that of the mean, in the rise: the median.
-fn mode_over_mean(sweep: &Counted) -> Option<f64> {
-    let rise = [sweep.first().rise.onset?.value, sweep.first().rise.half_height_all?.value];
-    let rows = sweep.first().rows.iter().filter(|row| rise[0] <= row.sigma && row.sigma <= rise[1]);
+fn mean_is_easier(e: &Evidence, s: &Statement) -> Judged {
+    let curve = e.sweep()?.first();
+    let [low, high] = [some(curve.rise.onset)?, some(curve.rise.half_height_all)?].map(|x| x.value);
+    let rows = curve.rows.iter().filter(|row| low <= row.sigma && row.sigma <= high);
+    // Width of the mode's bootstrap interval over that of the mean.
     let ratio = |row: &RisePoint| {
         let ([low, high], [from, to]) = (row.mode_interval?, row.mean?.interval?);
         (to > from).then(|| (high - low) as f64 / (to - from))
     };
     let mut ratios: Vec<f64> = rows.filter_map(ratio).collect();
     ratios.sort_by(f64::total_cmp);
-    ratios.get(ratios.len() / 2).copied()
-}
-
-fn mean_is_easier(e: &Evidence, s: &Statement) -> Judged {
-    let ratio = some(mode_over_mean(e.sweep()?))?;
+    let ratio = *some(ratios.get(ratios.len() / 2))?;
     let found = Text::of(
         "the interval of the mode is {} times as wide as that of the mean",
         [significant(ratio, 2)],

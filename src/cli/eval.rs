@@ -160,26 +160,23 @@ impl Inputs {
     /// # Errors
     /// Exit code 2 for an option that it does not use, which is a misunderstanding, and for one that is missing.
     fn of(mut self, quantity: &Quantity) -> Result<Inputs, Failure> {
-        let given = [
-            ("masses", self.masses.is_some(), "N"),
-            ("vertices", self.vertices.is_some(), "N"),
-            ("p", self.p.is_some(), "p"),
-            ("k", self.k.is_some(), "k"),
-            ("sigma", self.sigma.is_some(), "sigma"),
-            ("omega", self.omega.is_some(), "oscillator"),
-            ("forcing-frequency", self.forcing_frequency.is_some(), "oscillator"),
-            ("spacing", self.spacing.is_some(), "oscillator"),
-        ];
         let (name, needs) = (quantity.name, |need: &str| quantity.needs.contains(&need));
-        for (option, given, need) in given {
-            if given && !needs(need) {
-                let what = format!("--{option}: {name} does not depend on it; leave it out");
-                return Err(Failure::input(what));
-            }
-            if !given && option == need && needs(need) {
-                let what = format!("--{option}: {name} needs it; see `eval --help`");
-                return Err(Failure::input(what));
-            }
+        let given = serde_json::to_value(&self).unwrap_or_default();
+        let unused = |option: &&String| match option.as_str() {
+            "masses" | "vertices" => !needs("N"),
+            "omega" | "forcing_frequency" | "spacing" => !needs("oscillator"),
+            option => !needs(option),
+        };
+        if let Some(option) = given.as_object().and_then(|given| given.keys().find(unused)) {
+            let option = option.replace('_', "-");
+            let what = format!("--{option}: {name} does not depend on it; leave it out");
+            return Err(Failure::input(what));
+        }
+        let missing =
+            |need: &&&str| !["N", "oscillator"].contains(*need) && given[**need].is_null();
+        if let Some(need) = quantity.needs.iter().find(missing) {
+            let what = format!("--{need}: {name} needs it; see `eval --help`");
+            return Err(Failure::input(what));
         }
         if needs("N") {
             let more = self.masses.map(|masses| masses.saturating_add(1));
@@ -224,12 +221,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
             _ => Failure::input(format!("--{what}")),
         }
     })?;
-    if value.is_null() {
-        return Err(Failure::check(format!(
-            "{}: the result is not a finite number",
-            quantity.name
-        )));
-    }
     if quantity.name == "p-crit" && value.as_f64() > Some(1.0) {
         warn("p_crit is above 1, so no probability reaches it: N is too small");
     }

@@ -3,10 +3,10 @@
 use super::within;
 use impact_chain::methods::State;
 use impact_chain::search::clock::LATEST;
-use impact_chain::{Engine, Error, Impact, Scenario, rounding};
+use impact_chain::{Error, Impact, Scenario, rounding};
 use impact_paper::experiments::alive;
 use impact_paper::params::MethodName;
-use literate::cli::terminal::{fits, warn, written as printed};
+use literate::cli::terminal::{warn, written as printed};
 use literate::{Failure, input};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -68,9 +68,6 @@ initial:  "rest" (at equilibrium), "zero" (no free part),
           {"free": [[a_1, b_1], ...]} (x_j = j d + a_j cos wt + b_j sin wt + forced response),
           {"at": {"positions": [x_1, ...], "velocities": [v_1, ...]}} (from the left wall),
           {"random": {"sigma": s, "seed": k}} (normal free parts)."#;
-
-/// Bytes that a number takes while a list grows: the old place, and the new one of twice its length.
-const NUMBER: u128 = 3 * size_of::<f64>() as u128;
 
 /// So much is printed at once, in bytes, in whole lines: a signal that ends the program leaves no half of a number.
 const BLOCK: usize = 16 << 10;
@@ -154,9 +151,6 @@ fn read(path: &Path) -> Result<(String, Scenario), Failure> {
     let text = text.map_err(|error| {
         Failure::input(format!("{name}: {error}; give a scenario, see `trace --help`"))
     })?;
-    let numbers = text.bytes().filter(|byte| *byte == b',').count();
-    let most = NUMBER * numbers as u128 + Engine::memory(numbers / 2, 1);
-    fits(most, &name, "give fewer masses")?;
     let scenario = Scenario::from_json(&text).map_err(|error| in_file(&name, error))?;
     Ok((name, scenario))
 }

@@ -262,29 +262,21 @@ impl Paper {
     }
 }
 
-/// Name and setting of each parameter, the seed among them, field by field.
-pub(crate) fn settings(parameters: &Json) -> Vec<(String, String)> {
-    let mut flat = Vec::new();
-    flatten("", parameters, &mut flat);
-    flat
-}
-
-/// Fields of fields get both names; long lists are told by their ends.
-fn flatten(name: &str, value: &Json, into: &mut Vec<(String, String)>) {
+/// Name and setting of each parameter, the seed among them, field by field. Fields of fields get both names; long lists
+/// are told by their ends.
+pub(crate) fn settings(name: &str, value: &Json) -> Vec<(String, String)> {
+    let of_field = |(field, value): (&String, &Json)| {
+        let whole = format!("{name} {}", field.replace('_', " "));
+        settings(whole.trim_start(), value)
+    };
     match value {
-        Json::Null => {}
-        Json::Object(fields) => {
-            for (field, value) in fields {
-                let field = field.replace('_', " ");
-                let whole = if name.is_empty() { field } else { format!("{name} {field}") };
-                flatten(&whole, value, into);
-            }
-        }
+        Json::Null => Vec::new(),
+        Json::Object(fields) => fields.iter().flat_map(of_field).collect(),
         Json::Array(list) => match merged(list) {
-            Some(one) => flatten(name, &one, into),
-            None => into.push((name.into(), listed(list))),
+            Some(one) => settings(name, &one),
+            None => vec![(name.into(), listed(list))],
         },
-        scalar => into.push((name.into(), shown(scalar))),
+        scalar => vec![(name.into(), shown(scalar))],
     }
 }
 
@@ -388,7 +380,7 @@ mod tests {
     fn parameters_of_parameters_have_both_names() {
         let parameters = serde_json::json!({"seed": 7, "chain": {"masses": 3}, "r": [0.5, 0.25]});
         let shown: Vec<String> =
-            settings(&parameters).iter().map(|(k, v)| format!("{k}={v}")).collect();
+            settings("", &parameters).iter().map(|(k, v)| format!("{k}={v}")).collect();
         assert_eq!(shown, ["chain masses=3", "r=0.5, 0.25", "seed=7"]);
     }
 }

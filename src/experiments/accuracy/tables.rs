@@ -42,11 +42,6 @@ fn power(value: f64) -> String {
     }
 }
 
-/// The same within a sentence.
-fn spoken(setting: Setting) -> String {
-    titled(setting).replace(", $", " with $")
-}
-
 fn or_nan(value: Option<f64>) -> f64 {
     value.unwrap_or(f64::NAN)
 }
@@ -107,7 +102,7 @@ fn all(race: &Race) -> Table {
                 .map(|own| with_error(folds / own.value, folds / own.value * own.error / own.value))
         })
         .words("best", "the cheapest rival without a miss", |()| {
-            best.map_or("none".into(), |own| spoken(own.setting))
+            best.map_or("none".into(), |own| titled(own.setting).replace(", $", " with $"))
         })
         .real("best_work", "1", 2, "its evaluations per impact", |()| {
             best.map_or(f64::NAN, |own| cost(&own))
@@ -156,16 +151,11 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
     rows
 }
 
-/// A setting in addresses.
-fn called(setting: Setting) -> String {
-    format!("{}-{}", setting.method.id(), setting.value)
-}
-
 /// The bias of the mean.
 pub fn bias(biases: &Biases) -> Vec<Table> {
     let rows = compared(biases);
     let cells = Table::of("bias.cells", &rows, |row| row.pairs)
-        .text_key("setting", |row| called(row.setting))
+        .text_key("setting", |row| format!("{}-{}", row.setting.method.id(), row.setting.value))
         .key("sigma", SIGMA, |row| row.sigma)
         .words("name", "method with step or tolerance", |row| titled(row.setting))
         .computed_by(origin(bias::run))

@@ -19,12 +19,6 @@ struct Gaps {
     ever: Chances,
 }
 
-/// Gaps at a σ of a curve, by the latest time.
-struct Curve {
-    sigma: f64,
-    by_then: Chances,
-}
-
 /// Chains of one length at one σ by some time.
 struct Chains<'a> {
     masses: usize,
@@ -58,11 +52,11 @@ pub fn tables(found: &Nucleation) -> Vec<Table> {
     }
     // Between the σ that were run, for curves.
     let last = within.last().zip(fewer.last());
-    let between: Vec<Curve> = last.map_or(Vec::new(), |(all, few)| {
+    let between: Vec<(f64, Chances)> = last.map_or(Vec::new(), |(all, few)| {
         (22..=66_u32)
             .into_par_iter()
             .map(|step| f64::from(step) / 400.0)
-            .map(|sigma| Curve { sigma, by_then: Chances::new(chain, all, few, sigma) })
+            .map(|sigma| (sigma, Chances::new(chain, all, few, sigma)))
             .collect()
     });
     vec![
@@ -86,15 +80,15 @@ fn single(gaps: &[Gaps]) -> Table {
 }
 
 /// The share of the chains with an impact by the latest time, at more σ.
-fn shares(parameters: &NucleationParams, curve: &[Curve]) -> Table {
+fn shares(parameters: &NucleationParams, curve: &[(f64, Chances)]) -> Table {
     let lengths = parameters.lengths.iter().map(|(masses, _)| *masses);
-    let rows: Vec<(usize, &Curve)> =
-        lengths.flat_map(|masses| curve.iter().map(move |row| (masses, row))).collect();
+    let rows: Vec<(usize, f64, Chances)> =
+        lengths.flat_map(|masses| curve.iter().map(move |row| (masses, row.0, row.1))).collect();
     Table::of("nucleation.shares", &rows, |_| 0)
-        .key("masses", "1", |(masses, _)| *masses as f64)
-        .key("sigma", SIGMA, |(_, row)| row.sigma)
-        .real("clumps", "1", 3, "expected with clumps", |(masses, row)| {
-            row.by_then.at_least_one(*masses, parameters.chain.boundary)
+        .key("masses", "1", |(masses, ..)| *masses as f64)
+        .key("sigma", SIGMA, |(_, sigma, _)| *sigma)
+        .real("clumps", "1", 3, "expected with clumps", |(masses, _, by_then)| {
+            by_then.at_least_one(*masses, parameters.chain.boundary)
         })
         .done()
 }

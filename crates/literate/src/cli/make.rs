@@ -55,10 +55,6 @@ impl<'a> Session<'a> {
         let folder = prose.map(Path::to_path_buf).or_else(|| project.find(paper.prose));
         let templates = match folder {
             Some(folder) => Templates::read(&folder)?,
-            None if project.copy.is_empty() => {
-                let what = format!("{}: there is no such folder of prose", paper.prose);
-                return Err(Failure::input(format!("{what}; run this in the project")));
-            }
             None => Templates::of(project.copy.iter().filter_map(|(path, text)| {
                 Some((path.strip_prefix(paper.prose)?.strip_prefix('/')?, *text))
             })),

@@ -16,7 +16,6 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Read, Write};
-use std::path::Path;
 use std::process::Stdio;
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
@@ -113,11 +112,6 @@ impl Command {
         Command { name, line, parameters: |_| Json::Null }
     }
 
-    /// Those of its words that are files.
-    fn files<'a>(&self, top: &'a Path) -> impl Iterator<Item = &'static str> + use<'a> {
-        self.line.split_whitespace().filter(move |word| top.join(word).is_file())
-    }
-
     fn identity(&self, session: &Session<'_>) -> Identity {
         let code = self.code(&session.paper.project);
         let parameters = Entry::parameters(self, session.profile);
@@ -191,7 +185,8 @@ impl Entry for Command {
     fn code(&self, project: &Project) -> BTreeMap<String, String> {
         let top = project.folder();
         let hash = |file: &str| Some(sha256(std::fs::read_to_string(top.join(file)).ok()?));
-        self.files(&top).filter_map(|file| Some((file.to_string(), hash(file)?))).collect()
+        let files = self.line.split_whitespace();
+        files.filter_map(|file| Some((file.to_string(), hash(file)?))).collect()
     }
 
     fn parameters(&self, profile: Profile) -> Json {
@@ -237,6 +232,7 @@ mod tests {
     use crate::paper::Paper;
     use crate::project::Sources;
     use crate::report::Templates;
+    use std::path::Path;
 
     const SCRIPT: &str = r#"read given
 case $given in *quick*) n=100 ;; *) n=1000 ;; esac

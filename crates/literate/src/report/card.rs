@@ -73,7 +73,7 @@ impl Card {
         self.item("experiment", &experiment.item(), cards.paper);
         let quick = cards.profile() == Profile::Quick.name();
         let profile = if quick { Profile::Quick } else { Profile::Full };
-        let pairs = settings(&experiment.parameters(profile)).into_iter();
+        let pairs = settings("", &experiment.parameters(profile)).into_iter();
         let pairs: Vec<String> =
             pairs.map(|(name, setting)| format!("{name}: {setting}")).collect();
         self.words("its parameters", pairs.join("; "));
