@@ -23,8 +23,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     panel.quiet().bars("interval of the mode", &bars, 40, bar, Outside::Refuse)?;
     panel.marks("mode", &modes, CROSSES, Outside::Refuse)?;
     let near = rise(&sheet, 0.075, count_axis(n, "impacts"))?;
-    let (low, high) = (near.x.lo, near.x.hi);
-    let shown: Vec<_> = bars.into_iter().filter(|bar| bar.0 >= low && bar.0 <= high).collect();
+    let shown: Vec<_> = bars.into_iter().filter(|bar| near.x.holds(bar.0)).collect();
     near.bars("interval of the mode, near the rise", &shown, 40, bar, Outside::Refuse)?;
     printed(&near)?;
     near.marks("mode, near the rise", &modes, CROSSES, Outside::Cut)?;

@@ -41,7 +41,6 @@ pub fn by_method<T, P>(
 }
 
 /// A program that was timed, and held against the truth on one chain.
-#[derive(Clone, Debug)]
 pub struct Timed {
     pub name: String,
     /// The method of this project, if it is one.

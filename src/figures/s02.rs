@@ -18,10 +18,9 @@ const TIMES: [(Colour, Mark); 3] =
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
-    let (found, missing) = (table("nucleation.chains")?, table("nucleation.times")?);
-    let shares = table("nucleation.shares")?;
+    let (missing, shares) = (table("nucleation.times")?, table("nucleation.shares")?);
     let sheet = Sheet::new(8600);
-    chains(&sheet, found, shares, table("sweep.rows")?)?;
+    chains(&sheet, table("nucleation.chains")?, shares, table("sweep.rows")?)?;
     times(&sheet, missing)?;
     Ok(sheet.finish("s02", "Gaps that close by themselves", description(missing)))
 }

@@ -25,13 +25,11 @@ const GROWN: (&str, Marker) =
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
-    let (means, rise, scores) =
-        (table("seeds.means")?, table("seeds.rise")?, table("seeds.scores")?);
     let sheet = Sheet::new(9600);
-    counts(&sheet, means, table("seeds.theory")?, sweep::main(results)?)?;
+    counts(&sheet, table("seeds.means")?, table("seeds.theory")?, sweep::main(results)?)?;
     let advance = table("seeds.advance")?;
     advances(&sheet, advance)?;
-    halves(&sheet, rise, scores)?;
+    halves(&sheet, table("seeds.rise")?, table("seeds.scores")?)?;
     Ok(sheet.finish("s03", "From one gap to many: nucleation and growth", description(advance)))
 }
 

@@ -29,10 +29,8 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     let misses = sheet.lettered(LETTERS[1], misses, cost_axis(), axis)?;
 
     let spread = |e: &Entry| Some((e.setting.method, (e.work?, e.errors?[0], e.errors?[1])));
-    let missed = |e: &Entry| {
-        let share = e.misses as f64 / e.tried.max(1) as f64;
-        Some((e.setting.method, (e.work?, share)))
-    };
+    let share = |e: &Entry| e.misses as f64 / e.tried.max(1) as f64;
+    let missed = |e: &Entry| Some((e.setting.method, (e.work?, share(e))));
     let spreads = by_method(&race.entries, spread);
     for (method, bars) in &spreads {
         let look = look(*method);
