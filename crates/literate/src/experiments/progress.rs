@@ -138,16 +138,3 @@ fn told(done: u64, total: u64, elapsed: Duration) -> String {
         format!("{percent:.0} %")
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_line_tells_share_and_time_left() {
-        let told = |done, total| told(done, total, Duration::from_secs(8));
-        assert_eq!(told(40, 100), "40 %, about 12 s left");
-        // The last of a thousand may take as long as all before.
-        assert_eq!([told(999, 1000), told(0, 7), told(7, 7)], ["99 %", "0 %", "100 %"]);
-    }
-}

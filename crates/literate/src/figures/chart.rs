@@ -77,16 +77,3 @@ pub fn short(value: f64, digits: usize) -> String {
         shown
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_and_ends_are_round() {
-        assert_eq!((upwards_from_zero(0.37, "").hi, upwards_from_zero(101.0, "").hi), (0.4, 125.0));
-        let shown = [(0.013_032_86, 4), (89.887, 3), (0.5, 3), (100.0, 3), (2.339e-5, 3)];
-        let shown = shown.map(|(value, digits)| short(value, digits));
-        assert_eq!(shown, ["0.01303", "89.9", "0.5", "100", "2.34·10^−5"]);
-    }
-}

@@ -110,16 +110,6 @@ impl Drawing {
         Drawing { height, ..Drawing::default() }
     }
 
-    /// The letters of its panels, by the labels (a), (b), ….
-    pub fn panels(&self) -> Vec<char> {
-        let is = |words: &str| {
-            self.elements
-                .iter()
-                .any(|element| matches!(element, Element::Label(label) if label.words == words))
-        };
-        ('a'..='z').filter(|letter| is(&format!("({letter})"))).collect()
-    }
-
     fn shape(&mut self, path: Vec<Step>, fill: Fill, stroke: Option<Stroke>) {
         self.elements.push(Element::Shape(path, fill, stroke));
     }

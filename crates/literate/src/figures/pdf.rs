@@ -129,27 +129,3 @@ impl Page<'_> {
         self.content.restore_state();
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::figures::style::{Dash, INK};
-
-    #[test]
-    fn shapes_become_operators() {
-        let mut drawing = Drawing::new(500);
-        drawing.line(vec![(1, 2), (3, 4)], Stroke::dashed(Colour(0, 0, 255), 4, Dash::Long));
-        drawing.area([(1, 2), (4, 2), (4, 6)], INK, 25);
-        let text = String::from_utf8_lossy(&drawing.pdf("σ")).into_owned();
-        for part in [
-            "/MediaBox [0 0 504 30]",
-            "0.06 0 0 -0.06 0 30 cm",
-            "0 0 1 RG\n4 w\n[150 75] 0 d\n1 2 m\n3 4 l\nS\n",
-            "1 2 m\n4 2 l\n4 6 l\nh\nf\n",
-            "/o25 gs",
-            "/ca 0.25",
-        ] {
-            assert!(text.contains(part), "{part:?} is not in\n{text}");
-        }
-    }
-}

@@ -285,14 +285,9 @@ mod tests {
         );
         let high = figure.drawing.height as i32;
         for element in &figure.drawing.elements {
-            if let super::super::drawing::Element::Label(label) = element {
-                assert!(
-                    label.at.0 > 0
-                        && label.at.0 < WIDTH as i32
-                        && label.at.1 > 0
-                        && label.at.1 < high
-                );
-            }
+            let super::super::drawing::Element::Label(label) = element else { continue };
+            let (x, y) = label.at;
+            assert!((1..WIDTH as i32).contains(&x) && (1..high).contains(&y), "{}", label.words);
         }
         let wrong = Plot::new().line("a", &[(0.0, f64::NAN)]).finish("a", "A", seen!("A"));
         assert!(matches!(wrong, Err(Error::Outside { .. })));

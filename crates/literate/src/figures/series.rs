@@ -263,17 +263,4 @@ mod tests {
         assert_eq!(file.name, "s01b.csv");
         assert_eq!(file.csv().lines().skip(1).collect::<Vec<_>>(), rows);
     }
-
-    #[test]
-    fn insets_record_where_they_have_a_file() {
-        let sheet = Sheet::new(3000);
-        let inset = sheet.inset(FRAME, axis(), axis()).unwrap();
-        inset.columns("again", &[0.5], LINE).unwrap();
-        let own = sheet.inset(FRAME, axis(), axis()).unwrap().file("-inset");
-        own.curve("finer", &[(0.1, 0.2)], LINE, Outside::Cut).unwrap();
-        let data = sheet.finish("s01", "", Default::default()).data;
-        let told: Vec<_> = data.iter().map(|file| (&*file.name, file.csv())).collect();
-        let csv = "series (text),x (1),x (1)\nfiner,0.1,0.2\n".to_string();
-        assert_eq!(told, [("s01-inset.csv", csv)]);
-    }
 }

@@ -182,7 +182,7 @@ fn parts<'a>(
     declared: &'a Declared,
 ) -> Result<(Vec<Part<'a>>, Labels), Error> {
     let library = Library::read(input.templates.text("references.bib")?)?;
-    let (mut labels, mut shown) = (Labels::of(input.figures), BTreeSet::new());
+    let (mut labels, mut shown) = (Labels::default(), BTreeSet::new());
     let mut parts = Vec::new();
     let read = |filled| parse::parse(filled, values, declared, input.paper);
     let read = filled.par_iter().with_max_len(1).map(read).collect::<Vec<_>>();

@@ -5,7 +5,6 @@ use super::bibliography::Library;
 use super::document::{Block, Inline, rewrite, visit};
 use super::documents::Document;
 use crate::claims::Check;
-use crate::figures::Figure;
 use std::collections::BTreeMap;
 
 /// What can be referred to by an id.
@@ -23,19 +22,11 @@ pub struct Label {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
     labels: BTreeMap<String, Label>,
-    /// Letters of the panels of each figure, by its name.
-    panels: BTreeMap<String, Vec<char>>,
     /// Anchors of each kind so far.
     anchors: BTreeMap<String, usize>,
 }
 
 impl Labels {
-    /// None yet, of a report with these figures.
-    pub fn of(figures: &[Figure]) -> Self {
-        let panels = figures.iter().map(|figure| (figure.id.clone(), figure.drawing.panels()));
-        Labels { panels: panels.collect(), ..Labels::default() }
-    }
-
     fn add(&mut self, id: &str, shown: &str, of: Document, to: &str) -> Result<(), Error> {
         let label = Label { shown: shown.into(), of, to: to.into() };
         match self.labels.insert(id.to_string(), label) {
@@ -90,20 +81,11 @@ impl Labels {
                     }
                 }
                 // What is shown again has its place elsewhere.
-                Block::Figure { id, number, name, .. } if !of.repeats => {
+                Block::Figure { id, number, .. } if !of.repeats => {
                     if number.is_empty() {
                         *number = free("fig", &mut figures);
                     }
                     self.add(id, number, of, id)?;
-                    for letter in self.panels.get(name).cloned().unwrap_or_default() {
-                        let dash = if *id == format!("fig:{number}") { "" } else { "-" };
-                        self.add(
-                            &format!("{id}{dash}{letter}"),
-                            &format!("{number}({letter})"),
-                            of,
-                            id,
-                        )?;
-                    }
                 }
                 Block::Listing { id, number, .. } => {
                     listings += 1;
