@@ -1,7 +1,7 @@
 //! What the templates can name beside the cells of tables: some values, and the rows of generated tables.
 //!
 //! A value is computed here from results and carries the path of the function that computed it, which the
-//! compiler gives ([`super::values::origin`]). Groups are `v` (ours), `paper` (numbers that the paper chose) and
+//! compiler gives ([`literate::value::origin`]). Groups are `v` (ours), `paper` (numbers that the paper chose) and
 //! `printed` (numbers in its statements).
 
 use crate::claims::{self, Basis, Check, FAMILY_LEVEL, Published, Verdict};
