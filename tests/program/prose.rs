@@ -32,4 +32,19 @@ fn faults_of_the_prose_are_told_with_their_place() {
         let line = note.lines().last().unwrap();
         assert!(code.to_string() == expected && line.contains(&says), "{says}: {told}{note}");
     }
+    // A copy of a section that an editor left, and a section that is lost.
+    let edition = here.join("t/edition");
+    std::fs::copy(edition.join("12-limits.md"), edition.join("12-limits copy.md")).unwrap();
+    crate::refused(
+        here,
+        "check --profile quick --results r --templates t",
+        &["edition/12-", "13-name.md"],
+    );
+    std::fs::remove_file(edition.join("12-limits copy.md")).unwrap();
+    std::fs::remove_file(edition.join("12-limits.md")).unwrap();
+    crate::refused(
+        here,
+        "check --profile quick --results r --templates t",
+        &["edition/13-", "12-name.md"],
+    );
 }

@@ -73,8 +73,7 @@ impl Paper {
 
     /// Parses the command line and runs its verb.
     fn obey<V: Subcommand>(&self, more: impl FnOnce(V) -> Result<(), Failure>) -> ExitCode {
-        let crate::project::Sources { version, .. } = self.project.sources;
-        let name: &'static str = self.project.sources.name;
+        let crate::project::Sources { name, version, .. } = self.project.sources;
         let command: Command = Cli::<V>::command().name(name).bin_name(name).version(version);
         let command = command.about(self.title).after_help(EXIT_CODES);
         let parsed = command.try_get_matches().and_then(|all| Cli::<V>::from_arg_matches(&all));
