@@ -43,8 +43,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let place = shown(&folder);
     let (files, mut faults) = folder::verify(&folder)?;
     if faults.is_empty() {
-        let sums = folder::SUMS;
-        print(&format!("{place}: {files} files, all as {sums} lists them\n"))?;
+        print(&format!("{place}: {files} files, all as {} lists them\n", folder::SUMS))?;
     }
     if rerun {
         let profile = profile_in(&folder).and_then(|name| profile(&name));

@@ -246,7 +246,8 @@ impl Reader<'_> {
 const LEFTOVER: &str = "markup without its other end, or a row where a cell is meant (table[\"row\"].column); complete it, or write a \
      backslash before a sign that is meant";
 
-const CUT: &str = "a formula without its other end: Markdown ends it at an empty line, and at a line that begins with +, -, *, # or >";
+const CUT: &str = "a formula without its other end: Markdown ends it at an empty line, and at one that begins with +, -, *, #, \
+     >, = or 1.; end the line before with the sign";
 
 /// The first sign of markup that Markdown took for text, since its other end is missing, and what is wrong there. The text
 /// stands at `start`; behind a backslash a sign is meant as it stands.
@@ -269,7 +270,13 @@ fn leftover(source: &str, start: usize, text: &str) -> Option<(usize, &'static s
     let (i, sign) = text.char_indices().skip(usize::from(escaped)).find(left)?;
     let what = match sign {
         '|' => "a table needs a line of dashes below its head with as many columns",
-        '$' if source[start + i..].starts_with("$$") => CUT,
+        '$' if source[start + i..].starts_with("$$") => {
+            let lines = source[start + i..].match_indices('\n').map(|(at, _)| start + i + at + 1);
+            let ends = |c: char| "+-*#>=".contains(c) || c.is_ascii_digit();
+            let mut lines = lines.take_while(|at| !source[*at..].starts_with(['\n', '$']));
+            let cut = lines.find(|at| source[*at..].starts_with(ends));
+            return Some((cut.unwrap_or(start + i), CUT));
+        }
         _ => LEFTOVER,
     };
     Some((start + i, what))

@@ -57,7 +57,7 @@ fn broken_prose_is_told_with_its_place() {
         ),
         (r"at $\left( x$", "14:4", "no MathML"),
         ("$$ x \\tag{a b} $$", "14:1", "write eq: and behind it"),
-        ("$$\na = b\n+ c\n$$", "14:1", "a formula without its other end"),
+        ("$$\na = b\n+ c\n$$", "16:1", "a formula without its other end"),
         ("| $$x$$ |\n|---|", "14:3", "stands in a paragraph"),
         // A macro that hosts refuse, and what they see otherwise.
         (r"at $\operatorname{erf} x$", "14:4", r"write \mathrm"),
