@@ -2,7 +2,7 @@
 //!
 //! A statement stands in `templates/published.toml` ([`Published`]) with its place; the row here
 //! with the same id computes our finding from the results of the experiments and judges it. Prose,
-//! table, `impact-paper check` and its exit code read the same row.
+//! table, `check` and its exit code read the same row.
 //!
 //! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a
 //! difference that we explain no longer has the size that the explanation predicts. [`relations`] and

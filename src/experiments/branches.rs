@@ -108,7 +108,7 @@ fn shares(both: &[Both<'_>]) -> Table {
         .done()
 }
 
-/// Of the chains from rest without any from above beside them.
+/// Half heights of chains from rest of lengths at which none was run from above.
 fn lengths(found: &[Counted], both: &[Both<'_>]) -> Table {
     let other = |(own, _): &(&Counted, _)| both.iter().all(|both| !std::ptr::eq(both.rest.0, *own));
     let rows: Vec<_> = from_rest(found).filter(other).collect();

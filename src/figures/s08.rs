@@ -8,7 +8,7 @@ use crate::experiments::accuracy::tables::name;
 use crate::experiments::measured::{Measurement, What};
 use crate::params::MethodName;
 
-/// The engine's own measured rows: one chain, one thread.
+/// The measured times of the engine with one chain on one thread.
 fn own(measured: &Measured) -> Vec<&Measurement> {
     measured.of(What::Engine).filter(|row| row.chains == 1 && row.note.is_empty()).collect()
 }

@@ -113,7 +113,7 @@ impl std::fmt::Debug for Paper {
 }
 
 impl Paper {
-    /// A paper with this title and source, one document `report`, and its prose in the folder `paper`.
+    /// A paper with this title and source, one document `report`, and its prose in the folder `prose`.
     pub fn new(title: &'static str, sources: Sources) -> Self {
         Paper {
             title,
@@ -263,7 +263,7 @@ impl Paper {
 }
 
 /// Name and setting of each parameter, the seed among them, field by field. Fields of fields get both names; long lists
-/// are told by their ends.
+/// are shown by their first and last value.
 pub(crate) fn settings(name: &str, value: &Json) -> Vec<(String, String)> {
     let of_field = |(field, value): (&String, &Json)| {
         let whole = format!("{name} {}", field.replace('_', " "));

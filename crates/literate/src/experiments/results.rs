@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
-/// Makes tables of the results of several experiments and of their own tables; none where one was not asked for.
+/// Makes tables of the results and tables of several experiments; none if one of these was not run.
 pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// The results of the experiments that were asked for.

@@ -53,7 +53,7 @@ const TICK: i32 = 85;
 const MINOR_TICK: i32 = 50;
 const GAP: i32 = 70;
 
-/// From a frame to the base of the label beside it, but for the numbers between.
+/// Distance from a frame to the base of the label of its upright axis, without the width of the numbers.
 pub(super) const BESIDE: i32 = TICK + 4 * GAP;
 /// From a frame to the top of the label below it.
 pub(super) const BELOW: i32 = TICK + 3 * GAP + SMALL;

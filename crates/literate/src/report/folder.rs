@@ -157,7 +157,7 @@ pub fn refuse(
 
 /// Writes files: first all into a temporary folder, then each is renamed into its place, the list last. With a list among
 /// them they are a whole report, and what only the list before has is removed; without one their lines are put into the
-/// list that is there. `beside` are files that no list has.
+/// list that is there. `beside` are pages and figures for LaTeX, which are on no list.
 pub fn write(folder: &Path, files: &Files, beside: &Files, force: bool) -> Result<Written, Error> {
     let whole = files.contains_key(SUMS);
     let mut over = refuse(folder, files, whole, force)?;

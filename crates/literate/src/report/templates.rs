@@ -8,7 +8,7 @@ use std::path::Path;
 /// Endings of the files that are templates or data for them (fonts live there too).
 const TEXT: [&str; 8] = [".md", ".tex", ".bib", ".toml", ".html", ".css", ".js", ".json"];
 
-/// What stands around the text of the documents, and files that say nothing, where a folder has none of its own.
+/// Frames of the documents, and empty files, for a folder that has none of these names.
 const SKIN: [(&str, &str); 7] = [
     ("literals.toml", ""),
     ("published.toml", ""),
