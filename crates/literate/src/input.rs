@@ -1,6 +1,7 @@
 //! Files: they are read up to a bound, what is wrong with them is told in one line, and they appear whole.
 
 pub use impact_numerics::text::{count, is_obeyed, one_line, plain};
+use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
@@ -51,6 +52,11 @@ fn bounded(file: impl Read, mib: u64) -> Result<Vec<u8>, Error> {
         return Err(Error::new(ErrorKind::InvalidInput, format!("it is longer than {mib} MiB")));
     }
     Ok(bytes)
+}
+
+/// SHA-256 in lower-case hexadecimal, by which files and results are known.
+pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Whether there is no such file.

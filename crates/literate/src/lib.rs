@@ -3,9 +3,8 @@
 //! `examples/feigenbaum` is a whole paper, in 250 lines of Rust: `cargo run -p literate --example feigenbaum -- paper --out FOLDER`.
 //!
 //! 1. An [experiment](experiments) has parameters for each [profile](experiments::Profile) and a run. What a run gave is saved in a
-//!    [store](experiments::Store), and used again as long as its [identity](experiments::identity::Identity) is the same: parameters, seed,
-//!    and each file of code that it depends on. One that is [cut](experiments::cutting) into units can run on several machines
-//!    ([shards](experiments::shards)).
+//!    [store](experiments::Store), and used again as long as its [identity](experiments::store::Identity) is the same: parameters, seed,
+//!    and each file of code that it depends on. One that is [cut](experiments::cutting) into units can run on several machines.
 //! 2. What follows from it stands in [tables](table): a column says once what its cells are, and a cell has an address,
 //!    `cascade.orbits[n=3].delta`, by which prose, figures, claims and cards name it.
 //! 3. A [figure](figures) is one list of shapes, written as SVG, into the page and as PDF, with its data beside it.
@@ -35,7 +34,6 @@ extern crate self as literate;
 
 pub mod claims;
 pub mod cli;
-pub mod digest;
 pub mod experiments;
 mod failure;
 pub mod figures;

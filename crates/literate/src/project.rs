@@ -4,8 +4,7 @@
 //! What is read is looked for below the current folder, then in the folders above the program itself, one of which is the
 //! checkout in which it was built. A program that is to travel alone has a copy inside instead.
 
-use crate::digest::sha256;
-use crate::input;
+use crate::input::{self, sha256};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io;

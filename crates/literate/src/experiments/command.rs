@@ -5,9 +5,9 @@
 //! A row has its keys first; `pi_error` is the standard error of `pi`; `null` is no number. `"units": {"pi": "1"}` may be added.
 
 use super::cutting::Unit;
-use super::identity::Identity;
+use super::store::Identity;
 use super::{Entry, Error, Found, Profile, Session};
-use crate::digest::sha256;
+use crate::input::sha256;
 use crate::project::Project;
 use crate::table::Table;
 use crate::value::Origin;

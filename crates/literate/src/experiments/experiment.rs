@@ -1,7 +1,7 @@
 //! An experiment: a name, parameters, a way to run it, and the tables that follow.
 
 use super::cutting::{Cutting, Unit};
-use super::identity::Identity;
+use super::store::Identity;
 use super::{Error, Profile, Progress, Session};
 use crate::input::count;
 use crate::project::Project;

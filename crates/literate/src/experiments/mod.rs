@@ -3,24 +3,124 @@
 
 pub mod command;
 pub mod cutting;
-mod error;
 pub mod experiment;
-pub mod identity;
-mod profile;
 pub mod progress;
 mod results;
-mod session;
-pub mod shards;
 pub mod store;
 
 pub use command::Command;
-pub use error::Error;
 pub use experiment::{Entry, Experiment, Found};
-pub use profile::Profile;
 pub use progress::{Progress, alive, be_quiet, say};
 pub use results::{Results, Together};
-pub use session::Session;
 pub use store::Store;
+
+use crate::input::remedy;
+use crate::paper::Paper;
+use crate::report::Templates;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// An experiment of any parameters and result.
 pub type Need = &'static dyn Entry;
+
+/// How much is sampled: small to try out, large for the committed report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Profile {
+    /// To try out: seconds.
+    Quick,
+    /// The committed report.
+    Full,
+}
+
+impl Profile {
+    /// All of them, rising.
+    pub const ALL: [Profile; 2] = [Profile::Quick, Profile::Full];
+
+    /// Its name on the command line, in reports and in names of files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Profile::Quick => "quick",
+            Profile::Full => "full",
+        }
+    }
+}
+
+/// An error of an experiment.
+#[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages tell")]
+pub enum Error {
+    #[error("interrupted; nothing was left half-written")]
+    Interrupted,
+    #[error("{field}: {problem}; {remedy}")]
+    Input { field: String, problem: String, remedy: String },
+    #[error(transparent)]
+    Missing(#[from] crate::table::Missing),
+    #[error("{experiment}: {source}")]
+    Failed { experiment: &'static str, source: Box<dyn std::error::Error + Send + Sync> },
+    #[error("the results of {0} were not run; declare them among what is needed")]
+    NotRun(&'static str),
+    #[error(
+        "{experiment}: a result is not finite, so it was not saved; this is a fault of the program"
+    )]
+    NotFinite { experiment: String },
+    #[error("--results: {path}: {source}; {}", remedy(source, "choose another folder"))]
+    Store { path: PathBuf, source: std::io::Error },
+}
+
+impl Error {
+    /// An [`Error::Failed`] of an experiment.
+    pub fn failed(
+        experiment: &'static str,
+        source: impl std::error::Error + Send + Sync + 'static,
+    ) -> Self {
+        Error::Failed { experiment, source: Box::new(source) }
+    }
+
+    /// An [`Error::Input`] from its three parts.
+    pub fn input(
+        field: impl Into<String>,
+        problem: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Error::Input { field: field.into(), problem: problem.into(), remedy: remedy.into() }
+    }
+}
+
+/// A run: of which paper, with which samples and prose, and where results are kept.
+#[derive(Debug)]
+pub struct Session<'a> {
+    /// The paper.
+    pub paper: &'a Paper,
+    /// The prose, and what stands with it.
+    pub templates: Templates,
+    /// The sample sizes.
+    pub profile: Profile,
+    /// Where results are saved.
+    pub store: Store,
+    /// How far work is, and whether it is to end.
+    pub progress: Progress,
+}
+
+impl Session<'_> {
+    /// The saved result if it is fresh, else that of a run, which is then saved.
+    fn saved<T: experiment::Json>(
+        &self,
+        identity: &store::Identity,
+        run: impl FnOnce() -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let (found, why) = match self.store.look(identity) {
+            Ok(found) => (Some(found), "fresh".into()),
+            Err(why) => (None, why),
+        };
+        self.progress.say(&format!("{}: {why}", identity.experiment));
+        if let Some(found) = found {
+            return Ok(found);
+        }
+        self.store.prepare()?;
+        let result = run()?;
+        self.store.put(identity, &result)?;
+        self.store.remove_units(identity);
+        Ok(result)
+    }
+}

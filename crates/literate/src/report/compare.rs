@@ -4,7 +4,7 @@ use super::folder::SUMS;
 use super::ledger::{self, Ledger};
 use super::print::{Asked, Style, print};
 use super::values::{Registry, Value};
-use super::{Error, Files, markdown, spell};
+use super::{Error, Files, markdown, tex};
 use crate::claims::{Check, Text, significant};
 use crate::input::{is_obeyed, one_line};
 use crate::table::number;
@@ -145,7 +145,7 @@ fn numbers(before: &Registry, after: &Registry) -> Vec<Change> {
         let hidden =
             old.map(Value::plain) == new.map(Value::plain) && old.map(exact) != new.map(exact);
         let style = Style { digits: hidden.then_some(Asked::Full), ..Style::default() };
-        let shown = |value: &Value| spell::text(&print(&value.number, style).plain());
+        let shown = |value: &Value| tex::spelt(&print(&value.number, style).plain());
         let both = old.zip(new);
         let difference = both.and_then(|(old, new)| Some(number(new)? - number(old)?));
         let difference = difference.filter(|difference| difference.is_finite());
@@ -273,7 +273,7 @@ fn more(number: usize) -> String {
 
 /// One line of plain words for a cell. An at-sign would call somebody.
 fn cell(text: &str) -> String {
-    markdown::escaped(&one_line(&spell::text(text), 160).replace('@', "@\u{200b}"))
+    markdown::escaped(&one_line(&tex::spelt(text), 160).replace('@', "@\u{200b}"))
 }
 
 #[cfg(test)]

@@ -4,9 +4,9 @@
 //! to and resolves references, and each format has one writer that walks it. Writers decide on
 //! markup only: numbers, words of references and digits of values are in the tree already.
 
-use super::documents::Document;
 use super::mark::bare;
-use super::{Error, spell};
+use super::templates::Document;
+use super::{Error, tex};
 use pulldown_cmark::Alignment;
 
 /// A block of the report.
@@ -259,7 +259,7 @@ pub fn plain(inlines: &[Inline]) -> String {
 
 /// The words for a terminal, mathematics among them.
 pub fn spelt(inlines: &[Inline]) -> String {
-    words(inlines, &|tex| spell::maths(&bare(tex)))
+    words(inlines, &|tex| tex::spell(&bare(tex)))
 }
 
 fn words(inlines: &[Inline], maths: &dyn Fn(&str) -> String) -> String {

@@ -1,11 +1,10 @@
 //! Filling the templates by Tera: values become marks ([`super::mark`]), which the writers turn into digits. The
 //! manual ([`crate::manual`]) says what a template may write.
 
-use super::documents::Document;
 use super::lint::Declared;
-use super::mark::{self, Piece, pieces};
-use super::origin::{Filled, marked};
+use super::mark::{self, Filled, Piece, marked, pieces};
 use super::print::MOST_DIGITS;
+use super::templates::Document;
 use super::values::{Number, Registry, Value};
 use super::{Error, Templates};
 use crate::input::{line_and_column, plain};

@@ -4,8 +4,7 @@
 //! alone. Pages and figures for LaTeX are on no list: they are made anew each time.
 
 use super::assemble::{Files, Report};
-use crate::digest::sha256;
-use crate::input::{self, STAGING, WRITING, is_absent, listed, remedy};
+use crate::input::{self, STAGING, WRITING, is_absent, listed, remedy, sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::Path;

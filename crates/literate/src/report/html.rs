@@ -5,8 +5,8 @@
 
 use super::card::Cards;
 use super::document::{self, Block, Inline, plain, spelt};
-use super::documents::Document;
 use super::labels::Labels;
+use super::templates::Document;
 use super::{Error, Files, Input, latex, mathml};
 use crate::claims::Verdict;
 use crate::figures::{Figure, Glyphs, escape as text, outlines};

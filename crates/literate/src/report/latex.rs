@@ -3,7 +3,7 @@
 use super::Error;
 use super::document::{self, Block, Inline};
 use super::document::{continues, is_abstract, is_equation, plain, spelt};
-use super::documents::Document;
+use super::templates::Document;
 use super::tex;
 use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};

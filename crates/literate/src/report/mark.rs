@@ -1,10 +1,15 @@
 //! Marks: where a value stands in text, in private-use characters, into which neither Tera nor Markdown reads anything.
 //!
 //! In filled prose a mark holds the id of a value and what filters ask of its digits; in the mathematics of a
-//! [`document`](super::document) it holds id and digits, so that a page can make a button of them. The place marks of
-//! [`super::origin`] are marks without an id.
+//! [`document`](super::document) it holds id and digits, so that a page can make a button of them. Place marks have no id.
+//!
+//! They say where in the templates each piece of filled text stands, so that what is wrong with it can be mended: they are put
+//! about what Tera fills ([`marked`]) and taken out again when the filled text is read ([`Filled::add`]). Between two tags the
+//! text is that of the template; what a tag wrote stands where the tag does.
 
+use super::Error;
 use super::print::{Asked, Style};
+use crate::input::line_and_column;
 
 pub(super) const OPEN: char = '\u{e000}';
 const NEXT: char = '\u{e001}';
@@ -86,4 +91,125 @@ pub fn style(words: &str) -> Style {
         }
     }
     style
+}
+
+/// A template with a mark before each `«` and behind each `»`, `%>` and `#>`: the offset there, and whether a tag writes
+/// what follows.
+pub fn marked(text: &str) -> String {
+    let (mut out, mut at) = (String::with_capacity(2 * text.len()), 0);
+    for (found, sign) in text.match_indices(['«', '»', '>']) {
+        if found < at || sign == ">" && !text[..found].ends_with(['%', '#']) {
+            continue;
+        }
+        let end = if sign == "«" { found } else { found + sign.len() };
+        // A tag with a minus takes the blanks behind it: the mark must not stop it.
+        let blanks = text[end..].len() - text[end..].trim_start().len();
+        let end = if text[..found].ends_with("-%") { end + blanks } else { end };
+        let kind = if sign == "«" { "t" } else { "x" };
+        out += &text[at..end];
+        out += &framed("", &format!("{end}{kind}"));
+        at = end;
+    }
+    out + &text[at..]
+}
+
+/// Templates and the text that was made of them, one after the other.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Filled {
+    /// The text; values are marks in it.
+    pub text: String,
+    /// Path and text of each template.
+    templates: Vec<(String, String)>,
+    origins: Vec<Origin>,
+}
+
+/// What follows from an offset in the text on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Origin {
+    start: usize,
+    /// Which template it comes from, and the offset there.
+    template: usize,
+    offset: usize,
+    /// Whether a tag wrote it.
+    tag: bool,
+}
+
+impl Filled {
+    /// Adds what Tera made of a template after [`marked`], a paragraph apart.
+    pub fn add(&mut self, path: &str, template: &str, filled: &str) {
+        if !self.templates.is_empty() {
+            self.text += "\n\n";
+        }
+        let own = self.templates.len();
+        self.templates.push((path.into(), template.into()));
+        let here = |start, offset, tag| Origin { start, template: own, offset, tag };
+        self.origins.push(here(self.text.len(), 0, false));
+        for piece in pieces(filled) {
+            match piece {
+                Piece::Text(text) => self.text += text,
+                Piece::Value { id, shown } if !id.is_empty() => self.text += &framed(&id, shown),
+                Piece::Value { shown, .. } => {
+                    let offset = shown.trim_end_matches(['t', 'x']).parse().unwrap_or_default();
+                    self.origins.push(here(self.text.len(), offset, shown.ends_with('t')));
+                }
+            }
+        }
+    }
+
+    fn origin(&self, offset: usize) -> Origin {
+        let last = self.origins.partition_point(|origin| origin.start <= offset);
+        self.origins[last.saturating_sub(1)]
+    }
+
+    /// File, line and column in the template, from 1, of an offset in the text.
+    pub fn place(&self, offset: usize) -> String {
+        let origin = self.origin(offset);
+        let (path, text) = &self.templates[origin.template];
+        let beyond = if origin.tag { 0 } else { offset - origin.start };
+        format!("{path}:{}", line_and_column(text, (origin.offset + beyond).min(text.len())))
+    }
+
+    /// Whether people typed what stands there: text of the template, or a tag that writes a plain number or a quotation
+    /// instead of a value, a declared literal or words of the program.
+    pub fn is_typed(&self, offset: usize) -> bool {
+        let Origin { template, offset, tag, .. } = self.origin(offset);
+        let own = self.templates[template].1[offset..].trim_start_matches(['«', '-', ' ']);
+        let number = |c: char| c.is_ascii_digit() || "\"'`(-".contains(c);
+        !tag || own.starts_with(number) || own.starts_with("raw.") || own.starts_with("loop.")
+    }
+}
+
+/// Where the things stand that a report has or names: `#fig:3` what can be referred to, `@fig:3` a
+/// reference, `(path` a link.
+#[derive(Clone, Debug)]
+pub struct Places<'a> {
+    filled: &'a Filled,
+    found: Vec<(String, usize)>,
+}
+
+impl<'a> Places<'a> {
+    /// None yet.
+    pub fn of(filled: &'a Filled) -> Self {
+        Places { filled, found: Vec::new() }
+    }
+
+    /// Adds a thing at an offset of the filled text.
+    pub fn add(&mut self, thing: String, offset: usize) {
+        self.found.push((thing, offset));
+    }
+
+    /// The error with the place of what it names. Of two things with one id the second is meant.
+    pub fn tell(&self, error: Error) -> Error {
+        let thing = match &error {
+            Error::Label(id) => format!("#{id}"),
+            Error::Reference(id) => format!("@{id}"),
+            Error::Claim(id) => format!("#claim:{id}"),
+            Error::NoFile(path) | Error::Picture(path) => format!("({path}"),
+            _ => return error,
+        };
+        match self.found.iter().rev().find(|(own, _)| *own == thing) {
+            Some((_, offset)) => error.at(self.filled.place(*offset)),
+            None => error,
+        }
+    }
 }

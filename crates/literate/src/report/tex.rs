@@ -1,7 +1,14 @@
-//! Characters for pdflatex: what is special is escaped, what is not ASCII is named.
+//! TeX: characters for pdflatex, of which what is special is escaped and what is not ASCII is named; the macros that every format
+//! shows; and formulas as characters, for terminals.
+//!
+//! The largest host of Markdown draws mathematics by MathJax 3 with some packages taken away (those that
+//! define macros, or bring HTML, actions and boxes) and refuses a formula that names one of a list of
+//! macros, `\operatorname` among them; of a macro that is not known it shows the source in red. So
+//! mathematics is held against a list of what is known there, to LaTeX with amsmath, and to math-core.
 
 use super::Error;
 use super::mark::{Piece, pieces};
+use crate::input::is_no_text;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -106,14 +113,124 @@ const MATHS: &str = r"
     ⁹ ^9  ⁻ ^-  ₀ _0  ₁ _1  ₂ _2  ₃ _3  ₄ _4  ₅ _5  ₆ _6  ₇ _7  ₈ _8  ₉ _9  ₊ _+  ₋ _-  ½ \frac12
     ¼ \frac14";
 
-/// The same as a map, by which [`super::spell`] finds characters too.
-pub(super) static TEX: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
+/// The same as a map, by which formulas are spelt too.
+static TEX: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
     let words: Vec<&str> = MATHS.split_whitespace().collect();
     words.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
 });
 
 fn in_maths(c: char) -> Option<&'static str> {
     TEX.get(&*c.encode_utf8(&mut [0; 4])).copied()
+}
+
+/// Macros, by kind.
+const ALLOWED: &str = "
+    alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa lambda mu nu xi pi rho
+    varrho sigma varsigma tau upsilon phi varphi chi psi omega
+    Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega
+    frac dfrac tfrac binom sqrt sum prod int iint oint partial nabla infty ell hbar prime
+    le leq ge geq lt gt ne neq ll gg lesssim gtrsim approx sim simeq equiv propto in notin subset to mapsto
+    rightarrow leftarrow Rightarrow Leftrightarrow longrightarrow iff implies land lor wedge vee neg forall exists
+    cup cap bigcup bigcap setminus emptyset varnothing subseteq supset supseteq mid parallel perp top cong
+    pm mp times div cdot cdots dots ldots vdots ddots ast star circ oplus otimes dagger colon leqslant geqslant
+    left right bigl bigr Bigl Bigr biggl biggr big Big langle rangle lceil rceil lfloor rfloor
+    lbrace rbrace lvert rvert lVert rVert vert Vert
+    sin cos tan cot sinh cosh tanh coth arcsin arccos arctan exp ln log max min sup inf lim limsup liminf det dim deg Pr arg Re Im
+    bmod pmod overset underset mathring mathfrak textbf
+    bar hat tilde vec dot ddot overline underline widehat overbrace underbrace
+    mathrm mathbf mathbb mathcal mathit mathsf boldsymbol text textrm
+    quad qquad thinspace negthinspace limits nolimits displaystyle textstyle tag begin end";
+
+/// Environments of displayed equations.
+const ENVIRONMENTS: [&str; 5] = ["aligned", "cases", "matrix", "pmatrix", "bmatrix"];
+
+/// What is wrong with a formula: its first macro or environment that not every format shows, or a value that stands
+/// where TeX takes one sign.
+pub fn refused(tex: &str) -> Option<String> {
+    let mark = |sign: char| tex.split(sign).skip(1).any(|rest| rest.starts_with(is_no_text));
+    if mark('^') || mark('_') {
+        return Some("a value is an index here; put it into {…}".into());
+    }
+    let mut rest = tex;
+    while let Some((before, after)) = rest.split_once('\\') {
+        if let Some(what) = bare(before) {
+            return Some(what);
+        }
+        let name = &after[..after.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(after.len())];
+        rest = &after[name.len()..];
+        if name.is_empty() && after.starts_with('\\') && !tex.contains(r"\begin{") {
+            return Some(r"a break \\ of lines stands in \begin{aligned}".into());
+        } else if name.is_empty() {
+            // `\,` and its like: one character, which may be a backslash.
+            rest = after.get(after.chars().next().map_or(0, char::len_utf8)..).unwrap_or_default();
+        } else if name == "operatorname" {
+            return Some(r"\operatorname is refused by hosts; write \mathrm{…}".into());
+        } else if !ALLOWED.split_whitespace().any(|own| own == name) {
+            return Some(format!(
+                r"\{name} is not among the macros that every format shows (the manual lists them)"
+            ));
+        } else if name == "begin"
+            && !ENVIRONMENTS.iter().any(|own| rest.starts_with(&format!("{{{own}}}")))
+        {
+            return Some(format!("an environment is {}", ENVIRONMENTS.join(", ")));
+        }
+    }
+    bare(rest)
+}
+
+/// The first sign with a meaning of its own in LaTeX between macros. (Columns of an environment keep their &.)
+fn bare(between: &str) -> Option<String> {
+    let sign = between.chars().find(|c| matches!(c, '%' | '#' | '$'))?;
+    Some(format!("a bare {sign} is no sign in LaTeX; write \\{sign}"))
+}
+
+/// Text in which mathematics stands between dollars, in characters.
+pub fn spelt(text: &str) -> String {
+    let piece =
+        |(i, piece): (usize, &str)| if i % 2 == 0 { piece.to_string() } else { spell(piece) };
+    text.split('$').enumerate().map(piece).collect()
+}
+
+/// `p_{\mathrm{crit}}` as `p_crit`, `\sigma^{-3}` as `σ^-3`. A name that is not known stands without its backslash.
+pub fn spell(tex: &str) -> String {
+    let mut out = String::new();
+    let mut rest = tex;
+    while let Some(c) = rest.chars().next() {
+        rest = &rest[c.len_utf8()..];
+        match c {
+            '\\' => {
+                let end = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+                let end = if end > 0 { end } else { rest.chars().next().map_or(0, char::len_utf8) };
+                let (name, after) = rest.split_at(end);
+                rest = after;
+                out.push_str(named(name));
+            }
+            '{' | '}' => (),
+            '~' => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+fn named(name: &str) -> &str {
+    match name {
+        "epsilon" => "ε",
+        "varphi" => "φ",
+        "leq" => "≤",
+        "geq" => "≥",
+        "lt" => "<",
+        "gt" => ">",
+        "vert" => "|",
+        "sqrt" => "√",
+        "dots" | "ldots" => "…",
+        "mathrm" | "mathit" | "mathbf" | "text" | "left" | "right" | "operatorname" | "!" => "",
+        "," | ";" | ":" | " " | "quad" | "thinspace" => " ",
+        other => {
+            let is = |tex: &str| tex.strip_prefix('\\') == Some(other);
+            TEX.iter().find(|(_, tex)| is(tex)).map_or(other, |(character, _)| character)
+        }
+    }
 }
 
 #[cfg(test)]

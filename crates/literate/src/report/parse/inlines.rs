@@ -5,7 +5,7 @@ use super::super::document::Inline;
 use super::super::lint;
 use super::super::mark::{self, Piece, bare, framed, pieces};
 use super::super::print::{Printed, print};
-use super::super::{Error, macros, mathml, tex};
+use super::super::{Error, mathml, tex};
 use super::{ALONE, ELSE, Reader, comment, is_block, markup};
 use pulldown_cmark::{Event, LinkType, Tag};
 use std::ops::Range;
@@ -200,7 +200,7 @@ impl Reader<'_> {
         if bare.contains(['«', '»', '`']) {
             return Err(markup(LEFTOVER));
         }
-        match macros::refused(&tex) {
+        match tex::refused(&tex) {
             Some(what) => Err(Error::Maths { tex: bare, what }),
             None => tex::maths(&bare).and_then(|_| mathml::reads(&bare)).map(|()| tex),
         }

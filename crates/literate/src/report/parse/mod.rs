@@ -9,7 +9,7 @@ use super::Error;
 use super::document::{Block, Inline, plain};
 use super::labels::of_kind;
 use super::lint::Declared;
-use super::origin::{Filled, Places};
+use super::mark::{Filled, Places};
 use super::values::Registry;
 use crate::paper::Paper;
 use pulldown_cmark::{

@@ -1,7 +1,10 @@
-//! The second paper, made as its reader would make it.
+//! The papers of `examples/`, made as their readers would make them.
 
 #[path = "../examples/feigenbaum/paper.rs"]
-mod paper;
+mod feigenbaum;
+#[allow(dead_code)]
+#[path = "../examples/walk/main.rs"]
+mod walk;
 
 use literate::cli::whole;
 use literate::experiments::{Profile, Progress, Session, Store};
@@ -11,7 +14,7 @@ use std::path::Path;
 fn the_second_paper_is_made_and_its_run_is_used_again() {
     let folder = tempfile::tempdir().unwrap();
     let store = Store::open(folder.path()).unwrap();
-    let paper = paper::paper();
+    let paper = feigenbaum::paper();
     let prose = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/feigenbaum"));
     let quiet = Progress::silent();
     let session = Session::of(&paper, prose.as_deref(), Profile::Full, store, quiet).unwrap();
@@ -44,12 +47,33 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
     assert!(report.beside.contains_key("report.html"));
 
     // The constants to the digits that the literature has: 4.669 201 609 102… and 2.502 907 875 095….
-    let cascade = paper::CASCADE.get(&session).unwrap();
-    let tables = (paper::CASCADE.tables)(&cascade);
+    let cascade = feigenbaum::CASCADE.get(&session).unwrap();
+    let tables = (feigenbaum::CASCADE.tables)(&cascade);
     let limit = |column: &str| tables[1].values(column)[0];
     assert!((limit("delta") - 4.669_201_609_102_99).abs() < 1e-10, "{}", limit("delta"));
     assert!((limit("alpha") - 2.502_907_875_095_892).abs() < 1e-10, "{}", limit("alpha"));
     assert!((limit("onset") - 3.569_945_671_870_945).abs() < 1e-12, "{}", limit("onset"));
     assert!((limit("stable") - 3.0).abs() < 1e-12);
     assert!((limit("three") - (1.0 + 8.0_f64.sqrt())).abs() < 1e-12, "{}", limit("three"));
+}
+
+#[test]
+fn the_paper_of_the_manual_is_what_it_says() {
+    let paper = walk::paper();
+    let prose = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/walk/prose");
+    let (store, progress) = (Store::nowhere(), Progress::silent());
+    let session = Session::of(&paper, Some(&prose), Profile::Quick, store, progress).unwrap();
+    let (report, checks) = whole(&session, Path::new("paper")).unwrap();
+    assert!(checks.len() == 1 && !checks[0].fails(), "{checks:?}");
+    for file in ["report.md", "report.tex", "figures/spread.svg", "data/walk-reached.csv"] {
+        assert!(report.committed.contains_key(file), "{file}");
+    }
+
+    let manual = include_str!("../src/manual.md");
+    let code = include_str!("../examples/walk/main.rs").replace("examples/walk", "src");
+    let prose = include_str!("../examples/walk/prose/report.md");
+    for part in [code.as_str(), prose, include_str!("../examples/walk/prose/published.toml")] {
+        assert!(manual.contains(part), "the manual differs from the example: {part}");
+    }
+    assert!(code.lines().count() <= 60, "as the manual says");
 }
