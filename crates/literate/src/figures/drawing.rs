@@ -42,6 +42,8 @@ pub struct Label {
     pub colour: Colour,
     /// Whether they read from bottom to top.
     pub upwards: bool,
+    /// Whether a rim of the page's colour keeps them off what they stand on.
+    pub rim: bool,
     /// The glyphs, in units of the em around the anchor, y upwards.
     pub glyphs: Vec<Placed>,
 }
@@ -248,7 +250,20 @@ impl Drawing {
             }
         }
         let words = markup::plain(text);
-        self.elements.push(Element::Label(Label { words, at, size, colour, upwards, glyphs }));
+        let rim = false;
+        self.elements.push(Element::Label(Label { words, at, size, colour, upwards, rim, glyphs }));
+        Ok(())
+    }
+
+    /// Words with a rim of the page's colour, for places where something may stand behind them.
+    ///
+    /// # Errors
+    /// As [`Drawing::label`].
+    pub fn rimmed(&mut self, text: &str, at: Point, look: Look) -> Result<(), Error> {
+        self.label(text, at, look, false)?;
+        if let Some(Element::Label(label)) = self.elements.last_mut() {
+            label.rim = true;
+        }
         Ok(())
     }
 }

@@ -17,6 +17,9 @@ pub const CAP_HEIGHT: i32 = 645;
 /// Size of a lowered or raised piece, in thousandths.
 pub const SCRIPT: i32 = 700;
 
+/// Thickness of the line that makes a rim, half of which is seen.
+pub const RIM: u32 = 260;
+
 const SUB_SHIFT: i32 = -200;
 const SUP_SHIFT: i32 = 380;
 /// How far two stacked scripts are pushed apart.

@@ -11,7 +11,7 @@ use std::rc::Rc;
 use super::axis::{Axis, Tick};
 use super::drawing::{Drawing, Look, Point};
 use super::record::Record;
-use super::style::{HAIR, INK, SMALL, Stroke, TEXT};
+use super::style::{Colour, HAIR, INK, SMALL, Stroke, TEXT};
 use super::{Error, font};
 
 /// A rectangle of the sheet in grid units.
@@ -57,6 +57,24 @@ const GAP: i32 = 70;
 pub(super) const BESIDE: i32 = TICK + 4 * GAP;
 /// From a frame to the top of the label below it.
 pub(super) const BELOW: i32 = TICK + 3 * GAP + SMALL;
+
+/// From one line of words to the next.
+pub(super) const LINE_HEIGHT: i32 = 340;
+
+/// Heights on the sheet in the same order, at least `least` apart: where some are closer, they move to both sides.
+pub(super) fn apart(heights: &[i32], least: i32) -> Vec<i32> {
+    let mut order: Vec<usize> = (0..heights.len()).collect();
+    order.sort_by_key(|&i| heights[i]);
+    let mut places = heights.to_vec();
+    for _ in 0..4 * heights.len() {
+        for pair in order.windows(2) {
+            let missing = (least - (places[pair[1]] - places[pair[0]])).max(0);
+            places[pair[0]] -= missing / 2;
+            places[pair[1]] += missing - missing / 2;
+        }
+    }
+    places
+}
 
 impl Panel {
     /// A panel without anything in it yet, not even its axes.
@@ -145,6 +163,38 @@ impl Panel {
         self.text(text, at, TEXT, HPos::Left, VPos::Bottom)
     }
 
+    /// Names a curve or a mark in its colour, beside a place given in data: so many millimetres to the right of it and
+    /// below it, towards which the words stand. `(1, 0)` is right of the place, `(0, -1)` above it.
+    pub fn label(
+        &self,
+        text: &str,
+        (x, y): (f64, f64),
+        (right, down): (i32, i32),
+        colour: Colour,
+    ) -> Result<(), Error> {
+        let h = [HPos::Right, HPos::Center, HPos::Left][(right.signum() + 1) as usize];
+        let v = [VPos::Bottom, VPos::Center, VPos::Top][(down.signum() + 1) as usize];
+        let (px, py) = self.at(x, y);
+        let at = (px + 100 * right, py + 100 * down);
+        self.drawing.borrow_mut().rimmed(text, at, (SMALL, colour, h, v))
+    }
+
+    /// Names curves at their right ends in this panel, each in its colour; names that would touch move apart.
+    pub fn ends(&self, curves: &[(&str, &[(f64, f64)], Colour)]) -> Result<(), Error> {
+        let end = |points: &[(f64, f64)]| {
+            let inside = |p: &&(f64, f64)| self.x.holds(p.0) && self.y.holds(p.1);
+            points.iter().rfind(inside).map(|p| self.at(p.0, p.1))
+        };
+        let named =
+            || curves.iter().filter_map(|(text, points, own)| Some((end(points)?, *text, *own)));
+        let heights = apart(&named().map(|(at, ..)| at.1).collect::<Vec<_>>(), LINE_HEIGHT);
+        for ((at, text, colour), y) in named().zip(heights) {
+            let look = (SMALL, colour, HPos::Left, VPos::Center);
+            self.drawing.borrow_mut().rimmed(text, (at.0 + 100, y), look)?;
+        }
+        Ok(())
+    }
+
     /// Words at a place given in data.
     pub fn note(
         &self,
@@ -155,5 +205,36 @@ impl Panel {
     ) -> Result<(), Error> {
         let (px, py) = self.at(x, y);
         self.drawing.borrow_mut().label(text, (px + dx, py + dy), look, false)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::drawing::{Element, Label};
+    use super::super::sheet::Sheet;
+    use super::super::style::{BLUE, RED};
+    use super::*;
+
+    #[test]
+    fn names_stand_beside_what_they_name() {
+        let axis = || Axis::linear(0.0, 1.0, 0.5, 1, "");
+        let sheet = Sheet::new(3000);
+        let panel = sheet.panel(Frame::new(1000, 100, 2000, 1100), axis(), axis()).unwrap();
+        panel.label("mark", (0.5, 0.5), (-1, 2), RED).unwrap();
+        // The last point of the second lies outside; the ends of both are then too near for their names.
+        let (low, high) = ([(0.0, 0.0), (1.0, 0.5)], [(0.9, 0.51), (1.0, 1.5)]);
+        panel.ends(&[("low", &low, BLUE), ("high", &high, RED)]).unwrap();
+        let drawing = sheet.finish("s01", "", Default::default()).drawing;
+        let named = |element: &Element| match element {
+            Element::Label(Label { words, at, colour, rim: true, .. }) => {
+                Some((words.clone(), *at, *colour))
+            }
+            _ => None,
+        };
+        let names: Vec<_> = drawing.elements.iter().filter_map(named).collect();
+        let of = |text: &str, at, colour| (text.to_string(), at, colour);
+        assert_eq!(names[0], of("mark", (1400, 800), RED));
+        assert_eq!(names[1..], [of("low", (2100, 765), BLUE), of("high", (2000, 425), RED)]);
+        assert_eq!(apart(&[0, 1000, 10], 100), [-45, 1000, 55]);
     }
 }

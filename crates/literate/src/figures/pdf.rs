@@ -116,15 +116,18 @@ impl Page<'_> {
             false => [scale, 0.0, 0.0, -scale, x, y],
         };
         self.content.save_state().transform(turned);
-        for placed in &label.glyphs {
-            let size = if placed.small { font::SCRIPT as f32 / font::EM as f32 } else { 1.0 };
-            let place = [size, 0.0, 0.0, size, placed.x as f32, placed.y as f32];
-            self.content.save_state().transform(place);
-            let drawing = self.drawing;
-            if let Some(steps) = drawing.glyphs.get(&font::id(placed)) {
-                self.shape(steps, Some((label.colour, 100)), None);
+        let rim = label.rim.then_some((WHITE, Some(Stroke::solid(WHITE, font::RIM))));
+        for (colour, edge) in rim.into_iter().chain([(label.colour, None)]) {
+            for placed in &label.glyphs {
+                let size = if placed.small { font::SCRIPT as f32 / font::EM as f32 } else { 1.0 };
+                let place = [size, 0.0, 0.0, size, placed.x as f32, placed.y as f32];
+                self.content.save_state().transform(place);
+                let drawing = self.drawing;
+                if let Some(steps) = drawing.glyphs.get(&font::id(placed)) {
+                    self.shape(steps, Some((colour, 100)), edge);
+                }
+                self.content.restore_state();
             }
-            self.content.restore_state();
         }
         self.content.restore_state();
     }

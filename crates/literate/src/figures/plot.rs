@@ -1,5 +1,5 @@
-//! A plot of one panel whose ranges, ticks, frame and legend follow from its data; [`super::sheet`] is for figures that
-//! place these by hand.
+//! A plot of one panel whose ranges, ticks, frame and names at the ends of curves follow from its data; [`super::sheet`]
+//! is for figures that place these by hand.
 //!
 //! ```
 //! use literate::figures::prelude::*;
@@ -38,13 +38,19 @@ struct Along {
     range: Option<[f64; 2]>,
 }
 
-/// A plot in the making. Series of one name have one colour and one place in the legend.
+/// A plot in the making. Series of one name have one colour and are named once, at their right end.
 #[derive(Default)]
 pub struct Plot {
     x: Along,
     y: Along,
     series: Vec<(String, Shown)>,
 }
+
+/// Line, marker and last point of a series.
+type Sample = (Option<Stroke>, Option<Marker>, Option<(f64, f64)>);
+
+/// Length of the piece of a line before its name.
+const SAMPLE: i32 = 420;
 
 const COLOURS: [Colour; 6] = [INK, BLUE, RED, GREEN, ORANGE, PURPLE];
 const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Alternate];
@@ -165,46 +171,69 @@ impl Plot {
             axis.ticks.iter().flat_map(|tick| &tick.label).map(|own| wide(own, SMALL)).collect()
         };
         let left = labels(&y)?.into_iter().max().unwrap_or(0) + panel::BESIDE + 2 * TEXT;
-        let right = WIDTH as i32 - 150 - labels(&x)?.last().map_or(0, |width| width / 2);
+        let beside = names.iter().map(|name| Ok(wide(name, SMALL)? + SAMPLE + 300));
+        let beside = beside.collect::<Result<Vec<_>, Error>>()?.into_iter().max();
+        let beside = beside.filter(|_| names.len() > 1).unwrap_or(0);
+        let right =
+            WIDTH as i32 - beside.max(150 + labels(&x)?.last().map_or(0, |width| width / 2));
         let frame = Frame::new(left, 250, right, 4250);
-        let longest = names.iter().map(|name| wide(name, SMALL)).collect::<Result<Vec<_>, _>>()?;
-        let apart = longest.into_iter().max().unwrap_or(0) + 1100;
-        let columns = ((right - left) / apart).clamp(1, names.len().max(1) as i32);
-        let rows = if names.len() > 1 { names.len().div_ceil(columns as usize) as i32 } else { 0 };
-        let below = frame.bottom + panel::BELOW + 2 * TEXT;
-
-        let sheet = Sheet::new((below + 400 * rows) as u32);
+        let sheet = Sheet::new((frame.bottom + panel::BELOW + 2 * TEXT) as u32);
         let panel = sheet.panel(frame, x, y)?;
-        let mut entries: Vec<Entry> = names
-            .iter()
-            .map(|name| Entry { line: None, mark: None, text: name.to_string() })
-            .collect();
+        let mut samples: Vec<Sample> = vec![(None, None, None); names.len()];
         for (name, shown) in &self.series {
             let i = names.iter().position(|own| own == name).unwrap_or_default();
             let colour = COLOURS[i % COLOURS.len()];
             let line = Stroke::dashed(colour, LINE, DASHES[i % DASHES.len()]);
             let marker = |mark| (mark, style::MEDIUM, Stroke::solid(colour, THIN));
-            match shown {
+            let end = match shown {
                 Shown::Line(points) => {
-                    entries[i].line = Some(line);
+                    samples[i].0 = Some(line);
                     panel.curve(name, points, line, Outside::Cut)?;
+                    points.last().copied()
                 }
                 Shown::Marks(points, mark) => {
-                    entries[i].mark = Some(marker(*mark));
+                    samples[i].1 = Some(marker(*mark));
                     panel.marks(name, points, marker(*mark), Outside::Cut)?;
+                    points.last().copied()
                 }
                 Shown::Estimates(estimates) => {
-                    entries[i].mark = Some(marker(Mark::Disc));
+                    samples[i].1 = Some(marker(Mark::Disc));
                     panel.estimates(name, estimates, marker(Mark::Disc))?;
+                    estimates.last().map(|(x, own)| (*x, own.value))
                 }
-                Shown::Curve(_) => (),
-            }
+                Shown::Curve(_) => None,
+            };
+            samples[i].2 = end.or(samples[i].2);
         }
-        if rows > 0 {
-            sheet.legend((left, below + 60), (SMALL, 400), (rows, apart), &entries)?;
+        if names.len() > 1 {
+            named(&sheet, &panel, &names, &samples)?;
         }
         Ok(sheet.finish(id, title, description))
     }
+}
+
+/// Right of the frame, at the height where each series ends, a sample of it and its name; they move apart where ends
+/// are close.
+fn named(sheet: &Sheet, panel: &Panel, names: &[&str], samples: &[Sample]) -> Result<(), Error> {
+    let Frame { top, right, bottom, .. } = panel.frame;
+    let height = |(_, _, end): &Sample| {
+        let end = end.filter(|p| panel.x.at(p.0).is_finite() && panel.y.at(p.1).is_finite());
+        end.map_or(bottom, |p| panel.at(p.0, p.1).1.clamp(top, bottom))
+    };
+    let ends: Vec<i32> = samples.iter().map(height).collect();
+    for (i, y) in panel::apart(&ends, panel::LINE_HEIGHT).into_iter().enumerate() {
+        let (line, mark, _) = samples[i];
+        let x = right + 100;
+        if let Some(stroke) = line {
+            sheet.free().line(vec![(x, y), (x + SAMPLE, y)], stroke);
+        }
+        if let Some(marker) = mark {
+            sheet.free().marks([(x + SAMPLE / 2, y)], marker);
+        }
+        let colour = COLOURS[i % COLOURS.len()];
+        sheet.text(names[i], (x + SAMPLE + 100, y), (SMALL, colour, HPos::Left, VPos::Center))?;
+    }
+    Ok(())
 }
 
 impl Along {

@@ -7,7 +7,7 @@
 /// Width of every figure: one column.
 pub const WIDTH: u32 = 8400;
 
-/// Size of axis labels and legends: 8 points.
+/// Size of axis labels: 8 points.
 pub const TEXT: i32 = 282;
 
 /// Size of tick labels: 7 points.
@@ -51,11 +51,18 @@ pub const BLUE: Colour = Colour(0x00, 0x72, 0xb2);
 pub const ORANGE: Colour = Colour(0xb8, 0x7a, 0x00);
 /// A further class.
 pub const PURPLE: Colour = Colour(0xa5, 0x50, 0x8c);
+/// Four shades of blue from light to dark, for an ordered parameter; grey keeps their order.
+const SHADES: [Colour; 4] = [
+    Colour(0x4f, 0x9c, 0xcb),
+    Colour(0x2a, 0x78, 0xad),
+    Colour(0x15, 0x50, 0x7f),
+    Colour(0x0b, 0x25, 0x45),
+];
 /// The page.
 pub const WHITE: Colour = Colour(0xff, 0xff, 0xff);
 
 /// All colours by the names that style sheets use.
-pub const PALETTE: [(&str, Colour); 9] = [
+pub const PALETTE: [(&str, Colour); 13] = [
     ("ink", INK),
     ("grey", GREY),
     ("pale", PALE),
@@ -64,8 +71,19 @@ pub const PALETTE: [(&str, Colour); 9] = [
     ("blue", BLUE),
     ("orange", ORANGE),
     ("purple", PURPLE),
+    ("shade-1", SHADES[0]),
+    ("shade-2", SHADES[1]),
+    ("shade-3", SHADES[2]),
+    ("shade-4", SHADES[3]),
     ("page", WHITE),
 ];
+
+/// The colour of one of up to four values of an ordered parameter, counted from zero: the darker, the larger the value.
+/// The value that matters most may be [`RED`] instead.
+pub fn ordered(place: usize, count: usize) -> Colour {
+    let last = count.max(2) - 1;
+    SHADES[(3 * place.min(last) + last / 2) / last]
+}
 
 /// How a line is broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -81,12 +81,10 @@ fn shape(path: &[Step], fill: &Fill, stroke: &Option<Stroke>) -> String {
 
 fn label(label: &Label) -> String {
     let scale = f64::from(label.size) / f64::from(font::EM);
-    let (class, (x, y)) = (class("fill", label.colour), label.at);
+    let (ink, (x, y)) = (class("fill", label.colour), label.at);
     let turn = if label.upwards { " rotate(-90)" } else { "" };
-    let mut out = format!(
-        "<g class=\"{class}\" aria-label=\"{}\" transform=\"translate({x} {y}){turn} scale({scale} -{scale})\">",
-        escape(&label.words)
-    );
+    let place = format!("transform=\"translate({x} {y}){turn} scale({scale} -{scale})\"");
+    let mut glyphs = String::new();
     for placed in &label.glyphs {
         let (id, x, y) = (font::id(placed), placed.x, placed.y);
         let place = match placed.small {
@@ -96,9 +94,14 @@ fn label(label: &Label) -> String {
             }
             false => format!("x=\"{x}\" y=\"{y}\""),
         };
-        let _ = write!(out, "<use href=\"#glyph-{id}\" {place}/>");
+        let _ = write!(glyphs, "<use href=\"#glyph-{id}\" {place}/>");
     }
-    out + "</g>"
+    let rim = class("stroke", WHITE);
+    let rim = match label.rim {
+        true => format!("<g class=\"{rim}\" stroke-width=\"{}\" {place}>{glyphs}</g>", font::RIM),
+        false => String::new(),
+    };
+    format!("{rim}<g class=\"{ink}\" aria-label=\"{}\" {place}>{glyphs}</g>", escape(&label.words))
 }
 
 impl Drawing {
