@@ -60,7 +60,6 @@ fn number_verdict_and_files_are_told_in_each_form() {
     let folder = changed();
     let here = folder.path();
     assert_eq!(answer(here, "diff a a --exit-code"), "a and a: nothing differs\n");
-    assert!(answer(here, "diff a a --markdown").contains("Nothing: "));
     assert_eq!(json(here, "diff a a --json")["same"], true);
     let out = answer(here, "diff a b");
     for line in [
@@ -78,10 +77,6 @@ fn number_verdict_and_files_are_told_in_each_form() {
     let (code, _, note) = run(here, "diff a b --exit-code");
     assert_eq!((code, note.as_str()), (1, "impact-paper: a and b differ\n"));
 
-    let markdown = answer(here, "diff a b --markdown");
-    for part in ["reproduced → differs", "± 0.005 → ± 0.0001 \\| more", "+3.00 |"] {
-        assert!(markdown.contains(part), "{part}: {markdown}");
-    }
     let json = json(here, "diff a b --json");
     let diff = &json["diff"];
     assert_eq!((&json["same"], &json["old"]), (&false.into(), &"a".into()));
@@ -127,5 +122,4 @@ fn what_is_no_report_gets_one_line() {
     let folder = twice();
     fs::write(folder.path().join("b/values.json"), "{\"a\": ").unwrap();
     refused(folder.path(), "diff a b", &["b: values.json"]);
-    refused(folder.path(), "diff a b --json --markdown", &["--markdown"]);
 }

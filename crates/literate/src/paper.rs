@@ -262,59 +262,37 @@ impl Paper {
     }
 }
 
-/// Name and setting of each parameter, the seed among them, field by field. Fields of fields get both names; long lists
-/// are shown by their first and last value.
-pub(crate) fn settings(name: &str, value: &Json) -> Vec<(String, String)> {
-    let of_field = |(field, value): (&String, &Json)| {
-        let whole = format!("{name} {}", field.replace('_', " "));
-        settings(whole.trim_start(), value)
+/// Name and setting of each parameter, the seed among them, field by field. Fields of fields get both names; a field with
+/// several values has them all, of many the first and the last.
+pub(crate) fn settings(parameters: &Json) -> Vec<(String, String)> {
+    let mut all = Vec::new();
+    collect("", parameters, &mut all);
+    let listed = |values: &[String]| match values {
+        [first, .., last] if values.len() > 8 => format!("{} from {first} to {last}", values.len()),
+        few => few.join(", "),
     };
-    match value {
-        Json::Null => Vec::new(),
-        Json::Object(fields) => fields.iter().flat_map(of_field).collect(),
-        Json::Array(list) => match merged(list) {
-            Some(one) => settings(name, &one),
-            None => vec![(name.into(), listed(list))],
-        },
-        scalar => vec![(name.into(), shown(scalar))],
-    }
+    all.into_iter().map(|(name, values)| (name, listed(&values))).collect()
 }
 
-/// Several objects as one: a field in which they differ is the list of its values.
-fn merged(list: &[Json]) -> Option<Json> {
-    let all: Vec<_> = list.iter().map(Json::as_object).collect::<Option<_>>()?;
-    let of = |name: &String| {
-        let values = all.iter().filter_map(|own| own.get(name)).filter(|own| !own.is_null());
-        let values: Vec<Json> = values.cloned().collect();
-        let value = match values.as_slice() {
-            [] => Json::Null,
-            [first, others @ ..] if others.iter().all(|own| own == first) => first.clone(),
-            _ => merged(&values).unwrap_or(Json::Array(values)),
-        };
-        (name.clone(), value)
-    };
-    Some(Json::Object(all.first()?.keys().map(of).collect()))
-}
-
-fn listed(list: &[Json]) -> String {
-    let plain = list.iter().all(|one| one.is_number() || one.is_string());
-    match list {
-        [first, .., last] if plain && list.len() > 8 => {
-            format!("{} from {} to {}", list.len(), shown(first), shown(last))
+/// Adds the values of a field, each once.
+fn collect(name: &str, value: &Json, into: &mut Vec<(String, Vec<String>)>) {
+    let shown = match value {
+        Json::Null => return,
+        Json::Array(list) => return list.iter().for_each(|one| collect(name, one, into)),
+        Json::Object(fields) => {
+            return fields.iter().for_each(|(field, value)| {
+                let whole = format!("{name} {}", field.replace('_', " "));
+                collect(whole.trim_start(), value, into);
+            });
         }
-        _ if plain => list.iter().map(shown).collect::<Vec<_>>().join(", "),
-        _ => format!("{} of them", list.len()),
-    }
-}
-
-fn shown(value: &Json) -> String {
-    match value {
         Json::String(text) => text.clone(),
-        Json::Number(number) => number
-            .as_f64()
-            .filter(|_| number.is_f64())
-            .map_or(number.to_string(), |x| x.to_string()),
+        Json::Number(number) if number.is_f64() => number.as_f64().unwrap_or(f64::NAN).to_string(),
         other => other.to_string(),
+    };
+    match into.iter_mut().find(|(own, _)| own == name) {
+        Some((_, values)) if values.contains(&shown) => (),
+        Some((_, values)) => values.push(shown),
+        None => into.push((name.into(), vec![shown])),
     }
 }
 
@@ -378,9 +356,11 @@ mod tests {
 
     #[test]
     fn parameters_of_parameters_have_both_names() {
-        let parameters = serde_json::json!({"seed": 7, "chain": {"masses": 3}, "r": [0.5, 0.25]});
+        let parameters = serde_json::json!({"seed": 7, "chain": {"masses": 3}, "r": [0.5, 0.25],
+            "runs": [{"from": 1.0, "to": 2}, {"from": 1.0, "to": 3}], "none": null});
         let shown: Vec<String> =
-            settings("", &parameters).iter().map(|(k, v)| format!("{k}={v}")).collect();
-        assert_eq!(shown, ["chain masses=3", "r=0.5, 0.25", "seed=7"]);
+            settings(&parameters).iter().map(|(k, v)| format!("{k}={v}")).collect();
+        let all = ["chain masses=3", "r=0.5, 0.25", "runs from=1", "runs to=2, 3", "seed=7"];
+        assert_eq!(shown, all);
     }
 }

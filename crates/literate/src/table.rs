@@ -231,7 +231,7 @@ impl Table {
     }
 
     /// Every way in which a template can name a row, with its cells by column: for a key its value, or
-    /// `first`, `last` and `last-1` of all its values. One empty name where there are no keys.
+    /// `first` and `last` of all its values. One empty name where there are no keys.
     pub fn named(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
         let mut found = BTreeMap::new();
         let keys: Vec<_> = self.keys().map(|key| (key, self.called(key))).collect();
@@ -280,8 +280,8 @@ impl Table {
 fn ways(all: &[String], cell: &Value) -> Vec<String> {
     let own = called(cell);
     let place = all.iter().position(|name| *name == own).unwrap_or_default();
-    let ends = [("first", 0), ("last", all.len() - 1), ("last-1", all.len().wrapping_sub(2))];
-    let ends = ends.into_iter().filter(|(_, at)| *at == place).map(|(name, _)| name.to_string());
+    let ends = [("first", 0), ("last", all.len() - 1)].into_iter();
+    let ends = ends.filter(|(_, at)| *at == place).map(|(name, _)| name.to_string());
     std::iter::once(own).chain(ends).collect()
 }
 
@@ -298,7 +298,7 @@ pub fn number(cell: &Value) -> Option<f64> {
     match cell.number {
         Number::Integer(n) => Some(n as f64),
         Number::Real { value, .. } => Some(value),
-        Number::Interval { .. } | Number::Text(_) => None,
+        Number::Text(_) => None,
     }
 }
 
@@ -311,7 +311,6 @@ fn written(number: &Number) -> String {
     match number {
         Number::Integer(n) => n.to_string(),
         Number::Real { value, .. } => format!("{value:?}"),
-        Number::Interval { low, high } => format!("{low:?} to {high:?}"),
         Number::Text(words) if words == "none" => String::new(),
         Number::Text(words) => words.clone(),
     }
@@ -409,18 +408,6 @@ impl<'a, R> Building<'a, R> {
     ) -> Self {
         let real = |value: f64| value.is_finite().then(|| Value::real("", value, digits));
         let cell = |row: &R| real(of(row)).unwrap_or_else(none);
-        self.put((name, unit), meaning, origin_of::<F>(), cell)
-    }
-
-    /// An interval, or *none*.
-    pub fn interval<F: Fn(&R) -> Option<[f64; 2]>>(
-        self,
-        name: &'static str,
-        unit: &'static str,
-        meaning: &str,
-        of: F,
-    ) -> Self {
-        let cell = |row: &R| of(row).map_or_else(none, |ends| Value::interval("", ends));
         self.put((name, unit), meaning, origin_of::<F>(), cell)
     }
 
@@ -568,7 +555,7 @@ mod tests {
         {
             assert_eq!(named[name]["mean"].id, "test.rise[r=0.8,sigma=0.3].mean", "{name}");
         }
-        assert_eq!(named["r=first,sigma=last-1"]["mean"].id, "test.rise[r=0,sigma=0.1].mean");
+        assert_eq!(named["r=first,sigma=0.1"]["mean"].id, "test.rise[r=0,sigma=0.1].mean");
         assert_eq!(table.values("r"), [0.0, 0.8]);
     }
 

@@ -19,13 +19,6 @@ pub enum Number {
         /// How many digits of it are meant.
         digits: Digits,
     },
-    /// An interval, printed with the digits that its width allows.
-    Interval {
-        /// Lower end.
-        low: f64,
-        /// Upper end.
-        high: f64,
-    },
     /// Words, for the few values that are not numbers (a version, a profile, a list).
     Text(String),
 }
@@ -141,11 +134,6 @@ impl Value {
         Value::new(id, Number::Real { value, digits }, kind)
     }
 
-    /// An interval (of confidence, or of agreement).
-    pub fn interval(id: impl Into<String>, [low, high]: [f64; 2]) -> Self {
-        Value::new(id, Number::Interval { low, high }, Kind::Deterministic)
-    }
-
     /// Words.
     pub fn text(id: impl Into<String>, text: impl Into<String>) -> Self {
         Value::new(id, Number::Text(text.into()), Kind::Exact)
@@ -204,7 +192,6 @@ impl Value {
             Number::Integer(_) | Number::Text(_) => true,
             Number::Real { value, digits: Digits::Error(e) } => value.is_finite() && e.is_finite(),
             Number::Real { value, .. } => value.is_finite(),
-            Number::Interval { low, high } => low.is_finite() && high.is_finite(),
         }
     }
 }

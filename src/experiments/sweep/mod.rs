@@ -136,8 +136,11 @@ fn rise_table(name: &'static str, sweep: &Counted) -> Table {
         .estimate("half_height", SIGMA, "the mean of the kept passes half of all gaps", |()| {
             rise.half_height
         })
-        .interval("half_height_interval", SIGMA, "its bootstrap interval", |()| {
-            rise.half_height.map(|half| half.interval)
+        .real("half_height_from", SIGMA, 4, "the lower end of its bootstrap interval", |()| {
+            rise.half_height.map_or(f64::NAN, |half| half.interval[0])
+        })
+        .real("half_height_to", SIGMA, 4, "its upper end", |()| {
+            rise.half_height.map_or(f64::NAN, |half| half.interval[1])
         });
     for (name, meaning, place) in PLACES {
         table = table.estimate(name, SIGMA, meaning, |()| place(rise));
@@ -155,9 +158,10 @@ fn modes(sweep: &Counted) -> Table {
         .chosen("noisiest_sigma", SIGMA, "where the interval of the mode is longest", |()| {
             noisiest.map(|row| row.sigma)
         })
-        .interval("noisiest", "1", "that interval", |()| {
-            noisiest?.mode_interval.map(|ends| ends.map(|end| end as f64))
+        .chosen("noisiest_from", "1", "the lower end of that interval", |()| {
+            Some(noisiest?.mode_interval?[0] as f64)
         })
+        .chosen("noisiest_to", "1", "its upper end", |()| Some(noisiest?.mode_interval?[1] as f64))
         .computed_by(origin(mode_half))
         .chosen("half_from", SIGMA, "to here the mode is surely under half of all gaps", |()| {
             half.map(|[low, _]| low)

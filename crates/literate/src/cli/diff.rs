@@ -13,7 +13,7 @@ use std::process::Command;
 ///
 /// Examples:
 ///   diff paper target/paper          two folders
-///   diff v1.0.0 paper --markdown     a revision of git, whose folder paper/ is meant, and a folder
+///   diff v1.0.0 paper                a revision of git, whose folder paper/ is meant, and a folder
 ///
 /// A difference is no failure: the exit code is 0 unless --exit-code asks for more.
 #[derive(clap::Args)]
@@ -25,11 +25,8 @@ pub(super) struct Args {
     /// The later one.
     #[arg(value_name = "NEW")]
     new: String,
-    /// Print the largest differences in tables, for a comment on a pull request.
-    #[arg(long)]
-    markdown: bool,
     /// Print everything as JSON.
-    #[arg(long, conflicts_with = "markdown")]
+    #[arg(long)]
     json: bool,
     /// End with exit code 1 if anything differs.
     #[arg(long)]
@@ -40,14 +37,8 @@ pub(super) fn run(args: Args) -> Result<(), Failure> {
     let [before, after] = [parts(&args.old)?, parts(&args.new)?];
     let diff = compare::diff(&before, &after);
     let [old, new] = [&args.old, &args.new].map(|name| shown(Path::new(name)));
-    let told = match (args.markdown, args.json) {
-        (true, _) => diff.markdown(&old, &new),
-        (_, true) => {
-            let json = json!({"old": old, "new": new, "same": diff.is_empty(), "diff": diff});
-            format!("{json:#}\n")
-        }
-        _ => diff.text(&old, &new),
-    };
+    let json = || json!({"old": old, "new": new, "same": diff.is_empty(), "diff": diff});
+    let told = if args.json { format!("{:#}\n", json()) } else { diff.text(&old, &new) };
     print(&told)?;
     match diff.is_empty() || !args.exit_code {
         true => Ok(()),

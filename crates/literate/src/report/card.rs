@@ -73,10 +73,9 @@ impl Card {
         self.item("experiment", &experiment.item(), cards.paper);
         let quick = cards.profile() == Profile::Quick.name();
         let profile = if quick { Profile::Quick } else { Profile::Full };
-        let pairs = settings("", &experiment.parameters(profile)).into_iter();
-        let pairs: Vec<String> =
-            pairs.map(|(name, setting)| format!("{name}: {setting}")).collect();
-        self.words("its parameters", pairs.join("; "));
+        let pairs = settings(&experiment.parameters(profile)).into_iter();
+        let pairs = pairs.map(|(name, setting)| format!("{name}: {setting}"));
+        self.words("its parameters", pairs.collect::<Vec<_>>().join("; "));
         if let Some(path) = experiment.data() {
             let name = path.rsplit('/').next().unwrap_or(path);
             self.row("its data", vec![link(&format!("../{path}"), Inline::Text(name.into()))]);

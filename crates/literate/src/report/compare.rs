@@ -1,12 +1,12 @@
-//! What changed between two reports: numbers, verdicts and files; as text, Markdown and JSON.
+//! What changed between two reports: numbers, verdicts and files; as text and JSON.
 
 use super::folder::SUMS;
 use super::ledger::{self, Ledger};
 use super::print::{Asked, Style, print};
 use super::values::{Registry, Value};
-use super::{Error, Files, markdown, tex};
+use super::{Error, Files, tex};
 use crate::claims::{Check, Text, significant};
-use crate::input::{is_obeyed, one_line};
+use crate::input::is_obeyed;
 use crate::table::number;
 use impact_numerics::text::count;
 use serde::Serialize;
@@ -181,32 +181,21 @@ fn signed(value: f64) -> String {
 }
 
 impl Change {
-    /// `reproduced -> differs`, `new, reproduced`, `gone, was reproduced`.
-    pub fn fate(&self) -> String {
-        match (&self.before, &self.after) {
+    /// `x: reproduced -> differs`, `x: new, reproduced`, `x: gone, was reproduced`, and what else is known.
+    fn line(&self) -> String {
+        let fate = match (&self.before, &self.after) {
             (Some(before), Some(after)) if before == after => before.clone(),
             (Some(before), Some(after)) => format!("{before} -> {after}"),
             (None, after) => format!("new, {}", after.as_deref().unwrap_or_default()),
             (Some(before), None) => format!("gone, was {before}"),
-        }
-    }
-
-    fn also(&self) -> Vec<String> {
-        let one = |(name, [old, new]): (&&str, &[String; 2])| format!("{name}: {old} -> {new}");
-        self.also.iter().map(one).collect()
-    }
-
-    fn line(&self) -> String {
+        };
         let difference = self.difference.map(|own| format!("; Δ {}", signed(own)));
         let sigmas = self.sigmas.map(|own| format!(", {} σ", signed(own)));
-        let also: String = self.also().iter().map(|own| format!("; {own}")).collect();
-        let more = difference.unwrap_or_default() + &sigmas.unwrap_or_default() + &also;
-        format!("  {}: {}{more}", self.id, self.fate())
+        let also = self.also.iter().map(|(name, [old, new])| format!("; {name}: {old} -> {new}"));
+        let more = difference.unwrap_or_default() + &sigmas.unwrap_or_default();
+        format!("  {}: {fate}{more}{}", self.id, also.collect::<String>())
     }
 }
-
-/// Of more rows the first are shown: hosts take comments of 65536 characters.
-const ROWS: usize = 40;
 
 impl Diff {
     /// Whether nothing differs.
@@ -224,7 +213,7 @@ impl Diff {
         [("new", &self.gained), ("gone", &self.lost), ("differs", &self.differing)]
     }
 
-    /// For a terminal: all of it.
+    /// For people: all of it.
     pub fn text(&self, old: &str, new: &str) -> String {
         if self.is_empty() {
             return format!("{old} and {new}: nothing differs\n");
@@ -238,42 +227,6 @@ impl Diff {
         let lines = changes.chain(files).map(|line| line.replace(is_obeyed, " ") + "\n");
         lines.fold(self.counts() + "\n", |text, line| text + &line)
     }
-
-    /// For a comment on a pull request: the largest differences, in tables.
-    pub fn markdown(&self, old: &str, new: &str) -> String {
-        let mut out = format!("### What changes in the report: {} → {}\n\n", cell(old), cell(new));
-        if self.is_empty() {
-            return out + "Nothing: every file has the same bytes.\n";
-        }
-        out += &format!("{}.\n", self.counts());
-        let number = |value: Option<f64>| value.map(signed).unwrap_or_default();
-        for (head, changes) in [("Check", &self.verdicts), ("Number", &self.numbers)] {
-            if !changes.is_empty() {
-                out += &format!("\n| {head} | | Δ | Δ/σ | |\n|---|---|---|---|---|\n");
-            }
-            for change in changes.iter().take(ROWS) {
-                let words = [&change.id, &change.fate(), &change.also().join("; ")];
-                let [id, fate, also] = words.map(|text| cell(&text.replace("->", "→")));
-                let (difference, sigmas) = (number(change.difference), number(change.sigmas));
-                out += &format!("| {id} | {fate} | {difference} | {sigmas} | {also} |\n");
-            }
-            out += &more(changes.len());
-        }
-        for (what, paths) in self.files().into_iter().filter(|(_, paths)| !paths.is_empty()) {
-            let shown: Vec<String> = paths.iter().take(ROWS).map(|path| cell(path)).collect();
-            out += &format!("\nFiles, {what}: {}\n{}", shown.join(", "), more(paths.len()));
-        }
-        out
-    }
-}
-
-fn more(number: usize) -> String {
-    if number > ROWS { format!("\n… and {} more.\n", number - ROWS) } else { String::new() }
-}
-
-/// One line of plain words for a cell. An at-sign would call somebody.
-fn cell(text: &str) -> String {
-    markdown::escaped(&one_line(&tex::spelt(text), 160).replace('@', "@\u{200b}"))
 }
 
 #[cfg(test)]
@@ -310,10 +263,6 @@ mod tests {
             "  gone: gone, was 1\n  new: new, 1\n",
         ] {
             assert!(text.contains(line), "{line}: {text}");
-        }
-        let markdown = diff.markdown("x", "y");
-        for row in ["| +1.00 | +2.00 |  |\n", "@\u{200b}two |"] {
-            assert!(markdown.contains(row), "{row}: {markdown}");
         }
     }
 }

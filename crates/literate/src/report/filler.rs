@@ -216,7 +216,6 @@ fn raw(value: &Value) -> Json {
     match &value.number {
         Number::Integer(n) => (*n).into(),
         Number::Real { value, .. } => (*value).into(),
-        Number::Interval { low, high } => vec![*low, *high].into(),
         Number::Text(text) => text.clone().into(),
     }
 }
@@ -234,7 +233,7 @@ fn put(tree: &mut Json, name: &str, thing: Json) {
 /// The filters on values; `literal` for a number that the prose may type with a reason; and `code`
 /// for an item of the source, which [`super::parse`] makes a listing.
 fn register(tera: &mut Tera) {
-    for name in ["percent", "no_error", "significant"] {
+    for name in ["percent", "significant"] {
         tera.register_filter(name, move |text: &str, arguments: Kwargs, _: &State| {
             let digits = || {
                 let digits =

@@ -248,7 +248,6 @@ pub(super) fn names(kind: &str) -> Option<[&'static str; 4]> {
         "lst" => ["Listing", "Listings", "Listing", "Listings"],
         // Signs need no name.
         "row" | "mark" | "sign" | "note" => [""; 4],
-        "slip" => ["slip", "slips", "Slip", "Slips"],
         _ => return None,
     })
 }

@@ -78,16 +78,13 @@ pub fn with(mark: &str, word: &str) -> Option<String> {
     }
 }
 
-/// What the words of filters ask for: `percent`, `no_error`, `significant3`.
+/// What the words of filters ask for: `percent`, `significant3`.
 pub fn style(words: &str) -> Style {
     let mut style = Style::default();
     for word in words.split_whitespace() {
         match word.strip_prefix("significant") {
             Some(digits) => style.digits = digits.parse().ok().map(Asked::Significant),
-            None => {
-                style.percent |= word == "percent";
-                style.no_error |= word == "no_error";
-            }
+            None => style.percent |= word == "percent",
         }
     }
     style

@@ -15,8 +15,6 @@ pub struct Style {
     pub percent: bool,
     /// Other digits than the value's own.
     pub digits: Option<Asked>,
-    /// Without the error in brackets.
-    pub no_error: bool,
 }
 
 /// Digits that a template asks for.
@@ -41,13 +39,11 @@ pub struct Decimal {
     percent: bool,
 }
 
-/// A value in a style: one number, two (an interval), or words.
+/// A value in a style: a number, or words.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Printed {
-    /// One number.
-    One(Decimal),
-    /// An interval.
-    Two(Decimal, Decimal),
+    /// A number.
+    Number(Decimal),
     /// Words.
     Words(String),
 }
@@ -63,52 +59,44 @@ pub fn print(number: &Number, style: Style) -> Printed {
             Some(Asked::Significant(n)) => significant(x, most(n)),
             None => own(x),
         };
-        let error = decimal.error.filter(|_| !style.no_error);
-        Decimal { percent: style.percent, error, ..decimal }
+        Decimal { percent: style.percent, ..decimal }
     };
     match *number {
         Number::Text(ref text) => Printed::Words(text.clone()),
         Number::Integer(n) if !style.percent && style.digits.is_none() => {
-            Printed::One(Decimal { negative: n < 0, ..bare(1.0, grouped(n)) })
+            Printed::Number(Decimal { negative: n < 0, ..bare(1.0, grouped(n)) })
         }
-        Number::Integer(n) => Printed::One(asked(n as f64, &|x| bare(x, rounded(x, 0)))),
-        Number::Real { value, digits } => Printed::One(asked(value, &|x| match digits {
+        Number::Integer(n) => Printed::Number(asked(n as f64, &|x| bare(x, rounded(x, 0)))),
+        Number::Real { value, digits } => Printed::Number(asked(value, &|x| match digits {
             Digits::Error(error) => with_error(x, times_ten(error, percent)),
             Digits::Significant(n) => significant(x, most(n)),
             Digits::Decimals(n) => bare(x, rounded(x, (most(n) as i32 - percent).max(0))),
         })),
-        Number::Interval { low, high } => {
-            // Two digits of the width say all that an interval of confidence can say.
-            let width = times_ten((high - low).abs(), percent);
-            let whole = low.fract() == 0.0 && high.fract() == 0.0;
-            let places = if width == 0.0 || whole { 0 } else { 1 - leading(width, 2) };
-            let own = |x: f64| if width == 0.0 { shortest(x) } else { to_place(x, places) };
-            Printed::Two(asked(low, &own), asked(high, &own))
-        }
     }
 }
 
 impl Printed {
     /// For Markdown prose: `0.1165(4)`, `$1.2\times10^{-5}$`, `−3`, `94.5 %`.
     pub fn markdown(&self) -> String {
-        self.join(Decimal::markdown, Clone::clone)
+        match self {
+            Printed::Number(x) => x.markdown(),
+            Printed::Words(words) => words.clone(),
+        }
     }
 
     /// Inside mathematics (Markdown's and LaTeX's): `0.1165(4)`, `1.2\times10^{-5}`.
     pub fn maths(&self) -> String {
-        self.join(Decimal::maths, |words| format!(r"\text{{{words}}}"))
+        match self {
+            Printed::Number(x) => x.maths(),
+            Printed::Words(words) => format!(r"\text{{{words}}}"),
+        }
     }
 
     /// For terminals and data files: `0.1165(4)`, `1.2e-5`, `94.5 %`.
     pub fn plain(&self) -> String {
-        self.join(Decimal::plain, Clone::clone)
-    }
-
-    fn join(&self, one: impl Fn(&Decimal) -> String, words: impl Fn(&String) -> String) -> String {
         match self {
-            Printed::One(x) => one(x),
-            Printed::Two(a, b) => format!("[{}, {}]", one(a), one(b)),
-            Printed::Words(text) => words(text),
+            Printed::Number(x) => x.plain(),
+            Printed::Words(words) => words.clone(),
         }
     }
 }
@@ -320,7 +308,7 @@ mod tests {
         assert_eq!(real(1.2e-5, 2).markdown(), r"$1.2\times10^{-5}$");
         assert_eq!(real(1e-9, 1).maths(), "10^{-9}");
         assert_eq!(real(-2e-9, 1).maths(), r"-2\times10^{-9}");
-        let big = Printed::One(Decimal { negative: false, ..bare(1.0, grouped(1_234_567)) });
+        let big = Printed::Number(Decimal { negative: false, ..bare(1.0, grouped(1_234_567)) });
         assert_eq!(big.markdown(), "1\u{202f}234\u{202f}567");
         assert_eq!(big.maths(), r"1\,234\,567");
         assert_eq!(big.plain(), "1234567");
@@ -331,7 +319,6 @@ mod tests {
         let number = Value::ensemble("x", 0.9453, 0.0081, 400).number;
         let percent = Style { percent: true, ..Style::default() };
         assert_eq!(print(&number, percent).plain(), "94.5(8) %");
-        assert_eq!(print(&number, Style { no_error: true, ..percent }).markdown(), "94.5\u{a0}%");
         assert_eq!(print(&number, percent).maths(), r"94.5(8)\,\%");
         let full = Style { digits: Some(Asked::Full), ..Style::default() };
         assert_eq!(print(&number, full).plain(), "0.9453");
@@ -339,15 +326,6 @@ mod tests {
             print(&Number::Real { value: 0.1 + 0.2, digits: Digits::Decimals(1) }, full).plain(),
             "0.30000000000000004"
         );
-    }
-
-    #[test]
-    fn intervals_show_two_digits_of_their_width() {
-        let interval =
-            |low, high| print(&Value::interval("x", [low, high]).number, Style::default()).plain();
-        assert_eq!(interval(0.115_71, 0.117_34), "[0.1157, 0.1173]");
-        assert_eq!(interval(19.0, 219.0), "[19, 219]");
-        assert_eq!(interval(0.5, 0.5), "[0.5, 0.5]");
     }
 
     /// Every printed number reads back to within half a unit of its last digit.

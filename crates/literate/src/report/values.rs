@@ -98,6 +98,6 @@ mod tests {
         let mut registry = Registry::new();
         registry.add(Value::integer("edges", 16)).unwrap();
         assert!(matches!(registry.add(Value::integer("edges", 17)), Err(Error::DuplicateId(_))));
-        assert!(registry.add(Value::interval("x", [0.0, f64::NAN])).is_err());
+        assert!(registry.add(Value::real("x", f64::NAN, 2)).is_err());
     }
 }

@@ -99,31 +99,43 @@ fn tree(text: &str) -> Vec<document::Block> {
     blocks
 }
 
+/// Text in one line: `⏎` ends a line in it, and `·` is a blank that does not break.
+fn unmarked(line: &str) -> String {
+    line.replace('⏎', "\n").replace('·', "\u{a0}")
+}
+
+/// Holds a document to parts, one a line.
+fn has(text: &str, parts: &str) {
+    for part in parts.lines().map(unmarked) {
+        assert!(text.contains(&part), "{part:?} is not in\n{text}");
+    }
+}
+
 #[test]
 fn markdown_for_a_host() {
     let text = markdown::write(&tree(SAMPLE));
-    for part in [
-        "## <a id=\"sec-introduction\"></a>1 Introduction\n",
-        "([[Rice, 1945](#ref-rice1945)]; see [Fig.\u{a0}3](#fig-3), Eqs.\u{a0}[(18)](#eq-18) and",
-        "\n0.1165(4) and $\\sigma = 0.1165(4)$, far below $8.87\\times10^{-4}$, the $n\\text{-th}$",
-        "$\\Phi'_{N,p}\\thinspace(k) \\lt 1$ moves *fast*, **very** fast",
-        "<a id=\"eq-18\"></a>\n\n$$\np_{\\mathrm{crit}} = \\left(\\frac{1 + \\sqrt{N+1}}{N}\\right)^2\n\\tag{18}\n$$\n",
-        "\n\\begin{aligned} a &= b \\cr c &= d \\end{aligned}\n",
-        "Of [Eq.\u{a0}(1)](#eq-map),\n\n<a id=\"eq-map\"></a>\n\n$$\nx \\to f(x)\n\\tag{1}\n$$\n\nfollows",
-        "<a id=\"fig-3\"></a>\n![](figures/fig03.svg)\n\n**Figure 3.** The rise, at 0.1165(4) or",
-        "<a id=\"tab-sigma\"></a>**Table 1.** What σ gives\n\n| Check | Statement | Ours |\n|---|---|--:|\n",
-        "| <a id=\"claim-jump\"></a>2 | a_b \\* c | 94.5(8)\u{a0}% |\n",
-        "\n. and [Claim\u{a0}2](#claim-jump) of [Table\u{a0}1](#tab-sigma) and [Fig.\u{a0}3](#fig-3).\n",
-        "1. one\n2. two\n\n   more\n",
-        "\nA note<sup>[1](#note-wait)</sup> in passing.\n\n<sup><a id=\"note-wait\"></a>1</sup> It waits.\n",
-        "```rust\nfn f() -> σ { 1 }\n```\n",
-        "\nBy [Listing\u{a0}1](#lst-kick), in words.\n",
-        "<a id=\"lst-kick\"></a>**Listing 1.** What $\\delta v$ does.\n\n<details>\n<summary><code>toy::flight::Motion::kick</code></summary>\n\n```rust\n/// ",
-        "\n    self.b += kick * p.cos;\n}\n```\n\n<sub>From [src/flight.rs](../src/flight.rs).</sub>\n\n</details>\n",
-        "- <a id=\"ref-rice1945\"></a>Rice, S. O. (1945). Noise. *B*.\n",
-    ] {
-        assert!(text.contains(part), "{part:?} is not in\n{text}");
-    }
+    has(
+        &text,
+        r##"
+## <a id="sec-introduction"></a>1 Introduction⏎
+([[Rice, 1945](#ref-rice1945)]; see [Fig.·3](#fig-3), Eqs.·[(18)](#eq-18) and
+⏎0.1165(4) and $\sigma = 0.1165(4)$, far below $8.87\times10^{-4}$, the $n\text{-th}$
+$\Phi'_{N,p}\thinspace(k) \lt 1$ moves *fast*, **very** fast
+<a id="eq-18"></a>⏎⏎$$⏎p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{N}\right)^2⏎\tag{18}⏎$$⏎
+⏎\begin{aligned} a &= b \cr c &= d \end{aligned}⏎
+Of [Eq.·(1)](#eq-map),⏎⏎<a id="eq-map"></a>⏎⏎$$⏎x \to f(x)⏎\tag{1}⏎$$⏎⏎follows
+<a id="fig-3"></a>⏎![](figures/fig03.svg)⏎⏎**Figure 3.** The rise, at 0.1165(4) or
+<a id="tab-sigma"></a>**Table 1.** What σ gives⏎⏎| Check | Statement | Ours |⏎|---|---|--:|⏎
+| <a id="claim-jump"></a>2 | a_b \* c | 94.5(8)·% |⏎
+⏎. and [Claim·2](#claim-jump) of [Table·1](#tab-sigma) and [Fig.·3](#fig-3).⏎
+1. one⏎2. two⏎⏎   more⏎
+⏎A note<sup>[1](#note-wait)</sup> in passing.⏎⏎<sup><a id="note-wait"></a>1</sup> It waits.⏎
+```rust⏎fn f() -> σ { 1 }⏎```⏎
+⏎By [Listing·1](#lst-kick), in words.⏎
+<a id="lst-kick"></a>**Listing 1.** What $\delta v$ does.⏎⏎<details>⏎<summary><code>toy::flight::Motion::kick</code></summary>⏎⏎```rust⏎/// 
+⏎    self.b += kick * p.cos;⏎}⏎```⏎⏎<sub>From [src/flight.rs](../src/flight.rs).</sub>⏎⏎</details>⏎
+- <a id="ref-rice1945"></a>Rice, S. O. (1945). Noise. *B*.⏎"##,
+    );
     assert!(
         !text.contains("They move") && !text.contains("You run") && !text.contains("\n\n\n"),
         "{text}"
@@ -134,35 +146,35 @@ fn markdown_for_a_host() {
 fn latex_for_pdflatex() {
     let parts = latex::write(&tree(SAMPLE), Document::REPORT).unwrap();
     let [text, appendix] = ["body", "listings"].map(|name| parts[name].as_str().unwrap());
-    for part in [
-        "\\section{Introduction}\\label{sec:introduction}\n\nMasses",
-        "\\origin{half_height}{0.1165(4)} and $\\sigma = \\origin{half_height}{0.1165(4)}$, far below",
-        "see \\hyperref[fig:3]{Fig.~3}, Eqs.~\\hyperref[eq:18]{(18)} and",
-        "at 100 \\% of \\texttt{a\\_\\allowbreak{}b}.\n\\begin{equation}\np_{",
-        "\\tag{18}\\label{eq:18}\n\\end{equation}\nwhere $N$ is large, so\n\\begin{equation}\n",
-        "\\includegraphics[width=0.8\\linewidth,height=0.62\\textheight,keepaspectratio]{figures/fig03.pdf}",
-        "\\caption{The rise, at \\origin{half_height}{0.1165(4)} or $\\sigma$ \\ensuremath{\\ge} 0.12.}\\label{fig:3}",
-        "Of \\hyperref[eq:map]{Eq.~(1)},\n\\begin{equation}\nx \\to f(x)\n\\tag{1}\\label{eq:map}\n\\end{equation}\nfollows",
-        "\\begin{longtable}{llr}\n\\caption{What \\ensuremath{\\sigma} gives}\\label{tab:sigma}\\\\\n",
-        "\\phantomsection\\label{claim:jump}2 & a\\_b * c & \\origin{kept}{94.5(8)~\\%} \\\\\n",
-        "A note\\textsuperscript{\\hyperref[note:wait]{1}} in passing.\n",
-        "\\phantomsection\\section*{References}",
-        "\nBy \\hyperref[lst:kick]{Listing~1}, in words.\n",
-    ] {
-        assert!(text.contains(part), "{part:?} is not in\n{text}");
-    }
+    has(
+        text,
+        r##"
+\section{Introduction}\label{sec:introduction}⏎⏎Masses
+\origin{half_height}{0.1165(4)} and $\sigma = \origin{half_height}{0.1165(4)}$, far below
+see \hyperref[fig:3]{Fig.~3}, Eqs.~\hyperref[eq:18]{(18)} and
+at 100 \% of \texttt{a\_\allowbreak{}b}.⏎\begin{equation}⏎p_{
+\tag{18}\label{eq:18}⏎\end{equation}⏎where $N$ is large, so⏎\begin{equation}⏎
+\includegraphics[width=0.8\linewidth,height=0.62\textheight,keepaspectratio]{figures/fig03.pdf}
+\caption{The rise, at \origin{half_height}{0.1165(4)} or $\sigma$ \ensuremath{\ge} 0.12.}\label{fig:3}
+Of \hyperref[eq:map]{Eq.~(1)},⏎\begin{equation}⏎x \to f(x)⏎\tag{1}\label{eq:map}⏎\end{equation}⏎follows
+\begin{longtable}{llr}⏎\caption{What \ensuremath{\sigma} gives}\label{tab:sigma}\\⏎
+\phantomsection\label{claim:jump}2 & a\_b * c & \origin{kept}{94.5(8)~\%} \\⏎
+A note\textsuperscript{\hyperref[note:wait]{1}} in passing.⏎
+\phantomsection\section*{References}
+⏎By \hyperref[lst:kick]{Listing~1}, in words.⏎"##,
+    );
     assert!(
         !text.contains("self.b +=") && !text.contains("They move") && !text.contains("You run"),
         "{text}"
     );
-    for part in [
-        "\\section*{Listings}",
-        "\\phantomsection\\label{lst:kick}\\textbf{Listing 1.} What $\\delta v$ does. \\texttt{toy::\\allowbreak{}flight",
-        "\\begin{alltt}\n/// A jump of the velocity by \\ensuremath{\\omega} `kick`",
-        "(&mut self, kick: f64, p: &Phases<M>) \\{\n    self.a -= kick * p.sin;\n",
-    ] {
-        assert!(appendix.contains(part), "{part:?} is not in\n{appendix}");
-    }
+    has(
+        appendix,
+        r##"
+\section*{Listings}
+\phantomsection\label{lst:kick}\textbf{Listing 1.} What $\delta v$ does. \texttt{toy::\allowbreak{}flight
+\begin{alltt}⏎/// A jump of the velocity by \ensuremath{\omega} `kick`
+(&mut self, kick: f64, p: &Phases<M>) \{⏎    self.a -= kick * p.sin;⏎"##,
+    );
 }
 
 fn figure() -> Figure {
@@ -354,45 +366,25 @@ fn documents_refer_to_each_other() {
         let bytes = report.committed.get(path).or(report.beside.get(path)).unwrap();
         String::from_utf8(bytes.clone()).unwrap()
     };
-    for (file, part) in [
-        (
-            "README.md",
-            "# Front\n\n<a id=\"fig-fig03\"></a>\n![It rises \\[steeply\\].](figures/fig03.svg)\n\n**Figure 1.**",
-        ),
-        (
-            "report.md",
-            "# Report\n\n*A. Uthor (R & D), B. Uthor, 2026-11-24*\n\n## Abstract\n\nIt *rises*.\n\n## ",
-        ),
-        (
-            "report.html",
-            "</h1>\n<p class=\"byline\">A. Uthor (R &amp; D), B. Uthor, 2026-11-24</p>",
-        ),
-        (
-            "report.html",
-            "<section class=\"abstract\">\n<h2 id=\"abstract\"><a href=\"#abstract\">Abstract</a></h2>\n<p>It <em>rises</em>.</p>\n</section>\n<h2",
-        ),
-        (
-            "report.tex",
-            "\\author{A. Uthor\\\\{\\small R \\& D} \\and B. Uthor}\n\\date{2026-11-24}\n",
-        ),
-        (
-            "report.tex",
-            "\\maketitle\n\n\\begin{abstract}\n\nIt \\emph{rises}.\n\\end{abstract}\n\n\\section{First}",
-        ),
-        (
-            "README.md",
-            "See [Sec.\u{a0}S1.1](more.md#sec-b), [✓](more.md#claim-rise) and [more](more.md).",
-        ),
-        ("index.html", "<a href=\"more.html#sec-b\">Sec.\u{a0}S1.1</a>"),
-        ("index.html", "title=\"reproduced\">✓</a> and <a href=\"more.html\">more</a>."),
-        ("index.html", "<li><a href=\"index.html\" aria-current=\"page\">Front</a></li>"),
-        ("report.md", "Words, <sup>[✓\u{a0}1](more.md#claim-rise)</sup> and"),
-        ("report.tex", "Words, \\textsuperscript{\\ensuremath{\\checkmark}~1} and Sec.~S1.1"),
-        ("more.md", "[Fig.\u{a0}1](report.md#fig-fig03), [Sec.\u{a0}2](report.md#sec-last)."),
-        ("more.md", "**Table S1.** T"),
-        ("more.tex", "\\renewcommand{\\thesection}{S\\arabic{section}}"),
-    ] {
-        assert!(text(file).contains(part), "{file}: {part:?} is not in\n{}", text(file));
+    let parts = r##"
+README.md => # Front⏎⏎<a id="fig-fig03"></a>⏎![It rises \[steeply\].](figures/fig03.svg)⏎⏎**Figure 1.**
+report.md => # Report⏎⏎*A. Uthor (R & D), B. Uthor, 2026-11-24*⏎⏎## Abstract⏎⏎It *rises*.⏎⏎## 
+report.html => </h1>⏎<p class="byline">A. Uthor (R &amp; D), B. Uthor, 2026-11-24</p>
+report.html => <section class="abstract">⏎<h2 id="abstract"><a href="#abstract">Abstract</a></h2>⏎<p>It <em>rises</em>.</p>⏎</section>⏎<h2
+report.tex => \author{A. Uthor\\{\small R \& D} \and B. Uthor}⏎\date{2026-11-24}⏎
+report.tex => \maketitle⏎⏎\begin{abstract}⏎⏎It \emph{rises}.⏎\end{abstract}⏎⏎\section{First}
+README.md => See [Sec.·S1.1](more.md#sec-b), [✓](more.md#claim-rise) and [more](more.md).
+index.html => <a href="more.html#sec-b">Sec.·S1.1</a>
+index.html => title="reproduced">✓</a> and <a href="more.html">more</a>.
+index.html => <li><a href="index.html" aria-current="page">Front</a></li>
+report.md => Words, <sup>[✓·1](more.md#claim-rise)</sup> and
+report.tex => Words, \textsuperscript{\ensuremath{\checkmark}~1} and Sec.~S1.1
+more.md => [Fig.·1](report.md#fig-fig03), [Sec.·2](report.md#sec-last).
+more.md => **Table S1.** T
+more.tex => \renewcommand{\thesection}{S\arabic{section}}"##;
+    for line in parts.lines().skip(1) {
+        let (file, part) = line.split_once(" => ").unwrap();
+        has(&text(file), part);
     }
     assert!(text("report.md").find("First") < text("report.md").find("Last"));
     // Only a front page shows a figure again.
