@@ -1,4 +1,5 @@
-//! `impact-paper check` for people and machines: every form says of every statement what the others say.
+//! `impact-paper check` for people and machines: every form says of every statement what the others say. Faults of the
+//! templates, each told with its file and line.
 
 use crate::{QUICK, run, templates};
 use impact_paper::claims::Basis;
@@ -81,4 +82,44 @@ fn every_form_has_every_statement_at_its_line_and_what_fails() {
         |line: &&str| ["::error", "::warning", "::notice"].iter().position(|k| line.starts_with(k));
     assert!(out.lines().is_sorted_by_key(|line| rank(&line).unwrap()), "{out}");
     assert!(out.starts_with("::error file=t/published.toml,line="), "{out}");
+}
+
+/// What is wrong with a file of the templates, and what is said behind its name: text in the place of other text, or lines
+/// at its end (`+`; $ is the last line).
+const FAULTS: &str = r##"2 front.md +«v.p | nofilter» => :$:
+1 front.md +About 12 of them. => :$:7: the naked numeral 12
+2 front.md +It is «sweep.rise.half_heigth». => :$:
+2 literals.toml why = "what the model is -> why = " " # => : [
+2 published.toml [[statement]] -> [[statement => :
+2 published.toml printed = "N − 1" -> printed = "N − 2" => :385: the id "sec7_limit": its check judges "N − 1", and not its printed
+2 published.toml "sec2_half_height" -> "sec2_new" => : no statement "sec2_half_height""##;
+
+#[test]
+fn faults_of_the_prose_are_told_with_their_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    crate::put(&here.join("r"), &QUICK.results);
+    for line in FAULTS.lines() {
+        let (given, says) = line.split_once(" => ").unwrap();
+        let [expected, file, fault] = given.splitn(3, ' ').collect::<Vec<_>>().try_into().unwrap();
+        let _ = std::fs::remove_dir_all(here.join("t"));
+        templates(&here.join("t"), file, |text| match fault.split_once(" -> ") {
+            Some((from, to)) => text.replacen(from, to, 1),
+            None => format!("{}\n\n{}\n", text.trim_end(), &fault[1..]),
+        });
+        let (code, told, note) =
+            crate::run(here, "paper --profile quick --out p --results r --templates t");
+        let text = std::fs::read_to_string(here.join("t").join(file)).unwrap();
+        let says = format!("{file}{}", says.replace('$', &text.lines().count().to_string()));
+        let line = note.lines().last().unwrap();
+        assert!(code.to_string() == expected && line.contains(&says), "{says}: {told}{note}");
+    }
+    // A copy of a section that an editor left, and a section that is lost.
+    let edition = here.join("t/edition");
+    let paper = "check --profile quick --results r --templates t";
+    std::fs::copy(edition.join("12-limits.md"), edition.join("12-limits copy.md")).unwrap();
+    crate::refused(here, paper, &["edition/12-", "13-name.md"]);
+    std::fs::remove_file(edition.join("12-limits copy.md")).unwrap();
+    std::fs::remove_file(edition.join("12-limits.md")).unwrap();
+    crate::refused(here, paper, &["edition/13-", "12-name.md"]);
 }

@@ -40,6 +40,14 @@ fn changed() -> tempfile::TempDir {
         values["sweep.rise.half_height"]["kind"]["ensemble"]["standard_error"].as_f64().unwrap();
     let value = &mut values["sweep.rise.half_height"]["number"]["real"]["value"];
     *value = (value.as_f64().unwrap() + 3.0 * error * 2f64.sqrt()).into();
+    // What no printed digit shows is shown in full.
+    let p = &mut values["theory.jump.p_jump"]["number"]["real"]["value"];
+    *p = (p.as_f64().unwrap() + 1e-9).into();
+    let all = values.as_object_mut().unwrap();
+    let (mut new, text) = (all.remove("theory.jump.p_crit").unwrap(), "{\"text\": \"a\u{1b}b\"}");
+    new["id"] = "new".into();
+    new["number"] = serde_json::from_str(&text.replace('\u{1b}', "\\u001b")).unwrap();
+    all.insert("new".into(), new);
     fs::write(at("values.json"), format!("{values:#}\n")).unwrap();
     let mut ledger = json("ledger.json");
     let claims = ledger["claims"].as_array_mut().unwrap();
@@ -54,7 +62,7 @@ fn changed() -> tempfile::TempDir {
     folder
 }
 
-/// The forms of what the unit tests of `compare` find, all of them in one report.
+/// The largest difference in standard errors comes first, what only one report has last, and nothing that a terminal obeys.
 #[test]
 fn number_verdict_and_files_are_told_in_each_form() {
     let folder = changed();
@@ -64,8 +72,9 @@ fn number_verdict_and_files_are_told_in_each_form() {
     let out = answer(here, "diff a b");
     for line in [
         "  sec2_half_height: reproduced -> differs; tolerance: ± 0.005 -> ± 0.0001 | more\n",
-        "1 check and 1 number changed\n",
-        ", +3.00 σ\n",
+        "1 check and 4 numbers changed\n",
+        ", +3.00 σ\n  theory.jump.p_jump: 0.01303",
+        "; Δ +1.00e-9\n  new: new, a b\n  theory.jump.p_crit: gone, was 0.012210\n",
         "  differs  data/fig12.csv\n",
         "  new      data/new.csv\n",
         "  gone     data/fig07.csv\n",
@@ -116,7 +125,6 @@ fn revisions_of_git_are_compared() {
     assert!(code == 2 && note.contains("git: ") && note.lines().count() == 1, "{note}");
 }
 
-/// Which part is wrong is told by the unit tests of `compare`.
 #[test]
 fn what_is_no_report_gets_one_line() {
     let folder = twice();

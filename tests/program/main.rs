@@ -2,17 +2,11 @@
 
 mod bad_input;
 mod check;
-mod cluster;
-mod codes;
 mod diff;
-mod eval;
 mod explain;
+mod own;
 mod paper;
-mod prose;
 mod saved;
-mod sweep;
-mod trace;
-mod verify;
 
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;

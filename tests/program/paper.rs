@@ -1,6 +1,9 @@
-//! `impact-paper paper` as a user meets it: what runs, what is written, what is left as it is.
+//! `impact-paper paper` and `verify` as a user meets them: what runs, what is written, what is left as it is; exit codes.
 
-use crate::{EXPERIMENTS, QUICK, SCENARIO, TEMPLATES, files, program, put, told, tree};
+use crate::{
+    EXPERIMENTS, QUICK, SCENARIO, TEMPLATES, answer, digest, files, program, put, templates, told,
+    tree,
+};
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -137,4 +140,68 @@ fn what_others_made_is_left_as_it_is() {
     assert!(code == 0 && note.contains("wrote over figures/fig04.svg"), "{note}");
     assert_eq!(run(here, "paper --figure 4 --figure 5 --out t").0, 0);
     assert_eq!(fs::read_to_string(here.join("t/report.md")).unwrap(), "by hand");
+}
+
+/// The unit tests of `report::folder` have the faults.
+#[test]
+fn a_rerun_finds_what_the_list_cannot() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let templates = format!("--templates {TEMPLATES}");
+    put(&here.join("r"), &QUICK.report);
+    put(&here.join("saved"), &QUICK.results);
+
+    // Without saved results, by the profile that the report names, on another number of threads.
+    let (code, told, note) = crate::run(here, &format!("verify r --rerun --threads 1 {templates}"));
+    assert_eq!(code, 0, "{told}{note}");
+    assert!(note.contains("sweep: run\n"), "{note}");
+    assert!(told.contains("made again with the quick profile, the same bytes"), "{told}");
+
+    // A forger who keeps the list right.
+    let edit = |name: &str, change: &dyn Fn(String) -> String| {
+        let path = here.join("r").join(name);
+        fs::write(&path, change(fs::read_to_string(&path).unwrap())).unwrap();
+    };
+    let before = fs::read_to_string(here.join("r/data/fig02.csv")).unwrap();
+    edit("data/fig02.csv", &|text| format!("{text}9\n"));
+    edit("report.html", &|text| format!("{text} "));
+    fs::write(here.join("r/data/more.csv"), "").unwrap();
+    let (old, new) = (digest(&before), digest(format!("{before}9\n")));
+    let more = format!("{}  data/more.csv\n", digest(""));
+    edit("SHA256SUMS", &|list| list.replace(&old, &new) + &more);
+    assert!(answer(here, "verify r").ends_with(" files, all as SHA256SUMS lists them\n"));
+    let (code, told, note) =
+        crate::run(here, &format!("verify r --rerun --results saved {templates}"));
+    assert_eq!(code, 1, "{told}{note}");
+    assert!(note.contains("4 files; `paper --out r --force`"), "{note}");
+    let lines: Vec<&str> = told.lines().skip(1).collect();
+    let names = ["differs  SHA256SUMS", "differs  data/fig02.csv", "differs  report.html"];
+    let names = names.into_iter().chain(["unlisted data/more.csv"]);
+    assert_eq!(lines, names.map(|name| format!("rerun: {name}")).collect::<Vec<_>>());
+}
+
+/// A report whose statements fail is written all the same. The exit codes of `--help` and DESIGN.md are the same; those of
+/// what is refused and of signals have tests of their own.
+#[test]
+fn a_statement_that_fails_is_exit_code_1() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    put(&here.join("r"), &QUICK.results);
+    templates(&here.join("t"), "published.toml", |text| {
+        text.replacen("printed = \"16\"\nvalue = 16", "printed = \"17\"", 1)
+    });
+    let paper = "paper --profile quick --out p --results r --templates t";
+    let (code, told, note) = crate::run(here, paper);
+    assert!(code == 1 && note.contains("sec3_edges; `check` says more"), "{told}{note}");
+    let ledger = fs::read_to_string(here.join("p/ledger.json")).unwrap();
+    assert!(ledger.contains("\"verdict\": \"differs\""));
+    let help = answer(here, "--help");
+    let design = fs::read_to_string("DESIGN.md").unwrap();
+    for (code, words) in [(0, "fine"), (1, "check"), (2, "usage"), (130, "SIGTERM")] {
+        let says = |line: &str| line.contains(words);
+        let row = |line: &&str| line.trim_start().starts_with(&format!("{code} ")) && says(line);
+        assert!(help.lines().any(|line| row(&line)), "{help}");
+        let row = format!("| {code} | ");
+        assert!(design.lines().any(|line| line.starts_with(&row) && says(line)), "{code}");
+    }
 }

@@ -1,10 +1,13 @@
 //! Saved results: never stale, never half, whatever happens to the program; and work shared out to several machines gives
 //! the bytes of one.
 
-use crate::{EXPERIMENTS, Files, QUICK, TEMPLATES, files, forged, program, put, run};
+use crate::{
+    EXPERIMENTS, Files, PROGRAM, QUICK, TEMPLATES, digest, files, forged, program, put, run,
+};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 use std::sync::LazyLock;
 use std::time::Duration;
 
@@ -157,4 +160,33 @@ fn a_killed_run_goes_on_where_it_was() {
     }
     let note = joined(folder);
     assert!(!note.contains("run again"), "{note}");
+}
+
+/// A job array on a real Slurm gives the bytes of one machine, even if a task is killed on its way. Starts munged, slurmctld and slurmd on this machine (root installs them when missing), and stops
+/// them. Some minutes, most of it the full profile twice.
+#[test]
+#[ignore = "starts a Slurm, and runs the full profile twice"]
+fn a_job_array_with_a_killed_task_gives_the_bytes_of_one_machine() {
+    let folder = tempfile::tempdir().unwrap();
+    let cluster = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/cluster");
+    let output = Command::new(cluster.join("with-slurm"))
+        .arg(cluster.join("trial"))
+        .arg(PROGRAM)
+        .arg(folder.path())
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    let note = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && text.contains("killed task 2"), "{text}{note}");
+    let made = |results: &str| -> Vec<_> {
+        let paper = format!("paper --out report --results {results} --templates {TEMPLATES}");
+        let (code, _, said) = run(folder.path(), &paper);
+        assert_eq!(code, 0, "{said}");
+        assert!(results == "local" || !said.contains("run again"), "{said}");
+        let sum = |(name, bytes): (String, Vec<u8>)| (name, digest(bytes));
+        files(&folder.path().join(results)).into_iter().map(sum).collect()
+    };
+    let joined = made("results");
+    assert_eq!(joined.len(), EXPERIMENTS);
+    assert_eq!(joined, made("local"));
 }

@@ -53,16 +53,17 @@ pub struct Diff {
     pub differing: Vec<String>,
 }
 
-/// Reads a values.json.
+/// Reads a values.json. A number of a form that only another version of the program knows is left out.
 ///
 /// # Errors
 /// What is none.
 pub fn read(text: &str) -> Result<Registry, Error> {
     let fault = |what: String| Error::Template(format!("values.json: {what}"));
-    let values: BTreeMap<String, Value> =
+    let values: BTreeMap<String, serde_json::Value> =
         serde_json::from_str(text).map_err(|e| fault(e.to_string()))?;
+    let known = values.into_values().filter_map(|value| serde_json::from_value(value).ok());
     let mut registry = Registry::new();
-    registry.extend(values.into_values()).map_err(|e| fault(e.to_string()))?;
+    registry.extend(known).map_err(|e| fault(e.to_string()))?;
     Ok(registry)
 }
 
@@ -226,43 +227,5 @@ impl Diff {
         // A report, and the name of a file, may hold what a terminal obeys.
         let lines = changes.chain(files).map(|line| line.replace(is_obeyed, " ") + "\n");
         lines.fold(self.counts() + "\n", |text, line| text + &line)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn report(values: Vec<Value>) -> Parts {
-        let mut registry = Registry::new();
-        registry.extend(values).unwrap();
-        Parts { files: Files::new(), values: registry, ledger: Ledger::default() }
-    }
-
-    #[test]
-    fn numbers_are_compared_by_both_errors_and_shown() {
-        let before = vec![
-            Value::real("a", 0.1, 2),
-            Value::ensemble("b", 1.0, 0.3, 9),
-            Value::integer("gone", 1),
-            Value::integer("same", 1),
-            Value::real("unit", 2.0, 2),
-        ];
-        let after = vec![
-            Value::real("a", 0.1 + 1e-9, 2),
-            Value::ensemble("b", 2.0, 0.4, 9),
-            Value::integer("new", 1),
-            Value::integer("same", 1).note("other words"),
-            Value::text("unit", "@two"),
-        ];
-        let diff = diff(&report(before), &report(after));
-        let text = diff.text("x", "y");
-        for line in [
-            "no check and 5 numbers changed\n  unit: 2.0 -> @two\n  b: 1.0(3) -> ",
-            "2.0(4); Δ +1.00, +2.00 σ\n  a: 0.1 -> 0.100000001; Δ +1.00e-9\n",
-            "  gone: gone, was 1\n  new: new, 1\n",
-        ] {
-            assert!(text.contains(line), "{line}: {text}");
-        }
     }
 }

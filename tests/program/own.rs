@@ -1,0 +1,239 @@
+//! What this paper adds to the program: `eval`, `sweep` and `trace`.
+
+use crate::{SCENARIO, answer, program, run};
+use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::impact_probability::ImpactProbability;
+use impact_circuits::{counting, jump};
+use impact_paper::params::MethodName;
+use serde_json::{Value, json};
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+fn eval(arguments: &str) -> String {
+    answer(Path::new("."), &format!("eval {arguments}"))
+}
+
+/// The one JSON object of a good call.
+fn object(arguments: &str) -> Value {
+    let text = eval(arguments);
+    assert!(text.ends_with('\n') && text.lines().count() == 1);
+    serde_json::from_str(&text).unwrap()
+}
+
+fn float(arguments: &str) -> f64 {
+    let value = &object(arguments)["value"];
+    assert!(value.is_f64(), "{arguments}: {value} is printed as a float");
+    value.as_f64().unwrap()
+}
+
+fn integer(arguments: &str) -> u64 {
+    object(arguments)["value"].as_u64().expect("an integer is printed as one")
+}
+
+#[test]
+fn every_quantity_prints_what_the_library_computes() {
+    let (simple, five) = (SampleSpace::Simple, SampleSpace::FiveClasses);
+    let law = |space| Law::new(space, 41, 0.07).unwrap();
+    let relation = ImpactProbability::new(0.2, 1.5, 1.1, 0.6).unwrap();
+    assert_eq!(float("p-crit --vertices 41"), jump::p_crit(41).unwrap());
+    assert_eq!(float("p-jump --vertices 41"), jump::p_jump(simple, 41).unwrap().p);
+    assert_eq!(float("higher-p-jump --vertices 41"), jump::p_jump(five, 41).unwrap().p);
+    let after = |space| jump::p_jump(space, 41).unwrap().k_after as u64;
+    assert_eq!(integer("k-after-jump --vertices 41"), after(simple));
+    assert_eq!(integer("higher-k-after-jump --vertices 41"), after(five));
+    for (prefix, space) in [("", simple), ("higher-", five)] {
+        let of = |quantity: &str| format!("{prefix}{quantity} --vertices 41 --p 0.07");
+        assert_eq!(integer(&of("k-star")), law(space).k_star() as u64);
+        assert_eq!(float(&of("mean-impacts")), law(space).mean());
+        assert_eq!(float(&(of("probability") + " --k 7")), law(space).probability(7).unwrap());
+    }
+    assert_eq!(float("log-circuits --vertices 41 --k 7"), counting::log_phi(41, 7).unwrap());
+    let given = "--sigma 0.2 --spacing 1.5 --omega 1.1 --forcing-frequency 0.6";
+    assert_eq!(float(&format!("p-of-sigma {given}")), relation.p().unwrap());
+    assert_eq!(float(&format!("log-p-of-sigma {given}")), relation.log_p().unwrap());
+}
+
+#[test]
+fn the_answer_is_one_object_with_the_inputs_and_their_defaults() {
+    let mean = Law::new(SampleSpace::Simple, 41, 1.0).unwrap().mean();
+    let expected = format!(
+        "{{\"quantity\":\"mean-impacts\",\"value\":{mean:?},\
+         \"inputs\":{{\"masses\":40,\"vertices\":41,\"p\":1.0}}}}\n"
+    );
+    assert_eq!(eval("mean-impacts --masses 40 --p 1"), expected);
+    let root = std::f64::consts::SQRT_2;
+    let expected = json!({"sigma": 0.15, "omega": 1.0, "forcing_frequency": root, "spacing": 1.0});
+    assert_eq!(object("p-of-sigma --sigma 0.15")["inputs"], expected);
+    assert_eq!(object("p-crit")["inputs"], json!({"vertices": 100}));
+    let (code, _, note) = run(Path::new("."), "eval p-crit --vertices 2");
+    assert!(code == 0 && note.contains("no probability"), "{note}");
+    // A million are answered at once, and zero has no sign.
+    assert_eq!(integer("k-star --vertices 1000000 --p 0.3"), 999_997);
+    assert_eq!(object("k-star --p -0.0")["inputs"]["p"].to_string(), "0.0");
+    let list = eval("--list");
+    assert_eq!(list.lines().count(), 14);
+    assert!(list.lines().all(|line| line.contains("Eq") || line.contains("Sec.")));
+}
+
+const SMALL: &str = "--masses 30 --realisations 24 --transient 60 --window 40";
+
+/// A million masses have room in a gigabyte.
+#[test]
+fn a_sweep_takes_no_more_memory_than_it_says() {
+    let sweep = "ulimit -v 1000000; exec \"$0\" sweep --sigma 0.3 --masses 1000000 --realisations 1 --transient 0 \
+                 --window 1 --threads 1";
+    let output = Command::new("bash").args(["-c", sweep, crate::PROGRAM]).output().unwrap();
+    let (code, table, note) = crate::told(&output);
+    assert!(code == 0 && table.contains("0.3,"), "{note}");
+}
+
+/// The table of a small sweep.
+fn table(arguments: &str) -> String {
+    answer(Path::new("."), &format!("sweep {arguments} {SMALL}"))
+}
+
+#[test]
+fn the_same_bytes_for_any_number_of_threads() {
+    let tables =
+        [1, 4, 7].map(|threads| table(&format!("--sigma 0.12..0.2:0.02 --threads {threads}")));
+    assert_eq!(tables[0].lines().count(), 6);
+    assert!(tables.iter().all(|table| *table == tables[0]), "{tables:#?}");
+    // A row does not depend on the other rows, nor on how σ was written; another seed is another ensemble.
+    let [alone, other] = ["", " --seed 1"]
+        .map(|seed| table(&format!("--sigma 0.16{seed}")).lines().nth(1).unwrap().to_string());
+    assert!(tables[0].lines().any(|row| row == alone) && alone != other, "{alone}\n{other}");
+}
+
+#[test]
+fn columns_rows_and_both_formats() {
+    let text = table("--sigma 0.01,0.2");
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(
+        lines[0],
+        "sigma,realisations,kept,rejected,mean_distinct,standard_error,mode_distinct,\
+         impacts_per_time,impacts,near_simultaneous,slow,contact_phases"
+    );
+    // At σ = 0.01 nothing can hit: the gap closes only for a 25-σ force. Empty, not zero or NaN.
+    assert!(lines[1].starts_with("0.01,24,0,0,,,,,0,0,0,0"), "{text}");
+    assert!(lines[2].starts_with("0.2,24,"));
+    let json: serde_json::Value =
+        serde_json::from_str(&table("--sigma 0.01,0.2 --format json")).unwrap();
+    for (name, cell) in lines[0].split(',').zip(lines[2].split(',')) {
+        assert_eq!(json[1][name].as_f64(), cell.parse::<f64>().ok(), "{name}");
+    }
+    assert!(json[0]["mean_distinct"].is_null(), "{json}");
+}
+
+#[test]
+fn overlapping_starts_are_rejected_counted_and_named() {
+    // σ = 0.3: 99 % of the random starts overlap, none of those from rest.
+    let random = format!("sweep --sigma 0.3 --initial random {SMALL}");
+    let (code, random, note) = run(Path::new("."), &random);
+    assert!(code == 0 && note.contains("not comparable"), "{note}");
+    let rejected = |table: &str| -> usize {
+        table.lines().nth(1).unwrap().split(',').nth(3).unwrap().parse().unwrap()
+    };
+    assert!(rejected(&random) > 12, "{random}");
+    assert_eq!(rejected(&table("--sigma 0.3")), 0);
+}
+
+/// A folder with a scenario.
+fn folder(scenario: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.json"), scenario).unwrap();
+    folder
+}
+
+#[test]
+fn impacts_are_listed_in_order_from_a_file_or_a_pipe() {
+    let folder = folder(SCENARIO);
+    let text = answer(folder.path(), "trace s.json --until 30");
+    assert!(text.starts_with("time,gap,closing_speed\n") && text.lines().count() > 5, "{text}");
+    let mut command = program(folder.path(), "trace - --until 30");
+    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(SCENARIO.as_bytes()).unwrap();
+    assert_eq!(child.wait_with_output().unwrap().stdout, text.as_bytes());
+    let mut last = 0.0;
+    for line in text.lines().skip(1) {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert!(cells[0] >= last && cells[1] <= 3.0 && cells[2] >= 0.0, "{line}");
+        last = cells[0];
+    }
+}
+
+#[test]
+fn the_method_that_is_named_is_run() {
+    let folder = folder(SCENARIO);
+    let by = |method: &str| answer(folder.path(), &format!("trace s.json --until 10{method}"));
+    let plain = by("");
+    for method in MethodName::ALL.map(MethodName::id) {
+        let out = by(&format!(" --method {method}"));
+        assert!(out.lines().count() > 5, "{out}");
+        assert_eq!(out == plain, method == "certified", "{method}");
+    }
+    for (method, option) in [("verlet", "--step 0.01"), ("runge-kutta", "--tolerance 1e-4")] {
+        let method = format!(" --method {method}");
+        assert_ne!(by(&method), by(&format!("{method} {option}")));
+    }
+}
+
+#[test]
+fn what_was_done_with_ties_is_said() {
+    let folder = folder(r#"{"forcing":[[0.9,0.8],[0,0],[-0.9,-0.8]]}"#);
+    let (code, _, note) = run(folder.path(), "trace s.json --until 12");
+    assert!(code == 0 && note.contains("lowest gap first") && note.lines().count() == 1, "{note}");
+}
+
+#[test]
+fn the_truth_shows_from_where_on_a_run_is_off_and_refuses_what_it_does_not_know() {
+    let chain = r#"{"forcing":[[1.9,-0.5],[0.3,0.1],[0.7,-1.1],[-0.3,-0.6],[-0.9,-0.7],[-0.4,-0.2],[-0.7,0.3],[-0.4,-2.6]]}"#;
+    let folder = folder(chain);
+    let times = |method: &str| -> Vec<[f64; 2]> {
+        let text = answer(folder.path(), &format!("trace s.json --until 200 --method {method}"));
+        let cells = |line: &str| -> Vec<f64> {
+            line.split(',').map(|cell| cell.parse().unwrap()).collect()
+        };
+        text.lines().skip(1).map(cells).map(|cells| [cells[0], cells[1]]).collect()
+    };
+    let (truth, own) = (times("truth"), times("certified"));
+    for (a, b) in truth.iter().zip(&own).take(20) {
+        assert!(a[1] == b[1] && (a[0] - b[0]).abs() < 1e-12, "{a:?} {b:?}");
+    }
+    let apart = |(a, b): (&[f64; 2], &[f64; 2])| a[1] != b[1] || (a[0] - b[0]).abs() > 1e-3;
+    assert!(truth.iter().zip(&own).any(apart), "{} impacts", truth.len());
+    for (scenario, words) in [
+        (r#"{"boundary":"ring","forcing":[[1,0],[0,0]]}"#, "walls only"),
+        (r#"{"restitution":0.2,"forcing":[[5.88,-4.94]]}"#, "no contact"),
+    ] {
+        std::fs::write(folder.path().join("s.json"), scenario).unwrap();
+        let (code, _, note) = run(folder.path(), "trace s.json --until 100 --method truth");
+        assert_eq!((code, note.lines().count()), (2, 1), "{note}");
+        assert!(note.contains(words) && note.contains("another method"), "{note}");
+    }
+}
+
+#[test]
+fn a_run_that_is_stopped_tells_its_rounding() {
+    // A fast mass between walls has more impacts in 1/w than a run may have.
+    let fast = r#"{"natural_frequency":0.001,"forcing_frequency":1000,"restitution":1,"forcing":[[0,1e6]]}"#;
+    let folder = folder(fast);
+    let (code, out, note) = run(folder.path(), "trace s.json --until 1e4");
+    assert!(code == 1 && out.lines().count() > 1000 && note.lines().count() == 2, "{note}");
+    assert!(note.contains("may move each impact"), "{note}");
+}
+
+/// Bodies that come to rest on one another do so by very many weak impacts: a line says why the table is long.
+#[test]
+fn a_chatter_that_makes_most_of_the_rows_is_named() {
+    let chain = r#"{"restitution":0,"forcing":[[1.9,-0.5],[0.3,0.1],[0.7,-1.1],[-0.3,-0.6],[-0.9,-0.7],[-0.4,-0.2],[-0.7,0.3],[-0.4,-2.6]]}"#;
+    let folder = folder(chain);
+    let (code, out, note) = run(folder.path(), "trace s.json --until 4000");
+    let slow = |line: &&str| line.split(',').next_back().unwrap().parse::<f64>().unwrap() < 1e-6;
+    let found = out.lines().skip(1).filter(slow).count();
+    assert!(
+        code == 0 && note.contains(&format!("{found} of {} impacts", out.lines().count() - 1)),
+        "{note}"
+    );
+    assert!(!run(folder.path(), "trace s.json --until 4").2.contains("chatter"));
+}
