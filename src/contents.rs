@@ -4,7 +4,7 @@
 //! compiler gives ([`literate::value::origin`]). Groups are `v` (ours), `paper` (numbers that the paper chose) and
 //! `printed` (numbers in its statements).
 
-use crate::claims::{self, Basis, Check, FAMILY_LEVEL, Published, Verdict};
+use crate::claims::{self, Basis, Check, FAMILY_LEVEL, Kind, Published, Verdict};
 use crate::experiments::accuracy::case;
 use crate::experiments::accuracy::tables::titled;
 use crate::experiments::accuracy::trials::{Trial, right, trouble};
@@ -37,28 +37,34 @@ pub fn values(_: &Results, _: &Published) -> Result<Vec<Value>, Failure> {
 /// If a result is missing.
 pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure> {
     let trials = results.of(&TRIALS)?;
+    let statements: Vec<&Check> =
+        checks.iter().filter(|check| check.kind == Kind::Statement).collect();
+    let mut by_section = statements.clone();
+    by_section.sort_by_key(|check| section(check));
     let heads: Vec<String> = trials.parameters.settings.iter().map(|s| titled(*s)).collect();
     Ok(BTreeMap::from([
-        ("scorecard", Verdict::ALL.iter().map(|verdict| score(*verdict, checks)).collect()),
-        ("basis_table", Basis::ALL.iter().filter_map(|basis| split(*basis, checks)).collect()),
-        ("strip", checks.chunk_by(|a, b| section(a) == section(b)).map(strip).collect()),
+        ("scorecard", Verdict::ALL.iter().map(|verdict| score(*verdict, &statements)).collect()),
+        ("basis_table", Basis::ALL.iter().filter_map(|basis| split(*basis, &statements)).collect()),
+        ("strip", by_section.chunk_by(|a, b| section(a) == section(b)).map(strip).collect()),
         ("scene_heads", json!(heads)),
         ("scene_table", trials.scenes.iter().map(|(what, trials)| scene(what, trials)).collect()),
     ]))
 }
 
-fn section(check: &Check) -> &str {
-    check.id.split('_').next().unwrap_or_default()
+/// The section of the paper that an id names, `sec7_limit`: 7.
+fn section(check: &Check) -> u32 {
+    let name = check.id.split('_').next().unwrap_or_default();
+    name.trim_start_matches("sec").parse().unwrap_or(0)
 }
 
 /// The verdicts on the statements of one section of the paper: signs that lead to their rows.
-fn strip(own: &[Check]) -> Json {
+fn strip(own: &[&Check]) -> Json {
     let signs: Vec<String> = own.iter().map(|check| format!("[@sign:{}]", check.id)).collect();
-    json!({"place": section(&own[0]).replace("sec", "Sec.\u{a0}"), "signs": signs.join(" ")})
+    json!({"place": format!("Sec.\u{a0}{}", section(own[0])), "signs": signs.join(" ")})
 }
 
 /// How many statements have a verdict, and references to them.
-fn score(verdict: Verdict, checks: &[Check]) -> Json {
+fn score(verdict: Verdict, checks: &[&Check]) -> Json {
     let own = checks.iter().filter(|check| check.verdict == verdict);
     let own: Vec<String> = own.map(|check| format!("@claim:{}", check.id)).collect();
     let which = if own.is_empty() { "none".into() } else { format!("[{}]", own.join("; ")) };
@@ -66,7 +72,7 @@ fn score(verdict: Verdict, checks: &[Check]) -> Json {
 }
 
 /// A basis, how many statements rest on it, and how many of these are reproduced. What none rests on has no line.
-fn split(basis: Basis, checks: &[Check]) -> Option<Json> {
+fn split(basis: Basis, checks: &[&Check]) -> Option<Json> {
     checks.iter().find(|check| check.basis == basis)?;
     let words = basis.words();
     Some(json!([words, mark(&format!("{words}_of")), mark(words)]))

@@ -76,13 +76,6 @@ impl<'a> Evidence<'a> {
     pub fn half_unit(&self) -> Result<f64, Error> {
         Ok(self.published.statement("sec2_half_height")?.half_unit())
     }
-
-    /// Whether an estimate rounds to a printed number, its statistical error allowed for.
-    pub fn rounds(&self, s: &Statement, estimate: &Estimate) -> Result<bool, Error> {
-        let [low, high] = s.interval()?;
-        let room = self.level.quantile * estimate.error;
-        Ok((low - room..=high + room).contains(&estimate.value))
-    }
 }
 
 /// A tolerance to both sides.

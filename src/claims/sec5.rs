@@ -34,7 +34,8 @@ fn motion(segment: &Segment, s: &Statement) -> Judged {
         .within("none", "the same impacts in the same order")
         .note(Text::of(
             "A segment of a solution of the equations of motion, from time {} to {}, with the first impact again at its \
-             end; not a periodic orbit.",
+             end. The paper speaks of periodic orbits. We did not search for one, and do not know that one with these \
+             impacts exists.",
             [significant(segment.from, 4), significant(segment.until, 4)],
         )))
 }

@@ -1,12 +1,15 @@
 //! Section 7: the discontinuity of the most likely number.
 
 use super::judge::*;
+use crate::params::VERTICES;
+use impact_circuits::jump;
 
 pub const ROWS: &[Judge] = &[
     cases("sec7_eq11", "Every k at ten values of p.").of("Φ(k + 1) − Φ(k) ∝ f(k)"),
     difference("sec7_eq13", "f at its zeros, over its largest term.").of("k±"),
     difference("sec7_eq14_15", "At ten values of p.").of("−1 and −(N + 1)"),
     cases("sec7_eq16_17", "Sign and slope at every k.").of("−(k + 1) < 0; k (N − k) > 0"),
+    by("sec7_through_zero", Exact, through_zero),
     by("sec7_start", Exact, start),
     difference("sec7_maximum", "f is even about that place.").of("(Np − 1)/2p"),
     by("sec7_p_crit", Rounding, p_crit).of("((1 + √(N + 1))/N)²"),
@@ -14,7 +17,7 @@ pub const ROWS: &[Judge] = &[
     by("sec7_inflexion", Rounding, inflexion),
     by("sec7_extrema", Exact, extrema),
     by("sec7_still_one", Exact, still_one),
-    by("sec7_jump", OurMeasure, jump).of("much larger than 1"),
+    by("sec7_jump", OurMeasure, leaps).of("much larger than 1"),
     cases("sec7_monotone", "On a grid of p from the jump to one."),
     by("sec7_limit", Exact, limit).of("N − 1"),
 ];
@@ -27,25 +30,43 @@ fn start(e: &Evidence, s: &Statement) -> Judged {
     Ok(s.found(found, first == s.number()?).within("none", INTEGER))
 }
 
-/// As differences have it: Φ(k + 1) − Φ(k), continued to all k, touches zero and does not change sign.
+fn through_zero(e: &Evidence, s: &Statement) -> Judged {
+    let [all, failed] = e.cases(s)?;
+    let found = Text::of(
+        "f passes zero at some p ≤ 1 for {} of {} k",
+        [integer(all - failed), integer(all)],
+    );
+    let last = jump::f(VERTICES, 1.0, VERTICES as f64 - 1.0);
+    Ok(s.found(found, failed == 0).within("none", INTEGER).explained(
+        Text::of(
+            "At k = N − 1 f is p (N − 1) − N, which is {} at p = 1 and less before; so k* ends at N − 1.",
+            [significant(last, 1)],
+        ),
+        failed == 1 && last < 0.0,
+    ))
+}
+
+/// A forward difference is zero half a step before the derivative.
 fn inflexion(e: &Evidence, s: &Statement) -> Judged {
     let (off, [steps, failed]) = (e.difference(s)?, e.cases(s)?);
+    let columns = ["p_crit", "k_touch", "p_flat", "k_flat"];
+    let [crit, touch, p, k] = e.numbers("theory.jump", columns)?;
     let allowed = 1e-13;
     let found = Text::of(
-        "f is −p (k − k₀)² with k₀ = {}, within {}; Φ falls at {} of {} steps up to p_crit",
-        [
-            significant(e.number("theory.jump.k_touch")?, 4),
-            significant(off, 1),
-            integer(steps - failed),
-            integer(steps),
-        ],
+        "with Γ functions for the factorials at p = {}, k = {}; p_crit = {}",
+        [significant(p, 6), significant(k, 3), significant(crit, 6)],
     );
-    Ok(s.found(found, off <= allowed && failed == 0 && steps > 0)
-        .within(
-            Text::of("{} relative, and all steps", [significant(allowed, 1)]),
-            "rounding; integers are exact",
-        )
-        .note("The flat place lies between two integers, so on the integers Φ is not stationary."))
+    Ok(s.found(found, (p / crit - 1.0).abs() <= allowed)
+        .within(Text::of("{} relative", [significant(allowed, 1)]), "rounding")
+        .explained(
+            Text::of(
+                "f has a double zero there, at k = {}, but f is the forward difference of Φ and not its derivative, whose \
+                 double zero comes at a smaller p, half a step further on. On the integers Φ is not stationary. It falls \
+                 at {} of {} steps up to p_crit, as the paper says.",
+                [significant(touch, 4), integer(steps - failed), integer(steps)],
+            ),
+            off <= allowed && failed == 0 && steps > 0 && (k - touch - 0.5).abs() < 0.05,
+        ))
 }
 
 fn extrema(e: &Evidence, s: &Statement) -> Judged {
@@ -79,7 +100,7 @@ fn still_one(e: &Evidence, s: &Statement) -> Judged {
     Ok(s.found(found, both == [printed; 2]).within("none", INTEGER))
 }
 
-fn jump(e: &Evidence, s: &Statement) -> Judged {
+fn leaps(e: &Evidence, s: &Statement) -> Judged {
     let [crit, leap, k_after] = e.numbers("theory.jump", ["p_crit", "p_jump", "k_after"])?;
     let found =
         Text::of("from 1 to {} at p = {}", [integer(k_after as usize), significant(leap, 15)]);

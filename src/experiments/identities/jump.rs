@@ -133,6 +133,18 @@ pub(super) fn inflexion() -> f64 {
     largest((1..=VERTICES).map(|k| off(k as f64)))
 }
 
+/// The p and the real k at which Φ, with Γ functions for its factorials, has a stationary inflexion: ln Φ has the
+/// derivative ln p − 1/k + ψ(N + 1 − k), which is zero twice in k where 1/k² = ψ′(N + 1 − k).
+pub(crate) fn flat() -> [f64; 2] {
+    let k = roots::bracket(1.0, N / 2.0, |k| 1.0 / (k * k) <= pxfm::f_trigamma(N + 1.0 - k))[1];
+    [pxfm::f_exp(1.0 / k - pxfm::f_digamma(N + 1.0 - k)), k]
+}
+
+/// Eq. (17): f at some p ≤ 1 is positive, for each k between the ends.
+pub(super) fn through_zero() -> Cases {
+    cases((1..VERTICES).map(|k| f(1.0, k as f64) > 0.0))
+}
+
 /// Steps Φ(k) > Φ(k + 1) at every p of a grid from above 0 to p_crit, included.
 pub(super) fn falling() -> Cases {
     let crit = known(jump::p_crit(VERTICES));

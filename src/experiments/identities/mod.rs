@@ -27,13 +27,14 @@ fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
 /// The comparisons as tables, for the paper's N.
 pub fn tables() -> Vec<Table> {
     let census = census();
-    let rows: [(&str, Cases); 14] = [
+    let rows: [(&str, Cases); 15] = [
         ("sec3_impact_types", census::impact_types()),
         ("sec5_eq6", census::eq6(&census)),
         ("sec5_eq7", census::eq7(&census)),
         ("sec6_like_simulation", jump::mean_rises()),
         ("sec7_eq11", jump::eq11()),
         ("sec7_eq16_17", jump::slopes()),
+        ("sec7_through_zero", jump::through_zero()),
         ("sec7_other_root", jump::other_root()),
         ("sec7_inflexion", jump::falling()),
         ("sec7_extrema", jump::extrema()),

@@ -153,7 +153,7 @@ fn modes(sweep: &Counted) -> Table {
     let width = |row: &RisePoint| row.mode_interval.map_or(0, |[low, high]| high - low.min(high));
     let noisiest =
         sweep.first().rows.iter().filter(|row| width(row) > 0).max_by_key(|row| width(row));
-    let half = mode_half(sweep);
+    let half = mode_half(sweep.first(), sweep.ensemble.chain.gaps());
     Table::of("sweep.mode", &[()], |()| 0)
         .chosen("noisiest_sigma", SIGMA, "where the interval of the mode is longest", |()| {
             noisiest.map(|row| row.sigma)
@@ -226,10 +226,10 @@ fn sticking() -> Table {
 
 /// Between which σ the mode passes half of all gaps: below the first it is surely under one half,
 /// from the second on surely over it, as far as its bootstrap intervals tell.
-pub fn mode_half(sweep: &Counted) -> Option<[f64; 2]> {
-    let half = sweep.ensemble.chain.gaps() as f64 / 2.0;
+pub fn mode_half(curve: &Curve, gaps: usize) -> Option<[f64; 2]> {
+    let half = gaps as f64 / 2.0;
     let intervals: Vec<(f64, [usize; 2])> =
-        sweep.first().rows.iter().filter_map(|row| Some((row.sigma, row.mode_interval?))).collect();
+        curve.rows.iter().filter_map(|row| Some((row.sigma, row.mode_interval?))).collect();
     let low = intervals.iter().find(|(_, [_, top])| *top as f64 >= half)?;
     let below = intervals.iter().rposition(|(_, [bottom, _])| (*bottom as f64) < half)?;
     Some([low.0, intervals.get(below + 1)?.0])

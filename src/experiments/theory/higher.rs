@@ -7,8 +7,9 @@ use crate::experiments::prelude::*;
 use crate::params::{HIGHER_P, REMARK_P, VERTICES};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
 use impact_circuits::distribution::{Law, SampleSpace};
-use impact_circuits::higher_order::{CLASSES, doubled, doubled_as_printed};
+use impact_circuits::higher_order::{CLASSES, SHARED, doubled, doubled_as_printed, multiplicity};
 use impact_circuits::{Fraction, jump};
+use impact_numerics::double_double::DoubleDouble;
 
 /// P(X = k) of five classes, k = 1..=N.
 pub fn five(p: f64) -> Vec<f64> {
@@ -78,6 +79,33 @@ fn doubling(p: f64) -> f64 {
     of(&CLASSES[1]) / of(&CLASSES[0])
 }
 
+/// P(X = k) of five classes, k = 1..=N, if a circuit weighs p^k by its k different vertices and not by its length.
+fn by_different(p: f64) -> Vec<f64> {
+    let more = |k| multiplicity(FiveClasses, DoubleDouble::ONE, k).to_f64();
+    let weights: Vec<f64> = (1..).zip(simple(p)).map(|(k, q)| q * more(k)).collect();
+    let total = sum(weights.iter().copied());
+    weights.into_iter().map(|weight| weight / total).collect()
+}
+
+/// Of the same: share of simple circuits, which are all of those that have no vertex twice.
+fn simple_by_different(p: f64) -> f64 {
+    let share = |(k, q)| {
+        q * f64::from(SHARED as u32) / multiplicity(FiveClasses, DoubleDouble::ONE, k).to_f64()
+    };
+    sum((1..).zip(by_different(p)).map(share))
+}
+
+/// Of the same: the largest step of k* between neighbouring p of a grid of 1/100 000 up to 0.04.
+fn largest_step() -> u64 {
+    let top = |p: f64| {
+        let (k, _) =
+            (1..).zip(by_different(p)).fold((1, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+        k
+    };
+    let ks: Vec<u64> = (0..=4000).map(|i| top(f64::from(i) / 1e5)).collect();
+    ks.windows(2).map(|w| w[1].abs_diff(w[0])).max().unwrap_or(0)
+}
+
 /// Single numbers of Sec. 9, with those of the tables `theory.curve` and `theory.relation` that belong there.
 pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     let (sigma, census) = (SIGMA, census());
@@ -111,6 +139,12 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
         .count("tail_from", "k from which on p k²/2 is one or more, smallest p of Fig. 13", |()| {
             tail as u64
         })
+        .computed_by(origin(by_different))
+        .real("simple_by_different", "1", 2, "share of simple circuits there with p^k", |()| {
+            simple_by_different(first)
+        })
+        .count("step_by_different", "largest step of k* with p^k", |()| largest_step())
+        .computed_by(origin(five))
         .real("tail_weight", "1", 1, "probability of these k", |()| weight)
         .computed_by(origin(doubling))
         .real(

@@ -1,7 +1,7 @@
 //! The number of different impacts, and why its most likely value jumps: Secs. 6 and 7, Figs. 8 to 10.
 
 use super::{known, one};
-use crate::experiments::identities::jump::{mean_slopes, top, touching};
+use crate::experiments::identities::jump::{flat, mean_slopes, top, touching};
 use crate::experiments::prelude::*;
 use crate::params::{DISTRIBUTION_P, Grid, VERTICES};
 use impact_circuits::distribution::Law;
@@ -92,6 +92,9 @@ fn jumping() -> Table {
         .real("k_touch", "1", 4, "double zero of f at p_crit", |()| top(crit))
         .computed_by(origin(touching))
         .real("p_crit_found", "1", 5, "where zeros of f appear, by bisection", |()| touching())
+        .computed_by(origin(flat))
+        .real("p_flat", "1", 6, "where Φ of real k has a stationary inflexion", |()| flat()[0])
+        .real("k_flat", "1", 3, "its k", |()| flat()[1])
         .computed_by(origin(jump::p_jump))
         .real("p_jump", "1", 5, "p at which k* leaves 1", |()| leap.p)
         .count("k_after", "k* after it", |()| leap.k_after as u64)

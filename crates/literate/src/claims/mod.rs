@@ -19,10 +19,19 @@ pub enum Kind {
     /// A statement that was printed.
     #[default]
     Statement,
+    /// What was printed to say what words and symbols mean: it is judged, and no score counts it.
+    Definition,
     /// What an edition promises of itself.
     Target,
     /// A relation between numbers that must hold.
     Relation,
+}
+
+impl Kind {
+    /// Whether it was printed.
+    pub fn is_printed(self) -> bool {
+        matches!(self, Kind::Statement | Kind::Definition)
+    }
 }
 
 /// What a verdict rests on; where several things decide, the weakest.
@@ -101,6 +110,9 @@ impl Verdict {
 pub struct Check {
     /// What it is.
     pub kind: Kind,
+    /// The author's word for a difference that is explained, such as `misprint`.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub why: String,
     /// Its id; that of a statement as in `published.toml`.
     pub id: String,
     /// Where it was printed; empty for what was not.
@@ -131,6 +143,7 @@ impl Check {
     pub fn new(kind: Kind, id: &str, statement: &str, found: impl Into<Text>) -> Check {
         Check {
             kind,
+            why: String::new(),
             id: id.into(),
             place: String::new(),
             statement: statement.into(),
@@ -182,13 +195,19 @@ impl Check {
     pub fn fails(&self) -> bool {
         let open = self.verdict == Verdict::CannotBeJudged && self.note.is_empty();
         let differs = self.verdict == Verdict::Differs && self.basis != Basis::Clock;
-        differs || open && self.kind == Kind::Statement
+        differs || open && self.kind.is_printed()
+    }
+
+    /// The author's word for the difference, if there is one and it is explained.
+    pub fn difference(&self) -> Option<&str> {
+        let explained = self.verdict == Verdict::DiffersAndExplained;
+        (explained && !self.why.is_empty()).then_some(&self.why)
     }
 
     /// The verdict in words.
     pub fn words(&self) -> &'static str {
         match (self.kind, self.verdict) {
-            (Kind::Statement, verdict) => verdict.words(),
+            (Kind::Statement | Kind::Definition, verdict) => verdict.words(),
             (Kind::Target, Verdict::Reproduced) => "met",
             (Kind::Relation, Verdict::Reproduced) => "holds",
             (_, Verdict::CannotBeJudged) => "not measured",
@@ -202,9 +221,10 @@ impl Statement {
     /// A check of it that the results do not decide.
     pub fn open(&self, found: impl Into<Text>) -> Check {
         Check {
+            why: self.why.clone(),
             place: self.place.clone(),
             expected: self.printed.clone(),
-            ..Check::new(Kind::Statement, &self.id, &self.statement, found)
+            ..Check::new(self.kind, &self.id, &self.statement, found)
         }
     }
 

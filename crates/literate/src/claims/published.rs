@@ -1,5 +1,6 @@
 //! What the paper printed: `templates/published.toml`.
 
+use super::Kind;
 use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -39,6 +40,12 @@ pub struct Parameter {
 pub struct Statement {
     /// Its id: the check with this id judges it.
     pub id: String,
+    /// `definition` for what only says what words and symbols mean: no score counts it.
+    #[serde(default)]
+    pub kind: Kind,
+    /// A word for the difference, if it differs: `misprint` or another; scores count each word.
+    #[serde(default)]
+    pub why: String,
     /// Where it stands.
     pub place: String,
     /// What it says, in our words.

@@ -47,12 +47,9 @@ enum Format {
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let session = args.sources.session(paper)?;
     let published = session.published()?;
-    let number = |id: &str| published.statements.iter().position(|own| own.id == id).map(|i| i + 1);
-    let names = |asked: &str, id: &str| {
-        asked == id || number(id).is_some_and(|number| number.to_string() == asked)
-    };
     for asked in &args.ids {
-        if !published.statements.iter().any(|own| names(asked, &own.id)) {
+        let number = asked.parse().is_ok_and(|n| (1..=published.statements.len()).contains(&n));
+        if !number && !published.statements.iter().any(|own| own.id == *asked) {
             let asked = one_line(asked, 60);
             return Err(Failure::input(format!(
                 "there is no statement {asked}; `check -v` lists all"
@@ -63,8 +60,14 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         let results = Results::run(&paper.experiments, &session)?;
         paper.checks(&results, &published)
     })?;
+    let printed = checks.iter().filter(|check| check.kind.is_printed());
+    let order: Vec<String> = printed.map(|check| check.id.clone()).collect();
+    let number = |id: &str| order.iter().position(|own| own == id).map(|i| i + 1);
     if !args.ids.is_empty() {
-        checks.retain(|check| args.ids.iter().any(|asked| names(asked, &check.id)));
+        checks.retain(|Check { id, .. }| {
+            let number = number(id).map(|number| number.to_string());
+            args.ids.iter().any(|asked| asked == id || Some(asked) == number.as_ref())
+        });
     }
     let prose = args.sources.templates.clone().unwrap_or_else(|| paper.prose.into());
     let here = std::env::current_dir().unwrap_or_default();
@@ -105,7 +108,8 @@ fn text(checks: &[Check], args: &Args, number: impl Fn(&str) -> Option<usize>) -
         let sign = if check.fails() { "FAILS" } else { &check.verdict.sign().to_string() };
         let number = number(&check.id).map_or_else(String::new, |number| number.to_string());
         let (id, words) = (&check.id, check.words());
-        out += &format!("{sign:5} {number:>2} {id}: {words}");
+        let why = check.difference().map_or_else(String::new, |why| format!(" ({why})"));
+        out += &format!("{sign:5} {number:>2} {id}: {words}{why}");
         if !all {
             let sides = [("paper", check.expected.clone()), ("here", check.found.to_string())];
             let sides = sides.into_iter().filter(|(_, text)| !["", "–"].contains(&text.as_str()));
@@ -129,17 +133,18 @@ fn json(checks: &[Check], published: &Published, file: &str) -> String {
         let mut own = json!(check);
         own["fails"] = check.fails().into();
         own["words"] = check.words().into();
-        if check.kind == Kind::Statement {
+        if check.kind.is_printed() {
             (own["file"], own["line"]) = (file.into(), published.line(&check.id).into());
         }
         own
     };
     let list = |kind| of(checks, kind).map(one).collect::<Vec<Value>>();
+    let printed = checks.iter().filter(|check| check.kind.is_printed());
     let counts = Verdict::ALL.iter().zip(score(of(checks, Kind::Statement)));
     let counts = counts.map(|(verdict, count)| (verdict.words().into(), count.into()));
     let all = json!({
         "score": counts.collect::<serde_json::Map<String, Value>>(),
-        "claims": list(Kind::Statement),
+        "claims": printed.map(one).collect::<Vec<Value>>(),
         "targets": list(Kind::Target),
         "relations": list(Kind::Relation),
     });
@@ -153,7 +158,7 @@ const ANNOTATIONS: usize = 10;
 fn github(checks: &[Check], published: &Published, file: &str) -> String {
     let kind = |check: &Check| match check.verdict {
         _ if check.fails() => Some("error"),
-        _ if check.kind != Kind::Statement => None,
+        _ if !check.kind.is_printed() => None,
         Verdict::CannotBeJudged => Some("warning"),
         Verdict::DiffersAndExplained => Some("notice"),
         _ => None,
@@ -164,11 +169,9 @@ fn github(checks: &[Check], published: &Published, file: &str) -> String {
     worst.sort_by_key(|(kind, _)| order.iter().position(|own| own == kind));
     let mut out = String::new();
     for (kind, check) in worst.into_iter().take(ANNOTATIONS) {
-        let place = match check.kind {
-            Kind::Statement => {
-                format!("file={},line={},", property(file), published.line(&check.id))
-            }
-            _ => String::new(),
+        let place = match check.kind.is_printed() {
+            true => format!("file={},line={},", property(file), published.line(&check.id)),
+            false => String::new(),
         };
         let title = property(&format!("{}: {}", check.id, check.words()));
         let more: String = fields(check).map(|(name, text)| format!("; {name}: {text}")).collect();

@@ -86,6 +86,10 @@ impl Paper {
     /// If a statement cannot be judged for want of a result.
     pub fn checks(&self, results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
         let (mut checks, _) = judge_all(published, &self.rules, results)?;
+        // First what rests on a measure of the author, where a reader may judge otherwise.
+        checks.sort_by_key(|check| {
+            (check.kind == Kind::Definition, check.basis != Basis::OurMeasure)
+        });
         for judge in &self.relations {
             checks.extend(judge(results, published)?);
         }
@@ -128,7 +132,8 @@ pub fn whole(session: &Session<'_>, out: &Path) -> Result<(Report, Vec<Check>), 
     };
     let figures = paper.figures.par_iter().map(figure).collect::<Result<Vec<Figure>, _>>()?;
     let checks = paper.checks(&results, &published)?;
-    let statements: Vec<Check> = of(&checks, Kind::Statement).cloned().collect();
+    let statements: Vec<Check> =
+        checks.iter().filter(|check| check.kind.is_printed()).cloned().collect();
     let values = paper.registry(&results, &published)?;
     let mut rows = BTreeMap::new();
     for more in &paper.rows {
@@ -207,7 +212,11 @@ pub(super) fn verdict(checks: &[Check]) -> Result<(), Failure> {
         (Kind::Relation, "relations between numbers of the report do not hold"),
     ];
     let found = faults.into_iter().filter_map(|(kind, what)| {
-        let names = of(checks, kind).filter(|check| check.fails()).map(|check| check.id.as_str());
+        let own = |check: &&Check| {
+            check.kind == kind || kind == Kind::Statement && check.kind.is_printed()
+        };
+        let names = checks.iter().filter(own).filter(|check| check.fails());
+        let names = names.map(|check| check.id.as_str());
         let names: Vec<&str> = names.collect();
         (!names.is_empty()).then(|| format!("{what}: {}", names.join(", ")))
     });

@@ -3,14 +3,17 @@
 use super::markdown;
 use super::print::{Style, print};
 use super::values::{Number, Value, origin};
-use crate::claims::{Basis, Check, Published, Text, Verdict, score};
+use crate::claims::{Basis, Check, Kind, Published, Text, Verdict, score};
 use serde_json::json;
+use std::collections::BTreeMap;
 
 /// One check for a template: the fields of [`Check`] as Markdown, its numbers printed with their digits.
 pub fn row(check: &Check) -> serde_json::Value {
     let words = |text: &str| markdown::escaped(&symbols(text));
     json!({
         "id": check.id,
+        "kind": check.kind,
+        "why": check.difference().unwrap_or_default(),
         // The section that an id names, `sec7_limit`: "Sec. 7".
         "section": check.id.split('_').next().unwrap_or_default().replace("sec", "Sec. "),
         "place": words(&check.place),
@@ -75,22 +78,31 @@ pub fn printed(published: &Published) -> Vec<Value> {
     chosen.chain(stated).collect()
 }
 
-/// The scorecard as values: `score.total`, `score.reproduced`, `score.differs_and_explained`,
-/// `score.differs`, `score.cannot_be_judged`, and for each basis `score.exact`, … those reproduced
-/// and `score.exact_of`, … all.
+/// The scorecard of the statements as values: `score.total`, `score.reproduced`, `score.differs_and_explained`,
+/// `score.differs`, `score.cannot_be_judged`; for each basis `score.exact`, … those reproduced and `score.exact_of`, …
+/// all; for each word for a difference, `score.misprint`, … those that differ so; and `score.definitions`.
 pub fn scorecard(claims: &[Check]) -> Vec<Value> {
     let value = |name: String, count: usize| {
         let id = format!("score.{}", name.replace(' ', "_"));
         Value::integer(id, count).source(origin(scorecard), "").data_only()
     };
-    let verdicts = Verdict::ALL.into_iter().zip(score(claims.iter()));
+    let (own, definitions): (Vec<&Check>, Vec<&Check>) =
+        claims.iter().partition(|claim| claim.kind == Kind::Statement);
+    let statements = || own.iter().copied();
+    let verdicts = Verdict::ALL.into_iter().zip(score(statements()));
     let verdicts = verdicts.map(|(verdict, count)| value(verdict.words().into(), count));
     let bases = Basis::ALL.into_iter().flat_map(|basis| {
-        let of = score(claims.iter().filter(|claim| claim.basis == basis));
+        let of = score(statements().filter(|claim| claim.basis == basis));
         let all = value(format!("{}_of", basis.words()), of.iter().sum());
         [value(basis.words().into(), of[0]), all]
     });
-    verdicts.chain([value("total".into(), claims.len())]).chain(bases).collect()
+    let mut words = BTreeMap::new();
+    statements().filter(|own| !own.why.is_empty()).for_each(|own| {
+        *words.entry(own.why.as_str()).or_insert(0) += usize::from(own.difference().is_some());
+    });
+    let words = words.into_iter().map(|(word, count)| value(word.into(), count));
+    let all = [value("total".into(), own.len()), value("definitions".into(), definitions.len())];
+    verdicts.chain(all).chain(bases).chain(words).collect()
 }
 
 #[cfg(test)]
