@@ -119,7 +119,7 @@ fn repeated(e: &Evidence, s: &Statement) -> Judged {
         [significant(each, 2), chosen(threshold)],
     );
     Ok(s.found(found, each >= 10.0)
-        .within(Text::of("at least {}", [integer(10)]), "ours: “many repeated” as ten or more")
+        .within(Text::of("at least {}", [integer(10)]), "ours: a measure of “many repeated”")
         .note("In the window of our protocol; a longer one has more."))
 }
 

@@ -161,7 +161,7 @@ fn threshold_shift(e: &Evidence, s: &Statement) -> Judged {
     let shares = both.iter().flatten().map(|share| significant(*share, 2));
     let found = Text::of("simulated from {} to {} of N, theory from {} to {}", shares);
     Ok(s.found(found, both.into_iter().all(rises))
-        .within(RISES, "ours: as “qualitative agreement” in Section 6")
+        .within(RISES, "ours: the least that a common rise must do")
         .note(Text::of(
             "The theory rises later: it passes half of its height at σ = {}, the mean of all realisations at {}. The \
              paper itself finds the agreement poor at small σ.",

@@ -114,7 +114,7 @@ fn even_small_p_by_k(e: &Evidence, s: &Statement) -> Judged {
     let read = HIGHER_P[0] == s.number()?;
     Ok(s.found(found, more >= 0.05 && read)
         .within("at least 5 %", "ours: the least that can be seen in a figure")
-        .note("Eq. (38) counts by different impacts, so the paper may mean p^k; its Section 4 gives each edge a p."))
+        .note("Eq. (38) counts by different impacts, so the paper may mean this weight, although its Section 4 gives each edge a p."))
 }
 
 fn dominate(e: &Evidence, s: &Statement) -> Judged {
@@ -198,7 +198,7 @@ fn higher_jump_by_k(e: &Evidence, s: &Statement) -> Judged {
     Ok(s.found(found, step >= 10.0)
         .within("a step of ten or more", "ours: “jump” as in Section 7")
         .explained(
-            "With p^k the classes multiply the weight of k by a polynomial of degree four in k and by no power of p. That \
+            "This way the classes multiply the weight of k by a polynomial of degree four in k and by no power of p. That \
              fills the valley of Φ between one and the local maximum, and k* climbs from one on.",
             step == 1.0,
         ))

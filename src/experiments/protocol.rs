@@ -52,9 +52,11 @@ pub fn address(own: &Curve, column: &str) -> String {
 type Place = (&'static str, &'static str, fn(&Curve) -> Option<Estimate>);
 
 const PLACES: [Place; 4] = [
-    ("half_height", "σ where the mean of the kept passes half of all gaps", |own| {
-        own.rise.half_height
-    }),
+    (
+        "half_height",
+        "σ where the mean of realisations with an impact passes half of all gaps",
+        |own| own.rise.half_height,
+    ),
     ("half_height_all", "σ where the mean of all passes half of all gaps", |own| {
         own.rise.half_height_all
     }),

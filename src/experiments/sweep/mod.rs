@@ -55,7 +55,7 @@ pub fn of_both(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
             "largest",
             "1",
             2,
-            "largest difference of the means of the kept, over its standard error",
+            "largest difference of their means, over its standard error",
             |()| found.map_or(f64::NAN, |(errors, _)| errors),
         )
         .count("compared", "values of σ with means in both", |()| {
@@ -101,13 +101,16 @@ fn rows(sweep: &Counted) -> Table {
             estimate(row.mean_all)
         })
         .over(|row| row.kept)
-        .estimate("mean", "1", "different gaps with an impact, mean of the kept", |row| {
-            estimate(row.mean)
-        })
-        .estimate("impacts", "1", "impacts in the window, mean of the kept", |row| {
+        .estimate(
+            "mean",
+            "1",
+            "different gaps with an impact, mean of realisations with any",
+            |row| estimate(row.mean),
+        )
+        .estimate("impacts", "1", "impacts in the window, mean of realisations with any", |row| {
             estimate(row.impacts)
         })
-        .estimate("masses", "1", "masses hit in the window, mean of the kept", |row| {
+        .estimate("masses", "1", "masses hit in the window, mean of realisations with any", |row| {
             estimate(row.masses)
         })
         .done()
@@ -123,7 +126,7 @@ const PLACES: [Place; 5] = [
     ("width", "from a tenth to nine tenths of all gaps, of the mean of all", |own| own.width),
     (
         "kept_width",
-        "from a quarter to three quarters of all gaps, of the mean of the kept",
+        "from a quarter to three quarters of all gaps, of the mean of realisations with an impact",
         |own| own.kept_width,
     ),
 ];
@@ -133,9 +136,12 @@ fn rise_table(name: &'static str, sweep: &Counted) -> Table {
     let rise = &sweep.first().rise;
     let mut table = Table::of(name, &[()], |()| sweep.ensemble.realisations)
         .computed_by(origin(Curve::new))
-        .estimate("half_height", SIGMA, "the mean of the kept passes half of all gaps", |()| {
-            rise.half_height
-        })
+        .estimate(
+            "half_height",
+            SIGMA,
+            "the mean of realisations with an impact passes half of all gaps",
+            |()| rise.half_height,
+        )
         .real("half_height_from", SIGMA, 4, "the lower end of its bootstrap interval", |()| {
             rise.half_height.map_or(f64::NAN, |half| half.interval[0])
         })
@@ -235,7 +241,7 @@ pub fn mode_half(curve: &Curve, gaps: usize) -> Option<[f64; 2]> {
     Some([low.0, intervals.get(below + 1)?.0])
 }
 
-/// Fewest kept realisations for a mean whose error is taken as normal.
+/// Fewest realisations with an impact for a mean whose error is taken as normal.
 const FEWEST: usize = 30;
 
 /// The largest difference between the curves of two seeds, in standard errors, and the rows.

@@ -4,9 +4,6 @@ use crate::experiments::prelude::*;
 use crate::experiments::sweep;
 use impact_chain::rise::{Mean, RisePoint};
 
-/// The σ at which the text sets means side by side, as far as the sweep has them.
-const SIGMAS: [f64; 8] = [0.1, 0.11, 0.12, 0.13, 0.14, 0.15, 0.2, 0.3];
-
 /// From here on σ is called large (ours).
 pub(crate) const LARGE_SIGMA: f64 = 0.2;
 
@@ -49,8 +46,8 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let sweep = sweep::main(results).ok()?;
     let table = |name| all.iter().find(|table| table.name() == name);
     let (curve, relation) = (table("theory.curve")?, table("theory.relation")?);
-    let curves = ["simple", "higher", "rest"].map(|column| curve.points(&[], "sigma", column));
-    let [simple, higher, rest] = &curves;
+    let curves = ["simple", "higher"].map(|column| curve.points(&[], "sigma", column));
+    let [simple, higher] = &curves;
     let found = |number: Option<f64>| number.unwrap_or(f64::NAN);
     let rows = &sweep.first().rows;
     let of = |mean: fn(&RisePoint) -> Option<Mean>| -> Vec<(f64, f64)> {
@@ -60,16 +57,6 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     // To a part in a million.
     let steps = rows.windows(2).map(|w| w[1].sigma - w[0].sigma);
     let finest = (steps.fold(f64::INFINITY, f64::min) * 1e6).round() / 1e6;
-    let sigmas: Vec<f64> =
-        means.iter().map(|own| own.0).filter(|sigma| SIGMAS.contains(sigma)).collect();
-    let mean = |sigma: &f64, curve| found(at(curve, *sigma));
-    let theory = Table::of("sweep.theory", &sigmas, |_| 0)
-        .key("sigma", SIGMA, |sigma| *sigma)
-        .computed_by(origin(at))
-        .real("simple", "1", 3, "μ, simple circuits", |sigma| mean(sigma, simple))
-        .real("higher", "1", 3, "μ, five classes", |sigma| mean(sigma, higher))
-        .real("rest", "1", 3, "μ from rest, simple circuits", |sigma| mean(sigma, rest))
-        .done();
     let far = |at: usize| largest_distance(&means, simple).map(|far| far[at]);
     let kept = increases(&means, finest);
     let table = Table::of("sweep.beside_theory", &[()], |()| 0)
@@ -80,9 +67,9 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         })
         .chosen("large_distance_at", SIGMA, "σ of it", |()| far(1))
         .real("large_theory", "1", 3, "μ there", |()| found(far(2)))
-        .real("large_mean", "1", 3, "mean of the kept there", |()| found(far(3)))
+        .real("large_mean", "1", 3, "simulated mean there", |()| found(far(3)))
         .computed_by(origin(increases))
-        .real("largest_increase", "1", 2, "of the mean of the kept in one step of σ", |()| {
+        .real("largest_increase", "1", 2, "of the simulated mean in one step of σ", |()| {
             found(kept.map(|[one, _]| one))
         })
         .real("increase_of_two", "1", 2, "in two steps", |()| found(kept.map(|[_, two]| two)))
@@ -100,9 +87,8 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
             found(distance(&means, simple))
         })
         .real("higher", "1", 3, "the same with five classes", |()| found(distance(&means, higher)))
-        .real("rest", "1", 3, "the same from rest", |()| found(distance(&means, rest)))
         .done();
-    Some(vec![theory, table])
+    Some(vec![table])
 }
 
 #[cfg(test)]

@@ -140,10 +140,16 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
             tail as u64
         })
         .computed_by(origin(by_different))
-        .real("simple_by_different", "1", 2, "share of simple circuits there with p^k", |()| {
-            simple_by_different(first)
+        .real(
+            "simple_by_different",
+            "1",
+            2,
+            "share of simple circuits there with a p for each different impact",
+            |()| simple_by_different(first),
+        )
+        .count("step_by_different", "largest step of k* with a p for each different impact", |()| {
+            largest_step()
         })
-        .count("step_by_different", "largest step of k* with p^k", |()| largest_step())
         .computed_by(origin(five))
         .real("tail_weight", "1", 1, "probability of these k", |()| weight)
         .computed_by(origin(doubling))
