@@ -139,7 +139,7 @@ fn undecided(
     let printed = printed.filter(|own| (from..to).contains(&own.value)).count();
     let mut text = Text::of(
         "The protocol, which is not printed, decides. Of {} pairs of transient T and window W {} give the printed digits. \
-         From the narrowest W to the widest:",
+         From the narrowest W to the widest that has such a place:",
         [integer(map.curves.len()), integer(printed)],
     );
     for of_one in map.curves.chunk_by(|a, b| a.protocol.transient == b.protocol.transient) {

@@ -51,7 +51,7 @@ fn changed() -> tempfile::TempDir {
     fs::write(at("values.json"), format!("{values:#}\n")).unwrap();
     let mut ledger = json("ledger.json");
     let claims = ledger["claims"].as_array_mut().unwrap();
-    let claim = claims.iter_mut().find(|claim| claim["id"] == "sec2_half_height").unwrap();
+    let claim = claims.iter_mut().find(|claim| claim["id"] == "sec7_jump").unwrap();
     claim["verdict"] = "differs".into();
     claim["tolerance"] = "± 0.0001 | more".into();
     fs::write(at("ledger.json"), format!("{ledger:#}\n")).unwrap();
@@ -71,7 +71,7 @@ fn number_verdict_and_files_are_told_in_each_form() {
     assert_eq!(json(here, "diff a a --json")["same"], true);
     let out = answer(here, "diff a b");
     for line in [
-        "  sec2_half_height: reproduced -> differs; tolerance: ± 0.005 -> ± 0.0001 | more\n",
+        "  sec7_jump: reproduced -> differs; tolerance: ten or more, above p_crit -> ± 0.0001 | more\n",
         "1 check and 4 numbers changed\n",
         ", +3.00 σ\n  theory.jump.p_jump: 0.01303",
         "; Δ +1.00e-9\n  new: new, a b\n  theory.jump.p_crit: gone, was 0.012210\n",

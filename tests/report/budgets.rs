@@ -46,8 +46,8 @@ fn no_document_outgrows_its_reader() {
     };
     let (edition, beyond) = (text("report"), text("beyond"));
     let counts = [
-        ("the front page", words(&text("README")), 700),
-        ("the edition", words(&edition), 10_000),
+        ("the front page", words(&text("README")), 600),
+        ("the edition", words(&edition), 7_000),
         ("its abstract", words(section(&edition, "Abstract")), 220),
         ("the second paper", words(&beyond), 4_500),
         ("the methods", words(&text("methods")), 5_000),
