@@ -69,6 +69,8 @@ fn number_verdict_and_files_are_told_in_each_form() {
     let here = folder.path();
     assert_eq!(answer(here, "diff a a --exit-code"), "a and a: nothing differs\n");
     assert_eq!(json(here, "diff a a --json")["same"], true);
+    let fenced = answer(here, "diff a a --markdown");
+    assert_eq!(fenced, "~~~~\na and a: nothing differs\n~~~~\n");
     let out = answer(here, "diff a b");
     for line in [
         "  sec7_jump: reproduced -> differs; tolerance: ten or more, above p_crit -> ± 0.0001 | more\n",

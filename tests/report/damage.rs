@@ -9,7 +9,7 @@ use literate::report::bibliography::Library;
 use literate::report::filler::Filler;
 use literate::report::labels::Labels;
 use literate::report::{Document, Error, Templates};
-use literate::report::{compare, folder, latex, ledger, markdown, parse};
+use literate::report::{folder, latex, ledger, markdown, parse, values};
 use rand::RngExt;
 use std::{fs, sync::LazyLock, sync::mpsc::channel, time::Duration};
 
@@ -104,7 +104,7 @@ fn no_reader_panics_or_hangs() {
     let of = |path: &str, count, read: Reader| survives(path, file(path), count, read);
     of("templates/published.toml", 500, |text| line(Published::parse(text)));
     of("templates/references.bib", 50, |text| line(Library::read(text)));
-    of("paper/values.json", 100, |text| line(compare::read(text)));
+    of("paper/values.json", 100, |text| line(values::read(text)));
     of("paper/ledger.json", 100, |text| line(ledger::read(text)));
     of("paper/SHA256SUMS", 1000, |text| folder::read_sums(text).map(drop).ok_or_else(String::new));
     let scenario = |text: &str| line(Scenario::from_json(text).and_then(|own| own.validate()));

@@ -78,7 +78,7 @@ pub fn links_land(files: impl Fn(&Report) -> Links, least: usize, across: usize)
 pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let paper = program::paper();
     let folder = tempfile::tempdir().unwrap();
-    let store = Store::open(folder.path()).unwrap();
+    let store = Store::open(folder.path());
     let session = Session::of(&paper, None, Profile::Quick, store, Progress::silent()).unwrap();
     // Run, then read again as it was saved.
     let [results, mut full] = [(); 2].map(|()| Results::run(ALL, &session).unwrap());

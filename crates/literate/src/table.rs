@@ -60,26 +60,17 @@ pub type Tables = BTreeMap<&'static str, Arc<Table>>;
 #[track_caller]
 pub fn cell<'a>(tables: &'a Tables, address: &str) -> Result<&'a Value, Missing> {
     let name = table_of(address).unwrap_or(address);
-    let what = match tables.get(name) {
-        Some(table) => match table.at(address) {
-            Some(cell) => return Ok(cell),
-            None => table.nearest(address),
-        },
-        None => {
-            let names = nearest(name, tables.keys().copied()).join(", ");
-            format!("there is no table {name}; nearest: {names}")
-        }
+    let Some(table) = tables.get(name) else {
+        let names = nearest(name, tables.keys().copied()).join(", ");
+        return Err(Missing::new(address, format!("there is no table {name}; nearest: {names}")));
     };
-    Err(Missing::new(address, what))
+    table.at(address).ok_or_else(|| Missing::new(address, table.nearest(address)))
 }
 
 /// The number with an address.
 #[track_caller]
 pub fn number_at(tables: &Tables, address: &str) -> Result<f64, Missing> {
-    match number(cell(tables, address)?) {
-        Some(number) => Ok(number),
-        None => Err(Missing::new(address, NO_NUMBER)),
-    }
+    number(cell(tables, address)?).ok_or_else(|| Missing::new(address, NO_NUMBER))
 }
 
 /// What is said of a cell of words or of *none*.
@@ -162,13 +153,11 @@ impl Table {
 
     /// Rows with these keys, in order: all that agree where keys are left out.
     fn select<'a>(&'a self, keys: Keys<'a>) -> impl Iterator<Item = &'a [Value]> {
-        let agrees = move |cells: &[Value]| {
-            let is = |(name, wanted): &(&str, f64)| {
-                self.column(name).and_then(|at| number(&cells[at])) == Some(*wanted)
-            };
-            keys.iter().all(is)
+        let is = |cells: &[Value], (name, wanted): &(&str, f64)| {
+            self.column(name).and_then(|at| number(&cells[at])) == Some(*wanted)
         };
-        self.rows.iter().map(|(_, cells)| cells.as_slice()).filter(move |cells| agrees(cells))
+        let rows = self.rows.iter().map(|(_, cells)| cells.as_slice());
+        rows.filter(move |cells| keys.iter().all(|key| is(cells, key)))
     }
 
     /// The number in the row with these keys.
@@ -192,9 +181,12 @@ impl Table {
     /// The same with standard errors, zero where a number has none; the interval is one error to each side.
     pub fn estimates(&self, keys: Keys<'_>, x: &str, y: &str) -> Vec<(f64, Estimate)> {
         let Some((x, y)) = self.column(x).zip(self.column(y)) else { return Vec::new() };
-        self.select(keys)
-            .filter_map(|cells| Some((number(&cells[x])?, estimate(&cells[y])?)))
-            .collect()
+        let estimate = |cell: &Value| {
+            let (value, error) = (number(cell)?, cell.standard_error());
+            Some(Estimate { value, error, interval: [value - error, value + error] })
+        };
+        let point = |cells: &[Value]| Some((number(&cells[x])?, estimate(&cells[y])?));
+        self.select(keys).filter_map(point).collect()
     }
 
     /// The different values of a column, in order of the rows.
@@ -208,11 +200,9 @@ impl Table {
     }
 
     fn different<T: PartialEq>(&self, column: &str, of: impl Fn(&Value) -> Option<T>) -> Vec<T> {
-        let at = self.column(column);
-        let cells =
-            at.into_iter().flat_map(|at| self.rows.iter().map(move |(_, cells)| &cells[at]));
+        let Some(at) = self.column(column) else { return Vec::new() };
         let mut found = Vec::new();
-        for value in cells.filter_map(of) {
+        for value in self.rows.iter().filter_map(|(_, cells)| of(&cells[at])) {
             if !found.contains(&value) {
                 found.push(value);
             }
@@ -236,20 +226,23 @@ impl Table {
         let mut found = BTreeMap::new();
         let keys: Vec<_> = self.keys().map(|key| (key, self.called(key))).collect();
         for (_, cells) in &self.rows {
-            let row: BTreeMap<_, _> =
-                self.columns.iter().map(|column| column.name).zip(cells).collect();
             let mut names = vec![String::new()];
             for ((key, all), cell) in keys.iter().zip(cells) {
-                let ways = ways(all, cell);
-                let join = |before: &String, way: &String| match before.as_str() {
+                let own = called(cell);
+                let is_end = |end: Option<&String>| end == Some(&own);
+                let first = is_end(all.first()).then_some("first");
+                let ways = first.into_iter().chain(is_end(all.last()).then_some("last"));
+                let ways: Vec<&str> = ways.chain([own.as_str()]).collect();
+                let join = |before: &String, way: &&str| match before.as_str() {
                     "" => format!("{key}={way}"),
                     before => format!("{before},{key}={way}"),
                 };
-                names = names
-                    .iter()
-                    .flat_map(|name| ways.iter().map(move |way| join(name, way)))
-                    .collect();
+                let longer =
+                    names.iter().flat_map(|name| ways.iter().map(move |way| join(name, way)));
+                names = longer.collect();
             }
+            let row: BTreeMap<_, _> =
+                self.columns.iter().map(|column| column.name).zip(cells).collect();
             found.extend(names.into_iter().map(|name| (name, row.clone())));
         }
         found
@@ -276,15 +269,6 @@ impl Table {
     }
 }
 
-/// The names of a key's value, of all that it has.
-fn ways(all: &[String], cell: &Value) -> Vec<String> {
-    let own = called(cell);
-    let place = all.iter().position(|name| *name == own).unwrap_or_default();
-    let ends = [("first", 0), ("last", all.len() - 1)].into_iter();
-    let ends = ends.filter(|(_, at)| *at == place).map(|(name, _)| name.to_string());
-    std::iter::once(own).chain(ends).collect()
-}
-
 /// A key as addresses write it.
 fn called(cell: &Value) -> String {
     match &cell.number {
@@ -300,11 +284,6 @@ pub fn number(cell: &Value) -> Option<f64> {
         Number::Real { value, .. } => Some(value),
         Number::Text(_) => None,
     }
-}
-
-fn estimate(cell: &Value) -> Option<Estimate> {
-    let (value, error) = (number(cell)?, cell.standard_error());
-    Some(Estimate { value, error, interval: [value - error, value + error] })
 }
 
 fn written(number: &Number) -> String {
@@ -368,17 +347,20 @@ impl<'a, R> Building<'a, R> {
         self
     }
 
-    /// A key: a parameter by which rows are found.
-    pub fn key<F: Fn(&R) -> f64>(mut self, name: &'static str, unit: &'static str, of: F) -> Self {
+    fn one_key_more(&mut self, name: &str) {
         assert_eq!(self.table.keys, self.table.columns.len(), "{name}: keys come first");
         self.table.keys += 1;
+    }
+
+    /// A key: a parameter by which rows are found.
+    pub fn key<F: Fn(&R) -> f64>(mut self, name: &'static str, unit: &'static str, of: F) -> Self {
+        self.one_key_more(name);
         self.put((name, unit), "", origin_of::<F>(), |row: &R| as_chosen(of(row)))
     }
 
     /// A key that is a name.
     pub fn text_key<F: Fn(&R) -> String>(mut self, name: &'static str, of: F) -> Self {
-        assert_eq!(self.table.keys, self.table.columns.len(), "{name}: keys come first");
-        self.table.keys += 1;
+        self.one_key_more(name);
         self.put((name, "text"), "", origin_of::<F>(), |row: &R| Value::text("", of(row)))
     }
 

@@ -33,6 +33,8 @@ pub enum Digits {
     Significant(usize),
     /// A number of decimals (numbers that somebody printed so).
     Decimals(usize),
+    /// All: the shortest decimal that reads back to the same double.
+    Full,
 }
 
 impl Digits {

@@ -13,7 +13,7 @@ use std::path::Path;
 #[test]
 fn the_second_paper_is_made_and_its_run_is_used_again() {
     let folder = tempfile::tempdir().unwrap();
-    let store = Store::open(folder.path()).unwrap();
+    let store = Store::open(folder.path());
     let paper = feigenbaum::paper();
     let prose = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/feigenbaum"));
     let quiet = Progress::silent();

@@ -6,8 +6,8 @@ use crate::input::{is_obeyed, one_line, regular_text};
 use crate::paper::Paper;
 use crate::report::card::{Card, Cards, Fact};
 use crate::report::document::{Inline, spelt};
-use crate::report::{Error, compare, ledger};
-use serde_json::json;
+use crate::report::{Error, ledger, values};
+use serde_json::{Value as Json, json};
 use std::path::{Path, PathBuf};
 
 /// Say where a number, a figure, an equation or a statement of the report comes from
@@ -34,40 +34,26 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
-    let values = compare::read(&read(&args.paper, "values.json")?).map_err(fault)?;
+    let values = values::read(&read(&args.paper, "values.json")?).map_err(fault)?;
     let ledger = ledger::read(&read(&args.paper, "ledger.json")?).map_err(fault)?;
     let cards = Cards { values: &values, ledger: &ledger, paper };
-    let of =
-        |ids: Vec<String>| -> Vec<Card> { ids.iter().filter_map(|id| cards.get(id)).collect() };
-    if args.ids.is_empty() {
-        return print(&list(&of(cards.ids()), args.json));
-    }
-    let mut found = Vec::new();
+    let mut found = if args.ids.is_empty() { cards.ids() } else { Vec::new() };
     for asked in &args.ids {
-        match of(cards.find(asked)).as_mut_slice() {
-            [] => {
-                let asked = one_line(asked, 60);
-                let what = format!("there is no {asked:?}, nor anything of which it is a part");
-                return Err(Failure::input(format!("explain: {what}; without it all are listed")));
-            }
-            [one] => found.push(one.clone()),
-            many if args.ids.len() == 1 => return print(&list(many, args.json)),
-            many => found.extend_from_slice(many),
+        let ids = cards.find(asked);
+        if ids.is_empty() {
+            let asked = one_line(asked, 60);
+            let what = format!("there is no {asked:?}, nor anything of which it is a part");
+            return Err(Failure::input(format!("explain: {what}; without it all are listed")));
         }
+        found.extend(ids);
     }
-    print(&if args.json {
-        let one = |card: &Card| {
-            let row = |row: &Fact| {
-                let mut out = json!({"name": row.name, "text": words(&row.text)});
-                file(row, paper).into_iter().for_each(|file| out["file"] = json!(file));
-                out
-            };
-            let rows: Vec<_> = card.rows.iter().map(row).collect();
-            json!({"id": card.id, "title": words(&card.title), "lead": card.lead, "rows": rows})
-        };
-        format!("{:#}\n", json!(found.iter().map(one).collect::<Vec<_>>()))
-    } else {
-        found.iter().map(|card| shown(card, paper)).collect::<Vec<_>>().join("\n")
+    // Of many things that one name means, a line each.
+    let in_short = args.ids.len() < 2 && found.len() > 1;
+    let found: Vec<Card> = found.iter().filter_map(|id| cards.get(id)).collect();
+    let text = |card: &Card| if in_short { line(card) } else { shown(card, paper) };
+    print(&match args.json {
+        true => format!("{:#}\n", found.iter().map(|card| json(card, paper)).collect::<Json>()),
+        false => found.iter().map(text).collect::<Vec<_>>().join(if in_short { "" } else { "\n" }),
     })
 }
 
@@ -81,14 +67,19 @@ fn fault(error: Error) -> Failure {
     Failure::input(format!("--paper: {error}; make the report anew with `paper`"))
 }
 
-/// One line for each thing.
-fn list(cards: &[Card], as_json: bool) -> String {
-    if as_json {
-        let one = |card: &Card| json!({"id": card.id, "title": words(&card.title)});
-        return format!("{:#}\n", json!(cards.iter().map(one).collect::<Vec<_>>()));
-    }
-    let line = |card: &Card| format!("{:28} {}\n", clean(&card.id), words(&card.title));
-    cards.iter().map(line).collect()
+/// All that is known of one thing, for programs.
+fn json(card: &Card, paper: &Paper) -> Json {
+    let row = |row: &Fact| {
+        let file = row.item.as_ref().and_then(|item| paper.file(item));
+        json!({"name": row.name, "text": words(&row.text), "file": file})
+    };
+    let rows: Vec<Json> = card.rows.iter().map(row).collect();
+    json!({"id": card.id, "title": words(&card.title), "lead": card.lead, "rows": rows})
+}
+
+/// A thing in a line.
+fn line(card: &Card) -> String {
+    format!("{:28} {}\n", clean(&card.id), words(&card.title))
 }
 
 /// All that is known of one thing.
@@ -97,9 +88,10 @@ fn shown(card: &Card, paper: &Paper) -> String {
     if !card.lead.is_empty() {
         out += &format!("  {}\n", clean(&card.lead));
     }
-    for row in card.rows.iter().filter(|row| row.name != "id") {
-        let place = file(row, paper).map(|file| format!(" ({file})"));
-        out += &format!("  {:15} {}{}\n", row.name, words(&row.text), place.unwrap_or_default());
+    for Fact { name, text, item } in card.rows.iter().filter(|row| row.name != "id") {
+        let file = item.as_ref().and_then(|item| paper.file(item));
+        let file = file.map_or(String::new(), |file| format!(" ({file})"));
+        out += &format!("  {name:15} {}{file}\n", words(text));
     }
     out
 }
@@ -111,9 +103,4 @@ fn words(text: &[Inline]) -> String {
 
 fn clean(text: &str) -> String {
     text.replace(is_obeyed, " ")
-}
-
-/// The file of the item that a row names.
-fn file(row: &Fact, paper: &Paper) -> Option<&'static str> {
-    paper.file(row.item.as_ref()?)
 }

@@ -34,7 +34,7 @@ pub(super) struct Sources {
 impl Sources {
     /// The run that is asked for.
     pub fn session<'a>(&self, paper: &'a Paper) -> Result<Session<'a>, Failure> {
-        let store = Store::open(&self.results)?;
+        let store = Store::open(&self.results);
         Session::of(paper, self.templates.as_deref(), self.profile, store, progress())
     }
 }

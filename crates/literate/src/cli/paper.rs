@@ -1,13 +1,13 @@
 //! The verb `paper`.
 
 use super::make::{self, Sources};
-use super::terminal::{print, shown, warn};
+use super::terminal::{print, shown};
 use crate::experiments::{Need, Profile, Results, Session};
 use crate::failure::Failure;
-use crate::input::{count, listed};
+use crate::input::count;
 use crate::paper::{Illustration, Paper};
-use crate::report::values::Number;
-use crate::report::{Files, Report, compare, files_of, folder};
+use crate::report::values::{self, Number};
+use crate::report::{Files, Report, files_of, folder};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -35,7 +35,7 @@ pub(super) struct Args {
     /// Say which experiments would be run, and why (exit code 1 if any), and run nothing.
     #[arg(long)]
     dry_run: bool,
-    /// Write over files that this program did not make, or that were edited since; says which.
+    /// Write over files that this program did not make, or that were edited since.
     #[arg(long)]
     force: bool,
     #[command(flatten)]
@@ -62,7 +62,9 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     }
     refuse_over_other(sources.profile, &out, whole)?;
     let option = |error: folder::Error| Failure::from(error).of("--out");
-    folder::refuse(&out, &Files::new(), whole, force).map_err(option)?;
+    if !force {
+        folder::refuse(&out, &Files::new(), whole).map_err(option)?;
+    }
     let (report, checks) = sources.threads.run(|| match whole {
         true => make::whole(&session, &out),
         false => {
@@ -73,12 +75,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
             Ok((Report { committed, beside: Files::new() }, Vec::new()))
         }
     })?;
-    let written = report.write(&out, force).map_err(option)?;
-    for (what, files) in [("removed", written.removed), ("--force: wrote over", written.over)] {
-        if !files.is_empty() {
-            warn(&format!("{what} {}", listed(&files)));
-        }
-    }
+    report.write(&out, force).map_err(option)?;
     let pages: Vec<&str> = paper.documents.iter().map(|document| document.page).collect();
     let documents = if whole { format!(": {}", pages.join(", ")) } else { String::new() };
     let number = count(report.committed.len() + report.beside.len(), "file");
@@ -109,7 +106,7 @@ fn refuse_over_other(profile: Profile, out: &Path, whole: bool) -> Result<(), Fa
 /// The profile that a report names, if there is one in a folder.
 pub(super) fn profile_in(root: &Path) -> Option<String> {
     let text = String::from_utf8(folder::read(root, "values.json").ok()?).ok()?;
-    match &compare::read(&text).ok()?.get("profile")?.number {
+    match &values::read(&text).ok()?.get("profile")?.number {
         Number::Text(name) => Some(name.clone()),
         _ => None,
     }

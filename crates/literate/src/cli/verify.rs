@@ -49,7 +49,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         let profile = profile_in(&folder).and_then(|name| profile(&name));
         let profile = profile
             .ok_or_else(|| Failure::input(format!("{place}: values.json names no profile")))?;
-        let store = results.as_deref().map_or(Ok(Store::nowhere()), Store::open)?;
+        let store = results.as_deref().map_or(Store::nowhere(), Store::open);
         let session = Session::of(paper, templates.as_deref(), profile, store, progress())?;
         let made = threads.run(|| make::whole(&session, &folder))?.0;
         let (files, again) = made.compare(&folder)?;

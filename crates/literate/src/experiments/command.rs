@@ -4,7 +4,6 @@
 //! that has its tables by name: `{"throws": {"keys": ["needles"], "columns": ["pi", "pi_error"], "rows": [[100, 3.1, 0.2]]}}`.
 //! A row has its keys first; `pi_error` is the standard error of `pi`; `null` is no number. `"units": {"pi": "1"}` may be added.
 
-use super::cutting::Unit;
 use super::store::Identity;
 use super::{Entry, Error, Found, Profile, Session};
 use crate::input::sha256;
@@ -15,11 +14,9 @@ use impact_numerics::estimates::with_error;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{Read, Write};
+use std::io::Write;
 use std::process::Stdio;
 use std::sync::Arc;
-use std::thread::{self, JoinHandle};
-use std::time::Duration;
 
 /// A command as an experiment.
 #[derive(Clone, Copy, Debug)]
@@ -55,18 +52,19 @@ impl Rows {
     fn fault(&self) -> Option<String> {
         let names = self.names().count();
         let mut seen = BTreeSet::new();
-        self.rows.iter().zip(1..).find_map(|(row, at)| match row.get(..self.keys.len()) {
-            Some(keys) if row.len() == names => {
-                let called = |key: &Json| key.as_f64().map_or(key.to_string(), |x| x.to_string());
-                let twice = !seen.insert(keys.iter().map(called).collect::<Vec<_>>());
-                let mut errors = self.names().zip(row).filter(|(name, _)| name.ends_with("_error"));
-                let negative = |error: &Json| error.as_f64().is_some_and(|error| error < 0.0);
-                match errors.find(|(_, error)| negative(error)) {
-                    Some((name, _)) => Some(format!("row {at} has a negative {name}")),
-                    None => twice.then(|| format!("row {at} has the keys of one before")),
-                }
+        self.rows.iter().zip(1..).find_map(|(row, at)| {
+            if row.len() != names {
+                return Some(format!("row {at} has {} cells for {names} names", row.len()));
             }
-            _ => Some(format!("row {at} has {} cells for {names} names", row.len())),
+            let is_negative = |(name, error): &(&String, &Json)| {
+                name.ends_with("_error") && error.as_f64().is_some_and(|error| error < 0.0)
+            };
+            if let Some((name, _)) = self.names().zip(row).find(is_negative) {
+                return Some(format!("row {at} has a negative {name}"));
+            }
+            let called = |key: &Json| key.as_f64().map_or(key.to_string(), |x| x.to_string());
+            let keys: Vec<String> = row[..self.keys.len()].iter().map(called).collect();
+            (!seen.insert(keys)).then(|| format!("row {at} has the keys of one before"))
         })
     }
 
@@ -118,7 +116,7 @@ impl Command {
         Identity::new(self.name, session.profile, code, &parameters)
     }
 
-    /// Runs it.
+    /// Runs it. Ctrl-C in a terminal ends it too.
     fn run(&self, session: &Session<'_>) -> Result<Printed, Error> {
         let fail = |what: String| {
             let source = format!("`{}` {what}", self.line).into();
@@ -132,49 +130,29 @@ impl Command {
         let missing =
             |error| fail(format!("cannot be started: {error}; install it, or mend the command"));
         let mut child = command.spawn().map_err(missing)?;
-        let given =
-            json!({"profile": session.profile, "parameters": (self.parameters)(session.profile)});
+        let parameters = (self.parameters)(session.profile);
         if let Some(mut input) = child.stdin.take() {
+            let given = json!({"profile": session.profile, "parameters": parameters});
             // A command that reads nothing has closed it.
             let _ = writeln!(input, "{given}");
         }
-        let (said, told) = (text(child.stdout.take()), text(child.stderr.take()));
-        let status = loop {
-            if let Err(stop) = session.progress.check() {
-                let _ = child.kill();
-                return Err(stop);
-            }
-            match child.try_wait().map_err(|error| fail(error.to_string()))? {
-                Some(status) => break status,
-                None => thread::sleep(Duration::from_millis(20)),
-            }
-        };
-        let (said, told) = (said.join().unwrap_or_default(), told.join().unwrap_or_default());
-        if !status.success() {
+        let output = child.wait_with_output().map_err(|error| fail(error.to_string()))?;
+        session.progress.check()?;
+        if !output.status.success() {
+            let told = String::from_utf8_lossy(&output.stderr);
             let last = told.lines().last().unwrap_or("it said nothing");
-            return Err(fail(format!("ended with {status}: {last}")));
+            return Err(fail(format!("ended with {}: {last}", output.status)));
         }
         let wrong = |what| {
-            fail(format!(
-                "printed {what}; the manual of literate, *A paper of your own*, has the form"
-            ))
+            let form = "the manual of literate, *A paper of your own*, has the form";
+            fail(format!("printed {what}; {form}"))
         };
-        let printed: Printed = serde_json::from_str(&said).map_err(|error| {
-            wrong(format!("no tables in JSON, which has null for NaN: {error}"))
-        })?;
+        let no_json = |error| wrong(format!("no tables in JSON, which has null for NaN: {error}"));
+        let printed: Printed = serde_json::from_slice(&output.stdout).map_err(no_json)?;
         let fault = |(name, rows): (&String, &Rows)| Some(format!("{name}: {}", rows.fault()?));
         printed.iter().find_map(fault).map_or(Ok(()), |fault| Err(wrong(fault)))?;
         Ok(printed)
     }
-}
-
-/// All that a pipe has, read in a thread: a command whose pipe is full waits.
-fn text(pipe: Option<impl Read + Send + 'static>) -> JoinHandle<String> {
-    thread::spawn(move || {
-        let mut bytes = Vec::new();
-        let _ = pipe.map(|mut pipe| pipe.read_to_end(&mut bytes));
-        String::from_utf8_lossy(&bytes).into_owned()
-    })
 }
 
 impl Entry for Command {
@@ -195,19 +173,6 @@ impl Entry for Command {
 
     fn item(&self) -> String {
         self.line.into()
-    }
-
-    fn is_saved(&self) -> bool {
-        true
-    }
-
-    fn units(&self, _: Profile) -> Vec<Unit> {
-        vec![Unit::whole(1)]
-    }
-
-    fn run_units(&self, _: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
-        let stale = self.stale(session).is_some();
-        self.found(session).map(|_| usize::from(stale))
     }
 
     fn stale(&self, session: &Session<'_>) -> Option<String> {
@@ -248,7 +213,7 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7], [2, null, 0.1, \"sh\", null]]}}"
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("toy.sh");
         std::fs::write(&path, script).unwrap();
-        let store = Store::open(&folder.path().join("results")).unwrap();
+        let store = Store::open(&folder.path().join("results"));
         let run = |program: &str| {
             let line = leaked(&format!("{program} {}", path.display()));
             let paper = Paper::new("Toy", Sources { name: "toy", version: "1", files: &[] });

@@ -141,20 +141,22 @@ pub trait Entry: Sync {
     /// Path of the item that is its code: `src/experiments/sweep` is `experiments::sweep`.
     fn item(&self) -> String;
 
-    /// A committed file that it reads, from the top of the project.
-    fn data(&self) -> Option<&'static str> {
-        None
+    /// Whether its result is saved; else it is read from a committed file.
+    fn is_saved(&self) -> bool {
+        true
     }
 
-    /// Whether its result is saved; else it is read from a committed file.
-    fn is_saved(&self) -> bool;
-
     /// Its units of work: one if it is not cut.
-    fn units(&self, profile: Profile) -> Vec<Unit>;
+    fn units(&self, _: Profile) -> Vec<Unit> {
+        vec![Unit::whole(1)]
+    }
 
     /// Runs those of some of its units that are not in the store, and saves what each gives as soon as it is there; none if
     /// the result is fresh. Returns how many were run.
-    fn run_units(&self, units: &[Unit], session: &Session<'_>) -> Result<usize, Error>;
+    fn run_units(&self, _: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
+        let stale = self.stale(session).is_some();
+        self.found(session).map(|_| usize::from(stale))
+    }
 
     /// What would be run, and why; none if the saved result is fresh.
     fn stale(&self, session: &Session<'_>) -> Option<String>;
@@ -179,11 +181,6 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
 
     fn code(&self, project: &Project) -> BTreeMap<String, String> {
         project.code(self.code)
-    }
-
-    fn data(&self) -> Option<&'static str> {
-        let is_data = |path: &&&str| path.contains('.') && !path.ends_with(".rs");
-        self.code.iter().find(is_data).copied()
     }
 
     fn parameters(&self, profile: Profile) -> serde_json::Value {

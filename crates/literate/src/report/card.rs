@@ -5,8 +5,8 @@
 
 use super::document::Inline;
 use super::ledger::Ledger;
-use super::print::{Asked, Style, print};
-use super::values::{Kind, Number, Registry, Value};
+use super::print::{Style, print};
+use super::values::{Digits, Kind, Number, Registry, Value};
 use crate::experiments::Profile;
 use crate::figures::DataFile;
 use crate::paper::{Paper, settings};
@@ -76,10 +76,6 @@ impl Card {
         let pairs = settings(&experiment.parameters(profile)).into_iter();
         let pairs = pairs.map(|(name, setting)| format!("{name}: {setting}"));
         self.words("its parameters", pairs.collect::<Vec<_>>().join("; "));
-        if let Some(path) = experiment.data() {
-            let name = path.rsplit('/').next().unwrap_or(path);
-            self.row("its data", vec![link(&format!("../{path}"), Inline::Text(name.into()))]);
-        }
     }
 }
 
@@ -156,7 +152,7 @@ impl Cards<'_> {
         }
         let mut card = Card { lead: lead(value), ..Card::of(value.id.clone(), title) };
         if !matches!(value.number, Number::Text(_) | Number::Integer(_)) {
-            let full = Style { digits: Some(Asked::Full), ..Style::default() };
+            let full = Style { digits: Some(Digits::Full), ..Style::default() };
             card.words("in full", print(&value.number, full).plain());
         }
         if let Kind::Ensemble { realisations, standard_error } = &value.kind {

@@ -31,15 +31,6 @@ pub enum Error {
     Io { place: String, source: io::Error },
 }
 
-/// What was done to files that somebody else may miss.
-#[derive(Debug, Default, PartialEq, Eq)]
-pub struct Written {
-    /// Edited files that were written over, or removed, by force.
-    pub over: Vec<String>,
-    /// Files of the report before that this one does not have.
-    pub removed: Vec<String>,
-}
-
 /// Digests by path.
 type Digests = BTreeMap<String, String>;
 
@@ -131,19 +122,10 @@ fn ours(folder: &Path) -> Result<Option<Digests>, Error> {
 }
 
 /// Refuses a folder that is not ours, and files that were edited, by name: those that stand there with other bytes than we
-/// wrote, and than `files` are about to bring; of a whole report also those that the list names. Forced, it returns what was
-/// edited.
-pub fn refuse(
-    folder: &Path,
-    files: &Files,
-    whole: bool,
-    force: bool,
-) -> Result<Vec<String>, Error> {
+/// wrote, and than `files` are about to bring; of a whole report also those that the list names.
+pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
     let place = || folder.display().to_string();
-    let ours = match ours(folder)? {
-        None if !force => return Err(Error::NotOurs(place())),
-        ours => ours.unwrap_or_default(),
-    };
+    let ours = ours(folder)?.ok_or_else(|| Error::NotOurs(place()))?;
     let paths = ours.keys().filter(|_| whole).chain(files.keys()).filter(|path| *path != SUMS);
     let is_edited = |path: &&String| match read(folder, path) {
         Ok(bytes) => ours.get(*path) != Some(&sha256(&bytes)) && files.get(*path) != Some(&bytes),
@@ -151,20 +133,18 @@ pub fn refuse(
     };
     let edited: BTreeSet<&String> = paths.filter(is_edited).collect();
     let edited: Vec<String> = edited.into_iter().cloned().collect();
-    if edited.is_empty() || force { Ok(edited) } else { Err(Error::Edited(place(), edited)) }
+    if edited.is_empty() { Ok(()) } else { Err(Error::Edited(place(), edited)) }
 }
 
 /// Writes files: first all into a temporary folder, then each is renamed into its place, the list last. With a list among
 /// them they are a whole report, and what only the list before has is removed; without one their lines are put into the
-/// list that is there. `beside` are pages and figures for LaTeX, which are on no list.
-pub fn write(folder: &Path, files: &Files, beside: &Files, force: bool) -> Result<Written, Error> {
+/// list that is there. `beside` are pages and figures for LaTeX, which are on no list. Unless forced, it refuses first.
+pub fn write(folder: &Path, files: &Files, beside: &Files, force: bool) -> Result<(), Error> {
     let whole = files.contains_key(SUMS);
-    let mut over = refuse(folder, files, whole, force)?;
-    let ours = ours(folder)?;
-    if ours.is_none() {
-        over.extend(beside.keys().filter(|path| folder.join(path).exists()).cloned());
+    if !force {
+        refuse(folder, files, whole)?;
     }
-    let mut list = ours.unwrap_or_default();
+    let mut list = ours(folder)?.unwrap_or_default();
     let gone = |path: &&String| whole && !files.contains_key(*path) && folder.join(path).exists();
     let gone: Vec<String> = list.keys().filter(gone).cloned().collect();
     list.retain(|_, _| !whole);
@@ -196,7 +176,7 @@ pub fn write(folder: &Path, files: &Files, beside: &Files, force: bool) -> Resul
     for name in killed {
         let _ = std::fs::remove_dir_all(folder.join(name));
     }
-    Ok(Written { over, removed: gone })
+    Ok(())
 }
 
 /// What is wrong with the files of a folder, one line each: digests by path say what should be there.
@@ -227,7 +207,7 @@ pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
 
 impl Report {
     /// Writes all of it into a folder.
-    pub fn write(&self, folder: &Path, force: bool) -> Result<Written, Error> {
+    pub fn write(&self, folder: &Path, force: bool) -> Result<(), Error> {
         write(folder, &self.committed, &self.beside, force)
     }
 
@@ -271,11 +251,11 @@ mod tests {
         let temporary = tempfile::tempdir().unwrap();
         let folder = &temporary.path().join("new/paper");
         let old = report(&[("data/old.csv", "1"), ("report.md", "a")]);
-        assert_eq!(old.write(folder, false).unwrap(), Written::default());
+        old.write(folder, false).unwrap();
         assert_eq!(standing(folder), whole(&old));
         fs::write(folder.join("notes.txt"), "by hand").unwrap();
         let new = report(&[("data/new.csv", "1"), ("report.md", "b")]);
-        assert_eq!(new.write(folder, false).unwrap().removed, ["data/old.csv"]);
+        new.write(folder, false).unwrap();
         let notes = files(&[("notes.txt", "by hand")]);
         assert_eq!(standing(folder), whole(&new).into_iter().chain(notes).collect());
         assert_eq!(verify(folder).unwrap(), (2, vec!["unlisted notes.txt".into()]));

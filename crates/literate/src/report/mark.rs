@@ -8,7 +8,8 @@
 //! text is that of the template; what a tag wrote stands where the tag does.
 
 use super::Error;
-use super::print::{Asked, Style};
+use super::print::Style;
+use super::values::Digits;
 use crate::input::line_and_column;
 
 pub(super) const OPEN: char = '\u{e000}';
@@ -83,7 +84,7 @@ pub fn style(words: &str) -> Style {
     let mut style = Style::default();
     for word in words.split_whitespace() {
         match word.strip_prefix("significant") {
-            Some(digits) => style.digits = digits.parse().ok().map(Asked::Significant),
+            Some(digits) => style.digits = digits.parse().ok().map(Digits::Significant),
             None => style.percent |= word == "percent",
         }
     }

@@ -9,7 +9,6 @@ pub mod assemble;
 pub mod bibliography;
 pub mod card;
 pub mod claims;
-pub mod compare;
 pub mod document;
 pub mod filler;
 pub mod folder;
@@ -24,7 +23,7 @@ mod mathml;
 pub mod parse;
 pub mod print;
 pub mod templates;
-mod tex;
+pub(crate) mod tex;
 pub mod values;
 
 pub use assemble::{Files, Input, LAB, Report, assemble, files_of};

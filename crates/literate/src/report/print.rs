@@ -9,100 +9,54 @@ use super::values::{Digits, Number, Value};
 pub const MOST_DIGITS: usize = 1100;
 
 /// What a template asks of a value beyond its own digits, through filters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Style {
     /// Times one hundred, with a percent sign.
     pub percent: bool,
     /// Other digits than the value's own.
-    pub digits: Option<Asked>,
+    pub digits: Option<Digits>,
 }
 
-/// Digits that a template asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Asked {
-    /// So many significant digits.
-    Significant(usize),
-    /// The shortest decimal that reads back to the same double.
-    Full,
-}
-
-/// Digits of one number, ready to be written in any markup.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Decimal {
+/// A number or words, ready to be written in any markup.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Printed {
     negative: bool,
-    /// Digits with at most one point.
+    /// Digits with at most one point, or the words.
     mantissa: String,
     /// What stands in brackets behind the mantissa.
     error: Option<String>,
     /// Power of ten, if one is shown.
     exponent: Option<i32>,
     percent: bool,
-}
-
-/// A value in a style: a number, or words.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Printed {
-    /// A number.
-    Number(Decimal),
-    /// Words.
-    Words(String),
+    words: bool,
 }
 
 /// Chooses the digits of a number.
 pub fn print(number: &Number, style: Style) -> Printed {
-    let most = |digits: usize| digits.min(MOST_DIGITS);
-    let percent = if style.percent { 2 } else { 0 };
-    let asked = |x: f64, own: &dyn Fn(f64) -> Decimal| {
-        let x = times_ten(x, percent);
-        let decimal = match style.digits {
-            Some(Asked::Full) => shortest(x),
-            Some(Asked::Significant(n)) => significant(x, most(n)),
-            None => own(x),
-        };
-        Decimal { percent: style.percent, ..decimal }
-    };
-    match *number {
-        Number::Text(ref text) => Printed::Words(text.clone()),
-        Number::Integer(n) if !style.percent && style.digits.is_none() => {
-            Printed::Number(Decimal { negative: n < 0, ..bare(1.0, grouped(n)) })
+    let (value, own) = match *number {
+        Number::Text(ref words) => {
+            return Printed { mantissa: words.clone(), words: true, ..Printed::default() };
         }
-        Number::Integer(n) => Printed::Number(asked(n as f64, &|x| bare(x, rounded(x, 0)))),
-        Number::Real { value, digits } => Printed::Number(asked(value, &|x| match digits {
-            Digits::Error(error) => with_error(x, times_ten(error, percent)),
-            Digits::Significant(n) => significant(x, most(n)),
-            Digits::Decimals(n) => bare(x, rounded(x, (most(n) as i32 - percent).max(0))),
-        })),
-    }
+        Number::Integer(n) if style == Style::default() => {
+            return Printed { negative: n < 0, ..bare(1.0, grouped(n)) };
+        }
+        Number::Integer(n) => (n as f64, Digits::Decimals(0)),
+        Number::Real { value, digits } => (value, digits),
+    };
+    let percent = if style.percent { 2 } else { 0 };
+    let x = times_ten(value, percent);
+    let printed = match style.digits.unwrap_or(own) {
+        Digits::Error(error) => with_error(x, times_ten(error, percent)),
+        Digits::Significant(n) => significant(x, n.min(MOST_DIGITS)),
+        Digits::Decimals(n) => bare(x, rounded(x, (n.min(MOST_DIGITS) as i32 - percent).max(0))),
+        Digits::Full => shortest(x),
+    };
+    Printed { percent: style.percent, ..printed }
 }
 
 impl Printed {
     /// For Markdown prose: `0.1165(4)`, `$1.2\times10^{-5}$`, `−3`, `94.5 %`.
     pub fn markdown(&self) -> String {
-        match self {
-            Printed::Number(x) => x.markdown(),
-            Printed::Words(words) => words.clone(),
-        }
-    }
-
-    /// Inside mathematics (Markdown's and LaTeX's): `0.1165(4)`, `1.2\times10^{-5}`.
-    pub fn maths(&self) -> String {
-        match self {
-            Printed::Number(x) => x.maths(),
-            Printed::Words(words) => format!(r"\text{{{words}}}"),
-        }
-    }
-
-    /// For terminals and data files: `0.1165(4)`, `1.2e-5`, `94.5 %`.
-    pub fn plain(&self) -> String {
-        match self {
-            Printed::Number(x) => x.plain(),
-            Printed::Words(words) => words.clone(),
-        }
-    }
-}
-
-impl Decimal {
-    fn markdown(&self) -> String {
         let percent = if self.percent { "\u{a0}%" } else { "" };
         match self.exponent {
             Some(_) => format!("${}${percent}", self.maths_digits()),
@@ -110,12 +64,17 @@ impl Decimal {
         }
     }
 
-    fn maths(&self) -> String {
+    /// Inside mathematics (Markdown's and LaTeX's): `0.1165(4)`, `1.2\times10^{-5}`.
+    pub fn maths(&self) -> String {
         let percent = if self.percent { r"\,\%" } else { "" };
-        format!("{}{percent}", self.maths_digits())
+        match self.words {
+            true => format!(r"\text{{{}}}", self.mantissa),
+            false => format!("{}{percent}", self.maths_digits()),
+        }
     }
 
-    fn plain(&self) -> String {
+    /// For terminals and data files: `0.1165(4)`, `1.2e-5`, `94.5 %`.
+    pub fn plain(&self) -> String {
         let power = self.exponent.map(|e| format!("e{e}")).unwrap_or_default();
         let percent = if self.percent { " %" } else { "" };
         format!("{}{power}{percent}", self.digits("-")).replace(NARROW_SPACE, "")
@@ -145,23 +104,23 @@ fn shows_power(exponent: i32) -> bool {
 }
 
 /// A number with these digits and nothing else; one that rounds to zero has no sign.
-fn bare(x: f64, mantissa: String) -> Decimal {
+fn bare(x: f64, mantissa: String) -> Printed {
     let negative = x < 0.0 && mantissa.contains(|c: char| ('1'..='9').contains(&c));
-    Decimal { negative, mantissa, error: None, exponent: None, percent: false }
+    Printed { negative, mantissa, ..Printed::default() }
 }
 
 /// The shortest decimal that reads back to the same double.
-fn shortest(x: f64) -> Decimal {
+fn shortest(x: f64) -> Printed {
     let exponent = leading(x, 17);
     if x != 0.0 && shows_power(exponent) {
         let (mantissa, exponent) = scientific(&format!("{:e}", x.abs()));
-        return Decimal { exponent: Some(exponent), ..bare(x, mantissa) };
+        return Printed { exponent: Some(exponent), ..bare(x, mantissa) };
     }
     bare(x, format!("{}", x.abs()))
 }
 
 /// So many significant digits.
-fn significant(x: f64, digits: usize) -> Decimal {
+fn significant(x: f64, digits: usize) -> Printed {
     if x == 0.0 {
         return bare(x, "0".into());
     }
@@ -169,7 +128,7 @@ fn significant(x: f64, digits: usize) -> Decimal {
 }
 
 /// The number with its error in brackets: one digit of it, or two after a leading 1.
-fn with_error(x: f64, error: f64) -> Decimal {
+fn with_error(x: f64, error: f64) -> Printed {
     if error <= 0.0 {
         return shortest(x);
     }
@@ -184,17 +143,17 @@ fn with_error(x: f64, error: f64) -> Decimal {
         Some(after) => after.trim_start_matches('0').to_string(),
         None => error,
     };
-    Decimal { error: Some(error), ..decimal }
+    Printed { error: Some(error), ..decimal }
 }
 
 /// Rounded to a decimal place (negative: tens, hundreds), with a power of ten where one is due.
-fn to_place(x: f64, places: i32) -> Decimal {
+fn to_place(x: f64, places: i32) -> Printed {
     // The leading digit after rounding; that of the last place for what rounds to nothing.
     let digits = if x == 0.0 { 0 } else { leading(x, 17) + places + 1 };
     let exponent = if digits < 1 { -places } else { leading(x, digits as usize) };
     if shows_power(exponent) {
         let mantissa = rounded(times_ten(x, -exponent), places + exponent);
-        return Decimal { exponent: Some(exponent), ..bare(x, mantissa) };
+        return Printed { exponent: Some(exponent), ..bare(x, mantissa) };
     }
     bare(x, rounded(x, places))
 }
@@ -308,7 +267,7 @@ mod tests {
         assert_eq!(real(1.2e-5, 2).markdown(), r"$1.2\times10^{-5}$");
         assert_eq!(real(1e-9, 1).maths(), "10^{-9}");
         assert_eq!(real(-2e-9, 1).maths(), r"-2\times10^{-9}");
-        let big = Printed::Number(Decimal { negative: false, ..bare(1.0, grouped(1_234_567)) });
+        let big = bare(1.0, grouped(1_234_567));
         assert_eq!(big.markdown(), "1\u{202f}234\u{202f}567");
         assert_eq!(big.maths(), r"1\,234\,567");
         assert_eq!(big.plain(), "1234567");
@@ -320,7 +279,7 @@ mod tests {
         let percent = Style { percent: true, ..Style::default() };
         assert_eq!(print(&number, percent).plain(), "94.5(8) %");
         assert_eq!(print(&number, percent).maths(), r"94.5(8)\,\%");
-        let full = Style { digits: Some(Asked::Full), ..Style::default() };
+        let full = Style { digits: Some(Digits::Full), ..Style::default() };
         assert_eq!(print(&number, full).plain(), "0.9453");
         assert_eq!(
             print(&Number::Real { value: 0.1 + 0.2, digits: Digits::Decimals(1) }, full).plain(),
