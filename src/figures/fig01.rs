@@ -11,8 +11,8 @@ const RADIUS: i32 = 235;
 /// The masses as drawn: the place on the sheet in units of the spacing, the name, the place in the row, and how far the
 /// mass is bent from its equilibrium.
 const MASSES: [(i32, &str, &str, i32); 4] = [
-    (1, "1", "*d*", -300),
-    (2, "2", "2*d*", 230),
+    (1, "1", "*d*", 250),
+    (2, "2", "2*d*", -270),
     (4, "*n*−1", "(*n*−1)*d*", 190),
     (5, "*n*", "*nd*", -250),
 ];
@@ -33,8 +33,8 @@ pub fn draw() -> Result<Figure, Error> {
 
     let description = seen!(
         "A row of n equal masses on elastic stems, rooted a distance d apart between walls at 0 and (n + 1)d; \
-         each is bent away from its equilibrium. Marked are d, the position x1(t), the gap Δ1(t) between the \
-         first two masses, and the force F2(t) on the second."
+         each is bent away from its equilibrium, the first and the second towards each other. Marked are d, the position x1(t), the closing gap \
+         Δ1(t) between the first two masses, and the force F2(t) on the second."
     );
     Ok(sheet.finish("fig01", "The chain of masses between two walls", description))
 }
@@ -105,7 +105,7 @@ fn distances(sheet: &Sheet) -> Result<(), Error> {
     label("Δ_{1}(*t*)", ((x1 + x2) / 2, y - 80), VPos::Bottom)?;
     // The force on mass 2.
     let start = x2 + RADIUS + 25;
-    sheet.free().arrow(vec![(start, HEIGHT), (start + 480, HEIGHT)], Stroke::solid(BLUE, 40));
-    let at = (start + 420, HEIGHT - 150);
+    sheet.free().arrow(vec![(start + 480, HEIGHT), (start, HEIGHT)], Stroke::solid(BLUE, 40));
+    let at = (start + 330, HEIGHT - 150);
     sheet.text("*F*_{2}(*t*)", at, (TEXT, BLUE, HPos::Center, VPos::Bottom))
 }

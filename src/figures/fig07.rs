@@ -1,34 +1,36 @@
-//! Fig. 7: how many simple circuits there are of each length.
+//! Fig. 7: how many simple circuits there are of each length, and the logarithm, which the paper does not show.
 
 use super::prelude::*;
 use crate::experiments::theory::counts::shares;
 use crate::params::VERTICES as N;
 
+/// The lengths in (a); shorter ones are too rare to be seen.
+const SHOWN: f64 = 0.9 * N as f64;
+
 pub fn draw() -> Result<Figure, Error> {
     let [share, logs] = shares();
-    let sheet = Sheet::new(5150);
+    let sheet = Sheet::new(4350);
     let top = largest(&share);
-    let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "length *k*");
+    let x = Axis::linear(SHOWN - 0.5, N as f64 + 0.5, 2.0, 2, "length *k*");
     let y = upwards_from_zero(top, "*ϕ*_{*N*}(*k*) / *ϕ*_{*N*}^{tot}");
-    let panel = sheet.panel(Frame::new(1350, 300, 8100, 4200), x, y)?;
-    panel.columns("share of circuits", &share, Stroke::solid(GREEN, THIN))?;
-
+    let columns = sheet.lettered(LETTERS[0], Frame::new(1150, 480, 4050, 3380), x, y)?;
+    columns.columns("share of circuits", &share, Stroke::solid(GREEN, THIN))?;
     let lowest = (logs.iter().copied().fold(0.0, f64::min) / 40.0).floor() as i32 * 40;
-    let inset = sheet.inset(
-        Frame::new(2850, 650, 6150, 2750),
-        Axis::linear(0.0, N as f64 + 1.0, 25.0, 1, "*k*"),
-        Axis::decades(lowest, 0, 40, "share"),
-    )?;
+    let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "length *k*");
+    let frame = Frame::new(5250, 480, 8200, 3380);
+    let curve = sheet.lettered(LETTERS[1], frame, x, Axis::decades(lowest, 0, 40, ""))?.quiet();
     let line = Stroke::solid(GREEN, LINE);
-    inset.curve("logarithm of the share", &over_k(&share), line, Outside::Refuse)?;
+    curve.curve("share of circuits", &over_k(&share), line, Outside::Refuse)?;
+    let first = format!("10^{{−{}}}", -logs[0].round());
+    curve.label(&format!("*k* = 1: {first}"), (8.0, share[0]), (1, -1), INK)?;
 
     let peak = share.iter().position(|&s| s == top).unwrap_or(0) + 1;
     let description = seen!(
-        "Columns over k = 1 … {N}: the share of all simple circuits of a fully connected graph of N = {N} vertices that have \
-         length k. Only the last few are visible; the highest, {}, stands at k = {peak}. An inset shows the logarithm, which \
+        "The share of all simple circuits of a fully connected graph of N = {N} vertices that have length k. (a) Columns over \
+         the last few k, which hold nearly all; the highest, {}, stands at k = {peak}. (b) All k on a logarithmic axis: the share \
          falls to about {} at k = 1.",
         short(top, 3),
-        format!("10^{}", logs.first().copied().unwrap_or(0.0).round() as i64),
+        format!("10^{}", logs[0].round()),
     );
     Ok(sheet.finish("fig07", "Number of simple circuits of each length", description))
 }

@@ -1,7 +1,7 @@
 //! Fig. 10: how the jump of the most likely number of impacts comes about.
 
 use super::prelude::*;
-use crate::experiments::theory::law::{f, k_star, simple, stages, zeros};
+use crate::experiments::theory::law::{f, k_star, simple, stages, steps, zeros};
 use crate::params::VERTICES as N;
 
 pub fn draw() -> Result<Figure, Error> {
@@ -23,6 +23,7 @@ pub fn draw() -> Result<Figure, Error> {
         let p = match i {
             0 => "*p* → 0".to_string(),
             1 => format!("*p* = *p*_{{crit}} = {}", short(at, 4)),
+            3 => format!("*p* = *p*_{{jump}} = {}", short(at, 4)),
             _ => format!("*p* = {}", short(at, 4)),
         };
         let (words, look) = (format!("{} {p}", LETTERS[i]), (SMALL, INK, HPos::Left, VPos::Bottom));
@@ -34,18 +35,20 @@ pub fn draw() -> Result<Figure, Error> {
         let y = upwards_from_zero(room * largest(&columns), "Φ_{*N*,*p*}(*k*) / Γ_{*N*,*p*}");
         let right = sheet.panel(Frame::new(5250, edge, 8250, edge + 1700), k(), y)?;
         let right = right.file(&format!("{letter}-phi"));
-        weight(&right, k_star(at), &columns)?;
+        // At the jump two columns are the highest.
+        let (jump, after) = steps()[1];
+        let highest = if at == jump { vec![1, after] } else { vec![k_star(at)] };
+        weight(&right, &highest, &columns)?;
         if let (0, Some(&height)) = (i, columns.first()) {
             // Once, where all else is low.
-            let look = (SMALL, INK, HPos::Right, VPos::Top);
-            right.note("height at *k* = 1", (right.x.hi, height), (-60, 110), look)?;
+            right.label("height at *k* = 1", (right.x.hi, height), (-1, 1), INK)?;
         }
     }
     let description = seen!(
-        "Four rows for rising p, N = {N}, over k. Left, the function f, whose sign tells whether the weight Φ grows from k to \
-         k + 1; right, Φ divided by its sum. Where f turns positive a second maximum grows, until it overtakes the first \
-         column: the most likely numbers are {}.",
-        rows.map(|p| k_star(p).to_string()).join(", ")
+        "Four rows for rising p, N = {N}, over k. Left f, whose sign tells whether the weight Φ grows from k to \
+         k + 1; right, Φ divided by its sum. Where f turns positive a second maximum grows; in the last row it equals the first \
+         column, and the most likely number jumps from 1 to {}.",
+        steps()[1].1
     );
     Ok(sheet.finish("fig10", "The mechanism of the jump", description))
 }
@@ -67,27 +70,28 @@ fn sign(panel: &Panel, p: f64) -> Result<(), Error> {
         panel.marks("zeros of f", &at, disc, Outside::Cut)?;
         if zeros[0] < zeros[1] {
             // Where the curve is not: below the line inside the arch, above it outside.
-            panel.note("*k*_{−}", at[0], (90, 110), (SMALL, INK, HPos::Left, VPos::Top))?;
-            panel.note("*k*_{+}", at[1], (60, -110), (SMALL, INK, HPos::Left, VPos::Bottom))?;
+            panel.label("*k*_{−}", at[0], (1, 1), INK)?;
+            panel.label("*k*_{+}", at[1], (1, -1), INK)?;
         }
     }
     Ok(())
 }
 
-fn weight(panel: &Panel, k_star: usize, shown: &[f64]) -> Result<(), Error> {
+fn weight(panel: &Panel, highest: &[usize], shown: &[f64]) -> Result<(), Error> {
     panel.columns("weight", shown, Stroke::solid(GREEN, THIN))?;
     let first = shown.first().copied().unwrap_or(0.0);
     let level = Stroke::dashed(INK, HAIR, Dash::Short);
     panel.guide("height at k = 1", &[(0.5, first), (panel.x.hi, first)], level)?;
-    if let Some(&top) = shown.get(k_star.saturating_sub(1)) {
-        let at = (k_star as f64, top);
+    for &k in highest {
+        let at = (k as f64, shown[k - 1]);
         let disc = (Mark::Disc, 75, Stroke::solid(RED, HAIR));
         panel.marks("most likely", &[at], disc, Outside::Refuse)?;
         // Beside the first column, under the broken line; above the other columns.
-        let (offset, v) =
-            if k_star == 1 { ((130, 80), VPos::Top) } else { ((60, -110), VPos::Bottom) };
-        let look = (SMALL, RED, HPos::Left, v);
-        panel.note(&format!("*k*^{{∗}} = {}", k_star), at, offset, look)?;
+        match (k, highest.len()) {
+            (1, 1) => panel.label("*k*^{∗} = 1", at, (2, 1), RED)?,
+            (1, _) => (),
+            _ => panel.label(&format!("*k*^{{∗}} = 1 or {k}"), at, (1, -1), RED)?,
+        }
     }
     Ok(())
 }

@@ -1,55 +1,48 @@
-//! Fig. 11: the impact probability p against the standard deviation σ of the forcing.
+//! Fig. 11: the impact probability p against the standard deviation σ of the forcing; on a logarithmic axis as well,
+//! which the paper does not have.
 
+use super::FORCING;
 use super::prelude::*;
-use super::simulated::sigma_axis;
 use crate::experiments::Results;
 
 /// Lowest decade of the logarithmic panel.
-const LOWEST: i32 = -20;
+const LOWEST: i32 = -8;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sheet = Sheet::new(8950);
-    let curve =
-        |column| Ok::<_, Error>(results.table("theory.curve")?.points(&[], "sigma", column));
-    let (p_rest, p) = (curve("p_rest")?, curve("p")?);
+    let sheet = Sheet::new(8350);
+    let theory = results.table("theory.curve")?;
+    let [from_rest, p] = ["p_rest", "p"].map(|column| theory.points(&[], "sigma", column));
     let end = p.last().map_or(0.4, |point| point.0);
-    let top = p.iter().chain(&p_rest).map(|point| point.1).fold(0.0, f64::max);
-    let top = (top * 10.0).ceil() / 10.0;
-    let sigma = || sigma_axis(end);
-    let (x, y) = (sigma().bare(), Axis::linear(0.0, top, 0.2, 2, "*p*"));
-    let linear = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8150, 3450), x, y)?;
-    let (x, y) = (sigma(), Axis::decades(LOWEST, 0, 4, "*p*"));
-    let decades = sheet.lettered(LETTERS[1], Frame::new(1300, 4350, 8150, 8050), x, y)?;
+    let sigma = || Axis::linear(0.0, end, 0.1, 5, FORCING);
+    let y = upwards_from_zero(p.iter().chain(&from_rest).map(|p| p.1).fold(0.0, f64::max), "*p*");
+    let linear = Frame::new(1300, 430, 8150, 3430);
+    let linear = sheet.lettered(LETTERS[0], linear, sigma().bare(), y)?;
+    let y = Axis::decades(LOWEST, 0, 2, "*p*");
+    let decades = sheet.lettered(LETTERS[1], Frame::new(1300, 4130, 8150, 7530), sigma(), y)?;
 
     let (main, rest) = (Stroke::solid(BLUE, LINE), Stroke::dashed(GREY, LINE, Dash::Short));
     // Both vanish with σ.
     let from_zero = |points: &[(f64, f64)]| [&[(0.0, 0.0)], points].concat();
-    linear.curve("p for a start from rest", &from_zero(&p_rest), rest, Outside::Refuse)?;
+    linear.curve("p for a start from rest", &from_zero(&from_rest), rest, Outside::Refuse)?;
     linear.curve("p of Eq. (25)", &from_zero(&p), main, Outside::Refuse)?;
-    decades.curve("p for a start from rest", &p_rest, rest, Outside::Cut)?;
+    decades.curve("p for a start from rest", &from_rest, rest, Outside::Cut)?;
     decades.curve("p of Eq. (25)", &p, main, Outside::Cut)?;
-    sheet.legend(
-        (1850, 900),
-        (TEXT, 420),
-        (9, 0),
-        &[Entry::line(main, "Eq. (25): random free parts"), Entry::line(rest, "start from rest")],
-    )?;
+    let on = |points: &[(f64, f64)], height| super::simulated::reaches(points, height);
+    linear.label("start from rest", on(&from_rest, 0.35), (-2, 0), GREY)?;
+    linear.label("Eq. (25): random free parts", on(&p, 0.2), (2, 0), BLUE)?;
 
     let (level, bottom) = (results.number("theory.jump.p_jump")?, decades.y.lo);
     let jump = results.number("theory.relation.sigma_jump")?;
     let jump_rest = results.number("theory.relation.sigma_jump_rest")?;
     let guide = Stroke::dashed(INK, HAIR, Dash::Dotted);
     decades.guide("jump of k*", &[(0.0, level), (jump, level), (jump, bottom)], guide)?;
-    let rest = [(jump_rest, level), (jump_rest, bottom)];
-    decades.guide("jump of k* from rest", &rest, guide)?;
-    let told = format!("*k*^{{∗}} jumps at *p* = {}", short(level, 4));
-    let look = |side, v| (SMALL, INK, side, v);
-    decades.note(&told, (jump, level), (110, 260), look(HPos::Left, VPos::Top))?;
-    for (sigma, side, dx) in [(jump, HPos::Left, 70), (jump_rest, HPos::Right, -70)] {
-        decades.note(&number(sigma, 4), (sigma, bottom), (dx, -110), look(side, VPos::Bottom))?;
-    }
+    decades.guide("jump from rest", &[(jump_rest, level), (jump_rest, bottom)], guide)?;
+    let text = format!("*k*^{{∗}} jumps at *p* = {}", short(level, 4));
+    decades.label(&text, (jump, level), (2, 2), INK)?;
+    decades.label(&number(jump, 4), (jump, 10.0 * bottom), (1, 0), BLUE)?;
+    decades.label(&number(jump_rest, 4), (jump_rest, level), (-1, -1), GREY)?;
 
-    let above = p_rest.iter().zip(&p).rfind(|(rest, p)| rest.1 > p.1);
+    let above = from_rest.iter().zip(&p).rfind(|(rest, p)| rest.1 > p.1);
     let description = seen!(
         "Probability p that two neighbours meet against σ, on (a) a linear and (b) a logarithmic axis: it stays at zero and then \
          rises steeply, and passes {}, where k* jumps, at σ = {}. A broken curve for a start from rest lies above it \

@@ -1,5 +1,5 @@
 //! Fig. 13: (a) to (d) distributions with higher-order circuits and what each class contributes; (e) and (f), (a)
-//! and (d) on a logarithmic axis, which the paper does not have.
+//! and (d) on a logarithmic axis, which the paper does not have and where each class is seen and named.
 
 use super::prelude::*;
 use crate::experiments::Results;
@@ -8,9 +8,6 @@ use crate::params::{HIGHER_P, VERTICES as N};
 
 /// Largest k of the detail in (b).
 const DETAIL: usize = 20;
-
-/// The lowest decade of (e) and (f).
-const LOWEST: i32 = -8;
 
 /// Name, symbol, colour and dash of a class.
 type Class = (&'static str, &'static str, Colour, Dash);
@@ -28,11 +25,11 @@ const CLASSES: [Class; 5] = [
 ];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sheet = Sheet::new(11_350);
+    let sheet = Sheet::new(10_500);
     let [small, middle, large] = HIGHER_P;
     let whole = N as f64 + 1.0;
     let k = |end: f64| {
-        let (step, minor) = if end < 50.0 { (end / 4.0, 5) } else { (20.0, 2) };
+        let (step, minor) = if end < 50.0 { (end / 2.0, 2) } else { (50.0, 5) };
         Axis::linear(0.0, end, step, minor, "*k*")
     };
     let rows = [small, small, middle, large].into_iter().zip([whole, DETAIL as f64, 40.0, whole]);
@@ -40,24 +37,43 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         // The detail shows the higher orders: the simple circuits leave it at its upper edge.
         let top =
             if i == 1 { 1.5 * largest(&contributions(p)[1..].concat()) } else { largest(&five(p)) };
-        let y = upwards_from_zero(top, "*P*(*X* = *k*)");
-        let panel = sheet.panel(FOUR[i], k(end), y)?;
-        let detail = if i == 1 { ", detail" } else { "" };
-        heading(&panel, LETTERS[i], &format!("*p* = {}{detail}", short(p, 3)))?;
+        let label = if i == 0 { "*P*(*X* = *k*)" } else { "" };
+        let y = upwards_from_zero(top, label).column("P(X = k)");
+        let left = 1040 + 1920 * i as i32;
+        let panel = sheet.panel(Frame::new(left, 480, left + 1350, 1880), k(end), y)?;
+        heading(&panel, LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
         series(&panel, p, i == 1)?;
     }
-    for (left, letter, p, end) in [(1080, "(e)", small, DETAIL as f64), (5230, "(f)", large, whole)]
-    {
-        let y = Axis::decades(LOWEST, 0, 2, "*P*(*X* = *k*)");
-        let panel = sheet.panel(Frame::new(left, 7080, left + 2970, 9180), k(end), y)?;
-        heading(&panel, letter, &format!("*p* = {}", short(p, 3)))?;
-        series(&panel, p, false)?;
+    let y = |lowest| Axis::decades(lowest, 0, 2, "*P*(*X* = *k*)");
+    let x = Axis::linear(0.0, DETAIL as f64, 5.0, 5, "*k*");
+    let few = sheet.panel(Frame::new(1200, 2950, 5350, 5850), x, y(-14))?;
+    heading(&few, "(e)", &format!("*p* = {}", short(small, 3)))?;
+    series(&few, small, false)?;
+    let mut names = vec![("all five classes".to_string(), over_k(&five(small)), RED)];
+    names.extend(
+        CLASSES
+            .iter()
+            .zip(contributions(small))
+            .map(|(class, values)| (format!("{}, {}", class.0, class.1), over_k(&values), class.2)),
+    );
+    let names: Vec<_> =
+        names.iter().map(|(name, at, own)| (name.as_str(), &at[..], *own)).collect();
+    few.ends(&names)?;
+
+    let x = Axis::linear(50.0, whole, 10.0, 2, "*k*");
+    let many = sheet.panel(Frame::new(1200, 6950, 8150, 9650), x, y(-8))?;
+    heading(&many, "(f)", &format!("*p* = {}", short(large, 3)))?;
+    series(&many, large, false)?;
+    for (class, side) in [(0, (0, -1)), (3, (0, -1)), (4, (0, -2))] {
+        let values = &contributions(large)[class];
+        let top = largest(values);
+        let peak = values.iter().position(|own| *own == top).unwrap_or(0) as f64 + 1.0;
+        let (name, symbol, colour, _) = CLASSES[class];
+        let three = class == 3;
+        let text =
+            if three { "one vertex repeated".to_string() } else { format!("{name}, {symbol}") };
+        many.label(&text, (peak, top), side, if three { INK } else { colour })?;
     }
-    let mut entries = vec![Entry::line(SUM, "all five classes")];
-    entries.extend(CLASSES.iter().map(|&(name, symbol, colour, dash)| {
-        Entry::line(Stroke::dashed(colour, LINE, dash), &format!("{name}, {symbol}"))
-    }));
-    sheet.legend((400, 10_250), (SMALL, 400), (3, 4100), &entries)?;
     let share = |p: f64| {
         let share = results.number(&format!("theory.classes[p={p}].simple"));
         share.map(|share| short(share, 2))

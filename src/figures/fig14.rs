@@ -6,28 +6,33 @@ use crate::experiments::theory::higher::five;
 use crate::experiments::theory::law::simple;
 use crate::params::{CONVERGENCE_P, VERTICES as N};
 
-const FRAMES: [Frame; 2] = [Frame::new(1080, 480, 4050, 2780), Frame::new(5230, 480, 8200, 2780)];
-
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sheet = Sheet::new(4100);
+    let sheet = Sheet::new(3450);
     let line = Stroke::solid(GREEN, LINE);
-    let higher = Stroke::dashed(BLUE, LINE, Dash::Long);
+    let broken = Stroke::dashed(BLUE, LINE, Dash::Long);
     let mut seen = Vec::new();
     for (i, at) in CONVERGENCE_P.into_iter().enumerate() {
-        let (of_simple, total) = (simple(at), five(at));
+        let (simple, higher) = (simple(at), five(at));
         let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "*k*");
-        let y = upwards_from_zero(largest(&total).max(largest(&of_simple)), "*P*(*X* = *k*)");
-        let panel = sheet.panel(FRAMES[i], x, y)?;
+        let y = upwards_from_zero(largest(&higher).max(largest(&simple)), "*P*(*X* = *k*)");
+        let panel = sheet.panel(FOUR[i], x, y)?;
         let p = short(at, 3);
         heading(&panel, LETTERS[i], &format!("*p* = {p}"))?;
-        panel.curve("simple circuits", &over_k(&of_simple), line, Outside::Refuse)?;
-        panel.curve("five classes", &over_k(&total), higher, Outside::Refuse)?;
+        panel.curve("simple circuits", &over_k(&simple), line, Outside::Refuse)?;
+        panel.curve("five classes", &over_k(&higher), broken, Outside::Refuse)?;
+        let peak = |values: &[f64]| {
+            let highest = |a: &(f64, f64), b: &(f64, f64)| a.1.total_cmp(&b.1);
+            over_k(values).into_iter().max_by(highest).unwrap_or_default()
+        };
+        let names = [["", "higher orders: "], ["simple: ", ""]][i];
+        let peaks = [(peak(&simple), (-1, -1), GREEN), (peak(&higher), (2, 1), BLUE)];
+        for (name, (peak, side, colour)) in names.into_iter().zip(peaks) {
+            panel.label(&format!("{name}*k*^{{∗}} = {}", peak.0), peak, side, colour)?;
+        }
         let distance = results.number(&format!("theory.classes[p={at}].variation"))?;
         let distance = short(distance, 3);
         seen.push(format!("{} p = {p}: total variation distance {distance}", LETTERS[i]));
     }
-    let entries = [Entry::line(line, "simple circuits"), Entry::line(higher, "with higher orders")];
-    sheet.legend((1300, 3850), (SMALL, 400), (1, 3600), &entries)?;
     let description = seen!(
         "Probability of k different impacts, N = {N}, of simple circuits and with higher orders (broken line). The two curves \
          lie apart in (a) and nearly on each other in (b). {}.",

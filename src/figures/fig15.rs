@@ -1,43 +1,39 @@
-//! Fig. 15: as Fig. 12, with higher-order circuits.
+//! Fig. 15: as Fig. 12, with higher-order circuits; and what these add, which the paper does not show.
 
 use super::prelude::*;
 use super::simulated::*;
 use crate::experiments::{Results, sweep};
-use crate::params::VERTICES;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (sweep, theory) = (sweep::main(results)?, results.table("theory.curve")?);
-    let sheet = Sheet::new(HEIGHTS.0);
-    let n = sweep.ensemble.chain.gaps().max(VERTICES);
-    let end = last_sigma(sweep);
-    let panel = sheet.panel(MAIN, sigma_axis(end), count_axis(n, "expected number of impacts"))?;
-    let green = Stroke::solid(GREEN, LINE);
+    let sheet = Sheet::new(7550);
+    let n = sweep.ensemble.chain.gaps();
+    let (x, y) = (sigma_axis().bare(), count_axis(n, "expected number of impacts"));
+    let panel = sheet.lettered(LETTERS[0], MAIN, x, y)?;
+    let [simple, higher] = ["simple", "higher"].map(|column| curve(theory, sweep, column));
+    panel.curve("simple circuits", &simple, Stroke::solid(GREEN, LINE), Outside::Cut)?;
     let blue = Stroke::dashed(BLUE, LINE, Dash::Long);
-    let simple = curve(theory, end, "simple");
-    panel.curve("theory, simple circuits", &simple, green, Outside::Refuse)?;
-    let higher = curve(theory, end, "higher");
-    panel.curve("theory, five classes", &higher, blue, Outside::Refuse)?;
+    panel.curve("five classes", &higher, blue, Outside::Cut)?;
     let simulated = means(sweep);
-    panel.marks("simulation", &simulated, CROSSES, Outside::Refuse)?;
-    // What the orders change, since the two lines nearly coincide.
+    printed(&panel, 0.6 * n as f64)?;
+    panel.marks("simulation", &simulated, CROSSES, Outside::Cut)?;
+    panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
+    panel.label("simple circuits only", reaches(&simple, 0.5 * n as f64), (2, 0), GREEN)?;
+    panel.label("with higher orders", reaches(&higher, 0.08 * n as f64), (-2, 0), BLUE)?;
+    // What the orders add, since the two lines nearly coincide.
     let change: Vec<_> =
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);
-    let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "difference");
-    let near = rise(&sheet, 0.13, y)?.file("-inset");
-    near.curve("difference of the theories", &change, Stroke::solid(INK, LINE), Outside::Cut)?;
-    let entries = [
-        Entry::mark(CROSSES, "simulation, mean of the kept"),
-        Entry::line(Stroke::solid(INK, LINE), "difference of the two (inset)"),
-        Entry::line(blue, "with higher orders"),
-        Entry::line(green, "simple circuits only"),
-    ];
-    sheet.legend((1200, HEIGHTS.1), (SMALL, 380), (2, 3900), &entries)?;
+    let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "added");
+    let added = sheet.lettered(LETTERS[1], Frame::new(1200, 5200, 8150, 6650), sigma_axis(), y)?;
+    added.curve("difference of the theories", &change, Stroke::solid(BLUE, LINE), Outside::Cut)?;
+    let peak = (reaches(&change, most).0, 0.7 * most);
+    added.label("what the higher orders add", peak, (5, 0), BLUE)?;
 
     let description = seen!(
-        "Expected number of impacts against σ: crosses for the simulation, {} at σ = {PRINTED}; lines for the theory with simple \
-         circuits only, {} there, and with higher orders, {}. The higher orders rise a little earlier, far less than the \
-         simulation does, by at most {} gaps (inset); beyond the rise the lines cannot be told apart.",
+        "(a) Expected number of impacts against σ: crosses for the simulation, {} at σ = {PRINTED}; lines for the theory with simple \
+         circuits only, {} there, and with higher orders, {}. (b) The higher orders add at most {} gaps, far less than the \
+         simulation is ahead; beyond the rise the lines cannot be told apart.",
         at(&simulated, PRINTED),
         at(&simple, PRINTED),
         at(&higher, PRINTED),

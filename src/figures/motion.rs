@@ -29,16 +29,12 @@ pub fn draw(
     let panel = sheet.panel(Frame::new(1200, 4900, 8000, 8500), x, y)?;
     let panel = panel.file("b");
     sheet.text(LETTERS[1], (260, 4690), look)?;
-    motion(&panel, segment)?;
-    let foot = "a segment of a simulated motion, not a periodic orbit";
-    let look = (TINY, GREY, HPos::Right, VPos::Bottom);
-    sheet.text(foot, (WIDTH as i32 - 400, 4690), look)?;
-
+    motion(&panel, segment, order.len())?;
     let names: Vec<&str> = order.iter().map(|&gap| NAMES[gap]).collect();
     let description = seen!(
         "(a) The graph of three masses with a {kind} circuit in red: {}. (b) Positions of the three masses against time, \
          over {} time units of a simulated motion, a segment and not a periodic orbit; each impact has the name of its \
-         vertex.",
+         vertex and the number of the edge that leaves it.",
         names.join(", "),
         short(duration, 3),
     );
@@ -52,8 +48,8 @@ fn time_axis(duration: f64) -> Axis {
     Axis::linear(0.0, duration, step, if step == 2.0 { 2 } else { 5 }, label)
 }
 
-/// Walls, equilibria, paths and impacts.
-fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
+/// Walls, equilibria, paths and impacts; these have the number of the edge that leaves them in (a).
+fn motion(panel: &Panel, segment: &Segment, length: usize) -> Result<(), Error> {
     let (from, d) = (segment.from, segment.spacing);
     let walls = (segment.masses + 1) as f64;
     for j in 1..=segment.masses {
@@ -71,7 +67,10 @@ fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
         let name = format!("mass {}", j + 1);
         panel.curve(&name, points, Stroke::dashed(colour, LINE, dash), Outside::Refuse)?;
     }
-    name_masses(panel, &paths)?;
+    let names: Vec<_> = (1..=paths.len()).map(|j| format!("*x*_{{{j}}}")).collect();
+    let ends = names.iter().zip(&paths).zip(MASSES);
+    let ends: Vec<_> = ends.map(|((name, path), look)| (&name[..], &path[..], look.0)).collect();
+    panel.ends(&ends)?;
     let hits: Vec<_> =
         segment.impacts.iter().map(|hit| (hit.time - from, hit.position / d)).collect();
     let ring = (Mark::Ring, 70, Stroke::solid(RED, 24));
@@ -80,39 +79,29 @@ fn motion(panel: &Panel, segment: &Segment) -> Result<(), Error> {
     for (name, hit) in names.iter().zip(&hits) {
         panel.record(&format!("impact {name}"), [*hit]);
     }
-    name_impacts(panel, &hits, &names, &paths)
+    let numbered = names.iter().enumerate().map(|(i, name)| match i < length {
+        true => format!("{}: {name}", i + 1),
+        // The first impact again.
+        false => (i % length + 1).to_string(),
+    });
+    name_impacts(panel, &hits, &numbered.collect::<Vec<_>>(), &paths)
 }
 
-/// Names the paths at their ends, from bottom to top; names that would touch move apart.
-fn name_masses(panel: &Panel, paths: &[Vec<(f64, f64)>]) -> Result<(), Error> {
-    let ends: Vec<(f64, f64)> = paths.iter().filter_map(|path| path.last().copied()).collect();
-    let heights: Vec<i32> = ends.iter().map(|end| panel.at(end.0, end.1).1).collect();
-    for (j, (place, y)) in apart(&heights, 340).into_iter().zip(&heights).enumerate() {
-        let look = (SMALL, INK, HPos::Left, VPos::Center);
-        panel.note(&format!("*x*_{{{}}}", j + 1), ends[j], (90, place - y), look)?;
-    }
-    Ok(())
-}
-
-/// Heights on the sheet, each at least `least` above the one before, moved as little from their
-/// own as taking turns gives.
-fn apart(heights: &[i32], least: i32) -> Vec<i32> {
-    let mut places = heights.to_vec();
-    for _ in 0..8 {
-        for i in 1..places.len() {
-            let short = least - (places[i - 1] - places[i]);
-            if short > 0 {
-                places[i - 1] += short / 2;
-                places[i] -= short - short / 2;
-            }
-        }
-    }
-    places
-}
-
-/// Where a name may stand beside its impact, the best places first: offset of its middle.
-const PLACES: [(i32, i32); 7] =
-    [(0, -200), (0, 200), (290, 170), (0, -330), (420, 75), (420, -75), (0, -430)];
+/// Where a name may stand beside its impact, the best places first, as [`Panel::label`] takes them.
+const PLACES: [(i32, i32); 12] = [
+    (0, -1),
+    (0, 1),
+    (1, 1),
+    (1, -1),
+    (2, 0),
+    (1, -2),
+    (3, 1),
+    (3, -1),
+    (0, -2),
+    (4, -1),
+    (-1, -1),
+    (0, -3),
+];
 
 /// Names the impacts, each at the first place where no path, no equilibrium and no other name is in its way.
 fn name_impacts(
@@ -126,26 +115,30 @@ fn name_impacts(
     let marks: Vec<_> = hits.iter().map(|hit| panel.at(hit.0, hit.1)).collect();
     let mut taken: Vec<(i32, i32)> = Vec::new();
     for (i, &(x, y)) in marks.iter().enumerate() {
+        let half = 45 * names[i].chars().count() as i32;
+        let middle = |place: &(i32, i32)| {
+            (x + 100 * place.0 + half * place.0.signum(), y + 100 * place.1 + 80 * place.1.signum())
+        };
         let frame = panel.frame;
         let free = |place: &(i32, i32)| {
-            let (px, py) = (x + place.0, y + place.1);
+            let (px, py) = middle(place);
             let near = |q: (i32, i32), w: i32, h: i32| (q.0 - px).abs() < w && (q.1 - py).abs() < h;
-            let inside = px > frame.left + 220
-                && px < frame.right - 220
-                && py > frame.top + 110
+            let inside = px > frame.left + half + 80
+                && px < frame.right - half - 30
+                && py > frame.top - 200
                 && py < frame.bottom - 110;
             let rests = |j: usize| (panel.at(0.0, j as f64).1 - py).abs() < 120;
             let crossed = (1..=paths.len()).any(rests)
                 || lines.iter().any(|line| {
-                    line.windows(2).any(|w| (0..=8).any(|k| near(between(w[0], w[1], k), 190, 115)))
+                    line.windows(2)
+                        .any(|w| (0..=8).any(|k| near(between(w[0], w[1], k), half + 25, 115)))
                 });
-            let others = marks.iter().enumerate().any(|(j, &m)| j != i && near(m, 250, 170));
-            inside && !crossed && !others && !taken.iter().any(|&t| near(t, 360, 210))
+            let others = marks.iter().enumerate().any(|(j, &m)| j != i && near(m, half + 60, 170));
+            inside && !crossed && !others && !taken.iter().any(|&t| near(t, 2 * half + 80, 210))
         };
         let place = PLACES.iter().find(|place| free(place)).unwrap_or(&PLACES[0]);
-        let look = (SMALL, RED, HPos::Center, VPos::Center);
-        panel.note(&names[i], hits[i], *place, look)?;
-        taken.push((x + place.0, y + place.1));
+        panel.label(&names[i], hits[i], *place, RED)?;
+        taken.push(middle(place));
     }
     Ok(())
 }

@@ -55,10 +55,10 @@ pub(super) fn classes() -> Table {
         .done()
 }
 
-/// The p up to 0.04 at which the two means differ most in proportion, and both there.
+/// The p at which the two means differ most in proportion, and both there.
 fn means_apart() -> [f64; 3] {
-    let [_, inset] = means();
-    let rows = inset.into_iter().map(|(p, mean)| [p, mean, law(FiveClasses, p).mean()]);
+    let simple = means();
+    let rows = simple.into_iter().map(|(p, mean)| [p, mean, law(FiveClasses, p).mean()]);
     let share = |[_, mean, higher]: [f64; 3]| (higher / mean - 1.0).abs();
     rows.fold([0.0, 1.0, 1.0], |most, row| if share(row) > share(most) { row } else { most })
 }

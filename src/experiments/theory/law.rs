@@ -45,11 +45,10 @@ pub fn steps() -> Vec<(f64, usize)> {
     [(0.0, 1), (leap.p, leap.k_after)].into_iter().chain(later).collect()
 }
 
-/// Fig. 9 (b): μ(p) of simple circuits, finer where it rises; and finest up to p = 0.04, for the inset.
-pub fn means() -> [Vec<(f64, f64)>; 2] {
-    let whole = Grid::default().and(0, 49, 1, 1000).and(10, 200, 1, 200).values();
-    let inset = Grid::default().and(0, 400, 1, 10_000).values();
-    [whole, inset].map(|grid| grid.into_iter().map(|p| (p, law(Simple, p).mean())).collect())
+/// Fig. 9 (b): μ(p) of simple circuits, finer where it rises.
+pub fn means() -> Vec<(f64, f64)> {
+    let grid = Grid::default().and(0, 400, 1, 10_000).and(9, 200, 1, 200).values();
+    grid.into_iter().map(|p| (p, law(Simple, p).mean())).collect()
 }
 
 /// The p at which μ passes `level`, linear between points.
@@ -62,16 +61,13 @@ fn crossing(means: &[(f64, f64)], level: f64) -> Option<f64> {
 fn mean() -> Table {
     let mut heights: Vec<usize> = steps().windows(2).map(|w| w[1].1 - w[0].1).collect();
     heights.sort_unstable_by(|a, b| b.cmp(a));
-    let [whole, inset] = means();
-    let p_at = |share: f64| {
-        let level = share * VERTICES as f64;
-        [&inset, &whole].into_iter().find_map(|means| crossing(means, level)).unwrap_or(1.0)
-    };
+    let means = means();
+    let p_at = |share: f64| crossing(&means, share * VERTICES as f64).unwrap_or(1.0);
     one("theory.mean", origin(steps))
         .count("largest_step", "of k*", |()| heights[0] as u64)
         .count("other_steps", "the second largest step of k*", |()| heights[1] as u64)
         .computed_by(origin(Law::mean))
-        .real("at_zero", "1", 1, "μ for p → 0", |()| whole[0].1)
+        .real("at_zero", "1", 1, "μ for p → 0", |()| means[0].1)
         .real("at_one", "1", 2, "μ at p = 1", |()| law(Simple, 1.0).mean())
         .computed_by(origin(crossing))
         .real("p_tenth", "1", 3, "p at which μ is N/10", |()| p_at(0.1))
@@ -125,10 +121,10 @@ fn first_maximum() -> Table {
         .done()
 }
 
-/// Fig. 10: p → 0, p_crit, half way from p_crit to the jump, and as far beyond the jump as the jump is from p_crit.
+/// Fig. 10: p → 0, p_crit, half way from p_crit to the jump, and the jump itself.
 pub fn stages() -> [f64; 4] {
     let (crit, leap) = (known(jump::p_crit(VERTICES)), known(jump::p_jump(Simple, VERTICES)).p);
-    [0.0, crit, 0.5 * (crit + leap), leap + (leap - crit)]
+    [0.0, crit, 0.5 * (crit + leap), leap]
 }
 
 /// f_{N,p}(k) on [0, N], four points to a unit of k.

@@ -141,20 +141,28 @@ impl Panel {
         self.draw(name, |drawing| drawing.area(self.seen(placed), fill, opacity))
     }
 
-    /// Columns of width 1 around 1, 2, …, which stand on zero: filled and with an outline.
+    /// Columns of width 1 around 1, 2, …, which stand on zero: filled and with an outline; those beside the axis are left
+    /// out.
     pub fn columns(&self, name: &str, values: &[f64], stroke: Stroke) -> Drawn {
         let heights = || (1..).map(f64::from).zip(values.iter().copied());
-        let end = |k: f64| k.min(self.x.hi);
-        let mut outline = vec![(0.5, 0.0)];
-        outline.extend(heights().flat_map(|(k, own)| [(k - 0.5, own), (end(k + 0.5), own)]));
-        outline.push((end(values.len() as f64 + 0.5), 0.0));
         self.record(name, heights());
+        let inside = |k: f64| k.clamp(self.x.lo, self.x.hi);
+        let tops: Vec<_> = heights()
+            .filter(|(k, _)| self.x.holds(*k))
+            .flat_map(|(k, own)| [(inside(k - 0.5), own), (inside(k + 0.5), own)])
+            .collect();
+        let foot = |top: Option<&(f64, f64)>| top.map(|(k, _)| (*k, 0.0));
+        let outline: Vec<_> = foot(tops.first())
+            .into_iter()
+            .chain(tops.iter().copied())
+            .chain(foot(tops.last()))
+            .collect();
         self.area(name, &outline, stroke.colour, 45)?;
         self.quiet().curve(name, &outline, stroke, Outside::Refuse)
     }
 
-    /// Bars from `low` to `high` at each x, with caps of the given half width; cut at the frame where that is no
-    /// mistake.
+    /// Bars from `low` to `high` at each x, with caps of the given half width; cut at the frame, and left out beside it,
+    /// where that is no mistake.
     pub fn bars(
         &self,
         name: &str,
@@ -163,8 +171,10 @@ impl Panel {
         stroke: Stroke,
         outside: Outside,
     ) -> Drawn {
-        let outside = if outside == Outside::Cut { Outside::Edge } else { outside };
-        let ends: Vec<_> = bars.iter().flat_map(|&(x, a, b)| [(x, a), (x, b)]).collect();
+        let cuts = outside == Outside::Cut;
+        let outside = if cuts { Outside::Edge } else { outside };
+        let shown = bars.iter().filter(|bar| !cuts || self.x.holds(bar.0));
+        let ends: Vec<_> = shown.flat_map(|&(x, a, b)| [(x, a), (x, b)]).collect();
         let ends = self.placed(name, &ends, outside)?;
         self.record(name, bars.iter().copied());
         let (lo, hi) = self.x.ends();
