@@ -1,6 +1,6 @@
 //! lab.js, which a page loads when a reader asks it to compute: the engine, what to hold its runs against, and the script.
 
-use crate::experiments::rise::Mean;
+use crate::experiments::rise::{Mean, RisePoint};
 use crate::experiments::sweep;
 use crate::experiments::{REPLAY, Results, Session};
 use literate::{Failure, input};
@@ -34,12 +34,25 @@ fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Fail
         .map(|((name, asked), found)| json!({ "name": name, "asked": asked, "found": found }))
         .collect();
     let value = |own: Option<Mean>| own.map(|own| own.value);
-    let rows: Vec<_> =
-        sweep.comparable().map(|row| (row.sigma, value(row.mean_all), value(row.mean))).collect();
+    let row = |row: &RisePoint| {
+        let [low, high] = [0.05, 0.95].map(|share| quantile(&row.counts, share));
+        (row.sigma, value(row.mean_all), value(row.mean), low, high)
+    };
+    let rows: Vec<_> = sweep.comparable().map(row).collect();
     let gaps = sweep.ensemble.chain.gaps();
     let data =
         json!({ "runs": runs, "curve": { "gaps": gaps, "rows": rows }, "module": base64(module) });
     Ok(format!("\"use strict\";\nconst LAB = {data};\n{script}"))
+}
+
+/// The smallest k up to which this share of the realisations counts, from their numbers by k.
+fn quantile(counts: &[u32], share: f64) -> usize {
+    let all: u32 = counts.iter().sum();
+    let sums = counts.iter().scan(0, |sum, count| {
+        *sum += count;
+        Some(*sum)
+    });
+    sums.take_while(|sum| f64::from(*sum) < share * f64::from(all)).count()
 }
 
 /// Base64 with padding (RFC 4648).

@@ -8,7 +8,7 @@ globalThis.open_lab = (() => {
     return node;
   };
   const look = make("style", { textContent: `
-    .bench { display: grid; gap: 0.8rem; margin-top: 0.8rem; max-width: 46rem; }
+    .bench { display: grid; gap: 0.6rem; margin-top: 0.8rem; max-width: 58rem; }
     .fields { display: grid; grid-template-columns: repeat(auto-fit, minmax(17rem, 1fr)); gap: 0.4rem 2rem; }
     .fields > div { display: grid; grid-template-columns: 7.5rem 1fr 5.5rem; gap: 0.6rem; align-items: center; font-size: 0.95rem; line-height: 1.2; }
     .bench input, .bench select { font: inherit; color: inherit; accent-color: var(--link); min-width: 0; }
@@ -16,13 +16,21 @@ globalThis.open_lab = (() => {
     .bench select { flex: 1 1 14rem; }
     .bench .controls { max-width: none; margin: 0; }
     .bench output { display: block; font-size: 0.95rem; }
-    output + output { min-height: 4.5em; }
+    .bench output:empty { display: none; }
     .bench code { overflow-wrap: anywhere; }
     .bench canvas { display: block; width: 100%; }
     .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(18rem, 100%), 1fr)); gap: 1rem; }
     .bench p { margin: 0; font-size: 0.9rem; }
     .key { display: inline-block; margin-right: 1.2em; }
-    .key::before { content: ""; display: inline-block; width: 1.2em; height: 0.2em; margin-right: 0.4em; vertical-align: middle; background: var(--of); }
+    .key::before { content: ""; display: inline-block; width: 1.3em; height: 0; margin-right: 0.4em; vertical-align: middle; border-top: 2px solid var(--of); }
+    .key.dashed::before { border-top-style: dashed; }
+    .key.dot::before { width: 0.6em; height: 0.6em; border: 0; border-radius: 50%; background: var(--of); }
+    .key.band::before { height: 0.8em; border: 0; background: var(--of); opacity: 0.5; }
+    .first { display: grid; grid-template-columns: minmax(0, 1fr) max-content; gap: 0.6rem 1.2rem; align-items: center; }
+    .first .fields { max-width: 30rem; grid-template-columns: 1fr; }
+    @media (max-width: 40rem) { .first { grid-template-columns: 1fr; } .bench .pair { gap: 0.3rem; } }
+    .bench details { font-size: 0.95rem; }
+    .bench details > * { margin-top: 0.6rem; }
   ` });
   document.head.append(look);
 
@@ -133,6 +141,14 @@ globalThis.open_lab = (() => {
         c.imageSmoothingEnabled = source.height > box.height;
         c.drawImage(source, box.x, box.y, box.width, box.height);
       },
+      band(points, name) {
+        [c.fillStyle, c.globalAlpha] = [colour(name), 0.5];
+        c.beginPath();
+        points.forEach(([x, , high]) => c.lineTo(px(x), py(high)));
+        points.toReversed().forEach(([x, low]) => c.lineTo(px(x), py(low)));
+        c.fill();
+        c.globalAlpha = 1;
+      },
       line(points, name, dash = []) {
         [c.strokeStyle, c.lineWidth] = [colour(name), 2];
         c.setLineDash(dash);
@@ -166,6 +182,7 @@ globalThis.open_lab = (() => {
   }
 
   // Numbers that a reader sets: by a slider, or typed within wider bounds.
+  const tall = (height) => (innerWidth < 640 ? 0.72 * height : height);
   const said = (number) => number.toLocaleString("en", { maximumSignificantDigits: 4 });
   function field({ name, title, unit = "", slider: [low, high], step, whole = false, bounds, value }, changed) {
     const range = make("input", { type: "range", id: `lab-${name}`, min: low, max: high, step, value });
@@ -193,8 +210,8 @@ globalThis.open_lab = (() => {
     };
   }
   const SIGMAS = Array.from({ length: 161 }, (_, i) => i / 400);
-  const keys = (...names) => make("p", {}, ...names.map(([name, text]) => {
-    const node = make("span", { className: "key", textContent: text });
+  const keys = (...names) => make("p", {}, ...names.map(([name, text, kind = ""]) => {
+    const node = make("span", { className: `key ${kind}`, textContent: text });
     node.style.setProperty("--of", `var(--${name})`);
     return node;
   }));
@@ -202,8 +219,8 @@ globalThis.open_lab = (() => {
   function chain(bench) {
     const base = runs[0].asked;
     const first = { ...base.forces.drawn, T: base.transient, W: base.window, r: base.chain.restitution, n: base.chain.masses };
-    const own = fields([
-      { name: "sigma", title: "force σ", unit: "dω²", slider: [0, 0.4], step: 0.0025, bounds: [0, 1], value: first.sigma },
+    const own = fields([{ name: "sigma", title: "force σ", unit: "dω²", slider: [0, 0.3], step: 0.0025, bounds: [0, 1], value: first.sigma }], () => update());
+    const more = fields([
       { name: "n", title: "masses n", slider: [1, 1000], step: 1, whole: true, bounds: [1, 1000], value: first.n },
       { name: "r", title: "restitution r", slider: [0, 1], step: 0.01, bounds: [0, 1], value: first.r },
       { name: "T", title: "transient T", unit: "1/ω", slider: [0, 2000], step: 10, bounds: [0, 10000], value: first.T },
@@ -211,13 +228,17 @@ globalThis.open_lab = (() => {
       { name: "realisation", title: "realisation", slider: [0, 999], step: 1, whole: true, bounds: [0, 1e9], value: 0 },
       { name: "seed", title: "seed", slider: [1, 9999], step: 1, whole: true, bounds: [0, 2 ** 53], value: first.seed },
     ], () => update());
-    const choice = make("select", { ariaLabel: "Runs of this edition" }, ...runs.map(({ name }, i) => make("option", { value: i, textContent: name })));
-    const [fig3, again] = ["The realisation of Fig. 3", "Run this realisation again"].map((textContent) => make("button", { type: "button", textContent }));
+    const choice = make("select", { ariaLabel: "Runs of this edition" }, make("option", { value: "", textContent: "your settings" }),
+      ...runs.map(({ name }, i) => make("option", { value: i, textContent: name })));
+    const other = make("button", { type: "button", textContent: "Another chain" });
+    const beside = make("div", { className: "controls" }, other);
     const [told, proof] = [make("output"), make("output")];
     const [where, curves] = [make("canvas"), make("canvas")];
-    bench.append(own.node, make("div", { className: "controls" }, fig3, choice, again), told, proof, where, curves,
-      keys(["red", "your runs, the last one large"], ["green", "theory for your n"],
-        ["ink", `mean of this edition (n = ${first.n}, r = ${first.r}, T = ${first.T}, W = ${first.W})`], ["grey", "the same, of those with an impact"]));
+    bench.append(
+      make("div", { className: "first" }, own.node, beside), make("div", { className: "pair" }, where, curves), told, proof,
+      keys(["red", "your chains, the last one large", "dot"], ["ink", `mean of all chains (n = ${first.n}, r = ${first.r}, T = ${first.T}, W = ${first.W})`],
+        ["pale", "nine chains in ten", "band"], ["grey", "mean of those with an impact", "dashed"], ["green", "theory for your n"]),
+      make("details", {}, make("summary", {}, "Masses, restitution, times, seed; runs of this edition to repeat"), more.node, make("div", { className: "controls" }, choice)));
 
     // Runs that differ in nothing but σ, seed and realisation are shown together.
     const KEPT = 500;
@@ -227,7 +248,9 @@ globalThis.open_lab = (() => {
       const until = from + window;
       const draw = (found, state) => {
         told.textContent = `${found.distinct} of ${found.gaps} gaps have impacts from t = ${said(from)} to ${said(until)}; impacts in all: ${found.impacts.toLocaleString("en")}${state}.`;
-        plot(where, 330, [0, until, "time t (1/ω)"], [0, found.gaps, "gap"], `Gap against time, a mark for each impact. ${told.textContent}`).image(impacts(found));
+        const picture = plot(where, tall(300), [0, until, "time t (1/ω); shaded: counted"], [0, found.gaps, "gap"], `Gap against time, a mark for each impact. ${told.textContent}`);
+        picture.band([[from, 0, found.gaps], [until, 0, found.gaps]], "pale");
+        picture.image(impacts(found));
       };
       const known = runs.find((one) => JSON.stringify(one.asked) === JSON.stringify(asked));
       const began = performance.now();
@@ -236,10 +259,11 @@ globalThis.open_lab = (() => {
       if (!found) return;
       draw(found, "");
       Object.assign(bench.dataset, { time: performance.now() - began, digest: found.digest, bytes: found.bytes });
-      proof.append("SHA-256 of its impacts, found here: ", make("code", { textContent: found.digest }));
       if (known) {
         const same = known.found.digest === found.digest;
-        proof.append("; this edition has ", make("code", { textContent: known.found.digest }), ": ", make("strong", { textContent: same ? "the same bits" : "NOT the same" }), ".");
+        const eight = ({ digest }) => make("code", { textContent: digest.slice(0, 8), title: digest });
+        proof.append(make("strong", { textContent: same ? "✓ same bits" : "✗ NOT the same bits" }), " as this edition: SHA-256 of all impacts ", eight(found));
+        if (!same) proof.append(", here; there ", eight(known.found));
       }
       if (!forces.drawn) return;
       const { masses: n, restitution: r } = chain;
@@ -252,8 +276,9 @@ globalThis.open_lab = (() => {
       points = points.slice(-KEPT);
       const rows = (which) => curve.rows.map((row) => [row[0], row[which] / curve.gaps]);
       const last = points.at(-1);
-      const picture = plot(curves, 280, [0, Math.max(0.4, last[0]), "σ (dω²)"], [0, 1.05, "share of gaps with impacts"],
+      const picture = plot(curves, tall(300), [0, Math.max(0.3, last[0]), "σ (dω²)"], [0, 1.05, "share of gaps with impacts"],
         `Share of gaps with impacts against σ: the means of this edition, the theory, and your runs; the last, at σ = ${last[0]}, has ${said(last[1])}.`);
+      picture.band(curve.rows.map(([sigma, , , low, high]) => [sigma, low / curve.gaps, high / curve.gaps]), "pale");
       picture.line(theory, "green");
       picture.line(rows(2), "grey", [5, 4]);
       picture.line(rows(1), "ink");
@@ -271,31 +296,37 @@ globalThis.open_lab = (() => {
       }
     };
     const update = () => guarded(() => {
-      const { sigma, n, r, T, W, seed, realisation } = own.get();
+      const { sigma, n, r, T, W, seed, realisation } = { ...own.get(), ...more.get() };
       const drawn = { ...base.forces.drawn, sigma, seed, realisation };
-      return { ...base, chain: { ...base.chain, masses: n, restitution: r }, forces: { drawn }, transient: T, window: W };
-    });
-    const repeat = (i) => guarded(() => {
-      choice.value = i;
-      const { asked } = runs[i];
-      const { sigma, seed, realisation } = asked.forces.drawn ?? first;
-      own.set({ sigma, seed, realisation, n: asked.chain.masses, r: asked.chain.restitution, T: asked.transient, W: asked.window });
+      const asked = { ...base, chain: { ...base.chain, masses: n, restitution: r }, forces: { drawn }, transient: T, window: W };
+      const known = runs.findIndex((one) => JSON.stringify(one.asked) === JSON.stringify(asked));
+      choice.value = known < 0 ? "" : known;
       return asked;
     });
-    fig3.addEventListener("click", () => repeat(0));
-    again.addEventListener("click", () => repeat(Number(choice.value)));
+    const repeat = (i) => guarded(() => {
+      const { asked } = runs[i];
+      const { sigma, seed, realisation } = asked.forces.drawn ?? first;
+      own.set({ sigma });
+      more.set({ seed, realisation, n: asked.chain.masses, r: asked.chain.restitution, T: asked.transient, W: asked.window });
+      return asked;
+    });
+    choice.addEventListener("change", () => choice.value && repeat(Number(choice.value)));
+    other.addEventListener("click", () => {
+      more.set({ realisation: (more.get().realisation + 1) % 1000 });
+      update();
+    });
     return update;
   }
 
   function theory(bench) {
     const own = fields([
-      { name: "p", title: "probability p", slider: [0, 0.06], step: 0.0001, bounds: [0, 1], value: 0.016 },
+      { name: "p", title: "probability p", slider: [0, 0.06], step: 0.0001, bounds: [0, 1], value: 0.013 },
       { name: "N", title: "vertices N", slider: [4, 1000], step: 1, whole: true, bounds: [4, 1000], value: 100 },
     ], () => update());
     const told = make("output");
     const all = Array.from({ length: 4 }, () => make("canvas"));
     bench.append(own.node, told, make("div", { className: "pair" }, ...all),
-      keys(["green", "P(X = k), and μ"], ["blue", "f"], ["red", "k* and the chosen p"], ["ink", "simulation of this edition"]));
+      keys(["green", "P(X = k), and μ"], ["blue", "f"], ["red", "k*, and the chosen p", "dot"], ["ink", "simulation of this edition"]));
     const END = 0.06;
     async function show({ p, N }) {
       const module = await engine();
@@ -338,13 +369,13 @@ globalThis.open_lab = (() => {
   }
 
   const LABS = { chain, theory };
-  return async (figure) => {
+  return async (figure, asked) => {
     const bench = make("div", { className: "bench" });
     const update = LABS[figure.dataset.lab](bench);
     figure.querySelector(".controls").replaceWith(bench);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", update);
     addEventListener("resize", update);
     await update();
-    bench.querySelector("input").focus();
+    if (asked) bench.querySelector("input").focus();
   };
 })();

@@ -43,7 +43,7 @@ async function open(file, width, colorScheme, { before, loads, ...options } = {}
   page.on("request", (request) => {
     const url = request.url();
     const beside = url.slice(new URL(".", page_url).href.length);
-    const asked = /^(report\.css|report\.js|cards\.js|fonts\/[^/]*\.woff2)$/.test(beside) || (loads && beside === "lab.js");
+    const asked = /^(report\.css|report\.js|cards\.js|fonts\/[^/]*\.woff2)$/.test(beside) || ((loads || file === "index.html") && beside === "lab.js");
     check(asked || url.split("#")[0] === page_url || url.startsWith("data:"), `a request: ${url.slice(0, 100)}`);
   });
   page.on("console", (message) => {

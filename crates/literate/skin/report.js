@@ -11,18 +11,22 @@
   // A page on a disk may read nothing but scripts: what is beside it is loaded when it is first asked for.
   const load = (src) => new Promise((onload, onerror) => document.head.append(make("script", { src, onload, onerror })));
 
-  // What readers run themselves.
+  // What readers run themselves; on the first page it begins without being asked, in the place of the picture before it.
   let lab;
+  const front = document.querySelector(".documents a")?.hasAttribute("aria-current");
   for (const figure of all("WebAssembly" in globalThis ? ".lab" : "#none")) {
+    const status = figure.querySelector("[role=status]");
+    const run = (asked) => (lab ??= load("lab.js")).then(() => open_lab(figure, asked));
     figure.hidden = false;
-    figure.querySelector("button").addEventListener("click", async () => {
-      const status = figure.querySelector("[role=status]");
+    figure.querySelector("button").addEventListener("click", () => {
       status.textContent = "Loading …";
-      await (lab ??= load("lab.js")).then(() => open_lab(figure)).catch(() => {
+      run(true).catch(() => {
         lab = undefined;
         status.textContent = "lab.js cannot be loaded; it belongs beside this page.";
       });
     });
+    const still = figure.previousElementSibling;
+    if (front) addEventListener("load", () => run(false).then(() => (still.hidden = still.matches("figure"))).catch(() => (lab = undefined)));
   }
 
   // The card of a number.
