@@ -11,7 +11,8 @@ const report = resolve(process.argv[2] ?? "../../paper");
 const pictures = process.argv[3];
 /** What each page has at least: figures, links inside it, equations, elements at most, bytes at most. */
 const PAGES = {
-  "index.html": { figures: 1, links: 4, equations: 0, elements: 15_000, bytes: 100 * 1024 },
+  // Of its bytes most are the picture that stands there without script.
+  "index.html": { figures: 2, links: 4, equations: 0, elements: 15_000, bytes: 240 * 1024 },
   "report.html": { figures: 15, links: 150, equations: 39, elements: 15_000, bytes: 800 * 1024 },
   "beyond.html": { figures: 5, links: 90, equations: 9, elements: 18_000, bytes: 800 * 1024 },
   "methods.html": { figures: 3, links: 20, equations: 0, elements: 15_000, bytes: 800 * 1024 },
@@ -43,7 +44,7 @@ async function open(file, width, colorScheme, { before, loads, ...options } = {}
   page.on("request", (request) => {
     const url = request.url();
     const beside = url.slice(new URL(".", page_url).href.length);
-    const asked = /^(report\.css|report\.js|cards\.js|fonts\/[^/]*\.woff2)$/.test(beside) || ((loads || file === "index.html") && beside === "lab.js");
+    const asked = /^(report\.css|report\.js|cards\.js|search\.js|fonts\/[^/]*\.woff2)$/.test(beside) || ((loads || file === "index.html") && beside === "lab.js");
     check(asked || url.split("#")[0] === page_url || url.startsWith("data:"), `a request: ${url.slice(0, 100)}`);
   });
   page.on("console", (message) => {
@@ -245,10 +246,28 @@ async function search_finds(page, name) {
   const input = page.getByRole("searchbox");
   await input.fill("impact");
   const finds = page.locator(".search li a");
-  check((await finds.count()) > 0, `${name}: the search finds nothing`);
+  await finds.first().waitFor({ timeout: 5000 }).catch(() => check(false, `${name}: the search finds nothing`));
+  check((await finds.locator("mark").count()) === (await finds.count()), `${name}: what is found is not marked`);
+  await input.fill("mpact");
+  check((await finds.count()) === 0, `${name}: the search finds parts of words`);
   await input.fill("no such words");
   check((await finds.count()) === 0, `${name}: the search finds what is not there`);
   await input.fill("");
+}
+
+/** A verdict opens the card of its statement, which leads to its row: open, marked, below the head of the table. */
+async function verdicts_open(page, name) {
+  await page.locator("a.verdict[data-card]").first().click();
+  const card = page.locator("#card");
+  await card.waitFor({ timeout: 5000 }).catch(() => check(false, `${name}: a verdict opens no card`));
+  const text = await card.innerText();
+  check(text.includes("paper") && text.includes("here"), `${name}: the card of a verdict says ${text}`);
+  await card.locator("a", { hasText: "the row" }).click();
+  await page.waitForURL(/ledger\.html#claim-/);
+  const row = page.locator("tr:has(:target)");
+  const [box, head] = [await row.boundingBox(), await page.locator("#tab-claims thead").boundingBox()];
+  check(box.y >= head.y + head.height - 1 && box.y < 900, `${name}: the row of a statement is out of sight`);
+  check((await row.locator("details:not([open])").count()) === 0, `${name}: the row of a statement is folded`);
 }
 
 /** The ledger shows only rows of a verdict when it is asked, and what is gone to by its address. */
@@ -300,6 +319,7 @@ for (const [file, least] of Object.entries(PAGES)) {
       await page.evaluate(() => scrollTo(0, 0));
       await page.screenshot({ path: `${pictures}/${name}.png`, fullPage: file === "index.html" });
     }
+    if (file === "index.html" && kind === "wide-light") await verdicts_open(page, name);
     await page.context().close();
   }
 }

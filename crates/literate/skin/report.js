@@ -43,8 +43,15 @@
     card.showPopover({ source: value });
     card.scrollTop = 0;
   };
-  const values = all(".value");
-  for (const value of values) {
+  const values = all("[data-card]");
+  for (const sign of all("a[data-card]")) {
+    sign.addEventListener("click", (event) => {
+      if (event.ctrlKey || event.metaKey || event.shiftKey) return;
+      event.preventDefault();
+      open(sign);
+    });
+  }
+  for (const value of all(".value")) {
     value.addEventListener("click", () => open(value));
     value.addEventListener("keydown", (event) => {
       if (event.key !== "Enter" && event.key !== " ") return;
@@ -133,28 +140,35 @@
     });
   }, { passive: true });
 
-  // A search through the text: each find leads to its place.
+  // A search through all documents, this one first; Enter goes from find to find.
   const MOST = 12;
+  const AROUND = 50;
   const found = make("ol");
-  const input = make("input", { type: "search", placeholder: "Search this document" });
-  input.setAttribute("aria-label", "Search this document");
-  const pieces = all("main > *").filter((piece) => !piece.matches("script"));
-  input.addEventListener("input", () => {
-    const asked = input.value.trim().toLowerCase();
-    const finds = [];
-    let section = { id: "text", name: "" };
-    for (const piece of asked.length < 2 ? [] : pieces) {
-      if (piece.matches("h2, h3")) section = { id: piece.id || section.id, name: piece.textContent };
-      const text = piece.textContent.replace(/\s+/g, " ");
-      const at = text.toLowerCase().indexOf(asked);
-      if (at < 0 || finds.length >= MOST) continue;
-      const words = make("small", {}, text.slice(Math.max(0, at - 30), at + asked.length + 40));
-      const link = make("a", { href: `#${piece.id || section.id}` }, section.name, make("br"), words);
-      // A paragraph has no name to go to.
-      link.addEventListener("click", () => setTimeout(() => piece.scrollIntoView({ block: "center" })));
-      finds.push(make("li", {}, link));
-    }
-    found.replaceChildren(...finds);
+  const input = make("input", { type: "search", placeholder: "Search all documents" });
+  input.setAttribute("aria-label", "Search all documents");
+  const here = location.pathname.split("/").pop();
+  let [texts, next] = [undefined, 0];
+  input.addEventListener("input", async () => {
+    await (texts ??= load("search.js"));
+    const asked = input.value.trim();
+    const word = new RegExp(`(?<![\\p{L}\\p{N}])${asked.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}`, "iu");
+    const pages = asked.length < 2 ? [] : TEXTS.toSorted((a, b) => (b[0] === here) - (a[0] === here));
+    const places = pages.flatMap(([page, name, pieces]) => pieces.flatMap(([id, section, text]) => {
+      const at = text.search(word);
+      if (at < 0) return [];
+      const end = at + asked.length;
+      const before = text.slice(Math.max(0, at - AROUND), at).replace(at > AROUND ? /^\S*\s/ : "", "");
+      const after = text.slice(end, end + AROUND).replace(text.length > end + AROUND ? /\s\S*$/ : "", "");
+      const where = page === here ? section : `${name}: ${section}`;
+      const words = make("small", {}, before, make("mark", {}, text.slice(at, end)), after);
+      return [[`${page}#${id}:~:text=${encodeURIComponent(text.slice(at, end + AROUND).replace(/\s\S*$/, "")).replaceAll("-", "%2D")}`, where, words]];
+    }));
+    next = 0;
+    found.replaceChildren(...places.slice(0, MOST).map(([href, where, words]) => make("li", {}, make("a", { href }, where, make("br"), words))));
+  });
+  input.addEventListener("keydown", ({ key }) => {
+    const finds = all("a", found);
+    if (key === "Enter" && finds.length > 0) finds[next++ % finds.length].click();
   });
   if (sections.length > 0) contents.querySelector("details")?.append(make("div", { className: "search", role: "search" }, input, found));
 
@@ -163,6 +177,10 @@
     const start = cell.textContent.replace(/^(.{40}\S*).*/s, "$1 …");
     cell.replaceChildren(make("details", {}, make("summary", {}, start), ...cell.childNodes));
   }
+  // A row that is gone to by its address is open.
+  const unfold = () => all("details", document.getElementById(decodeURIComponent(location.hash.slice(1)))?.closest("tr") ?? make("p")).forEach((fold) => (fold.open = true));
+  addEventListener("hashchange", unfold);
+  unfold();
   addEventListener("beforeprint", () => all("main details").forEach((fold) => (fold.open = true)));
 
   // Long tables can be filtered by the columns of few words.

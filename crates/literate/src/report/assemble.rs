@@ -129,7 +129,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let cards = Cards { values: &values, ledger: &ledger, paper: input.paper };
     let paper = input.paper;
     let site = html::Site { input, labels: &labels };
-    let mut shown = BTreeSet::new();
+    let (mut shown, mut texts) = (BTreeSet::new(), Vec::new());
     let written = parts.par_iter().with_max_len(1).map(|Part { of, blocks, .. }| {
         Ok((latex::write(blocks, *of)?, html::write(blocks, *of, site)?))
     });
@@ -152,9 +152,12 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         }
         filler.insert("page", &page);
         shown.extend(values);
+        texts.push(serde_json::json!([of.page, of.name, page["texts"]]));
         beside.insert(of.page.into(), filler.fill("report.html")?.into_bytes());
     }
     beside.extend(html::beside(&shown, cards, site)?);
+    let texts = format!("TEXTS = {};\n", serde_json::Value::from(texts));
+    beside.insert("search.js".into(), texts.into_bytes());
     for name in ["report.css", "report.js"] {
         beside.insert(name.into(), input.templates.text(name)?.as_bytes().to_vec());
     }

@@ -214,16 +214,18 @@ impl Cards<'_> {
         let claim = self.ledger.claims.iter().find(|claim| claim.id == id)?;
         let title = words_and_maths(&claim.statement);
         let mut card = Card::of(format!("claim:{id}"), title);
+        let words = claim.verdict.words();
+        let [first, rest] = [words.get(..1), words.get(1..)].map(Option::unwrap_or_default);
+        card.lead = format!("{}{rest}.", first.to_uppercase());
         for (name, words) in [
-            ("stands in", claim.place.clone()),
-            ("printed", claim.expected.clone()),
-            ("found", claim.found.to_string()),
+            ("paper", claim.expected.clone()),
+            ("here", claim.found.to_string()),
             ("tolerance", claim.tolerance.to_string()),
             ("because", claim.reason.clone()),
-            ("verdict", claim.verdict.words().into()),
             ("note", claim.note.to_string()),
+            ("stands in", claim.place.clone()),
         ] {
-            card.words(name, words);
+            card.row(name, words_and_maths(&words));
         }
         card.item("judged by", &(self.paper.judged_by)(&claim.id), self.paper);
         Some(card)

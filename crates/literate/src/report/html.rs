@@ -3,7 +3,7 @@
 //! A page lies on a disk with its style sheet, script, fonts and the cards of its numbers beside it. It is
 //! well-formed XML, so that tests can read it.
 
-use super::card::Cards;
+use super::card::{Cards, Fact};
 use super::document::{self, Block, Inline, plain, spelt};
 use super::labels::Labels;
 use super::templates::Document;
@@ -32,7 +32,7 @@ pub struct Site<'a> {
     pub labels: &'a Labels,
 }
 
-/// What the template report.html has places for, and the values that the page shows.
+/// What the template report.html has places for, and the cards that the page opens.
 pub fn write(
     blocks: &[Block],
     here: Document,
@@ -42,9 +42,17 @@ pub fn write(
     let (title, paper) = (document::title(blocks)?, site.input.paper);
     let meta: Vec<_> =
         paper.about().into_iter().map(|(name, words)| (name, text(&words))).collect();
-    let (heading, body) = (page.inlines(title)?, page.blocks(blocks)?);
-    let (mut sections, mut figures) = (Vec::new(), Vec::new());
+    let heading = page.inlines(title)?;
+    let (mut sections, mut figures, mut body) = (Vec::new(), Vec::new(), String::new());
+    // What a search reads: section, its name, text.
+    let (mut texts, mut section) = (Vec::new(), ("text".to_string(), here.name.to_string()));
     for block in blocks {
+        let html = page.blocks(std::slice::from_ref(block))?;
+        if let Block::Heading { id, text, .. } = block {
+            section = (id_of(id.as_deref(), text), words(&page.inlines(text)?));
+        }
+        texts.push((section.0.clone(), section.1.clone(), words(&html)));
+        body += &html;
         match block {
             Block::Heading { level: 2, number, id, text } => sections.push([
                 id_of(id.as_deref(), text),
@@ -74,6 +82,7 @@ pub fn write(
         "figures": figures,
         "body": body,
         "glyphs": outlines(&page.glyphs.borrow()),
+        "texts": texts,
     });
     Ok((parts, page.values.into_inner()))
 }
@@ -87,7 +96,11 @@ pub fn beside(values: &BTreeSet<String>, cards: Cards<'_>, site: Site<'_>) -> Re
         let unknown = || Error::Template(format!("there is no value {id}"));
         let card = cards.get(id).ok_or_else(unknown)?;
         let mut own = Vec::new();
-        for row in &card.rows {
+        let is_claim = id.starts_with("claim:");
+        let shown = "the row of this statement".to_string();
+        let ledger = Inline::Reference { to: id.clone(), within: None, shown };
+        let ledger = is_claim.then(|| Fact { name: "ledger", text: vec![ledger], item: None });
+        for row in card.rows.iter().chain(&ledger) {
             let place = |inline: &Inline| match inline.clone() {
                 Inline::Reference { to, shown, .. } => {
                     let within = site.labels.get(&to).map(|label| label.of);
@@ -109,6 +122,24 @@ pub fn beside(values: &BTreeSet<String>, cards: Cards<'_>, site: Site<'_>) -> Re
     let font = |(name, bytes): (&str, &[u8])| (format!("fonts/{name}.woff2"), bytes.to_vec());
     files.extend(FONTS.map(font));
     Ok(files)
+}
+
+/// The words of a piece of a page; pictures have none.
+fn words(html: &str) -> String {
+    let pieces = html.split("<svg").enumerate().map(|(i, piece)| match i {
+        0 => piece,
+        _ => piece.split_once("</svg>").map_or("", |(_, rest)| rest),
+    });
+    let text: String = pieces
+        .flat_map(|piece| piece.split('<'))
+        .map(|piece| piece.split_once('>').map_or(piece, |(_, text)| text))
+        .collect();
+    let text = text
+        .replace("&lt;", "<")
+        .replace("&gt;", ">")
+        .replace("&quot;", "\"")
+        .replace("&amp;", "&");
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// The id of a place on a page: `fig:3` → `fig-3`; for a section without one its words, as `references`.
@@ -412,10 +443,16 @@ impl Page<'_> {
                 let sign = shown.chars().next();
                 let verdict = Verdict::ALL.iter().find(|verdict| Some(verdict.sign()) == sign);
                 // A sign alone has its word for those who do not see it.
+                // Elsewhere than in the ledger it opens the card of its statement.
                 let class = verdict.map_or(String::new(), |verdict| {
                     let words = verdict.words();
                     let name = words.replace(' ', "-");
-                    format!(" class=\"verdict {name}\" title=\"{words}\"")
+                    let card = within.filter(|_| to.starts_with("claim:")).map(|_| {
+                        self.values.borrow_mut().insert(to.clone());
+                        format!(" data-card=\"{to}\"")
+                    });
+                    let card = card.unwrap_or_default();
+                    format!(" class=\"verdict {name}\" title=\"{words}\"{card}")
                 });
                 format!("<a href=\"{file}#{}\"{class}>{}</a>", id_of(Some(to), &[]), text(shown))
             }
