@@ -20,7 +20,7 @@ printed.sec2_half_height => that the paper prints; Sec. 2
 fig:3 => fig03.svg; figures::fig03 (src/figures/fig03.rs); seed: 2007
 fig:s7 => experiments::accuracy::race (src/experiments/accuracy/race.rs)
 eq:18 => impact_circuits::jump::p_crit (crates/circuits/src/jump.rs); theory.jump.p_crit, theory.jump.p_crit_walls
-claim:sec7_jump => verdict; tolerance
+claim:sec7_jump => Reproduced.; tolerance
 eq:12 => f_N,p(k)";
 
 #[test]

@@ -42,17 +42,9 @@ pub fn write(
     let (title, paper) = (document::title(blocks)?, site.input.paper);
     let meta: Vec<_> =
         paper.about().into_iter().map(|(name, words)| (name, text(&words))).collect();
-    let heading = page.inlines(title)?;
-    let (mut sections, mut figures, mut body) = (Vec::new(), Vec::new(), String::new());
-    // What a search reads: section, its name, text.
-    let (mut texts, mut section) = (Vec::new(), ("text".to_string(), here.name.to_string()));
+    let (heading, body) = (page.inlines(title)?, page.blocks(blocks)?);
+    let (mut sections, mut figures) = (Vec::new(), Vec::new());
     for block in blocks {
-        let html = page.blocks(std::slice::from_ref(block))?;
-        if let Block::Heading { id, text, .. } = block {
-            section = (id_of(id.as_deref(), text), words(&page.inlines(text)?));
-        }
-        texts.push((section.0.clone(), section.1.clone(), words(&html)));
-        body += &html;
         match block {
             Block::Heading { level: 2, number, id, text } => sections.push([
                 id_of(id.as_deref(), text),
@@ -80,9 +72,9 @@ pub fn write(
         "byline": if here.is_signed(paper) { text(&paper.byline()) } else { String::new() },
         "sections": sections,
         "figures": figures,
+        "texts": texts(&body, here.name),
         "body": body,
         "glyphs": outlines(&page.glyphs.borrow()),
-        "texts": texts,
     });
     Ok((parts, page.values.into_inner()))
 }
@@ -122,6 +114,28 @@ pub fn beside(values: &BTreeSet<String>, cards: Cards<'_>, site: Site<'_>) -> Re
     let font = |(name, bytes): (&str, &[u8])| (format!("fonts/{name}.woff2"), bytes.to_vec());
     files.extend(FONTS.map(font));
     Ok(files)
+}
+
+/// What a search reads of a page: place and name of the section, and text, for each paragraph, figure and item.
+fn texts(body: &str, name: &str) -> Vec<[String; 3]> {
+    let mut section = ["text".to_string(), name.to_string()];
+    let ends = ["</p>", "</figure>", "</li>", "</h2>", "</h3>"];
+    let pieces = ends.iter().fold(vec![body], |pieces, end| {
+        pieces.into_iter().flat_map(|piece| piece.split(end)).collect()
+    });
+    let mut out = Vec::new();
+    for piece in pieces {
+        let text = words(piece);
+        let heading = piece.split_once("<h2 id=\"").or_else(|| piece.split_once("<h3 id=\""));
+        if let Some((id, _)) = heading.and_then(|(_, heading)| heading.split_once('"')) {
+            section = [id.to_string(), text.clone()];
+        }
+        if !text.is_empty() {
+            let [id, name] = section.clone();
+            out.push([id, name, text]);
+        }
+    }
+    out
 }
 
 /// The words of a piece of a page; pictures have none.

@@ -279,7 +279,8 @@ fn a_report_is_all_its_files() {
     let sum = "5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv\n";
     assert!(text("SHA256SUMS").contains(sum), "{}", text("SHA256SUMS"));
     let beside = report.beside.keys().filter(|path| !path.starts_with("fonts/"));
-    let expected = ["cards.js", "figures/fig03.pdf", "report.css", "report.html", "report.js"];
+    let expected =
+        ["cards.js", "figures/fig03.pdf", "report.css", "report.html", "report.js", "search.js"];
     assert_eq!(beside.collect::<Vec<_>>(), expected);
     assert_eq!(assembled(PROSE).unwrap(), report);
 }
@@ -375,7 +376,7 @@ report.tex => \author{A. Uthor\\{\small R \& D} \and B. Uthor}⏎\date{2026-11-2
 report.tex => \maketitle⏎⏎\begin{abstract}⏎⏎It \emph{rises}.⏎\end{abstract}⏎⏎\section{First}
 README.md => See [Sec.·S1.1](more.md#sec-b), [✓](more.md#claim-rise) and [more](more.md).
 index.html => <a href="more.html#sec-b">Sec.·S1.1</a>
-index.html => title="reproduced">✓</a> and <a href="more.html">more</a>.
+index.html => title="reproduced" data-card="claim:rises">✓</a> and <a href="more.html">more</a>.
 index.html => <li><a href="index.html" aria-current="page">Front</a></li>
 report.md => Words, <sup>[✓·1](more.md#claim-rise)</sup> and
 report.tex => Words, \textsuperscript{\ensuremath{\checkmark}~1} and Sec.~S1.1
