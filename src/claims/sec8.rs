@@ -10,7 +10,7 @@ use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::experiments::{BRANCHES, PROTOCOL, RESTITUTION, STARTS};
 use crate::params::{NEAR_SIMULTANEOUS, Protocol, VERTICES};
 use impact_chain::rise::{Counted, RisePoint};
-use impact_numerics::estimates::{difference as apart, share};
+use impact_numerics::estimates::share;
 use impact_numerics::statistics::{Estimate, wilson};
 
 pub const ROWS: &[Judge] = &[
@@ -206,13 +206,9 @@ fn of_starts(e: &Evidence) -> Result<Vec<(f64, Estimate, Estimate)>, Error> {
 /// that.
 fn restitution_omitted(e: &Evidence, s: &Statement) -> Judged {
     let theory = e.number("theory.relation.sigma_half")?;
-    let share = |rest: &Estimate, random: &Estimate| {
-        let error = apart(*random, *rest).error / (theory - rest.value);
-        [share_of_start(rest.value, random.value, theory), error]
-    };
     let starts = e.results.of(&STARTS)?;
     let half = |name| some(named(starts, name).and_then(half_height));
-    let [of_start, error] = share(&half("rest")?, &half("random")?);
+    let share = share_of_start(half("rest")?, half("random")?, theory);
     let halves = e.results.table("restitution.curves")?.estimates(&[], "r", "half_height");
     let ends = [halves.first(), halves.last()].map(|own| own.map_or(f64::NAN, |own| own.0));
     let moved = some(range(halves.into_iter().map(|(_, own)| Some(own))))?;
@@ -221,18 +217,18 @@ fn restitution_omitted(e: &Evidence, s: &Statement) -> Judged {
     let room = e.level.among(both.len());
     let mut holds = both.len() > 1;
     for (i, (time, rest, random)) in both.iter().enumerate() {
-        let [share, error] = share(rest, random);
-        holds &= share > 0.5 - room * error;
+        let share = share_of_start(*rest, *random, theory);
+        holds &= share.value > 0.5 - room * share.error;
         note = note.then(Text::of(
             if i == 0 { " {} for T = {}" } else { ", {} for {}" },
-            [super::with_error(share, error), integer(*time as usize)],
+            [estimate(&share), integer(*time as usize)],
         ));
     }
     let found = Text::of(
         "the start makes up {} of the distance between theory and simulation",
-        [super::with_error(of_start, error)],
+        [estimate(&share)],
     );
-    Ok(s.found(found, of_start + e.level.quantile * error < 0.5)
+    Ok(s.found(found, share.value + e.level.quantile * share.error < 0.5)
         .within("less than half", "ours: what matters most leaves less than half to all else")
         .explained(note.then(Text::of(
             ", more than half each time. The theory assumes random free parts, and our chains start from rest. In another \

@@ -36,19 +36,14 @@ pub fn beside_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let half = |name: &str| named(starts, name).and_then(half_height);
     let relation = all.iter().find(|table| table.name() == "theory.relation")?;
     let theory = relation.number(&[], "sigma_half").ok()?;
-    let table = Table::of("starts.beside_theory", &[()], |()| 0)
+    let both = half("rest").zip(half("random"));
+    let table = Table::of("starts.beside_theory", &[()], |()| starts[0].ensemble.realisations)
         .computed_by(origin(share_of_start))
-        .real(
+        .estimate(
             "share",
             "1",
-            2,
             "of the distance from rest to the theory, with random free parts",
-            |()| {
-                let both: Option<(Estimate, Estimate)> = half("rest").zip(half("random"));
-                both.map_or(f64::NAN, |(rest, random)| {
-                    share_of_start(rest.value, random.value, theory)
-                })
-            },
+            |()| both.map(|(rest, random)| share_of_start(rest, random, theory)),
         )
         .done();
     Some(vec![table])
@@ -56,6 +51,7 @@ pub fn beside_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
 
 /// How much of the distance between theory and simulation the start explains: half heights from
 /// rest, from random free parts, and of the theory.
-pub fn share_of_start(rest: f64, random: f64, theory: f64) -> f64 {
-    (random - rest) / (theory - rest)
+pub fn share_of_start(rest: Estimate, random: Estimate, theory: f64) -> Estimate {
+    let (moved, all) = (difference(random, rest), theory - rest.value);
+    with_error(moved.value / all, moved.error / all)
 }

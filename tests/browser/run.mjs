@@ -273,11 +273,11 @@ async function verdicts_open(page, name) {
 /** The ledger shows only rows of a verdict when it is asked, and what is gone to by its address. */
 async function filters(page) {
   const [all, shown] = [page.locator("#tab-claims tbody tr"), page.locator("#tab-claims tbody tr:visible")];
-  await page.getByLabel("verdict").selectOption("≠ differs and explained");
+  await page.getByLabel("verdict").selectOption("≠ differs and explained (range)");
   const some = await shown.count();
   check(some > 0 && some < (await all.count()), `ledger: ${some} rows differ`);
   const words = await shown.locator("td:nth-child(2)").allInnerTexts();
-  check(words.every((word) => word === "≠ differs and explained"), `ledger: rows of other verdicts: ${words}`);
+  check(words.every((word) => word === "≠ differs and explained (range)"), `ledger: rows of other verdicts: ${words}`);
   await page.evaluate(() => (location.hash = "#claim-sec7_jump"));
   await page.waitForTimeout(200);
   check((await shown.count()) === (await all.count()), "ledger: a row that is gone to stays hidden");

@@ -7,7 +7,7 @@ use crate::experiments::prelude::*;
 use crate::params::{HIGHER_P, REMARK_P, VERTICES};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
 use impact_circuits::distribution::{Law, SampleSpace};
-use impact_circuits::higher_order::{CLASSES, SHARED, doubled, doubled_as_printed, multiplicity};
+use impact_circuits::higher_order::{CLASSES, SHARED, doubled_as_printed, multiplicity};
 use impact_circuits::{Fraction, jump};
 use impact_numerics::double_double::DoubleDouble;
 
@@ -108,10 +108,8 @@ fn largest_step() -> u64 {
 
 /// Single numbers of Sec. 9, with those of the tables `theory.curve` and `theory.relation` that belong there.
 pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
-    let (sigma, census) = (SIGMA, census());
-    let counted = |k| counted(&census, 3, k, &[1]) as u64;
-    let printed = [doubled_as_printed(3, 3), doubled(3, 2)];
-    let [eq30, eq33] = printed.map(|found| found.map_or(f64::NAN, Fraction::to_f64));
+    let sigma = SIGMA;
+    let eq30 = doubled_as_printed(3, 3).map_or(f64::NAN, Fraction::to_f64);
     let jump = |space| known(jump::p_jump(space, VERTICES));
     let (leap, shifted) = (jump(FiveClasses), jump(FiveClassesPrinted).p);
     let [first, _, last] = HIGHER_P;
@@ -125,10 +123,9 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     let over = shift("sigma_jump_rest") / shift("sigma_jump_higher");
     one("theory.higher", origin(doubled_as_printed))
         .real("eq30_printed", "1", 1, "Eq. (30) as printed, k = N = 3", |()| eq30)
-        .count("eq30_counted", "circuits that it should count", |()| counted(3))
-        .computed_by(origin(doubled))
-        .real("eq33_printed", "1", 2, "Eq. (33), k = 2 and N = 3", |()| eq33)
-        .count("eq33_counted", "circuits that it should count", |()| counted(2))
+        .count("eq30_counted", "circuits that it should count", |()| {
+            counted(&census(), 3, 3, &[1]) as u64
+        })
         .computed_by(origin(jump::p_jump))
         .real("p_jump", "1", 5, "p_jump with five classes", |()| leap.p)
         .count("k_after", "k* after it", |()| leap.k_after as u64)

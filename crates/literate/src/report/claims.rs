@@ -118,4 +118,26 @@ mod tests {
         let text = Text::of("k* at {}.", [with_error(0.11652, 0.0004)]);
         assert_eq!(sentence(&text), "$k^*$ at 0.1165(4).");
     }
+
+    #[test]
+    fn a_score_counts_no_definition_and_each_word_for_a_difference() {
+        let own = |kind, why: &str, explained: bool| {
+            let mut check = Check::new(kind, "a", "b", "c");
+            check.why = why.into();
+            check.judged(false).explained("d", explained)
+        };
+        use Kind::{Definition, Statement};
+        let checks = [(Statement, "misprint", true), (Statement, "misprint", false)];
+        let checks = checks.into_iter().chain([(Definition, "", true)]);
+        let checks: Vec<Check> = checks.map(|(kind, why, holds)| own(kind, why, holds)).collect();
+        assert_eq!([0, 1].map(|i: usize| checks[i].difference()), [Some("misprint"), None]);
+        assert_eq!(row(&checks[2])["kind"], "definition");
+        let score = scorecard(&checks);
+        let count = |id: &str| score.iter().find(|own| own.id == id).unwrap().number.clone();
+        let expected =
+            [("total", 2), ("differs", 1), ("definitions", 1), ("misprint", 1), ("exact_of", 2)];
+        for (name, expected) in expected {
+            assert_eq!(count(&format!("score.{name}")), Number::Integer(expected), "{name}");
+        }
+    }
 }
