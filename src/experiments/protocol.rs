@@ -51,7 +51,7 @@ pub fn address(own: &Curve, column: &str) -> String {
 /// A column: its name, what it is, and the place of a cell.
 type Place = (&'static str, &'static str, fn(&Curve) -> Option<Estimate>);
 
-const PLACES: [Place; 4] = [
+const PLACES: [Place; 3] = [
     (
         "half_height",
         "σ where the mean of realisations with an impact passes half of all gaps",
@@ -60,7 +60,6 @@ const PLACES: [Place; 4] = [
     ("half_height_all", "σ where the mean of all passes half of all gaps", |own| {
         own.rise.half_height_all
     }),
-    ("onset", "σ where the mean of all passes a twentieth of all gaps", |own| own.rise.onset),
     ("kept_half", "σ at which half of the chains have an impact in the window", |own| {
         own.rise.kept_half
     }),

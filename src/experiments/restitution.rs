@@ -1,6 +1,6 @@
 //! What restitution does to a chain: where it rises.
 
-use super::starts::half_height;
+use super::starts::{HALF_HEIGHT, half_height};
 use crate::experiments::prelude::*;
 
 /// All tables.
@@ -9,12 +9,7 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let table = Table::of("restitution.curves", found, |own| own.ensemble.realisations)
         .key("r", "1", restitution)
         .computed_by(origin(Curve::new))
-        .estimate(
-            "half_height",
-            SIGMA,
-            "σ where the mean count of all chains passes half of all gaps",
-            half_height,
-        )
+        .estimate("half_height", SIGMA, HALF_HEIGHT, half_height)
         .done();
     vec![table]
 }

@@ -1,4 +1,4 @@
-//! What the choices that the paper leaves open change: the start, walls or ring, r and Ω.
+//! What choices change that the paper leaves open: the start, walls or ring; and Ω.
 
 use super::STARTS;
 use crate::experiments::prelude::*;
@@ -16,7 +16,6 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
     let realisations = variants[0].ensemble.realisations;
     let table = Table::of("starts.variants", variants, |own| own.ensemble.realisations)
         .text_key("chain", |own| own.ensemble.name.clone())
-        .chosen("restitution", "1", "", |own| Some(own.ensemble.chain.restitution))
         .chosen("forcing_frequency", "omega", "", |own| Some(own.ensemble.chain.forcing_frequency))
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, half_height)

@@ -69,7 +69,7 @@ pub const ALL: [Illustration; 23] = [
     drawing("fig15", &[&SWEEP, &THEORY], fig15::draw),
     drawing("s01", &[&SPACE_TIME], |all| s01::draw(all.of(&SPACE_TIME)?)),
     drawing("s02", &[&NUCLEATION, &SWEEP], s02::draw),
-    drawing("s03", &[&SEEDS, &SWEEP, &PROTOCOL], s03::draw),
+    drawing("s03", &[&SEEDS, &SWEEP, &PROTOCOL, &THEORY], s03::draw),
     drawing("s04", &[&BRANCHES, &PROTOCOL], s04::draw),
     drawing("s05", &[&THEORY], s05::draw),
     drawing("s06", &[&RACE], |all| s06::draw(all.of(&RACE)?)),

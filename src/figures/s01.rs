@@ -2,6 +2,7 @@
 
 use super::prelude::*;
 use crate::experiments::spacetime::SpaceTime;
+use crate::params::Protocol;
 
 /// How much of the run the second panel shows.
 const DETAIL: f64 = 400.0;
@@ -10,7 +11,7 @@ const DETAIL: f64 = 400.0;
 const START: Marker = (Mark::Disc, 62, Stroke::solid(RED, HAIR));
 
 pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9750);
+    let sheet = Sheet::new(9350);
     let until = run.parameters.until;
     let gaps = || Axis::linear(-1.0, run.width() as f64, 20.0, 2, "gap");
     let time = |from: f64, to: f64, step: f64| Axis::linear(from, to, step, 2, "time *t* (1/*ω*)");
@@ -19,6 +20,7 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let whole = time(0.0, until, until / 4.0).column("time_to_thousandths (1/omega)");
     let whole = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
     let impacts = points(run, 0.0, until);
+    window(&whole, until)?;
     let row = (whole.frame.bottom - whole.frame.top) / (run.width() as i32 + 1);
     whole.quiet().ticks("impacts", &impacts, 12, Stroke::solid(INK, row as u32))?;
     whole.record("impacts", impacts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
@@ -31,16 +33,27 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let near = sheet.lettered(LETTERS[1], near, time(from, to, DETAIL / 4.0), gaps())?.quiet();
     near.ticks("first impacts", &points(run, from, to), 14, Stroke::solid(INK, 30))?;
     starts(&near, run, to)?;
-
-    let tick = Entry::mark((Mark::Square, 16, Stroke::solid(INK, HAIR)), "impact");
-    let disc = Entry::mark(START, "gap that closes by itself");
-    sheet.legend((1500, 9500), (SMALL, 370), (1, 2400), &[tick, disc])?;
+    if let Some((time, gap)) = run.times.first().zip(run.gaps.first()) {
+        near.label("closes by itself", (*time, f64::from(*gap)), (2, 4), RED)?;
+    }
     Ok(sheet.finish("s01", "One long run", description(run)))
 }
 
 fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {
     let all = run.times.iter().zip(&run.gaps).map(|(&time, &gap)| (time, f64::from(gap)));
     all.filter(|(time, _)| (from..=to).contains(time)).collect()
+}
+
+/// The window in which gaps are counted, as a ground, if the run is that long.
+fn window(panel: &Panel, until: f64) -> Result<(), Error> {
+    let Protocol { transient, window } = Protocol::default();
+    let (from, to) = (transient, transient + window);
+    if to > until {
+        return Ok(());
+    }
+    let (low, high) = (panel.y.lo, panel.y.hi);
+    panel.area("window", &[(from, low), (to, low), (to, high), (from, high)], ORANGE, 30)?;
+    panel.label("counting window", (to, high), (1, -1), ORANGE)
 }
 
 /// A disc at the first impact of each gap at which impacts start.

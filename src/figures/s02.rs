@@ -3,18 +3,14 @@
 use super::FORCING;
 use super::prelude::*;
 use crate::experiments::Results;
+use crate::experiments::theory::beside::at;
 use literate::table::Table;
 
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.055, 0.165);
 
-/// Looks of the lengths.
-const LENGTHS: [(Colour, Mark); 3] =
-    [(GREEN, Mark::Diamond), (RED, Mark::Disc), (PURPLE, Mark::Square)];
-
-/// Looks of the σ in (b).
-const TIMES: [(Colour, Mark); 3] =
-    [(BLUE, Mark::Disc), (ORANGE, Mark::Square), (RED, Mark::Diamond)];
+/// The chain of the paper, and a σ near its half height.
+const PAPER: (f64, f64) = (100.0, 0.12);
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
@@ -28,52 +24,47 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result<(), Error> {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 6150, 3730), x, y)?;
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let mut kept = sweep.points(&[], "sigma", "kept");
     kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
-    let kept_look = (Mark::Ring, LARGE, Stroke::solid(INK, THIN));
-    panel.marks("kept", &kept, kept_look, Outside::Refuse)?;
-    let mut entries = Vec::new();
+    panel.marks("kept", &kept, (Mark::Ring, LARGE, Stroke::solid(INK, THIN)), Outside::Refuse)?;
     let last = found.values("time").last().copied().unwrap_or_default();
-    for (masses, (colour, mark)) in found.values("masses").into_iter().zip(LENGTHS) {
+    let lengths = found.values("masses");
+    for (place, &masses) in lengths.iter().enumerate() {
+        let colour = if masses == PAPER.0 { RED } else { ordered(place, lengths.len()) };
         let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
-        let line = Stroke::solid(colour, LINE);
-        panel.curve(&name, &shares.points(&keys[..1], "sigma", "clumps"), line, Outside::Refuse)?;
-        let thin = Stroke::solid(colour, THIN);
+        let curve = shares.points(&keys[..1], "sigma", "clumps");
+        panel.curve(&name, &curve, Stroke::solid(colour, LINE), Outside::Refuse)?;
         let own = found.estimates(&keys, "sigma", "found");
         panel.record(&format!("{name}, simulation"), own.iter().copied());
-        panel.quiet().estimates(&name, &own, (mark, LARGE, thin))?;
-        entries.push(Entry::both(line, (mark, LARGE, thin), &name));
+        panel.quiet().estimates(&name, &own, (Mark::Disc, LARGE, Stroke::solid(colour, THIN)))?;
+        let rising: Vec<_> = curve.into_iter().map(|(sigma, share)| (share, sigma)).collect();
+        panel.label(&name, (at(&rising, 0.45).unwrap_or(SIGMAS.0), 0.45), (-3, 0), colour)?;
     }
-    entries.push(Entry::mark(kept_look, "kept, *n* = 100"));
-    sheet.legend((6350, 1150), (SMALL, 370), (9, 0), &entries)
-}
-
-/// The lowest, the middle and the highest σ.
-fn three(found: &Table) -> impl Iterator<Item = f64> {
-    let sigmas = found.values("sigma");
-    let last = sigmas.len().saturating_sub(1);
-    [0, last / 2, last].into_iter().filter_map(move |place| sigmas.get(place).copied())
+    let ring = kept.iter().copied().rfind(|(_, share)| *share < 0.9);
+    ring.map_or(Ok(()), |ring| panel.label("main sweep", ring, (2, 1), INK))
 }
 
 fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
-    let x = Axis::decades(0, 4, 1, "transient *T* (1/*ω*)").from(8.0, 3e3);
+    let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").from(8.0, 9e3);
     let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*");
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
-    let mut entries = Vec::new();
-    for (sigma, (colour, mark)) in three(found).zip(TIMES) {
-        let name = format!("*σ* = {sigma}");
+    let sigmas = found.values("sigma");
+    let three = [sigmas.first().copied(), Some(PAPER.1), sigmas.last().copied()];
+    let mut drawn = Vec::new();
+    for (place, sigma) in three.into_iter().flatten().enumerate() {
+        let colour = if sigma == PAPER.1 { RED } else { ordered(place, 3) };
         let points = found.points(&[("sigma", sigma)], "time", "missing");
         let thin = Stroke::solid(colour, THIN);
-        let mark = (mark, LARGE, thin);
-        panel.marked(&name, &points, (thin, mark), Outside::Cut)?;
-        entries.push(Entry::both(thin, mark, &name));
+        let name = format!("*σ* = {sigma}");
+        panel.marked(&name, &points, (thin, (Mark::Disc, LARGE, thin)), Outside::Cut)?;
+        drawn.push((name, points, colour));
     }
-    // T^{−2} through (10, 10).
-    let law = Stroke::dashed(INK, THIN, Dash::Short);
-    panel.guide("power", &[(10.0, 10.0), (1e4, 1e-5)], law)?;
-    entries.push(Entry::line(law, "∝ *T*^{ −2}"));
-    sheet.legend((1400, 6400), (SMALL, 370), (9, 0), &entries)
+    let named = drawn.iter().map(|(name, points, colour)| (&**name, &**points, *colour));
+    panel.ends(&named.collect::<Vec<_>>())?;
+    // T^{−2} through (10, 0.1).
+    panel.guide("power", &[(10.0, 0.1), (1e4, 1e-7)], Stroke::dashed(INK, THIN, Dash::Short))?;
+    panel.label("∝ *T*^{ −2}", (60.0, 2.8e-3), (-1, 1), INK)
 }
 
 fn description(missing: &Table) -> Seen {

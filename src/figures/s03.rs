@@ -6,18 +6,11 @@ use super::simulated::count_axis;
 use crate::experiments::Results;
 use crate::experiments::rise::Counted;
 use crate::experiments::sweep;
+use crate::experiments::theory::beside::at;
 use literate::table::Table;
 
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.075, 0.165);
-
-/// Lines of the σ in (b).
-const SPREADS: [Stroke; 4] = [
-    Stroke::solid(PURPLE, LINE),
-    Stroke::dashed(BLUE, LINE, Dash::Long),
-    Stroke::dashed(ORANGE, LINE, Dash::Alternate),
-    Stroke::solid(RED, THIN),
-];
 
 /// Nucleation and growth, which is computed at some places only.
 const GROWN: (&str, Marker) =
@@ -25,8 +18,8 @@ const GROWN: (&str, Marker) =
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
-    let sheet = Sheet::new(9600);
-    counts(&sheet, table("seeds.means")?, table("seeds.theory")?, sweep::main(results)?)?;
+    let sheet = Sheet::new(8600);
+    counts(&sheet, table("seeds.means")?, table("theory.curve")?, sweep::main(results)?)?;
     let advance = table("seeds.advance")?;
     advances(&sheet, advance)?;
     halves(&sheet, table("seeds.rise")?, table("seeds.scores")?)?;
@@ -39,16 +32,22 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Resu
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.first().protocol.transient)];
     let lines = [
-        ("circuits, Eq. (25)", "eq25", Stroke::dashed(BLUE, LINE, Dash::Short)),
-        ("circuits, from rest", "from_rest", Stroke::dashed(PURPLE, LINE, Dash::Long)),
+        ("circuits, Eq. (25)", "simple", Stroke::dashed(BLUE, LINE, Dash::Short), 50.0),
+        ("circuits, from rest", "rest", Stroke::dashed(PURPLE, LINE, Dash::Long), 62.0),
     ];
-    let mut entries = Vec::new();
-    for (name, column, stroke) in lines {
-        panel.curve(name, &theory.points(&[], "sigma", column), stroke, Outside::Refuse)?;
-        entries.push(Entry::line(stroke, name));
+    for (name, column, stroke, height) in lines {
+        let mut curve = theory.points(&[], "sigma", column);
+        curve.retain(|(sigma, _)| *sigma >= SIGMAS.0 && *sigma <= SIGMAS.1);
+        panel.curve(name, &curve, stroke, Outside::Refuse)?;
+        let rising: Vec<_> = curve.into_iter().map(|(sigma, mean)| (mean, sigma)).collect();
+        let place = (at(&rising, height).unwrap_or(SIGMAS.0), height);
+        panel.label(name, place, (-2, 0), stroke.colour)?;
     }
-    panel.joined(GROWN.0, &means.estimates(&transient, "sigma", "grown"), GROWN.1)?;
-    entries.insert(0, Entry::both(GROWN.1.2, GROWN.1, GROWN.0));
+    let grown = means.estimates(&transient, "sigma", "grown");
+    panel.joined(GROWN.0, &grown, GROWN.1)?;
+    if let Some((sigma, own)) = grown.iter().find(|(_, own)| own.value > 85.0) {
+        panel.label(GROWN.0, (*sigma, own.value), (-1, -1), INK)?;
+    }
     let inside =
         sweep.first().rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
     let bars: Vec<_> = inside
@@ -59,42 +58,40 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Resu
     panel.bars("simulation", &ends, 35, look.2, Outside::Refuse)?;
     let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
     panel.marks("simulation", &points, look, Outside::Refuse)?;
-    entries.push(Entry::mark(look, "simulation"));
-    sheet.legend((1400, 700), (SMALL, 370), (9, 0), &entries)
-}
-
-fn named(sigma: f64) -> String {
-    format!("*σ* = {sigma}")
+    let low = points.iter().copied().rfind(|(_, mean)| *mean < 40.0);
+    low.map_or(Ok(()), |low| panel.label("simulation", low, (2, 1), RED))
 }
 
 /// Four of so many, or all, from the first to the last.
-fn spread<T>(all: &[T]) -> impl Iterator<Item = &T> {
+fn spread<T: Copy>(all: &[T]) -> Vec<T> {
     let last = all.len().saturating_sub(1);
     let mut places = vec![0, last / 3, 2 * last / 3, last];
     places.dedup();
-    places.into_iter().filter_map(|place| all.get(place))
+    places.into_iter().filter_map(|place| all.get(place).copied()).collect()
 }
 
 fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)").from(20.0, 2000.0);
+    let x = Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)").from(20.0, 7000.0);
     let y = Axis::decades(-1, 2, 1, "advance (gaps)");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4050, 7650), x, y)?;
-    let mut entries = Vec::new();
-    for (sigma, stroke) in spread(&advance.values("sigma")).zip(SPREADS) {
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4100, 7650), x, y)?;
+    let sigmas = spread(&advance.values("sigma"));
+    let mut drawn = Vec::new();
+    for (place, sigma) in sigmas.iter().enumerate() {
         let points = advance.points(&[("sigma", *sigma)], "time", "advance");
-        let name = named(*sigma);
-        panel.curve(&name, &points, stroke, Outside::Cut)?;
-        entries.push(Entry::line(stroke, &name));
+        let (name, colour) = (format!("*σ* = {sigma}"), ordered(place, sigmas.len()));
+        panel.curve(&name, &points, Stroke::solid(colour, LINE), Outside::Cut)?;
+        drawn.push((name, points, colour));
     }
+    let named = drawn.iter().map(|(name, points, colour)| (&**name, &**points, *colour));
+    panel.ends(&named.collect::<Vec<_>>())?;
     let straight = Stroke::dashed(INK, THIN, Dash::Short);
-    panel.guide("constant speed", &[(10.0, 0.1), (1e4, 100.0)], straight)?;
-    entries.push(Entry::line(straight, "∝ *t*"));
-    sheet.legend((650, 8680), (SMALL, 320), (3, 1800), &entries)
+    panel.guide("constant speed", &[(10.0, 1.0), (1e3, 100.0)], straight)?;
+    panel.label("∝ *t*", (100.0, 10.0), (-1, -1), INK)
 }
 
 fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
     let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").from(20.0, 2000.0);
-    let y = Axis::linear(0.1, 0.15, 0.01, 2, "*σ*_{1/2} of all (*d ω*^{2})")
+    let y = Axis::linear(0.1, 0.14, 0.01, 2, "*σ*_{1/2} of all (*d ω*^{2})")
         .column("half_height (d omega^2)");
     let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
     let grown = rise.points(&[], "transient", "half_height");
@@ -102,8 +99,8 @@ fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
     let look = (Mark::Disc, LARGE, Stroke::solid(RED, THIN));
     let found = scores.estimates(&[], "transient", "half_height");
     panel.estimates("simulation", &found, look)?;
-    let entries = [Entry::both(GROWN.1.2, GROWN.1, GROWN.0), Entry::mark(look, "simulation")];
-    sheet.legend((4850, 8650), (SMALL, 370), (9, 0), &entries)
+    panel.label("simulation", (150.0, 0.1355), (1, 0), RED)?;
+    panel.label("from seeds", (300.0, 0.109), (-1, 0), INK)
 }
 
 fn description(advance: &Table) -> Seen {

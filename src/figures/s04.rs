@@ -13,55 +13,57 @@ const WINDOW: f64 = 200.0;
 const BRANCHES: [(&str, &str, Colour); 2] =
     [("from_rest", "from rest", BLUE), ("from_above", "from above", RED)];
 
-/// Marks and colours of the other lengths, all from rest.
-const LENGTHS: [(Mark, Colour); 3] =
-    [(Mark::Ring, PURPLE), (Mark::OpenSquare, GREEN), (Mark::Diamond, ORANGE)];
-
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let both = results.table("branches.half_heights")?;
-    let sheet = Sheet::new(6050);
+    let sheet = Sheet::new(8800);
     half_heights(&sheet, results, both)?;
     shares(&sheet, &branches::both(results.of(&crate::experiments::BRANCHES)?))?;
     Ok(sheet.finish("s04", "Chains from rest and from above", description(both)))
 }
 
 fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Error> {
-    let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").from(30.0, 5e5);
+    let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").from(10.0, 7e5);
     let y = Axis::linear(0.06, 0.14, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
         .column("half_height (d omega^2)");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 4250, 3930), x, y)?;
-    let bound = Stroke::dashed(INK, THIN, Dash::Dotted);
-    panel.level("bound by seeds", results.number("theory.relation.sigma_kept_half")?, bound)?;
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3930), x, y)?;
+    let bound = results.number("theory.relation.sigma_kept_half")?;
+    panel.level("bound by seeds", bound, Stroke::dashed(INK, THIN, Dash::Dotted))?;
+    panel.label("bound from rest, *n* = 100", (10.0, bound), (1, 1), INK)?;
     let map = results.table("protocol.cells")?;
     let map = map.points(&[("window", WINDOW)], "transient", "half_height_all");
-    let line = Stroke::solid(PURPLE, HAIR);
-    panel.curve("map, n = 100", &map, line, Outside::Cut)?;
-    let mut entries = Vec::new();
+    panel.curve("map, n = 100", &map, Stroke::solid(ordered(0, 3), LINE), Outside::Cut)?;
+    let lengths = results.table("branches.lengths")?;
+    let masses = lengths.values("masses");
+    for (place, &n) in masses.iter().enumerate() {
+        let colour = ordered(place, masses.len());
+        let look = (Mark::Ring, LARGE, Stroke::solid(colour, THIN));
+        let (name, keys) = (format!("from rest, *n* = {n}"), [("masses", n), ("window", WINDOW)]);
+        let own = lengths.estimates(&keys, "transient", "half_height");
+        panel.estimates(&name, &own, look)?;
+        if let Some((time, own)) = own.first() {
+            let side = if place == 0 { (1, -2) } else { (-2, 4 * place as i32 - 3) };
+            panel.label(&format!("*n* = {n}"), (*time, own.value), side, colour)?;
+        }
+    }
     for (column, name, colour) in BRANCHES {
         let look = (Mark::Disc, MEDIUM, Stroke::solid(colour, THIN));
-        panel.joined(name, &both.estimates(&[], "transient", column), look)?;
-        entries.push(Entry::both(look.2, look, &format!("{name}, long chains")));
+        let own = both.estimates(&[], "transient", column);
+        panel.joined(name, &own, look)?;
+        if let Some((time, own)) = own.last() {
+            panel.label(name, (*time, own.value), (2, 0), colour)?;
+        }
     }
-    let lengths = results.table("branches.lengths")?;
-    for (masses, (mark, colour)) in lengths.values("masses").into_iter().zip(LENGTHS) {
-        let look = (mark, LARGE, Stroke::solid(colour, THIN));
-        let (name, keys) =
-            (format!("from rest, *n* = {masses}"), [("masses", masses), ("window", WINDOW)]);
-        panel.estimates(&name, &lengths.estimates(&keys, "transient", "half_height"), look)?;
-        entries.push(Entry::mark(look, &name));
-    }
-    entries.push(Entry::line(line, "the map, *n* = 100"));
-    entries.push(Entry::line(bound, "bound from rest, *n* = 100"));
-    sheet.legend((1150, 4800), (SMALL, 340), (4, 3900), &entries)
+    Ok(())
 }
 
 /// Shares after the first transient and after the last.
 fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
     let x = Axis::linear(0.03, 0.145, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(5150, 430, 8250, 3930), x, y)?;
-    let ends = [both.first(), both.last()].into_iter().flatten();
-    for (own, (dash, mark)) in ends.zip([(Dash::Short, Mark::Ring), (Dash::Solid, Mark::Disc)]) {
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
+    let early = (both.first(), Dash::Short, Mark::Ring);
+    for (own, dash, mark) in [early, (both.last(), Dash::Solid, Mark::Disc)] {
+        let Some(own) = own else { continue };
         for ((_, name, colour), branch) in BRANCHES.into_iter().zip([own.rest, own.above]) {
             let name = format!("{name}, *T* = {}", own.transient());
             let at = |&sigma: &f64| Some((sigma, share(branch, sigma)?));
@@ -69,7 +71,9 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
             panel.joined(&name, &points, (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)))?;
         }
     }
-    Ok(())
+    let [rest, above] = BRANCHES;
+    panel.label(above.1, (0.03, 0.93), (2, 0), above.2)?;
+    panel.label(rest.1, (0.145, 0.09), (-2, 0), rest.2)
 }
 
 fn description(both: &Table) -> Seen {

@@ -9,9 +9,8 @@ use literate::table::Table;
 /// The p N in (a): around the onset, where the sizes differ.
 const RANGE: (f64, f64) = (0.75, 2.25);
 
-/// Colours of the numbers of vertices in (a).
-const SIZES: [(Colour, Dash); 3] =
-    [(ORANGE, Dash::Solid), (BLUE, Dash::Long), (GREEN, Dash::Alternate)];
+/// Where the names of the numbers of vertices stand in (a): beside the jump, at a height.
+const NAMES: [(f64, (i32, i32)); 3] = [(0.1, (1, 0)), (0.05, (3, 0)), (0.0, (-2, -2))];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8450);
@@ -33,9 +32,9 @@ fn shares(sheet: &Sheet) -> Result<(), Error> {
     let x = Axis::linear(RANGE.0, RANGE.1, 0.25, 5, "*p N*");
     let y = Axis::linear(0.0, 0.6, 0.1, 2, "*k*^{∗}/*N*");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
-    let mut entries = Vec::new();
-    for (vertices, (colour, dash)) in DRAWN_VERTICES.into_iter().zip(SIZES) {
-        let stroke = Stroke::dashed(colour, LINE, dash);
+    for (place, (vertices, (height, side))) in DRAWN_VERTICES.into_iter().zip(NAMES).enumerate() {
+        let colour = ordered(place, NAMES.len());
+        let stroke = Stroke::solid(colour, LINE);
         // No value lies within the jump.
         let [before, after] = large::shares(vertices);
         let name = format!("N = {vertices}");
@@ -43,13 +42,13 @@ fn shares(sheet: &Sheet) -> Result<(), Error> {
         panel.curve(&name, &after, stroke, Outside::Cut)?;
         let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
         panel.guide("jump", &jump, Stroke::dashed(colour, THIN, Dash::Dotted))?;
-        entries.push(Entry::line(stroke, &format!("*N* = {}", power(vertices))));
+        let at = jump.first().map_or(1.0, |jump| jump.0);
+        panel.label(&format!("*N* = {}", power(vertices)), (at, height), side, colour)?;
     }
     let limit = large::limit();
-    let stroke = Stroke::dashed(INK, THIN, Dash::Short);
+    let stroke = Stroke::dashed(RED, LINE, Dash::Short);
     panel.curve("limit", &limit, stroke, Outside::Cut)?;
-    entries.push(Entry::line(stroke, "max(0, 1 − 1/(*p N*))"));
-    sheet.legend((5500, 2350), (SMALL, 370), (9, 0), &entries)
+    panel.label("max(0, 1 − 1/(*p N*))", (1.75, 1.0 - 1.0 / 1.75), (-1, -1), RED)
 }
 
 fn jumps(sheet: &Sheet, table: &Table) -> Result<(), Error> {
@@ -61,8 +60,10 @@ fn jumps(sheet: &Sheet, table: &Table) -> Result<(), Error> {
     let line = Stroke::solid(INK, THIN);
     panel.curve("rule", &rule, line, Outside::Refuse)?;
     let exact = table.points(&[], "n", "share");
-    let disc = (Mark::Disc, 55, Stroke::solid(GREEN, THIN));
+    let disc = (Mark::Disc, 55, Stroke::solid(RED, THIN));
     panel.marks("exact", &exact, disc, Outside::Refuse)?;
-    let entries = [Entry::mark(disc, "exact"), Entry::line(line, "*k*^{2} = 2*N*(ln *k* − 1)")];
-    sheet.legend((5200, 5650), (SMALL, 370), (9, 0), &entries)
+    if let Some(place) = exact.get(4) {
+        panel.label("exact", *place, (2, -1), RED)?;
+    }
+    panel.label("*k*^{2} = 2*N*(ln *k* − 1)", (3e4, 0.0168), (-1, 1), INK)
 }

@@ -100,9 +100,7 @@ pub struct RisePoint {
     pub impacts: Option<Mean>,
     /// Masses of a whole chain that are hit in the window: mean over realisations with at least one.
     pub masses: Option<Mean>,
-    /// Contact phases begun in the window, of all realisations.
-    pub phases: u64,
-    /// Contact phases over impacts.
+    /// Contact phases begun in the window, of all realisations, over its impacts.
     pub phases_per_impact: Option<Estimate>,
     /// Numbers of realisations by their count k = 0..=N.
     pub counts: Vec<u32>,
@@ -326,7 +324,6 @@ impl RisePoint {
             mode_interval: None,
             impacts: Mean::of(&impacts, None),
             masses: Mean::of(&masses, None),
-            phases: phases.iter().sum(),
             phases_per_impact: match touched {
                 true => ratio(&both.map(|own| [*own.0 as f64, *own.1 as f64]).collect::<Vec<_>>()),
                 false => None,
@@ -394,7 +391,7 @@ mod tests {
         let rejected = Counts { rejected: 1, ..one(None, 0, 0, 0) };
         let counts: Counts = all.into_iter().chain([rejected]).collect();
         let row = RisePoint::new(0.1, &counts, 0, 10, [None; 2]);
-        assert_eq!((row.ran, row.kept, row.mode, row.phases), (4, 3, Some(4), 1));
+        assert_eq!((row.ran, row.kept, row.mode), (4, 3, Some(4)));
         let mean = |own: Option<Mean>| own.map(|own| (own.value, own.error.unwrap()));
         assert_eq!(mean(row.mean), Some((6.0, 2.0))); // s = √12, over √3
         assert_eq!(row.mean_all.unwrap().value, 4.5);

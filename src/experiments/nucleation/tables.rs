@@ -133,7 +133,6 @@ fn all(parameters: &NucleationParams, chains: &[Chains<'_>], half: f64) -> Table
     Table::of("nucleation.all", &[parameters], |_| 0)
         .real("half", SIGMA, 4, "σ where half of the chains have such a gap", |_| half)
         .count("shortest", "masses of the shortest chains", |_| shortest as u64)
-        .chosen("until", TIME, "the latest time", |_| last)
         .real("off", "1", 1, "largest distance of found and expected shares by then", |own| {
             off(own.chain.masses)
         })

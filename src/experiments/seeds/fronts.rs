@@ -1,30 +1,28 @@
 //! How fronts advance: how long they stand before a gap.
 //!
 //! Ahead of a front no mass was ever hit, and no gap closes by itself there. So a front takes one gap after the
-//! other, and between two first impacts it waits for the gap ahead. A wait ends with a step or is cut off by the
-//! end of the run; a front at a wall has no wait any more.
+//! other, and between two first impacts it waits for the gap ahead. A wait ends with a step or with the run; a
+//! front at a wall has no wait any more.
 
-use super::run::Trace;
+use super::Trace;
 use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
 use impact_numerics::estimates::ratio;
 use std::f64::consts::TAU;
 
-/// What the fronts of one run did.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Waits {
-    /// Fronts: sides of a seed that is not at the wall there.
-    pub fronts: u64,
-    /// Waits that ended with a step, in ticks.
-    pub ended: Vec<usize>,
-    /// Waits that the end of the run cut off, in ticks.
-    pub cut: Vec<usize>,
-}
-
-/// The fronts of all runs at one σ; errors are by the jackknife over runs.
-pub(super) struct Fronts<'a> {
-    pub parameters: &'a SeedsParams,
-    pub runs: Vec<Waits>,
+/// What the fronts of one run did, as numbers of fronts, steps and ticks.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Fronts {
+    /// Sides of the seed that are not at a wall.
+    pub fronts: f64,
+    /// Waits that ended with a step.
+    pub steps: f64,
+    /// Those of them that lasted one beat at most.
+    pub short: f64,
+    /// Ticks of all waits.
+    pub waited: f64,
+    /// Fronts that have stood for the second half of the run when it ends.
+    pub standing: f64,
 }
 
 /// The time 2π/|Ω − ω| after which a free and a forced motion meet again in any relation that they had: what can
@@ -33,69 +31,33 @@ pub fn beat(chain: &Chain) -> f64 {
     TAU / (chain.forcing_frequency - chain.natural_frequency).abs()
 }
 
-impl Waits {
+impl Fronts {
     /// Of a run and its seed.
     pub(super) fn of(parameters: &SeedsParams, (seed, trace): (usize, &Trace)) -> Self {
-        let mut waits = Waits::default();
-        waits.follow(parameters, (0..seed).rev().map(|gap| trace.firsts[gap]));
-        waits.follow(parameters, (seed + 1..trace.firsts.len()).map(|gap| trace.firsts[gap]));
-        waits
-    }
-
-    /// Counts one front, from the ticks of the first impacts at the gaps ahead of it.
-    fn follow(
-        &mut self,
-        parameters: &SeedsParams,
-        ahead: impl ExactSizeIterator<Item = Option<u32>>,
-    ) {
-        self.fronts += u64::from(ahead.len() > 0);
-        let mut at = 0;
-        for first in ahead {
-            let Some(tick) = first else {
-                self.cut.push(parameters.ticks() - at);
-                break;
-            };
-            self.ended.push(tick as usize - at);
-            at = tick as usize;
+        let (end, beat) = (parameters.ticks(), beat(&parameters.chain) / parameters.tick);
+        let mut own = Fronts::default();
+        let (left, right) = (trace.firsts[..seed].iter().rev(), trace.firsts[seed + 1..].iter());
+        for ahead in [left.collect::<Vec<_>>(), right.collect()] {
+            own.fronts += f64::from(!ahead.is_empty());
+            let mut at = 0;
+            for first in ahead {
+                let tick = first.map_or(end, |tick| tick as usize);
+                let wait = tick - at;
+                own.waited += wait as f64;
+                if first.is_none() {
+                    own.standing += f64::from(wait > end / 2);
+                    break;
+                }
+                own.steps += 1.0;
+                own.short += f64::from(wait <= beat as usize);
+                at = tick;
+            }
         }
-    }
-
-    pub(super) fn steps(&self) -> u64 {
-        self.ended.len() as u64
+        own
     }
 }
 
-impl Fronts<'_> {
-    fn ratio(&self, of: impl Fn(&Waits) -> [u64; 2]) -> Option<Estimate> {
-        let pairs = self.runs.iter().map(|run| of(run).map(|n| n as f64));
-        ratio(&pairs.collect::<Vec<_>>())
-    }
-
-    /// Gaps in a unit of time, as long as there is a gap ahead: steps over the time of all waits.
-    pub fn speed(&self) -> Option<Estimate> {
-        let tick = self.parameters.tick;
-        let time = |run: &Waits| run.ended.iter().chain(&run.cut).sum::<usize>() as f64 * tick;
-        let pairs = self.runs.iter().map(|run| [run.steps() as f64, time(run)]);
-        ratio(&pairs.collect::<Vec<_>>())
-    }
-
-    /// Share of the steps after a wait of at most one beat.
-    pub fn bursts(&self) -> Option<Estimate> {
-        let beat = (beat(&self.parameters.chain) / self.parameters.tick) as usize;
-        let short = |run: &Waits| run.ended.iter().filter(|wait| **wait <= beat).count() as u64;
-        self.ratio(|run| [short(run), run.steps()])
-    }
-
-    /// What it would be for waits with a constant hazard and the same speed.
-    pub fn even(&self) -> f64 {
-        let beat = beat(&self.parameters.chain);
-        self.speed().map_or(0.0, |speed| -pxfm::f_expm1(-speed.value * beat))
-    }
-
-    /// Share of the fronts that have stood for the second half of the run when it ends.
-    pub fn standing(&self) -> Option<Estimate> {
-        let half = self.parameters.ticks() / 2;
-        let long = |run: &Waits| run.cut.iter().filter(|wait| **wait > half).count() as u64;
-        self.ratio(|run| [long(run), run.fronts])
-    }
+/// A share or a rate over all runs, with its error by the jackknife over runs.
+pub(super) fn over(runs: &[Fronts], of: fn(&Fronts) -> [f64; 2]) -> Option<Estimate> {
+    ratio(&runs.iter().map(of).collect::<Vec<_>>())
 }

@@ -1,13 +1,11 @@
 //! What follows from the runs.
 
 use super::counting::{bits, ran};
-use super::fronts::{Fronts, Waits, beat};
+use super::fronts::{Fronts, beat, over};
 use super::growth::{GROUPS, Prediction, predictions};
 use super::{ByDistance, Seeds, Trace};
 use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
-use impact_circuits::distribution::{Law, SampleSpace};
-use impact_circuits::impact_probability::ImpactProbability;
 use rayon::prelude::*;
 
 /// The runs at one σ.
@@ -16,7 +14,7 @@ struct RunsAtSigma<'a> {
     sigma: f64,
     runs: Vec<(usize, &'a Trace)>,
     seen: ByDistance,
-    fronts: Fronts<'a>,
+    fronts: Vec<Fronts>,
 }
 
 /// All tables.
@@ -33,8 +31,7 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
         .collect();
     let row = |place: usize| {
         let runs: Vec<(usize, &Trace)> = ran(&seeds.rows[place]).collect();
-        let waits = runs.iter().map(|run| Waits::of(parameters, *run)).collect();
-        let fronts = Fronts { parameters, runs: waits };
+        let fronts = runs.iter().map(|run| Fronts::of(parameters, *run)).collect();
         let seen = ByDistance::sum(&groups[place], GROUPS);
         RunsAtSigma { parameters, sigma: parameters.sigmas[place], runs, seen, fronts }
     };
@@ -45,7 +42,6 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
         advance(&rows),
         fronts(&rows),
         means(&rows, &predicted),
-        theory(parameters),
         rise(parameters, &predicted),
         all(parameters),
     ]
@@ -94,21 +90,21 @@ fn fronts(rows: &[RunsAtSigma<'_>]) -> Table {
         .real("exponent", "1", 2, "d ln(advance)/d ln t over the last three quarters", |row| {
             row.seen.exponent()
         })
-        .estimate("bursts", "1", "share of steps within a beat", |row| row.fronts.bursts())
-        .real(
-            "even",
-            "1",
-            2,
-            "the same at a constant hazard and the speed of these fronts",
-            |row| row.fronts.even(),
-        )
+        .estimate("bursts", "1", "share of steps within a beat", |row| {
+            over(&row.fronts, |own| [own.short, own.steps])
+        })
+        .real("even", "1", 2, "the same for steps at a constant rate and this speed", |row| {
+            let beat = beat(&row.parameters.chain) / row.parameters.tick;
+            let speed = over(&row.fronts, |own| [own.steps, own.waited]);
+            speed.map_or(0.0, |speed| -pxfm::f_expm1(-speed.value * beat))
+        })
         .estimate("standing", "1", "share of fronts without a step in the second half", |row| {
-            row.fronts.standing()
+            over(&row.fronts, |own| [own.standing, own.fronts])
         })
         .done()
 }
 
-/// The mean counts that follow, and those of circuits.
+/// The mean counts that follow.
 fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
     let sigmas = |own| rows.iter().enumerate().map(move |(place, row)| (own, place, row));
     let rows: Vec<(&Prediction, usize, &RunsAtSigma<'_>)> =
@@ -118,26 +114,6 @@ fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
         .key("sigma", SIGMA, |(.., row)| row.sigma)
         .estimate("grown", "1", "mean count by nucleation and growth", |(own, place, _)| {
             own.mean(*place)
-        })
-        .real("eq25", "1", 3, "the same by circuits with p of Eq. (25)", |(.., row)| {
-            circuits(row.parameters, row.sigma, |law| law.p())
-        })
-        .real("from_rest", "1", 3, "with p for a start from rest", |(.., row)| {
-            circuits(row.parameters, row.sigma, |law| law.p_from_rest())
-        })
-        .done()
-}
-
-/// The counts of circuits at more σ than were run, for curves.
-fn theory(parameters: &SeedsParams) -> Table {
-    let sigmas: Vec<f64> = (75..=165_u32).map(|step| f64::from(step) / 1000.0).collect();
-    Table::of("seeds.theory", &sigmas, |_| 0)
-        .key("sigma", SIGMA, |sigma| *sigma)
-        .real("eq25", "1", 3, "mean count by circuits with p of Eq. (25)", |sigma| {
-            circuits(parameters, *sigma, |law| law.p())
-        })
-        .real("from_rest", "1", 3, "with p for a start from rest", |sigma| {
-            circuits(parameters, *sigma, |law| law.p_from_rest())
         })
         .done()
 }
@@ -174,19 +150,6 @@ impl RunsAtSigma<'_> {
         let of = |trace: &Trace| trace.hits.iter().filter(|own| **own & mask != 0).count() as f64;
         average(&self.runs.iter().map(|(_, trace)| of(trace)).collect::<Vec<_>>())
     }
-}
-
-/// The mean count by the graph theory.
-fn circuits(
-    parameters: &SeedsParams,
-    sigma: f64,
-    p: impl Fn(&ImpactProbability) -> Result<f64, impact_circuits::Error>,
-) -> f64 {
-    let chain = &parameters.chain;
-    let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
-    let law = ImpactProbability::new(sigma, chain.spacing, omega, big_omega);
-    let law = law.and_then(|law| Law::new(SampleSpace::Simple, chain.gaps(), p(&law)?));
-    law.map_or(f64::NAN, |law| law.mean())
 }
 
 #[cfg(test)]

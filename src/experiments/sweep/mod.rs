@@ -30,9 +30,9 @@ pub fn total(sweep: &Counted) -> Total {
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let sweep = &found[0];
     vec![
-        run("sweep.run", sweep),
+        run(sweep),
         rows(sweep),
-        rise_table("sweep.rise", sweep),
+        rise_table(sweep),
         modes(sweep),
         laws_table(sweep),
         rare(sweep),
@@ -40,10 +40,16 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     ]
 }
 
-/// Those of the sweep with the second seed.
+/// That of the sweep with the second seed.
 pub fn of_second_seed(found: &Vec<Counted>) -> Vec<Table> {
-    vec![run("second_seed.run", &found[0]), rise_table("second_seed.rise", &found[0])]
+    let table = Table::of("second_seed.rise", found, |own| own.ensemble.realisations)
+        .count("seed", "master seed", |own| own.ensemble.seed)
+        .computed_by(origin(Curve::new))
+        .estimate("half_height", SIGMA, KEPT_HALF, |own| own.first().rise.half_height);
+    vec![table.done()]
 }
+
+const KEPT_HALF: &str = "the mean of realisations with an impact passes half of all gaps";
 
 /// How far the two seeds lie apart.
 pub fn of_both(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
@@ -66,10 +72,10 @@ pub fn of_both(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
 }
 
 /// What was run.
-fn run(name: &'static str, sweep: &Counted) -> Table {
+fn run(sweep: &Counted) -> Table {
     let of = |pick: fn(&Runs) -> u64| move |own: &&Counted| own.runs.iter().map(pick).sum();
     let protocol = sweep.first().protocol;
-    Table::of(name, &[sweep], |own| own.ensemble.realisations)
+    Table::of("sweep.run", &[sweep], |own| own.ensemble.realisations)
         .count("gaps", "gaps of a chain", |own| own.ensemble.chain.gaps() as u64)
         .chosen("transient", TIME, "", |_| Some(protocol.transient))
         .chosen("window", TIME, "", |_| Some(protocol.window))
@@ -132,16 +138,11 @@ const PLACES: [Place; 5] = [
 ];
 
 /// Places of the rise.
-fn rise_table(name: &'static str, sweep: &Counted) -> Table {
+fn rise_table(sweep: &Counted) -> Table {
     let rise = &sweep.first().rise;
-    let mut table = Table::of(name, &[()], |()| sweep.ensemble.realisations)
+    let mut table = Table::of("sweep.rise", &[()], |()| sweep.ensemble.realisations)
         .computed_by(origin(Curve::new))
-        .estimate(
-            "half_height",
-            SIGMA,
-            "the mean of realisations with an impact passes half of all gaps",
-            |()| rise.half_height,
-        )
+        .estimate("half_height", SIGMA, KEPT_HALF, |()| rise.half_height)
         .real("half_height_from", SIGMA, 4, "the lower end of its bootstrap interval", |()| {
             rise.half_height.map_or(f64::NAN, |half| half.interval[0])
         })

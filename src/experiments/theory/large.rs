@@ -25,12 +25,10 @@ pub(super) fn tables() -> Vec<Table> {
         .computed_by(origin(p_jump))
         .key("n", "1", |(n, _)| *n)
         .real("vertices", "1", 1, "N", |(n, _)| *n)
-        .count("k_after", "k* after the jump", |(_, jump)| jump.k_after as u64)
         .real("share", "1", 2, "k*/N after the jump", share)
         .real("rule", "1", 4, "root of k² = 2 N (ln k − 1)", |(n, _)| {
             jump_rule(*n as usize).unwrap_or(f64::NAN)
         })
-        .real("p_n", "1", 5, "N p_jump", |(n, jump)| jump.p * n)
         .done();
     vec![table]
 }
