@@ -14,7 +14,6 @@ pub mod measured;
 pub mod nucleation;
 pub mod protocol;
 pub mod replay;
-pub mod restitution;
 pub mod seeds;
 pub mod segments;
 pub mod spacetime;
@@ -305,7 +304,7 @@ pub const SEEDS: Experiment<SeedsParams, seeds::Seeds> = Experiment {
 
 /// Chains of several restitutions.
 pub const RESTITUTION: Ensembles =
-    ensembles("restitution", "restitution", params::restitution, restitution::tables);
+    ensembles("restitution", "restitution", params::restitution, starts::of_restitutions);
 
 /// Chains from rest and from above, of several lengths, after several transients.
 pub const BRANCHES: Ensembles =

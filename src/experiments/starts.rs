@@ -1,4 +1,4 @@
-//! What choices change that the paper leaves open: the start, walls or ring; and Ω.
+//! Half heights of chains that differ from the paper's: in the start, walls or ring, in Ω and r.
 
 use super::STARTS;
 use crate::experiments::prelude::*;
@@ -27,6 +27,15 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
         .count("realisations", "chains at each σ", |own| *own as u64)
         .done();
     vec![table, all]
+}
+
+/// Of chains of several restitutions.
+pub fn of_restitutions(found: &Vec<Counted>) -> Vec<Table> {
+    let table = Table::of("restitution.curves", found, |own| own.ensemble.realisations)
+        .key("r", "1", |own| own.ensemble.chain.restitution)
+        .computed_by(origin(Curve::new))
+        .estimate("half_height", SIGMA, HALF_HEIGHT, half_height);
+    vec![table.done()]
 }
 
 /// What of the distance to the theory the start explains.

@@ -24,8 +24,6 @@ pub struct Counts {
     pub impacts: Vec<Vec<u64>>,
     /// Masses that are hit in each window, of each realisation.
     pub masses: Vec<Vec<u32>>,
-    /// Contact phases begun in each window, of each realisation.
-    pub phases: Vec<Vec<u64>>,
     /// Realisations with an overlapping start.
     pub rejected: usize,
     /// Realisations that the engine ended early.
@@ -65,7 +63,6 @@ impl Counts {
             distinct: vec![vec![None; ensemble.pieces]; windows],
             impacts: vec![vec![0]; windows],
             masses: vec![vec![0]; windows],
-            phases: vec![vec![0]; windows],
             ..Counts::default()
         }
     }
@@ -95,7 +92,6 @@ impl FromIterator<Counts> for Counts {
             extend(&mut whole.distinct, own.distinct);
             extend(&mut whole.impacts, own.impacts);
             extend(&mut whole.masses, own.masses);
-            extend(&mut whole.phases, own.phases);
             whole.rejected += own.rejected;
             whole.failed += own.failed;
             whole.total.add(&own.total);
@@ -228,7 +224,6 @@ impl Watch {
             }
             counts.impacts[place] = vec![end.impacts - begin.impacts];
             counts.masses[place] = vec![masses_hit(&hit, self.ring)];
-            counts.phases[place] = vec![end.contact_phases - begin.contact_phases];
         }
         counts.total = self.total;
         Ok(counts)

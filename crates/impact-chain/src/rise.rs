@@ -7,7 +7,7 @@
 use crate::counts::{Counts, Total};
 use crate::ensemble::{Ensemble, Protocol};
 use impact_numerics::bootstrap;
-use impact_numerics::estimates::{LEVEL, ratio, with_error};
+use impact_numerics::estimates::{LEVEL, with_error};
 use impact_numerics::statistics::{
     self as stat, Estimate, count_quantile, last_rise, mode, standard_error,
 };
@@ -100,8 +100,6 @@ pub struct RisePoint {
     pub impacts: Option<Mean>,
     /// Masses of a whole chain that are hit in the window: mean over realisations with at least one.
     pub masses: Option<Mean>,
-    /// Contact phases begun in the window, of all realisations, over its impacts.
-    pub phases_per_impact: Option<Estimate>,
     /// Numbers of realisations by their count k = 0..=N.
     pub counts: Vec<u32>,
 }
@@ -311,9 +309,6 @@ impl RisePoint {
         let active = || of.impacts[window].iter().zip(&of.masses[window]).filter(|own| *own.0 > 0);
         let impacts: Vec<f64> = active().map(|own| *own.0 as f64).collect();
         let masses: Vec<f64> = active().map(|own| f64::from(*own.1)).collect();
-        let phases = &of.phases[window];
-        let both = phases.iter().zip(&of.impacts[window]);
-        let touched = phases.iter().any(|&phases| phases > 0);
         RisePoint {
             sigma,
             ran: all.len(),
@@ -324,10 +319,6 @@ impl RisePoint {
             mode_interval: None,
             impacts: Mean::of(&impacts, None),
             masses: Mean::of(&masses, None),
-            phases_per_impact: match touched {
-                true => ratio(&both.map(|own| [*own.0 as f64, *own.1 as f64]).collect::<Vec<_>>()),
-                false => None,
-            },
             counts,
         }
     }
@@ -373,22 +364,20 @@ mod tests {
         }
     }
 
-    fn one(distinct: Option<u32>, impacts: u64, masses: u32, phases: u64) -> Counts {
+    fn one(distinct: Option<u32>, impacts: u64, masses: u32) -> Counts {
         Counts {
             distinct: vec![vec![distinct]],
             impacts: vec![vec![impacts]],
             masses: vec![vec![masses]],
-            phases: vec![vec![phases]],
             ..Counts::default()
         }
     }
 
     #[test]
     fn a_row_by_hand() {
-        let all =
-            [(Some(0), 0, 0, 0), (Some(4), 40, 3, 1), (Some(10), 120, 9, 0), (Some(4), 80, 3, 0)];
-        let all = all.map(|(k, impacts, masses, phases)| one(k, impacts, masses, phases));
-        let rejected = Counts { rejected: 1, ..one(None, 0, 0, 0) };
+        let all = [(Some(0), 0, 0), (Some(4), 40, 3), (Some(10), 120, 9), (Some(4), 80, 3)];
+        let all = all.map(|(k, impacts, masses)| one(k, impacts, masses));
+        let rejected = Counts { rejected: 1, ..one(None, 0, 0) };
         let counts: Counts = all.into_iter().chain([rejected]).collect();
         let row = RisePoint::new(0.1, &counts, 0, 10, [None; 2]);
         assert_eq!((row.ran, row.kept, row.mode), (4, 3, Some(4)));
@@ -397,15 +386,14 @@ mod tests {
         assert_eq!(row.mean_all.unwrap().value, 4.5);
         assert_eq!(mean(row.masses), Some((5.0, 2.0)));
         assert_eq!(row.impacts.unwrap().value, 80.0);
-        assert_eq!(row.phases_per_impact.unwrap().value, 1.0 / 240.0);
         assert_eq!(row.counts, [1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 1]);
     }
 
     #[test]
     fn where_many_starts_overlap_no_place_is_read() {
         let overlapping = |k| -> Counts {
-            let rejected = Counts { rejected: 1, ..one(None, 0, 0, 0) };
-            (0..6).map(|_| one(Some(k), 1, 1, 0)).chain([rejected]).collect()
+            let rejected = Counts { rejected: 1, ..one(None, 0, 0) };
+            (0..6).map(|_| one(Some(k), 1, 1)).chain([rejected]).collect()
         };
         let ensemble = Ensemble {
             chain: crate::Chain { masses: 9, ..crate::Chain::default() },
