@@ -240,7 +240,7 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
     }
     for (name, expected) in [
         ("fig05b.csv", 3 * results.of(&SEGMENTS).unwrap().fig05.times.len() + 4),
-        ("fig07a.csv", VERTICES),
+        ("fig07.csv", VERTICES),
         ("fig08d.csv", VERTICES),
         ("fig09b.csv", 592),
         ("fig14b.csv", 2 * VERTICES),

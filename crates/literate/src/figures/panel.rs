@@ -42,8 +42,6 @@ pub struct Panel {
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
-    /// Size of the numbers at the ticks.
-    pub numbers: i32,
     pub(super) record: Rc<RefCell<Record>>,
     /// Whether series are recorded.
     pub(super) recorded: bool,
@@ -83,8 +81,7 @@ impl Panel {
         let ((from, to), (low, high)) = (x.ends(), y.ends());
         let place = (frame.left..frame.right, frame.bottom..frame.top);
         let plane = Cartesian2d::new(from..to, low..high, place);
-        let (drawing, numbers) = (drawing.clone(), SMALL);
-        Panel { drawing, plane, frame, x, y, numbers, record, recorded: true }
+        Panel { drawing: drawing.clone(), plane, frame, x, y, record, recorded: true }
     }
 
     /// Where a value stands on the sheet.
@@ -130,11 +127,11 @@ impl Panel {
             let x = self.at(tick.at, self.y.lo).0;
             if let Some(label) = tick.label.as_ref().filter(|label| !label.is_empty()) {
                 let at = (x, bottom + TICK + GAP);
-                self.text(label, at, self.numbers, HPos::Center, VPos::Top)?;
+                self.text(label, at, SMALL, HPos::Center, VPos::Top)?;
             }
         }
         if !self.x.label.is_empty() {
-            let numbers = self.numbers * font::CAP_HEIGHT / font::EM;
+            let numbers = SMALL * font::CAP_HEIGHT / font::EM;
             let at = ((left + right) / 2, bottom + TICK + numbers + 3 * GAP);
             self.text(&self.x.label, at, TEXT, HPos::Center, VPos::Top)?;
         }
@@ -144,8 +141,8 @@ impl Panel {
             let y = self.at(self.x.lo, tick.at).1;
             if let Some(label) = &tick.label {
                 let at = (left - TICK - GAP * 2 / 3, y);
-                self.text(label, at, self.numbers, HPos::Right, VPos::Center)?;
-                widest = widest.max(font::set(label)?.width * self.numbers / font::EM);
+                self.text(label, at, SMALL, HPos::Right, VPos::Center)?;
+                widest = widest.max(font::set(label)?.width * SMALL / font::EM);
             }
         }
         if !self.y.label.is_empty() {

@@ -10,7 +10,7 @@ use super::drawing::{Drawing, Look, Point};
 use super::panel::{Frame, Panel};
 use super::record::Record;
 use super::series::Marker;
-use super::style::{INK, Stroke, TINY};
+use super::style::{INK, Stroke};
 use super::{Error, Figure, Seen};
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -55,10 +55,7 @@ impl Sheet {
 
     /// A panel with its axes drawn.
     pub fn panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
-        self.with_axes(Panel::new(&self.drawing, frame, x, y))
-    }
-
-    fn with_axes(&self, panel: Panel) -> Result<Panel, Error> {
+        let panel = Panel::new(&self.drawing, frame, x, y);
         self.records.borrow_mut().push(panel.record.clone());
         panel.axes()?;
         Ok(panel)
@@ -69,13 +66,6 @@ impl Sheet {
         let panel = self.panel(frame, x, y)?;
         panel.letter(letter)?;
         Ok(panel)
-    }
-
-    /// An inset with smaller numbers. It shows data of the panel again, and records nothing; with data of its own
-    /// it takes a [`Panel::file`].
-    pub fn inset(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
-        let panel = Panel::new(&self.drawing, frame, x, y);
-        self.with_axes(Panel { numbers: TINY, recorded: false, ..panel })
     }
 
     /// For free drawing.

@@ -13,7 +13,7 @@ pub const TEXT: i32 = 282;
 /// Size of tick labels: 7 points.
 pub const SMALL: i32 = 247;
 
-/// Size of what stands inside an inset or a note: 6.6 points.
+/// Size of a small note: 6.6 points.
 pub const TINY: i32 = 233;
 
 /// Thickness of axes and ticks.
