@@ -26,8 +26,7 @@ pub fn draw() -> Result<Figure, Error> {
             3 => format!("*p* = *p*_{{jump}} = {}", short(at, 4)),
             _ => format!("*p* = {}", short(at, 4)),
         };
-        let (words, look) = (format!("{} {p}", LETTERS[i]), (SMALL, INK, HPos::Left, VPos::Bottom));
-        left.note(&words, (0.0, left.y.hi), (60, -90), look)?;
+        left.label(&format!("{} {p}", LETTERS[i]), (0.0, left.y.hi), (1, -1), INK)?;
         sign(&left, at)?;
         let mut columns = simple(at);
         columns.truncate(shown as usize);

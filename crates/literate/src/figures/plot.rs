@@ -20,15 +20,15 @@ use super::{axis, font, panel, style};
 use impact_numerics::statistics::Estimate;
 use pxfm::{f_exp10, f_log10};
 
-type Points = Vec<(f64, f64)>;
-
 /// How a series is shown.
 enum Shown {
-    Line(Points),
-    Marks(Points, Mark),
-    Estimates(Vec<(f64, Estimate)>),
+    Line,
+    Marks(Mark),
     Curve(Box<dyn Fn(f64) -> f64>),
 }
+
+/// A series: its name, how it is shown, and its points with their errors, which are zero where there are none.
+struct Series(String, Shown, Vec<(f64, f64, f64)>);
 
 /// Label, scale and, if it is given, the range of an axis.
 #[derive(Default)]
@@ -43,11 +43,8 @@ struct Along {
 pub struct Plot {
     x: Along,
     y: Along,
-    series: Vec<(String, Shown)>,
+    series: Vec<Series>,
 }
-
-/// Line, marker and last point of a series.
-type Sample = (Option<Stroke>, Option<Marker>, Option<(f64, f64)>);
 
 /// Length of the piece of a line before its name.
 const SAMPLE: i32 = 420;
@@ -97,48 +94,42 @@ impl Plot {
         self
     }
 
-    fn add(mut self, name: &str, shown: Shown) -> Self {
-        self.series.push((name.into(), shown));
+    fn add(mut self, name: &str, shown: Shown, points: Vec<(f64, f64, f64)>) -> Self {
+        self.series.push(Series(name.into(), shown, points));
         self
     }
 
     /// A line through points (x, y).
     pub fn line(self, name: &str, points: &[(f64, f64)]) -> Self {
-        self.add(name, Shown::Line(points.to_vec()))
+        self.add(name, Shown::Line, points.iter().map(|(x, y)| (*x, *y, 0.0)).collect())
     }
 
     /// Markers at points (x, y).
     pub fn points(self, name: &str, points: &[(f64, f64)], mark: Mark) -> Self {
-        self.add(name, Shown::Marks(points.to_vec(), mark))
+        self.add(name, Shown::Marks(mark), points.iter().map(|(x, y)| (*x, *y, 0.0)).collect())
     }
 
     /// Discs at (x, y) with bars of the given error to both sides, in the unit of y.
     pub fn errorbars(self, name: &str, points: &[(f64, f64, f64)]) -> Self {
-        let of = |&(x, value, error)| (x, Estimate { value, error, interval: [value; 2] });
-        self.estimates(name, &points.iter().map(of).collect::<Vec<_>>())
+        self.add(name, Shown::Marks(Mark::Disc), points.to_vec())
     }
 
     /// Discs at estimates with bars of one standard error, as a table gives them.
     pub fn estimates(self, name: &str, estimates: &[(f64, Estimate)]) -> Self {
-        self.add(name, Shown::Estimates(estimates.to_vec()))
+        let of = |(x, own): &(f64, Estimate)| (*x, own.value, own.error);
+        self.add(name, Shown::Marks(Mark::Disc), estimates.iter().map(of).collect())
     }
 
     /// A function of x across the plot; the range of y follows from it only where there is no other data.
     pub fn curve(self, name: &str, of: impl Fn(f64) -> f64 + 'static) -> Self {
-        self.add(name, Shown::Curve(Box::new(of)))
+        self.add(name, Shown::Curve(Box::new(of)), Vec::new())
     }
 
     /// All points that have a place, with the ends of bars.
-    fn data(&self) -> Points {
-        let bars = |(x, own): &(f64, Estimate)| {
-            [own.value, own.value - own.error, own.value + own.error].map(|y| (*x, y))
-        };
-        let points = self.series.iter().flat_map(|(_, shown)| match shown {
-            Shown::Line(points) | Shown::Marks(points, _) => points.clone(),
-            Shown::Estimates(estimates) => estimates.iter().flat_map(bars).collect(),
-            Shown::Curve(_) => Vec::new(),
-        });
-        points.filter(|p| (p.0 > 0.0 || !self.x.is_log) && (p.1 > 0.0 || !self.y.is_log)).collect()
+    fn data(&self) -> Vec<(f64, f64)> {
+        let points = self.series.iter().flat_map(|series| &series.2);
+        let ends = points.flat_map(|(x, y, error)| [0.0, -error, *error].map(|by| (*x, y + by)));
+        ends.filter(|p| (p.0 > 0.0 || !self.x.is_log) && (p.1 > 0.0 || !self.y.is_log)).collect()
     }
 
     /// Draws the figure; `id` is its name, and that of its files.
@@ -151,10 +142,10 @@ impl Plot {
         let (from, to) = x.ends();
         let place = |i: i32| from + (to - from) * f64::from(i) / 400.0;
         let value = |at: f64| if self.x.is_log { f_exp10(at) } else { at };
-        for (_, shown) in &mut self.series {
+        for Series(_, shown, points) in &mut self.series {
             if let Shown::Curve(of) = shown {
-                let points = (0..=400).map(|i| value(place(i))).map(|x| (x, of(x)));
-                *shown = Shown::Line(points.filter(|point| point.1.is_finite()).collect());
+                let grid = (0..=400).map(|i| value(place(i))).map(|x| (x, of(x), 0.0));
+                *points = grid.filter(|point| point.1.is_finite()).collect();
             }
         }
         if data.is_empty() {
@@ -162,78 +153,69 @@ impl Plot {
         }
         let y = self.y.axis(data.iter().map(|point| point.1));
 
-        let mut names: Vec<&str> = self.series.iter().map(|(name, _)| name.as_str()).collect();
+        let mut names: Vec<&str> = self.series.iter().map(|series| &*series.0).collect();
         let mut seen = std::collections::BTreeSet::new();
         names.retain(|name| seen.insert(*name));
-        let wide =
-            |text: &str, size: i32| Ok::<i32, Error>(font::set(text)?.width * size / font::EM);
+        let wide = |text: &str| Ok::<i32, Error>(font::set(text)?.width * SMALL / font::EM);
         let labels = |axis: &Axis| -> Result<Vec<i32>, Error> {
-            axis.ticks.iter().flat_map(|tick| &tick.label).map(|own| wide(own, SMALL)).collect()
+            axis.ticks.iter().flat_map(|tick| &tick.label).map(|own| wide(own)).collect()
         };
         let left = labels(&y)?.into_iter().max().unwrap_or(0) + panel::BESIDE + 2 * TEXT;
-        let beside = names.iter().map(|name| Ok(wide(name, SMALL)? + SAMPLE + 300));
-        let beside = beside.collect::<Result<Vec<_>, Error>>()?.into_iter().max();
-        let beside = beside.filter(|_| names.len() > 1).unwrap_or(0);
-        let right =
-            WIDTH as i32 - beside.max(150 + labels(&x)?.last().map_or(0, |width| width / 2));
+        let mut right = WIDTH as i32 - 150 - labels(&x)?.last().map_or(0, |width| width / 2);
+        for name in names.iter().filter(|_| names.len() > 1) {
+            right = right.min(WIDTH as i32 - wide(name)? - SAMPLE - 300);
+        }
         let frame = Frame::new(left, 250, right, 4250);
         let sheet = Sheet::new((frame.bottom + panel::BELOW + 2 * TEXT) as u32);
         let panel = sheet.panel(frame, x, y)?;
-        let mut samples: Vec<Sample> = vec![(None, None, None); names.len()];
-        for (name, shown) in &self.series {
-            let i = names.iter().position(|own| own == name).unwrap_or_default();
+        let looks = |name: &str| {
+            let i = names.iter().position(|own| *own == name).unwrap_or_default();
             let colour = COLOURS[i % COLOURS.len()];
             let line = Stroke::dashed(colour, LINE, DASHES[i % DASHES.len()]);
-            let marker = |mark| (mark, style::MEDIUM, Stroke::solid(colour, THIN));
-            let end = match shown {
-                Shown::Line(points) => {
-                    samples[i].0 = Some(line);
-                    panel.curve(name, points, line, Outside::Cut)?;
-                    points.last().copied()
+            (line, move |mark| (mark, style::MEDIUM, Stroke::solid(colour, THIN)))
+        };
+        for Series(name, shown, points) in &self.series {
+            let (line, marker) = looks(name);
+            let places: Vec<_> = points.iter().map(|(x, y, _)| (*x, *y)).collect();
+            match shown {
+                Shown::Line | Shown::Curve(_) => panel.curve(name, &places, line, Outside::Cut)?,
+                Shown::Marks(mark) if points.iter().all(|point| point.2 == 0.0) => {
+                    panel.marks(name, &places, marker(*mark), Outside::Cut)?;
                 }
-                Shown::Marks(points, mark) => {
-                    samples[i].1 = Some(marker(*mark));
-                    panel.marks(name, points, marker(*mark), Outside::Cut)?;
-                    points.last().copied()
+                Shown::Marks(mark) => {
+                    let of =
+                        |&(x, value, error)| (x, Estimate { value, error, interval: [value; 2] });
+                    let own: Vec<_> = points.iter().map(of).collect();
+                    panel.estimates(name, &own, marker(*mark))?;
                 }
-                Shown::Estimates(estimates) => {
-                    samples[i].1 = Some(marker(Mark::Disc));
-                    panel.estimates(name, estimates, marker(Mark::Disc))?;
-                    estimates.last().map(|(x, own)| (*x, own.value))
-                }
-                Shown::Curve(_) => None,
-            };
-            samples[i].2 = end.or(samples[i].2);
+            }
         }
-        if names.len() > 1 {
-            named(&sheet, &panel, &names, &samples)?;
+        if names.len() < 2 {
+            return Ok(sheet.finish(id, title, description));
+        }
+        // Right of the frame, at the height where each series ends, a sample of it and its name.
+        let end = |name: &&str| {
+            let last =
+                self.series.iter().filter(|own| own.0 == **name).find_map(|own| own.2.last());
+            let placed = last.filter(|end| panel.y.at(end.1).is_finite());
+            placed.map_or(frame.bottom, |end| panel.at(end.0.max(panel.x.lo), end.1).1)
+        };
+        let ends: Vec<i32> =
+            names.iter().map(|own| end(own).clamp(frame.top, frame.bottom)).collect();
+        for (name, y) in names.iter().zip(panel::apart(&ends, panel::LINE_HEIGHT)) {
+            let (line, marker) = looks(name);
+            for Series(_, shown, _) in self.series.iter().filter(|own| own.0 == **name) {
+                let (x, end) = (right + 100, right + 100 + SAMPLE);
+                match shown {
+                    Shown::Marks(mark) => sheet.free().marks([((x + end) / 2, y)], marker(*mark)),
+                    _ => sheet.free().line(vec![(x, y), (end, y)], line),
+                }
+            }
+            let look = (SMALL, line.colour, HPos::Left, VPos::Center);
+            sheet.text(name, (right + SAMPLE + 200, y), look)?;
         }
         Ok(sheet.finish(id, title, description))
     }
-}
-
-/// Right of the frame, at the height where each series ends, a sample of it and its name; they move apart where ends
-/// are close.
-fn named(sheet: &Sheet, panel: &Panel, names: &[&str], samples: &[Sample]) -> Result<(), Error> {
-    let Frame { top, right, bottom, .. } = panel.frame;
-    let height = |(_, _, end): &Sample| {
-        let end = end.filter(|p| panel.x.at(p.0).is_finite() && panel.y.at(p.1).is_finite());
-        end.map_or(bottom, |p| panel.at(p.0, p.1).1.clamp(top, bottom))
-    };
-    let ends: Vec<i32> = samples.iter().map(height).collect();
-    for (i, y) in panel::apart(&ends, panel::LINE_HEIGHT).into_iter().enumerate() {
-        let (line, mark, _) = samples[i];
-        let x = right + 100;
-        if let Some(stroke) = line {
-            sheet.free().line(vec![(x, y), (x + SAMPLE, y)], stroke);
-        }
-        if let Some(marker) = mark {
-            sheet.free().marks([(x + SAMPLE / 2, y)], marker);
-        }
-        let colour = COLOURS[i % COLOURS.len()];
-        sheet.text(names[i], (x + SAMPLE + 100, y), (SMALL, colour, HPos::Left, VPos::Center))?;
-    }
-    Ok(())
 }
 
 impl Along {
