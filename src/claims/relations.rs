@@ -20,13 +20,15 @@ macro_rules! relations {
     ($($name:ident: $what:literal;)*) => { [$((stringify!($name), $what, $name)),*] };
 }
 
-const RELATIONS: [Relation; 7] = relations! {
+const RELATIONS: [Relation; 9] = relations! {
     printed_threshold: "with our protocol the mean of the realisations with an impact passes half of all gaps at the printed σ";
     two_seeds: "two seeds of the main sweep have one half height, and one mean at each σ";
     laws_of_chance: "impacts near in time go with the time between, and slow ones with the square of their speed";
     map_meets_sweep: "the map of protocols and the main sweep, which drew other forces, have one rise";
     no_rise_before_seeds: "from rest no share of the chains has impacts before as many have a gap that closes by itself";
     above_stays_above: "chains from above have at least as many gaps with an impact as chains from rest under the same forces";
+    branches_approach: "with time the half heights from rest and from above do not part";
+    seeds_before_circuits: "mean counts by nucleation and growth are nearer to the simulation than those by circuits after every transient";
     first_impacts_as_expected: "as many chains have an impact as the theory of clumps expects";
 };
 
@@ -140,6 +142,23 @@ fn above_stays_above(e: &Evidence) -> Departures {
         }
     }
     Ok(found)
+}
+
+fn branches_approach(e: &Evidence) -> Departures {
+    let distances =
+        e.results.table("branches.half_heights")?.estimates(&[], "transient", "distance");
+    let step = |pair: &[(f64, Estimate)]| {
+        let more = difference(pair[1].1, pair[0].1);
+        over(more.value, e.level.quantile * more.error)
+    };
+    Ok(distances.windows(2).map(step).collect())
+}
+
+fn seeds_before_circuits(e: &Evidence) -> Departures {
+    let scores = e.results.table("seeds.scores")?;
+    let of = |column| scores.points(&[], "transient", column).into_iter().map(|own| own.1);
+    let circuits = of("eq25").zip(of("from_rest")).map(|(a, b)| a.min(b));
+    Ok(of("grown").zip(circuits).map(|(grown, circuits)| grown / circuits).collect())
 }
 
 /// What the formula leaves out, times n: a clump keeps others out of the gaps beside it, which moves the share

@@ -3,7 +3,7 @@
 
 use super::starts::HALF_HEIGHT;
 use crate::experiments::prelude::*;
-use impact_chain::{Boundary, Protocol, Start};
+use impact_chain::{Protocol, Start};
 
 const WIDTH: &str = "from a quarter to three quarters of all gaps";
 
@@ -14,11 +14,9 @@ fn masses(own: &Counted) -> usize {
 
 /// The chains from rest between walls, with their curves.
 pub fn from_rest(found: &[Counted]) -> impl Iterator<Item = (&Counted, &Curve)> {
-    let chain = |own: &Counted| (own.ensemble.chain.start, own.ensemble.chain.boundary);
-    let usual = move |own: &&Counted| {
-        own.ensemble.heating.is_none() && chain(own) == (Start::Rest, Boundary::Walls)
-    };
-    found.iter().filter(usual).flat_map(|own| own.curves.iter().map(move |curve| (own, curve)))
+    let at_rest =
+        |own: &&Counted| own.ensemble.heating.is_none() && own.ensemble.chain.start == Start::Rest;
+    found.iter().filter(at_rest).flat_map(|own| own.curves.iter().map(move |curve| (own, curve)))
 }
 
 /// Both branches after one transient: the ensembles with their curves.
@@ -67,13 +65,7 @@ pub fn share((own, curve): (&Counted, &Curve), sigma: f64) -> Option<Estimate> {
 /// All tables.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let both = both(found);
-    vec![
-        half_heights(&both),
-        shares(&both),
-        lengths(found, &both),
-        starts(found),
-        all(found, &both),
-    ]
+    vec![half_heights(&both), shares(&both), lengths(found, &both), random(found), all(found)]
 }
 
 fn half_heights(both: &[Both<'_>]) -> Table {
@@ -122,21 +114,18 @@ fn lengths(found: &[Counted], both: &[Both<'_>]) -> Table {
         .done()
 }
 
-fn starts(found: &[Counted]) -> Table {
-    let other = |own: &&Counted| ["random", "ring"].contains(&own.ensemble.name.as_str());
-    let mut rows: Vec<(&Counted, &Curve)> = Vec::new();
-    for own in found.iter().filter(other) {
-        rows.extend(own.curves.iter().map(|curve| (own, curve)));
-    }
-    Table::of("branches.starts", &rows, |row| row.0.ensemble.realisations)
-        .text_key("chain", |row| row.0.ensemble.name.clone())
-        .key("transient", TIME, |row| row.1.protocol.transient)
+/// Half heights of chains with random free parts.
+fn random(found: &[Counted]) -> Table {
+    let random = named(found, "random");
+    let curves = random.map_or(&[][..], |own| &own.curves);
+    Table::of("branches.random", curves, |_| random.map_or(0, |own| own.ensemble.realisations))
+        .key("transient", TIME, |curve| curve.protocol.transient)
         .computed_by(origin(Curve::new))
-        .estimate("half_height", SIGMA, HALF_HEIGHT, |row| row.1.rise.half_height_all)
+        .estimate("half_height", SIGMA, HALF_HEIGHT, |curve| curve.rise.half_height_all)
         .done()
 }
 
-fn all(found: &[Counted], both: &[Both<'_>]) -> Table {
+fn all(found: &[Counted]) -> Table {
     let longest = found.iter().map(masses).max();
     let heated = found.iter().find_map(|own| own.ensemble.heating.map(|heating| (own, heating)));
     Table::of("branches.all", &[()], |()| 0)
@@ -149,53 +138,5 @@ fn all(found: &[Counted], both: &[Both<'_>]) -> Table {
         })
         .chosen("hot", SIGMA, "σ of the force at first", |()| heated.map(|(_, own)| own.sigma))
         .chosen("heating", TIME, "time under that force", |()| heated.map(|(_, own)| own.time))
-        .computed_by(origin(exponent))
-        .estimate("exponent", "1", "of T in the distance, from the first to the last", |()| {
-            exponent(ends(both)?)
-        })
-        .computed_by(origin(logarithmic))
-        .estimate("logarithmic", SIGMA, "the last distance, if it fell like 1/ln T", |()| {
-            logarithmic(ends(both)?)
-        })
         .done()
-}
-
-/// A transient and the distance after it.
-type End = (f64, Estimate);
-
-/// The first transient and the last, each with its distance.
-fn ends(both: &[Both<'_>]) -> Option<[End; 2]> {
-    let end = |own: Option<&Both<'_>>| Some((own?.transient(), own?.distance()?));
-    Some([end(both.first())?, end(both.last())?])
-}
-
-/// The exponent a of a distance that falls like T^−a from the first transient to the last.
-fn exponent([(early, first), (late, last)]: [End; 2]) -> Option<Estimate> {
-    let logarithm = pxfm::f_log(late / early);
-    let [a, b] = [first, last].map(|own| own.error / own.value);
-    let exponent = pxfm::f_log(first.value / last.value) / logarithm;
-    let error = (a * a + b * b).sqrt() / logarithm;
-    exponent.is_finite().then(|| with_error(exponent, error))
-}
-
-/// What would be left of the first distance after the last transient, if it fell like 1/ln T.
-fn logarithmic([(early, first), (late, _)]: [End; 2]) -> Option<Estimate> {
-    let factor = pxfm::f_log(early) / pxfm::f_log(late);
-    Some(with_error(factor * first.value, factor * first.error))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn laws_of_a_distance_by_hand() {
-        let ends = [(1e2, with_error(0.04, 0.003)), (1e4, with_error(0.01, 0.001))];
-        let found = exponent(ends).unwrap();
-        // ln 4/ln 100 = log 2, and √(0.075² + 0.1²)/ln 100.
-        assert!((found.value - std::f64::consts::LOG10_2).abs() < 1e-14, "{found:?}");
-        assert!((found.error - 0.125 / (2.0 * std::f64::consts::LN_10)).abs() < 1e-14, "{found:?}");
-        let left = logarithmic(ends).unwrap();
-        assert!((left.value - 0.02).abs() < 1e-15 && (left.error - 0.0015).abs() < 1e-15);
-    }
 }

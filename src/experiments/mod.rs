@@ -294,8 +294,7 @@ pub const SEEDS: Experiment<SeedsParams, seeds::Seeds> = Experiment {
     how: Whole {
         run: seeds::run,
         weight: |p| {
-            let until = p.bin * p.bins as f64;
-            let one = |sigma: &f64| impact_chain::work(&p.chain, *sigma, until);
+            let one = |sigma: &f64| impact_chain::work(&p.chain, *sigma, p.until());
             p.realisations as u64 * p.sigmas.iter().map(one).sum::<u64>()
         },
     },

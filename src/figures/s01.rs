@@ -77,7 +77,7 @@ fn description(run: &SpaceTime) -> Seen {
         run.parameters.chain.masses,
         run.parameters.sigma,
         run.starts().len(),
-        run.reached(run.parameters.until),
+        run.firsts().iter().flatten().count(),
         run.width(),
     )
 }

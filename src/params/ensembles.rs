@@ -85,7 +85,7 @@ pub fn starts(profile: Profile) -> Vec<Ensemble> {
 }
 
 /// Chains from rest and from above, of several lengths and after several transients, each at a few σ around the rise; and
-/// chains with a random start and on a ring.
+/// chains with a random start.
 pub fn branches(profile: Profile) -> Vec<Ensemble> {
     const REST: Option<Heating> = None;
     const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });
@@ -138,21 +138,16 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
     };
     let full = profile == Profile::Full;
     let transients: &[f64] = if full { &[100.0, 500.0, 1000.0, 2000.0] } else { &[100.0, 500.0] };
-    let other = |name: &str| Ensemble {
+    let (step, realisations) = if full { (1, 24) } else { (4, 2) };
+    let random = Ensemble {
+        chain: Chain { start: Start::Random, ..Chain::default() },
         protocols: windows(transients, &[200.0]),
         stream: "chains".into(),
-        ..paper(
-            name,
-            Grid::default().and(9, 18, if full { 1 } else { 4 }, 100),
-            if full { 24 } else { 2 },
-        )
+        // Beyond the rise the half height lies where more starts overlap; what is left of them is counted.
+        most_rejected: 1.0,
+        ..paper("random", Grid::default().and(9, 18, step, 100), realisations)
     };
-    let (mut random, mut ring) = (other("random"), other("ring"));
-    random.chain.start = Start::Random;
-    // Beyond the rise the half height lies where more starts overlap; what is left of them is counted.
-    random.most_rejected = 1.0;
-    ring.chain.boundary = Boundary::Ring;
-    cases.iter().map(of).chain([random, ring]).collect()
+    cases.iter().map(of).chain([random]).collect()
 }
 
 /// Chains of several restitutions.

@@ -58,8 +58,6 @@ pub struct SeedsParams {
     pub bin: f64,
     /// ... and their number, 64 at most.
     pub bins: usize,
-    /// Resolution of the times of first impacts; a bin has a whole number of ticks.
-    pub tick: f64,
     /// Window W of the counts that are predicted, in bins.
     pub window: usize,
     /// Transients T of the counts that are predicted, in bins, rising; the last window ends with the bins.
@@ -84,7 +82,6 @@ impl SeedsParams {
             wait: 2000.0,
             bin: 25.0,
             bins: 48,
-            tick: 1.0,
             window: 8,
             transients: vec![2, 4, 8, 20, 40],
             stream: "seeds".into(),
@@ -92,8 +89,8 @@ impl SeedsParams {
         }
     }
 
-    /// Ticks of a run.
-    pub fn ticks(&self) -> usize {
-        (self.bin * self.bins as f64 / self.tick).round() as usize
+    /// Time since the first impact for which a run is followed.
+    pub fn until(&self) -> f64 {
+        self.bin * self.bins as f64
     }
 }

@@ -10,7 +10,7 @@ use crate::params::SeedsParams;
 use impact_numerics::estimates::ratio;
 use std::f64::consts::TAU;
 
-/// What the fronts of one run did, as numbers of fronts, steps and ticks.
+/// What the fronts of one run did, as numbers of fronts, steps and units of time.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Fronts {
     /// Sides of the seed that are not at a wall.
@@ -19,7 +19,7 @@ pub struct Fronts {
     pub steps: f64,
     /// Those of them that lasted one beat at most.
     pub short: f64,
-    /// Ticks of all waits.
+    /// Time of all waits.
     pub waited: f64,
     /// Fronts that have stood for the second half of the run when it ends.
     pub standing: f64,
@@ -34,23 +34,23 @@ pub fn beat(chain: &Chain) -> f64 {
 impl Fronts {
     /// Of a run and its seed.
     pub(super) fn of(parameters: &SeedsParams, (seed, trace): (usize, &Trace)) -> Self {
-        let (end, beat) = (parameters.ticks(), beat(&parameters.chain) / parameters.tick);
+        let (end, beat) = (parameters.until() as u32, beat(&parameters.chain) as u32);
         let mut own = Fronts::default();
         let (left, right) = (trace.firsts[..seed].iter().rev(), trace.firsts[seed + 1..].iter());
         for ahead in [left.collect::<Vec<_>>(), right.collect()] {
             own.fronts += f64::from(!ahead.is_empty());
             let mut at = 0;
             for first in ahead {
-                let tick = first.map_or(end, |tick| tick as usize);
-                let wait = tick - at;
-                own.waited += wait as f64;
+                let time = first.unwrap_or(end);
+                let wait = time - at;
+                own.waited += f64::from(wait);
                 if first.is_none() {
                     own.standing += f64::from(wait > end / 2);
                     break;
                 }
                 own.steps += 1.0;
-                own.short += f64::from(wait <= beat as usize);
-                at = tick;
+                own.short += f64::from(wait <= beat);
+                at = time;
             }
         }
         own

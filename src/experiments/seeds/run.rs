@@ -14,7 +14,7 @@ pub struct Trace {
     pub(super) seed: Option<usize>,
     /// For each gap the bins in which it was hit, as bits.
     pub(super) hits: Vec<u64>,
-    /// For each gap the tick of its first impact.
+    /// For each gap the time of its first impact, in whole units.
     pub(super) firsts: Vec<Option<u32>>,
 }
 
@@ -109,12 +109,10 @@ fn trace(
     hits[seed] = 1;
     let mut firsts = vec![None; chain.gaps()];
     firsts[seed] = Some(0);
-    let until = first + parameters.bin * parameters.bins as f64;
-    let ended = engine.run(until, |impact| {
+    let ended = engine.run(first + parameters.until(), |impact| {
         let bin = ((impact.time - first) / parameters.bin) as usize;
         hits[impact.gap] |= 1 << bin.min(parameters.bins - 1);
-        let tick = ((impact.time - first) / parameters.tick) as u32;
-        firsts[impact.gap].get_or_insert(tick.min(parameters.ticks() as u32));
+        firsts[impact.gap].get_or_insert((impact.time - first) as u32);
         !progress.stopped()
     });
     progress.check()?;

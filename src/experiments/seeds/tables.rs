@@ -78,14 +78,9 @@ fn advance(rows: &[RunsAtSigma<'_>]) -> Table {
         .done()
 }
 
-fn whole(row: &&RunsAtSigma<'_>) -> bool {
-    (100.0 * row.sigma).round() / 100.0 == row.sigma
-}
-
-/// What fronts do, at whole hundredths.
+/// What fronts do.
 fn fronts(rows: &[RunsAtSigma<'_>]) -> Table {
-    let rows: Vec<&RunsAtSigma<'_>> = rows.iter().filter(whole).collect();
-    Table::of("seeds.fronts", &rows, |row| row.runs.len())
+    Table::of("seeds.fronts", rows, |row| row.runs.len())
         .key("sigma", SIGMA, |row| row.sigma)
         .real("exponent", "1", 2, "d ln(advance)/d ln t over the last three quarters", |row| {
             row.seen.exponent()
@@ -94,7 +89,7 @@ fn fronts(rows: &[RunsAtSigma<'_>]) -> Table {
             over(&row.fronts, |own| [own.short, own.steps])
         })
         .real("even", "1", 2, "the same for steps at a constant rate and this speed", |row| {
-            let beat = beat(&row.parameters.chain) / row.parameters.tick;
+            let beat = beat(&row.parameters.chain);
             let speed = over(&row.fronts, |own| [own.steps, own.waited]);
             speed.map_or(0.0, |speed| -pxfm::f_expm1(-speed.value * beat))
         })
@@ -133,7 +128,7 @@ fn all(parameters: &SeedsParams) -> Table {
     Table::of("seeds.all", &[parameters], |own| own.realisations)
         .count("realisations", "chains at each σ", |own| own.realisations as u64)
         .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
-        .chosen("until", TIME, "time since the first impact", |own| Some(own.bin * own.bins as f64))
+        .chosen("until", TIME, "time since the first impact", |own| Some(own.until()))
         .real("beat", TIME, 3, "2π/|Ω − ω|", |own| beat(&own.chain))
         .done()
 }

@@ -51,10 +51,11 @@ pub(super) fn curve() -> Table {
     let row = |sigma: f64| {
         let (p, rest) = (p_of(sigma), p_rest_of(sigma));
         let walls = known(Law::new(Simple, VERTICES + 1, p)).mean();
-        let [simple, higher] = [Simple, FiveClasses].map(|space| law(space, p).mean());
-        [sigma, p, rest, simple, higher, walls]
+        let means = [(Simple, p), (FiveClasses, p), (Simple, rest)];
+        let [simple, higher, from_rest] = means.map(|(space, p)| law(space, p).mean());
+        [sigma, p, rest, simple, higher, from_rest, walls]
     };
-    let rows: Vec<[f64; 6]> = sigmas.values().into_par_iter().map(row).collect();
+    let rows: Vec<[f64; 7]> = sigmas.values().into_par_iter().map(row).collect();
     Table::of("theory.curve", &rows, |_| 0)
         .key("sigma", SIGMA, |row| row[0])
         .computed_by(origin(ImpactProbability::p))
@@ -64,7 +65,8 @@ pub(super) fn curve() -> Table {
         .computed_by(origin(Law::mean))
         .real("simple", "1", 3, "μ, simple circuits", |row| row[3])
         .real("higher", "1", 3, "μ, five classes", |row| row[4])
-        .real("walls", "1", 3, "μ, simple circuits, N + 1 vertices", |row| row[5])
+        .real("rest", "1", 3, "μ from rest, simple circuits", |row| row[5])
+        .real("walls", "1", 3, "μ, simple circuits, N + 1 vertices", |row| row[6])
         .done()
 }
 
