@@ -10,7 +10,7 @@ use crate::experiments::accuracy::tables::titled;
 use crate::experiments::accuracy::trials::{Trial, right, trouble};
 use crate::experiments::{Results, TRIALS};
 use literate::Failure;
-use literate::report::mark::framed;
+use literate::report::framed;
 use literate::value::{Value, origin};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;

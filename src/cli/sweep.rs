@@ -9,7 +9,7 @@ use impact_paper::experiments::Progress;
 use impact_paper::experiments::ensembles::CUTTING;
 use impact_paper::params::SEED;
 use literate::Failure;
-use literate::cli::terminal::{Threads, fits, print, progress, warn};
+use literate::cli::terminal::{Threads, print, progress, warn};
 use literate::experiments::cutting::Cutting;
 use serde::Serialize;
 
@@ -111,7 +111,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let threads = args.threads.number() as u128;
     let chain = Engine::memory(args.masses, 1) + 64 * args.masses as u128;
     let needed = threads * chain + (1 << 10) * args.realisations as u128;
-    fits(needed, "--masses, --realisations", "give fewer")?;
+    fits(needed)?;
     if args.transient + args.window > LATEST {
         return Err(Failure::input(
             "--transient, --window: they end after t = 1e12; give shorter ones",
@@ -177,4 +177,21 @@ fn table(rows: &[Printed], as_json: bool) -> Result<String, Failure> {
     let mut csv = csv::Writer::from_writer(Vec::new());
     rows.iter().try_for_each(|row| csv.serialize(row))?;
     Ok(String::from_utf8(csv.into_inner().map_err(|error| error.into_error())?)?)
+}
+
+/// Refuses what needs more memory than there is, in bytes.
+fn fits(needed: u128) -> Result<(), Failure> {
+    // Linux says it, elsewhere 4 GiB are taken for granted. No process has more addresses than half of all.
+    let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let free = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
+    let kib = free.and_then(|line| line.split_whitespace().next()?.parse::<u128>().ok());
+    let at_hand = kib.map_or(4 << 30, |kib| kib << 10).min(usize::MAX as u128 / 2);
+    if needed <= at_hand {
+        return Ok(());
+    }
+    let gib = |bytes: u128| format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30));
+    let (needed, at_hand) = (gib(needed), gib(at_hand));
+    Err(Failure::input(format!(
+        "--masses, --realisations: about {needed} of memory are needed and {at_hand} are at hand; give fewer"
+    )))
 }

@@ -141,7 +141,6 @@ fn what_others_made_is_left_as_it_is() {
     assert_eq!(fs::read_to_string(here.join("t/report.md")).unwrap(), "by hand");
 }
 
-/// The unit tests of `report::folder` have the faults.
 #[test]
 fn a_rerun_finds_what_the_list_cannot() {
     let folder = tempfile::tempdir().unwrap();
@@ -177,6 +176,12 @@ fn a_rerun_finds_what_the_list_cannot() {
     let names = ["differs  SHA256SUMS", "differs  data/fig02.csv", "differs  report.html"];
     let names = names.into_iter().chain(["unlisted data/more.csv"]);
     assert_eq!(lines, names.map(|name| format!("rerun: {name}")).collect::<Vec<_>>());
+
+    // What is lost or new is named without a rerun.
+    fs::remove_file(here.join("r/data/fig02.csv")).unwrap();
+    fs::write(here.join("r/data/strange.csv"), "").unwrap();
+    let (code, told, _) = crate::run(here, "verify r");
+    assert_eq!((code, &*told), (1, "missing  data/fig02.csv\nunlisted data/strange.csv\n"));
 }
 
 /// A report whose statements fail is written all the same. The exit codes of `--help` and DESIGN.md are the same; those of

@@ -97,7 +97,6 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
             rows: &rows,
             claims: &claims,
             figures: &figures,
-            equations: &paper.equations,
             lab: Some(""),
             top,
             paper: &paper,

@@ -1,9 +1,9 @@
 //! A paper that computes its own numbers: what stands between a program that runs experiments and the documents that
 //! people read. It knows nothing of what a paper is about. The [manual] has two pages: a paper of your own, and prose.
-//! `examples/feigenbaum` is a whole paper, in 250 lines of Rust: `cargo run -p literate --example feigenbaum -- paper --out FOLDER`.
+//! `examples/feigenbaum` is a whole paper, in 170 lines of Rust: `cargo run -p literate --example feigenbaum -- paper --out FOLDER`.
 //!
 //! 1. An [experiment](experiments) has parameters for each [profile](experiments::Profile) and a run. What a run gave is saved in a
-//!    [store](experiments::Store), and used again as long as its [identity](experiments::store::Identity) is the same: parameters, seed,
+//!    [store](experiments::Store), and used again as long as its [identity](experiments::Store) is the same: parameters, seed,
 //!    and each file of code that it depends on. One that is [cut](experiments::cutting) into units can run on several machines.
 //! 2. What follows from it stands in [tables](table): a column says once what its cells are, and a cell has an address,
 //!    `cascade.orbits[n=3].delta`, by which prose, figures, claims and cards name it.

@@ -129,8 +129,12 @@ impl Table {
         self.name
     }
 
-    /// The cell with this address.
+    /// The cell with this address; `first` and `last` stand for values of a key.
     pub fn at(&self, address: &str) -> Option<&Value> {
+        if ["=first", "=last"].iter().any(|end| address.contains(end)) {
+            let (row, column) = address.strip_prefix(self.name)?.rsplit_once("].")?;
+            return self.named().get(row.strip_prefix('[')?)?.get(column).copied();
+        }
         let mut cells = self.rows.iter().flat_map(|(_, cells)| cells);
         cells.find(|cell| cell.id == address)
     }
@@ -539,6 +543,8 @@ mod tests {
         }
         assert_eq!(named["r=first,sigma=0.1"]["mean"].id, "test.rise[r=0,sigma=0.1].mean");
         assert_eq!(table.values("r"), [0.0, 0.8]);
+        let last = table.at("test.rise[r=last,sigma=first].mean");
+        assert_eq!(last.unwrap().id, "test.rise[r=0.8,sigma=0.1].mean");
     }
 
     #[test]

@@ -69,10 +69,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
             args.ids.iter().any(|asked| asked == id || Some(asked) == number.as_ref())
         });
     }
-    let prose = args.sources.templates.clone().unwrap_or_else(|| paper.prose.into());
-    let here = std::env::current_dir().unwrap_or_default();
-    let file = prose.strip_prefix(here).unwrap_or(&prose).join("published.toml");
-    let file = file.display().to_string();
+    let file = session.templates.place("published.toml");
     print(&match args.format {
         Format::Text => text(&checks, &args, number),
         Format::Json => json(&checks, &published, &file),

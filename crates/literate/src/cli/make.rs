@@ -75,7 +75,11 @@ impl<'a> Session<'a> {
     /// # Errors
     /// If it cannot be read.
     pub fn published(&self) -> Result<Published, Failure> {
-        Ok(Published::parse(self.templates.text("published.toml")?)?)
+        let read = Published::parse(self.templates.text("published.toml")?);
+        read.map_err(|error| {
+            let failure = Failure::from(error);
+            Failure { message: self.templates.place(&failure.message), ..failure }
+        })
     }
 }
 
@@ -147,7 +151,6 @@ pub fn whole(session: &Session<'_>, out: &Path) -> Result<(Report, Vec<Check>), 
         rows: &rows,
         claims: &statements,
         figures: &figures,
-        equations: &paper.equations,
         lab: lab.as_deref(),
         top: paper.project.way_up(out).as_deref(),
         paper,

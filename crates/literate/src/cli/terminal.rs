@@ -120,21 +120,3 @@ impl Threads {
         pool.install(work)
     }
 }
-
-/// Refuses what needs more memory than there is: an estimate in bytes, the option that asks for it, and what
-/// to give instead.
-pub fn fits(needed: u128, option: &str, remedy: &str) -> Result<(), Failure> {
-    // Linux says it, elsewhere 4 GiB are taken for granted. No process has more addresses than half of all.
-    let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
-    let free = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
-    let kib = free.and_then(|line| line.split_whitespace().next()?.parse::<u128>().ok());
-    let at_hand = kib.map_or(4 << 30, |kib| kib << 10).min(usize::MAX as u128 / 2);
-    if needed <= at_hand {
-        return Ok(());
-    }
-    let gib = |bytes: u128| format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30));
-    let (needed, at_hand) = (gib(needed), gib(at_hand));
-    Err(Failure::input(format!(
-        "{option}: about {needed} of memory are needed and {at_hand} are at hand; {remedy}"
-    )))
-}

@@ -1,12 +1,12 @@
 //! Experiments: parameters, units of work, runs, tables; results that save and reload exactly, and are used again
 //! as long as what they are made of is the same.
 
-pub mod command;
+mod command;
 pub mod cutting;
 pub mod experiment;
 pub mod progress;
 mod results;
-pub mod store;
+mod store;
 
 pub use command::Command;
 pub use experiment::{Entry, Experiment, Found};
@@ -109,15 +109,16 @@ impl Session<'_> {
         identity: &store::Identity,
         run: impl FnOnce() -> Result<T, Error>,
     ) -> Result<T, Error> {
-        let (found, why) = match self.store.look(identity) {
-            Ok(found) => (Some(found), "fresh".into()),
-            Err(why) => (None, why),
+        let say = |why| self.progress.say(&format!("{}: {why}", identity.experiment));
+        let why = match self.store.look(identity) {
+            Ok(found) => {
+                say("fresh");
+                return Ok(found);
+            }
+            Err(why) => why,
         };
-        self.progress.say(&format!("{}: {why}", identity.experiment));
-        if let Some(found) = found {
-            return Ok(found);
-        }
         self.store.prepare()?;
+        say(&why);
         let result = run()?;
         self.store.put(identity, &result)?;
         self.store.remove_units(identity);

@@ -7,11 +7,10 @@
 
 use super::cutting::Unit;
 use super::{Error, Profile};
-use crate::input::{WRITING, one_line, regular_text, sha256};
+use crate::input::{WRITING, is_absent, one_line, regular_text, sha256};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// The form of saved files; a change of it makes all of them unknown.
@@ -123,7 +122,7 @@ impl Store {
         let again = |why: &str| format!("run again, {}", one_line(why, 1000));
         let text = match self.path(identity).map(|path| regular_text(&path)) {
             Some(Ok(text)) => text,
-            Some(Err(error)) if error.kind() != ErrorKind::NotFound => {
+            Some(Err(error)) if !is_absent(&error) => {
                 return Err(again(&format!("the saved result cannot be read: {error}")));
             }
             _ => return Err("run".into()),

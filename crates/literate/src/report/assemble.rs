@@ -39,8 +39,6 @@ pub struct Input<'a> {
     pub claims: &'a [Check],
     /// The figures.
     pub figures: &'a [Figure],
-    /// The numbered equations of the paper.
-    pub equations: &'a [EquationEntry],
     /// What a page loads when a reader asks it to compute: lab.js, beside the pages.
     pub lab: Option<&'a str>,
     /// The way from where it is written to the files of the project, as `../`; none if it is written elsewhere.
@@ -83,7 +81,7 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     Error::all(reasons.chain(shown).filter_map(lint).collect())?;
     filler.insert("claims", &input.claims.iter().map(row).collect::<Vec<_>>());
     filler.insert("figures", &ledger::figures(input.figures));
-    filler.insert("equations", &input.equations);
+    filler.insert("equations", &input.paper.equations);
     for (name, rows) in input.rows {
         filler.insert(name, rows);
     }
@@ -109,7 +107,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let mut ledger = Ledger {
         claims: input.claims.to_vec(),
         figures: ledger::figures(input.figures),
-        equations: input.equations.to_vec(),
+        equations: input.paper.equations.clone(),
     };
     for block in parts.iter().filter(|part| !part.of.repeats).flat_map(|part| &part.blocks) {
         let Block::Figure { id, number, name, .. } = block else { continue };
@@ -183,7 +181,8 @@ fn parts<'a>(
     values: &'a Registry,
     declared: &'a Declared,
 ) -> Result<(Vec<Part<'a>>, Labels), Error> {
-    let library = Library::read(input.templates.text("references.bib")?)?;
+    let library = Library::read(input.templates.text("references.bib")?)
+        .map_err(|error| Error::Template(input.templates.place(&error.to_string())))?;
     let (mut labels, mut shown) = (Labels::default(), BTreeSet::new());
     let mut parts = Vec::new();
     let read = |filled| parse::parse(filled, values, declared, input.paper);
@@ -203,7 +202,7 @@ fn parts<'a>(
         return Err(Error::NotShown(figure.id.clone()));
     }
     let missing = |entry: &&EquationEntry| labels.get(&format!("eq:{}", entry.number)).is_none();
-    if let Some(entry) = input.equations.iter().find(missing) {
+    if let Some(entry) = input.paper.equations.iter().find(missing) {
         return Err(Error::NoEquation(entry.number.to_string()));
     }
     let tell = |error| parts.iter().fold(error, |error, part: &Part<'_>| part.places.tell(error));

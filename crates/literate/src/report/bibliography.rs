@@ -3,6 +3,7 @@
 //! Articles, books, parts of collections, theses and software; entries of other kinds are refused.
 
 use super::Error;
+use super::card::words_and_maths;
 use super::document::{Entry, Inline, plain};
 use crate::input::line_and_column;
 use biblatex::{Bibliography, ChunksExt, EntryType, Person};
@@ -106,6 +107,12 @@ fn shown(entry: &biblatex::Entry) -> Result<Entry, String> {
         }
     });
     text.retain(|piece| !plain(std::slice::from_ref(piece)).is_empty());
+    let formulas = |piece: Inline| match piece {
+        Inline::Text(words) => words_and_maths(&words),
+        Inline::Emphasis(inner) => vec![Inline::Emphasis(words_and_maths(&plain(&inner)))],
+        other => vec![other],
+    };
+    text = text.into_iter().flat_map(formulas).collect();
     let doi = field("doi").map(|doi| format!("https://doi.org/{doi}"));
     if let Some(to) = doi.or_else(|| field("url")) {
         text.extend([words(" ".into()), Inline::Link { to: to.clone(), shown: vec![words(to)] }]);
@@ -161,7 +168,7 @@ mod tests {
     fn each_kind_is_shown() {
         let text = "@article{a, author={Šidák, Zbyněk}, title={Rectangles}, journal={J. {S}tat.}, year={1967}, volume={62},
               number={3--4}, pages={626--633}, doi={10.1/x(2)}}
-            @book{b, author={Rice, Stephen O. and {di Bernardo}, Mario}, title={Noise \\& more}, edition={2},
+            @book{b, author={Rice, Stephen O. and {di Bernardo}, Mario}, title={Noise \\& $x_1$}, edition={2},
               publisher={Dover, New York}, year={1954}}
             @incollection{c, author={Rice, S.O. and A, Jean-Marc and others}, title={Part}, booktitle={Whole}, year={1955},
               pages={1--2}, publisher={P}}
@@ -172,7 +179,7 @@ mod tests {
             "A Group, 2025: A Group. (2025). *Code* [Computer software]. <https://x.org/>",
             "Rice, 1960: Rice, S. O. (1960). *Alone*.",
             "Rice et al., 1955: Rice, S. O., A, J.-M., et al. (1955). Part. In *Whole* (pp. 1–2). P.",
-            "Rice & di Bernardo, 1954: Rice, S. O., & di Bernardo, M. (1954). *Noise & more* (2nd ed.). Dover, New York.",
+            "Rice & di Bernardo, 1954: Rice, S. O., & di Bernardo, M. (1954). *Noise & x_1* (2nd ed.). Dover, New York.",
             "Rice & di Bernardo, 1954: Rice, S. O., & di Bernardo, M. (1954). *T* [Doctoral dissertation]. U of B.",
             "Šidák, 1967: Šidák, Z. (1967). Rectangles. *J. Stat.*, *62*(3–4), 626–633. <https://doi.org/10.1/x(2)>",
         ];

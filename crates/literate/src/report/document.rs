@@ -9,76 +9,60 @@ use super::templates::Document;
 use super::{Error, tex};
 use pulldown_cmark::Alignment;
 
-/// A block of the report.
+/// A block of the report. Ids are written as `sec:protocol`, numbers as "2.1" or "S1"; a number is empty until it is given.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(missing_docs, reason = "some names tell")]
 pub enum Block {
-    /// A heading. Level 1 is the title; sections start at level 2.
+    /// A heading. Level 1 is the title; sections start at level 2. It and unnumbered sections have no number.
     Heading {
-        /// Level, 1 to 6.
         level: u8,
-        /// Section number as "2" or "2.1"; None for the title and for unnumbered sections.
         number: Option<String>,
-        /// Id as `sec:protocol`.
         id: Option<String>,
         text: Vec<Inline>,
     },
     /// A paragraph; displayed equations stand inside it.
     Paragraph(Vec<Inline>),
+    /// A figure by its name: its picture is `figures/NAME.svg`. What is seen is told to those who do not see it; the origin
+    /// is where its data is, and the code that draws it.
     Figure {
-        /// Id as `fig:3`.
         id: String,
-        /// Number as "3" or "S1"; empty until it is given.
         number: String,
-        /// Name of the figure: its picture is `figures/NAME.svg`.
         name: String,
-        /// What is seen, for those who do not see it.
         alt: String,
-        /// Where its data is, and the code that draws it.
         origin: Vec<Inline>,
         caption: Vec<Inline>,
     },
+    /// A table; one with a caption has a number.
     Table {
-        /// Id as `tab:horizon`.
         id: Option<String>,
-        /// Number, for tables with a caption.
         number: Option<String>,
-        /// The caption; may be empty.
         caption: Vec<Inline>,
         columns: Vec<Alignment>,
         head: Vec<Vec<Inline>>,
         rows: Vec<Vec<Vec<Inline>>>,
     },
+    /// A list; an ordered one has the number with which it starts.
     List {
-        /// The first number of an ordered list.
         start: Option<u64>,
         items: Vec<Vec<Block>>,
     },
     Quote(Vec<Block>),
     Code {
-        /// Language, may be empty.
         language: String,
         text: String,
     },
-    /// A piece of the program's source, folded or put aside where a format can do that.
+    /// A piece of the program's source, folded or put aside where a format can do that: the path of the item, its file from
+    /// the top of the project, and the same in words as a link.
     Listing {
-        /// Id as `lst:jump`.
         id: String,
-        /// Number in the order of the report.
         number: String,
-        /// What it does, in words.
         caption: Vec<Inline>,
-        /// Path of the item, as `jump::p_jump`.
         item: String,
-        /// Its file, from the top of the project.
         file: String,
-        /// The same in words, as a link.
         origin: Vec<Inline>,
         text: String,
     },
-    /// What a reader runs there, in formats in which that is possible.
+    /// What a reader runs there, by the name of the function that runs it, in formats in which that is possible.
     Lab {
-        /// Name of the function that runs it.
         lab: String,
         caption: Vec<Inline>,
     },
@@ -99,7 +83,6 @@ pub struct Entry {
 
 /// A piece of running text.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(missing_docs, reason = "some names tell")]
 pub enum Inline {
     /// Words; no markup inside.
     Text(String),
@@ -112,12 +95,10 @@ pub enum Inline {
     Raised(Vec<Inline>),
     /// Mathematics in the line, as TeX; values in it are framed (see [`super::mark`]).
     Maths(String),
-    /// A displayed equation, as TeX without its tag.
+    /// A displayed equation, as TeX without its tag; one without an id has no number.
     Display {
         tex: String,
-        /// Id as `eq:18`; none if it has no number.
         id: Option<String>,
-        /// Number as "18"; empty until it is given.
         number: String,
     },
     /// A value: the words and mathematics that show it.
@@ -132,19 +113,15 @@ pub enum Inline {
     },
     /// References `[@fig:3; @eq:18]` and citations `[@rice1945]`, until they are resolved.
     Unresolved(Vec<String>),
-    /// A resolved reference.
+    /// A resolved reference to `fig:3` or `ref:rice1945`, and the document that has it, if it is another.
     Reference {
-        /// Id as `fig:3`, `ref:rice1945`.
         to: String,
-        /// The document that has it, if it is another.
         within: Option<Document>,
         shown: String,
     },
     /// A place that can be referred to, `[!claim:rise]`; shows its number.
     Anchor {
-        /// Id as `claim:rise`.
         id: String,
-        /// Number in the order of the report, given when references are resolved.
         number: String,
     },
 }

@@ -43,7 +43,8 @@ impl Filler {
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
         register(&mut tera);
-        let declared = Declared::read(templates.text("literals.toml")?)?;
+        let declared = Declared::read(templates.text("literals.toml")?)
+            .map_err(|error| Error::Template(templates.place(&error.to_string())))?;
         let (context, names) = (Context::new(), Json::Null);
         let templates = templates.clone();
         let mut filler = Filler { tera, templates, declared, context, names };
@@ -112,7 +113,7 @@ impl Filler {
         for path in files {
             let text = self.templates.text(path)?;
             self.conditions(path, text)?;
-            filled.add(path, text, &self.fill(path)?);
+            filled.add(&self.templates.place(path), text, &self.fill(path)?);
         }
         Ok(filled)
     }
@@ -124,7 +125,9 @@ impl Filler {
             let begins = !text[..at].ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
             if let Some(what) = self.missing(&text[at..]).filter(|_| begins) {
                 let place = line_and_column(text, at);
-                return Err(Error::Template(format!("{path}:{place}: {what}")));
+                return Err(Error::Template(
+                    self.templates.place(&format!("{path}:{place}: {what}")),
+                ));
             }
         }
         Ok(())
@@ -173,7 +176,8 @@ impl Filler {
             let told = error.to_string();
             let what = told.split(" --> ").next().unwrap_or_default().replace("error: ", "");
             let place = told.split("--> ").nth(1).and_then(|rest| rest.lines().next());
-            let place = place.map(|place| format!("{place}: ")).unwrap_or_default();
+            let place = place.map(|place| self.templates.place(&format!("{place}: ")));
+            let place = place.unwrap_or_default();
             return Error::Template(format!("{place}{}", what.trim()));
         };
         let path = report.filename();
@@ -199,7 +203,7 @@ impl Filler {
             let ours = |what: String, (theirs, ours): &(&str, &str)| what.replace(theirs, ours);
             [("%}", "%>"), ("{%", "<%"), ("}}", "»"), ("{{", "«")].iter().fold(what, ours)
         });
-        Error::Template(format!("{path}:{place}: {what}"))
+        Error::Template(self.templates.place(&format!("{path}:{place}: {what}")))
     }
 }
 

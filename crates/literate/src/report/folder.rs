@@ -273,24 +273,4 @@ mod tests {
             assert_eq!(read_sums(&format!("{}  {path}\n", sha256(""))), None, "{path}");
         }
     }
-
-    #[test]
-    fn what_differs_is_missing_or_unlisted_is_named() {
-        let temporary = tempfile::tempdir().unwrap();
-        let folder = temporary.path();
-        let report = report(&[("data/a.csv", "1"), ("report.md", "a"), ("values.json", "{}")]);
-        report.write(folder, false).unwrap();
-        assert_eq!(verify(folder).unwrap(), (3, Vec::new()));
-        assert_eq!(report.compare(folder).unwrap(), (5, Vec::new()));
-        fs::remove_file(folder.join("data/a.csv")).unwrap();
-        for path in ["report.md", "report.html", "data/b.csv"] {
-            fs::write(folder.join(path), "by hand").unwrap();
-        }
-        let faults = ["missing  data/a.csv", "differs  report.md", "unlisted data/b.csv"];
-        assert_eq!(verify(folder).unwrap().1, faults);
-        let faults = [faults[0], "differs  report.html", faults[1], faults[2]];
-        assert_eq!(report.compare(folder).unwrap().1, faults);
-        fs::remove_file(folder.join(SUMS)).unwrap();
-        assert!(verify(folder).unwrap_err().to_string().contains(SUMS));
-    }
 }

@@ -43,64 +43,57 @@ impl Labels {
     /// Gives numbers to the sections, figures, equations, captioned tables, listings and anchors of a document, in order;
     /// figures and equations that have one keep it.
     pub fn number_all(&mut self, blocks: &mut [Block], of: Document) -> Result<(), Error> {
-        let letter = of.letter;
-        let (mut section, mut subsection, mut tables, mut listings) = (0, 0, 0, 0);
         self.anchors.remove("note");
-        let mut given: Vec<String> = Vec::new();
+        let mut given: Vec<(&str, String)> = Vec::new();
         visit(blocks, &mut |inline| {
             if let Inline::Display { number, .. } = inline {
-                given.push(format!("eq{number}"));
+                given.push(("eq", number.clone()));
             }
         });
         given.extend(blocks.iter().filter_map(|block| match block {
-            Block::Figure { number, .. } => Some(format!("fig{number}")),
+            Block::Figure { number, .. } => Some(("fig", number.clone())),
             _ => None,
         }));
-        let free = |kind: &str, count: &mut usize| loop {
+        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut next = |kind: &'static str| loop {
+            let count = counts.entry(kind).or_default();
             *count += 1;
-            let number = format!("{letter}{count}");
-            if !given.contains(&format!("{kind}{number}")) {
+            let number = format!("{}{count}", of.letter);
+            if !given.contains(&(kind, number.clone())) {
                 return number;
             }
         };
-        let (mut figures, mut equations) = (0, 0);
+        let (mut section, mut subsection) = (format!("{}0", of.letter), 0);
         for block in blocks.iter_mut() {
-            match block {
+            let (id, number) = match block {
                 Block::Heading { level, number, id, .. } => {
-                    if let Some(number) = number {
-                        if *level == 2 {
-                            (section, subsection) = (section + 1, 0);
-                            *number = format!("{letter}{section}");
-                        } else if *level == 3 {
-                            subsection += 1;
-                            *number = format!("{letter}{section}.{subsection}");
-                        }
+                    if number.is_some() && *level == 2 {
+                        (section, subsection) = (next("sec"), 0);
+                        *number = Some(section.clone());
+                    } else if number.is_some() && *level == 3 {
+                        subsection += 1;
+                        *number = Some(format!("{section}.{subsection}"));
                     }
-                    if let Some(id) = id {
-                        self.add(id, number.as_deref().unwrap_or_default(), of, id)?;
-                    }
+                    (id.clone(), number.clone().unwrap_or_default())
                 }
                 // What is shown again has its place elsewhere.
                 Block::Figure { id, number, .. } if !of.repeats => {
                     if number.is_empty() {
-                        *number = free("fig", &mut figures);
+                        *number = next("fig");
                     }
-                    self.add(id, number, of, id)?;
+                    (Some(id.clone()), number.clone())
                 }
                 Block::Listing { id, number, .. } => {
-                    listings += 1;
-                    *number = format!("{letter}{listings}");
-                    self.add(id, number, of, id)?;
+                    *number = next("lst");
+                    (Some(id.clone()), number.clone())
                 }
                 Block::Table { id, number: Some(number), .. } => {
-                    tables += 1;
-                    *number = format!("{letter}{tables}");
-                    if let Some(id) = id {
-                        self.add(id, number, of, id)?;
-                    }
+                    *number = next("tab");
+                    (id.clone(), number.clone())
                 }
-                _ => {}
-            }
+                _ => continue,
+            };
+            id.map_or(Ok(()), |id| self.add(&id, &number, of, &id))?;
         }
         rewrite(blocks, &mut |mut inline| {
             match &mut inline {
@@ -113,7 +106,7 @@ impl Labels {
                 }
                 Inline::Display { id: Some(id), number, .. } => {
                     if number.is_empty() {
-                        *number = free("eq", &mut equations);
+                        *number = next("eq");
                     }
                     self.add(id, &format!("({number})"), of, id)?;
                 }

@@ -5,28 +5,29 @@
 //! in it, [`markdown`], [`latex`] and `html` write it; [`assemble()`] does all that and adds figures, data,
 //! values, ledger and checksums: every file of paper/ as bytes, written by the command line.
 
-pub mod assemble;
+pub(crate) mod assemble;
 pub mod bibliography;
-pub mod card;
-pub mod claims;
-pub mod document;
+pub(crate) mod card;
+pub(crate) mod claims;
+pub(crate) mod document;
 pub mod filler;
 pub mod folder;
 mod html;
 pub mod labels;
 pub mod latex;
 pub mod ledger;
-pub mod lint;
-pub mod mark;
+pub(crate) mod lint;
+pub(crate) mod mark;
 pub mod markdown;
 mod mathml;
 pub mod parse;
-pub mod print;
-pub mod templates;
+pub(crate) mod print;
+pub(crate) mod templates;
 pub(crate) mod tex;
 pub mod values;
 
 pub use assemble::{Files, Input, LAB, Report, assemble, files_of};
+pub use mark::framed;
 pub use templates::{Document, Templates};
 pub use values::{Registry, Value};
 

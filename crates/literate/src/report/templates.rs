@@ -22,19 +22,26 @@ const SKIN: [(&str, &str); 7] = [
 ];
 
 /// All template files, by path relative to their folder.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Templates(BTreeMap<String, String>);
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Templates {
+    files: BTreeMap<String, String>,
+    /// What messages write before a path: `prose/`.
+    folder: String,
+}
 
 impl Templates {
     /// Templates from texts.
     pub fn of<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let own = |(path, text): (&str, &str)| (path.to_string(), text.to_string());
-        Templates(SKIN.into_iter().chain(files).map(own).collect())
+        let files = SKIN.into_iter().chain(files).map(own).collect();
+        Templates { files, ..Templates::default() }
     }
 
     /// Reads all templates of a folder.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let mut templates = Templates::of([]);
+        let here = std::env::current_dir().unwrap_or_default();
+        templates.folder = format!("{}/", folder.strip_prefix(here).unwrap_or(folder).display());
         templates.add(folder, "")?;
         Ok(templates)
     }
@@ -50,7 +57,7 @@ impl Templates {
                 self.add(&path, &format!("{prefix}{name}/"))?;
             } else if TEXT.iter().any(|end| name.ends_with(end)) {
                 let text = input::regular_text(&path).map_err(|e| fail(&path, e))?;
-                self.0.insert(format!("{prefix}{name}"), text);
+                self.files.insert(format!("{prefix}{name}"), text);
             }
         }
         Ok(())
@@ -63,12 +70,17 @@ impl Templates {
                 "{path}: no such file in the templates; give the folder of all of them"
             ))
         };
-        self.0.get(path).map(String::as_str).ok_or_else(missing)
+        self.files.get(path).map(String::as_str).ok_or_else(missing)
+    }
+
+    /// A path as messages show it, from where the program runs.
+    pub(crate) fn place(&self, path: &str) -> String {
+        format!("{}{path}", self.folder)
     }
 
     /// Paths and texts, sorted.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
-        self.0.iter().map(|(path, text)| (path.as_str(), text.as_str()))
+        self.files.iter().map(|(path, text)| (path.as_str(), text.as_str()))
     }
 }
 
@@ -123,7 +135,8 @@ impl Document {
         let first = files.first().and_then(|path| number(path)).unwrap_or(0);
         match files.iter().zip(first..).find(|(path, at)| number(path) != Some(*at)) {
             Some((path, at)) => Err(Error::Template(format!(
-                "{path}: {at:02}-name.md is expected here: one is missing or twice"
+                "{}: {at:02}-name.md is expected here: one is missing or twice",
+                templates.place(path)
             ))),
             None => Ok(()),
         }

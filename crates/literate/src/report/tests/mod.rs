@@ -209,27 +209,25 @@ fn assembled(prose: &str) -> Result<Report, Error> {
 
 fn made_of(prose: &str, lab: Option<&str>, figure: Figure, claim: Check) -> Result<Report, Error> {
     let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
-    let files = [("report.md", prose), ("references.bib", bib), ("literals.toml", "literal = []")];
+    let files = [("report.md", prose), ("references.bib", bib)];
+    let (what, home) = ("the jump".into(), "toy::flight".into());
+    let equation = ledger::EquationEntry { number: 18, section: 7, what, home, step_towards: None };
+    made(&files, &Paper { equations: vec![equation], ..toy() }, lab, figure, claim)
+}
+
+fn made(
+    files: &[(&str, &str)],
+    paper: &Paper,
+    lab: Option<&str>,
+    figure: Figure,
+    claim: Check,
+) -> Result<Report, Error> {
     let mut values = Registry::new();
     values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000))?;
     values.add(Value::integer("spare", 3).data_only())?;
-    assemble(&Input {
-        templates: &Templates::of(files),
-        values: &values,
-        rows: &Default::default(),
-        claims: &[claim],
-        figures: &[figure],
-        equations: &[ledger::EquationEntry {
-            number: 18,
-            section: 7,
-            what: "the jump".into(),
-            home: "toy::flight".into(),
-            step_towards: None,
-        }],
-        lab,
-        top: Some("../"),
-        paper: &toy(),
-    })
+    let (templates, rows) = (&Templates::of(files.iter().copied()), &Default::default());
+    let (values, claims, figures, top) = (&values, &[claim], &[figure], Some("../"));
+    assemble(&Input { templates, values, rows, claims, figures, lab, top, paper })
 }
 
 const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945]. $$x = y \\tag{18}$$\n\n[@bibliography]\n\n\
@@ -338,25 +336,8 @@ fn documents_refer_to_each_other() {
             "# More\n\n## A {#sec:a}\n\n### B {#sec:b}\n\n«v.half_height», [@fig:fig03], [@sec:last].\n\n\
           Table: T {#tab:t}\n\n| a |\n|---|\n| [!claim:rise] |",
         ),
-        ("references.bib", ""),
-        ("literals.toml", "literal = []"),
     ];
-    let mut values = Registry::new();
-    values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000)).unwrap();
-    let made = |files: &[(&str, &str)]| {
-        let (claims, figures) = ([claim()], [figure()]);
-        assemble(&Input {
-            templates: &Templates::of(files.iter().copied()),
-            values: &values,
-            rows: &Default::default(),
-            claims: &claims,
-            figures: &figures,
-            equations: &[],
-            lab: None,
-            top: Some("../"),
-            paper: &paper,
-        })
-    };
+    let made = |files: &[(&str, &str)]| made(files, &paper, None, figure(), claim());
     // A mistake in the second file of a document has its place there.
     let error = made(&files).unwrap_err().to_string();
     assert!(error.starts_with("report/02-second.md:3:24: [@sec:b.]: nothing"), "{error}");
