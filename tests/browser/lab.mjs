@@ -124,7 +124,8 @@ async function chains(page, name, figure, { report, check }) {
 async function circuits(page, name, figure, { report, check }) {
   const told = figure.locator("output");
   const set = (label, value) => figure.getByLabel(`${label}, typed`).fill(value);
-  const table = (of) => rows(readFileSync(join(report, `data/theory-${of}.csv`), "utf8"));
+  const text = (of) => readFileSync(join(report, `data/theory-${of}.csv`), "utf8");
+  const [table, header] = [(of) => rows(text(of)), (of) => text(of).split("\n")[0].split(",")];
   const at = async (p) => {
     await set("probability p", String(p));
     return told.innerText();
@@ -134,7 +135,8 @@ async function circuits(page, name, figure, { report, check }) {
     const words = await at(p);
     check(Math.abs(Number(words.match(/μ = ([\d.]+)\. /)?.[1]) / mean - 1) < 1e-3, `${name}: p = ${p}: ${words}, not ${mean}`);
   }
-  const [[, , , , p_jump, k_after]] = table("jump");
+  const column = (name) => header("jump").findIndex((head) => head.startsWith(`${name} `));
+  const [p_jump, k_after] = ["p_jump", "k_after"].map((name) => table("jump")[0][column(name)]);
   const sides = [await at(p_jump * (1 - 1e-12)), await at(p_jump * (1 + 1e-12))];
   check(sides[0].startsWith("k* = 1,") && sides[1].startsWith(`k* = ${k_after},`), `${name}: beside the jump: ${sides}`);
   await set("vertices N", "1000");

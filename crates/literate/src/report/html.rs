@@ -51,7 +51,8 @@ pub fn write(
                 number.clone().unwrap_or_default(),
                 page.inlines(text)?,
             ]),
-            Block::Figure { id, number, name, .. } => {
+            // What is shown again has its place elsewhere.
+            Block::Figure { id, number, name, .. } if !here.repeats => {
                 let name = text(&Figure::named(name, site.input.figures)?.title);
                 figures.push([id_of(Some(id), &[]), number.clone(), name]);
             }
