@@ -120,7 +120,9 @@ fn usage(error: &clap::Error) -> ExitCode {
     let text = plain(&error.to_string());
     // No verb takes a value that looks like an option.
     let helps = |line: &&str| !line.is_empty() && !line.starts_with("tip: to pass '");
-    let line = text.lines().map(str::trim).filter(helps).collect::<Vec<_>>().join("; ");
+    let is_what = |line: &&str| !line.starts_with("Usage: ") && !line.starts_with("For more ");
+    let lines = text.lines().map(str::trim).filter(helps).take_while(is_what);
+    let line = lines.chain(["--help explains"]).collect::<Vec<_>>().join("; ").replace(":; ", ": ");
     terminal::warn(&one_line(line.strip_prefix("error: ").unwrap_or(&line), 4000));
     ExitCode::from(2)
 }
