@@ -30,7 +30,7 @@ pub fn paper() -> Paper {
         ],
         figures: figures::ALL.to_vec(),
         rules: claims::rules(),
-        relations: vec![claims::targets::targets, claims::relations::relations],
+        relations: vec![claims::relations::relations],
         judged_by: |claim| format!("claims::{}", claim.split('_').next().unwrap_or_default()),
         values: vec![contents::values],
         rows: vec![contents::rows],

@@ -5,8 +5,8 @@
 //! table, `check` and its exit code read the same row.
 //!
 //! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a
-//! difference that we explain no longer has the size that the explanation predicts. [`relations`] and
-//! [`targets`] hold numbers of this edition against one another, and against what it promises.
+//! difference that we explain no longer has the size that the explanation predicts. [`relations`]
+//! hold numbers of this edition against one another.
 
 mod judge;
 pub mod relations;
@@ -17,7 +17,6 @@ pub(crate) mod sec6;
 mod sec7;
 pub(crate) mod sec8;
 pub(crate) mod sec9;
-pub mod targets;
 
 pub use literate::claims::*;
 

@@ -1,10 +1,12 @@
 //! Relations between numbers of this edition that must hold whatever was drawn: each between two independent routes,
-//! as two samples of one thing, or a simulation and its bound.
+//! as two samples of one thing, or a simulation and its bound; and what was promised of the engine.
 
 use super::judge::{Error, Evidence};
 use super::{Basis, Check, Kind, Published, Text, integer, level, significant};
+use crate::experiments::accuracy::trials::right;
 use crate::experiments::rise::Curve;
-use crate::experiments::{BRANCHES, NUCLEATION, PROTOCOL, Results, branches};
+use crate::experiments::{BRANCHES, NUCLEATION, PROTOCOL, RACE, Results, SCALE, TRIALS, branches};
+use crate::params::MethodName;
 use impact_numerics::estimates::difference;
 use impact_numerics::statistics::Estimate;
 use literate::Failure;
@@ -20,7 +22,7 @@ macro_rules! relations {
     ($($name:ident: $what:literal;)*) => { [$((stringify!($name), $what, $name)),*] };
 }
 
-const RELATIONS: [Relation; 9] = relations! {
+const RELATIONS: [Relation; 10] = relations! {
     printed_threshold: "with our protocol the mean of the realisations with an impact passes half of all gaps at the printed σ";
     two_seeds: "two seeds of the main sweep have one half height, and one mean at each σ";
     laws_of_chance: "impacts near in time go with the time between, and slow ones with the square of their speed";
@@ -30,6 +32,7 @@ const RELATIONS: [Relation; 9] = relations! {
     branches_approach: "with time the half heights from rest and from above do not part";
     seeds_before_circuits: "mean counts by nucleation and growth are nearer to the simulation than those by circuits after every transient";
     first_impacts_as_expected: "as many chains have an impact as the theory of clumps expects";
+    engine_as_promised: "the engine misses no impact from exact states, is exact to rounding, does not work more in long chains, and meets each scene of failure as expected";
 };
 
 /// All relations, as checks.
@@ -179,4 +182,57 @@ fn first_impacts_as_expected(e: &Evidence) -> Departures {
         off.collect::<Vec<f64>>()
     };
     Ok(lengths.iter().flat_map(of_length).collect())
+}
+
+/// Largest error of a waiting time that is allowed, in units of ε (d + R₁ + R₂) over the closing speed (ours).
+const WAITING: f64 = 8.0;
+
+/// What was promised before it was measured: no miss, waiting times to some units of rounding, evaluations per impact in
+/// the largest chain at most twice those at a hundred masses, and no scene of failure with another outcome than expected.
+fn engine_as_promised(e: &Evidence) -> Departures {
+    let (scale, race) = (e.results.of(&SCALE)?, e.results.of(&RACE)?);
+    let own = || scale.iter().filter(|row| row.0.method == MethodName::Certified);
+    let largest = own().max_by_key(|row| row.1).zip(own().find(|row| row.1 == 100));
+    let entry = race.entries.iter().find(|own| own.setting.method == MethodName::Certified);
+    // The engine is the first of the methods.
+    let first = e.results.of(&TRIALS)?.scenes.iter().map(|(_, trials)| &trials[0]);
+    let wrong: usize = first.map(|trial| trial.len() - right(trial)).sum();
+    let counted = [Some(wrong), entry.map(|entry| entry.misses as usize)];
+    let counted = counted.into_iter().flatten().map(|count| 2.0 * count as f64);
+    let work = largest.map(|(a, b)| a.2 / b.2 / 2.0);
+    let waiting = entry.and_then(|entry| entry.units).map(|units| units / WAITING);
+    Ok(counted.chain(work).chain(waiting).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiments::accuracy::case::Verdict::Missed;
+    use crate::experiments::quick;
+
+    /// Each part of the promise can fail: make one result worse and it does.
+    #[test]
+    fn the_promise_of_the_engine_follows_the_numbers() {
+        let published = Published::default();
+        let kept = |results: &Results| {
+            let e = Evidence { results, published: &published, level: level() };
+            engine_as_promised(&e).unwrap().iter().all(|departure| *departure <= 1.0)
+        };
+        let worse: [fn(&mut Results); 4] = [
+            |results| results.of_mut(&RACE).unwrap().entries[0].misses += 1,
+            |results| results.of_mut(&RACE).unwrap().entries[0].units = Some(9.0),
+            |results| results.of_mut(&TRIALS).unwrap().scenes[0].1[0][0] = Missed,
+            |results| {
+                let own = |m: MethodName| m == MethodName::Certified;
+                let scale = results.of_mut(&SCALE).unwrap();
+                scale.iter_mut().filter(|row| own(row.0.method)).last().unwrap().2 *= 3.0;
+            },
+        ];
+        for worse in worse {
+            let mut results = quick(&[&RACE, &SCALE, &TRIALS]);
+            assert!(kept(&results));
+            worse(&mut results);
+            assert!(!kept(&results));
+        }
+    }
 }

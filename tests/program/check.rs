@@ -50,11 +50,11 @@ fn every_form_has_every_statement_at_its_line_and_what_fails() {
     let (code, one, _) = check(folder.path(), "1");
     assert!(code == 0 && one.contains("1 statement of the paper"), "{one}");
     // The statements of the paper and our own checks are scored apart.
-    let scores: Vec<&str> = text.lines().rev().take(4).collect();
-    assert!(scores[3].starts_with("72 statements of the paper: "), "{text}");
-    assert!(scores[3].contains(&format!(", differs and explained {explained}, ")), "{text}");
-    assert!(scores[2].starts_with("reproduced, by what the verdict rests on: "), "{text}");
-    assert!(scores[1].starts_with("our own checks: ") && scores[0].contains("targets"), "{text}");
+    let scores: Vec<&str> = text.lines().rev().take(3).collect();
+    assert!(scores[2].starts_with("72 statements of the paper: "), "{text}");
+    assert!(scores[2].contains(&format!(", differs and explained {explained}, ")), "{text}");
+    assert!(scores[1].starts_with("reproduced, by what the verdict rests on: "), "{text}");
+    assert!(scores[0].starts_with("our own checks: "), "{text}");
 
     let published = std::fs::read_to_string(folder.path().join("t/published.toml")).unwrap();
     let lines: Vec<&str> = published.lines().collect();
@@ -70,7 +70,6 @@ fn every_form_has_every_statement_at_its_line_and_what_fails() {
         let line = claim["line"].as_u64().unwrap() as usize;
         assert_eq!(lines[line - 1], format!("id = \"{id}\""));
     }
-    assert!(all["targets"].as_array().unwrap().len() > 10);
     let relations = all["relations"].as_array().unwrap();
     assert!((1..=10).contains(&relations.len()), "{relations:?}");
     assert!(relations.iter().all(|own| own["words"] == "holds"), "{relations:?}");

@@ -90,7 +90,7 @@ pub struct Paper {
     pub figures: Vec<Illustration>,
     /// How each statement of `published.toml` is judged, by its id.
     pub rules: Vec<(&'static str, Box<Rule<'static>>)>,
-    /// Judge what is no statement: targets, relations between numbers.
+    /// Judge what is no statement: relations between numbers.
     pub relations: Vec<Judge>,
     /// Path of the item that judges the statement with this id, for its card.
     pub judged_by: fn(&str) -> String,

@@ -1,4 +1,4 @@
-//! Statements of a paper, targets and relations, each held against what is found: [`Check`].
+//! Statements of a paper, and relations between its numbers, each held against what is found: [`Check`].
 
 mod judge;
 mod level;
@@ -21,8 +21,6 @@ pub enum Kind {
     Statement,
     /// What was printed to say what words and symbols mean: it is judged, and no score counts it.
     Definition,
-    /// What an edition promises of itself.
-    Target,
     /// A relation between numbers that must hold.
     Relation,
 }
@@ -52,9 +50,6 @@ pub enum Basis {
     /// A measure of our own, for a statement in words.
     #[serde(rename = "our measure")]
     OurMeasure,
-    /// Times of a clock; no statement of a paper rests on them.
-    #[serde(rename = "clock")]
-    Clock,
 }
 
 impl Basis {
@@ -64,11 +59,11 @@ impl Basis {
 
     /// The basis in words.
     pub fn words(self) -> &'static str {
-        ["exact", "rounding", "printed digit", "statistics", "our measure", "clock"][self as usize]
+        ["exact", "rounding", "printed digit", "statistics", "our measure"][self as usize]
     }
 }
 
-/// The verdict on a statement, a target or a relation, in the order of a scorecard.
+/// The verdict on a statement or a relation, in the order of a scorecard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     /// What is found lies within the tolerance.
@@ -123,7 +118,7 @@ pub struct Check {
     pub expected: String,
     /// What we find, with its error.
     pub found: Text,
-    /// How far from the printed value a finding may lie; the bound of a target.
+    /// How far from the printed value a finding may lie.
     pub tolerance: Text,
     /// Why the tolerance has this size.
     pub reason: String,
@@ -191,11 +186,10 @@ impl Check {
     }
 
     /// Whether a report is to be refused for it: a difference that nothing explains, or whose explanation no
-    /// longer holds, and a statement that is open without a reason. Times of the clock decide nothing.
+    /// longer holds, and a statement that is open without a reason.
     pub fn fails(&self) -> bool {
         let open = self.verdict == Verdict::CannotBeJudged && self.note.is_empty();
-        let differs = self.verdict == Verdict::Differs && self.basis != Basis::Clock;
-        differs || open && self.kind.is_printed()
+        self.verdict == Verdict::Differs || open && self.kind.is_printed()
     }
 
     /// The author's word for the difference, if there is one and it is explained.
@@ -208,10 +202,8 @@ impl Check {
     pub fn words(&self) -> &'static str {
         match (self.kind, self.verdict) {
             (Kind::Statement | Kind::Definition, verdict) => verdict.words(),
-            (Kind::Target, Verdict::Reproduced) => "met",
             (Kind::Relation, Verdict::Reproduced) => "holds",
-            (_, Verdict::CannotBeJudged) => "not measured",
-            (Kind::Target, _) => "missed",
+            (Kind::Relation, Verdict::CannotBeJudged) => "not measured",
             (Kind::Relation, _) => "does not hold",
         }
     }

@@ -9,7 +9,7 @@ use crate::input::one_line;
 use crate::paper::Paper;
 use serde_json::{Value, json};
 
-/// Judge the statements of the paper, its targets, and relations between its numbers
+/// Judge the statements of the paper, and relations between its numbers
 ///
 /// Examples:
 ///   check                       a line for each statement that differs or cannot be judged
@@ -18,15 +18,14 @@ use serde_json::{Value, json};
 ///   check --format github       annotations of a pull request
 ///
 /// Saved results are used where they are fresh; what is missing is run. Exit code 1 says that a
-/// statement differs without an explanation that holds, that a target is missed which does not
-/// depend on the clock, or that a relation between numbers does not hold.
+/// statement differs without an explanation that holds, or that a relation between numbers does not hold.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
     /// Judge only these statements, by id or by number in the ledger.
     #[arg(value_name = "ID")]
     ids: Vec<String>,
-    /// Print all that is known of each, and also those that are reproduced, met or held.
+    /// Print all that is known of each, and also those that are reproduced or hold.
     #[arg(long, short)]
     verbose: bool,
     /// Print in this form; `github` annotates what fails and the ten worst others.
@@ -93,7 +92,7 @@ fn fields(check: &Check) -> impl Iterator<Item = (&'static str, String)> {
     fields.into_iter().filter(|(_, text)| !text.is_empty())
 }
 
-/// A line for each check that is not simply reproduced, met or held, what fails first, and the scores; of those that were
+/// A line for each check that is not simply reproduced or holds, what fails first, and the scores; of those that were
 /// asked for, and with -v, all lines of all.
 fn text(checks: &[Check], args: &Args, number: impl Fn(&str) -> Option<usize>) -> String {
     let all = args.verbose || !args.ids.is_empty();
@@ -142,7 +141,6 @@ fn json(checks: &[Check], published: &Published, file: &str) -> String {
     let all = json!({
         "score": counts.collect::<serde_json::Map<String, Value>>(),
         "claims": printed.map(one).collect::<Vec<Value>>(),
-        "targets": list(Kind::Target),
         "relations": list(Kind::Relation),
     });
     format!("{all:#}\n")

@@ -84,7 +84,7 @@ impl<'a> Session<'a> {
 }
 
 impl Paper {
-    /// All checks: the statements, in the order of the paper, then targets and relations.
+    /// All checks: the statements, those that rest on a measure of the author first, then relations.
     ///
     /// # Errors
     /// If a statement cannot be judged for want of a result.
@@ -169,7 +169,7 @@ pub(super) fn of(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> +
     checks.iter().filter(move |check| check.kind == kind)
 }
 
-/// The scores, a line each: of the statements of the paper, of targets and of relations where there are any.
+/// The scores, a line each: of the statements of the paper, and of relations where there are any.
 pub(super) fn scores(checks: &[Check]) -> Vec<String> {
     let mut lines = Vec::new();
     let statements = of(checks, Kind::Statement);
@@ -192,26 +192,16 @@ pub(super) fn scores(checks: &[Check]) -> Vec<String> {
         let all = held + broken + open;
         lines.push(format!("our own checks: {held} of {all} relations between numbers hold"));
     }
-    let [met, _, missed, open] = score(of(checks, Kind::Target));
-    if met + missed + open > 0 {
-        let late = of(checks, Kind::Target);
-        let late = late.filter(|own| own.verdict == Verdict::Differs && !own.fails()).count();
-        lines.push(format!(
-            "{} targets: {met} met, {missed} missed ({late} of these by the clock), {open} not measured",
-            met + missed + open
-        ));
-    }
     lines
 }
 
-/// Exit code 1, with names, for what does not hold. Times of the clock decide nothing.
+/// Exit code 1, with names, for what does not hold.
 pub(super) fn verdict(checks: &[Check]) -> Result<(), Failure> {
     let faults = [
         (
             Kind::Statement,
             "statements are judged by nobody or differ without an explanation that holds",
         ),
-        (Kind::Target, "targets of accuracy or counted work are missed"),
         (Kind::Relation, "relations between numbers of the report do not hold"),
     ];
     let found = faults.into_iter().filter_map(|(kind, what)| {

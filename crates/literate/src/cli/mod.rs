@@ -22,7 +22,7 @@ pub use make::whole;
 /// The contract of exit codes.
 const EXIT_CODES: &str = "Exit codes:
   0    fine
-  1    a statement, target, check or comparison failed, and what was asked for is written all
+  1    a statement, relation or comparison failed, and what was asked for is written all
        the same; a rule of the prose is broken (a naked numeral, an unused value) or a run
        failed, and nothing is; or saved results are stale, says `paper --dry-run`
   2    wrong usage or input, broken prose too, or a place that cannot be read or written
