@@ -1,5 +1,7 @@
 //! The influence of the counting protocol: half height against transient T and window W.
 
+use super::starts::HALF_HEIGHT;
+use super::sweep::{ANY_IMPACT, OF_ACTIVE};
 use crate::experiments::prelude::*;
 use crate::params::{PRINTED_THRESHOLD, PRINTED_THRESHOLD_UNIT};
 use impact_chain::Protocol;
@@ -48,30 +50,13 @@ pub fn address(own: &Curve, column: &str) -> String {
     format!("protocol.cells[transient={transient},window={window}].{column}")
 }
 
-/// A column: its name, what it is, and the place of a cell.
-type Place = (&'static str, &'static str, fn(&Curve) -> Option<Estimate>);
-
-const PLACES: [Place; 3] = [
-    (
-        "half_height",
-        "σ where the mean of realisations with an impact passes half of all gaps",
-        |own| own.rise.half_height,
-    ),
-    ("half_height_all", "σ where the mean of all passes half of all gaps", |own| {
-        own.rise.half_height_all
-    }),
-    ("kept_half", "σ at which half of the chains have an impact in the window", |own| {
-        own.rise.kept_half
-    }),
-];
-
 fn cells(map: &Counted) -> Table {
-    let table = Table::of("protocol.cells", &map.curves, |_| map.ensemble.realisations)
+    Table::of("protocol.cells", &map.curves, |_| map.ensemble.realisations)
         .key("transient", TIME, |own| own.protocol.transient)
         .key("window", TIME, |own| own.protocol.window)
-        .computed_by(origin(Curve::new));
-    PLACES
-        .into_iter()
-        .fold(table, |table, (name, meaning, place)| table.estimate(name, SIGMA, meaning, place))
+        .computed_by(origin(Curve::new))
+        .estimate("half_height", SIGMA, OF_ACTIVE, |own| own.rise.half_height)
+        .estimate("half_height_all", SIGMA, HALF_HEIGHT, |own| own.rise.half_height_all)
+        .estimate("kept_half", SIGMA, ANY_IMPACT, |own| own.rise.kept_half)
         .done()
 }

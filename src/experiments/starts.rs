@@ -13,9 +13,9 @@ pub(super) const HALF_HEIGHT: &str = "σ where the mean of all passes half of al
 /// Of variants of the paper's chain.
 pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
     let rest = named(variants, "rest").and_then(half_height);
-    let realisations = variants[0].ensemble.realisations;
     let table = Table::of("starts.variants", variants, |own| own.ensemble.realisations)
         .text_key("chain", |own| own.ensemble.name.clone())
+        .count("realisations", "chains at each σ", |own| own.ensemble.realisations as u64)
         .chosen("forcing_frequency", "omega", "", |own| Some(own.ensemble.chain.forcing_frequency))
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, half_height)
@@ -23,10 +23,7 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
             Some(difference(half_height(own)?, rest?))
         })
         .done();
-    let all = Table::of("starts.all", &[realisations], |_| realisations)
-        .count("realisations", "chains at each σ", |own| *own as u64)
-        .done();
-    vec![table, all]
+    vec![table]
 }
 
 /// Of chains of several restitutions.

@@ -3,6 +3,7 @@
 
 pub mod laws;
 
+use super::starts::HALF_HEIGHT;
 use super::{SECOND_SEED, SWEEP};
 use crate::experiments::prelude::*;
 use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
@@ -45,11 +46,15 @@ pub fn of_second_seed(found: &Vec<Counted>) -> Vec<Table> {
     let table = Table::of("second_seed.rise", found, |own| own.ensemble.realisations)
         .count("seed", "master seed", |own| own.ensemble.seed)
         .computed_by(origin(Curve::new))
-        .estimate("half_height", SIGMA, KEPT_HALF, |own| own.first().rise.half_height);
+        .estimate("half_height", SIGMA, OF_ACTIVE, |own| own.first().rise.half_height);
     vec![table.done()]
 }
 
-const KEPT_HALF: &str = "the mean of realisations with an impact passes half of all gaps";
+pub(super) const OF_ACTIVE: &str =
+    "σ where the mean of realisations with an impact passes half of all gaps";
+pub(super) const ANY_IMPACT: &str = "σ where half of the realisations have an impact";
+const WIDTH_OF_ACTIVE: &str =
+    "from a quarter to three quarters of all gaps, of the mean of realisations with an impact";
 
 /// How far the two seeds lie apart.
 pub fn of_both(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
@@ -122,37 +127,20 @@ fn rows(sweep: &Counted) -> Table {
         .done()
 }
 
-/// A column: its name, what it is, and the place.
-type Place = (&'static str, &'static str, fn(&Rise) -> Option<Estimate>);
-
-const PLACES: [Place; 5] = [
-    ("half_height_all", "the mean of all passes half of all gaps", |own| own.half_height_all),
-    ("onset", "the mean of all passes a twentieth of all gaps", |own| own.onset),
-    ("kept_half", "half of the chains have an impact", |own| own.kept_half),
-    ("width", "from a tenth to nine tenths of all gaps, of the mean of all", |own| own.width),
-    (
-        "kept_width",
-        "from a quarter to three quarters of all gaps, of the mean of realisations with an impact",
-        |own| own.kept_width,
-    ),
-];
-
 /// Places of the rise.
 fn rise_table(sweep: &Counted) -> Table {
-    let rise = &sweep.first().rise;
-    let mut table = Table::of("sweep.rise", &[()], |()| sweep.ensemble.realisations)
+    let end = |own: &Rise, end: usize| own.half_height.map_or(f64::NAN, |half| half.interval[end]);
+    Table::of("sweep.rise", &[&sweep.first().rise], |_| sweep.ensemble.realisations)
         .computed_by(origin(Curve::new))
-        .estimate("half_height", SIGMA, KEPT_HALF, |()| rise.half_height)
-        .real("half_height_from", SIGMA, 4, "the lower end of its bootstrap interval", |()| {
-            rise.half_height.map_or(f64::NAN, |half| half.interval[0])
-        })
-        .real("half_height_to", SIGMA, 4, "its upper end", |()| {
-            rise.half_height.map_or(f64::NAN, |half| half.interval[1])
-        });
-    for (name, meaning, place) in PLACES {
-        table = table.estimate(name, SIGMA, meaning, |()| place(rise));
-    }
-    table.done()
+        .estimate("half_height", SIGMA, OF_ACTIVE, |own| own.half_height)
+        .real("half_height_from", SIGMA, 4, "lower end of its interval", |own| end(own, 0))
+        .real("half_height_to", SIGMA, 4, "upper end of its interval", |own| end(own, 1))
+        .estimate("half_height_all", SIGMA, HALF_HEIGHT, |own| own.half_height_all)
+        .estimate("onset", SIGMA, "σ where it passes a twentieth of all gaps", |own| own.onset)
+        .estimate("kept_half", SIGMA, ANY_IMPACT, |own| own.kept_half)
+        .estimate("width", SIGMA, "from a tenth to nine tenths of all gaps", |own| own.width)
+        .estimate("kept_width", SIGMA, WIDTH_OF_ACTIVE, |own| own.kept_width)
+        .done()
 }
 
 /// Where the mode is.

@@ -50,12 +50,11 @@ pub(super) fn curve() -> Table {
         Grid::default().and(20, 139, 1, 1000).and(700, 760, 1, 5000).and(153, 400, 1, 1000);
     let row = |sigma: f64| {
         let (p, rest) = (p_of(sigma), p_rest_of(sigma));
-        let walls = known(Law::new(Simple, VERTICES + 1, p)).mean();
         let means = [(Simple, p), (FiveClasses, p), (Simple, rest)];
         let [simple, higher, from_rest] = means.map(|(space, p)| law(space, p).mean());
-        [sigma, p, rest, simple, higher, from_rest, walls]
+        [sigma, p, rest, simple, higher, from_rest]
     };
-    let rows: Vec<[f64; 7]> = sigmas.values().into_par_iter().map(row).collect();
+    let rows: Vec<[f64; 6]> = sigmas.values().into_par_iter().map(row).collect();
     Table::of("theory.curve", &rows, |_| 0)
         .key("sigma", SIGMA, |row| row[0])
         .computed_by(origin(ImpactProbability::p))
@@ -66,7 +65,6 @@ pub(super) fn curve() -> Table {
         .real("simple", "1", 3, "μ, simple circuits", |row| row[3])
         .real("higher", "1", 3, "μ, five classes", |row| row[4])
         .real("rest", "1", 3, "μ from rest, simple circuits", |row| row[5])
-        .real("walls", "1", 3, "μ, simple circuits, N + 1 vertices", |row| row[6])
         .done()
 }
 
