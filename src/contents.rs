@@ -41,13 +41,15 @@ pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str
         checks.iter().filter(|check| check.kind == Kind::Statement).collect();
     let mut by_section = statements.clone();
     by_section.sort_by_key(|check| section(check));
-    let heads: Vec<String> = trials.parameters.settings.iter().map(|s| titled(*s)).collect();
+    let methods = || trials.parameters.settings.chunk_by(|a, b| a.method == b.method);
+    let heads: Vec<String> = methods().map(titled).collect();
+    let sizes: Vec<usize> = methods().map(<[_]>::len).collect();
     Ok(BTreeMap::from([
         ("scorecard", Verdict::ALL.iter().map(|verdict| score(*verdict, &statements)).collect()),
         ("basis_table", Basis::ALL.iter().filter_map(|basis| split(*basis, &statements)).collect()),
         ("strip", by_section.chunk_by(|a, b| section(a) == section(b)).map(strip).collect()),
         ("scene_heads", json!(heads)),
-        ("scene_table", trials.scenes.iter().map(|(what, trials)| scene(what, trials)).collect()),
+        ("scene_table", trials.scenes.iter().map(|(what, own)| scene(what, own, &sizes)).collect()),
     ]))
 }
 
@@ -83,17 +85,33 @@ fn mark(name: &str) -> String {
     framed(&format!("score.{}", name.replace(' ', "_")), "")
 }
 
-/// In how many cases of a scene each method is right, and what goes wrong else; and whether failures end with an error
-/// or with a wrong result that looks like a right one. No method here warns of a result that it gives.
-fn scene(what: &str, trials: &[Trial]) -> Json {
+/// What goes wrong most often in a scene with each method, at its settings from coarse to fine, and in how many cases;
+/// and whether failures end with an error or with a wrong result that looks like a right one. No method here warns of a
+/// result that it gives. `sizes` are the numbers of settings of the methods.
+fn scene(what: &str, trials: &[Trial], sizes: &[usize]) -> Json {
     use case::Verdict::{GaveUp, Right};
-    let cell = |trial: &Trial| match (trouble(trial), right(trial), trial.len()) {
+    let outcome = |trial: &Trial| match (trouble(trial), trial.len() - right(trial), trial.len()) {
         (None, ..) => "right".to_string(),
-        (Some(trouble), 0, 1) => trouble.words().to_string(),
-        (Some(trouble), right, all) => {
-            format!("{right} of {all} right, else {}", trouble.words())
-        }
+        (Some(trouble), _, 1) => trouble.words().to_string(),
+        (Some(trouble), wrong, all) if wrong == all => format!("all {}", trouble.words()),
+        (Some(trouble), wrong, _) => format!("{wrong} {}", trouble.words()),
     };
+    let mut rest = trials;
+    let cell = |&size: &usize| {
+        let (own, others) = rest.split_at(size);
+        rest = others;
+        let mut outcomes: Vec<String> = own.iter().map(outcome).collect();
+        outcomes.dedup();
+        // Of two numbers of the same failure, the words stand once.
+        if let [coarse, fine] = &mut outcomes[..] {
+            let same = |own: &str| own.split_once(' ').map(|(_, words)| words.to_string());
+            if let Some(words) = same(coarse).filter(|words| same(fine).as_ref() == Some(words)) {
+                coarse.truncate(coarse.len() - words.len() - 1);
+            }
+        }
+        outcomes.join("; ")
+    };
+    let cells: Vec<String> = sizes.iter().map(cell).collect();
     let mut all = trials.iter().flatten();
     let refused = all.clone().any(|verdict| *verdict == GaveUp);
     let silent = all.any(|verdict| !matches!(verdict, Right | GaveUp));
@@ -103,5 +121,5 @@ fn scene(what: &str, trials: &[Trial]) -> Json {
         (false, true) => "silent",
         (true, true) => "silent or refused",
     };
-    json!({"name": what, "cells": trials.iter().map(cell).collect::<Vec<_>>(), "told": told})
+    json!({"name": what, "cases": trials[0].len(), "cells": cells, "told": told})
 }

@@ -39,11 +39,11 @@ PYTHON = {
 }
 PARTS = ["ours", "methods", *PYTHON, "diffsol", "commands"]
 ROW = {
-    "what": "engine", "name": "", "version": "", "settings": "", "n": 0, "sigma": SIGMA,
+    "what": "engine", "name": "", "version": "", "settings": "", "value": None, "n": 0, "sigma": SIGMA,
     "until": UNTIL, "chains": 1, "threads": 1, "impacts": 0,
     "microseconds_per_impact": None, "evaluations_per_impact": None, "compared": None,
     "horizon_impact": None, "horizon_time": None, "segment_misses": None, "segments": None,
-    "seconds": None, "peak_mib": None, "note": "",
+    "seconds": None, "engine_seconds": None, "peak_mib": None, "note": "",
 }  # fmt: skip
 
 
@@ -154,16 +154,12 @@ def part_ours():
 
 
 def part_methods():
-    """Our own rivals; `measure methods` prints rows."""
-    from common import ENOUGH
-
-    for n in SIZES:
-        _, reference = inputs(n)
-        say(f"  n = {n}")
-        chain = ["--masses", n, "--sigma", SIGMA, "--chain", CHAIN, "--until", UNTIL]
-        chain += ["--seconds", ENOUGH]
-        text, _, _ = measure("methods", *chain, "--reference", reference, limit=400)
-        yield from json.loads(text)["rows"]
+    """The methods of this project; `measure methods` prints rows."""
+    for of in ["race", "bias"]:
+        text, _, late = call([str(MEASURE), "methods", of], 3600, keep=True)
+        yield from map(json.loads, text.splitlines())
+        if late:
+            yield {"what": "absent", "name": "methods", "note": f"the next setting: {late}"}
 
 
 def part_python(part):
@@ -279,13 +275,16 @@ def main():
     wanted = arguments.only.split(",") if arguments.only else PARTS
     if unknown := [part for part in wanted if part not in PARTS]:
         parser.error(f"--only: there is no part {unknown[0]}; parts are {','.join(PARTS)}")
-    header = {"date": datetime.date.today().isoformat(), "machine": machine()}
-    kept = []
+    here = {"date": datetime.date.today().isoformat(), "machine": machine()}
+    old = []
     if arguments.only and arguments.out.is_file():
-        old = json.loads(arguments.out.read_text())
-        kept = [row for row in old["rows"] if of_part(row) not in wanted]
-        if kept and any(old[key] != header[key] for key in header):
-            parser.error("of another day or machine; measure all, or give --out")
+        old = json.loads(arguments.out.read_text())["sessions"]
+    for session in old:
+        session["rows"] = [row for row in session["rows"] if of_part(row) not in wanted]
+    # What was measured here today stands in one session.
+    same = [session for session in old if all(session[key] == here[key] for key in here)]
+    old = [session for session in old if session["rows"] and session not in same]
+    kept = [row for session in same for row in session["rows"]]
     WORK.mkdir(parents=True, exist_ok=True)
     say("build")
     build = ["cargo", "build", "--release", "--locked", "--quiet"]
@@ -305,7 +304,7 @@ def main():
             say(f"    absent: {why}")
         # Whatever happens later, this much is kept.
         done = [row for each in PARTS for row in rows[each]]
-        arguments.out.write_text(text_of(header, done))
+        arguments.out.write_text(text_of([*old, here | {"rows": done}]))
         say(f"  {part}: {time.perf_counter() - began:.0f} s")
 
 
@@ -318,11 +317,14 @@ def told(row):
     return " ".join(part for part in parts if part)
 
 
-def text_of(header, rows):
+def text_of(sessions):
     """JSON with a row on each line: differences of two measurements can be read."""
-    head = ",\n".join(f"{json.dumps(key)}: {json.dumps(value)}" for key, value in header.items())
-    lines = ",\n".join(json.dumps(row, ensure_ascii=False) for row in rows)
-    return f'{{\n{head},\n"rows": [\n{lines}\n]\n}}\n'
+    blocks = []
+    for session in sessions:
+        head = ", ".join(f'"{key}": {json.dumps(session[key])}' for key in ["date", "machine"])
+        lines = ",\n".join(json.dumps(row, ensure_ascii=False) for row in session["rows"])
+        blocks.append(f'{{{head}, "rows": [\n{lines}\n]}}')
+    return '{"sessions": [\n' + ",\n".join(blocks) + "\n]}\n"
 
 
 if __name__ == "__main__":

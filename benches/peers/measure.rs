@@ -4,14 +4,13 @@
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
 use clap::Parser;
-use impact_chain::methods::{Method, State};
-use impact_chain::{Counters, Engine, Error, Impact, Scenario};
+use impact_chain::methods::{Certified, Method, State};
+use impact_chain::{Counters, Engine, Error, Scenario};
 use impact_numerics::random::NormalPairs;
-use impact_paper::params::{Chain, MethodName};
+use impact_paper::params::{BiasParams, Chain, MethodName, Profile, RaceParams, Runs, Setting};
 use rayon::prelude::*;
-use serde::Deserialize;
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::sync::LazyLock;
 use std::time::Instant;
 
 /// What is measured, or printed.
@@ -33,19 +32,13 @@ enum What {
         #[arg(long, default_value_t = 5)]
         repetitions: usize,
     },
-    /// Times the engine and its rivals on one chain.
+    /// Times every rival on the chains of an experiment, in turn with the engine.
     Methods {
-        #[command(flatten)]
-        drawn: Drawn,
-        /// Simulated time T.
-        #[arg(long, default_value_t = 200.0)]
-        until: f64,
-        /// True impacts and segments, as `cargo bench --bench reference` prints them.
-        #[arg(long)]
-        reference: PathBuf,
-        /// Seconds in which a setting is run again for its best time.
-        #[arg(long, default_value_t = 1.0)]
-        seconds: f64,
+        /// Which experiment.
+        of: Of,
+        /// Repetitions: the best of each is printed.
+        #[arg(long, default_value_t = 3)]
+        repetitions: usize,
     },
     /// Prints a chain as a scenario file.
     Scenario {
@@ -82,15 +75,11 @@ fn main() -> Result<(), Failure> {
             let cases = [engine(&drawn, until, chains, threads, repetitions)?];
             json!({"version": env!("CARGO_PKG_VERSION"), "cases": cases})
         }
-        What::Methods { drawn, until, reference, seconds } => {
-            let truth: Truth = serde_json::from_str(&std::fs::read_to_string(reference)?)?;
-            let scenario = draw(&drawn, 0)?;
-            let row = |(method, setting): &(Box<dyn Method>, String)| {
-                let row = row(&drawn, &scenario, until, &truth, seconds, method.as_ref(), setting);
-                eprintln!("{} {setting}", method.name());
-                row
-            };
-            json!({"rows": settings().iter().map(row).collect::<Vec<Value>>()})
+        What::Methods { of, repetitions } => {
+            for case in cases(of) {
+                println!("{}", row(&case, repetitions)?);
+            }
+            return Ok(());
         }
         What::Scenario { drawn } => {
             let scenario = draw(&drawn, 0)?;
@@ -174,126 +163,95 @@ fn peak_mib() -> Option<f64> {
     line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok().map(|kib| kib / 1024.0)
 }
 
-/// The truth about a chain.
-#[derive(Deserialize)]
-struct Truth {
-    /// (t, gap) of each impact.
-    impacts: Vec<(f64, usize)>,
-    segments: Vec<Segment>,
+/// An experiment on methods.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Of {
+    /// How long runs are true.
+    Race,
+    /// The error of the mean.
+    Bias,
 }
 
-/// The state right after an impact, and the impact that follows.
-#[derive(Deserialize)]
-struct Segment {
-    t: f64,
-    u: Vec<f64>,
-    v: Vec<f64>,
-    next_t: f64,
-    next_gap: usize,
+/// The chains of the race, to its end.
+fn race() -> Runs {
+    let race = RaceParams::new(Profile::Full);
+    Runs { until: race.until, realisations: race.chains, ..race.growth }
 }
 
-/// A time that is further off than this is wrong.
-const CLOSE: f64 = 1e-3;
-
-/// How often a setting is run at most.
-const REPETITIONS: usize = 20;
-
-/// Each method with its steps or tolerances, coarse to fine.
-fn settings() -> Vec<(Box<dyn Method>, String)> {
-    let values = |method| -> &[f64] {
-        match method {
-            MethodName::Certified | MethodName::Truth => &[0.0],
-            MethodName::Sampled => &[0.1, 0.03, 0.01, 0.003],
-            MethodName::Advancement => &[1e-6, 1e-9, 1e-12],
-            MethodName::RungeKutta => &[1e-4, 1e-6, 1e-9, 1e-12],
-            MethodName::MoreauJean | MethodName::Verlet => &[1e-1, 1e-2, 1e-3, 1e-4],
-            MethodName::Penalty => &[1e-2, 1e-3, 1e-4],
+/// Chains and the method that is timed on them.
+fn cases(of: Of) -> Vec<(Runs, Setting)> {
+    match of {
+        Of::Race => {
+            RaceParams::new(Profile::Full).settings.into_iter().map(|own| (race(), own)).collect()
         }
-    };
-    let of = |method: MethodName| {
-        let setting = move |x: f64| match method {
-            MethodName::Certified => String::new(),
-            own if own.has_tolerance() => format!("tol={x:e}"),
-            _ => format!("h={x:e}"),
-        };
-        values(method).iter().map(move |&x| (method.with(x), setting(x)))
-    };
-    MethodName::ALL.into_iter().flat_map(of).collect()
-}
-
-/// A row of benches/measured.json: one setting, run as often as there is time for.
-fn row(
-    drawn: &Drawn,
-    scenario: &Scenario,
-    until: f64,
-    truth: &Truth,
-    patience: f64,
-    method: &dyn Method,
-    setting: &str,
-) -> Value {
-    let start = State::of(scenario);
-    let (mut best, mut spent) = (f64::INFINITY, 0.0);
-    // As many as are compared, and the number of all.
-    let (mut impacts, mut count, mut ended) = (Vec::new(), 0_u64, Ok(Default::default()));
-    for _ in 0..REPETITIONS {
-        impacts.clear();
-        count = 0;
-        let began = Instant::now();
-        ended = method.run((scenario, &start, until), &mut |impact| {
-            count += 1;
-            if impacts.len() < truth.impacts.len() {
-                impacts.push(impact);
-            }
-            true
-        });
-        let seconds = began.elapsed().as_secs_f64();
-        best = best.min(seconds);
-        spent += seconds;
-        if spent > patience || ended.is_err() {
-            break;
+        Of::Bias => {
+            let BiasParams { chains, settings, .. } = BiasParams::new(Profile::Full);
+            let of = |runs: &Runs| {
+                let with = |n: usize| Runs { realisations: n, ..runs.clone() };
+                settings.iter().map(|(own, n)| (with(*n), *own)).collect::<Vec<_>>()
+            };
+            chains.iter().flat_map(of).collect()
         }
     }
-    let per_impact = |x: f64| (count > 0).then(|| x / count as f64);
-    let horizon = horizon(truth, &impacts);
-    let missed = truth.segments.iter().filter(|segment| !found(scenario, method, segment)).count();
-    // A method that counts no evaluations has none.
-    let evaluations = ended.as_ref().ok().and_then(|cost| per_impact(cost.evaluations as f64));
-    json!({
-        "what": "method", "name": method.name(), "version": env!("CARGO_PKG_VERSION"),
-        "settings": setting, "n": drawn.masses, "sigma": drawn.sigma, "until": until,
-        "chains": 1, "threads": 1, "impacts": count,
-        "microseconds_per_impact": per_impact(best * 1e6),
-        "evaluations_per_impact": evaluations.filter(|x| *x > 0.0),
-        "compared": truth.impacts.len(),
-        "horizon_impact": horizon.map(|(number, _)| number),
-        "horizon_time": horizon.map(|(_, time)| time),
-        "segment_misses": missed, "segments": truth.segments.len(),
-        "seconds": best, "peak_mib": null,
-        "note": ended.err().map(|error| format!("ended early: {error}")).unwrap_or_default(),
-    })
 }
 
-/// Number, from 1, and time of the first true impact that a run does not have.
-fn horizon(truth: &Truth, impacts: &[Impact]) -> Option<(u64, f64)> {
-    (1..).zip(&truth.impacts).enumerate().find_map(|(i, (number, &(time, gap)))| {
-        let own = impacts.get(i);
-        let right = own.is_some_and(|own| own.gap == gap && (own.time - time).abs() <= CLOSE);
-        (!right).then_some((number, time))
-    })
-}
+/// Seconds that a repetition takes at least.
+const ENOUGH: f64 = 0.2;
 
-/// Whether a method finds the impact that ends a segment.
-fn found(scenario: &Scenario, method: &dyn Method, segment: &Segment) -> bool {
-    let d = scenario.spacing;
-    let start = State {
-        time: segment.t,
-        positions: segment.u.iter().zip(1..).map(|(u, j)| f64::from(j) * d + u).collect(),
-        velocities: segment.v.clone(),
+/// A row of benches/measured.json: the best times of a method and of the engine on the same chains.
+fn row((runs, setting): &(Runs, Setting), repetitions: usize) -> Result<Value, Failure> {
+    let scenarios: Vec<Scenario> =
+        (0..runs.realisations as u64).map(|index| runs.scenario(index)).collect();
+    let once = |method: &dyn Method| -> Result<u64, Error> {
+        let mut impacts = 0;
+        for scenario in &scenarios {
+            let task = (scenario, &State::of(scenario), runs.until);
+            // A run that the method gives up counts with the time that it took.
+            match method.run(task, &mut |_| true) {
+                Err(Error::Work { .. }) => (),
+                ended => impacts += ended?.impacts,
+            }
+        }
+        Ok(impacts)
     };
-    let first = method.first((scenario, &start, segment.next_t + 1.0));
-    first.is_ok_and(|first| {
-        first.is_some_and(|own| {
-            own.gap == segment.next_gap && (own.time - segment.next_t).abs() <= CLOSE
-        })
-    })
+    // The system counts in ticks of some milliseconds, so what is short is run again and again.
+    let timed = |method: &dyn Method| -> Result<f64, Error> {
+        let (began, mut times) = (processor_time(), 0.0);
+        loop {
+            once(method)?;
+            times += 1.0;
+            let spent = processor_time() - began;
+            if spent >= ENOUGH {
+                return Ok(spent / times);
+            }
+        }
+    };
+    let method = setting.method.with(setting.value);
+    let (mut best, mut engine, impacts) = (f64::INFINITY, f64::INFINITY, once(method.as_ref())?);
+    for _ in 0..repetitions {
+        engine = engine.min(timed(&Certified)?);
+        best = best.min(timed(method.as_ref())?);
+    }
+    eprintln!("{} {}, σ = {}: {best} s", method.name(), setting.value, runs.sigma);
+    let text = match setting.method {
+        MethodName::Certified => String::new(),
+        own => format!("{}={:e}", if own.has_tolerance() { "tol" } else { "h" }, setting.value),
+    };
+    Ok(json!({
+        "what": "method", "name": method.name(), "version": env!("CARGO_PKG_VERSION"),
+        "settings": text, "value": setting.value, "n": runs.chain.masses, "sigma": runs.sigma,
+        "until": runs.until, "chains": runs.realisations, "impacts": impacts,
+        "microseconds_per_impact": (impacts > 0).then(|| best / impacts as f64 * 1e6),
+        "seconds": best, "engine_seconds": engine,
+    }))
+}
+
+/// Seconds that this thread has run, where the system counts them; else those of the clock.
+fn processor_time() -> f64 {
+    let counted = || {
+        let line = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+        line.split_whitespace().next()?.parse::<f64>().ok()
+    };
+    static BEGAN: LazyLock<Instant> = LazyLock::new(Instant::now);
+    counted().map_or_else(|| BEGAN.elapsed().as_secs_f64(), |nanoseconds| nanoseconds * 1e-9)
 }

@@ -5,15 +5,24 @@
 //! report only reads them, and so keeps its bytes until somebody measures again.
 
 use crate::experiments::prelude::*;
+use crate::params::Setting;
 use literate::input::one_line;
 
 /// Where the file lies, seen from the top of the project.
 pub const FILE: &str = "benches/measured.json";
 
-/// What was measured, where and when.
+/// What was measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measured {
+    /// One for each day and machine.
+    pub sessions: Vec<MeasuredOn>,
+}
+
+/// What was measured on one day and machine; times of two such sessions are compared as multiples of the engine's.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeasuredOn {
     /// Day of the measurement, YYYY-MM-DD.
     pub date: String,
     /// What it ran on.
@@ -34,7 +43,7 @@ pub struct Machine {
     pub os: String,
 }
 
-/// What a row tells.
+/// What a row is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum What {
@@ -42,7 +51,7 @@ pub enum What {
     Engine,
     /// Many chains in the engine of this project, for the most impacts a second.
     Ensemble,
-    /// Another method, written in this project (`impact_chain::methods`).
+    /// A method of this project (`impact_chain::methods`) with one setting, timed in turn with the engine.
     Method,
     /// Another project.
     Peer,
@@ -59,19 +68,23 @@ pub enum What {
 /// and the next impact alone from the true state after each impact (*segments*).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
-    /// What the row tells.
+    /// What the row is about.
     pub what: What,
     /// Name of engine, method, peer or command.
     pub name: String,
+    /// Step or tolerance of a method.
+    pub value: Option<f64>,
     /// Number of masses n; 0 for a command that has many.
     pub n: u64,
+    /// Standard deviation σ of the forcing; 0 for a command that has many.
+    pub sigma: f64,
     /// Simulated time T.
     pub until: f64,
     /// Chains run.
     pub chains: u64,
     /// Threads used.
     pub threads: u32,
-    /// Wall time over impacts: the best of several repetitions.
+    /// Time over impacts: the best of several repetitions.
     pub microseconds_per_impact: Option<f64>,
     /// Impacts of the reference that the run was held against; none if it was not.
     pub compared: Option<u64>,
@@ -80,8 +93,10 @@ pub struct Measurement {
     pub horizon_impact: Option<u64>,
     /// Time of that impact in the reference.
     pub horizon_time: Option<f64>,
-    /// Wall time of all of it, in seconds.
+    /// Time of all of it, in seconds: of the clock, for methods of the processor.
     pub seconds: Option<f64>,
+    /// Processor time of the engine on the same chains, in seconds, for methods.
+    pub engine_seconds: Option<f64>,
     /// Largest resident memory of the process, in MiB.
     pub peak_mib: Option<f64>,
     /// What else one must know; may be empty.
@@ -105,37 +120,75 @@ impl Measured {
 
     /// Rows of one kind.
     pub fn of(&self, what: What) -> impl Iterator<Item = &Measurement> {
-        self.rows.iter().filter(move |row| row.what == what)
+        self.sessions.iter().flat_map(|own| &own.rows).filter(move |row| row.what == what)
     }
 
-    /// Time of an impact in one chain of 100 masses, by what has this name.
-    fn impact(&self, what: What, name: &str) -> f64 {
-        let own = self.of(what).filter(|row| row.name == name && row.n == 100 && row.chains == 1);
-        own.filter_map(|row| row.microseconds_per_impact).last().unwrap_or(f64::NAN)
+    /// The row of a method with a setting on n masses at σ.
+    pub fn method(&self, setting: Setting, n: usize, sigma: f64) -> Option<&Measurement> {
+        let alike = |row: &&Measurement| {
+            row.name == setting.method.id() && row.value == Some(setting.value)
+        };
+        self.of(What::Method).filter(alike).find(|row| row.n == n as u64 && row.sigma == sigma)
+    }
+
+    /// Time of an impact in one chain of n masses by the engine, in microseconds, in the session of a row.
+    pub fn engine(&self, row: &Measurement) -> Option<f64> {
+        let session = self.sessions.iter().find(|own| own.rows.contains(row))?;
+        let own = session.rows.iter().filter(|own| own.what == What::Engine && own.n == row.n);
+        own.filter_map(|own| own.microseconds_per_impact).next_back()
     }
 }
 
-/// When and where times were measured, and what an impact takes.
+impl Measurement {
+    /// Time over that of the engine on the same chains.
+    pub fn over_engine(&self) -> Option<f64> {
+        Some(self.seconds? / self.engine_seconds?)
+    }
+
+    /// Seconds for a thousand chains.
+    pub fn thousand(&self) -> Option<f64> {
+        Some(self.seconds? / self.chains as f64 * 1e3)
+    }
+}
+
+/// When and where times were measured, and what they say.
 pub fn tables(measured: &Measured) -> Vec<Table> {
-    let machine = &measured.machine;
-    let table = Table::of("measured.machine", &[()], |()| 1)
+    // The last session of the engine and that of the methods, which may be one.
+    let parts = [("engine", What::Engine), ("methods", What::Method)];
+    let session = |what: What| {
+        measured.sessions.iter().rfind(|own| own.rows.iter().any(|row| row.what == what))
+    };
+    let found: Vec<(&str, &MeasuredOn)> =
+        parts.into_iter().filter_map(|(of, what)| Some((of, session(what)?))).collect();
+    let machine = Table::of("measured.machine", &found, |_| 1)
+        .text_key("of", |(of, _)| (*of).into())
         .computed_by(origin(Measured::committed))
-        .words("date", "when", |()| measured.date.clone())
-        .words("processor", "on what", |()| machine.processor.replace("(R)", ""))
-        .words("os", "under what", |()| machine.os.replace('_', "-"))
-        .count("cores", "processors", |()| u64::from(machine.cores))
+        .words("date", "when", |(_, own)| own.date.clone())
+        .words("processor", "on what", |(_, own)| own.machine.processor.replace("(R)", ""))
+        .words("os", "under what", |(_, own)| own.machine.os.replace('_', "-"))
+        .count("cores", "processors", |(_, own)| u64::from(own.machine.cores))
         .measured();
-    let engine = measured.impact(What::Engine, "impact-paper");
-    let [certified, advancement] =
-        ["certified", "advancement"].map(|name| measured.impact(What::Method, name));
+    let one = |row: &&Measurement| row.n == 100 && row.chains == 1;
+    let engine =
+        measured.of(What::Engine).filter(one).filter_map(|row| row.microseconds_per_impact);
+    let engine = engine.last().unwrap_or(f64::NAN);
     let impact = Table::of("measured.impact", &[()], |()| 1)
         .computed_by(origin(Measured::committed))
         .real("engine", "us", 2, "time of an impact in the engine, one chain of 100 masses", |()| {
             engine
         })
-        .real("advancement", "1", 2, "time of conservative advancement over the engine's", |()| {
-            advancement / certified
+        .measured();
+    let rows: Vec<&Measurement> = measured.of(What::Method).collect();
+    let methods = Table::of("measured.methods", &rows, |row| row.chains as usize)
+        .text_key("setting", |row| format!("{}-{}", row.name, row.value.unwrap_or(f64::NAN)))
+        .key("sigma", SIGMA, |row| row.sigma)
+        .computed_by(origin(Measured::committed))
+        .real("thousand", "s", 2, "time of one core for a thousand chains", |row| {
+            row.thousand().unwrap_or(f64::NAN)
+        })
+        .real("over_engine", "1", 2, "time over the engine's on the same chains", |row| {
+            row.over_engine().unwrap_or(f64::NAN)
         })
         .measured();
-    vec![table.done(), impact.done()]
+    vec![machine.done(), impact.done(), methods.done()]
 }

@@ -53,7 +53,6 @@ pub fn runs(_: Profile) -> Runs {
         ("no loss, r = 1", drawn(0.12, Chain { restitution: 1.0, ..chain() })),
         ("no rebound, r = 0", drawn(0.3, Chain { restitution: 0.0, ..chain() })),
         ("a thousand masses", drawn(0.16, Chain { masses: 1000, ..chain() })),
-        // As in the scenes of `accuracy::scenes`.
         ("chatter: one mass comes to rest at a wall", given(vec![[5.88, -4.94]], 0.2, 20.0)),
         ("contact: five masses are pressed together", given(pressed(), 0.2, 20.0)),
         (

@@ -27,14 +27,15 @@ mod s05;
 mod s06;
 mod s07;
 mod s08;
+mod s09;
 mod simulated;
 
 pub use literate::figures::*;
 
 use crate::experiments::sweep;
 use crate::experiments::{
-    BRANCHES, MEASURED, NUCLEATION, PROTOCOL, RACE, SCALE, SEEDS, SEGMENTS, SPACE_TIME, SWEEP,
-    THEORY,
+    BIAS, BRANCHES, MEASURED, NUCLEATION, PROTOCOL, RACE, SCALE, SEEDS, SEGMENTS, SPACE_TIME,
+    SWEEP, THEORY,
 };
 use crate::experiments::{Need, Results};
 use literate::Illustration;
@@ -51,7 +52,7 @@ const fn drawing(
 }
 
 /// All figures: first the paper's, then those of this edition.
-pub const ALL: [Illustration; 23] = [
+pub const ALL: [Illustration; 24] = [
     drawing("fig01", &[], |_| fig01::draw()),
     drawing("fig02", &[&SWEEP], |all| fig02::draw(sweep::main(all)?)),
     drawing("fig03", &[&SWEEP], |all| fig03::draw(sweep::main(all)?)),
@@ -74,5 +75,6 @@ pub const ALL: [Illustration; 23] = [
     drawing("s05", &[&THEORY], s05::draw),
     drawing("s06", &[&RACE], |all| s06::draw(all.of(&RACE)?)),
     drawing("s07", &[&RACE, &MEASURED], |all| s07::draw(all.of(&RACE)?, all.of(&MEASURED)?)),
-    drawing("s08", &[&SCALE, &MEASURED], |all| s08::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),
+    drawing("s08", &[&BIAS, &MEASURED], |all| s08::draw(all.of(&BIAS)?, all.of(&MEASURED)?)),
+    drawing("s09", &[&SCALE, &MEASURED], |all| s09::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),
 ];

@@ -1,31 +1,55 @@
-//! One look for each method in all charts of speed and accuracy.
+//! How methods and other programs look in all charts of speed and accuracy: this engine red, all others grey, each named
+//! beside its marks.
 
 use super::prelude::*;
 use crate::experiments::Measured;
 use crate::experiments::accuracy::tables::name;
-use crate::experiments::measured::{Measurement, What};
+use crate::experiments::measured::What;
 use crate::params::MethodName;
-
-const INK_LINE: Stroke = Stroke::solid(INK, THIN);
 
 /// The look of a method; its line joins the settings of the method.
 pub fn look(method: MethodName) -> Marker {
-    let (colour, mark) = match method {
-        MethodName::Certified => (RED, Mark::Disc),
-        MethodName::Sampled => (BLUE, Mark::Ring),
-        MethodName::Advancement => (GREEN, Mark::Diamond),
-        MethodName::RungeKutta => (ORANGE, Mark::Square),
-        MethodName::MoreauJean => (PURPLE, Mark::Triangle),
-        MethodName::Verlet => (INK, Mark::Cross),
-        MethodName::Penalty | MethodName::Truth => (GREY, Mark::Plus),
-    };
-    (mark, LARGE, Stroke::solid(colour, THIN))
+    match method {
+        MethodName::Certified => (Mark::Disc, LARGE + 12, Stroke::solid(RED, LINE)),
+        _ => (Mark::Disc, MEDIUM - 12, Stroke::solid(GREY, THIN)),
+    }
 }
 
-/// Legend entries of some methods, in the order of [`MethodName::ALL`].
-pub fn entries(methods: impl Fn(MethodName) -> bool) -> Vec<Entry> {
-    let entry = |method| Entry::mark(look(method), name(method));
-    MethodName::ALL.into_iter().filter(|m| methods(*m)).map(entry).collect()
+/// The points of each method.
+pub type Curves = Vec<(MethodName, Vec<(f64, f64)>)>;
+
+/// Where the name of a method stands: beside which of its settings, or the finest, and so many millimetres to the right and
+/// below.
+pub type Place = (MethodName, usize, (i32, i32));
+
+/// The finest setting.
+pub const FINEST: usize = usize::MAX;
+
+/// Draws the settings of each method as marks on a line, and the names of some.
+pub fn draw(
+    panel: &Panel,
+    curves: &Curves,
+    places: &[Place],
+    outside: Outside,
+) -> Result<(), Error> {
+    for (method, points) in curves {
+        let look = look(*method);
+        panel.marked(name(*method), points, (Stroke { width: THIN, ..look.2 }, look), outside)?;
+    }
+    names(panel, curves, places)
+}
+
+/// The names of methods.
+pub fn names(panel: &Panel, curves: &Curves, places: &[Place]) -> Result<(), Error> {
+    for (method, setting, beside) in places {
+        let own = curves.iter().find(|own| own.0 == *method).map(|own| &own.1);
+        if let Some(at) = own.and_then(|own| own.get(*setting).or(own.last())) {
+            let inside = (at.0, at.1.clamp(panel.y.lo, panel.y.hi));
+            let colour = if *method == MethodName::Certified { RED } else { INK };
+            panel.label(name(*method), inside, *beside, colour)?;
+        }
+    }
+    Ok(())
 }
 
 /// Points of each method that has some, in the order of [`MethodName::ALL`].
@@ -40,68 +64,18 @@ pub fn by_method<T, P>(
     MethodName::ALL.into_iter().map(of).filter(|(_, points)| !points.is_empty()).collect()
 }
 
-/// A program that was timed, and held against the truth on one chain.
-pub struct Timed {
-    pub name: String,
-    /// The method of this project, if it is one.
-    pub method: Option<MethodName>,
-    pub masses: u64,
-    /// Measured time of an impact.
-    pub microseconds: f64,
-    /// Time up to which it is true; the end of the run if it is true to the end.
-    pub horizon: f64,
-}
-
-/// All rows of one chain with a time and a horizon.
-pub fn timed(measured: &Measured) -> Vec<Timed> {
-    let one = |row: &Measurement| {
-        let method = match row.what {
-            What::Engine => Some(MethodName::Certified),
-            What::Method => MethodName::ALL.into_iter().find(|m| m.id() == row.name),
-            What::Peer => None,
-            What::Ensemble | What::Command | What::Absent => return None,
-        };
-        Some(Timed {
-            name: row.name.clone(),
-            method,
-            masses: row.n,
-            microseconds: row.microseconds_per_impact?,
-            horizon: row.compared.map(|_| row.horizon_time.unwrap_or(row.until))?,
-        })
-    };
-    // The engine is the certified method; as one of the methods it is the same, with more to count.
-    let again = MethodName::Certified.id();
-    let rows = measured.rows.iter().filter(|row| row.chains == 1 && row.n > 0 && row.name != again);
-    rows.filter_map(one).collect()
-}
-
-/// The most accurate setting of each program at each number of masses; of several, the fastest.
-pub fn most_accurate(programs: &[Timed]) -> Vec<&Timed> {
-    let quality = |t: &Timed| (t.horizon, -t.microseconds);
-    let alike = |a: &Timed, b: &Timed| a.name == b.name && a.masses == b.masses;
-    let better = |a: &Timed, b: &Timed| alike(a, b) && quality(a) > quality(b);
-    programs.iter().filter(|b| !programs.iter().any(|a| better(a, b))).collect()
-}
-
-/// Names of the other programs, sorted, each with its look.
-pub fn others(programs: &[Timed]) -> Vec<(&str, Marker)> {
-    const MARKS: [Mark; 6] = [
-        Mark::OpenSquare,
-        Mark::OpenDiamond,
-        Mark::OpenTriangle,
-        Mark::Square,
-        Mark::Diamond,
-        Mark::Triangle,
-    ];
-    let mut names: Vec<&str> =
-        programs.iter().filter(|p| p.method.is_none()).map(|p| p.name.as_str()).collect();
-    names.sort_unstable();
-    names.dedup();
-    names.into_iter().zip(MARKS.into_iter().cycle().map(|mark| (mark, LARGE, INK_LINE))).collect()
-}
-
-/// The look of a program: of its method, or that of the others.
-pub fn look_of(program: &Timed, others: &[(&str, Marker)]) -> Marker {
-    let other = || others.iter().find(|(name, _)| *name == program.name).map(|(_, look)| *look);
-    program.method.map(look).or_else(other).unwrap_or((Mark::Square, LARGE, INK_LINE))
+/// Other programs on one chain of so many masses: of each setting the time of an impact over the engine's, and the time up to
+/// which the run is true, which is its end if it is true to the end.
+pub fn programs(measured: &Measured, masses: usize) -> Vec<(&str, Vec<(f64, f64)>)> {
+    let mut found: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
+    for row in measured.of(What::Peer).filter(|row| row.n == masses as u64) {
+        let time = row.microseconds_per_impact.zip(measured.engine(row));
+        let Some(time) = time.map(|(own, engine)| own / engine) else { continue };
+        let point = (time, row.horizon_time.unwrap_or(row.until));
+        match found.last_mut().filter(|own| own.0 == row.name) {
+            Some(own) => own.1.push(point),
+            None => found.push((&row.name, vec![point])),
+        }
+    }
+    found
 }

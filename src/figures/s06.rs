@@ -1,21 +1,43 @@
 //! Fig. S6: error and misses of the next impact against counted work, for every method.
 
 use super::prelude::*;
-use super::rivals::{by_method, entries, look};
+use super::rivals::{self, FINEST, Place, by_method, look};
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
 use crate::experiments::accuracy::tables::name;
-use crate::params::MethodName;
+use crate::params::MethodName::{self, *};
+
+/// Where the names stand in the upper panel.
+const NAMES: [Place; 7] = [
+    (Certified, FINEST, (3, 0)),
+    (Sampled, FINEST, (2, 0)),
+    (Advancement, 0, (2, 0)),
+    (RungeKutta, FINEST, (2, 0)),
+    (MoreauJean, FINEST, (2, 2)),
+    (Verlet, FINEST, (2, -1)),
+    (Penalty, 0, (2, -1)),
+];
+
+/// Where they stand in the lower panel.
+const MISSED: [Place; 7] = [
+    (Certified, FINEST, (2, -2)),
+    (Sampled, 0, (0, -2)),
+    (Advancement, 0, (2, 0)),
+    (RungeKutta, FINEST, (0, -2)),
+    (MoreauJean, FINEST, (2, 2)),
+    (Verlet, FINEST, (2, -1)),
+    (Penalty, 0, (2, -1)),
+];
 
 pub fn draw(race: &Race) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9500);
-    let costs = || race.entries.iter().filter_map(|entry| entry.work);
-    let cost_axis = || Axis::around(costs(), 1, "evaluations per impact");
+    let sheet = Sheet::new(8300);
+    // The names stand at the right.
+    let cost_axis = || Axis::decades(0, 6, 1, "evaluations per impact").from(0.7, 4e6);
     let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
     let (x, y) = (cost_axis().bare(), error.column("error of the next impact's time (1/omega)"));
-    let errors = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8150, 4030), x, y)?;
+    let errors = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8250, 4330), x, y)?;
     errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, Dash::Short))?;
-    let words = (TINY, INK, HPos::Right, VPos::Bottom);
-    errors.note("missed above", (errors.x.hi, DISPLACED), (-60, -60), words)?;
+    let words = (TINY, INK, HPos::Left, VPos::Bottom);
+    errors.note("missed above", (errors.x.lo, DISPLACED), (60, -60), words)?;
 
     let tried = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);
     let bottom = -(pxfm::f_log10(tried as f64).ceil() as i32) - 1;
@@ -25,34 +47,30 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     if let Some(first) = axis.ticks.first_mut() {
         first.label = Some("none".into());
     }
-    let misses = Frame::new(1300, 4650, 8150, 7250);
+    let misses = Frame::new(1300, 4950, 8250, 7250);
     let misses = sheet.lettered(LETTERS[1], misses, cost_axis(), axis)?;
 
     let spread = |e: &Entry| Some((e.setting.method, (e.work?, e.errors?[0], e.errors?[1])));
     let share = |e: &Entry| e.misses as f64 / e.tried.max(1) as f64;
-    let missed = |e: &Entry| Some((e.setting.method, (e.work?, share(e))));
+    let missed = by_method(&race.entries, |e| Some((e.setting.method, (e.work?, share(e)))));
     let spreads = by_method(&race.entries, spread);
     for (method, bars) in &spreads {
-        let look = look(*method);
-        let points: Vec<_> = bars.iter().map(|bar| (bar.0, bar.1)).collect();
-        let thin = Stroke::solid(look.2.colour, HAIR);
+        let thin = Stroke { width: HAIR, ..look(*method).2 };
         errors.bars(name(*method), bars, 0, thin, Outside::Edge)?;
-        errors.marked(name(*method), &points, (look.2, look), Outside::Edge)?;
     }
-    for (method, points) in by_method(&race.entries, missed) {
-        let look = look(method);
-        misses.marked(name(method), &points, (look.2, look), Outside::Edge)?;
-    }
-    let entries = entries(|method| spreads.iter().any(|(m, _)| *m == method));
-    sheet.legend((700, 8450), (SMALL, 370), (3, 2650), &entries)?;
+    let median = |(method, bars): (MethodName, Vec<(f64, f64, f64)>)| {
+        (method, bars.iter().map(|bar| (bar.0, bar.1)).collect())
+    };
+    rivals::draw(&errors, &spreads.into_iter().map(median).collect(), &NAMES, Outside::Edge)?;
+    rivals::draw(&misses, &missed, &MISSED, Outside::Edge)?;
     Ok(sheet.finish("s06", "Error and misses of the next impact", description(race)))
 }
 
 fn description(race: &Race) -> Seen {
-    let certified = race.entries.iter().find(|e| e.setting.method == MethodName::Certified);
+    let certified = race.entries.iter().find(|e| e.setting.method == Certified);
     let largest = certified.and_then(|entry| Some(entry.errors?[1]));
     seen!(
-        "Against counted work, a marker for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
+        "Against counted work, a mark for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
          impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
          next impact is missed.",
         race.parameters.growth.chain.masses,

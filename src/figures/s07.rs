@@ -1,13 +1,40 @@
-//! Fig. S7: how long a run is true, against its work, its error and its time.
+//! Fig. S7: how long a run is true, against its time and against the error of one impact.
 
 use super::prelude::*;
-use super::rivals::{by_method, entries, look, look_of, others, timed};
+use super::rivals::{self, FINEST, Place, by_method, look, programs};
 use crate::experiments::Measured;
-use crate::experiments::accuracy::race::{DISPLACED, Race};
+use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
 use crate::experiments::accuracy::tables::name;
+use crate::params::MethodName::*;
+use impact_numerics::statistics::Estimate;
 
 /// The rounding of doubles, 2⁻⁵³.
 const ROUNDING: f64 = f64::EPSILON / 2.0;
+
+/// Where names stand in (a); methods with fixed steps have one name.
+const NAMES: [Place; 4] = [
+    (Certified, FINEST, (2, 0)),
+    (Sampled, FINEST, (2, 1)),
+    (Advancement, FINEST, (0, -2)),
+    (RungeKutta, FINEST, (2, 0)),
+];
+
+/// The same for other programs.
+const PROGRAMS: [(&str, usize, (i32, i32)); 5] = [
+    ("heyoka", FINEST, (2, 0)),
+    ("diffsol tsit45", 0, (2, 1)),
+    ("SUNDIALS CVODE", FINEST, (2, 0)),
+    ("SciPy DOP853", FINEST, (-2, 0)),
+    ("pymunk", FINEST, (0, -2)),
+];
+
+/// The same for (b).
+const BY_ERROR: [Place; 4] = [
+    (Certified, FINEST, (-2, 0)),
+    (Sampled, 0, (2, 0)),
+    (Advancement, 2, (0, 3)),
+    (RungeKutta, 0, (-2, -1)),
+];
 
 /// Time after which an error ε has grown to [`DISPLACED`]: ln(10⁻³/ε)/λ, with λ and its error.
 fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
@@ -17,52 +44,61 @@ fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
 }
 
 pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9950);
+    let sheet = Sheet::new(8700);
     let top = (race.parameters.until / 50.0).ceil() * 50.0;
-    let costs = race.entries.iter().filter_map(|entry| entry.work);
-    let (x, y) =
-        (Axis::around(costs, 1, "evaluations per impact"), horizon(top, "horizon *t* (1/*ω*)"));
-    let by_cost = sheet.lettered(LETTERS[0], Frame::new(1100, 430, 8150, 3500), x, y)?;
-    let x = Axis::decades(-18, 0, 6, "error of the next impact (1/*ω*)");
-    let y = horizon(top, "horizon *t* (1/*ω*)");
-    let by_error = sheet.lettered(LETTERS[1], Frame::new(1100, 4900, 4300, 7350), x, y)?;
+    let x = Axis::decades(0, 4, 1, "measured time of an impact over the engine's")
+        .from(0.3, 1e4)
+        .column("measured time over the engine's (1)");
+    let by_time = Frame::new(1100, 430, 8250, 4330);
+    let by_time = sheet.lettered(LETTERS[0], by_time, x, horizon(top))?;
+    let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").from(1e-19, 1.0);
+    let by_error = Frame::new(1100, 5500, 8250, 7700);
+    let by_error = sheet.lettered(LETTERS[1], by_error, x, horizon(top))?;
 
     chaos(&by_error, race)?;
-    let ceiling = allowed(race, ROUNDING);
-    if let Some([_, ceiling, _]) = ceiling.filter(|c| c[1] < top) {
+    if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|own| own[1] < top) {
         let line = Stroke::dashed(GREY, LINE, Dash::Short);
-        by_cost.level("what chaos allows to doubles", ceiling, line)?;
+        by_time.level("what chaos allows to doubles", ceiling, line)?;
         let look = (TINY, INK, HPos::Right, VPos::Bottom);
-        by_cost.note("what chaos allows to doubles", (by_cost.x.hi, ceiling), (0, -70), look)?;
+        by_time.note("what chaos allows to doubles", (by_time.x.hi, ceiling), (0, -70), look)?;
     }
-    let by_work = by_method(&race.entries, |e| Some((e.setting.method, (e.work?, e.horizon()?))));
-    let by_median =
-        by_method(&race.entries, |e| Some((e.setting.method, (e.errors?[0], e.horizon()?))));
-    for (panel, methods) in [(&by_cost, &by_work), (&by_error, &by_median)] {
-        for (method, found) in methods {
-            let look = look(*method);
-            let points: Vec<_> = found.iter().map(|(x, time)| (*x, time.value)).collect();
+    let run = &race.parameters.growth;
+    let time = |e: &Entry| measured.method(e.setting, run.chain.masses, run.sigma)?.over_engine();
+    let timed = |e: &Entry| Some((e.setting.method, (time(e)?, e.horizon()?)));
+    let median = |e: &Entry| Some((e.setting.method, (e.errors?[0], e.horizon()?)));
+    let timed = by_method(&race.entries, timed);
+    let by_median = by_method(&race.entries, median);
+    for (panel, methods, places) in
+        [(&by_time, timed, &NAMES[..]), (&by_error, by_median, &BY_ERROR[..])]
+    {
+        for (method, found) in &methods {
             let bars = found.iter().map(|(x, t)| (*x, t.value - t.error, t.value + t.error));
-            let bars: Vec<_> = bars.collect();
-            panel.bars(name(*method), &bars, 0, look.2, Outside::Edge)?;
-            if std::ptr::eq(panel, &by_cost) {
-                panel.curve(name(*method), &points, look.2, Outside::Refuse)?;
-            }
-            panel.marks(name(*method), &points, look, Outside::Edge)?;
+            let stroke = Stroke { width: HAIR, ..look(*method).2 };
+            panel.bars(name(*method), &bars.collect::<Vec<_>>(), 0, stroke, Outside::Edge)?;
+        }
+        let points = |found: Vec<(f64, Estimate)>| found.into_iter().map(|(x, t)| (x, t.value));
+        let curves = methods.into_iter().map(|(method, found)| (method, points(found).collect()));
+        rivals::draw(panel, &curves.collect(), places, Outside::Edge)?;
+    }
+    for (program, points) in programs(measured, run.chain.masses) {
+        let stroke = Stroke::dashed(GREY, HAIR, Dash::Dotted);
+        let look = (Mark::OpenDiamond, MEDIUM, Stroke::solid(GREY, THIN));
+        by_time.marked(program, &points, (stroke, look), Outside::Edge)?;
+        let place = PROGRAMS.iter().find(|own| own.0 == program);
+        let (setting, beside) = place.map_or((FINEST, (2, 0)), |own| (own.1, own.2));
+        if let Some(at) = points.get(setting).or(points.last()) {
+            by_time.label(program, *at, beside, GREY)?;
         }
     }
-    let programs = timed(measured);
-    let mut legend = entries(|method| by_work.iter().any(|(m, _)| *m == method));
-    legend.extend(others(&programs).into_iter().map(|(name, look)| Entry::mark(look, name)));
-    sheet.legend((350, 8600), (SMALL, 370), (4, 2800), &legend)?;
-    clock(&sheet, measured, race.parameters.growth.chain.masses, top)?;
+    by_time.label("fixed steps", (350.0, 8.0), (2, -1), INK)?;
+    by_error.label("fixed steps", (0.5, 6.0), (-1, -2), INK)?;
     Ok(sheet.finish("s07", "How long a run is true", description(race)))
 }
 
 /// The axis of horizons.
-fn horizon(top: f64, label: &str) -> Axis {
+fn horizon(top: f64) -> Axis {
     let step = if top > 60.0 { 50.0 } else { 10.0 };
-    Axis::linear(0.0, top, step, 1, label).column("horizon (1/omega)")
+    Axis::linear(0.0, top, step, 1, "horizon *t* (1/*ω*)").column("horizon (1/omega)")
 }
 
 /// The line that chaos allows, with the band of λ's interval.
@@ -79,28 +115,12 @@ fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
     panel.curve("what chaos allows", &line, stroke, Outside::Cut)
 }
 
-/// Panel (c): the horizon of programs on one chain against the time they take, as measured.
-fn clock(sheet: &Sheet, measured: &Measured, masses: usize, top: f64) -> Result<(), Error> {
-    let mut rows = timed(measured);
-    rows.retain(|row| row.masses as usize == masses);
-    let time = rows.iter().map(|row| row.microseconds);
-    let x = Axis::around(time, 1, "measured µs per impact").column("measured time per impact (us)");
-    let y = horizon(top, "");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(5300, 4900, 8150, 7350), x, y)?;
-    let others = others(&rows);
-    for row in &rows {
-        let point = [(row.microseconds, row.horizon)];
-        panel.marks(&row.name, &point, look_of(row, &others), Outside::Edge)?;
-    }
-    Ok(())
-}
-
 fn description(race: &Race) -> Seen {
     let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
     seen!(
-        "Time up to which a run has every impact right, mean of {} chains with n = {} and σ = {}: (a) against evaluations per \
-         impact, (b) against the median error of one impact, with the line that the growth λ = {growth} allows, (c) against \
-         measured time, on one chain.",
+        "Time up to which a run has every impact right, mean of {} chains with n = {} and σ = {}: (a) against measured time over that \
+         of the engine, a mark for each setting, the engine far to the left at the top; (b) against the median error of one impact, \
+         with the line that the growth λ = {growth} allows.",
         race.parameters.chains,
         race.parameters.growth.chain.masses,
         race.parameters.growth.sigma,

@@ -92,17 +92,30 @@ const RACE: [&[f64]; 7] = [
 /// The same in the quick profile.
 const QUICK: [f64; 7] = [0.0, 0.1, 1e-9, 1e-3, 0.1, 0.1, 0.1];
 
-/// The same in the scenes where methods fail.
-const SCENES: [f64; 7] = [0.0, 0.03, 1e-12, 1e-9, 1e-3, 1e-3, 1e-3];
+/// Two of each rival in the scenes where methods fail, a coarse and a fine one.
+const SCENES: [&[f64]; 7] = [
+    &[0.0],
+    &[0.1, 0.01],
+    &[1e-6, 1e-12],
+    &[1e-6, 1e-12],
+    &[1e-2, 1e-4],
+    &[1e-2, 1e-4],
+    &[1e-2, 1e-4],
+];
 
 /// The same against the number of masses, without the last method.
 const SCALE: [f64; 6] = [0.0, 0.1, 1e-12, 1e-6, 0.01, 0.01];
 
-const COARSE: [(f64, usize); 2] = [(0.1, 64), (0.01, 10)];
-
-/// The same for the bias of the mean, with numbers of chains.
-const BIAS: [&[(f64, usize)]; 7] =
-    [&[], &[(0.3, 24)], &[(1e-12, 24)], &[(1e-3, 6), (1e-6, 6)], &COARSE, &COARSE, &COARSE];
+/// The same for the error of the mean, with numbers of chains: the cheaper, the more.
+const BIAS: [&[(f64, usize)]; 7] = [
+    &[(0.0, 1000)],
+    &[(0.5, 80), (0.1, 30)],
+    &[(1e-2, 60), (1e-12, 150)],
+    &[(1e-3, 12), (1e-6, 20)],
+    &[(0.1, 300), (0.01, 40)],
+    &[(0.1, 1000), (0.01, 100)],
+    &[(0.1, 100), (0.01, 40)],
+];
 
 /// Each method with each of its values.
 fn all<T: Copy>(values: &[&[T]]) -> Vec<(MethodName, T)> {
@@ -158,7 +171,7 @@ impl RaceParams {
 /// Every method on every scene in which methods fail.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrialParams {
-    /// One setting of each method.
+    /// The methods.
     pub settings: Vec<Setting>,
     /// Whether the scenes that take long (waits, many impacts) are cut short.
     pub short: bool,
@@ -167,7 +180,7 @@ pub struct TrialParams {
 impl TrialParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
-        let settings = settings(&SCENES.each_ref().map(slice::from_ref));
+        let settings = settings(&SCENES);
         TrialParams { settings, short: profile == Profile::Quick }
     }
 }
@@ -200,35 +213,36 @@ impl ScaleParams {
 /// The mean number of distinct gaps by every method, on the same chains.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BiasParams {
-    /// The chain without its forcing.
-    pub chain: Chain,
-    /// Standard deviations σ, each with transient and window.
-    pub scenes: Vec<(f64, Protocol)>,
-    /// The methods, each with its number of realisations.
+    /// Chains of the main sweep, for each σ on the rise.
+    pub chains: Vec<Runs>,
+    /// Time T that is dropped; the window goes from there to the end of the runs.
+    pub transient: f64,
+    /// The methods, the engine first, each with its number of realisations.
     pub settings: Vec<(Setting, usize)>,
-    /// Name of the random stream: that of the main sweep.
-    pub stream: String,
-    /// Master seed, likewise.
-    pub seed: u64,
 }
 
 impl BiasParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
-        let short = Protocol { transient: 100.0, window: 100.0 };
-        let bias =
-            |(method, (value, n)): (MethodName, (f64, usize))| (Setting { method, value }, n);
-        let all = all(&BIAS).into_iter().map(bias);
-        let (scenes, settings) = match profile {
-            Profile::Quick => (
-                vec![(0.12, short), (0.3, short)],
-                all.filter(|own| own.0.value == 0.1).map(|own| (own.0, 2)).collect(),
-            ),
-            Profile::Full => {
-                (vec![(0.12, Protocol::default()), (0.15, short), (0.3, short)], all.collect())
-            }
+        let quick = profile == Profile::Quick;
+        let (sigmas, protocol) = match quick {
+            true => (vec![0.12, 0.14], Protocol { transient: 100.0, window: 100.0 }),
+            false => (vec![0.11, 0.12, 0.14], Protocol::default()),
         };
-        BiasParams { chain: Chain::default(), scenes, settings, stream: "sweep".into(), seed: SEED }
+        let settings: Vec<(Setting, usize)> = all(&BIAS)
+            .into_iter()
+            .map(|(method, (value, n))| (Setting { method, value }, if quick { 2 } else { n }))
+            .collect();
+        let chains = |sigma| Runs {
+            chain: Chain::default(),
+            sigma,
+            until: protocol.end(),
+            realisations: settings.iter().map(|own| own.1).max().unwrap_or(0),
+            stream: "sweep".into(),
+            seed: SEED,
+        };
+        let chains = sigmas.into_iter().map(chains).collect();
+        BiasParams { chains, transient: protocol.transient, settings }
     }
 }
 

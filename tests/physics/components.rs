@@ -51,35 +51,3 @@ fn two_and_eight_components_have_the_impacts_of_the_reference() {
     }
     assert!(early > 10, "{early}");
 }
-
-/// Frequencies, lists of amplitudes (or how many good ones), and words of the refusal.
-const REFUSED: &str = "\
-2,3,4,5,6,7,8,9,10 | 9 => forcing; 1 to 8
-2,3 | 1 => forcing; a list for each
-2 | 2 => forcing; a list for each
-2,0 | 2 => forcing_frequencies[1]
-1,2 | 2 => forcing_frequencies[0]
-2,NaN | 2 => line 1
-2,3 | [[[1,2],[3,4]],[[1,2]]] => forcing[1]; 1 pairs for 2
-2,3 | [[[1,2]],[[1,1e300]]] => forcing[1][0]
-2,3 | [[],[]] => forcing
-2 | [[1,2]] => forcing";
-
-#[test]
-fn what_is_no_list_of_components_is_refused() {
-    let with = |frequencies: &str, lists: &str| {
-        let lists = match lists.parse() {
-            Ok(count) => format!("[{}]", vec!["[[1,2],[3,4]]"; count].join(",")),
-            Err(_) => lists.to_string(),
-        };
-        format!(r#"{{"forcing_frequencies":[{frequencies}],"forcing":{lists}}}"#)
-    };
-    Scenario::from_json(&with("2,3,4,5,6,7,8,9", "8")).unwrap();
-    for line in REFUSED.lines() {
-        let (given, words) = line.split_once(" => ").unwrap();
-        let (frequencies, lists) = given.split_once(" | ").unwrap();
-        let text = with(frequencies, lists);
-        let error = Scenario::from_json(&text).expect_err(&text).to_string();
-        assert!(words.split("; ").all(|word| error.contains(word)), "{text}: {error}");
-    }
-}

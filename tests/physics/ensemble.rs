@@ -1,17 +1,7 @@
-//! Ensembles: what an independent simulator measured, and random numbers that σ does not change.
+//! An ensemble against what an independent simulator measured.
 
-use crate::drawn;
-use impact_chain::{Chain, Ensemble, Start};
+use impact_chain::{Ensemble, Start};
 use impact_paper::experiments::{Progress, ensembles::CUTTING};
-
-/// The same normals at every σ: scaled by 2^1 the amplitudes are exactly doubled.
-#[test]
-fn realisations_are_common_to_all_sigma() {
-    let forcing = |sigma, index| drawn(&Chain::default(), sigma, "sweep", index).forcing;
-    let doubled: Vec<[f64; 2]> = forcing(0.1, 5).iter().map(|x| x.map(|x| 2.0 * x)).collect();
-    assert_eq!(forcing(0.2, 5), doubled);
-    assert_ne!(forcing(0.1, 5), forcing(0.1, 6));
-}
 
 #[test]
 fn the_rise_lies_where_it_was_measured_elsewhere() {

@@ -50,7 +50,7 @@ fn no_document_outgrows_its_reader() {
         ("the edition", words(&edition), 7_000),
         ("its abstract", words(section(&edition, "Abstract")), 220),
         ("the second paper", words(&beyond), 4_500),
-        ("the methods", words(&text("methods")), 5_000),
+        ("the methods", words(&text("methods")), 3_000),
     ];
     let passed: Vec<_> =
         counts.iter().filter(|(_, count, budget)| *count * 10 > budget * 11).collect();

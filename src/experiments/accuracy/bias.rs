@@ -2,14 +2,14 @@
 //! the differences chain by chain.
 
 use crate::experiments::prelude::*;
-use crate::params::{BiasParams, MethodName, Protocol, Setting};
+use crate::params::{BiasParams, Setting};
 
 /// All realisations by all methods.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Biases {
     /// What was run.
     pub parameters: BiasParams,
-    /// For each σ, in their order, the realisations by the engine, and by each setting.
+    /// For each σ and each setting, in their order, the realisations.
     pub runs: Vec<Vec<Vec<Counted>>>,
 }
 
@@ -18,42 +18,37 @@ pub type Counted = Option<u32>;
 
 /// Runs everything.
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
-    let most = parameters.settings.iter().map(|(_, n)| *n).max().unwrap_or(0);
-    let engine = (Setting { method: MethodName::Certified, value: 0.0 }, most);
-    let settings: Vec<_> = std::iter::once(engine).chain(parameters.settings.clone()).collect();
     let mut all = Vec::new();
-    for scene in &parameters.scenes {
-        for (setting, realisations) in &settings {
-            all.extend((0..*realisations as u64).map(|index| (*scene, *setting, index)));
+    for chains in &parameters.chains {
+        for &(setting, realisations) in &parameters.settings {
+            all.extend((0..realisations as u64).map(|index| (chains, setting, index)));
         }
     }
-    let stage = progress.stage("bias of methods", all.len() as u64);
-    let counted = each(&stage, progress, all, |((sigma, protocol), setting, index)| {
-        let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
-        let scenario = Scenario::draw(&parameters.chain, sigma, &mut normals);
-        let counted = count(setting, &scenario, protocol, progress);
+    let stage = progress.stage("error of the mean", all.len() as u64);
+    let counted = each(&stage, progress, all, |(chains, setting, index)| {
+        let window = (parameters.transient, chains.until);
+        let counted = count(setting, &chains.scenario(index), window, progress);
         progress.check()?;
         Ok(counted)
     })?;
     let mut counted = counted.into_iter();
     let mut of = |(_, n): &(Setting, usize)| counted.by_ref().take(*n).collect();
-    let runs = parameters.scenes.iter().map(|_| settings.iter().map(&mut of).collect());
+    let runs = parameters.chains.iter().map(|_| parameters.settings.iter().map(&mut of).collect());
     Ok(Biases { runs: runs.collect(), parameters: parameters.clone() })
 }
 
 fn count(
     setting: Setting,
     scenario: &Scenario,
-    protocol: Protocol,
+    (transient, end): (f64, f64),
     progress: &Progress,
 ) -> Counted {
     let mut hit = vec![false; scenario.gaps()];
     let mut see = |impact: Impact| {
-        hit[impact.gap] |= impact.time > protocol.transient;
+        hit[impact.gap] |= impact.time > transient;
         !progress.stopped()
     };
-    let until = protocol.transient + protocol.window;
     let method = setting.method.with(setting.value);
-    let ran = method.run((scenario, &State::of(scenario), until), &mut see).ok();
+    let ran = method.run((scenario, &State::of(scenario), end), &mut see).ok();
     ran.map(|_| hit.iter().map(|hit| u32::from(*hit)).sum())
 }

@@ -21,7 +21,7 @@ pub struct Case {
 pub const NEAR: f64 = 1e-2;
 
 /// How far off a speed may be that should not change, relative to it.
-const STEADY: f64 = 1e-6;
+pub const STEADY: f64 = 1e-6;
 
 /// What must come out of a case.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,8 +40,15 @@ pub enum Expected {
         /// How far off a time may be.
         within: f64,
     },
-    /// So many impacts at least, all at this closing speed.
-    Steady(usize, f64),
+    /// So many impacts at least, the first of them all at this closing speed.
+    Speed {
+        /// How many.
+        impacts: usize,
+        /// The closing speed.
+        speed: f64,
+        /// How far off it may be, relative to it.
+        within: f64,
+    },
 }
 
 impl Expected {
@@ -72,8 +79,8 @@ pub enum Verdict {
     Displaced,
     /// Another gap.
     WrongGap,
-    /// The speed changed.
-    Drifted,
+    /// Another closing speed.
+    WrongSpeed,
     /// The method gave up, with an error.
     GaveUp,
 }
@@ -87,7 +94,7 @@ impl Verdict {
             Verdict::Ghost => "ghosts",
             Verdict::Displaced => "late or early",
             Verdict::WrongGap => "wrong gap",
-            Verdict::Drifted => "drift",
+            Verdict::WrongSpeed => "wrong speed",
             Verdict::GaveUp => "gave up",
         }
     }
@@ -105,7 +112,7 @@ impl Case {
                 Expected::Impacts { impacts, all, .. } => {
                     seen.len() < impacts.len() + usize::from(*all)
                 }
-                Expected::Steady(..) => true,
+                Expected::Speed { impacts, .. } => seen.len() < *impacts,
             }
         });
         ran.map_or(Verdict::GaveUp, |_| self.judged(&seen))
@@ -119,10 +126,10 @@ impl Case {
     fn judged(&self, seen: &[Impact]) -> Verdict {
         match &self.expected {
             Expected::Impacts { impacts, within, .. } => in_order(impacts, *within, seen),
-            Expected::Steady(impacts, _) if seen.len() < *impacts => Verdict::Missed,
-            Expected::Steady(_, speed) => {
-                let off = |impact: &Impact| (impact.closing_speed / speed - 1.0).abs() > STEADY;
-                if seen.iter().any(off) { Verdict::Drifted } else { Verdict::Right }
+            Expected::Speed { impacts, .. } if seen.len() < *impacts => Verdict::Missed,
+            Expected::Speed { speed, within, .. } => {
+                let off = |impact: &Impact| (impact.closing_speed / speed - 1.0).abs() > *within;
+                if seen.iter().any(off) { Verdict::WrongSpeed } else { Verdict::Right }
             }
         }
     }
@@ -175,7 +182,7 @@ mod tests {
             for case in &scene.cases {
                 let [late, blind] = [0.05, 0.0].map(|by| case.judge(&False(by)));
                 let expected = match scene.id {
-                    "elastic" => (Verdict::Drifted, Verdict::Missed),
+                    "elastic" | "square-root" => (Verdict::WrongSpeed, Verdict::Missed),
                     _ if case.expected == Expected::nothing() => (Verdict::Right, Verdict::Right),
                     _ => (Verdict::Displaced, Verdict::Missed),
                 };

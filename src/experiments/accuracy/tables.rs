@@ -21,12 +21,14 @@ pub fn name(method: MethodName) -> &'static str {
     }
 }
 
-/// A method with its step or tolerance, as Markdown.
-pub fn titled(setting: Setting) -> String {
-    let letter = if setting.method.has_tolerance() { r"\mathrm{tol}" } else { "h" };
-    match setting.method {
-        MethodName::Certified => name(setting.method).to_string(),
-        method => format!("{}, ${letter} = {}$", name(method), power(setting.value)),
+/// A method with its steps or tolerances, as Markdown.
+pub fn titled(settings: &[Setting]) -> String {
+    let method = settings[0].method;
+    let letter = if method.has_tolerance() { r"\mathrm{tol}" } else { "h" };
+    let values: Vec<String> = settings.iter().map(|own| power(own.value)).collect();
+    match method {
+        MethodName::Certified => name(method).to_string(),
+        _ => format!("{}, ${letter} = {}$", name(method), values.join(r";\ ")),
     }
 }
 
@@ -102,7 +104,7 @@ fn all(race: &Race) -> Table {
                 .map(|own| with_error(folds / own.value, folds / own.value * own.error / own.value))
         })
         .words("best", "the cheapest rival without a miss", |()| {
-            best.map_or("none".into(), |own| titled(own.setting).replace(", $", " with $"))
+            best.map_or("none".into(), |own| titled(&[own.setting]).replace(", $", " with $"))
         })
         .real("best_work", "1", 2, "its evaluations per impact", |()| {
             best.map_or(f64::NAN, |own| cost(&own))
@@ -122,52 +124,40 @@ pub struct Compared {
     pub share: Option<Estimate>,
 }
 
-fn counts(runs: &[Counted]) -> impl Iterator<Item = Option<f64>> {
-    runs.iter().map(|run| run.map(f64::from))
-}
-
-/// The comparisons of all methods, settings outer.
+/// The comparisons of all rivals, settings outer.
 pub fn compared(biases: &Biases) -> Vec<Compared> {
     let mut rows = Vec::new();
-    for (i, (setting, _)) in biases.parameters.settings.iter().enumerate() {
-        for ((sigma, _), runs) in biases.parameters.scenes.iter().zip(&biases.runs) {
-            let (ours, theirs) = (&runs[0], &runs[i + 1]);
-            let pairs: Vec<(f64, f64)> =
-                counts(theirs).zip(counts(ours)).filter_map(|(a, b)| a.zip(b)).collect();
-            let differences: Vec<f64> = pairs.iter().map(|(a, b)| a - b).collect();
-            let own = mean(&pairs.iter().map(|pair| pair.1).collect::<Vec<_>>());
+    for (i, &(setting, _)) in biases.parameters.settings.iter().enumerate().skip(1) {
+        for (chains, runs) in biases.parameters.chains.iter().zip(&biases.runs) {
+            let both = runs[i].iter().zip(&runs[0]).filter_map(|(theirs, ours)| theirs.zip(*ours));
+            let [theirs, ours]: [Vec<f64>; 2] =
+                both.map(|(a, b)| (f64::from(a), f64::from(b))).unzip().into();
+            let differences: Vec<f64> = theirs.iter().zip(&ours).map(|(a, b)| a - b).collect();
             let share = || {
-                let own = own.filter(|own| *own > 0.0)?;
+                let own = mean(&ours).filter(|own| *own > 0.0)?;
                 Some(with_error(mean(&differences)? / own, standard_error(&differences)? / own))
             };
-            rows.push(Compared {
-                setting: *setting,
-                sigma: *sigma,
-                pairs: pairs.len(),
-                share: share(),
-            });
+            rows.push(Compared { setting, sigma: chains.sigma, pairs: ours.len(), share: share() });
         }
     }
     rows
 }
 
-/// The bias of the mean.
+/// The error of the mean.
 pub fn bias(biases: &Biases) -> Vec<Table> {
     let rows = compared(biases);
     let cells = Table::of("bias.cells", &rows, |row| row.pairs)
         .text_key("setting", |row| format!("{}-{}", row.setting.method.id(), row.setting.value))
         .key("sigma", SIGMA, |row| row.sigma)
-        .words("name", "method with step or tolerance", |row| titled(row.setting))
         .computed_by(origin(bias::run))
-        .estimate("share", "1", "bias of the mean over the mean", |row| row.share)
+        .estimate("share", "1", "error of the mean over the mean", |row| row.share)
         .done();
-    let engine = |runs: &Vec<Vec<Counted>>| counts(&runs[0]).flatten().collect::<Vec<f64>>();
-    let scenes: Vec<_> =
-        biases.parameters.scenes.iter().zip(biases.runs.iter().map(engine)).collect();
+    let counts =
+        |runs: &Vec<Vec<Counted>>| runs[0].iter().flatten().map(|k| f64::from(*k)).collect();
+    let counts: Vec<Vec<f64>> = biases.runs.iter().map(counts).collect();
+    let scenes: Vec<_> = biases.parameters.chains.iter().zip(counts).collect();
     let means = Table::of("bias.means", &scenes, |(_, own)| own.len())
-        .key("sigma", SIGMA, |(scene, _)| scene.0)
-        .chosen("transient", TIME, "transient", |(scene, _)| Some(scene.1.transient))
-        .chosen("window", TIME, "window", |(scene, _)| Some(scene.1.window))
+        .key("sigma", SIGMA, |(chains, _)| chains.sigma)
         .computed_by(origin(bias::run))
         .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |(_, own)| {
             or_nan(mean(own))
