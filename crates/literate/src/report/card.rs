@@ -216,7 +216,8 @@ impl Cards<'_> {
         let mut card = Card::of(format!("claim:{id}"), title);
         let words = claim.verdict.words();
         let [first, rest] = [words.get(..1), words.get(1..)].map(Option::unwrap_or_default);
-        card.lead = format!("{}{rest}.", first.to_uppercase());
+        let why = claim.difference().map_or_else(String::new, |why| format!(" ({why})"));
+        card.lead = format!("{}{rest}{why}.", first.to_uppercase());
         for (name, words) in [
             ("paper", claim.expected.clone()),
             ("here", claim.found.to_string()),
