@@ -80,17 +80,22 @@ fn two_seeds(e: &Evidence) -> Departures {
     Ok(halves.into_iter().chain(means).collect())
 }
 
-/// What chance makes of events that need no coincidence beyond being near: the share within a time
-/// goes with that time, and the share of slow impacts with the square of the speed, because the
-/// rate of impacts goes with the speed itself.
+/// What chance makes of events that need no coincidence beyond being near: of the impacts within a time of one next to
+/// them a tenth are within a tenth of it, and of those below a speed a hundredth are below a tenth of it. Over all decades,
+/// and for speeds where no pair came in contact: before a pair sticks it chatters, and its last bounces are slow.
 fn laws_of_chance(e: &Evidence) -> Departures {
-    let laws = e.results.table("sweep.laws")?;
-    let off = |(column, expected): (&'static str, f64)| {
-        let found = laws.estimates(&[], "sigma", column).into_iter();
-        let (_, own) = found.into_iter().find(|(sigma, _)| *sigma == 0.2)?;
-        Some((own.value - expected).abs() / (e.level.quantile * own.error))
+    let row = e.sweep()?.runs.iter().find(|row| row.sigma == 0.2);
+    let total = &row.ok_or(Error::Undecided)?.total;
+    let slow = (total.contact_phases == 0).then_some((&total.slow[..], 0.01));
+    let off = |(nested, share): (&[u64], f64)| {
+        let sum = |decades: &[u64]| decades.iter().sum::<u64>() as f64;
+        let (all, nearer) = (sum(&nested[..nested.len() - 1]), sum(&nested[1..]));
+        let error = (share * (1.0 - share) / all).sqrt();
+        // Where hardly any is expected the error is not that of a normal variable.
+        let expected = (share * all >= 10.0).then_some(share)?;
+        Some((nearer / all - expected).abs() / (e.level.quantile * error))
     };
-    Ok([("near_exponent", 1.0), ("slow_exponent", 2.0)].into_iter().filter_map(off).collect())
+    Ok(std::iter::once((&total.near[1..], 0.1)).chain(slow).filter_map(off).collect())
 }
 
 /// Half heights of the mean of the realisations with an impact and of all, onset, and where half of the realisations have

@@ -4,7 +4,7 @@ use super::judge::*;
 use crate::experiments::branches::from_rest;
 use crate::experiments::ensembles::named;
 use crate::experiments::starts::half_height as half_of;
-use crate::experiments::sweep::{laws, mode_half, total};
+use crate::experiments::sweep::{expected, mode_half, total};
 use crate::experiments::{BRANCHES, PROTOCOL, STARTS, TWO_MASSES, two_masses};
 use crate::params::{NEAR_SIMULTANEOUS, Protocol, SLOW};
 use impact_chain::rise::{self, Rise};
@@ -200,7 +200,7 @@ pub(super) const NEGLIGIBLE: f64 = 1e-3;
 fn three_way(e: &Evidence, s: &Statement) -> Judged {
     let total = total(e.sweep()?);
     let seen = *some(total.near.last())?;
-    let ([expected, _], impacts) = (laws::expected(&total), total.impacts as f64);
+    let ([expected, _], impacts) = (expected(&total), total.impacts as f64);
     // Counts of rare events: Poisson, with one event of room where almost none are expected.
     let room = e.level.quantile * expected.sqrt() + 1.0 + e.level.quantile;
     let share = expected.max(seen as f64) / impacts;
@@ -211,12 +211,12 @@ fn three_way(e: &Evidence, s: &Statement) -> Judged {
         "{} of {} impacts within {} of one next to it",
         [integer(seen as usize), significant(impacts, 2), significant(NEAR_SIMULTANEOUS, 1)],
     );
-    let reason = "ours: one in a thousand; and the count must be that of the fitted law, but for hits \
+    let reason = "ours: one in a thousand; and the count must be what chance lets expect, but for hits \
                   that masses in contact pass on to one another at once, one for each contact phase";
     Ok(s.found(found, share <= NEGLIGIBLE && (-room..=room + passed_on).contains(&excess))
         .within(Text::of("a share of {}", [significant(NEGLIGIBLE, 1)]), reason)
         .note(Text::of(
-            "The share within δ falls in proportion to δ; the fitted law predicts {} such impacts, and none at δ = 0.",
+            "The share within δ falls in proportion to δ; chance lets expect {} such impacts, and none at δ = 0.",
             [significant(expected, 2)],
         )))
 }

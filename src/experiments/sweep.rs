@@ -1,13 +1,11 @@
 //! The numerical simulations of Sec. 2 (Figs. 2, 3, 12 and 15): means and shares at each σ, where the rise is, and what is
 //! rare.
 
-pub mod laws;
-
 use super::starts::HALF_HEIGHT;
 use super::{SECOND_SEED, SWEEP};
 use crate::experiments::prelude::*;
 use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
-use impact_chain::counts::Total;
+use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
 use impact_chain::rise::{Mean, Rise, RisePoint, Runs};
 
 /// A σ above the rise.
@@ -30,15 +28,7 @@ pub fn total(sweep: &Counted) -> Total {
 /// All tables of the main sweep.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let sweep = &found[0];
-    vec![
-        run(sweep),
-        rows(sweep),
-        rise_table(sweep),
-        modes(sweep),
-        laws_table(sweep),
-        rare(sweep),
-        sticking(),
-    ]
+    vec![run(sweep), rows(sweep), rise_table(sweep), modes(sweep), rare(sweep), sticking()]
 }
 
 /// That of the sweep with the second seed.
@@ -165,31 +155,24 @@ fn modes(sweep: &Counted) -> Table {
         .done()
 }
 
-/// The laws of near and slow impacts, at each σ that has impacts.
-fn laws_table(sweep: &Counted) -> Table {
-    let rows: Vec<&Runs> = sweep.runs.iter().filter(|row| row.total.impacts > 0).collect();
-    Table::of("sweep.laws", &rows, |row| row.total.impacts as usize)
-        .key("sigma", SIGMA, |row| row.sigma)
-        .computed_by(origin(laws::run))
-        .estimate("near_exponent", "1", "of the share of impacts next to another within δ", |row| {
-            laws::run(row)[0].map(|law| law.exponent)
-        })
-        .estimate("near_coefficient", "1", "share over δ", |row| {
-            laws::run(row)[0].map(|law| law.coefficient)
-        })
-        .estimate("slow_exponent", "1", "of the share of impacts slower than v", |row| {
-            laws::run(row)[1].map(|law| law.exponent)
-        })
-        .done()
+/// Impacts within 1e−9 of one in an adjacent gap, and impacts slower than 1e−8, that chance lets expect in a whole sweep.
+/// The number of impacts within δ falls in proportion to δ, once that is short against the time between impacts (from 1e−2
+/// on), and the number below a speed v in proportion to v², because the rate of impacts goes with the speed itself.
+pub fn expected(total: &Total) -> [f64; 2] {
+    let slow = SLOW / SLOW_DECADES[0];
+    [
+        total.near[1] as f64 * (NEAR_SIMULTANEOUS / NEAR_DECADES[1]),
+        total.slow[0] as f64 * slow * slow,
+    ]
 }
 
 /// What is rare, over all σ.
 fn rare(sweep: &Counted) -> Table {
     let total = total(sweep);
     let last = |decades: &[u64]| decades.last().copied().unwrap_or(0);
-    let [near, slow] = laws::expected(&total);
+    let [near, slow] = expected(&total);
     Table::of("sweep.rare", &[total], |_| 0)
-        .computed_by(origin(laws::run))
+        .computed_by(origin(expected))
         .count("near_simultaneous", "impacts next to another within the limit", |own| {
             last(&own.near)
         })
