@@ -23,9 +23,6 @@ pub struct Illustration {
 
 impl Illustration {
     /// Draws it. A figure of lesser samples says so in its foot.
-    ///
-    /// # Errors
-    /// [`figures::Error::Data`] without the results that it needs, and others of drawing.
     pub fn figure(&self, results: &Results) -> Result<Figure, figures::Error> {
         let sampled = self.needs.iter().any(|need| need.is_saved());
         let mut figure = (self.draw)(results)?;
@@ -171,19 +168,11 @@ impl Paper {
     }
 
     /// The figure that is asked for by its name or number: `spread`, `3`, `s1`.
-    ///
-    /// # Errors
-    /// With the names of all, if there is none.
     pub fn find_figure(&self, text: &str) -> Result<&Illustration, Failure> {
         self.figures.iter().find(|figure| figure.is(text)).ok_or_else(|| {
             let names: Vec<&str> = self.figures.iter().map(|figure| figure.name).collect();
             Failure::input(format!("there is no figure {text:?}; there are {}", names.join(", ")))
         })
-    }
-
-    /// The experiment of a name.
-    pub fn find_experiment(&self, name: &str) -> Option<Need> {
-        self.experiments.iter().copied().find(|experiment| experiment.name() == name)
     }
 
     /// The authors with their affiliations and the date, in a line.
@@ -219,9 +208,6 @@ impl Paper {
 
     /// The listing of an item: what stands in its file between the lines `// listing: NAME`, with the last name of its path,
     /// and `// end`, moved to the left edge.
-    ///
-    /// # Errors
-    /// One line, if there is none.
     pub fn listing(&self, item: &str) -> Result<String, String> {
         let file = self.file(item);
         let text = self.project.sources.files.iter().find(|(path, _)| Some(*path) == file);

@@ -19,7 +19,7 @@ use std::sync::Arc;
 #[derive(clap::Args)]
 pub(super) struct Sources {
     /// Take these sample sizes.
-    #[arg(long, default_value = "full", value_parser = super::profiles())]
+    #[arg(long, default_value = "full")]
     pub profile: Profile,
     #[command(flatten)]
     pub threads: Threads,
@@ -41,9 +41,6 @@ impl Sources {
 
 impl<'a> Session<'a> {
     /// A run with the prose of a folder, or else that of the project, or the copy inside the program.
-    ///
-    /// # Errors
-    /// If there is no prose, or it cannot be read.
     pub fn of(
         paper: &'a Paper,
         prose: Option<&Path>,
@@ -71,9 +68,6 @@ impl<'a> Session<'a> {
     }
 
     /// What was printed; nothing without a file `published.toml`.
-    ///
-    /// # Errors
-    /// If it cannot be read.
     pub fn published(&self) -> Result<Published, Failure> {
         let read = Published::parse(self.templates.text("published.toml")?);
         read.map_err(|error| {
@@ -85,9 +79,6 @@ impl<'a> Session<'a> {
 
 impl Paper {
     /// All checks: the statements, those that rest on a measure of the author first, then relations.
-    ///
-    /// # Errors
-    /// If a statement cannot be judged for want of a result.
     pub fn checks(&self, results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
         let (mut checks, _) = judge_all(published, &self.rules, results)?;
         // First what rests on a measure of the author, where a reader may judge otherwise.
@@ -101,9 +92,6 @@ impl Paper {
     }
 
     /// All values that the prose may name.
-    ///
-    /// # Errors
-    /// If a result is missing, or two values have one name.
     pub fn registry(&self, results: &Results, published: &Published) -> Result<Registry, Failure> {
         let mut registry = Registry::new();
         registry.extend(printed(published))?;
@@ -121,9 +109,6 @@ impl Paper {
 
 /// Runs every experiment that is not in the store, and makes every file of a report in the folder `out`. Returns also what
 /// was judged.
-///
-/// # Errors
-/// Of the prose, which is read before the long runs, of a run, or of a figure.
 pub fn whole(session: &Session<'_>, out: &Path) -> Result<(Report, Vec<Check>), Failure> {
     let Session { paper, templates, progress, .. } = session;
     Filler::new(templates)?;

@@ -9,11 +9,10 @@ mod run;
 pub mod terminal;
 mod verify;
 
-use crate::experiments::{Profile, be_quiet};
+use crate::experiments::be_quiet;
 use crate::failure::Failure;
 use crate::input::{one_line, plain};
 use crate::paper::Paper;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -125,19 +124,4 @@ fn usage(error: &clap::Error) -> ExitCode {
     let line = lines.chain(["--help explains"]).collect::<Vec<_>>().join("; ").replace(":; ", ": ");
     terminal::warn(&one_line(line.strip_prefix("error: ").unwrap_or(&line), 4000));
     ExitCode::from(2)
-}
-
-/// The profile of a name.
-fn profile(name: &str) -> Option<Profile> {
-    Profile::ALL.into_iter().find(|profile| profile.name() == name)
-}
-
-/// Reads sample sizes.
-fn profiles() -> impl TypedValueParser<Value = Profile> {
-    let about = |profile| match profile {
-        Profile::Quick => "To try out: small samples",
-        Profile::Full => "The committed report",
-    };
-    let known = Profile::ALL.map(|own| PossibleValue::new(own.name()).help(about(own)));
-    PossibleValuesParser::new(known).try_map(|name| profile(&name).ok_or("unknown"))
 }

@@ -6,7 +6,7 @@ use crate::experiments::{Need, Profile, Results, Session};
 use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::{Illustration, Paper};
-use crate::report::values::{self, Number};
+use crate::report::values;
 use crate::report::{Files, Report, files_of, folder};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -94,8 +94,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
 /// of other samples.
 fn refuse_over_other(profile: Profile, out: &Path, whole: bool) -> Result<(), Failure> {
     match profile_in(out) {
-        Some(name) if name != profile.name() && (!whole || name == Profile::Full.name()) => {
-            let place = out.display();
+        Some(there) if there != profile && (!whole || there == Profile::Full) => {
+            let (place, name) = (out.display(), there.name());
             let what = format!("--out: {place} holds a report of the {name} profile");
             Err(Failure::input(format!("{what}; give another folder")))
         }
@@ -104,12 +104,9 @@ fn refuse_over_other(profile: Profile, out: &Path, whole: bool) -> Result<(), Fa
 }
 
 /// The profile that a report names, if there is one in a folder.
-pub(super) fn profile_in(root: &Path) -> Option<String> {
+pub(super) fn profile_in(root: &Path) -> Option<Profile> {
     let text = String::from_utf8(folder::read(root, "values.json").ok()?).ok()?;
-    match &values::read(&text).ok()?.get("profile")?.number {
-        Number::Text(name) => Some(name.clone()),
-        _ => None,
-    }
+    values::read(&text).ok()?.profile()
 }
 
 /// One line for each experiment that would be run.

@@ -1,4 +1,4 @@
-//! Standard output and error, signals, threads, and memory at hand: for verbs that a paper adds too.
+//! Standard output and error, signals, threads: for verbs that a paper adds too.
 
 use crate::experiments::{Progress, say};
 use crate::failure::{Failure, INTERRUPTED};
@@ -106,9 +106,6 @@ impl Threads {
     }
 
     /// Runs `work` on them: all cores, or as many as RAYON_NUM_THREADS says, if none were asked for.
-    ///
-    /// # Errors
-    /// Of the work; and if the system gives no threads.
     pub fn run<T: Send>(
         &self,
         work: impl FnOnce() -> Result<T, Failure> + Send,

@@ -1,8 +1,8 @@
 //! The verb `verify`.
 
+use super::make;
 use super::paper::profile_in;
 use super::terminal::{Threads, print, progress, shown};
-use super::{make, profile};
 use crate::experiments::{Session, Store};
 use crate::failure::Failure;
 use crate::input::count;
@@ -46,9 +46,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         print(&format!("{place}: {files} files, all as {} lists them\n", folder::SUMS))?;
     }
     if rerun {
-        let profile = profile_in(&folder).and_then(|name| profile(&name));
-        let profile = profile
-            .ok_or_else(|| Failure::input(format!("{place}: values.json names no profile")))?;
+        let none = || Failure::input(format!("{place}: values.json names no profile"));
+        let profile = profile_in(&folder).ok_or_else(none)?;
         let store = results.as_deref().map_or(Store::nowhere(), Store::open);
         let session = Session::of(paper, templates.as_deref(), profile, store, progress())?;
         let made = threads.run(|| make::whole(&session, &folder))?.0;

@@ -1,8 +1,6 @@
 //! An experiment that is a command in another language.
 //!
-//! It is started in the folder of the project, reads one JSON object, `{"profile": "full", "parameters": {…}}`, and prints one
-//! that has its tables by name: `{"throws": {"keys": ["needles"], "columns": ["pi", "pi_error"], "rows": [[100, 3.1, 0.2]]}}`.
-//! A row has its keys first; `pi_error` is the standard error of `pi`; `null` is no number. `"units": {"pi": "1"}` may be added.
+//! It is started in the folder of the project. The manual ([`crate::manual`]) says what it reads and prints.
 
 use super::store::Identity;
 use super::{Entry, Error, Found, Profile, Session};

@@ -67,9 +67,12 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     /// The result: the saved one if it is fresh, else that of a run, which is then saved. Units that are in the store
     /// are not run again; each of the others is saved as soon as it is there.
     pub fn get(&self, session: &Session<'_>) -> Result<T, Error> {
+        if let How::Read(read) = &self.how {
+            return read(session);
+        }
         let (parameters, identity) = self.known_by(session);
         session.saved(&identity, || match &self.how {
-            How::Read(_) => Err(Error::NotRun(self.name)),
+            How::Read(read) => read(session),
             How::Whole { run, .. } => run(&parameters, &session.progress),
             How::Cut(_, cutting) => {
                 let units = self.units(session.profile);
@@ -228,10 +231,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
     }
 
     fn found(&self, session: &Session<'_>) -> Result<Found, Error> {
-        Ok(Arc::new(match &self.how {
-            How::Read(read) => read(session)?,
-            _ => self.get(session)?,
-        }))
+        Ok(Arc::new(self.get(session)?))
     }
 
     fn tables(&self, found: &Found) -> Vec<Table> {

@@ -24,19 +24,18 @@ use std::path::PathBuf;
 pub type Need = &'static dyn Entry;
 
 /// How much is sampled: small to try out, large for the committed report.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, clap::ValueEnum,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Profile {
-    /// To try out: seconds.
+    /// To try out: small samples.
     Quick,
     /// The committed report.
     Full,
 }
 
 impl Profile {
-    /// All of them, rising.
-    pub const ALL: [Profile; 2] = [Profile::Quick, Profile::Full];
-
     /// Its name on the command line, in reports and in names of files.
     pub fn name(self) -> &'static str {
         match self {

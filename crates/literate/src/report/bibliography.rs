@@ -15,9 +15,6 @@ pub struct Library(Vec<Entry>);
 
 impl Library {
     /// Reads BibTeX.
-    ///
-    /// # Errors
-    /// What is wrong: the form, a kind that is not shown, a field that is missing.
     pub fn read(text: &str) -> Result<Self, Error> {
         let fault = |what: String| Error::Template(format!("references.bib:{what}"));
         let form = |error: biblatex::ParseError| {

@@ -69,10 +69,10 @@ impl Card {
 
     /// Rows for an experiment: where it is, and its parameters.
     fn experiment(&mut self, name: &str, cards: &Cards<'_>) {
-        let Some(experiment) = cards.paper.find_experiment(name) else { return };
+        let mut all = cards.paper.experiments.iter();
+        let Some(experiment) = all.find(|own| own.name() == name) else { return };
         self.item("experiment", &experiment.item(), cards.paper);
-        let quick = cards.profile() == Profile::Quick.name();
-        let profile = if quick { Profile::Quick } else { Profile::Full };
+        let profile = cards.values.profile().unwrap_or(Profile::Full);
         let pairs = settings(&experiment.parameters(profile)).into_iter();
         let pairs = pairs.map(|(name, setting)| format!("{name}: {setting}"));
         self.words("its parameters", pairs.collect::<Vec<_>>().join("; "));
@@ -91,14 +91,6 @@ pub struct Cards<'a> {
 }
 
 impl Cards<'_> {
-    /// The profile with which the values were made.
-    pub(super) fn profile(&self) -> &str {
-        match self.values.get("profile").map(|value| &value.number) {
-            Some(Number::Text(text)) => text,
-            _ => "",
-        }
-    }
-
     /// The card of an id; a claim is found without its `claim:` too, a figure as `fig:spread` or
     /// by its number, `Fig:3`.
     pub fn get(&self, id: &str) -> Option<Card> {

@@ -27,9 +27,6 @@ pub struct Filler {
 
 impl Filler {
     /// Sets Tera up with all `.md`, `.tex` and `.html` files, without values yet.
-    ///
-    /// # Errors
-    /// A tag that cannot be read, a fault of `literals.toml`.
     pub fn new(templates: &Templates) -> Result<Self, Error> {
         let mut tera = Tera::new();
         let delimiters = Delimiters {
@@ -237,22 +234,18 @@ fn put(tree: &mut Json, name: &str, thing: Json) {
 /// The filters on values; `literal` for a number that the prose may type with a reason; and `code`
 /// for an item of the source, which [`super::parse`] makes a listing.
 fn register(tera: &mut Tera) {
-    for name in ["percent", "significant"] {
-        tera.register_filter(name, move |text: &str, arguments: Kwargs, _: &State| {
-            let digits = || {
-                let digits =
-                    arguments.must_get("digits").ok().filter(|n: &usize| *n <= MOST_DIGITS);
-                let what = "it takes how many digits, as in (digits=2)";
-                digits.ok_or_else(|| tera::Error::message(what))
-            };
-            let word = match name {
-                "significant" => format!("{name}{}", digits()?),
-                _ => name.to_string(),
-            };
-            let what = || format!("`{name}` is a filter of values such as v.p_crit");
-            mark::with(text, &word).ok_or_else(|| tera::Error::message(what()))
-        });
-    }
+    let with = |text: &str, word: &str| {
+        let what =
+            || tera::Error::message(format!("`{word}` is a filter of values such as v.p_crit"));
+        mark::with(text, word).ok_or_else(what)
+    };
+    tera.register_filter("percent", move |text: &str, _: Kwargs, _: &State| with(text, "percent"));
+    tera.register_filter("significant", move |text: &str, arguments: Kwargs, _: &State| {
+        match arguments.must_get("digits") {
+            Ok(digits @ 0..=MOST_DIGITS) => with(text, &format!("significant{digits}")),
+            _ => Err(tera::Error::message("it takes how many digits, as in (digits=2)")),
+        }
+    });
     tera.register_function("literal", |arguments: Kwargs, _: &State| {
         let text: String = arguments.must_get("text")?;
         let why: String = arguments.must_get("why")?;

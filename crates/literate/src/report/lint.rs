@@ -1,14 +1,5 @@
-//! No naked numerals: a number in prose is a value, part of mathematics, a reference, or declared.
-//!
-//! Naked are digits and other numeric characters in words and code, but for names that begin with a letter (`f64`);
-//! number words, as *two*, *twice*, *hundred*, *tenfold*; a formula that is a number alone, as `$0.12$`; and in a formula
-//! a number with a point or of several digits that is a whole side of a relation, as in `$N = 101$`. Exempt are what a
-//! program filled in, targets of links, references, ids, blocks of code, and what is declared:
-//! `«literal(text="2007", why="the year")»`, or a phrase of `literals.toml` with its reason, for what the model itself fixes
-//! (*two masses* meet in an impact).
-//!
-//! Words that are mostly something else are no number words: *one* (a pronoun), *once*, *single*, *pair*, *both*, *half*,
-//! *quarter*, *zero*, ordinals (*a tenth of N* is a definition), and a word in a compound that names a kind, as *two-sided*.
+//! No naked numerals: a number in prose is a value, part of mathematics, a reference, or declared. The manual
+//! ([`crate::manual`]) says what is exempt.
 
 use super::Error;
 use super::mark::{CLOSE, OPEN};
@@ -34,9 +25,6 @@ struct Group {
 
 impl Declared {
     /// Reads `literals.toml`.
-    ///
-    /// # Errors
-    /// The line that cannot be read, or a group without its reason.
     pub fn read(text: &str) -> Result<Self, Error> {
         let syntax = |error| Error::Template(format!("literals.toml:{}", toml_fault(text, &error)));
         let declared: Declared = toml::from_str(text).map_err(syntax)?;
@@ -176,9 +164,6 @@ pub fn formula(tex: &str) -> Option<String> {
 
 /// Refuses naked numerals in words that stand outside the prose: a reason, an alternative text. They have no formulas, so
 /// `0` and `1` pass as there.
-///
-/// # Errors
-/// All of them, with the name of the place.
 pub fn check(place: &str, text: &str, declared: &Declared) -> Result<(), Error> {
     let mut found = words(text, 0..text.len(), declared);
     found.retain(|(_, numeral)| !["0", "1"].contains(&numeral.as_str()));

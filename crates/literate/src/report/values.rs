@@ -1,9 +1,11 @@
 //! All values of a report: those with a name of their own, and the cells of tables under their addresses.
 
 use super::Error;
+use crate::experiments::Profile;
 use crate::paper::Paper;
 use crate::table::Table;
 pub use crate::value::{Digits, Kind, Number, Origin, Value, origin};
+use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -83,6 +85,14 @@ impl Registry {
         self.values.get(id).or_else(|| self.cell(id))
     }
 
+    /// The profile with which they were made.
+    pub fn profile(&self) -> Option<Profile> {
+        match &self.get("profile")?.number {
+            Number::Text(name) => Profile::from_str(name, false).ok(),
+            _ => None,
+        }
+    }
+
     /// All values, sorted by id.
     pub fn iter(&self) -> impl Iterator<Item = &Value> {
         self.values.values()
@@ -90,9 +100,6 @@ impl Registry {
 }
 
 /// Reads a values.json. A number of a form that only another version of the program knows is left out.
-///
-/// # Errors
-/// What is none.
 pub fn read(text: &str) -> Result<Registry, Error> {
     let fault = |what: String| Error::Template(format!("values.json: {what}"));
     let values: BTreeMap<String, serde_json::Value> =

@@ -18,10 +18,7 @@ use pulldown_cmark::{
 use std::ops::Range;
 
 /// Parses filled Markdown; `values` turn marks into what is shown, `declared` are phrases that may have numbers. The
-/// places are those of what has an id and of what names one.
-///
-/// # Errors
-/// All that is wrong, with its places.
+/// places are those of what has an id and of what names one. All that is wrong is an error, with its places.
 pub fn parse<'a>(
     filled: &'a Filled,
     values: &'a Registry,
