@@ -357,7 +357,7 @@ report.tex => \author{A. Uthor\\{\small R \& D} \and B. Uthor}⏎\date{2026-11-2
 report.tex => \maketitle⏎⏎\begin{abstract}⏎⏎It \emph{rises}.⏎\end{abstract}⏎⏎\section{First}
 README.md => See [Sec.·S1.1](more.md#sec-b), [✓](more.md#claim-rise) and [more](more.md).
 index.html => <a href="more.html#sec-b">Sec.·S1.1</a>
-index.html => title="reproduced" data-card="claim:rises">✓</a> and <a href="more.html">more</a>.
+index.html => title="reproduced" data-card="claim:rise">✓</a> and <a href="more.html">more</a>.
 index.html => <li><a href="index.html" aria-current="page">Front</a></li>
 report.md => Words, <sup>[✓·1](more.md#claim-rise)</sup> and
 report.tex => Words, \textsuperscript{\ensuremath{\checkmark}~1} and Sec.~S1.1
