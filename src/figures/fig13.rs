@@ -64,7 +64,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let many = sheet.panel(Frame::new(1200, 6950, 8150, 9650), x, y(-8))?;
     heading(&many, "(f)", &format!("*p* = {}", short(large, 3)))?;
     series(&many, large, false)?;
-    let flank = super::simulated::reaches(&over_k(&five(large)), 1e-5);
+    let flank = super::simulated::reaches(&over_k(&five(large)), 1e-3);
     many.label("all five classes", flank, (-2, 0), RED)?;
     for (class, side) in [(0, (0, -1)), (3, (0, -1)), (4, (0, -2))] {
         let values = &contributions(large)[class];

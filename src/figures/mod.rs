@@ -71,7 +71,7 @@ pub const ALL: [Illustration; 24] = [
     drawing("s01", &[&SPACE_TIME], |all| s01::draw(all.of(&SPACE_TIME)?)),
     drawing("s02", &[&NUCLEATION, &SWEEP], s02::draw),
     drawing("s03", &[&SEEDS, &SWEEP, &PROTOCOL, &THEORY], s03::draw),
-    drawing("s04", &[&BRANCHES, &PROTOCOL], s04::draw),
+    drawing("s04", &[&BRANCHES, &PROTOCOL, &THEORY], s04::draw),
     drawing("s05", &[&THEORY], s05::draw),
     drawing("s06", &[&RACE], |all| s06::draw(all.of(&RACE)?)),
     drawing("s07", &[&RACE, &MEASURED], |all| s07::draw(all.of(&RACE)?, all.of(&MEASURED)?)),

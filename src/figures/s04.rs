@@ -61,19 +61,25 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
     let x = Axis::linear(0.03, 0.145, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps");
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
-    let early = (both.first(), Dash::Short, Mark::Ring);
-    for (own, dash, mark) in [early, (both.last(), Dash::Solid, Mark::Disc)] {
+    // Names stand where a curve passes a height, to its left from above and to its right from rest.
+    let early = (both.first(), Dash::Short, Mark::Ring, [0.2, 0.6]);
+    for (own, dash, mark, heights) in [early, (both.last(), Dash::Solid, Mark::Disc, [0.5, 0.1])] {
         let Some(own) = own else { continue };
+        let mut heights = heights.into_iter().zip([(2, 0), (-2, 0)]);
         for ((_, name, colour), branch) in BRANCHES.into_iter().zip([own.rest, own.above]) {
-            let name = format!("{name}, *T* = {}", own.transient());
+            let time = format!("*T* = {}", own.transient());
+            let name = format!("{name}, {time}");
             let at = |&sigma: &f64| Some((sigma, share(branch, sigma)?));
             let points: Vec<_> = branch.0.ensemble.sigmas.iter().filter_map(at).collect();
             panel.joined(&name, &points, (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)))?;
+            let Some((height, side)) = heights.next() else { continue };
+            if let Some((sigma, own)) = points.iter().find(|(_, own)| own.value >= height) {
+                let text = if dash == Dash::Solid { &time } else { &name };
+                panel.label(text, (*sigma, own.value), side, colour)?;
+            }
         }
     }
-    let [rest, above] = BRANCHES;
-    panel.label(above.1, (0.03, 0.93), (2, 0), above.2)?;
-    panel.label(rest.1, (0.145, 0.09), (-2, 0), rest.2)
+    Ok(())
 }
 
 fn description(both: &Table) -> Seen {
