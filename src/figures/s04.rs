@@ -61,21 +61,24 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
     let x = Axis::linear(0.03, 0.145, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps");
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
-    // Names stand where a curve passes a height, to its left from above and to its right from rest.
-    let early = (both.first(), Dash::Short, Mark::Ring, [0.2, 0.6]);
-    for (own, dash, mark, heights) in [early, (both.last(), Dash::Solid, Mark::Disc, [0.5, 0.1])] {
+    let early = (both.first(), Dash::Short, Mark::Ring);
+    for (own, dash, mark) in [early, (both.last(), Dash::Solid, Mark::Disc)] {
         let Some(own) = own else { continue };
-        let mut heights = heights.into_iter().zip([(2, 0), (-2, 0)]);
-        for ((_, name, colour), branch) in BRANCHES.into_iter().zip([own.rest, own.above]) {
+        // Early curves are named at the side that the others do not reach, late ones where they pass a height.
+        let places = [((0.145, 0.07), (-1, 0), 0.5), ((0.03, 0.95), (1, 0), 0.1)];
+        let branches = BRANCHES.into_iter().zip([own.rest, own.above]).zip(places);
+        for (((_, name, colour), branch), (corner, side, height)) in branches {
             let time = format!("*T* = {}", own.transient());
             let name = format!("{name}, {time}");
             let at = |&sigma: &f64| Some((sigma, share(branch, sigma)?));
             let points: Vec<_> = branch.0.ensemble.sigmas.iter().filter_map(at).collect();
             panel.joined(&name, &points, (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)))?;
-            let Some((height, side)) = heights.next() else { continue };
-            if let Some((sigma, own)) = points.iter().find(|(_, own)| own.value >= height) {
-                let text = if dash == Dash::Solid { &time } else { &name };
-                panel.label(text, (*sigma, own.value), side, colour)?;
+            // A few chains may have no such place with room beside it.
+            let late = points.iter().find(|own| own.1.value >= height);
+            if mark == Mark::Ring {
+                panel.label(&name, corner, side, colour)?;
+            } else if let Some((sigma, own)) = late.filter(|own| own.0 > 0.06) {
+                panel.label(&time, (*sigma, own.value), (-2 * side.0, 0), colour)?;
             }
         }
     }

@@ -36,8 +36,7 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     let (x, y) = (cost_axis().bare(), error.column("error of the next impact's time (1/omega)"));
     let errors = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8250, 4330), x, y)?;
     errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, Dash::Short))?;
-    let words = (TINY, INK, HPos::Left, VPos::Bottom);
-    errors.note("missed above", (errors.x.lo, DISPLACED), (60, -60), words)?;
+    errors.label("missed above", (errors.x.lo, DISPLACED), (1, -1), INK)?;
 
     let tried = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);
     let bottom = -(pxfm::f_log10(tried as f64).ceil() as i32) - 1;

@@ -59,8 +59,8 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|own| own[1] < top) {
         let line = Stroke::dashed(GREY, LINE, Dash::Short);
         by_time.level("what chaos allows to doubles", ceiling, line)?;
-        let look = (TINY, INK, HPos::Right, VPos::Bottom);
-        by_time.note("what chaos allows to doubles", (by_time.x.hi, ceiling), (0, -70), look)?;
+        let end = (by_time.x.hi, ceiling);
+        by_time.label("what chaos allows to doubles", end, (-1, -1), GREY)?;
     }
     let run = &race.parameters.growth;
     let time = |e: &Entry| measured.method(e.setting, run.chain.masses, run.sigma)?.over_engine();
@@ -118,8 +118,8 @@ fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
 fn description(race: &Race) -> Seen {
     let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
     seen!(
-        "Time up to which a run has every impact right, mean of {} chains with n = {} and σ = {}: (a) against measured time over that \
-         of the engine, a mark for each setting, the engine far to the left at the top; (b) against the median error of one impact, \
+        "Time up to which a run has every impact right, mean of {} chains with n = {} and σ = {}: (a) against measured time over the \
+         engine's, which stands far to the left at the top; (b) against the median error of one impact, \
          with the line that the growth λ = {growth} allows.",
         race.parameters.chains,
         race.parameters.growth.chain.masses,

@@ -46,13 +46,8 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
         };
         let frame = Frame::new(1150, top, 8250, top + HEIGHT);
         let panel = sheet.lettered(LETTERS[i], frame, x, y)?;
-        let words = (SMALL, INK, HPos::Right, VPos::Bottom);
-        panel.note(
-            &format!("*σ* = {}", chains.sigma),
-            (panel.x.hi, panel.y.hi),
-            (0, -60),
-            words,
-        )?;
+        let corner = (panel.x.hi, panel.y.hi);
+        panel.label(&format!("*σ* = {}", chains.sigma), corner, (-1, -1), INK)?;
         let time = |setting: Setting| {
             measured.method(setting, chains.chain.masses, chains.sigma)?.thousand()
         };

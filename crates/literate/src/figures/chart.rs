@@ -3,7 +3,7 @@
 use super::Error;
 use super::axis::{Axis, number};
 use super::panel::{Frame, Panel};
-use super::style::{INK, SMALL};
+use super::style::SMALL;
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// Points (k, value) of a series whose first value belongs to k = 1.
@@ -49,8 +49,8 @@ pub const LETTERS: [&str; 4] = ["(a)", "(b)", "(c)", "(d)"];
 /// The letter of a panel and the parameter it is drawn for, above its frame.
 pub fn heading(panel: &Panel, letter: &str, parameter: &str) -> Result<(), Error> {
     panel.letter(letter)?;
-    let look = (SMALL, INK, HPos::Right, VPos::Bottom);
-    panel.note(parameter, (panel.x.hi, panel.y.hi), (0, -80), look)
+    let corner = (panel.frame.right, panel.frame.top - 80);
+    panel.text(parameter, corner, SMALL, HPos::Right, VPos::Bottom)
 }
 
 /// A number with about `digits` significant decimals, for notes and descriptions; a tiny one as a

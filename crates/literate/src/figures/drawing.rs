@@ -197,23 +197,15 @@ impl Drawing {
                 through([(x + r, y - r), (x - r, y + r)]),
             ]
             .concat(),
-            Mark::Plus => {
-                [through([(x - r, y), (x + r, y)]), through([(x, y - r), (x, y + r)])].concat()
-            }
             Mark::Disc | Mark::Ring => circle((x, y), r),
-            Mark::Square | Mark::OpenSquare => {
+            Mark::OpenSquare => {
                 polygon([(x - r, y - r), (x + r, y - r), (x + r, y + r), (x - r, y + r)])
             }
-            Mark::Triangle | Mark::OpenTriangle => {
-                polygon([(x, y - r), (x + r, y + r), (x - r, y + r)])
-            }
-            Mark::Diamond | Mark::OpenDiamond => {
-                polygon([(x, y - r), (x + r, y), (x, y + r), (x - r, y)])
-            }
+            Mark::OpenDiamond => polygon([(x, y - r), (x + r, y), (x, y + r), (x - r, y)]),
         };
         let inside = match mark {
-            Mark::Disc | Mark::Square | Mark::Diamond | Mark::Triangle => Some(stroke.colour),
-            Mark::Cross | Mark::Plus => None,
+            Mark::Disc => Some(stroke.colour),
+            Mark::Cross => None,
             _ => Some(WHITE),
         };
         let path = points.into_iter().flat_map(one).collect();

@@ -27,7 +27,7 @@ pub mod prelude {
     pub use super::panel::{Frame, Panel};
     pub use super::plot::Plot;
     pub use super::series::{Marker, Outside};
-    pub use super::sheet::{Entry, Sheet};
+    pub use super::sheet::Sheet;
     pub use super::style::*;
     pub use super::{DataFile, Error, Figure, Seen};
     pub use crate::seen;

@@ -9,7 +9,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::axis::{Axis, Tick};
-use super::drawing::{Drawing, Look, Point};
+use super::drawing::{Drawing, Point};
 use super::record::Record;
 use super::style::{Colour, HAIR, INK, SMALL, Stroke, TEXT};
 use super::{Error, font};
@@ -105,7 +105,15 @@ impl Panel {
         Panel { recorded: false, ..self.clone() }
     }
 
-    fn text(&self, text: &str, at: Point, size: i32, h: HPos, v: VPos) -> Result<(), Error> {
+    /// Words in ink on the sheet.
+    pub(super) fn text(
+        &self,
+        text: &str,
+        at: Point,
+        size: i32,
+        h: HPos,
+        v: VPos,
+    ) -> Result<(), Error> {
         self.drawing.borrow_mut().label(text, at, (size, INK, h, v), false)
     }
 
@@ -190,18 +198,6 @@ impl Panel {
             self.drawing.borrow_mut().rimmed(text, (at.0 + 100, y), look)?;
         }
         Ok(())
-    }
-
-    /// Words at a place given in data.
-    pub fn note(
-        &self,
-        text: &str,
-        (x, y): (f64, f64),
-        (dx, dy): (i32, i32),
-        look: Look,
-    ) -> Result<(), Error> {
-        let (px, py) = self.at(x, y);
-        self.drawing.borrow_mut().label(text, (px + dx, py + dy), look, false)
     }
 }
 

@@ -9,41 +9,13 @@ use super::axis::Axis;
 use super::drawing::{Drawing, Look, Point};
 use super::panel::{Frame, Panel};
 use super::record::Record;
-use super::series::Marker;
-use super::style::{INK, Stroke};
 use super::{Error, Figure, Seen};
-use plotters::style::text_anchor::{HPos, VPos};
 
 /// A figure in the making.
 pub struct Sheet {
     drawing: Rc<RefCell<Drawing>>,
     /// What each panel has recorded.
     records: RefCell<Vec<Rc<RefCell<Record>>>>,
-}
-
-/// One entry of a legend.
-#[derive(Clone, Debug)]
-pub struct Entry {
-    pub(super) line: Option<Stroke>,
-    pub(super) mark: Option<Marker>,
-    pub(super) text: String,
-}
-
-impl Entry {
-    /// An entry for a curve.
-    pub fn line(stroke: Stroke, text: &str) -> Self {
-        Entry { line: Some(stroke), mark: None, text: text.into() }
-    }
-
-    /// An entry for markers.
-    pub fn mark(mark: Marker, text: &str) -> Self {
-        Entry { line: None, mark: Some(mark), text: text.into() }
-    }
-
-    /// An entry for a curve with markers.
-    pub fn both(line: Stroke, mark: Marker, text: &str) -> Self {
-        Entry { line: Some(line), mark: Some(mark), text: text.into() }
-    }
 }
 
 impl Sheet {
@@ -76,30 +48,6 @@ impl Sheet {
     /// Words on the sheet.
     pub fn text(&self, text: &str, at: Point, look: Look) -> Result<(), Error> {
         self.free().label(text, at, look, false)
-    }
-
-    /// A legend in columns of so many rows; `at` is the left end of its first sample line, and `apart` how far the next
-    /// column is.
-    pub fn legend(
-        &self,
-        at: Point,
-        (size, spacing): (i32, i32),
-        (rows, apart): (i32, i32),
-        entries: &[Entry],
-    ) -> Result<(), Error> {
-        const SAMPLE: i32 = 560;
-        for (i, entry) in (0..).zip(entries) {
-            let (x, y) = (at.0 + i / rows * apart, at.1 + i % rows * spacing);
-            if let Some(stroke) = entry.line {
-                self.free().line(vec![(x, y), (x + SAMPLE, y)], stroke);
-            }
-            if let Some(marker) = entry.mark {
-                self.free().marks([(x + SAMPLE / 2, y)], marker);
-            }
-            let look = (size, INK, HPos::Left, VPos::Center);
-            self.text(&entry.text, (x + SAMPLE + 130, y), look)?;
-        }
-        Ok(())
     }
 
     /// Closes a figure; its `id` is the picture's file name without its ending. Its data is what its panels have

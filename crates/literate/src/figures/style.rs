@@ -135,13 +135,8 @@ impl Stroke {
 #[expect(missing_docs, reason = "the names tell")]
 pub enum Mark {
     Cross,
-    Plus,
     Disc,
     Ring,
-    Square,
-    Diamond,
-    Triangle,
     OpenSquare,
     OpenDiamond,
-    OpenTriangle,
 }
