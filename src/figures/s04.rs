@@ -64,21 +64,20 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
     let early = (both.first(), Dash::Short, Mark::Ring);
     for (own, dash, mark) in [early, (both.last(), Dash::Solid, Mark::Disc)] {
         let Some(own) = own else { continue };
-        // Early curves are named at the side that the others do not reach, late ones where they pass a height.
-        let places = [((0.145, 0.07), (-1, 0), 0.5), ((0.03, 0.95), (1, 0), 0.1)];
+        // Early curves are named at the side that the others do not reach; of the late ones that from above has its time.
+        let places = [((0.145, 0.07), (-1, 0)), ((0.03, 0.95), (1, 0))];
         let branches = BRANCHES.into_iter().zip([own.rest, own.above]).zip(places);
-        for (((_, name, colour), branch), (corner, side, height)) in branches {
+        for (((start, name, colour), branch), (corner, side)) in branches {
             let time = format!("*T* = {}", own.transient());
             let name = format!("{name}, {time}");
             let at = |&sigma: &f64| Some((sigma, share(branch, sigma)?));
             let points: Vec<_> = branch.0.ensemble.sigmas.iter().filter_map(at).collect();
             panel.joined(&name, &points, (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)))?;
-            // A few chains may have no such place with room beside it.
-            let late = points.iter().find(|own| own.1.value >= height);
+            let late = points.iter().find(|own| own.1.value >= 0.1 && own.0 > 0.06);
             if mark == Mark::Ring {
                 panel.label(&name, corner, side, colour)?;
-            } else if let Some((sigma, own)) = late.filter(|own| own.0 > 0.06) {
-                panel.label(&time, (*sigma, own.value), (-2 * side.0, 0), colour)?;
+            } else if let Some((sigma, own)) = late.filter(|_| start == "from_above") {
+                panel.label(&time, (*sigma, own.value), (-2, 0), colour)?;
             }
         }
     }
