@@ -1,4 +1,4 @@
-//! Filling the templates by Tera: values become marks ([`super::mark`]), which the writers turn into digits. The
+//! Filling the templates by Tera: values become marks (`mark`), which the writers turn into digits. The
 //! manual ([`crate::manual`]) says what a template may write.
 
 use super::lint::Declared;

@@ -1,6 +1,6 @@
 //! Values for the templates, and Markdown and LaTeX from them.
 //!
-//! The flow: experiments' results become [`Value`]s in a [`Registry`]; [`templates`] (people's
+//! The flow: experiments' results become [`Value`]s in a [`Registry`]; `templates` (people's
 //! prose) name them; [`parse`] makes a tree of the filled Markdown, [`labels`] resolves references
 //! in it, [`markdown`], [`latex`] and `html` write it; [`assemble()`] does all that and adds figures, data,
 //! values, ledger and checksums: every file of paper/ as bytes, written by the command line.

@@ -1,4 +1,4 @@
-//! Filled Markdown → the tree of [`super::document`], in one pass, which looks for naked numerals too.
+//! Filled Markdown → the tree of `document`, in one pass, which looks for naked numerals too.
 //!
 //! The manual ([`crate::manual`]) says which markup there is. Whatever else Markdown reads is refused, and so is markup that
 //! was left over as text, since its other end is missing.
