@@ -1,8 +1,7 @@
 //! The report and what it is made of: templates, figures, pages, damaged texts, and rules about the source.
 
-mod budgets;
-mod commonmark;
 mod damage;
+mod documents;
 mod figures;
 mod html;
 // What the paper is made of.

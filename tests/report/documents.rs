@@ -1,0 +1,122 @@
+//! The documents as a host reads them: by a CommonMark parser with tables, which knows nothing of our mathematics. What it
+//! makes of the text must be what the document means. And they are bounded: a reader of five minutes, half an hour or a day
+//! must not find that one has grown beyond its time. (The browser test bounds the pages, and `.ci/latex` those in print.)
+
+use crate::quick::QUICK;
+use literate::report::{Document, Report};
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+
+/// Words of prose: no code, no displayed formula, no table, no address of a link, no description that is read
+/// instead of a picture; a formula in a line is one word.
+fn words(markdown: &str) -> usize {
+    let (mut left_out, mut text) = (0, String::new());
+    for event in Parser::new_ext(markdown, Options::ENABLE_TABLES | Options::ENABLE_MATH) {
+        match event {
+            Event::Start(Tag::Table(_) | Tag::CodeBlock(_) | Tag::Image { .. }) => left_out += 1,
+            Event::End(TagEnd::Table | TagEnd::CodeBlock | TagEnd::Image) => left_out -= 1,
+            // Where the files of a figure are.
+            Event::InlineHtml(html) if &*html == "<sub>" => left_out += 1,
+            Event::InlineHtml(html) if &*html == "</sub>" => left_out -= 1,
+            Event::Text(piece) | Event::Code(piece) if left_out == 0 => text += &piece,
+            Event::InlineMath(_) if left_out == 0 => text.push('x'),
+            Event::Start(Tag::Paragraph | Tag::Item | Tag::Heading { .. })
+            | Event::SoftBreak
+            | Event::HardBreak => text.push(' '),
+            _ => {}
+        }
+    }
+    text.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count()
+}
+
+/// The text from one heading on to the next, by the words of the heading.
+fn section<'a>(markdown: &'a str, heading: &str) -> &'a str {
+    let from = markdown.find(&format!("\n## {heading}")).unwrap_or_else(|| panic!("no {heading}"));
+    let rest = &markdown[from + 1..];
+    rest.find("\n## ").map_or(rest, |end| &rest[..end])
+}
+
+#[test]
+fn words_are_counted_as_a_reader_does() {
+    let text = "## One *two*\n\nThree [four](five/six.md) $a + b$ <a id=\"x\"></a>(five) – six.\n\n| no | no |\n|---|---|\n\n```rust\nno\n```\n\n$$\nno\n$$\n\n$$no$$\n";
+    assert_eq!(words(text), 7);
+}
+
+#[test]
+fn no_document_outgrows_its_reader() {
+    let text = |name: &str| {
+        std::str::from_utf8(&QUICK.report.committed[&format!("{name}.md")]).unwrap().to_owned()
+    };
+    let (edition, beyond) = (text("report"), text("beyond"));
+    let counts = [
+        ("the front page", words(&text("README")), 600),
+        ("the edition", words(&edition), 7_000),
+        ("its abstract", words(section(&edition, "Abstract")), 220),
+        ("the second paper", words(&beyond), 4_500),
+        ("the methods", words(&text("methods")), 3_000),
+    ];
+    let passed: Vec<_> =
+        counts.iter().filter(|(_, count, budget)| *count * 10 > budget * 11).collect();
+    assert!(passed.is_empty(), "more than ten per cent too long: {passed:?}");
+}
+
+fn texts() -> impl Iterator<Item = (&'static Document, &'static str)> {
+    QUICK.paper.documents.iter().map(|document| (document, QUICK.markdown(document)))
+}
+
+fn events(text: &str) -> Vec<Event<'_>> {
+    Parser::new_ext(text, Options::ENABLE_TABLES).collect()
+}
+
+/// Links of a text, and places in it.
+fn links(text: &str) -> (Vec<String>, Vec<String>) {
+    let link = |event| match event {
+        Event::Start(Tag::Link { dest_url: to, .. } | Tag::Image { dest_url: to, .. }) => {
+            Some(to.to_string())
+        }
+        _ => None,
+    };
+    let places =
+        text.split("<a id=\"").skip(1).map(|piece| piece.split('"').next().unwrap().into());
+    (events(text).into_iter().filter_map(link).collect(), places.collect())
+}
+
+#[test]
+fn every_link_lands_wherever_the_report_is_written() {
+    let texts = |report: &Report| {
+        let text = |of: &Document| {
+            let text = std::str::from_utf8(&report.committed[of.markdown]).unwrap();
+            (of.markdown.to_string(), links(text))
+        };
+        QUICK.paper.documents.iter().map(text).collect()
+    };
+    crate::quick::links_land(texts, 200, 150);
+}
+
+/// Mathematics comes through Markdown as it was written, escapes, stars and lows included: between
+/// one dollar and the next the parser finds text and nothing else.
+#[test]
+fn mathematics_is_left_alone() {
+    let formulas: usize = texts().map(|(_, text)| formulas(text)).sum();
+    assert!(formulas > 400, "{formulas}");
+}
+
+fn formulas(text: &str) -> usize {
+    let (mut code, mut plain) = (false, String::new());
+    for event in events(text) {
+        match event {
+            Event::Start(Tag::CodeBlock(_)) => code = true,
+            Event::End(TagEnd::CodeBlock) => code = false,
+            Event::Text(piece) if !code => plain += &piece,
+            Event::SoftBreak => plain.push('\n'),
+            _ => plain.push('\0'),
+        }
+    }
+    let plain = plain.replace("$$", "$");
+    let pieces: Vec<&str> = plain.split('$').collect();
+    assert!(pieces.len() % 2 == 1, "a formula without an end");
+    let formulas = pieces.iter().skip(1).step_by(2);
+    for tex in formulas.clone() {
+        assert!(!tex.contains('\0') && text.contains(tex), "Markdown changed ${tex}$");
+    }
+    formulas.count()
+}
