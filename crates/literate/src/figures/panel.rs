@@ -56,6 +56,9 @@ pub(super) const BESIDE: i32 = TICK + 4 * GAP;
 /// From a frame to the top of the label below it.
 pub(super) const BELOW: i32 = TICK + 3 * GAP + SMALL;
 
+/// A curve with its name: the name, its points, and its colour.
+pub type Named<'a> = (&'a str, &'a [(f64, f64)], Colour);
+
 /// From one line of words to the next.
 pub(super) const LINE_HEIGHT: i32 = 340;
 
@@ -185,7 +188,7 @@ impl Panel {
     }
 
     /// Names curves at their right ends in this panel, each in its colour; names that would touch move apart.
-    pub fn ends(&self, curves: &[(&str, &[(f64, f64)], Colour)]) -> Result<(), Error> {
+    pub fn ends(&self, curves: &[Named<'_>]) -> Result<(), Error> {
         let end = |points: &[(f64, f64)]| {
             let inside = |p: &&(f64, f64)| self.x.holds(p.0) && self.y.holds(p.1);
             points.iter().rfind(inside).map(|p| self.at(p.0, p.1))
