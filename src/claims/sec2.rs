@@ -287,7 +287,7 @@ fn percolation(e: &Evidence, s: &Statement) -> Judged {
         _ => "chains of one length only".into(),
     };
     Ok(s.open(found).note(
-        "A likeness in words, of which no number follows. The threshold of percolation becomes sharp in \
-         a large system; this rise, after the same transient, does not.",
+        "The paper names a likeness and no number. The threshold of percolation becomes sharp in a large system; this rise, \
+         after the same transient, does not.",
     ))
 }
