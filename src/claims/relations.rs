@@ -4,8 +4,10 @@
 use super::judge::{Error, Evidence};
 use super::{Basis, Check, Kind, Published, Text, integer, level, significant};
 use crate::experiments::accuracy::trials::right;
-use crate::experiments::rise::Curve;
-use crate::experiments::{BRANCHES, NUCLEATION, PROTOCOL, RACE, Results, SCALE, TRIALS, branches};
+use crate::experiments::rise::{Curve, RisePoint};
+use crate::experiments::{
+    BRANCHES, NUCLEATION, PROTOCOL, RACE, Results, SCALE, SECOND_SEED, TRIALS, branches,
+};
 use crate::params::MethodName;
 use impact_numerics::estimates::difference;
 use impact_numerics::statistics::Estimate;
@@ -69,14 +71,21 @@ fn printed_threshold(e: &Evidence) -> Departures {
     Ok(vec![(half.value - s.number()?).abs() / room])
 }
 
+/// Fewest realisations of a mean whose error is taken as normal.
+const FEWEST: usize = 30;
+
 fn two_seeds(e: &Evidence) -> Departures {
-    let half = |name| -> Result<_, Error> {
-        Ok(e.results.table(name)?.estimates(&[], "half_height", "half_height").pop())
+    let (first, second) = (e.sweep()?.first(), e.results.of(&SECOND_SEED)?[0].first());
+    let halves = first.rise.half_height.zip(second.rise.half_height);
+    let halves = halves.map(|(a, b)| apart(e, &a, &b));
+    let estimate = |own: &RisePoint| own.mean.filter(|_| own.kept >= FEWEST)?.estimate();
+    let between = |b: &RisePoint| {
+        let a = first.rows.iter().find(|a| a.sigma == b.sigma)?;
+        Some(difference(estimate(a)?, estimate(b)?)).filter(|apart| apart.error > 0.0)
     };
-    let halves = half("sweep.rise")?.zip(half("second_seed.rise")?);
-    let halves = halves.map(|((_, a), (_, b))| apart(e, &a, &b));
-    let means = e.numbers("second_seed.beside_first", ["largest", "compared"]).ok();
-    let means = means.map(|[largest, compared]| largest / e.level.among(compared as usize));
+    let means: Vec<Estimate> = second.rows.iter().filter_map(between).collect();
+    let quantile = e.level.among(means.len());
+    let means = means.iter().map(|apart| apart.value.abs() / (quantile * apart.error));
     Ok(halves.into_iter().chain(means).collect())
 }
 

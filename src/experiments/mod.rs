@@ -85,8 +85,8 @@ pub const ALL: &[Need] = &[
 ];
 
 /// Tables that need several experiments.
-pub const TOGETHER: [Together; 4] =
-    [theory::beside::tables, sweep::of_both, seeds::compared::tables, starts::beside_theory];
+pub const TOGETHER: [Together; 3] =
+    [theory::beside::tables, seeds::compared::tables, starts::beside_theory];
 
 /// What every result depends on.
 const SHARED: &[&str] = &[

@@ -1,8 +1,8 @@
 //! The numerical simulations of Sec. 2 (Figs. 2, 3, 12 and 15): means and shares at each σ, where the rise is, and what is
 //! rare.
 
+use super::SWEEP;
 use super::starts::HALF_HEIGHT;
-use super::{SECOND_SEED, SWEEP};
 use crate::experiments::prelude::*;
 use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
@@ -45,26 +45,6 @@ pub(super) const OF_ACTIVE: &str =
 pub(super) const ANY_IMPACT: &str = "σ where half of the realisations have an impact";
 const WIDTH_OF_ACTIVE: &str =
     "from a quarter to three quarters of all gaps, of the mean of realisations with an impact";
-
-/// How far the two seeds lie apart.
-pub fn of_both(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
-    let (first, second) = main(results).ok().zip(results.of(&SECOND_SEED).ok())?;
-    let found = largest_between_seeds(first.first(), second[0].first());
-    let table = Table::of("second_seed.beside_first", &[()], |()| 0)
-        .computed_by(origin(largest_between_seeds))
-        .real(
-            "largest",
-            "1",
-            2,
-            "largest difference of their means, over its standard error",
-            |()| found.map_or(f64::NAN, |(errors, _)| errors),
-        )
-        .count("compared", "values of σ with means in both", |()| {
-            found.map_or(0, |(_, rows)| rows as u64)
-        })
-        .done();
-    Some(vec![table])
-}
 
 /// What was run.
 fn run(sweep: &Counted) -> Table {
@@ -211,19 +191,4 @@ pub fn mode_half(curve: &Curve, gaps: usize) -> Option<[f64; 2]> {
     let low = intervals.iter().find(|(_, [_, top])| *top as f64 >= half)?;
     let below = intervals.iter().rposition(|(_, [bottom, _])| (*bottom as f64) < half)?;
     Some([low.0, intervals.get(below + 1)?.0])
-}
-
-/// Fewest realisations with an impact for a mean whose error is taken as normal.
-const FEWEST: usize = 30;
-
-/// The largest difference between the curves of two seeds, in standard errors, and the rows.
-pub fn largest_between_seeds(first: &Curve, second: &Curve) -> Option<(f64, usize)> {
-    let estimate = |own: &RisePoint| own.mean.filter(|_| own.kept >= FEWEST)?.estimate();
-    let apart = |b: &RisePoint| {
-        let a = first.rows.iter().find(|a| a.sigma == b.sigma)?;
-        let apart = difference(estimate(a)?, estimate(b)?);
-        (apart.error > 0.0).then(|| apart.value.abs() / apart.error)
-    };
-    let all: Vec<f64> = second.rows.iter().filter_map(apart).collect();
-    Some((all.iter().copied().reduce(f64::max)?, all.len()))
 }
