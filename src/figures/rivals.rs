@@ -46,7 +46,7 @@ pub fn names(panel: &Panel, curves: &Curves, places: &[Place]) -> Result<(), Err
         if let Some(at) = own.and_then(|own| own.get(*setting).or(own.last())) {
             let inside = (at.0, at.1.clamp(panel.y.lo, panel.y.hi));
             let colour = if *method == MethodName::Certified { RED } else { INK };
-            panel.label(name(*method), inside, *beside, colour)?;
+            panel.name(name(*method), inside, *beside, colour)?;
         }
     }
     Ok(())

@@ -47,7 +47,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let sheet = Sheet::new(8700);
     let top = (race.parameters.until / 50.0).ceil() * 50.0;
     let x = Axis::decades(0, 4, 1, "measured time of an impact over the engine's")
-        .from(0.3, 1e4)
+        .from(0.3, 8e3)
         .column("measured time over the engine's (1)");
     let by_time = Frame::new(1100, 430, 8250, 4330);
     let by_time = sheet.lettered(LETTERS[0], by_time, x, horizon(top))?;
@@ -63,6 +63,12 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         by_time.label("what chaos allows to doubles", end, (-1, -1), GREY)?;
     }
     let run = &race.parameters.growth;
+    let others = programs(measured, run.chain.masses);
+    for (program, points) in &others {
+        let stroke = Stroke::dashed(GREY, HAIR, Dash::Dotted);
+        let look = (Mark::OpenDiamond, MEDIUM, Stroke::solid(GREY, THIN));
+        by_time.marked(program, points, (stroke, look), Outside::Edge)?;
+    }
     let time = |e: &Entry| measured.method(e.setting, run.chain.masses, run.sigma)?.over_engine();
     let timed = |e: &Entry| Some((e.setting.method, (time(e)?, e.horizon()?)));
     let median = |e: &Entry| Some((e.setting.method, (e.errors?[0], e.horizon()?)));
@@ -80,18 +86,15 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         let curves = methods.into_iter().map(|(method, found)| (method, points(found).collect()));
         rivals::draw(panel, &curves.collect(), places, Outside::Edge)?;
     }
-    for (program, points) in programs(measured, run.chain.masses) {
-        let stroke = Stroke::dashed(GREY, HAIR, Dash::Dotted);
-        let look = (Mark::OpenDiamond, MEDIUM, Stroke::solid(GREY, THIN));
-        by_time.marked(program, &points, (stroke, look), Outside::Edge)?;
+    for (program, points) in others {
         let place = PROGRAMS.iter().find(|own| own.0 == program);
         let (setting, beside) = place.map_or((FINEST, (2, 0)), |own| (own.1, own.2));
         if let Some(at) = points.get(setting).or(points.last()) {
-            by_time.label(program, *at, beside, GREY)?;
+            by_time.name(program, *at, beside, GREY)?;
         }
     }
-    by_time.label("fixed steps", (350.0, 8.0), (2, -1), INK)?;
-    by_error.label("fixed steps", (0.5, 6.0), (-1, -2), INK)?;
+    by_time.name("fixed steps", (350.0, 8.0), (2, -1), INK)?;
+    by_error.name("fixed steps", (0.5, 6.0), (-1, -2), INK)?;
     Ok(sheet.finish("s07", "How long a run is true", description(race)))
 }
 
@@ -118,9 +121,9 @@ fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
 fn description(race: &Race) -> Seen {
     let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
     seen!(
-        "Time up to which a run has every impact right, mean of {} chains with n = {} and σ = {}: (a) against measured time over the \
-         engine's, which stands far to the left at the top; (b) against the median error of one impact, \
-         with the line that the growth λ = {growth} allows.",
+        "Time up to which a run has every impact right, mean of {} chains, n = {}, σ = {}: (a) against measured time over the \
+         engine's, the engine at the top left; (b) against the median error of one impact, with the line that the growth λ = \
+         {growth} allows.",
         race.parameters.chains,
         race.parameters.growth.chain.masses,
         race.parameters.growth.sigma,

@@ -54,7 +54,7 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
         let engine = Setting { method: Certified, value: 0.0 };
         if let Some(at) = time(engine).filter(|at| panel.x.holds(*at)) {
             panel.guide("engine", &[(at, panel.y.lo), (at, panel.y.hi)], look(Certified).2)?;
-            panel.label("engine", (at, panel.y.lo), (-1, -1), RED)?;
+            panel.name("engine", (at, panel.y.lo), (-1, -1), RED)?;
         }
         let own = rows.iter().filter(|row| row.sigma == chains.sigma);
         let own: Vec<&Compared> = own.collect();

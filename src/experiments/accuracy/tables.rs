@@ -135,7 +135,9 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
             let differences: Vec<f64> = theirs.iter().zip(&ours).map(|(a, b)| a - b).collect();
             let share = || {
                 let own = mean(&ours).filter(|own| *own > 0.0)?;
-                Some(with_error(mean(&differences)? / own, standard_error(&differences)? / own))
+                // Of a few chains all differences may be alike.
+                let error = standard_error(&differences).filter(|error| *error > 0.0)?;
+                Some(with_error(mean(&differences)? / own, error / own))
             };
             rows.push(Compared { setting, sigma: chains.sigma, pairs: ours.len(), share: share() });
         }

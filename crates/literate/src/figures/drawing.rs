@@ -213,6 +213,40 @@ impl Drawing {
         self.shape(path, fill, Some(stroke));
     }
 
+    /// Whether no line, no mark and no words that are read from left to right stand in a rectangle.
+    pub fn is_free(&self, frame: Frame) -> bool {
+        let holds = |(x, y): (i32, i32)| {
+            (frame.left..=frame.right).contains(&x) && (frame.top..=frame.bottom).contains(&y)
+        };
+        let crosses = |path: &[Step]| {
+            let ends = path.iter().filter_map(|step| match step {
+                Step::Move(at) => Some((*at, true)),
+                Step::Line(at) | Step::Curve([_, _, at]) => Some((*at, false)),
+                Step::Close => None,
+            });
+            let ends: Vec<_> = ends.collect();
+            let between = |a: i32, b: i32, i: i32| a + (b - a) * i / 200;
+            ends.iter().any(|own| holds(own.0))
+                || ends.windows(2).filter(|pair| !pair[1].1).any(|pair| {
+                    let [(a, _), (b, _)] = [pair[0], pair[1]];
+                    (1..200).any(|i| holds((between(a.0, b.0, i), between(a.1, b.1, i))))
+                })
+        };
+        self.elements.iter().all(|element| match element {
+            Element::Shape(path, _, Some(_)) => !crosses(path),
+            Element::Label(label) if !label.upwards => {
+                let of = |own: i32| own * label.size / font::EM;
+                let place = |own: &Placed| (label.at.0 + of(own.x), label.at.1 - of(own.y));
+                let letter = |(x, y): (i32, i32)| {
+                    let (right, top) = (x + label.size / 2, y - of(font::CAP_HEIGHT));
+                    x < frame.right && right > frame.left && top < frame.bottom && y > frame.top
+                };
+                !label.glyphs.iter().map(place).any(letter)
+            }
+            _ => true,
+        })
+    }
+
     /// Words.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use std::rc::Rc;
 use super::axis::{Axis, Tick};
 use super::drawing::{Drawing, Point};
 use super::record::Record;
-use super::style::{Colour, HAIR, INK, SMALL, Stroke, TEXT};
+use super::style::{Colour, HAIR, INK, SMALL, Stroke, TEXT, WIDTH};
 use super::{Error, font};
 
 /// A rectangle of the sheet in grid units.
@@ -58,6 +58,9 @@ pub(super) const BELOW: i32 = TICK + 3 * GAP + SMALL;
 
 /// A curve with its name: the name, its points, and its colour.
 pub type Named<'a> = (&'a str, &'a [(f64, f64)], Colour);
+
+/// What stays clear around a name.
+const CLEARANCE: i32 = 45;
 
 /// From one line of words to the next.
 pub(super) const LINE_HEIGHT: i32 = 340;
@@ -187,6 +190,36 @@ impl Panel {
         self.drawing.borrow_mut().rimmed(text, at, (SMALL, colour, h, v))
     }
 
+    /// Names something as [`Panel::label`] does, there or as near as no line and no words are in the way of what is drawn so
+    /// far. A name for which there is no room is left out.
+    pub fn name(
+        &self,
+        text: &str,
+        at: (f64, f64),
+        beside: (i32, i32),
+        colour: Colour,
+    ) -> Result<(), Error> {
+        const AROUND: [(i32, i32); 8] =
+            [(1, 0), (1, -1), (1, 1), (0, -1), (0, 1), (-1, -1), (-1, 1), (-1, 0)];
+        let farther = (1..=6).flat_map(|far| AROUND.map(|(x, y)| (far * x, far * y)));
+        let (px, py) = self.at(at.0, at.1);
+        let size = [font::set(text)?.width, font::CAP_HEIGHT].map(|own| own * SMALL / font::EM);
+        let is_free = |&(right, down): &(i32, i32)| {
+            let from = |place: i32, own: i32, to: i32| {
+                place + 100 * to - own * (1 - to.signum()) / 2 - CLEARANCE
+            };
+            let (left, top) = (from(px, size[0], right), from(py, size[1], down));
+            let [width, height] = size.map(|own| own + 2 * CLEARANCE);
+            let frame = Frame::new(left, top, left + width, top + height);
+            let inside = left >= self.frame.left && frame.right <= WIDTH as i32;
+            inside && frame.bottom <= self.frame.bottom && self.drawing.borrow().is_free(frame)
+        };
+        match std::iter::once(beside).chain(farther).find(is_free) {
+            Some(beside) => self.label(text, at, beside, colour),
+            None => Ok(()),
+        }
+    }
+
     /// Names curves at their right ends in this panel, each in its colour; names that would touch move apart.
     pub fn ends(&self, curves: &[Named<'_>]) -> Result<(), Error> {
         let end = |points: &[(f64, f64)]| {
@@ -232,5 +265,23 @@ mod tests {
         assert_eq!(names[0], of("mark", (1400, 800), RED));
         assert_eq!(names[1..], [of("low", (2100, 765), BLUE), of("high", (2000, 425), RED)]);
         assert_eq!(apart(&[0, 1000, 10], 100), [-45, 1000, 55]);
+    }
+
+    #[test]
+    fn a_name_gives_way_to_lines_and_words() {
+        let axis = || Axis::linear(0.0, 1.0, 0.5, 1, "");
+        let sheet = Sheet::new(3000);
+        let panel = sheet.panel(Frame::new(1000, 100, 4000, 3000), axis(), axis()).unwrap();
+        panel.guide("line", &[(0.0, 0.5), (1.0, 0.5)], Stroke::solid(BLUE, 20)).unwrap();
+        for text in ["one", "two"] {
+            panel.name(text, (0.5, 0.5), (1, 0), RED).unwrap();
+        }
+        let drawing = sheet.finish("s01", "", Default::default()).drawing;
+        let places = drawing.elements.iter().filter_map(|element| match element {
+            Element::Label(Label { at, rim: true, .. }) => Some(*at),
+            _ => None,
+        });
+        // On the line there is no room, above it for the first, and below it for the other.
+        assert_eq!(places.collect::<Vec<_>>(), [(2600, 1450), (2600, 1650)]);
     }
 }
