@@ -51,7 +51,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         .column("measured time over the engine's (1)");
     let by_time = Frame::new(1100, 430, 8250, 4330);
     let by_time = sheet.lettered(LETTERS[0], by_time, x, horizon(top))?;
-    let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").from(1e-19, 1.0);
+    let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").from(1e-19, 0.5);
     let by_error = Frame::new(1100, 5500, 8250, 7700);
     let by_error = sheet.lettered(LETTERS[1], by_error, x, horizon(top))?;
 
@@ -94,7 +94,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         }
     }
     by_time.name("fixed steps", (350.0, 8.0), (2, -1), INK)?;
-    by_error.name("fixed steps", (0.5, 6.0), (-1, -2), INK)?;
+    by_error.name("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
     Ok(sheet.finish("s07", "How long a run is true", description(race)))
 }
 
