@@ -108,7 +108,7 @@ fn horizon(top: f64) -> Axis {
 fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
     let at = |error: f64| allowed(race, error).map(|t| (error, t));
     let errors = (0..=72).map(|i| pxfm::f_exp10(-18.0 + 0.25 * f64::from(i)));
-    let grid: Vec<_> = errors.filter_map(at).collect();
+    let grid: Vec<_> = errors.filter(|error| panel.x.holds(*error)).filter_map(at).collect();
     let cut = |t: f64| t.min(panel.y.hi);
     let below = grid.iter().map(|(x, t)| (*x, cut(t[0])));
     let above = grid.iter().rev().map(|(x, t)| (*x, cut(t[2])));
