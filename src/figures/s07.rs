@@ -90,7 +90,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         let place = PROGRAMS.iter().find(|own| own.0 == program);
         let (setting, beside) = place.map_or((FINEST, (2, 0)), |own| (own.1, own.2));
         if let Some(at) = points.get(setting).or(points.last()) {
-            by_time.name(program, *at, beside, GREY)?;
+            by_time.name(program, (at.0, at.1.min(top)), beside, GREY)?;
         }
     }
     by_time.name("fixed steps", (350.0, 8.0), (2, -1), INK)?;
