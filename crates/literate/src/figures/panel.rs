@@ -211,7 +211,7 @@ impl Panel {
             let (left, top) = (from(px, size[0], right), from(py, size[1], down));
             let [width, height] = size.map(|own| own + 2 * CLEARANCE);
             let frame = Frame::new(left, top, left + width, top + height);
-            let inside = left >= self.frame.left && frame.right <= WIDTH as i32;
+            let inside = left >= self.frame.left && frame.right <= WIDTH as i32 && top >= 0;
             inside && frame.bottom <= self.frame.bottom && self.drawing.borrow().is_free(frame)
         };
         match std::iter::once(beside).chain(farther).find(is_free) {
