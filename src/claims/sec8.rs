@@ -245,8 +245,10 @@ fn shares(found: &[Counted], r: f64, sigma: f64) -> Option<[f64; 2]> {
     Some([of(total.contact_phases), of(*total.near.last()?)])
 }
 
-/// Every r that was run, the paper's and the lowest; the σ of the sweep that were run with each.
-fn runs<'a>(e: &Evidence<'a>) -> Result<(&'a [Counted], [f64; 2], Vec<f64>), Error> {
+/// Chains of every r that was run; the paper's r and the lowest; the σ of the sweep that were run with each.
+type Restitutions<'a> = (&'a [Counted], [f64; 2], Vec<f64>);
+
+fn runs<'a>(e: &Evidence<'a>) -> Result<Restitutions<'a>, Error> {
     let found = e.results.of(&RESTITUTION)?;
     let largest = e.sweep()?.runs.last().map_or(0.0, |row| row.sigma);
     let sigmas = found[0].ensemble.sigmas.iter().copied().filter(|&sigma| sigma <= largest);
