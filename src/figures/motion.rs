@@ -79,71 +79,11 @@ fn motion(panel: &Panel, segment: &Segment, length: usize) -> Result<(), Error> 
     for (name, hit) in names.iter().zip(&hits) {
         panel.record(&format!("impact {name}"), [*hit]);
     }
-    let numbered = names.iter().enumerate().map(|(i, name)| match i < length {
-        true => format!("{}: {name}", i + 1),
-        // The first impact again.
-        false => (i % length + 1).to_string(),
-    });
-    name_impacts(panel, &hits, &numbered.collect::<Vec<_>>(), &paths)
-}
-
-/// Where a name may stand beside its impact, the best places first, as [`Panel::label`] takes them.
-const PLACES: [(i32, i32); 12] = [
-    (0, -1),
-    (0, 1),
-    (1, 1),
-    (1, -1),
-    (2, 0),
-    (1, -2),
-    (3, 1),
-    (3, -1),
-    (0, -2),
-    (4, -1),
-    (-1, -1),
-    (0, -3),
-];
-
-/// Names the impacts, each at the first place where no path, no equilibrium and no other name is in its way.
-fn name_impacts(
-    panel: &Panel,
-    hits: &[(f64, f64)],
-    names: &[String],
-    paths: &[Vec<(f64, f64)>],
-) -> Result<(), Error> {
-    let lines: Vec<Vec<(i32, i32)>> =
-        paths.iter().map(|path| path.iter().map(|p| panel.at(p.0, p.1)).collect()).collect();
-    let marks: Vec<_> = hits.iter().map(|hit| panel.at(hit.0, hit.1)).collect();
-    let mut taken: Vec<(i32, i32)> = Vec::new();
-    for (i, &(x, y)) in marks.iter().enumerate() {
-        let half = 45 * names[i].chars().count() as i32;
-        let middle = |place: &(i32, i32)| {
-            (x + 100 * place.0 + half * place.0.signum(), y + 100 * place.1 + 80 * place.1.signum())
-        };
-        let frame = panel.frame;
-        let free = |place: &(i32, i32)| {
-            let (px, py) = middle(place);
-            let near = |q: (i32, i32), w: i32, h: i32| (q.0 - px).abs() < w && (q.1 - py).abs() < h;
-            let inside = px > frame.left + half + 80
-                && px < frame.right - half - 30
-                && py > frame.top - 200
-                && py < frame.bottom - 110;
-            let rests = |j: usize| (panel.at(0.0, j as f64).1 - py).abs() < 120;
-            let crossed = (1..=paths.len()).any(rests)
-                || lines.iter().any(|line| {
-                    line.windows(2)
-                        .any(|w| (0..=8).any(|k| near(between(w[0], w[1], k), half + 25, 115)))
-                });
-            let others = marks.iter().enumerate().any(|(j, &m)| j != i && near(m, half + 60, 170));
-            inside && !crossed && !others && !taken.iter().any(|&t| near(t, 2 * half + 80, 210))
-        };
-        let place = PLACES.iter().find(|place| free(place)).unwrap_or(&PLACES[0]);
-        panel.label(&names[i], hits[i], *place, RED)?;
-        taken.push(middle(place));
+    for (i, (name, hit)) in names.iter().zip(&hits).enumerate() {
+        // The first impact again has its number only.
+        let number = i % length + 1;
+        let text = if i < length { format!("{number}: {name}") } else { number.to_string() };
+        panel.name(&text, *hit, (0, -1), RED)?;
     }
     Ok(())
-}
-
-/// The point `eighths`/8 of the way from `a` to `b`.
-fn between(a: (i32, i32), b: (i32, i32), eighths: i32) -> (i32, i32) {
-    (a.0 + (b.0 - a.0) * eighths / 8, a.1 + (b.1 - a.1) * eighths / 8)
 }
