@@ -19,20 +19,20 @@ const NAMES: [Place; 4] = [
     (RungeKutta, FINEST, (2, 0)),
 ];
 
-/// The same for other programs.
-const PROGRAMS: [(&str, usize, (i32, i32)); 5] = [
-    ("heyoka", FINEST, (2, 0)),
-    ("diffsol tsit45", 0, (2, 1)),
-    ("SUNDIALS CVODE", FINEST, (2, 0)),
-    ("SciPy DOP853", FINEST, (-2, 0)),
-    ("pymunk", FINEST, (0, -2)),
+/// The same for other programs: name of the row, name here.
+const PROGRAMS: [(&str, &str, usize, (i32, i32)); 5] = [
+    ("heyoka", "heyoka", FINEST, (0, -1)),
+    ("diffsol tsit45", "diffsol", 1, (1, 2)),
+    ("SUNDIALS CVODE", "CVODE", FINEST, (2, 0)),
+    ("SciPy DOP853", "SciPy", FINEST, (-2, 0)),
+    ("pymunk", "pymunk", FINEST, (0, -2)),
 ];
 
 /// The same for (b).
 const BY_ERROR: [Place; 4] = [
     (Certified, FINEST, (-2, 0)),
     (Sampled, 0, (2, 0)),
-    (Advancement, 2, (0, 3)),
+    (Advancement, 2, (0, 2)),
     (RungeKutta, 0, (-2, -1)),
 ];
 
@@ -87,13 +87,12 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         rivals::draw(panel, &curves.collect(), places, Outside::Edge)?;
     }
     for (program, points) in others {
-        let place = PROGRAMS.iter().find(|own| own.0 == program);
-        let (setting, beside) = place.map_or((FINEST, (2, 0)), |own| (own.1, own.2));
-        if let Some(at) = points.get(setting).or(points.last()) {
-            by_time.name(program, (at.0, at.1.min(top)), beside, GREY)?;
+        let Some(own) = PROGRAMS.iter().find(|own| own.0 == program) else { continue };
+        if let Some(at) = points.get(own.2).or(points.last()) {
+            by_time.name(own.1, (at.0, at.1.min(top)), own.3, GREY)?;
         }
     }
-    by_time.name("fixed steps", (350.0, 8.0), (2, -1), INK)?;
+    by_time.name("fixed steps", (150.0, 14.0), (0, -1), INK)?;
     by_error.name("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
     Ok(sheet.finish("s07", "How long a run is true", description(race)))
 }

@@ -201,7 +201,7 @@ impl Panel {
     ) -> Result<(), Error> {
         const AROUND: [(i32, i32); 8] =
             [(1, 0), (1, -1), (1, 1), (0, -1), (0, 1), (-1, -1), (-1, 1), (-1, 0)];
-        let farther = (1..=6).flat_map(|far| AROUND.map(|(x, y)| (far * x, far * y)));
+        let farther = (1..=3).flat_map(|far| AROUND.map(|(x, y)| (far * x, far * y)));
         let (px, py) = self.at(at.0, at.1);
         let size = [font::set(text)?.width, font::CAP_HEIGHT].map(|own| own * SMALL / font::EM);
         let is_free = |&(right, down): &(i32, i32)| {
