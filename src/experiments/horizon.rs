@@ -58,25 +58,12 @@ pub fn tables(found: &Horizon) -> Vec<Table> {
         .estimate("impacts", "1", "impacts before it", |own| {
             own.over(|twins| Some(twins.order?.1 as f64))
         })
-        .estimate("tenfold", TIME, "time in which differences grow tenfold", |own| {
-            own.growth().map(tenfold)
-        })
         .real("first_order", TIME, 3, "least time of the first impact of another gap", |own| {
             let orders = own.twins.iter().filter_map(|pair| pair.order);
             orders.map(|own| own.0).fold(f64::INFINITY, f64::min)
         })
         .done();
     vec![table]
-}
-
-/// ln 10 / λ, with the error carried over to first order.
-fn tenfold(growth: Estimate) -> Estimate {
-    let of = |rate: f64| std::f64::consts::LN_10 / rate;
-    Estimate {
-        value: of(growth.value),
-        error: of(growth.value) * growth.error / growth.value,
-        interval: [of(growth.interval[1]), of(growth.interval[0])],
-    }
 }
 
 /// Differences that follow the growth: above the rounding of the times, below saturation.
