@@ -22,7 +22,7 @@ const NAMES: [Place; 6] = [
     (Sampled, FINEST, (2, 2)),
     (Advancement, FINEST, (1, 4)),
     (RungeKutta, 0, (-1, -1)),
-    (MoreauJean, 0, (1, -1)),
+    (MoreauJean, 0, (-1, 4)),
     (Verlet, 0, (0, 4)),
     (Penalty, 0, (2, -1)),
 ];
@@ -38,7 +38,7 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
             .from(0.5, 200.0)
             .column("time of one core for a thousand chains (s)");
         let x = if i == last { x } else { x.bare() };
-        let y = Axis::decades(-1, 2, 1, "error of the mean (%)").from(0.1, 400.0);
+        let y = Axis::decades(-1, 2, 1, "error of the mean (%)").from(0.5, 400.0);
         let y = if i == last / 2 {
             y
         } else {
@@ -87,7 +87,7 @@ fn shown(
     let height =
         |own: &Estimate| own.value.abs() + if clear(own) { 0.0 } else { BOUND * own.error };
     let places: Vec<_> = found.iter().map(|(x, own)| (*x, height(own))).collect();
-    panel.curve(title, &places, Stroke { width: HAIR, ..stroke }, Outside::Edge)?;
+    panel.curve(title, &places, Stroke::dashed(PALE, THIN, Dash::Short), Outside::Edge)?;
     for ((x, y), (_, own)) in places.iter().zip(&found) {
         if clear(own) {
             let bar = [(*x, y - own.error, y + own.error)];
