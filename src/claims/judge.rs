@@ -153,10 +153,6 @@ impl Judge {
         let found = (self.find)(e, s);
         let found =
             found.map(|found| if self.note.is_empty() { found } else { found.note(self.note) });
-        let check = s.decided(found)?;
-        // What reads as a number is the number that is judged.
-        let other =
-            s.printed.chars().all(|c| c.is_ascii_digit() || c == '.') && s.printed != number;
-        Ok(if other { check.judged(false) } else { check }.on(self.basis))
+        Ok(s.decided(found)?.on(self.basis))
     }
 }

@@ -101,10 +101,22 @@ pub fn run(parameters: &Runs, progress: &Progress) -> Result<Replays, Error> {
 
 /// What the pages hold their own runs against.
 pub fn tables(own: &Replays) -> Vec<Table> {
+    let rows: Vec<_> = own.parameters.iter().zip(&own.found).collect();
+    let runs = Table::of("replay.runs", &rows, |_| 1)
+        .text_key("run", |((name, _), _)| name.clone())
+        .computed_by(origin(run))
+        .count("masses", "masses", |((_, asked), _)| asked.chain.masses as u64)
+        .chosen("until", TIME, "length of the run", |((_, asked), _)| Some(asked.until()))
+        .count("impacts", "impacts", |(_, found)| found.impacts)
+        .count("distinct", "gaps with an impact in the window", |(_, found)| found.distinct as u64)
+        .count("contact_phases", "contact phases", |(_, found)| found.contact_phases)
+        .count("simultaneous", "ties", |(_, found)| found.simultaneous)
+        .words("sha256", "of all impacts: time, gap, speed", |(_, found)| found.digest.clone())
+        .done();
     let all = Table::of("replay.all", &[own], |own| own.found.len())
         .computed_by(origin(run))
         .count("runs", "runs", |own| own.found.len() as u64)
         .count("impacts", "impacts of all", |own| own.found.iter().map(|one| one.impacts).sum())
         .done();
-    vec![all]
+    vec![runs, all]
 }

@@ -243,18 +243,3 @@ impl Statement {
 pub fn score<'a>(checks: impl Iterator<Item = &'a Check> + Clone) -> [usize; 4] {
     Verdict::ALL.map(|verdict| checks.clone().filter(|check| check.verdict == verdict).count())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_check_is_saved_as_it_is_printed() {
-        let open = Check::new(Kind::Relation, "a", "b", with_error(0.11652, 0.0004));
-        let saved = serde_json::to_value(open.judged(false).explained("c", true)).unwrap();
-        assert_eq!(saved["found"], "0.1165(4)");
-        assert_eq!(saved["verdict"], "differs and explained");
-        let read: Check = serde_json::from_value(saved.clone()).unwrap();
-        assert_eq!(serde_json::to_value(read).unwrap(), saved);
-    }
-}

@@ -205,13 +205,4 @@ mod tests {
         let around = Axis::around([0.02, 30.0].into_iter(), 1, "");
         assert_eq!((around.lo, around.hi), (0.01, 100.0));
     }
-
-    #[test]
-    fn a_column_is_the_label_in_plain_text_with_its_unit() {
-        let named = |label: &str| Axis::decades(0, 1, 1, label).bare().named();
-        assert_eq!(named("transient *T* (1/*ω*)"), ("transient T".into(), "1/omega".into()));
-        assert_eq!(named("*P*(*X* = *k*)"), ("P(X = k)".into(), "1".into()));
-        let axis = Axis::linear(0.0, 1.0, 0.5, 1, "*σ*").column("sigma (d omega^2)");
-        assert_eq!(axis.named(), ("sigma".into(), "d omega^2".into()));
-    }
 }

@@ -44,16 +44,3 @@ pub fn shortest(value: f64) -> String {
     let shown = format!("{value:?}");
     shown.strip_suffix(".0").map_or(shown.clone(), String::from)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn csv_quotes_and_keeps_every_bit() {
-        let row = [0.1, 3.0, 1e-300].map(shortest).to_vec();
-        let header = ["sigma (d omega^2)", "a, b", "c"].map(String::from).to_vec();
-        let file = DataFile { name: "a.csv".into(), header, rows: vec![row] };
-        assert_eq!(file.csv(), "sigma (d omega^2),\"a, b\",c\n0.1,3,1e-300\n");
-    }
-}
