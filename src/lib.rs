@@ -2,7 +2,7 @@
 //! Large Dimensional Systems*: every experiment, calculation, figure and published number of
 //! that paper, computed and checked by one binary.
 //!
-//! The tour follows the paper, and leads to the report that `make paper` has written beside it.
+//! The tour follows the paper, and leads to the report that `make paper` has written.
 //!
 //! - [Section 1](../../../paper/report.html#sec-introduction) and
 //!   [Section 2](../../../paper/report.html#sec-simulation), the chain of forced masses and its
@@ -20,7 +20,7 @@
 //!   [the method](../../../paper/methods.html#sec-method) and its
 //!   [speed and accuracy](../../../paper/methods.html#sec-accuracy).
 //!
-//! Imports flow one way: `impact-numerics` → `impact-chain` → `impact-circuits` (crates of their own) → `experiments` →
+//! Imports flow one way: `impact-numerics` → `impact-chain` → `impact-circuits` (crates) → `experiments` →
 //! `figures`, `claims` → `contents`; `params` may be read by all.
 //!
 //! Where each equation lives is in [`mod@equations`].

@@ -31,7 +31,7 @@ const browser = await chromium.launch({
   args: process.getuid?.() === 0 ? ["--no-sandbox"] : [],
 });
 
-/** A page that tells every request and every complaint. */
+/** A page whose requests and complaints are checked. */
 async function open(file, width, colorScheme, { before, loads, ...options } = {}) {
   const page_url = pathToFileURL(join(report, file)).href;
   const context = await browser.newContext({
@@ -56,7 +56,7 @@ async function open(file, width, colorScheme, { before, loads, ...options } = {}
   return page;
 }
 
-/** Fonts are those beside the page, figures have a size and fall into the page, links land. */
+/** Fonts are those of the report, figures have a size and fall into the page, links land. */
 async function reads_well(page, name, least) {
   const found = await page.evaluate(() => {
     const wrong = [];

@@ -57,7 +57,7 @@ fn error_of(method: &dyn Method) -> (f64, Cost) {
             let cost = cost.unwrap();
             total.steps += cost.steps;
             total.evaluations += cost.evaluations;
-            // Order within a step is lost: each gap has its own list.
+            // Order within a step is lost: each gap has a list.
             for gap in 0..7 {
                 let own = |list: &[Impact]| -> Vec<f64> {
                     list.iter().filter(|i| i.gap == gap).map(|i| i.time).take(2).collect()

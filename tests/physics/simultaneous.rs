@@ -10,7 +10,7 @@ fn draw(masses: usize, sigma: f64, index: u64) -> Scenario {
     drawn(&Chain { masses, ..Chain::default() }, sigma, "simultaneous", index)
 }
 
-/// A drawn chain made its own mirror image; an odd one has a mass at rest in the middle.
+/// A drawn chain made symmetric; an odd one has a mass at rest in the middle.
 fn mirror(masses: usize, sigma: f64, index: u64) -> Scenario {
     let mut scenario = draw(masses, sigma, index);
     for j in 0..masses.div_ceil(2) {

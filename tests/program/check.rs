@@ -1,5 +1,5 @@
 //! `impact-paper check` for people and machines: every form says of every statement what the others say. Faults of the
-//! templates, each told with its file and line.
+//! templates, each with its file and line.
 
 use crate::{QUICK, run, templates};
 use impact_paper::claims::Basis;
@@ -49,7 +49,7 @@ fn every_form_has_every_statement_at_its_line_and_what_fails() {
     // One by its number in the ledger.
     let (code, one, _) = check(folder.path(), "1");
     assert!(code == 0 && one.contains("1 statement of the paper"), "{one}");
-    // The statements of the paper and our own checks are scored apart.
+    // The statements of the paper and our relations are scored apart.
     let scores: Vec<&str> = text.lines().rev().take(3).collect();
     assert!(scores[2].starts_with("72 statements of the paper: "), "{text}");
     assert!(scores[2].contains(&format!(", differs and explained {explained}, ")), "{text}");

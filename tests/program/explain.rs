@@ -9,7 +9,7 @@ fn report() -> tempfile::TempDir {
     folder
 }
 
-/// What is asked for, and parts of what is told.
+/// What is asked for, and parts of the answer.
 const CARDS: &str = "\
 sweep.rise.half_height => standard error; impact_chain::rise::Curve::new (crates/impact-chain/src/rise.rs); seed: 2007
 sweep.rise.half_height => chain masses: 100; sweep-rise.csv

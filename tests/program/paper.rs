@@ -9,7 +9,7 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-/// The program in a folder of its own, with the templates of the project.
+/// The program in a new folder, with the templates of the project.
 fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
     crate::run(folder, &format!("{arguments} --templates {TEMPLATES}"))
 }
@@ -135,7 +135,7 @@ fn what_others_made_is_left_as_it_is() {
         refused(here, arguments, &[says, "--force"]);
     }
     assert!(tree(here) == before, "{:?}", tree(here).keys());
-    // Forced, it writes, and a folder of its own is written again without.
+    // Forced, it writes, and its folder is written again without.
     assert_eq!(run(here, "paper --figure 4 --out t --force").0, 0);
     assert_eq!(run(here, "paper --figure 4 --figure 5 --out t").0, 0);
     assert_eq!(fs::read_to_string(here.join("t/report.md")).unwrap(), "by hand");
@@ -185,7 +185,7 @@ fn a_rerun_finds_what_the_list_cannot() {
 }
 
 /// A report whose statements fail is written all the same. The exit codes of `--help` and DESIGN.md are the same; those of
-/// what is refused and of signals have tests of their own.
+/// what is refused and of signals have other tests.
 #[test]
 fn a_statement_that_fails_is_exit_code_1() {
     let folder = tempfile::tempdir().unwrap();

@@ -11,7 +11,7 @@ use std::process::Command;
 use std::sync::LazyLock;
 use std::time::Duration;
 
-/// One of three shards, into a folder of its own or a common one.
+/// One of three shards, into a separate folder or a common one.
 fn shard(folder: &Path, i: usize, results: &str) -> (String, String) {
     let line = format!("run --profile quick --shard {i}/3 --results {results} --threads {i}");
     let (code, text, note) = run(folder, &line);

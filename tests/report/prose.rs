@@ -24,7 +24,7 @@ fn the_report_has_every_equation_and_figure() {
     }
 }
 
-/// A reader meets our own figures in the order of their numbers.
+/// A reader meets our figures in the order of their numbers.
 #[test]
 fn own_figures_are_numbered_by_first_mention() {
     let template = QUICK.paper.documents.iter().map(|document| QUICK.prose(document));

@@ -1,5 +1,5 @@
 "use strict";
-// What a page can do beside being read: cards of numbers, looks at what is referred to, a search, filters.
+// What a page can do: cards of numbers, looks at what is referred to, a search, filters.
 {
   const all = (what, within = document) => [...within.querySelectorAll(what)];
   const make = (tag, properties = {}, ...children) => {
@@ -8,7 +8,7 @@
     return node;
   };
 
-  // A page on a disk may read nothing but scripts: what is beside it is loaded when it is first asked for.
+  // A page on a disk may read nothing but scripts: other files are loaded when they are first asked for.
   const load = (src) => new Promise((onload, onerror) => document.head.append(make("script", { src, onload, onerror })));
 
   // What readers run themselves; on the first page it begins without being asked, in the place of the picture before it.
@@ -126,7 +126,7 @@
     const above = sections.findLast((section) => section.getBoundingClientRect().top < innerHeight / 3);
     for (const link of all("a", contents)) {
       const here = above !== undefined && link.hash === `#${above.id}`;
-      // Only the contents scroll, where they have a scroll bar of their own.
+      // Only the contents scroll, where they have a scroll bar.
       if (here && !link.hasAttribute("aria-current")) contents.scrollTop = link.offsetTop - contents.clientHeight / 2;
       if (here) link.setAttribute("aria-current", "true");
       else link.removeAttribute("aria-current");

@@ -1,4 +1,4 @@
-//! Files: they are read up to a bound, what is wrong with them is told in one line, and they appear whole.
+//! Files: they are read up to a bound, what is wrong with them is one line, and they appear whole.
 
 pub use impact_numerics::text::{count, is_obeyed, one_line, plain};
 use sha2::{Digest, Sha256};
@@ -76,7 +76,7 @@ pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
     }
 }
 
-/// Of a longer list of names only so many are told.
+/// Of a longer list of names only so many are printed.
 const TOLD: usize = 5;
 
 /// The first few names, and how many more.

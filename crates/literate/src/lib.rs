@@ -1,4 +1,4 @@
-//! A paper that computes its own numbers: what stands between a program that runs experiments and the documents that
+//! A paper that computes its numbers: what stands between a program that runs experiments and the documents that
 //! people read. It knows nothing of what a paper is about. The [manual] has two pages: a paper of your own, and prose.
 //! `examples/feigenbaum` is a whole paper, in 170 lines of Rust: `cargo run -p literate --example feigenbaum -- paper --out FOLDER`.
 //!
@@ -7,7 +7,7 @@
 //!    and each file of code that it depends on. One that is [cut](experiments::cutting) into units can run on several machines.
 //! 2. What follows from it stands in [tables](table): a column says once what its cells are, and a cell has an address,
 //!    `cascade.orbits[n=3].delta`, by which prose, figures, claims and cards name it.
-//! 3. A [figure](figures) is one list of shapes, written as SVG, into the page and as PDF, with its data beside it.
+//! 3. A [figure](figures) is one list of shapes, written as SVG, into the page and as PDF, with its data as CSV.
 //! 4. A [statement](claims) that was printed is held against what was found; its verdict is a function of numbers, and can fail.
 //! 5. The [report](mod@report) fills people's prose with all of it: Markdown, LaTeX and HTML, a ledger of the claims, all values as
 //!    data, a card for each number. A numeral that nobody computed is refused by file and line.

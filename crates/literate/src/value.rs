@@ -89,7 +89,7 @@ pub struct Value {
     /// The experiment whose results it was read from; empty for parameters.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub experiment: String,
-    /// What a reader should know beside it.
+    /// A remark for the reader.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
     /// Kept in `values.json` for readers of the data; no template needs to name it.

@@ -74,7 +74,7 @@ impl<R: Real> Gap<R> {
         if f < -noise {
             return Err(format!("overlap of {f:e} at t = {}", from.near()));
         }
-        // Without a speed of its own the gap opens or stays by its acceleration.
+        // Without a speed the gap opens or stays by its acceleration.
         let mut ignore = R::of(0.0);
         if touching && g.abs() <= noise {
             if h <= 0.0 {

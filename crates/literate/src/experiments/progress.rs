@@ -78,7 +78,7 @@ impl Progress {
     }
 }
 
-/// Says one line on standard error. If nobody can be told (a full disk, a closed pipe), no work ends for that.
+/// Says one line on standard error. If it cannot be written (a full disk, a closed pipe), no work ends for that.
 pub fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }

@@ -1,6 +1,6 @@
 //! Results of long runs, saved and reused.
 //!
-//! A saved result has a file of its own, named by experiment and profile, and so has a unit of one that is not yet
+//! A saved result is a file, named by experiment and profile, and so has a unit of one that is not yet
 //! joined, named by its number too. It has three lines of text: a checksum of the other two, what the result was made of, and the result. It is reused if
 //! all of that is as it would be made of now; whatever is not whole or not known is run again, and
 //! the reason is said.
@@ -200,7 +200,7 @@ where
     }
 }
 
-/// Writes a file beside and renames it: at no time is there half a result under the name.
+/// Writes a temporary file and renames it: at no time is there half a result under the name.
 fn save(path: &Path, text: &str) -> std::io::Result<()> {
     let _moment = WRITING.read();
     let waiting = path.with_extension(format!("json.{}", std::process::id()));

@@ -39,7 +39,7 @@ pub struct Input<'a> {
     pub claims: &'a [Check],
     /// The figures.
     pub figures: &'a [Figure],
-    /// What a page loads when a reader asks it to compute: lab.js, beside the pages.
+    /// What a page loads when a reader asks it to compute: lab.js.
     pub lab: Option<&'a str>,
     /// The way from where it is written to the files of the project, as `../`; none if it is written elsewhere.
     pub top: Option<&'a str>,
@@ -52,7 +52,7 @@ pub struct Input<'a> {
 pub struct Report {
     /// Files that are committed; SHA256SUMS covers them.
     pub committed: Files,
-    /// Files that stand beside them and are not committed: pages, figures/*.pdf for LaTeX.
+    /// Files that are not committed: pages, figures/*.pdf for LaTeX.
     pub beside: Files,
 }
 

@@ -21,7 +21,7 @@ pub enum Block {
     },
     /// A paragraph; displayed equations stand inside it.
     Paragraph(Vec<Inline>),
-    /// A figure by its name: its picture is `figures/NAME.svg`. What is seen is told to those who do not see it; the origin
+    /// A figure by its name: its picture is `figures/NAME.svg`. Its description is for those who do not see it; the origin
     /// is where its data is, and the code that draws it.
     Figure {
         id: String,
@@ -106,7 +106,7 @@ pub enum Inline {
         id: String,
         shown: Vec<Inline>,
     },
-    /// A link out of the report, or to a file beside it.
+    /// A link out of the report, or to a file next to it.
     Link {
         to: String,
         shown: Vec<Inline>,

@@ -52,7 +52,7 @@ impl Filler {
     }
 
     /// The same with values: `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain numbers; cells of
-    /// tables stand beside them, `table["row"].column`, and their keys are `keys.table.key` and `keys.table.rows`.
+    /// tables are among them, `table["row"].column`, and their keys are `keys.table.key` and `keys.table.rows`.
     pub fn with(mut self, values: &Registry) -> Self {
         // Tables for figures alone are long, and no template needs them.
         let named =

@@ -192,7 +192,7 @@ fn faults(folder: &Path, expected: &Digests) -> Result<Vec<String>, Error> {
     Ok(expected.iter().filter_map(fault).chain(strange).collect())
 }
 
-/// Compares a folder with its list: how many files that names, and what is wrong, one line each. What is built beside is
+/// Compares a folder with its list: how many files that names, and what is wrong, one line each. What is built but not committed is
 /// on no list.
 pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
     let place = folder.join(SUMS);

@@ -1,6 +1,6 @@
 //! The tree → a page; what stands around it is the template report.html.
 //!
-//! A page lies on a disk with its style sheet, script, fonts and the cards of its numbers beside it. It is
+//! A page lies on a disk with its style sheet, script, fonts and the cards of its numbers in the same folder. It is
 //! well-formed XML, so that tests can read it.
 
 use super::card::{Cards, Fact};
@@ -80,7 +80,7 @@ pub fn write(
     Ok((parts, page.values.into_inner()))
 }
 
-/// What lies beside the pages: fonts, and the cards of all values that they show, as a script, since pages on a disk may
+/// What the pages share: fonts, and the cards of all values that they show, as a script, since pages on a disk may
 /// read nothing else. A row that several cards have stands once.
 pub fn beside(values: &BTreeSet<String>, cards: Cards<'_>, site: Site<'_>) -> Result<Files, Error> {
     let page = Page { site, values: RefCell::default(), glyphs: RefCell::default() };

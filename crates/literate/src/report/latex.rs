@@ -161,7 +161,7 @@ pub fn inlines(list: &[Inline]) -> Result<String, Error> {
     Ok(out)
 }
 
-/// Behind `\\` and `\item` TeX takes a bracket or a star for its own.
+/// Behind `\\` and `\item` TeX takes a bracket or a star as an argument.
 fn apart(text: &str) -> String {
     let taken = text.starts_with(['[', '*']);
     if taken { format!("{{}}{text}") } else { text.to_string() }
@@ -196,7 +196,7 @@ fn inline(inline: &Inline) -> Result<String, Error> {
             let shown = if bare { breakable(&shown).replace('(', "\\allowbreak(") } else { shown };
             format!("\\href{{{}}}{{{}}}", address(to), shown)
         }
-        // Files beside the report: the path in words, a PDF travels without them.
+        // Files of the report: the path in words, a PDF travels without them.
         Inline::Link { shown, .. } => inlines(shown)?,
         Inline::Reference { to, within: None, shown } => {
             format!("\\hyperref[{to}]{{{}}}", tex::text(shown)?)

@@ -8,12 +8,12 @@ use super::values::{Digits, Number, Value};
 /// No number has more digits to show: a double ends at its 1074th decimal.
 pub const MOST_DIGITS: usize = 1100;
 
-/// What a template asks of a value beyond its own digits, through filters.
+/// What a template asks of a value, through filters.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Style {
     /// Times one hundred, with a percent sign.
     pub percent: bool,
-    /// Other digits than the value's own.
+    /// Other digits than those of the value.
     pub digits: Option<Digits>,
 }
 
@@ -206,7 +206,7 @@ fn grouped(n: i64) -> String {
 }
 
 impl Value {
-    /// The value in its own digits, for terminals and data: `0.1165(4)`.
+    /// The value in its digits, for terminals and data: `0.1165(4)`.
     pub fn plain(&self) -> String {
         print(&self.number, Style::default()).plain()
     }

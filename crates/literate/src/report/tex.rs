@@ -178,7 +178,7 @@ pub fn refused(tex: &str) -> Option<String> {
     bare(rest)
 }
 
-/// The first sign with a meaning of its own in LaTeX between macros. (Columns of an environment keep their &.)
+/// The first sign with a special meaning in LaTeX between macros. (Columns of an environment keep their &.)
 fn bare(between: &str) -> Option<String> {
     let sign = between.chars().find(|c| matches!(c, '%' | '#' | '$'))?;
     Some(format!("a bare {sign} is no sign in LaTeX; write \\{sign}"))

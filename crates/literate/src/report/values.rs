@@ -1,4 +1,4 @@
-//! All values of a report: those with a name of their own, and the cells of tables under their addresses.
+//! All values of a report: those with a name, and the cells of tables under their addresses.
 
 use super::Error;
 use crate::experiments::Profile;

@@ -56,7 +56,7 @@ impl Reader<'_> {
         Ok(out)
     }
 
-    /// The same where no equation of its own can stand.
+    /// The same where no displayed equation can stand.
     pub(super) fn line(&mut self) -> Result<Vec<Inline>, Error> {
         let inlines = self.inlines()?;
         match inlines.iter().any(|inline| matches!(inline, Inline::Display { .. })) {

@@ -1,4 +1,4 @@
-//! Prose that is broken: each fault is told with its place.
+//! Prose that is broken: each fault is named with its place.
 
 use super::{PROSE, assembled, unmarked};
 
