@@ -175,7 +175,7 @@
   // What is long in a table of many columns unfolds; on paper all is open.
   for (const cell of all(".lists td.long")) {
     const start = cell.textContent.replace(/^(.{40}\S*).*/s, "$1 …");
-    cell.replaceChildren(make("details", {}, make("summary", {}, start), ...cell.childNodes));
+    cell.replaceChildren(make("details", {}, make("summary", {}, make("span", {}, start)), ...cell.childNodes));
   }
   // A row that is gone to by its address is open.
   const unfold = () => all("details", document.getElementById(decodeURIComponent(location.hash.slice(1)))?.closest("tr") ?? make("p")).forEach((fold) => (fold.open = true));
