@@ -38,7 +38,7 @@ pub fn equations() -> Vec<EquationEntry> {
         18, 7, "$p_{\\mathrm{crit}}$, where $f_{N,p}$ has a double zero", impact_circuits::jump::p_crit;
         19, 8, "the separation $\\Delta_j(t)$ of two neighbours", impact_chain::flight::Motion::frame;
         20, 8, "the probability that a gap never closes", impact_circuits::impact_probability::ImpactProbability::complement;
-        21, 8, "the amplitudes $Y_i$", impact_circuits::impact_probability::amplitude;
+        21, 8, "the amplitudes $Y_i$", impact_circuits::impact_probability::density_free, towards 22;
         22, 8, "density of $Y_0$", impact_circuits::impact_probability::density_free;
         23, 8, "density of the scaled $Y_1$", impact_circuits::impact_probability::density_forced;
         24, 8, "the probability of no impact as a convolution", impact_circuits::impact_probability::ImpactProbability::p_by_double_integral;

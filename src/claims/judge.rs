@@ -1,7 +1,7 @@
 //! How a row of the ledger is made: evidence in, a check out.
 
 pub(super) use super::Basis::{Exact, OurMeasure, PrintedDigit, Rounding};
-use super::{Basis, Level, Published};
+use super::{Basis, Kind, Level, Published};
 pub(super) use super::{Error, Judged, Statement, Text, chosen, integer, significant};
 use crate::experiments::{Results, sweep};
 use impact_chain::rise::Counted;
@@ -107,6 +107,11 @@ pub const fn by(
     find: fn(&Evidence, &Statement) -> Judged,
 ) -> Judge {
     Judge { id, basis, reads: None, statistical: false, note: "", find }
+}
+
+/// A definition, which this edition uses as it stands: nothing is computed.
+pub const fn defined(id: &'static str) -> Judge {
+    by(id, Exact, |_, s| Ok(s.found("used as it stands", s.kind == Kind::Definition)))
 }
 
 /// A statement whose tolerance has room for standard errors.

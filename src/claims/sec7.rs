@@ -7,7 +7,7 @@ use impact_circuits::jump;
 pub const ROWS: &[Judge] = &[
     cases("sec7_eq11", "Every k at ten values of p.").of("Φ(k + 1) − Φ(k) ∝ f(k)"),
     difference("sec7_eq13", "f at its zeros, over its largest term.").of("k±"),
-    difference("sec7_eq14_15", "At ten values of p.").of("−1 and −(N + 1)"),
+    defined("sec7_eq14_15").of("−1 and −(N + 1)"),
     cases("sec7_eq16_17", "Sign and slope at every k.").of("−(k + 1) < 0; k (N − k) > 0"),
     by("sec7_through_zero", Exact, through_zero),
     by("sec7_start", Exact, start),

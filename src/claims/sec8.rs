@@ -21,8 +21,7 @@ pub const ROWS: &[Judge] = &[
     )
     .of("Eq. (19)"),
     statistical("sec8_no_impact", OurMeasure, no_impact).of("1 − p = P(Y₀ + Y₁/|ω² − Ω²| < d)"),
-    difference("sec8_amplitude", "Against √2 times the root mean square over a period.")
-        .of("Eq. (21)"),
+    defined("sec8_amplitude").of("Eq. (21)"),
     by("sec8_densities", Rounding, |e, s| {
         Ok(s.rounding(e.difference(s)?, 1e-12).note(
             "The probability of Y ≤ x at five x and three σ, against the integral of the two normal \

@@ -56,8 +56,6 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             .zip(contributions(small))
             .map(|(class, values)| (format!("{}, {}", class.0, class.1), over_k(&values), class.2)),
     );
-    let names: Vec<_> =
-        names.iter().map(|(name, at, own)| (name.as_str(), &at[..], *own)).collect();
     few.ends(&names)?;
 
     let x = Axis::linear(50.0, whole, 10.0, 2, "*k*");

@@ -67,10 +67,9 @@ fn motion(panel: &Panel, segment: &Segment, length: usize) -> Result<(), Error> 
         let name = format!("mass {}", j + 1);
         panel.curve(&name, points, Stroke::dashed(colour, LINE, dash), Outside::Refuse)?;
     }
-    let names: Vec<_> = (1..=paths.len()).map(|j| format!("*x*_{{{j}}}")).collect();
-    let ends = names.iter().zip(&paths).zip(MASSES);
-    let ends: Vec<_> = ends.map(|((name, path), look)| (&name[..], &path[..], look.0)).collect();
-    panel.ends(&ends)?;
+    let ends = (1..).zip(&paths).zip(MASSES);
+    let ends = ends.map(|((j, path), look)| (format!("*x*_{{{j}}}"), path, look.0));
+    panel.ends(&ends.collect::<Vec<_>>())?;
     let hits: Vec<_> =
         segment.impacts.iter().map(|hit| (hit.time - from, hit.position / d)).collect();
     let ring = (Mark::Ring, 70, Stroke::solid(RED, 24));

@@ -60,8 +60,7 @@ fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
         panel.marked(&name, &points, (thin, (Mark::Disc, LARGE, thin)), Outside::Cut)?;
         drawn.push((name, points, colour));
     }
-    let named = drawn.iter().map(|(name, points, colour)| (&**name, &**points, *colour));
-    panel.ends(&named.collect::<Vec<_>>())?;
+    panel.ends(&drawn)?;
     // T^{−2} through (10, 0.1).
     panel.guide("power", &[(10.0, 0.1), (1e4, 1e-7)], Stroke::dashed(INK, THIN, Dash::Short))?;
     panel.label("∝ *T*^{ −2}", (60.0, 2.8e-3), (-1, 1), INK)

@@ -82,8 +82,7 @@ fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
         panel.curve(&name, &points, Stroke::solid(colour, LINE), Outside::Cut)?;
         drawn.push((name, points, colour));
     }
-    let named = drawn.iter().map(|(name, points, colour)| (&**name, &**points, *colour));
-    panel.ends(&named.collect::<Vec<_>>())?;
+    panel.ends(&drawn)?;
     let straight = Stroke::dashed(INK, THIN, Dash::Short);
     panel.guide("constant speed", &[(10.0, 1.0), (1e3, 100.0)], straight)?;
     panel.label("∝ *t*", (100.0, 10.0), (-1, -1), INK)

@@ -4,6 +4,7 @@ use super::FORCING;
 use super::prelude::*;
 use crate::experiments::rise::Counted;
 use crate::experiments::theory::beside;
+pub use crate::params::PRINTED_THRESHOLD as PRINTED;
 use literate::table::Table;
 
 /// Line of the simulation's marks.
@@ -14,9 +15,6 @@ pub const CROSSES: Marker = (Mark::Cross, 56, CROSS);
 
 /// Bars of intervals, which stay behind the marks.
 pub const INTERVAL: Stroke = Stroke::solid(PALE, 70);
-
-/// The σ that the paper prints for the rise (Sec. 2).
-pub const PRINTED: f64 = 0.12;
 
 /// The axis of σ around the rise. Beyond its end nothing changes any more; the data files have all σ.
 pub fn sigma_axis() -> Axis {

@@ -44,14 +44,8 @@ pub struct ImpactProbability {
     frequency_ratio: DoubleDouble,
 }
 
-/// **Eq. (21)**
+/// **Eq. (21)** (step towards (22)): Y = √((α_{j+1} − α_j)² + (β_{j+1} − β_j)²), the amplitude of one harmonic of a gap.
 ///
-/// Y = √((α_{j+1} − α_j)² + (β_{j+1} − β_j)²), the amplitude of one harmonic part of a gap, from
-/// the two differences.
-pub fn amplitude(delta_alpha: f64, delta_beta: f64) -> f64 {
-    (delta_alpha * delta_alpha + delta_beta * delta_beta).sqrt()
-}
-
 /// **Eq. (22)**
 ///
 /// Density of Y_0 at x: Rayleigh, since both differences are normal with variance 2σ².

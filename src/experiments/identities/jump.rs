@@ -37,11 +37,6 @@ pub(crate) fn top(p: f64) -> f64 {
     (N * p - 1.0) / (2.0 * p)
 }
 
-/// Eq. (9): largest distance of the sum of the probabilities from one.
-pub(super) fn normalisation() -> f64 {
-    largest(GRID.map(|p| (simple(p).probabilities().iter().sum::<f64>() - 1.0).abs()))
-}
-
 /// μ at neighbouring p of a grid of [0, 1].
 pub(super) fn mean_rises() -> Cases {
     let means: Vec<f64> = (0..=200).map(|i| simple(f64::from(i) / 200.0).mean()).collect();
@@ -60,13 +55,6 @@ pub(super) fn eq11() -> Cases {
 pub(super) fn eq13() -> f64 {
     let zeros = |p| jump::zeros(VERTICES, p).into_iter().flatten().map(move |k| (p, k));
     largest(GRID.into_iter().flat_map(zeros).map(|(p, k)| f(p, k).abs() / size(p, k)))
-}
-
-/// Eqs. (14) and (15): relative deviation of f at the ends.
-pub(super) fn ends() -> f64 {
-    largest(
-        GRID.into_iter().flat_map(|p| [f(p, 0.0), f(p, N) / (N + 1.0)]).map(|f| (f + 1.0).abs()),
-    )
 }
 
 /// Eqs. (16) and (17): signs, and the slope against a finite difference: f is linear in p.

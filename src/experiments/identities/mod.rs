@@ -50,14 +50,11 @@ pub fn tables() -> Vec<Table> {
         .count("compared", "cases that were compared", |(_, [all, _])| *all)
         .count("failed", "cases that do not agree", |(_, [_, failed])| *failed)
         .done();
-    let rows: [(&str, f64); 8] = [
-        ("sec6_normalised", jump::normalisation()),
+    let rows: [(&str, f64); 5] = [
         ("sec7_eq13", jump::eq13()),
-        ("sec7_eq14_15", jump::ends()),
         ("sec7_maximum", jump::maximum()),
         ("sec7_inflexion", jump::inflexion()),
         ("sec8_separation", relation::separation()),
-        ("sec8_amplitude", relation::amplitudes()),
         ("sec8_densities", relation::distributions()),
     ];
     let differences = Table::of("theory.differences", &rows, |_| 0)

@@ -2,9 +2,7 @@
 
 use super::largest;
 use crate::experiments::theory::known;
-use impact_circuits::impact_probability::{
-    ImpactProbability, amplitude, density_forced, density_free,
-};
+use impact_circuits::impact_probability::{ImpactProbability, density_forced, density_free};
 use impact_numerics::quadrature::GaussLegendre;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
@@ -34,21 +32,6 @@ pub(super) fn separation() -> f64 {
             + (b[0] - a[0]) / detuning * pxfm::f_cos(big_omega * t)
             + (b[1] - a[1]) / detuning * pxfm::f_sin(big_omega * t);
         (printed - (solved(b, t) - solved(a, t))).abs()
-    }))
-}
-
-/// The mean square of a harmonic over a period is half the square of its amplitude; equally spaced
-/// phases give it without error.
-pub(super) fn amplitudes() -> f64 {
-    let phases = 16;
-    largest([[0.3, 0.4], [-1.0, 0.2], [0.0, -0.7]].map(|[a, b]| {
-        let square = |i: i32| {
-            let phase = 2.0 * PI * f64::from(i) / f64::from(phases);
-            let part = a * pxfm::f_cos(phase) + b * pxfm::f_sin(phase);
-            part * part / f64::from(phases)
-        };
-        let mean: f64 = (0..phases).map(square).sum();
-        ((2.0 * mean).sqrt() / amplitude(a, b) - 1.0).abs()
     }))
 }
 

@@ -56,9 +56,6 @@ pub(super) const BESIDE: i32 = TICK + 4 * GAP;
 /// From a frame to the top of the label below it.
 pub(super) const BELOW: i32 = TICK + 3 * GAP + SMALL;
 
-/// A curve with its name: the name, its points, and its colour.
-pub type Named<'a> = (&'a str, &'a [(f64, f64)], Colour);
-
 /// What stays clear around a name.
 const CLEARANCE: i32 = 45;
 
@@ -220,14 +217,19 @@ impl Panel {
         }
     }
 
-    /// Names curves at their right ends in this panel, each in its colour; names that would touch move apart.
-    pub fn ends(&self, curves: &[Named<'_>]) -> Result<(), Error> {
+    /// Names curves, each given by name, points and colour, at their right ends in this panel; names that would touch move
+    /// apart.
+    pub fn ends<P: AsRef<[(f64, f64)]>>(
+        &self,
+        curves: &[(String, P, Colour)],
+    ) -> Result<(), Error> {
         let end = |points: &[(f64, f64)]| {
             let inside = |p: &&(f64, f64)| self.x.holds(p.0) && self.y.holds(p.1);
             points.iter().rfind(inside).map(|p| self.at(p.0, p.1))
         };
-        let named =
-            || curves.iter().filter_map(|(text, points, own)| Some((end(points)?, *text, *own)));
+        let named = || {
+            curves.iter().filter_map(|(text, own, look)| Some((end(own.as_ref())?, text, *look)))
+        };
         let heights = apart(&named().map(|(at, ..)| at.1).collect::<Vec<_>>(), LINE_HEIGHT);
         for ((at, text, colour), y) in named().zip(heights) {
             let look = (SMALL, colour, HPos::Left, VPos::Center);
@@ -252,7 +254,7 @@ mod tests {
         panel.label("mark", (0.5, 0.5), (-1, 2), RED).unwrap();
         // The last point of the second lies outside; the ends of both are then too near for their names.
         let (low, high) = ([(0.0, 0.0), (1.0, 0.5)], [(0.9, 0.51), (1.0, 1.5)]);
-        panel.ends(&[("low", &low, BLUE), ("high", &high, RED)]).unwrap();
+        panel.ends(&[("low".into(), &low, BLUE), ("high".into(), &high, RED)]).unwrap();
         let drawing = sheet.finish("s01", "", Default::default()).drawing;
         let named = |element: &Element| match element {
             Element::Label(Label { words, at, colour, rim: true, .. }) => {
