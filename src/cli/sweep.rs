@@ -1,9 +1,9 @@
 //! The verb `sweep`.
 
 use super::{sigmas, within};
+use impact_chain::LATEST;
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
 use impact_chain::rise;
-use impact_chain::search::clock::LATEST;
 use impact_chain::{Boundary, Chain, Counts, Engine, Ensemble, Protocol, Start};
 use impact_paper::experiments::Progress;
 use impact_paper::experiments::ensembles::CUTTING;

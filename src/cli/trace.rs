@@ -1,8 +1,8 @@
 //! The verb `trace`.
 
 use super::within;
+use impact_chain::LATEST;
 use impact_chain::methods::State;
-use impact_chain::search::clock::LATEST;
 use impact_chain::{Error, Impact, Scenario, rounding};
 use impact_paper::experiments::alive;
 use impact_paper::params::MethodName;

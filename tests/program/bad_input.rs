@@ -39,6 +39,7 @@ const NO_SCENARIOS: &str = r##"{ => line 1
 "boundary":"wall"|null => boundary
 "initial":"start"|{"free":3}|[] => initial
 "initial":{"random":{"sigma":0.1,"seed":-1}} => seed
+"initial":{"at":{"positions":[1]}} => initial.at; missing field `velocities`
 "initial":{"free":[]} => initial.free; 0 pairs for 1 mass
 "initial":{"free":[[0,1e300]]} => initial.free[0]"##;
 

@@ -108,20 +108,15 @@ mod tests {
             let n = graph.vertices();
             let mut all = std::collections::BTreeSet::new();
             for length in 1..=longest {
-                let mut words = vec![vec![]];
-                for _ in 0..length {
-                    words = words
-                        .into_iter()
-                        .flat_map(|w: Vec<usize>| {
-                            (0..n).map(move |v| [w.clone(), vec![v]].concat())
-                        })
-                        .collect();
-                }
+                // The digits of all numbers to the base N.
+                let digit = |number: usize, i: usize| number / n.pow(i as u32) % n;
+                let word = |number| (0..length).map(|i| digit(number, i)).collect();
+                let words = (0..n.pow(length as u32)).map(word);
                 let primitive = |word: &Vec<usize>| {
                     let rotated = |i: usize| [&word[i..], &word[..i]].concat();
                     (1..length).all(|i| rotated(i) != *word)
                 };
-                all.extend(words.into_iter().filter(primitive).map(Circuit::new));
+                all.extend(words.filter(primitive).map(Circuit::new));
             }
             let listed: Vec<Circuit> = graph.circuits(longest).collect();
             assert_eq!(listed, all.into_iter().collect::<Vec<_>>(), "N = {n}");

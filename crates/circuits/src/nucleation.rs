@@ -234,7 +234,7 @@ impl Chances {
     pub fn at_least_one(&self, masses: usize, boundary: Boundary) -> f64 {
         // The chance of a clump to begin at a gap.
         let walls = boundary == Boundary::Walls && masses > 1;
-        let gaps = if boundary == Boundary::Walls { masses + 1 } else { masses };
+        let gaps = boundary.gaps(masses);
         let begins = |gap: usize| match (walls, gap) {
             (true, 0) => self.wall,
             (true, 1) => self.p - self.wall_pair,

@@ -12,6 +12,16 @@ pub enum Boundary {
     Ring,
 }
 
+impl Boundary {
+    /// Number of gaps of n masses, the N of Sec. 3: n + 1 between walls, n on a ring.
+    pub fn gaps(self, masses: usize) -> usize {
+        match self {
+            Boundary::Walls => masses + 1,
+            Boundary::Ring => masses,
+        }
+    }
+}
+
 /// How a realisation starts (Sec. 2 leaves it open; Sec. 8 assumes [`Start::Random`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -60,11 +70,8 @@ impl Default for Chain {
 }
 
 impl Chain {
-    /// Number of gaps, the N of Sec. 3: n + 1 between walls, n on a ring.
+    /// Number of gaps.
     pub fn gaps(&self) -> usize {
-        match self.boundary {
-            Boundary::Walls => self.masses + 1,
-            Boundary::Ring => self.masses,
-        }
+        self.boundary.gaps(self.masses)
     }
 }

@@ -31,21 +31,14 @@ const SHUT: f64 = 1e-16;
 /// Width and rate of a gap that may be settled.
 type Resting = (usize, [f64; 2]);
 
-/// Shut and at rest.
 const STILL: [f64; 2] = [0.0; 2];
 
 impl<const M: usize> Simulation<M> {
     /// Whether the impact of gap k at `speed` needs more than the impact law.
     pub(super) fn is_contact_matter(&self, k: usize, speed: f64) -> bool {
         let near = self.topology.adjacent(k);
-        self.is_slow(self.restitution * speed)
+        self.restitution * speed <= CONTACT_SPEED * self.spacing * self.search.frequencies.omega
             || near.into_iter().flatten().any(|near| self.gaps[near].in_contact)
-    }
-
-    /// Whether a gap that opens at `rate` is taken to have come to rest.
-    #[inline(always)]
-    pub(super) fn is_slow(&self, rate: f64) -> bool {
-        rate <= CONTACT_SPEED * self.spacing * self.search.frequencies.omega
     }
 
     /// An impact that is slow, or that hits a cluster.
@@ -179,9 +172,9 @@ impl<const M: usize> Simulation<M> {
     ) -> [f64; 2] {
         let allowed: Vec<bool> = gaps.iter().map(|&k| Some(k) != released).collect();
         let accelerations: Vec<_> = gaps.iter().map(|&k| self.acceleration(k)).collect();
-        // What a unit of contact force does to its own gap: the sum of the inverse masses.
-        let inverse = |k: usize| self.topology.sides(k).map(|m| self.topology.inverse_mass(m));
-        let stiffness: Vec<f64> = gaps.iter().map(|&k| inverse(k).iter().sum()).collect();
+        // What a unit of contact force does to its gap: the sum of the inverse masses.
+        let stiffness = |&k: &usize| self.topology.inverse_masses(k).iter().sum();
+        let stiffness: Vec<f64> = gaps.iter().map(stiffness).collect();
         let forces =
             contact_forces(&accelerations, &stiffness, &allowed, p, &self.search.frequencies);
         let alone = gaps.len() == 1;

@@ -1,6 +1,7 @@
 //! What an ensemble showed at one σ, in whole numbers that add: different gaps in each window, close and slow impacts. No
 //! list of impacts is kept. The code sees every impact, so it is compiled for speed with the engine.
 
+use crate::topology::Topology;
 use crate::{Boundary, Counters, Engine, Ensemble, Error, Impact, Protocol};
 use serde::{Deserialize, Serialize};
 
@@ -102,7 +103,7 @@ impl FromIterator<Counts> for Counts {
 
 /// The running observation of one realisation.
 pub(crate) struct Watch {
-    ring: bool,
+    topology: Topology,
     total: Total,
     /// Time of the last impact of each gap.
     last: Vec<f64>,
@@ -131,7 +132,7 @@ impl Watch {
         let (gaps, all) = (ensemble.chain.gaps(), &ensemble.protocols);
         let transients = rising(all.iter().map(|own| own.transient));
         Watch {
-            ring: ensemble.chain.boundary == Boundary::Ring,
+            topology: Topology::new(ensemble.chain.masses, ensemble.chain.boundary),
             total: Total::default(),
             last: vec![f64::NEG_INFINITY; gaps],
             firsts: vec![vec![f64::INFINITY; gaps]; transients.len()],
@@ -151,17 +152,9 @@ impl Watch {
             self.firsts[*known][gap] = impact.time;
             *known += 1;
         }
-        let left = match gap {
-            0 if self.ring && gaps > 1 => self.last[gaps - 1],
-            0 => f64::NEG_INFINITY,
-            _ => self.last[gap - 1],
-        };
-        let right = match gap + 1 {
-            next if next < gaps => self.last[next],
-            _ if self.ring && gaps > 1 => self.last[0],
-            _ => f64::NEG_INFINITY,
-        };
-        let since = impact.time - left.max(right);
+        let [left, right] = self.topology.adjacent(gap);
+        let last = |near: Option<usize>| near.map_or(f64::NEG_INFINITY, |near| self.last[near]);
+        let since = impact.time - last(left).max(last(right));
         for (count, &within) in self.total.near.iter_mut().zip(&NEAR_DECADES) {
             if since > within {
                 break;
@@ -216,6 +209,7 @@ impl Watch {
                 continue;
             };
             let hit = self.hit(protocol);
+            let ring = ensemble.chain.boundary == Boundary::Ring;
             let pieces = ensemble.pieces;
             for (piece, count) in counts.distinct[place].iter_mut().enumerate() {
                 let at = |piece: usize| piece * hit.len() / pieces;
@@ -223,7 +217,7 @@ impl Watch {
                 *count = Some(hit.iter().map(|&hit| u32::from(hit)).sum());
             }
             counts.impacts[place] = vec![end.impacts - begin.impacts];
-            counts.masses[place] = vec![masses_hit(&hit, self.ring)];
+            counts.masses[place] = vec![masses_hit(&hit, ring)];
         }
         counts.total = self.total;
         Ok(counts)

@@ -39,7 +39,7 @@ impl<const M: usize> Simulation<M> {
         let late = width / speed;
         let [sin, cos] = [sin + cos * (w * late), cos - sin * (w * late)];
         let rate = b * cos - a * sin;
-        let inverse = sides.map(|m| self.topology.inverse_mass(m));
+        let inverse = self.topology.inverse_masses(k);
         let kick = (rate * excess - rate) * (2.0 / (inverse[0] + inverse[1]));
         let weights = [-inverse[0], inverse[1]];
         for (m, weight) in sides.into_iter().zip(weights) {

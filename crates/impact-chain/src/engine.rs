@@ -22,6 +22,19 @@ pub struct Impact {
 /// Who is handed the impacts of a run; false stops it.
 pub type Sink<'a> = &'a mut dyn FnMut(Impact) -> bool;
 
+/// The first impacts of a run, at most so many.
+pub fn collected<T>(
+    most: usize,
+    run: impl FnOnce(Sink) -> Result<T, Error>,
+) -> Result<Vec<Impact>, Error> {
+    let mut impacts = Vec::new();
+    run(&mut |impact| {
+        impacts.push(impact);
+        impacts.len() < most
+    })?;
+    Ok(impacts)
+}
+
 /// The simulation of one scenario.
 #[derive(Clone, Debug)]
 pub struct Engine(Kind);
@@ -49,7 +62,6 @@ impl Engine {
     /// # Errors
     /// [`Error::Input`] for values outside the model, [`Error::Overlap`] for an overlapping start.
     pub fn new(scenario: &Scenario) -> Result<Engine, Error> {
-        scenario.validate()?;
         Ok(Engine(if scenario.overtones.is_empty() {
             Kind::One(Box::new(Simulation::new(scenario)?))
         } else {
@@ -74,22 +86,12 @@ impl Engine {
 
     /// The next impact up to time `until`, if there is one; the run stops right after it.
     pub fn next_impact(&mut self, until: f64) -> Result<Option<Impact>, Error> {
-        let mut next = None;
-        self.run(until, |impact| {
-            next = Some(impact);
-            false
-        })?;
-        Ok(next)
+        Ok(collected(1, |sink| self.run_to(until, sink))?.pop())
     }
 
     /// All impacts up to time `until`, in order.
     pub fn impacts(&mut self, until: f64) -> Result<Vec<Impact>, Error> {
-        let mut impacts = Vec::new();
-        self.run(until, |impact| {
-            impacts.push(impact);
-            true
-        })?;
-        Ok(impacts)
+        collected(usize::MAX, |sink| self.run_to(until, sink))
     }
 
     /// One code for every receiver: with one for each, all below would be compiled where it is called, as fast as that

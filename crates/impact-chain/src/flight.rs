@@ -6,15 +6,12 @@ use crate::search::local_frame::{Frame, Frequencies};
 /// Sine and cosine of the phases ωt and Ωt of each component of the forcing at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Phases<const M: usize> {
-    /// sin ωt.
     pub sin: f64,
-    /// cos ωt.
     pub cos: f64,
     /// (sin Ωt, cos Ωt).
     pub forced: [[f64; 2]; M],
 }
 
-/// The rates of ω and of each Ω.
 #[derive(Clone, Copy, Debug)]
 pub struct Rates<const M: usize> {
     free: Rate,
@@ -22,19 +19,26 @@ pub struct Rates<const M: usize> {
 }
 
 impl<const M: usize> Rates<M> {
-    /// Of the given frequencies.
     pub fn new(frequencies: &Frequencies<M>) -> Self {
         Rates { free: Rate::new(frequencies.omega), forced: frequencies.big_omegas.map(Rate::new) }
     }
 }
 
 impl<const M: usize> Phases<M> {
-    /// The phases at an instant.
     #[inline(always)]
     pub fn at(rates: &Rates<M>, instant: Instant) -> Self {
         let (sin, cos) = rates.free.sin_cos(instant);
         let forced = std::array::from_fn(|m| rates.forced[m].sin_cos(instant).into());
         Phases { sin, cos, forced }
+    }
+
+    /// Value and quadrature of each c cos Ωt + s sin Ωt.
+    #[inline(always)]
+    pub fn seen(&self, forced: &[[f64; 2]; M]) -> [[f64; 2]; M] {
+        std::array::from_fn(|m| {
+            let ([c, s], [sin, cos]) = (forced[m], self.forced[m]);
+            [c * cos + s * sin, s * cos - c * sin]
+        })
     }
 }
 
@@ -83,20 +87,15 @@ impl<const M: usize> Motion<M> {
         }
     }
 
-    /// The motion at an instant.
     #[inline(always)]
     pub fn seen(&self, p: &Phases<M>) -> Seen<M> {
         Seen {
             u: self.a * p.cos + self.b * p.sin,
             u_quadrature: self.b * p.cos - self.a * p.sin,
-            forced: std::array::from_fn(|m| {
-                let ([c, s], [sin, cos]) = (self.forced[m], p.forced[m]);
-                [c * cos + s * sin, s * cos - c * sin]
-            }),
+            forced: p.seen(&self.forced),
         }
     }
 
-    /// Sets the free part from its value and quadrature at an instant.
     #[inline(always)]
     pub fn set_free(&mut self, u: f64, u_quadrature: f64, p: &Phases<M>) {
         self.a = u * p.cos - u_quadrature * p.sin;
@@ -149,7 +148,7 @@ impl<const M: usize> Motion<M> {
 }
 
 /// Bounds are rounded outwards by more than the rounding of amplitudes and frames.
-const INFLATION: f64 = 1.0 + 1e-12;
+pub const INFLATION: f64 = 1.0 + 1e-12;
 
 impl<const M: usize> Seen<M> {
     /// Distance from the centre of motion.
@@ -158,7 +157,6 @@ impl<const M: usize> Seen<M> {
         self.forced.iter().fold(self.u, |sum, part| sum + part[0])
     }
 
-    /// Velocity.
     #[inline(always)]
     pub fn velocity(&self, frequencies: &Frequencies<M>) -> f64 {
         let mut sum = frequencies.omega * self.u_quadrature;

@@ -16,7 +16,6 @@ pub struct Force<const M: usize> {
 const ORDERS: usize = 6;
 
 impl<const M: usize> Force<M> {
-    /// No force.
     pub const ZERO: Force<M> = Force { constant: 0.0, forced: [[0.0; 2]; M] };
 
     /// Of each part of two forces what `of` says.
@@ -29,17 +28,8 @@ impl<const M: usize> Force<M> {
         }
     }
 
-    /// The oscillating parts as seen at an instant: value and quadrature of each.
-    pub fn seen(&self, p: &Phases<M>) -> [[f64; 2]; M] {
-        std::array::from_fn(|m| {
-            let ([cosine, sine], [sin, cos]) = (self.forced[m], p.forced[m]);
-            [cosine * cos + sine * sin, sine * cos - cosine * sin]
-        })
-    }
-
-    /// The value at an instant.
     pub fn at(&self, p: &Phases<M>) -> f64 {
-        self.seen(p).iter().fold(self.constant, |sum, part| sum + part[0])
+        p.seen(&self.forced).iter().fold(self.constant, |sum, part| sum + part[0])
     }
 
     /// The sum of the absolute values of what it is made of.
@@ -50,7 +40,7 @@ impl<const M: usize> Force<M> {
     /// Whether an acceleration is negative at an instant or right after it, where it is made of parts of this `size`:
     /// the first of its derivatives that is not zero to rounding decides.
     pub fn falls(&self, size: f64, p: &Phases<M>, frequencies: &Frequencies<M>) -> bool {
-        let seen = self.seen(p);
+        let seen = p.seen(&self.forced);
         let (mut powers, mut rounding) = ([1.0; M], ROUNDING * size);
         for order in 0..ORDERS {
             let part = |m: usize| {

@@ -23,7 +23,7 @@ pub mod replay;
 pub mod rise;
 pub mod rounding;
 mod scenario;
-pub mod search;
+mod search;
 mod simulation;
 mod topology;
 
@@ -33,4 +33,5 @@ pub use engine::{Engine, Impact};
 pub use ensemble::{Beyond, Ensemble, Heating, Protocol, work};
 pub use error::Error;
 pub use scenario::{Initial, Overtone, Scenario};
+pub use search::clock::LATEST;
 pub use search::first_root::Counters;

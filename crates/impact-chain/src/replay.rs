@@ -128,24 +128,15 @@ mod tests {
     use super::*;
     use crate::Boundary;
 
-    fn asked(boundary: Boundary) -> Asked {
-        let chain = Chain { masses: 20, boundary, ..Chain::default() };
-        let stream = "replay".into();
-        let forces = Forces::Drawn { sigma: 0.3, stream, seed: 1, realisation: 0 };
-        Asked { chain, forces, transient: 50.0, window: 50.0 }
-    }
-
-    fn whole(asked: &Asked) -> Replay {
-        let mut replay = Replay::new(asked).unwrap();
-        assert!(!replay.advance(u64::MAX, |_, _| ()).unwrap());
-        replay
-    }
-
     #[test]
     fn pieces_are_the_whole() {
         for boundary in [Boundary::Walls, Boundary::Ring] {
-            let asked = asked(boundary);
-            let whole = whole(&asked);
+            let chain = Chain { masses: 20, boundary, ..Chain::default() };
+            let stream = "replay".into();
+            let forces = Forces::Drawn { sigma: 0.3, stream, seed: 1, realisation: 0 };
+            let asked = Asked { chain, forces, transient: 50.0, window: 50.0 };
+            let mut whole = Replay::new(&asked).unwrap();
+            assert!(!whole.advance(u64::MAX, |_, _| ()).unwrap());
             assert!(whole.engine().counters().impacts > 300 && whole.distinct() > 10);
             let mut pieces = Replay::new(&asked).unwrap();
             let mut shown = Vec::new();

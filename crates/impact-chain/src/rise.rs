@@ -239,16 +239,10 @@ impl Resampled {
     }
 
     fn rise(&self) -> Rise {
-        let place = |i: usize| self.estimate(|own| own.places[i]);
-        Rise {
-            half_height: place(0),
-            half_height_all: place(1),
-            onset: place(2),
-            kept_half: place(3),
-            width: place(4),
-            kept_width: place(5),
-            quarters: place(6),
-        }
+        let place = |i: usize| self.estimate(|sample| sample.places[i]);
+        let [half_height, half_height_all, onset, kept_half, width, kept_width, quarters] =
+            std::array::from_fn(place);
+        Rise { half_height, half_height_all, onset, kept_half, width, kept_width, quarters }
     }
 
     /// The percentile interval of the mode at a σ: whole numbers, at both ends an order statistic.

@@ -37,7 +37,6 @@ pub fn width(scenario: &Scenario) -> f64 {
         }
         sum + length(match &scenario.initial {
             Initial::Rest => rest,
-            Initial::Zero => [0.0; 2],
             Initial::Free(parts) => parts[j],
         })
     };

@@ -25,7 +25,6 @@ pub(super) fn response(w: f64, big_w: f64, amplitudes: [f64; 2]) -> [f64; 2] {
     amplitudes.map(|amplitude| amplitude / factor)
 }
 
-/// What a gap waits for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Awaits {
     /// It cannot close until a neighbour is hit.
@@ -39,7 +38,6 @@ pub(super) enum Awaits {
     Release,
 }
 
-/// A gap with its local frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap<const M: usize> {
     /// The gap (or in contact its contact force) seen from `origin`.
@@ -117,7 +115,6 @@ impl<const M: usize> Simulation<M> {
                     .iter()
                     .zip(forced)
                     .fold([0.0; 2], |[a, b], (big_w, [c, s])| [a - c, b - big_w / w * s]),
-                Initial::Zero => [0.0; 2],
                 Initial::Free(parts) => parts[j],
             };
             motions[j + 1] = Motion { a, b, forced, offset: 0.0 };
@@ -337,8 +334,7 @@ impl<const M: usize> Simulation<M> {
     /// Applies the impact law to the two neighbours of gap k; returns the jumps of their velocity.
     pub(super) fn kick_neighbours(&mut self, k: usize, speed: f64, p: &Phases<M>) -> [f64; 2] {
         let sides = self.topology.sides(k);
-        let inverse = sides.map(|m| self.topology.inverse_mass(m));
-        let jumps = jumps(speed, self.restitution, inverse);
+        let jumps = jumps(speed, self.restitution, self.topology.inverse_masses(k));
         for (side, jump) in sides.into_iter().zip(jumps) {
             self.motions[side].kick(jump / self.search.frequencies.omega, p);
         }

@@ -12,17 +12,12 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// For n ≥ 1 masses.
     pub fn new(masses: usize, boundary: Boundary) -> Self {
         Topology { masses, boundary }
     }
 
-    /// Number of gaps N.
     pub fn gaps(&self) -> usize {
-        match self.boundary {
-            Boundary::Walls => self.masses + 1,
-            Boundary::Ring => self.masses,
-        }
+        self.boundary.gaps(self.masses)
     }
 
     /// The name of gap k for the outside: 0..=n between walls, 1..=n on a ring.
@@ -56,19 +51,17 @@ impl Topology {
         }
     }
 
-    /// Whether `m` stands for a wall.
     #[inline]
     pub fn is_wall(&self, m: usize) -> bool {
         m == 0 || m > self.masses
     }
 
-    /// 1 for a mass, 0 for a wall.
     #[inline]
     pub fn inverse_mass(&self, m: usize) -> f64 {
         if self.is_wall(m) { 0.0 } else { 1.0 }
     }
 
-    /// The inverse masses beside gap k.
+    /// The inverse masses of both neighbours of gap k.
     #[inline]
     pub fn inverse_masses(&self, k: usize) -> [f64; 2] {
         self.sides(k).map(|m| self.inverse_mass(m))

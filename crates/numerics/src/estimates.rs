@@ -39,20 +39,11 @@ pub fn jackknife(
     Some(with_error(statistic(None)?, error))
 }
 
-/// The sums of both members of all pairs but one.
-fn sums(pairs: &[[f64; 2]], out: Option<usize>) -> [f64; 2] {
-    let mut sums = [0.0; 2];
-    for (_, pair) in pairs.iter().enumerate().filter(|(at, _)| Some(*at) != out) {
-        sums[0] += pair[0];
-        sums[1] += pair[1];
-    }
-    sums
-}
-
 /// The ratio of two sums over realisations.
 pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
     jackknife(pairs.len(), |out| {
-        let [above, below] = sums(pairs, out);
+        let used = pairs.iter().enumerate().filter(|(at, _)| Some(*at) != out);
+        let [above, below] = used.fold([0.0; 2], |[a, b], (_, pair)| [a + pair[0], b + pair[1]]);
         (below > 0.0).then(|| above / below)
     })
 }

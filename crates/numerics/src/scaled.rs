@@ -49,13 +49,8 @@ impl Scaled {
                 let value = self.mantissa.times_power_of_two(half).times_power_of_two(half);
                 if value.hi.is_finite() { value.to_f64() } else { value.hi }
             }
-            exponent => {
-                if exponent < 0 {
-                    0.0
-                } else {
-                    f64::INFINITY
-                }
-            }
+            ..0 => 0.0,
+            _ => f64::INFINITY,
         }
     }
 

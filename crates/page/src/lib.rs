@@ -244,6 +244,8 @@ mod tests {
         assert_eq!(page.numbers, [70.0, impacts, run.distinct() as f64, 31.0]);
         assert!(impacts > 100.0);
         assert_eq!(page.picture.iter().sum::<u32>() as f64, impacts);
+        let none = opened("", &NUMBERS[..9]).map(|_| ()).unwrap_err();
+        assert!(none.starts_with("forcing: it has 0 pairs for 30 masses; give one"), "{none}");
         // Amplitudes one by one: no name.
         let pairs = own.scenario().unwrap().forcing;
         let given: Vec<f64> =

@@ -26,14 +26,14 @@ fn graph() -> Table {
 
 /// Fig. 7: share of all simple circuits that those of length k = 1..=N have, and its decimal logarithm.
 pub fn shares() -> [Vec<f64>; 2] {
-    let (shares, log_total) = counting::shares(VERTICES);
+    let (shares, log_total) = known(counting::shares(VERTICES));
     let logarithm = |k| (known(counting::log_phi(VERTICES, k)) - log_total) / LN_10;
     [shares, (1..=VERTICES).map(logarithm).collect()]
 }
 
 /// Sec. 5.
 fn lengths() -> Table {
-    let (shares, _) = counting::shares(VERTICES);
+    let (shares, _) = known(counting::shares(VERTICES));
     let ratio = |k| counting::ratio_to_longest(VERTICES, k);
     let exceptions = || (1..VERTICES).filter(|&k| ratio(k) > 0.1).map(|k| k as u64);
     let peak = (1..=VERTICES).max_by(|a, b| shares[a - 1].total_cmp(&shares[b - 1]));

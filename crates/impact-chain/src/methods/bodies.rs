@@ -36,20 +36,17 @@ impl Bodies {
         Ok(row)
     }
 
-    /// Width of gap k at displacements `u`.
     #[inline]
     pub fn width_at(&self, k: usize, u: &[f64]) -> f64 {
         let [left, right] = self.topology.sides(k);
         self.spacing + (u[right] - u[left])
     }
 
-    /// Width of gap k.
     #[inline]
     pub fn width(&self, k: usize) -> f64 {
         self.width_at(k, &self.u)
     }
 
-    /// Rate of gap k.
     #[inline]
     pub fn rate(&self, k: usize) -> f64 {
         let [left, right] = self.topology.sides(k);
@@ -73,7 +70,6 @@ impl Bodies {
         self.v[right] += jumps[1];
     }
 
-    /// The forcing of every body at an instant.
     pub fn forces(&self, at: Instant, out: &mut [f64]) {
         for (i, component) in self.forcing.iter().enumerate() {
             let (sin, cos) = component.phase(at);

@@ -39,9 +39,7 @@ const DENSE: [f64; 7] = [
 
 /// One step from `y` to `next`: displacements of all bodies, then their velocities.
 pub struct Stages {
-    /// The state at the beginning.
     pub y: Vec<f64>,
-    /// The state at the end.
     pub next: Vec<f64>,
     /// The derivatives k_1..k_7.
     k: [Vec<f64>; 7],

@@ -2,6 +2,7 @@
 
 use super::forcing::{COMPONENTS, Component};
 use super::prelude::*;
+use crate::flight::INFLATION;
 
 /// Width and rate of a gap, `s` after the beginning of a step.
 #[derive(Clone, Copy, Debug)]
@@ -22,9 +23,6 @@ pub struct Flights {
     free: Vec<[f64; 2]>,
     forced: Vec<Component>,
 }
-
-/// Bounds are rounded outwards by more than the rounding of amplitudes.
-const INFLATION: f64 = 1.0 + 1e-12;
 
 /// (sin, cos) of ωt and of each Ωt.
 pub type Phases = ((f64, f64), [(f64, f64); COMPONENTS]);

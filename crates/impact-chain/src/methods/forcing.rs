@@ -32,16 +32,12 @@ pub fn turn(scenario: &mut Scenario, at: Instant) {
 pub struct Component {
     /// Ω.
     pub frequency: f64,
-    /// Its phase.
     pub rate: Rate,
-    /// Amplitudes of cos Ωt.
     pub cos: Vec<f64>,
-    /// Amplitudes of sin Ωt.
     pub sin: Vec<f64>,
 }
 
 impl Component {
-    /// The components of the forcing.
     pub fn of(scenario: &Scenario) -> Vec<Component> {
         let padded = |pairs: &[[f64; 2]], part: usize| -> Vec<f64> {
             let amplitudes = pairs.iter().map(|pair| pair[part]);
@@ -58,7 +54,6 @@ impl Component {
             .collect()
     }
 
-    /// The components of the forced response.
     pub fn response(scenario: &Scenario) -> Vec<Component> {
         let mut components = Component::of(scenario);
         for component in &mut components {
@@ -71,7 +66,6 @@ impl Component {
         components
     }
 
-    /// (sin, cos) of its phase at an instant.
     #[inline]
     pub fn phase(&self, at: Instant) -> (f64, f64) {
         sin_cos_turn(self.rate.turn(at))

@@ -34,6 +34,7 @@ pub use verlet::Verlet;
 
 use super::{Error, Impact, Scenario};
 pub use crate::engine::Sink;
+use crate::engine::collected;
 
 /// What the files of the methods use.
 mod prelude {
@@ -89,21 +90,11 @@ pub trait Method: Sync {
 
     /// The first impact, if there is one.
     fn first(&self, task: Task) -> Result<Option<Impact>, Error> {
-        let mut first = None;
-        self.run(task, &mut |impact| {
-            first = Some(impact);
-            false
-        })?;
-        Ok(first)
+        Ok(collected(1, |sink| self.run(task, sink))?.pop())
     }
 
     /// All impacts, in order.
     fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
-        let mut impacts = Vec::new();
-        self.run(task, &mut |impact| {
-            impacts.push(impact);
-            true
-        })?;
-        Ok(impacts)
+        collected(usize::MAX, |sink| self.run(task, sink))
     }
 }

@@ -44,7 +44,6 @@ impl Method for Sampled {
 struct Samples {
     /// At the beginning of the step, or right after the last impact beside the gap.
     begin: Vec<Look>,
-    /// At the end of the step.
     end: Vec<Look>,
     /// When the gap closes between.
     roots: Vec<Option<f64>>,

@@ -2,6 +2,7 @@
 
 use super::forcing;
 use super::prelude::*;
+use crate::scenario::within;
 
 /// Positions and velocities of the masses 1..n at a time: what a method starts from.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +27,6 @@ impl State {
         for (j, [x, v]) in forcing::response(scenario).into_iter().enumerate() {
             let [u, v] = match &scenario.initial {
                 Initial::Rest => [0.0; 2],
-                Initial::Zero => [x, v],
                 Initial::Free(parts) => {
                     let [a, b] = parts.get(j).copied().unwrap_or_default();
                     [a + x, w * b + v]
@@ -76,10 +76,7 @@ impl State {
     }
 
     fn validate(&self, n: usize) -> Result<(), Error> {
-        if !(0.0..=LATEST).contains(&self.time) {
-            let problem = format!("{:?} is out of range", self.time);
-            return Err(Error::input("start.time", problem, "give a time from 0 to 1e12"));
-        }
+        within("start.time", self.time, 0.0, LATEST)?;
         for (field, values) in [("positions", &self.positions), ("velocities", &self.velocities)] {
             if values.len() != n || values.iter().any(|x| !x.is_finite()) {
                 let problem = format!("{} values for {n} masses", values.len());

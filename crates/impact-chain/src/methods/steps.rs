@@ -1,8 +1,8 @@
 //! Steps in time of equal length, and what is refused of a step, a tolerance or an end.
 
 use super::prelude::*;
+use crate::scenario::within;
 
-/// Steps that one run may take.
 pub const MOST_STEPS: f64 = 1e10;
 
 /// The shortest step.
@@ -11,11 +11,8 @@ const SHORTEST: f64 = 1e-9;
 /// One of equal steps in time; the last one may be shorter.
 #[derive(Clone, Copy)]
 pub struct Step {
-    /// Its beginning.
     pub from: Instant,
-    /// Its end.
     pub to: Instant,
-    /// Its length.
     pub h: f64,
 }
 
@@ -26,7 +23,7 @@ pub fn steps(
     until: f64,
     h: f64,
 ) -> Result<impl Iterator<Item = Step>, Error> {
-    check("step", h, SHORTEST..=1.0 / scenario.fastest())?;
+    within("step", h, SHORTEST, 1.0 / scenario.fastest())?;
     check_end(until)?;
     let count = ((until - start.time).max(0.0) / h).ceil();
     if count > MOST_STEPS {
@@ -44,26 +41,16 @@ pub fn steps(
     }))
 }
 
-/// So many steps are not taken.
 pub fn too_many(steps: f64, field: &str) -> Error {
     let remedy = format!("give a larger {field} or an earlier end, for at most {MOST_STEPS:e}");
     Error::input(field, format!("{steps:.1e} steps are needed"), remedy)
 }
 
-/// Refuses an end that is no time.
 pub fn check_end(until: f64) -> Result<(), Error> {
-    check("until", until, -LATEST..=LATEST)
+    within("until", until, -LATEST, LATEST)
 }
 
 /// Refuses a tolerance that makes no sense in doubles.
 pub fn check_tolerance(tolerance: f64) -> Result<(), Error> {
-    check("tolerance", tolerance, 1e-15..=0.1)
-}
-
-fn check(field: &str, x: f64, range: std::ops::RangeInclusive<f64>) -> Result<(), Error> {
-    if range.contains(&x) {
-        return Ok(());
-    }
-    let remedy = format!("give a number from {:?} to {:?}", range.start(), range.end());
-    Err(Error::input(field, format!("{x:?} is out of range"), remedy))
+    within("tolerance", tolerance, 1e-15, 0.1)
 }

@@ -11,7 +11,6 @@ const EVENTS_PER_GAP: u64 = 10_000;
 pub enum Stop {
     /// The receiver of the impacts wants no more.
     Asked,
-    /// An error.
     Failed(Error),
 }
 
@@ -62,7 +61,6 @@ impl<'a> Tally<'a> {
         Ok(())
     }
 
-    /// Hands out an impact of gap k.
     pub fn impact(&mut self, k: usize, time: f64, closing_speed: f64) -> Result<(), Stop> {
         self.spend(k, time)?;
         self.cost.impacts += 1;

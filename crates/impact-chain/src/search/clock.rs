@@ -19,7 +19,6 @@ pub const LATEST: f64 = 1e12;
 pub struct Instant(i128);
 
 impl Instant {
-    /// t = 0.
     pub const ZERO: Instant = Instant(0);
     /// Later than everything else: "never".
     pub const NEVER: Instant = Instant(i128::MAX);
@@ -123,7 +122,6 @@ impl Rate {
         (sum >> 16) as u64
     }
 
-    /// (sin, cos) of the phase at an instant.
     #[inline(always)]
     pub fn sin_cos(self, at: Instant) -> (f64, f64) {
         sin_cos_turn(self.turn(at))

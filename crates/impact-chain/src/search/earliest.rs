@@ -97,7 +97,6 @@ impl Earliest {
         (self.keys[before] == own) | (self.keys[after] == own)
     }
 
-    /// Key `index`.
     #[inline(always)]
     pub fn key(&self, index: usize) -> Instant {
         self.keys[index]

@@ -47,7 +47,6 @@ const LEVELS: usize = 2;
 /// The search for first roots at given frequencies.
 #[derive(Clone, Debug)]
 pub struct Search<const M: usize> {
-    /// The frequencies.
     pub frequencies: Frequencies<M>,
     /// The whole reach, its halves, its quarters, …: piece k is halved into 2k + 1 and 2k + 2.
     pieces: [Piece<M>; (1 << (LEVELS + 1)) - 1],
@@ -58,7 +57,6 @@ pub struct Search<const M: usize> {
 }
 
 impl<const M: usize> Search<M> {
-    /// For the given frequencies.
     pub fn new(frequencies: Frequencies<M>) -> Self {
         let pieces = std::array::from_fn(|k| {
             let level = (k + 1).ilog2();

@@ -14,7 +14,6 @@ use super::trig::{RANGE, small_sin_cos};
 /// The natural frequency ω, the `M` frequencies Ω of the forcing, and what follows from them.
 #[derive(Clone, Copy, Debug)]
 pub struct Frequencies<const M: usize> {
-    /// ω.
     pub omega: f64,
     /// Ω of each component.
     pub big_omegas: [f64; M],

@@ -29,7 +29,6 @@ pub struct Nodes<const M: usize> {
 const STEPS: u32 = 4;
 
 impl<const M: usize> Nodes<M> {
-    /// Of the given frequencies.
     pub fn new(frequencies: &Frequencies<M>) -> Self {
         let spacing = frequencies.reach / (NODES - 1) as f64;
         Nodes {
