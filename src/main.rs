@@ -19,7 +19,7 @@ fn main() -> ExitCode {
 pub fn paper() -> Paper {
     Paper {
         authors: vec![("The impact-paper authors", "")],
-        date: "2026-11-24",
+        date: "2026-11-27",
         license: "MIT OR Apache-2.0",
         crates: vec![
             ("impact_numerics", "crates/numerics/src"),

@@ -69,7 +69,10 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         let look = (Mark::OpenDiamond, MEDIUM, Stroke::solid(GREY, THIN));
         by_time.marked(program, points, (stroke, look), Outside::Edge)?;
     }
-    let time = |e: &Entry| measured.method(e.setting, run.chain.masses, run.sigma)?.over_engine();
+    let time = |e: &Entry| match e.setting.method {
+        Certified => Some(1.0),
+        _ => measured.method(e.setting, run.chain.masses, run.sigma)?.over_engine(),
+    };
     let timed = |e: &Entry| Some((e.setting.method, (time(e)?, e.horizon()?)));
     let median = |e: &Entry| Some((e.setting.method, (e.errors?[0], e.horizon()?)));
     let timed = by_method(&race.entries, timed);
