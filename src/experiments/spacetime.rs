@@ -108,21 +108,13 @@ mod tests {
     use super::*;
     use crate::params::{Chain, Profile};
 
-    /// Five gaps by hand: gap 1 starts, then 2 and 0 follow; gap 4 starts and 3 is never hit.
-    fn by_hand() -> SpaceTime {
-        let mut parameters = Runs::spacetime(Profile::Quick);
-        parameters.chain = Chain { masses: 4, ..Chain::default() };
-        parameters.until = 100.0;
-        SpaceTime {
-            parameters,
-            times: vec![10.0, 12.0, 13.0, 14.0, 50.0, 60.0, 61.0],
-            gaps: vec![1, 2, 1, 0, 4, 1, 1],
-        }
-    }
-
+    /// Gap 1 starts, then 2 and 0 follow; gap 4 starts and 3 is never hit.
     #[test]
     fn a_small_run_is_read_right() {
-        let run = by_hand();
+        let chain = Chain { masses: 4, ..Chain::default() };
+        let parameters = Runs { chain, ..Runs::spacetime(Profile::Quick) };
+        let times = vec![10.0, 12.0, 13.0, 14.0, 50.0, 60.0, 61.0];
+        let run = SpaceTime { parameters, times, gaps: vec![1, 2, 1, 0, 4, 1, 1] };
         assert_eq!(run.firsts(), [Some(14.0), Some(10.0), Some(12.0), None, Some(50.0)]);
         assert_eq!(run.starts(), [1, 4]);
         assert_eq!(run.advances(), [2.0, 4.0]);

@@ -63,8 +63,6 @@ pub struct Statement {
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages tell")]
 pub enum PublishedError {
-    #[error("published.toml: {0}")]
-    Unread(std::io::Error),
     #[error("published.toml:{0}")]
     Line(String),
     #[error("published.toml: no {what} {id:?}; add it, or remove the check that asks for it")]
