@@ -49,7 +49,7 @@ impl Scaled {
                 let value = self.mantissa.times_power_of_two(half).times_power_of_two(half);
                 if value.hi.is_finite() { value.to_f64() } else { value.hi }
             }
-            ..0 => 0.0,
+            exponent if exponent < 0 => 0.0,
             _ => f64::INFINITY,
         }
     }

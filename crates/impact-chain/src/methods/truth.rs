@@ -22,7 +22,6 @@ use impact_numerics::double_double::{DoubleDouble, sin_cos};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Truth;
 
-/// What to do where there is no truth.
 const REMEDY: &str = "use another method";
 
 impl Method for Truth {

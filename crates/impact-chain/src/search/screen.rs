@@ -25,7 +25,6 @@ pub struct Eighths<const M: usize> {
 }
 
 impl<const M: usize> Eighths<M> {
-    /// Of the reach of `frequencies`.
     pub fn new(frequencies: &Frequencies<M>) -> Self {
         let width = 0.125 * frequencies.reach;
         let values = Linear::new(frequencies, |f| {
@@ -55,7 +54,6 @@ fn signs(masks: CoefficientPairs) -> u32 {
     (a | b << 2) | (c << 4 | d << 6)
 }
 
-/// The factors of one piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<const M: usize> {
     /// a, where the piece begins.
