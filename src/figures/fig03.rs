@@ -28,7 +28,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
         let guide = Stroke::dashed(GREY, HAIR, Dash::Dotted);
         panel.guide("half height", &[(panel.x.lo, level), (half.value, level)], guide)?;
         let text = format!("half of all gaps at {}", short(half.value, 4));
-        panel.label(&text, (PRINTED, level), (2, 0), INK)?;
+        panel.label(&text, (panel.x.lo, level), (2, -1), INK)?;
     }
 
     let (x, y) = (sigma_axis(), Axis::linear(0.0, 1.0, 0.5, 5, "share"));

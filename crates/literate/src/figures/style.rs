@@ -44,18 +44,18 @@ pub const PALE: Colour = Colour(0xbd, 0xbd, 0xbd);
 /// Simulation (the captions of Figs. 12, 13 and 15 say red).
 pub const RED: Colour = Colour(0xc8, 0x1e, 0x1e);
 /// Simple circuits (the captions of Figs. 12 and 15 say green).
-pub const GREEN: Colour = Colour(0x00, 0x9e, 0x73);
+pub const GREEN: Colour = Colour(0x00, 0x80, 0x5d);
 /// Higher-order circuits (the caption of Fig. 15 says blue).
 pub const BLUE: Colour = Colour(0x00, 0x72, 0xb2);
 /// A further class.
-pub const ORANGE: Colour = Colour(0xb8, 0x7a, 0x00);
+pub const ORANGE: Colour = Colour(0x9a, 0x66, 0x00);
 /// A further class.
 pub const PURPLE: Colour = Colour(0xa5, 0x50, 0x8c);
 /// Four shades of blue from light to dark, for an ordered parameter; grey keeps their order.
 const SHADES: [Colour; 4] = [
-    Colour(0x4f, 0x9c, 0xcb),
-    Colour(0x2a, 0x78, 0xad),
-    Colour(0x15, 0x50, 0x7f),
+    Colour(0x3b, 0x83, 0xb5),
+    Colour(0x1f, 0x65, 0x9a),
+    Colour(0x12, 0x46, 0x70),
     Colour(0x0b, 0x25, 0x45),
 ];
 /// The page.
