@@ -27,7 +27,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
         let level = n as f64 / 2.0;
         let guide = Stroke::dashed(GREY, HAIR, Dash::Dotted);
         panel.guide("half height", &[(panel.x.lo, level), (half.value, level)], guide)?;
-        let text = format!("half of all gaps at {}", short(half.value, 4));
+        let text = format!("half of {n} at {}", short(half.value, 4));
         panel.label(&text, (panel.x.lo, level), (2, -1), INK)?;
     }
 

@@ -13,8 +13,7 @@ use literate::table::Table;
 const SIGMAS: (f64, f64) = (0.075, 0.165);
 
 /// Nucleation and growth, which is computed at some places only.
-const GROWN: (&str, Marker) =
-    ("nucleation and growth", (Mark::OpenSquare, 44, Stroke::solid(INK, HAIR)));
+const GROWN: (&str, Marker) = ("from seeds", (Mark::OpenSquare, 44, Stroke::solid(INK, HAIR)));
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
@@ -28,7 +27,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
 fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Result<(), Error> {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
-    let y = count_axis(sweep.ensemble.chain.gaps(), "mean count of all");
+    let y = count_axis(sweep.ensemble.chain.gaps(), "mean number of gaps");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.first().protocol.transient)];
     let lines = [
@@ -106,7 +105,7 @@ fn description(advance: &Table) -> Seen {
     let sigmas = advance.values("sigma");
     let [low, high] = [sigmas.first(), sigmas.last()].map(|own| own.copied().unwrap_or_default());
     seen!(
-        "(a) Mean count of all against σ: simulated points along nucleation and growth; circuits steeper. (b) Advance \
+        "(a) Mean count of all against σ: simulated points along the prediction from seeds; circuits steeper. (b) Advance \
          against time at σ from {low} to {high}: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.",
     )
 }
