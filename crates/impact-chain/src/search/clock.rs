@@ -9,7 +9,7 @@ const TICKS: f64 = (1u128 << 80) as f64;
 const INVERSE_TAU: [u64; 4] =
     [0x7f94_58ea_f7ae_f158, 0x36d8_a566_4f10_e410, 0x7f09_d5f4_7d4d_3770, 0x28be_60db_9391_054a];
 
-/// The latest time that an [`Instant`] is meant for, in units of time.
+/// The latest time that an instant of the clock is meant for, in units of time.
 pub const LATEST: f64 = 1e12;
 
 /// A moment, as a whole number of ticks of 2^-80 units of time since t = 0.
