@@ -201,7 +201,7 @@ fn a_statement_that_fails_is_exit_code_1() {
     assert!(ledger.contains("\"verdict\": \"differs\""));
     let help = answer(here, "--help");
     let design = fs::read_to_string("DESIGN.md").unwrap();
-    for (code, words) in [(0, "fine"), (1, "check"), (2, "usage"), (130, "SIGTERM")] {
+    for (code, words) in [(0, "fine"), (1, "failed"), (2, "usage"), (130, "SIGTERM")] {
         let says = |line: &str| line.contains(words);
         let row = |line: &&str| line.trim_start().starts_with(&format!("{code} ")) && says(line);
         assert!(help.lines().any(|line| row(&line)), "{help}");
