@@ -25,7 +25,7 @@ const CLASSES: [Class; 5] = [
 ];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sheet = Sheet::new(10_500);
+    let sheet = Sheet::new(12_900);
     let [small, middle, large] = HIGHER_P;
     let whole = N as f64 + 1.0;
     let k = |end: f64| {
@@ -37,16 +37,16 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         // The detail shows the higher orders: the simple circuits leave it at its upper edge.
         let top =
             if i == 1 { 1.5 * largest(&contributions(p)[1..].concat()) } else { largest(&five(p)) };
-        let label = if i == 0 { "*P*(*X* = *k*)" } else { "" };
+        let label = if i % 2 == 0 { "*P*(*X* = *k*)" } else { "" };
         let y = upwards_from_zero(top, label).column("P(X = k)");
-        let left = 1040 + 1920 * i as i32;
-        let panel = sheet.panel(Frame::new(left, 480, left + 1350, 1880), k(end), y)?;
+        let (left, top) = (1200 + 3900 * (i as i32 % 2), 480 + 2700 * (i as i32 / 2));
+        let panel = sheet.panel(Frame::new(left, top, left + 3050, top + 1600), k(end), y)?;
         heading(&panel, LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
         series(&panel, p, i == 1)?;
     }
     let y = |lowest| Axis::decades(lowest, 0, 2, "*P*(*X* = *k*)");
     let x = Axis::linear(0.0, DETAIL as f64, 5.0, 5, "*k*");
-    let few = sheet.panel(Frame::new(1200, 2950, 5350, 5850), x, y(-14))?;
+    let few = sheet.panel(Frame::new(1200, 5850, 5350, 8450), x, y(-14))?;
     heading(&few, "(e)", &format!("*p* = {}", short(small, 3)))?;
     series(&few, small, false)?;
     let mut names = vec![("all five classes".to_string(), over_k(&five(small)), RED)];
@@ -59,20 +59,19 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     few.ends(&names)?;
 
     let x = Axis::linear(50.0, whole, 10.0, 2, "*k*");
-    let many = sheet.panel(Frame::new(1200, 6950, 8150, 9650), x, y(-8))?;
+    let many = sheet.panel(Frame::new(1200, 9450, 8150, 12_050), x, y(-8))?;
     heading(&many, "(f)", &format!("*p* = {}", short(large, 3)))?;
     series(&many, large, false)?;
     let flank = super::simulated::reaches(&over_k(&five(large)), 1e-3);
     many.label("all five classes", flank, (-2, 0), RED)?;
-    for (class, side) in [(0, (0, -1)), (3, (0, -1)), (4, (0, -2))] {
+    for (class, side) in [(0, (0, 3)), (1, (0, 3)), (2, (-1, -1)), (3, (1, -1)), (4, (0, -2))] {
         let values = &contributions(large)[class];
         let top = largest(values);
         let peak = values.iter().position(|own| *own == top).unwrap_or(0) as f64 + 1.0;
         let (name, symbol, colour, _) = CLASSES[class];
-        let three = class == 3;
-        let text =
-            if three { "one vertex repeated".to_string() } else { format!("{name}, {symbol}") };
-        many.label(&text, (peak, top), side, if three { INK } else { colour })?;
+        let short = name.trim_start_matches("one vertex ").to_string();
+        let text = if matches!(class, 2 | 3) { short } else { format!("{name}, {symbol}") };
+        many.label(&text, (peak, top), side, colour)?;
     }
     let share = |p: f64| {
         let share = results.number(&format!("theory.classes[p={p}].simple"));

@@ -11,10 +11,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let line = Stroke::solid(GREEN, LINE);
     let broken = Stroke::dashed(BLUE, LINE, Dash::Long);
     let mut seen = Vec::new();
+    let top = largest(&CONVERGENCE_P.map(|p| largest(&five(p)).max(largest(&simple(p)))));
     for (i, at) in CONVERGENCE_P.into_iter().enumerate() {
         let (simple, higher) = (simple(at), five(at));
         let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "*k*");
-        let y = upwards_from_zero(largest(&higher).max(largest(&simple)), "*P*(*X* = *k*)");
+        let y = upwards_from_zero(top, "*P*(*X* = *k*)");
         let panel = sheet.panel(FOUR[i], x, y)?;
         let p = short(at, 3);
         heading(&panel, LETTERS[i], &format!("*p* = {p}"))?;
@@ -24,11 +25,10 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             let highest = |a: &(f64, f64), b: &(f64, f64)| a.1.total_cmp(&b.1);
             over_k(values).into_iter().max_by(highest).unwrap_or_default()
         };
-        let names = [["", "higher orders: "], ["simple: ", ""]][i];
-        let peaks = [(peak(&simple), (-1, -1), GREEN), (peak(&higher), (2, 1), BLUE)];
-        for (name, (peak, side, colour)) in names.into_iter().zip(peaks) {
-            panel.label(&format!("{name}*k*^{{∗}} = {}", peak.0), peak, side, colour)?;
-        }
+        let (simple, higher) = (peak(&simple), peak(&higher));
+        let name = |name, peak: (f64, f64)| format!("{name}: *k*^{{∗}} = {}", peak.0);
+        panel.label(&name("simple", simple), (0.0, simple.1), (1, [-5, 1][i]), GREEN)?;
+        panel.label(&name("higher orders", higher), (panel.x.hi, higher.1), (-1, -1), BLUE)?;
         let distance = results.number(&format!("theory.classes[p={at}].variation"))?;
         let distance = short(distance, 3);
         seen.push(format!("{} p = {p}: total variation distance {distance}", LETTERS[i]));

@@ -33,8 +33,8 @@ pub fn draw(
     let names: Vec<&str> = order.iter().map(|&gap| NAMES[gap]).collect();
     let description = seen!(
         "(a) The graph of three masses with a {kind} circuit in red: {}. (b) Positions of the three masses against time, \
-         over {} time units of a simulated motion, a segment and not a periodic orbit; each impact has the name of its \
-         vertex and the number of the edge that leaves it.",
+         over {} time units of a simulated motion, a segment and not a periodic orbit; each impact has \
+         the number of the edge that leaves its vertex.",
         names.join(", "),
         short(duration, 3),
     );
@@ -74,15 +74,9 @@ fn motion(panel: &Panel, segment: &Segment, length: usize) -> Result<(), Error> 
         segment.impacts.iter().map(|hit| (hit.time - from, hit.position / d)).collect();
     let ring = (Mark::Ring, 70, Stroke::solid(RED, 24));
     panel.quiet().marks("impacts", &hits, ring, Outside::Refuse)?;
-    let names: Vec<_> = segment.impacts.iter().map(|hit| name(hit.gap)).collect();
-    for (name, hit) in names.iter().zip(&hits) {
-        panel.record(&format!("impact {name}"), [*hit]);
-    }
-    for (i, (name, hit)) in names.iter().zip(&hits).enumerate() {
-        // The first impact again has its number only.
-        let number = i % length + 1;
-        let text = if i < length { format!("{number}: {name}") } else { number.to_string() };
-        panel.name(&text, *hit, (0, -1), RED)?;
+    for (i, (hit, at)) in segment.impacts.iter().zip(&hits).enumerate() {
+        panel.record(&format!("impact {}", name(hit.gap)), [*at]);
+        panel.name(&(i % length + 1).to_string(), *at, (0, -1), RED)?;
     }
     Ok(())
 }

@@ -11,7 +11,10 @@ use crate::params::MethodName;
 pub fn look(method: MethodName) -> Marker {
     match method {
         MethodName::Certified => (Mark::Disc, LARGE + 12, Stroke::solid(RED, LINE)),
-        _ => (Mark::Disc, MEDIUM - 12, Stroke::solid(GREY, THIN)),
+        MethodName::Sampled => (Mark::Ring, MEDIUM, Stroke::solid(GREY, THIN)),
+        MethodName::Advancement => (Mark::OpenSquare, MEDIUM - 6, Stroke::solid(GREY, THIN)),
+        MethodName::RungeKutta => (Mark::Disc, MEDIUM - 8, Stroke::solid(GREY, THIN)),
+        _ => (Mark::Cross, MEDIUM - 8, Stroke::solid(GREY, THIN)),
     }
 }
 

@@ -42,7 +42,7 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result
         panel.label(&name, (at(&rising, 0.45).unwrap_or(SIGMAS.0), 0.45), (-3, 0), colour)?;
     }
     let ring = kept.iter().copied().rfind(|(_, share)| *share < 0.9);
-    ring.map_or(Ok(()), |ring| panel.label("main sweep", ring, (2, 1), INK))
+    ring.map_or(Ok(()), |ring| panel.label("main sweep, *n* = 100", ring, (2, 1), INK))
 }
 
 fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
@@ -53,7 +53,7 @@ fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
     let three = [sigmas.first().copied(), Some(PAPER.1), sigmas.last().copied()];
     let mut drawn = Vec::new();
     for (place, sigma) in three.into_iter().flatten().enumerate() {
-        let colour = if sigma == PAPER.1 { RED } else { ordered(place, 3) };
+        let colour = [GREEN, PURPLE, ORANGE][place];
         let points = found.points(&[("sigma", sigma)], "time", "missing");
         let thin = Stroke::solid(colour, THIN);
         let name = format!("*σ* = {sigma}");

@@ -61,17 +61,17 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Resu
     low.map_or(Ok(()), |low| panel.label("simulation", low, (2, 1), RED))
 }
 
-/// Four of so many, or all, from the first to the last.
+/// The first, the middle and the last.
 fn spread<T: Copy>(all: &[T]) -> Vec<T> {
     let last = all.len().saturating_sub(1);
-    let mut places = vec![0, last / 3, 2 * last / 3, last];
+    let mut places = vec![0, last / 2, last];
     places.dedup();
     places.into_iter().filter_map(|place| all.get(place).copied()).collect()
 }
 
 fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
     let x = Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)").from(20.0, 7000.0);
-    let y = Axis::decades(-1, 2, 1, "advance (gaps)");
+    let y = Axis::decades(-1, 2, 1, "advance (gaps)").from(0.3, 80.0);
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4100, 7650), x, y)?;
     let sigmas = spread(&advance.values("sigma"));
     let mut drawn = Vec::new();
@@ -84,7 +84,7 @@ fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
     panel.ends(&drawn)?;
     let straight = Stroke::dashed(INK, THIN, Dash::Short);
     panel.guide("constant speed", &[(10.0, 1.0), (1e3, 100.0)], straight)?;
-    panel.label("∝ *t*", (100.0, 10.0), (-1, -1), INK)
+    panel.label("∝ *t*", (200.0, 20.0), (-1, -1), INK)
 }
 
 fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {

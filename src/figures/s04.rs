@@ -36,21 +36,26 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
     let masses = lengths.values("masses");
     for (place, &n) in masses.iter().enumerate() {
         let colour = ordered(place, masses.len());
-        let look = (Mark::Ring, LARGE, Stroke::solid(colour, THIN));
+        // Larger than the discs, which would hide them.
+        let mark = [Mark::Ring, Mark::OpenSquare, Mark::OpenDiamond][place.min(2)];
+        let look = (mark, LARGE + 25 * place as i32, Stroke::solid(colour, THIN));
         let (name, keys) = (format!("from rest, *n* = {n}"), [("masses", n), ("window", WINDOW)]);
         let own = lengths.estimates(&keys, "transient", "half_height");
         panel.estimates(&name, &own, look)?;
         if let Some((time, own)) = own.first() {
-            let side = if place == 0 { (1, -2) } else { (-2, 4 * place as i32 - 3) };
+            let side = [(1, -2), (-2, 2), (-2, 0)][place.min(2)];
             panel.label(&format!("*n* = {n}"), (*time, own.value), side, colour)?;
         }
     }
+    let masses: Vec<_> = both.values("masses").iter().map(f64::to_string).collect();
+    let masses = masses.join(", then ");
     for (column, name, colour) in BRANCHES {
         let look = (Mark::Disc, MEDIUM, Stroke::solid(colour, THIN));
         let own = both.estimates(&[], "transient", column);
         panel.joined(name, &own, look)?;
-        if let Some((time, own)) = own.last() {
-            panel.label(name, (*time, own.value), (2, 0), colour)?;
+        if let Some((_, own)) = own.last() {
+            let place = (panel.x.hi, own.value);
+            panel.label(&format!("{name}, *n* = {masses}"), place, (-1, 2), colour)?;
         }
     }
     Ok(())
@@ -64,7 +69,7 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
     let early = (both.first(), Dash::Short, Mark::Ring);
     for (own, dash, mark) in [early, (both.last(), Dash::Solid, Mark::Disc)] {
         let Some(own) = own else { continue };
-        // Early curves are named at the side that the others do not reach; of the late ones that from above has its time.
+        // Early curves are named at the side that the others do not reach; the late ones have their time.
         let places = [((0.145, 0.07), (-1, 0)), ((0.03, 0.95), (1, 0))];
         let branches = BRANCHES.into_iter().zip([own.rest, own.above]).zip(places);
         for (((start, name, colour), branch), (corner, side)) in branches {
@@ -76,7 +81,10 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
             let late = points.iter().find(|own| own.1.value >= 0.1 && own.0 > 0.06);
             if mark == Mark::Ring {
                 panel.label(&name, corner, side, colour)?;
-            } else if let Some((sigma, own)) = late.filter(|_| start == "from_above") {
+            } else if start == "from_rest" {
+                let last = points.last().map_or(corner, |own| (own.0, own.1.value));
+                panel.name(&time, last, (2, 0), colour)?;
+            } else if let Some((sigma, own)) = late {
                 panel.label(&time, (*sigma, own.value), (-2, 0), colour)?;
             }
         }

@@ -7,10 +7,10 @@ use crate::params::DRAWN_VERTICES;
 use literate::table::Table;
 
 /// The p N in (a): around the onset, where the sizes differ.
-const RANGE: (f64, f64) = (0.75, 2.25);
+const RANGE: (f64, f64) = (0.9, 1.5);
 
 /// Where the names of the numbers of vertices stand in (a): beside the jump, at a height.
-const NAMES: [(f64, (i32, i32)); 3] = [(0.1, (1, 0)), (0.05, (3, 0)), (0.0, (-2, -2))];
+const NAMES: [(f64, (i32, i32)); 3] = [(0.1, (1, 0)), (0.028, (2, 0)), (0.0, (-2, -2))];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8450);
@@ -29,8 +29,8 @@ fn power(vertices: usize) -> String {
 }
 
 fn shares(sheet: &Sheet) -> Result<(), Error> {
-    let x = Axis::linear(RANGE.0, RANGE.1, 0.25, 5, "*p N*");
-    let y = Axis::linear(0.0, 0.6, 0.1, 2, "*k*^{∗}/*N*");
+    let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
+    let y = Axis::linear(0.0, 0.35, 0.1, 2, "*k*^{∗}/*N*");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     for (place, (vertices, (height, side))) in DRAWN_VERTICES.into_iter().zip(NAMES).enumerate() {
         let colour = ordered(place, NAMES.len());
@@ -48,7 +48,7 @@ fn shares(sheet: &Sheet) -> Result<(), Error> {
     let limit = large::limit();
     let stroke = Stroke::dashed(RED, LINE, Dash::Short);
     panel.curve("limit", &limit, stroke, Outside::Cut)?;
-    panel.label("max(0, 1 − 1/(*p N*))", (1.75, 1.0 - 1.0 / 1.75), (-1, -1), RED)
+    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.25, 1.0 - 1.0 / 1.25), (-1, -1), RED)
 }
 
 fn jumps(sheet: &Sheet, table: &Table) -> Result<(), Error> {

@@ -29,7 +29,7 @@ const ALIKE: &str = "Verlet, penalty springs";
 
 pub fn draw(race: &Race) -> Result<Figure, Error> {
     let sheet = Sheet::new(8300);
-    let cost_axis = || Axis::decades(0, 6, 1, "evaluations per impact").from(0.7, 1e6);
+    let cost_axis = || Axis::decades(0, 6, 1, "evaluations per impact").from(0.7, 9e5);
     let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
     let (x, y) = (cost_axis().bare(), error.column("error of the next impact's time (1/omega)"));
     let errors = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8250, 4330), x, y)?;

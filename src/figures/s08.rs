@@ -19,23 +19,23 @@ const BOUND: f64 = 2.0;
 
 /// Where the names stand.
 const NAMES: [Place; 6] = [
-    (Sampled, FINEST, (2, 2)),
+    (Sampled, FINEST, (0, 4)),
     (Advancement, FINEST, (1, 4)),
     (RungeKutta, 0, (-1, -1)),
-    (MoreauJean, 0, (-1, 4)),
+    (MoreauJean, 0, (1, -1)),
     (Verlet, 0, (0, 4)),
     (Penalty, 0, (2, -1)),
 ];
 
 pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
-    const HEIGHT: i32 = 2350;
-    let sheet = Sheet::new(9600);
+    const HEIGHT: i32 = 2750;
+    let sheet = Sheet::new(10_800);
     let rows = compared(biases);
     let last = biases.parameters.chains.len() - 1;
     for (i, chains) in biases.parameters.chains.iter().enumerate() {
         let top = 430 + i as i32 * (HEIGHT + 420);
         let x = Axis::decades(0, 2, 1, "seconds of one core for a thousand chains")
-            .from(0.5, 200.0)
+            .from(0.8, 200.0)
             .column("time of one core for a thousand chains (s)");
         let x = if i == last { x } else { x.bare() };
         let y = Axis::decades(-1, 2, 1, "error of the mean (%)").from(0.5, 400.0);
@@ -54,7 +54,7 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
         let engine = Setting { method: Certified, value: 0.0 };
         if let Some(at) = time(engine).filter(|at| panel.x.holds(*at)) {
             panel.guide("engine", &[(at, panel.y.lo), (at, panel.y.hi)], look(Certified).2)?;
-            panel.name("engine", (at, panel.y.lo), (-1, -1), RED)?;
+            panel.name("engine", (at, panel.y.hi), (1, 1), RED)?;
         }
         let own = rows.iter().filter(|row| row.sigma == chains.sigma);
         let own: Vec<&Compared> = own.collect();
@@ -63,6 +63,10 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
         let mut curves = Vec::new();
         for (method, found) in found {
             curves.push((method, shown(&sheet, &panel, method, &found)?));
+        }
+        if i == 0 {
+            panel.name("discs: clear errors", (4.9, panel.y.hi), (0, 1), GREY)?;
+            panel.name("arrows: upper bounds", (panel.x.hi, panel.y.lo), (-1, -1), GREY)?;
         }
         rivals::names(&panel, &curves, &NAMES)?;
     }
@@ -77,7 +81,7 @@ fn shown(
     method: MethodName,
     found: &[(f64, Estimate)],
 ) -> Result<Vec<(f64, f64)>, Error> {
-    let (mark, size, stroke) = look(method);
+    let stroke = look(method).2;
     let title = name(method);
     let percent = |own: &Estimate| with_error(100.0 * own.value, 100.0 * own.error);
     let found: Vec<_> = found.iter().map(|(x, own)| (*x, percent(own))).collect();
@@ -92,7 +96,7 @@ fn shown(
         if clear(own) {
             let bar = [(*x, y - own.error, y + own.error)];
             panel.bars(title, &bar, 0, stroke, Outside::Edge)?;
-            panel.marks(title, &[(*x, *y)], (mark, size + 12, stroke), Outside::Edge)?;
+            panel.marks(title, &[(*x, *y)], (Mark::Disc, MEDIUM, stroke), Outside::Edge)?;
         } else {
             panel.bars(title, &[(*x, *y, *y)], 60, stroke, Outside::Edge)?;
             sheet.free().arrow([*y, 0.4 * y].map(|y| panel.at(*x, y)).into(), stroke);
