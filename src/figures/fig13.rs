@@ -15,6 +15,14 @@ type Class = (&'static str, &'static str, Colour, Dash);
 /// The sum of all classes, wide enough to be seen below them.
 const SUM: Stroke = Stroke::solid(RED, 68);
 
+/// What is seen in (a) to (d).
+const SHOWN: [(&str, Colour); 4] = [
+    ("sum, simple circuits", RED),
+    ("one vertex twice", PURPLE),
+    ("sum, simple circuits", RED),
+    ("sum, two vertices", RED),
+];
+
 /// The five classes in the order of Eq. (38).
 const CLASSES: [Class; 5] = [
     ("simple circuits", "*ϕ*_{*N*}", GREEN, Dash::Long),
@@ -43,6 +51,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let panel = sheet.panel(Frame::new(left, top, left + 3050, top + 1600), k(end), y)?;
         heading(&panel, LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
         series(&panel, p, i == 1)?;
+        let (name, colour) = SHOWN[i];
+        let (corner, side) = if i == 3 { (0.0, 1) } else { (panel.x.hi, -1) };
+        panel.label(name, (corner, panel.y.hi), (side, 4), colour)?;
     }
     let y = |lowest| Axis::decades(lowest, 0, 2, "*P*(*X* = *k*)");
     let x = Axis::linear(0.0, DETAIL as f64, 5.0, 5, "*k*");

@@ -47,7 +47,7 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result
 
 fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
     let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").from(8.0, 9e3);
-    let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*");
+    let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*_{rest}");
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
     let sigmas = found.values("sigma");
     let three = [sigmas.first().copied(), Some(PAPER.1), sigmas.last().copied()];

@@ -89,7 +89,7 @@ fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
 
 fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
     let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").from(20.0, 2000.0);
-    let y = Axis::linear(0.1, 0.14, 0.01, 2, "*σ*_{1/2} of all (*d ω*^{2})")
+    let y = Axis::linear(0.1, 0.14, 0.01, 2, "half height (*d ω*^{2})")
         .column("half_height (d omega^2)");
     let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
     let grown = rise.points(&[], "transient", "half_height");

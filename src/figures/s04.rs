@@ -31,22 +31,9 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
     panel.label("bound from rest, *n* = 100", (10.0, bound), (1, 1), INK)?;
     let map = results.table("protocol.cells")?;
     let map = map.points(&[("window", WINDOW)], "transient", "half_height_all");
-    panel.curve("map, n = 100", &map, Stroke::solid(ordered(0, 3), LINE), Outside::Cut)?;
-    let lengths = results.table("branches.lengths")?;
-    let masses = lengths.values("masses");
-    for (place, &n) in masses.iter().enumerate() {
-        let colour = ordered(place, masses.len());
-        // Larger than the discs, which would hide them.
-        let mark = [Mark::Ring, Mark::OpenSquare, Mark::OpenDiamond][place.min(2)];
-        let look = (mark, LARGE + 25 * place as i32, Stroke::solid(colour, THIN));
-        let (name, keys) = (format!("from rest, *n* = {n}"), [("masses", n), ("window", WINDOW)]);
-        let own = lengths.estimates(&keys, "transient", "half_height");
-        panel.estimates(&name, &own, look)?;
-        if let Some((time, own)) = own.first() {
-            let side = [(1, -2), (-2, 2), (-2, 0)][place.min(2)];
-            panel.label(&format!("*n* = {n}"), (*time, own.value), side, colour)?;
-        }
-    }
+    panel.curve("from rest, n = 100", &map, Stroke::solid(GREY, LINE), Outside::Cut)?;
+    let start = map.first().copied().unwrap_or((10.0, bound));
+    panel.name("from rest, *n* = 100", start, (1, 2), GREY)?;
     let masses: Vec<_> = both.values("masses").iter().map(f64::to_string).collect();
     let masses = masses.join(", then ");
     for (column, name, colour) in BRANCHES {

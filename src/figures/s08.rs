@@ -65,7 +65,7 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
             curves.push((method, shown(&sheet, &panel, method, &found)?));
         }
         if i == 0 {
-            panel.name("discs: clear errors", (4.9, panel.y.hi), (0, 1), GREY)?;
+            panel.name("no arrow: clear errors", (4.9, panel.y.hi), (0, 1), GREY)?;
             panel.name("arrows: upper bounds", (panel.x.hi, panel.y.lo), (-1, -1), GREY)?;
         }
         rivals::names(&panel, &curves, &NAMES)?;
@@ -81,7 +81,7 @@ fn shown(
     method: MethodName,
     found: &[(f64, Estimate)],
 ) -> Result<Vec<(f64, f64)>, Error> {
-    let stroke = look(method).2;
+    let (mark, size, stroke) = look(method);
     let title = name(method);
     let percent = |own: &Estimate| with_error(100.0 * own.value, 100.0 * own.error);
     let found: Vec<_> = found.iter().map(|(x, own)| (*x, percent(own))).collect();
@@ -96,11 +96,10 @@ fn shown(
         if clear(own) {
             let bar = [(*x, y - own.error, y + own.error)];
             panel.bars(title, &bar, 0, stroke, Outside::Edge)?;
-            panel.marks(title, &[(*x, *y)], (Mark::Disc, MEDIUM, stroke), Outside::Edge)?;
         } else {
-            panel.bars(title, &[(*x, *y, *y)], 60, stroke, Outside::Edge)?;
             sheet.free().arrow([*y, 0.4 * y].map(|y| panel.at(*x, y)).into(), stroke);
         }
+        panel.marks(title, &[(*x, *y)], (mark, size, stroke), Outside::Edge)?;
     }
     Ok(places)
 }
