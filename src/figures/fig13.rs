@@ -15,13 +15,8 @@ type Class = (&'static str, &'static str, Colour, Dash);
 /// The sum of all classes, wide enough to be seen below them.
 const SUM: Stroke = Stroke::solid(RED, 68);
 
-/// What is seen in (a) to (d).
-const SHOWN: [(&str, Colour); 4] = [
-    ("sum, simple circuits", RED),
-    ("one vertex twice", PURPLE),
-    ("sum, simple circuits", RED),
-    ("sum, two vertices", RED),
-];
+/// The class that makes up most of what is seen in (a) to (d).
+const SHOWN: [usize; 4] = [0, 1, 0, 4];
 
 /// The five classes in the order of Eq. (38).
 const CLASSES: [Class; 5] = [
@@ -51,9 +46,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let panel = sheet.panel(Frame::new(left, top, left + 3050, top + 1600), k(end), y)?;
         heading(&panel, LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
         series(&panel, p, i == 1)?;
-        let (name, colour) = SHOWN[i];
         let (corner, side) = if i == 3 { (0.0, 1) } else { (panel.x.hi, -1) };
-        panel.label(name, (corner, panel.y.hi), (side, 4), colour)?;
+        if i != 1 {
+            panel.label("all five classes", (corner, panel.y.hi), (side, 4), RED)?;
+        }
+        let (name, _, colour, _) = CLASSES[SHOWN[i]];
+        panel.label(name, (corner, panel.y.hi), (side, 8), colour)?;
     }
     let y = |lowest| Axis::decades(lowest, 0, 2, "*P*(*X* = *k*)");
     let x = Axis::linear(0.0, DETAIL as f64, 5.0, 5, "*k*");
@@ -74,7 +72,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     heading(&many, "(f)", &format!("*p* = {}", short(large, 3)))?;
     series(&many, large, false)?;
     let flank = super::simulated::reaches(&over_k(&five(large)), 1e-3);
-    many.label("all five classes", flank, (-2, 0), RED)?;
+    many.label("all five classes", flank, (-3, 0), RED)?;
     for (class, side) in [(0, (0, 3)), (1, (0, 3)), (2, (-1, -1)), (3, (1, -1)), (4, (0, -2))] {
         let values = &contributions(large)[class];
         let top = largest(values);

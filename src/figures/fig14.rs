@@ -28,7 +28,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let (simple, higher) = (peak(&simple), peak(&higher));
         let name = |name, peak: (f64, f64)| format!("{name}: *k*^{{∗}} = {}", peak.0);
         panel.label(&name("simple", simple), (0.0, simple.1), (1, [-5, 1][i]), GREEN)?;
-        panel.label(&name("higher orders", higher), (panel.x.hi, higher.1), (-1, -1), BLUE)?;
+        panel.label(&name("higher", higher), (panel.x.hi, higher.1), (-1, -1), BLUE)?;
         let distance = results.number(&format!("theory.classes[p={at}].variation"))?;
         let distance = short(distance, 3);
         seen.push(format!("{} p = {p}: total variation distance {distance}", LETTERS[i]));

@@ -34,15 +34,13 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
     panel.curve("from rest, n = 100", &map, Stroke::solid(GREY, LINE), Outside::Cut)?;
     let start = map.first().copied().unwrap_or((10.0, bound));
     panel.name("from rest, *n* = 100", start, (1, 2), GREY)?;
-    let masses: Vec<_> = both.values("masses").iter().map(f64::to_string).collect();
-    let masses = masses.join(", then ");
     for (column, name, colour) in BRANCHES {
         let look = (Mark::Disc, MEDIUM, Stroke::solid(colour, THIN));
         let own = both.estimates(&[], "transient", column);
         panel.joined(name, &own, look)?;
         if let Some((_, own)) = own.last() {
             let place = (panel.x.hi, own.value);
-            panel.label(&format!("{name}, *n* = {masses}"), place, (-1, 2), colour)?;
+            panel.label(name, place, (-1, 0), colour)?;
         }
     }
     Ok(())
@@ -72,7 +70,7 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
                 let last = points.last().map_or(corner, |own| (own.0, own.1.value));
                 panel.name(&time, last, (2, 0), colour)?;
             } else if let Some((sigma, own)) = late {
-                panel.label(&time, (*sigma, own.value), (-2, 0), colour)?;
+                panel.label(&time, (*sigma, own.value), (-4, -1), colour)?;
             }
         }
     }

@@ -9,9 +9,6 @@ use literate::table::Table;
 /// The p N in (a): around the onset, where the sizes differ.
 const RANGE: (f64, f64) = (0.9, 1.5);
 
-/// Where the names of the numbers of vertices stand in (a): beside the jump, at a height.
-const NAMES: [(f64, (i32, i32)); 3] = [(0.1, (1, 0)), (0.028, (2, 0)), (0.0, (-2, -2))];
-
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8450);
     shares(&sheet)?;
@@ -32,8 +29,9 @@ fn shares(sheet: &Sheet) -> Result<(), Error> {
     let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
     let y = Axis::linear(0.0, 0.35, 0.1, 2, "*k*^{∗}/*N*");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
-    for (place, (vertices, (height, side))) in DRAWN_VERTICES.into_iter().zip(NAMES).enumerate() {
-        let colour = ordered(place, NAMES.len());
+    let last = DRAWN_VERTICES.len() - 1;
+    for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
+        let colour = ordered(place, last + 1);
         let stroke = Stroke::solid(colour, LINE);
         // No value lies within the jump.
         let [before, after] = large::shares(vertices);
@@ -42,8 +40,14 @@ fn shares(sheet: &Sheet) -> Result<(), Error> {
         panel.curve(&name, &after, stroke, Outside::Cut)?;
         let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
         panel.guide("jump", &jump, Stroke::dashed(colour, THIN, Dash::Dotted))?;
-        let at = jump.first().map_or(1.0, |jump| jump.0);
-        panel.label(&format!("*N* = {}", power(vertices)), (at, height), side, colour)?;
+        // Large numbers share a curve.
+        let name = format!("*N* = {}", power(vertices));
+        if place == 0 {
+            panel.label(&name, (jump.first().map_or(1.0, |jump| jump.0), 0.1), (1, 0), colour)?;
+        } else if place == last {
+            let name = format!("{name}, {}", power(DRAWN_VERTICES[1]));
+            panel.label(&name, (1.12, 1.0 - 1.0 / 1.12), (1, 2), colour)?;
+        }
     }
     let limit = large::limit();
     let stroke = Stroke::dashed(RED, LINE, Dash::Short);

@@ -15,7 +15,7 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 const NAMES: [Place; 4] = [
     (Certified, FINEST, (2, 0)),
     (Sampled, FINEST, (2, 1)),
-    (Advancement, FINEST, (0, -2)),
+    (Advancement, FINEST, (1, -2)),
     (RungeKutta, FINEST, (2, 0)),
 ];
 

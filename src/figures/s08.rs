@@ -65,8 +65,8 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
             curves.push((method, shown(&sheet, &panel, method, &found)?));
         }
         if i == 0 {
-            panel.name("no arrow: clear errors", (4.9, panel.y.hi), (0, 1), GREY)?;
-            panel.name("arrows: upper bounds", (panel.x.hi, panel.y.lo), (-1, -1), GREY)?;
+            panel.name("black: clear errors", (4.9, panel.y.hi), (0, 1), INK)?;
+            panel.name("grey: upper bounds", (panel.x.hi, panel.y.lo), (-1, -1), GREY)?;
         }
         rivals::names(&panel, &curves, &NAMES)?;
     }
@@ -81,7 +81,7 @@ fn shown(
     method: MethodName,
     found: &[(f64, Estimate)],
 ) -> Result<Vec<(f64, f64)>, Error> {
-    let (mark, size, stroke) = look(method);
+    let (mark, size, grey) = look(method);
     let title = name(method);
     let percent = |own: &Estimate| with_error(100.0 * own.value, 100.0 * own.error);
     let found: Vec<_> = found.iter().map(|(x, own)| (*x, percent(own))).collect();
@@ -93,6 +93,7 @@ fn shown(
     let places: Vec<_> = found.iter().map(|(x, own)| (*x, height(own))).collect();
     panel.curve(title, &places, Stroke::dashed(PALE, THIN, Dash::Short), Outside::Edge)?;
     for ((x, y), (_, own)) in places.iter().zip(&found) {
+        let stroke = if clear(own) { Stroke { colour: INK, ..grey } } else { grey };
         if clear(own) {
             let bar = [(*x, y - own.error, y + own.error)];
             panel.bars(title, &bar, 0, stroke, Outside::Edge)?;
