@@ -40,7 +40,7 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
         panel.joined(name, &own, look)?;
         if let Some((_, own)) = own.last() {
             let place = (panel.x.hi, own.value);
-            panel.label(name, place, (-1, 0), colour)?;
+            panel.label(name, place, (-1, 2), colour)?;
         }
     }
     Ok(())

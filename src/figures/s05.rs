@@ -29,9 +29,8 @@ fn shares(sheet: &Sheet) -> Result<(), Error> {
     let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
     let y = Axis::linear(0.0, 0.35, 0.1, 2, "*k*^{∗}/*N*");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
-    let last = DRAWN_VERTICES.len() - 1;
     for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
-        let colour = ordered(place, last + 1);
+        let colour = ordered(place, DRAWN_VERTICES.len());
         let stroke = Stroke::solid(colour, LINE);
         // No value lies within the jump.
         let [before, after] = large::shares(vertices);
@@ -40,14 +39,10 @@ fn shares(sheet: &Sheet) -> Result<(), Error> {
         panel.curve(&name, &after, stroke, Outside::Cut)?;
         let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
         panel.guide("jump", &jump, Stroke::dashed(colour, THIN, Dash::Dotted))?;
-        // Large numbers share a curve.
-        let name = format!("*N* = {}", power(vertices));
-        if place == 0 {
-            panel.label(&name, (jump.first().map_or(1.0, |jump| jump.0), 0.1), (1, 0), colour)?;
-        } else if place == last {
-            let name = format!("{name}, {}", power(DRAWN_VERTICES[1]));
-            panel.label(&name, (1.12, 1.0 - 1.0 / 1.12), (1, 2), colour)?;
-        }
+        let at = jump.first().map_or(1.0, |jump| jump.0);
+        let (place, side) =
+            [((at, 0.1), (1, 0)), ((at, 0.02), (3, 0)), ((1.12, 0.107), (1, 2))][place];
+        panel.label(&format!("*N* = {}", power(vertices)), place, side, colour)?;
     }
     let limit = large::limit();
     let stroke = Stroke::dashed(RED, LINE, Dash::Short);

@@ -65,7 +65,7 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
             curves.push((method, shown(&sheet, &panel, method, &found)?));
         }
         if i == 0 {
-            panel.name("black: clear errors", (4.9, panel.y.hi), (0, 1), INK)?;
+            panel.label("black: clear errors", (panel.x.hi, panel.y.lo), (-1, -6), INK)?;
             panel.name("grey: upper bounds", (panel.x.hi, panel.y.lo), (-1, -1), GREY)?;
         }
         rivals::names(&panel, &curves, &NAMES)?;
