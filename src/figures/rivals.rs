@@ -1,5 +1,5 @@
 //! How methods and other programs look in all charts of speed and accuracy: this engine red, all others grey, each named
-//! beside its marks.
+//! next to its marks.
 
 use super::prelude::*;
 use crate::experiments::Measured;
@@ -21,7 +21,7 @@ pub fn look(method: MethodName) -> Marker {
 /// The points of each method.
 pub type Curves = Vec<(MethodName, Vec<(f64, f64)>)>;
 
-/// Where the name of a method stands: beside which of its settings, or the finest, and so many millimetres to the right and
+/// Where the name of a method stands: next to which of its settings, or the finest, and so many millimetres to the right and
 /// below.
 pub type Place = (MethodName, usize, (i32, i32));
 

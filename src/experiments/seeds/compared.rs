@@ -1,4 +1,4 @@
-//! What is predicted beside what was simulated after several transients, by the map of the protocol.
+//! Predicted and simulated half heights and mean counts after several transients, by the map of the protocol.
 
 use crate::experiments::prelude::*;
 use crate::experiments::protocol::address;

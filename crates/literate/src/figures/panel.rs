@@ -171,7 +171,7 @@ impl Panel {
         self.text(text, at, TEXT, HPos::Left, VPos::Bottom)
     }
 
-    /// Names a curve or a mark in its colour, beside a place given in data: so many millimetres to the right of it and
+    /// Names a curve or a mark in its colour, near a place given in data: so many millimetres to the right of it and
     /// below it, towards which the words stand. `(1, 0)` is right of the place, `(0, -1)` above it.
     pub fn label(
         &self,

@@ -141,7 +141,7 @@ impl Panel {
         self.draw(name, |drawing| drawing.area(self.seen(placed), fill, opacity))
     }
 
-    /// Columns of width 1 around 1, 2, …, which stand on zero: filled and with an outline; those beside the axis are left
+    /// Columns of width 1 around 1, 2, …, which stand on zero: filled and with an outline; those outside the axis are left
     /// out.
     pub fn columns(&self, name: &str, values: &[f64], stroke: Stroke) -> Drawn {
         let heights = || (1..).map(f64::from).zip(values.iter().copied());
@@ -161,7 +161,7 @@ impl Panel {
         self.quiet().curve(name, &outline, stroke, Outside::Refuse)
     }
 
-    /// Bars from `low` to `high` at each x, with caps of the given half width; cut at the frame, and left out beside it,
+    /// Bars from `low` to `high` at each x, with caps of the given half width; cut at the frame, and left out outside it,
     /// where that is no mistake.
     pub fn bars(
         &self,

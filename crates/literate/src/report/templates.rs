@@ -1,5 +1,5 @@
-//! The templates: people's prose, read at run time; [`super::filler`] fills them. The documents of a paper: each has prose of
-//! its own and its own files; numbers, figures, verdicts and labels are shared.
+//! The templates: people's prose, read at run time; [`super::filler`] fills them. The documents of a paper: each has its
+//! prose and its files; numbers, figures, verdicts and labels are shared.
 
 use super::Error;
 use crate::input;
