@@ -45,7 +45,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let (left, top) = (1200 + 3900 * (i as i32 % 2), 480 + 2700 * (i as i32 / 2));
         let panel = sheet.panel(Frame::new(left, top, left + 3050, top + 1600), k(end), y)?;
         heading(&panel, LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
-        series(&panel, p, i == 1)?;
+        series(&panel, p)?;
         let (corner, side) = if i == 3 { (0.0, 1) } else { (panel.x.hi, -1) };
         if i != 1 {
             panel.label("all five classes", (corner, panel.y.hi), (side, 4), RED)?;
@@ -57,7 +57,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let x = Axis::linear(0.0, DETAIL as f64, 5.0, 5, "*k*");
     let few = sheet.panel(Frame::new(1200, 5850, 5350, 8450), x, y(-14))?;
     heading(&few, "(e)", &format!("*p* = {}", short(small, 3)))?;
-    series(&few, small, false)?;
+    series(&few, small)?;
     let mut names = vec![("all five classes".to_string(), over_k(&five(small)), RED)];
     names.extend(
         CLASSES
@@ -70,7 +70,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let x = Axis::linear(50.0, whole, 10.0, 2, "*k*");
     let many = sheet.panel(Frame::new(1200, 9450, 8150, 12_050), x, y(-8))?;
     heading(&many, "(f)", &format!("*p* = {}", short(large, 3)))?;
-    series(&many, large, false)?;
+    series(&many, large)?;
     let flank = super::simulated::reaches(&over_k(&five(large)), 1e-3);
     many.label("all five classes", flank, (-3, 0), RED)?;
     for (class, side) in [(0, (0, 3)), (1, (0, 3)), (2, (-1, -1)), (3, (1, -1)), (4, (0, -2))] {
@@ -99,20 +99,15 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     Ok(sheet.finish("fig13", "Distributions with higher-order circuits", description))
 }
 
-fn series(panel: &Panel, p: f64, detail: bool) -> Result<(), Error> {
-    let of = |values: &[f64]| values[..if detail { DETAIL } else { values.len() }].to_vec();
-    panel.curve("all five classes", &over_k(&of(&five(p))), SUM, Outside::Cut)?;
+fn series(panel: &Panel, p: f64) -> Result<(), Error> {
+    panel.curve("all five classes", &over_k(&five(p)), SUM, Outside::Cut)?;
     for (class, (name, _, colour, dash)) in contributions(p).iter().zip(CLASSES) {
         // On a logarithmic axis each is seen.
         let points = match panel.y.scale {
-            Scale::Linear => visible(&of(class), panel.y.hi),
+            Scale::Linear => visible(class, panel.y.hi),
             _ => over_k(class),
         };
         panel.curve(name, &points, Stroke::dashed(colour, LINE, dash), Outside::Cut)?;
-        if detail {
-            let dots = (Mark::Disc, 28, Stroke::solid(colour, THIN));
-            panel.marks(name, &points, dots, Outside::Cut)?;
-        }
     }
     Ok(())
 }

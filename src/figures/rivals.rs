@@ -9,13 +9,16 @@ use crate::params::MethodName;
 
 /// The look of a method; its line joins the settings of the method.
 pub fn look(method: MethodName) -> Marker {
-    match method {
-        MethodName::Certified => (Mark::Disc, LARGE + 12, Stroke::solid(RED, LINE)),
-        MethodName::Sampled => (Mark::Ring, MEDIUM, Stroke::solid(GREY, THIN)),
-        MethodName::Advancement => (Mark::OpenSquare, MEDIUM - 6, Stroke::solid(GREY, THIN)),
-        MethodName::RungeKutta => (Mark::Disc, MEDIUM - 8, Stroke::solid(GREY, THIN)),
-        _ => (Mark::Cross, MEDIUM - 8, Stroke::solid(GREY, THIN)),
-    }
+    let (mark, size) = match method {
+        MethodName::Certified => return (Mark::Disc, LARGE + 12, Stroke::solid(RED, LINE)),
+        MethodName::Sampled => (Mark::Ring, MEDIUM),
+        MethodName::Advancement => (Mark::OpenSquare, MEDIUM - 6),
+        MethodName::RungeKutta => (Mark::Disc, MEDIUM - 8),
+        MethodName::MoreauJean => (Mark::Plus, MEDIUM),
+        MethodName::Penalty => (Mark::OpenTriangle, MEDIUM - 8),
+        MethodName::Verlet | MethodName::Truth => (Mark::Cross, MEDIUM - 8),
+    };
+    (mark, size, Stroke::solid(GREY, THIN))
 }
 
 /// The points of each method.

@@ -58,7 +58,13 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
         let places = [((0.145, 0.07), (-1, 0)), ((0.03, 0.95), (1, 0))];
         let branches = BRANCHES.into_iter().zip([own.rest, own.above]).zip(places);
         for (((start, name, colour), branch), (corner, side)) in branches {
-            let time = format!("*T* = {}", own.transient());
+            let digits = own.transient().to_string();
+            let time = match digits.strip_prefix('1').filter(|rest| rest.len() > 4) {
+                Some(zeros) if zeros.trim_matches('0').is_empty() => {
+                    format!("*T* = 10^{{{}}}", zeros.len())
+                }
+                _ => format!("*T* = {digits}"),
+            };
             let name = format!("{name}, {time}");
             let at = |&sigma: &f64| Some((sigma, share(branch, sigma)?));
             let points: Vec<_> = branch.0.ensemble.sigmas.iter().filter_map(at).collect();

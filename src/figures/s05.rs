@@ -27,7 +27,7 @@ fn power(vertices: usize) -> String {
 
 fn shares(sheet: &Sheet) -> Result<(), Error> {
     let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
-    let y = Axis::linear(0.0, 0.35, 0.1, 2, "*k*^{∗}/*N*");
+    let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").from(4e-7, 1.0);
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
         let colour = ordered(place, DRAWN_VERTICES.len());
@@ -39,15 +39,13 @@ fn shares(sheet: &Sheet) -> Result<(), Error> {
         panel.curve(&name, &after, stroke, Outside::Cut)?;
         let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
         panel.guide("jump", &jump, Stroke::dashed(colour, THIN, Dash::Dotted))?;
-        let at = jump.first().map_or(1.0, |jump| jump.0);
-        let (place, side) =
-            [((at, 0.1), (1, 0)), ((at, 0.02), (3, 0)), ((1.12, 0.107), (1, 2))][place];
-        panel.label(&format!("*N* = {}", power(vertices)), place, side, colour)?;
+        let start = (RANGE.0, 1.0 / vertices as f64);
+        panel.label(&format!("*N* = {}", power(vertices)), start, (1, -1), colour)?;
     }
     let limit = large::limit();
     let stroke = Stroke::dashed(RED, LINE, Dash::Short);
     panel.curve("limit", &limit, stroke, Outside::Cut)?;
-    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.25, 1.0 - 1.0 / 1.25), (-1, -1), RED)
+    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, 3), RED)
 }
 
 fn jumps(sheet: &Sheet, table: &Table) -> Result<(), Error> {

@@ -22,7 +22,7 @@ const NAMES: [Place; 4] = [
 /// The same for other programs: name of the row, name here.
 const PROGRAMS: [(&str, &str, usize, (i32, i32)); 5] = [
     ("heyoka", "heyoka", FINEST, (0, -1)),
-    ("diffsol tsit45", "diffsol", 0, (2, -1)),
+    ("diffsol tsit45", "diffsol", FINEST, (1, -1)),
     ("SUNDIALS CVODE", "CVODE", FINEST, (2, 0)),
     ("SciPy DOP853", "SciPy", FINEST, (-2, 0)),
     ("pymunk", "pymunk", FINEST, (0, -2)),

@@ -19,17 +19,17 @@ const BOUND: f64 = 2.0;
 
 /// Where the names stand.
 const NAMES: [Place; 6] = [
-    (Sampled, FINEST, (0, 4)),
-    (Advancement, FINEST, (1, 4)),
+    (Verlet, 0, (0, 4)),
+    (Advancement, FINEST, (1, 5)),
+    (Sampled, 0, (0, 4)),
     (RungeKutta, 0, (-1, -1)),
     (MoreauJean, 0, (1, -1)),
-    (Verlet, 0, (0, 4)),
     (Penalty, 0, (2, -1)),
 ];
 
 pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
-    const HEIGHT: i32 = 2750;
-    let sheet = Sheet::new(10_800);
+    const HEIGHT: i32 = 2950;
+    let sheet = Sheet::new(11_400);
     let rows = compared(biases);
     let last = biases.parameters.chains.len() - 1;
     for (i, chains) in biases.parameters.chains.iter().enumerate() {
@@ -38,7 +38,7 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
             .from(0.8, 200.0)
             .column("time of one core for a thousand chains (s)");
         let x = if i == last { x } else { x.bare() };
-        let y = Axis::decades(-1, 2, 1, "error of the mean (%)").from(0.5, 400.0);
+        let y = Axis::decades(-1, 2, 1, "error of the mean (%)").from(0.2, 400.0);
         let y = if i == last / 2 {
             y
         } else {
@@ -91,7 +91,6 @@ fn shown(
     let height =
         |own: &Estimate| own.value.abs() + if clear(own) { 0.0 } else { BOUND * own.error };
     let places: Vec<_> = found.iter().map(|(x, own)| (*x, height(own))).collect();
-    panel.curve(title, &places, Stroke::dashed(PALE, THIN, Dash::Short), Outside::Edge)?;
     for ((x, y), (_, own)) in places.iter().zip(&found) {
         let stroke = if clear(own) { Stroke { colour: INK, ..grey } } else { grey };
         if clear(own) {

@@ -197,15 +197,19 @@ impl Drawing {
                 through([(x + r, y - r), (x - r, y + r)]),
             ]
             .concat(),
+            Mark::Plus => {
+                [through([(x - r, y), (x + r, y)]), through([(x, y - r), (x, y + r)])].concat()
+            }
             Mark::Disc | Mark::Ring => circle((x, y), r),
             Mark::OpenSquare => {
                 polygon([(x - r, y - r), (x + r, y - r), (x + r, y + r), (x - r, y + r)])
             }
+            Mark::OpenTriangle => polygon([(x - r, y + r), (x, y - r), (x + r, y + r)]),
             Mark::OpenDiamond => polygon([(x, y - r), (x + r, y), (x, y + r), (x - r, y)]),
         };
         let inside = match mark {
             Mark::Disc => Some(stroke.colour),
-            Mark::Cross => None,
+            Mark::Cross | Mark::Plus => None,
             _ => Some(WHITE),
         };
         let path = points.into_iter().flat_map(one).collect();

@@ -10,7 +10,7 @@ use super::clip::clip;
 use super::drawing::{Drawing, Element, Point};
 use super::panel::Panel;
 use super::record::DataPoint;
-use super::style::{Colour, Mark, Stroke};
+use super::style::{Colour, Dash, Mark, Stroke};
 use impact_numerics::statistics::Estimate;
 
 /// Points in units of the data.
@@ -208,7 +208,8 @@ impl Panel {
     pub fn joined(&self, name: &str, estimates: &[(f64, Estimate)], look: Marker) -> Drawn {
         let points: Vec<_> = estimates.iter().map(|(x, own)| (*x, own.value)).collect();
         self.quiet().curve(name, &points, look.2, Outside::Cut)?;
-        self.estimates(name, estimates, look)
+        let (mark, size, line) = look;
+        self.estimates(name, estimates, (mark, size, Stroke { dash: Dash::Solid, ..line }))
     }
 }
 

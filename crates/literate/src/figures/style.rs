@@ -135,8 +135,10 @@ impl Stroke {
 #[expect(missing_docs, reason = "the names tell")]
 pub enum Mark {
     Cross,
+    Plus,
     Disc,
     Ring,
     OpenSquare,
+    OpenTriangle,
     OpenDiamond,
 }
