@@ -47,20 +47,20 @@ pub fn second_seed(profile: Profile) -> Vec<Ensemble> {
     vec![Ensemble { seed: SECOND_SEED, ..paper("sweep", sigmas, realisations) }]
 }
 
-/// The map over transients and windows.
+/// The map over transients and windows; and, in the same windows, chains of the main sweep well below the rise.
 pub fn protocol(profile: Profile) -> Vec<Ensemble> {
-    let (longest, widest, sigmas, realisations) = match profile {
-        Profile::Full => (9, 7, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100), 120),
-        Profile::Quick => (6, 5, Grid::default().and(9, 17, 1, 100), 6),
+    let (longest, widest, sigmas, realisations, below) = match profile {
+        Profile::Full => (9, 7, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100), 120, 1000),
+        Profile::Quick => (6, 5, Grid::default().and(9, 17, 1, 100), 6, 100),
     };
     let transients = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0];
     let widths = [20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
-    vec![Ensemble {
-        protocols: windows(&transients[..longest], &widths[..widest]),
-        // The chain is full long before.
-        beyond: Some(Beyond { above: 0.131, realisations: None, until: Some(1000.0) }),
-        ..paper("protocol", sigmas, realisations)
-    }]
+    let protocols = windows(&transients[..longest], &widths[..widest]);
+    // Above, nearly every gap has been hit long before the end.
+    let beyond = Some(Beyond { above: 0.131, realisations: None, until: Some(1000.0) });
+    let map = paper("protocol", sigmas, realisations);
+    let below = paper("sweep", Grid::default().and(8, 8, 1, 100), below);
+    vec![Ensemble { protocols: protocols.clone(), beyond, ..map }, Ensemble { protocols, ..below }]
 }
 
 /// The paper's chain, and chains that differ from it in start, ends or frequency.
