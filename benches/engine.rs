@@ -12,7 +12,6 @@ fn main() {
     divan::main();
 }
 
-/// The scenario of a chain of `masses`.
 fn scenario(masses: usize) -> Scenario {
     let chain = Chain { masses, ..Chain::default() };
     Scenario::draw(&chain, 0.3, &mut NormalPairs::new("bench", 1, 0))

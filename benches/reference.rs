@@ -14,7 +14,7 @@ use impact_chain::Scenario;
 use reference::{Dd, Real, Reference};
 use serde_json::json;
 
-/// More segments than this tell nothing new.
+/// More segments than this add nothing.
 const SEGMENTS: usize = 1000;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -1,4 +1,4 @@
-//! What the templates can name beside the cells of tables: some values, and the rows of generated tables.
+//! What the templates can name besides the cells of tables: some values, and the rows of generated tables.
 //!
 //! A value is computed here from results and carries the path of the function that computed it, which the
 //! compiler gives ([`literate::value::origin`]). Groups are `v` (ours), `paper` (numbers that the paper chose) and
@@ -15,7 +15,7 @@ use literate::value::{Value, origin};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 
-/// The level of the checks, and what this copy was made with.
+/// The level of the checks, and the version of the program.
 ///
 /// # Errors
 /// None.
@@ -30,8 +30,7 @@ pub fn values(_: &Results, _: &Published) -> Result<Vec<Value>, Failure> {
     Ok(values.map(|value| value.source(origin(claims::level), "")).into())
 }
 
-/// The rows of the generated tables, by the name that templates use; beside them heads and words that depend on the
-/// results.
+/// The rows of the generated tables, by the name that templates use, with heads and words that depend on the results.
 ///
 /// # Errors
 /// If a result is missing.
@@ -59,10 +58,10 @@ fn section(check: &Check) -> u32 {
     name.trim_start_matches("sec").parse().unwrap_or(0)
 }
 
-/// The verdicts on the statements of one section of the paper: signs that lead to their rows.
-fn strip(own: &[&Check]) -> Json {
-    let signs: Vec<String> = own.iter().map(|check| format!("[@sign:{}]", check.id)).collect();
-    json!({"place": format!("Sec.\u{a0}{}", section(own[0])), "signs": signs.join(" ")})
+/// The verdicts on the statements of one section of the paper, as signs linked to their rows.
+fn strip(checks: &[&Check]) -> Json {
+    let signs: Vec<String> = checks.iter().map(|check| format!("[@sign:{}]", check.id)).collect();
+    json!({"place": format!("Sec.\u{a0}{}", section(checks[0])), "signs": signs.join(" ")})
 }
 
 /// How many statements have a verdict, and references to them.
@@ -73,7 +72,7 @@ fn score(verdict: Verdict, checks: &[&Check]) -> Json {
     json!({"verdict": verdict.words(), "count": mark(verdict.words()), "claims": which})
 }
 
-/// A basis, how many statements rest on it, and how many of these are reproduced. What none rests on has no line.
+/// A basis, how many statements rest on it, and how many of these are reproduced; none if no statement rests on it.
 fn split(basis: Basis, checks: &[&Check]) -> Option<Json> {
     checks.iter().find(|check| check.basis == basis)?;
     let words = basis.words();

@@ -1,8 +1,8 @@
-//! The numbered equations of the paper, and where each lives in the source: a test finds `**Eq. (n)**` there.
+//! The numbered equations of the paper, and where each is in the source: a test finds `**Eq. (n)**` there.
 
 use literate::report::ledger::EquationEntry;
 
-/// Rows of number, section, words, home, and the number that the home leads to where coding this one would be pointless.
+/// Rows of number, section, words, the item that documents it, and for a step without code the equation it leads to.
 macro_rules! equations {
     ($($number:literal, $section:literal, $what:literal, $home:path $(, towards $next:literal)?;)*) => {
         vec![$(EquationEntry {
@@ -15,7 +15,7 @@ macro_rules! equations {
     };
 }
 
-/// All of them, in order.
+/// All numbered equations, in order.
 pub fn equations() -> Vec<EquationEntry> {
     equations! {
         1, 1, "a piecewise smooth system in general", impact_chain, towards 2;

@@ -1,4 +1,4 @@
-//! lab.js, which a page loads when a reader asks it to compute: the engine, what to hold its runs against, and the script.
+//! lab.js, which a page loads to compute: the engine, the results with which its runs are compared, and the script.
 
 use crate::experiments::rise::{Mean, RisePoint};
 use crate::experiments::sweep;
@@ -45,7 +45,7 @@ fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Fail
     Ok(format!("\"use strict\";\nconst LAB = {data};\n{script}"))
 }
 
-/// The smallest k up to which this share of the realisations counts, from their numbers by k.
+/// The smallest k such that at least this share of the realisations count k or fewer; `counts` are their numbers by k.
 fn quantile(counts: &[u32], share: f64) -> usize {
     let all: u32 = counts.iter().sum();
     let sums = counts.iter().scan(0, |sum, count| {

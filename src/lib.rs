@@ -2,7 +2,7 @@
 //! Large Dimensional Systems*: every experiment, calculation, figure and published number of
 //! that paper, computed and checked by one binary.
 //!
-//! The tour follows the paper, and leads to the report that `make paper` has written.
+//! In the order of the paper, with links to the report that `make paper` has written:
 //!
 //! - [Section 1](../../../paper/report.html#sec-introduction) and
 //!   [Section 2](../../../paper/report.html#sec-simulation), the chain of forced masses and its
@@ -14,17 +14,15 @@
 //!   [`impact_circuits::impact_probability`].
 //! - [Section 9](../../../paper/report.html#sec-higher), circuits that are not simple:
 //!   [`impact_circuits::higher_order`].
-//! - What is run, with which parameters: [`experiments`] and [`params`].
-//! - What is shown: [`figures`], [`claims`] and [`contents`]; `src/main.rs` puts it together.
-//! - Mathematics that knows no physics: [`impact_numerics`]; what that means for
+//! - What is run, with which parameters: [`experiments`] and [`params`]; in the report
 //!   [the method](../../../paper/methods.html#sec-method) and its
 //!   [speed and accuracy](../../../paper/methods.html#sec-accuracy).
+//! - What is shown: [`figures`], [`claims`], [`contents`] and the engine in the page ([`lab`]); `src/main.rs` puts it
+//!   together. Where each equation is: [`mod@equations`].
 //!
 //! Imports flow one way: `impact-numerics` → `impact-chain` → `impact-circuits` (crates) → `experiments` →
 //! `figures`, `claims` → `contents`; `params` may be read by all.
-//!
-//! Where each equation lives is in [`mod@equations`].
-// What writes to a closed pipe or a full disk by a macro panics: `experiments::say` does not.
+// Macros that print panic on a closed pipe or a full disk: `literate::cli::terminal` does not.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![warn(clippy::print_stderr, clippy::print_stdout)]
 

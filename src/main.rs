@@ -1,6 +1,7 @@
-//! What the literate paper is made of, and its command line.
+//! The program `impact-paper`: `paper` lists what the paper is made of, `DOCUMENTS` its documents, and `cli` has the
+//! verbs that it adds to those of [`literate::cli`]. The parts are in the library, [`impact_paper`].
 
-// What writes to a closed pipe or a full disk by a macro panics: `literate::cli::terminal` does not.
+// Macros that print panic on a closed pipe or a full disk: `literate::cli::terminal` does not.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![warn(clippy::print_stderr, clippy::print_stdout)]
 
@@ -41,7 +42,7 @@ pub fn paper() -> Paper {
     }
 }
 
-/// A reader has five minutes, half an hour, or a day.
+/// Documents for five minutes, half an hour, and a day.
 const DOCUMENTS: [Document; 5] = [
     Document {
         prose: "front",

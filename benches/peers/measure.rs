@@ -1,5 +1,5 @@
-//! Speed of the engine and of its rivals, as JSON, and the scenarios on which other programs are measured: what
-//! `make measure` calls (`benches/peers/measure.py`).
+//! Speed of the engine and of its rivals, as JSON, and the scenarios on which other programs are measured, for
+//! `make measure` (`benches/peers/measure.py`).
 //!
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use std::sync::LazyLock;
 use std::time::Instant;
 
-/// What is measured, or printed.
+/// The quantity that is measured or printed.
 #[derive(Parser)]
 enum What {
     /// Times the engine on each number of masses.
@@ -95,7 +95,7 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
-/// The chain, or the one so many behind it.
+/// The chain `behind` places after that of `drawn` in the stream.
 fn draw(drawn: &Drawn, behind: u64) -> Result<Scenario, Failure> {
     let chain = Chain { masses: drawn.masses, restitution: RESTITUTION, ..Chain::default() };
     let mut normals = NormalPairs::new("bench", SEED, drawn.chain + behind);
@@ -156,7 +156,7 @@ fn engine(
     }))
 }
 
-/// Largest resident memory of this process so far, where the system tells it.
+/// Largest resident memory of this process so far, where the system reports it.
 fn peak_mib() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
@@ -214,7 +214,7 @@ fn row((runs, setting): &(Runs, Setting), repetitions: usize) -> Result<Value, F
         }
         Ok(impacts)
     };
-    // The system counts in ticks of some milliseconds, so what is short is run again and again.
+    // The system counts in ticks of some milliseconds, so short runs are repeated.
     let timed = |method: &dyn Method| -> Result<f64, Error> {
         let (began, mut times) = (processor_time(), 0.0);
         loop {

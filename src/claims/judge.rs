@@ -1,4 +1,4 @@
-//! How a row of the ledger is made: evidence in, a check out.
+//! Judges of statements: each computes from the results the check that is a row of the ledger.
 
 pub(super) use super::Basis::{Exact, OurMeasure, PrintedDigit, Rounding};
 use super::{Basis, Kind, Level, Published};
@@ -19,7 +19,7 @@ pub struct Evidence<'a> {
     pub level: Level,
 }
 
-/// What the results have where the samples are large enough for it.
+/// A result that small samples may not have: without it the verdict is undecided.
 pub fn some<T>(found: Option<T>) -> Result<T, Error> {
     found.ok_or(Error::Undecided)
 }
@@ -89,14 +89,13 @@ pub struct Judge {
     pub id: &'static str,
     /// What its verdict rests on.
     pub basis: Basis,
-    /// The words or formula that it judges, where a number alone does not say: others that are printed would be judged by
-    /// nothing. `{}` stands for the number.
+    /// The printed words or formula that it judges, where a number alone is not enough: other words are refused. `{}`
+    /// stands for the number.
     pub reads: Option<&'static str>,
     /// Whether it compares random numbers within their standard errors.
     pub statistical: bool,
-    /// What its note says, where that does not depend on results.
+    /// Its note, where that does not depend on results.
     note: &'static str,
-    /// Computes the check.
     find: fn(&Evidence, &Statement) -> Judged,
 }
 
@@ -123,7 +122,7 @@ pub const fn statistical(
     Judge { statistical: true, ..by(id, basis, find) }
 }
 
-/// A statement about the theory that whole cases decide.
+/// A statement about the theory that is judged by the number of cases in which it fails.
 pub const fn cases(id: &'static str, note: &'static str) -> Judge {
     let find = |e: &Evidence, s: &Statement| {
         let [all, failed] = e.cases(s)?;
@@ -138,7 +137,7 @@ pub const fn difference(id: &'static str, note: &'static str) -> Judge {
 }
 
 impl Judge {
-    /// Says which words or formula it judges.
+    /// Sets the words or formula that it judges.
     pub const fn of(self, reads: &'static str) -> Self {
         Judge { reads: Some(reads), ..self }
     }
@@ -146,7 +145,7 @@ impl Judge {
     /// Computes the check.
     ///
     /// # Errors
-    /// If something else is printed than what it judges, or a result was not run.
+    /// If the printed statement is not the one that it judges, or a result was not run.
     pub fn check(&self, e: &Evidence) -> Judged {
         let s = e.published.statement(self.id)?;
         let number = s.value.map(|x| format!("{x:.*}", usize::from(s.decimals)));

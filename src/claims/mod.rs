@@ -1,4 +1,4 @@
-//! What the paper states, row by row, beside what this edition finds: [`Check`].
+//! What the paper states, row by row, compared with what this edition finds: [`Check`].
 //!
 //! A statement stands in `templates/published.toml` ([`Published`]) with its place; the row here
 //! with the same id computes our finding from the results of the experiments and judges it. Prose,
@@ -6,7 +6,7 @@
 //!
 //! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a
 //! difference that we explain no longer has the size that the explanation predicts. [`relations`]
-//! hold numbers of this edition against one another.
+//! compare numbers of this edition with one another.
 
 mod judge;
 pub mod relations;

@@ -1,5 +1,5 @@
 //! Relations between numbers of this edition that must hold whatever was drawn: each between two independent routes,
-//! as two samples of one thing, or a simulation and its bound; and what was promised of the engine.
+//! as two samples of one thing, or a simulation and its bound; and the promises about the engine.
 
 use super::judge::{Error, Evidence};
 use super::{Basis, Check, Kind, Published, Text, integer, level, significant};
@@ -13,13 +13,13 @@ use impact_numerics::estimates::difference;
 use impact_numerics::statistics::Estimate;
 use literate::Failure;
 
-/// Departures from a relation, each over what chance and what a formula leaves out allow: at most one.
+/// Departures from a relation, each over its tolerance (chance, and the error of a formula): at most one.
 type Departures = Result<Vec<f64>, Error>;
 
-/// Its name, what it says, and its departures.
+/// Its id, its statement, and its departures.
 type Relation = (&'static str, &'static str, fn(&Evidence) -> Departures);
 
-/// What each function says holds; its name is the id.
+/// Functions with their statements; the name of a function is the id.
 macro_rules! relations {
     ($($name:ident: $what:literal;)*) => { [$((stringify!($name), $what, $name)),*] };
 }
@@ -58,7 +58,7 @@ pub fn relations(results: &Results, published: &Published) -> Result<Vec<Check>,
     RELATIONS.into_iter().map(one).collect()
 }
 
-/// How far two estimates lie apart, over what chance allows.
+/// The difference of two estimates over that which chance allows.
 fn apart(e: &Evidence, a: &Estimate, b: &Estimate) -> f64 {
     (a.value - b.value).abs() / (e.level.quantile * difference(*a, *b).error)
 }
@@ -89,9 +89,9 @@ fn two_seeds(e: &Evidence) -> Departures {
     Ok(halves.into_iter().chain(means).collect())
 }
 
-/// What chance makes of events that need no coincidence beyond being near: of the impacts within a time of one next to
-/// them a tenth are within a tenth of it, and of those below a speed a hundredth are below a tenth of it. Over all decades,
-/// and for speeds where no pair came in contact: before a pair sticks it chatters, and its last bounces are slow.
+/// Laws of independent impacts: of those within a time of one in an adjacent gap a tenth are within a tenth of it, and
+/// of those below a speed a hundredth are below a tenth of it. Over all decades; for speeds only where no pair came in
+/// contact, since the last bounces of a chatter are slow.
 fn laws_of_chance(e: &Evidence) -> Departures {
     let row = e.sweep()?.runs.iter().find(|row| row.sigma == 0.2);
     let total = &row.ok_or(Error::Undecided)?.total;
@@ -123,8 +123,8 @@ fn map_meets_sweep(e: &Evidence) -> Departures {
     Ok(pairs.filter_map(|(a, b)| Some(apart(e, &a?, &b?))).collect())
 }
 
-/// However long one waits, and whatever r is: the mean of all is half of N no sooner than half of the chains have such
-/// a gap, and a twentieth of it no sooner than a twentieth of them.
+/// For every transient and every r, the mean over all reaches N/2 at no lower σ than half of the chains have a gap that
+/// closes by itself, and N/20 at no lower σ than a twentieth of them.
 fn no_rise_before_seeds(e: &Evidence) -> Departures {
     let [half, onset] = e.numbers("theory.relation", ["sigma_kept_half", "sigma_kept_onset"])?;
     let (map, found) = (&e.results.of(&PROTOCOL)?[0], e.results.of(&BRANCHES)?);
@@ -140,7 +140,7 @@ fn no_rise_before_seeds(e: &Evidence) -> Departures {
     Ok(early.map(|(early, error)| over(early, e.level.quantile * error)).collect())
 }
 
-/// What is too much over what is allowed.
+/// An excess over the allowed one; 0 if there is none.
 fn over(excess: f64, allowed: f64) -> f64 {
     if excess <= 0.0 { 0.0 } else { excess / allowed }
 }
@@ -178,11 +178,11 @@ fn seeds_before_circuits(e: &Evidence) -> Departures {
     Ok(of("grown").zip(circuits).map(|(grown, circuits)| grown / circuits).collect())
 }
 
-/// What the formula leaves out, times n: a clump keeps others out of the gaps beside it, which moves the share
+/// The error of the formula, times n: a clump excludes others from the gaps next to it, which changes the share
 /// by some gaps of n times λ²e^{−λ}/2.
 const LEFT_OUT: f64 = 1.5;
 
-/// But for what the formula leaves out and chance: five standard errors, and five chains where hardly any is expected.
+/// Up to the error of the formula and chance: five standard errors, and five chains where hardly any is expected.
 fn first_impacts_as_expected(e: &Evidence) -> Departures {
     let chains = e.results.table("nucleation.chains")?;
     let lengths = &e.results.of(&NUCLEATION)?.parameters.lengths;

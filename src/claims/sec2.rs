@@ -52,13 +52,13 @@ fn parameters(e: &Evidence, s: &Statement) -> Judged {
     ))
 }
 
-/// Of small σ, the largest that is not above two thirds of the printed threshold.
+/// The largest σ below two thirds of the printed threshold.
 pub(super) fn small<'a>(e: &Evidence<'a>) -> Result<&'a rise::RisePoint, Error> {
     let threshold = e.published.statement("sec2_half_height")?.number()?;
     some(e.sweep()?.first().rows.iter().rev().find(|row| row.sigma < 0.67 * threshold))
 }
 
-/// All gaps over those that are very few.
+/// N over the number of gaps that is called very few (ours).
 pub(super) const VERY_FEW: f64 = 20.0;
 
 /// By the mean of the realisations with an impact, in each window of the map of protocols.
@@ -170,7 +170,7 @@ fn undecided(
     Ok(text.then("."))
 }
 
-/// What our protocol gives.
+/// `found`, with the protocol of the sweep.
 fn ours(e: &Evidence, found: Text) -> Result<Text, Error> {
     let Protocol { transient, window } = e.sweep()?.first().protocol;
     let protocol = [transient, window].map(|time| integer(time as usize));
@@ -193,7 +193,7 @@ fn onset(e: &Evidence, s: &Statement) -> Judged {
     Ok(s.open(found).note(note.then(undecided(e, s, |own| own.onset)?)))
 }
 
-/// Where the mode passes half of all gaps is known to a range of σ; it agrees where this meets the printed digits.
+/// The mode passes half of all gaps within a range of σ; it agrees if this meets the printed digits.
 fn mode_rise(e: &Evidence, s: &Statement) -> Judged {
     let sweep = e.sweep()?;
     let [low, high] = some(mode_half(sweep.first(), sweep.ensemble.chain.gaps()))?;
@@ -288,7 +288,7 @@ fn walls_like_masses(e: &Evidence, s: &Statement) -> Judged {
         ))
 }
 
-/// The threshold of percolation sharpens with size. The paper names the likeness and no quantity.
+/// The threshold of percolation sharpens with size. The paper compares without a quantity.
 fn percolation(e: &Evidence, s: &Statement) -> Judged {
     let transient = e.sweep()?.first().protocol.transient;
     let widths = from_rest(e.results.of(&BRANCHES)?)

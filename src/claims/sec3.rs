@@ -1,4 +1,4 @@
-//! Sections 3 and 4: the graph, and what its circuits stand for.
+//! Sections 3 and 4: the graph, and the meaning of its circuits.
 
 use super::judge::*;
 use super::sec2::small;

@@ -1,4 +1,4 @@
-//! Section 8: a relation between σ and p, and what it leaves out.
+//! Section 8: a relation between σ and p, and its omissions.
 
 use super::judge::*;
 use super::sec2::NEGLIGIBLE;
@@ -151,7 +151,7 @@ fn large_sigma(e: &Evidence, s: &Statement) -> Judged {
         )))
 }
 
-/// As qualitative agreement is judged in Section 6.
+/// Judged as the qualitative agreement in Section 6.
 fn threshold_shift(e: &Evidence, s: &Statement) -> Judged {
     let both = ends(e)?;
     let half = some(e.sweep()?.first().rise.half_height_all)?;
@@ -200,8 +200,7 @@ fn of_starts(e: &Evidence) -> Result<Vec<(f64, Estimate, Estimate)>, Error> {
     Ok(both.collect())
 }
 
-/// Of the distance between theory and simulation a part is due to the start that the theory assumes, and r has no part in
-/// that.
+/// Part of the distance between theory and simulation is due to the start that the theory assumes, and not to r.
 fn restitution_omitted(e: &Evidence, s: &Statement) -> Judged {
     let theory = e.number("theory.relation.sigma_half")?;
     let starts = e.results.of(&STARTS)?;

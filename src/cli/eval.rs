@@ -32,7 +32,7 @@ pub struct Args {
     inputs: Inputs,
 }
 
-/// What a quantity may depend on; the answer repeats what it used.
+/// Inputs of quantities; the answer repeats those that it used.
 #[derive(clap::Args, Serialize)]
 struct Inputs {
     /// Number of masses n between walls; there are N = n + 1 vertices.
@@ -77,7 +77,7 @@ struct Answer {
     inputs: Inputs,
 }
 
-/// One quantity of the theory: where the paper has it, what it is, what it needs.
+/// One quantity of the theory: its equation, its meaning, its inputs.
 struct Quantity {
     name: &'static str,
     equation: &'static str,
@@ -102,7 +102,6 @@ const fn quantity(
 
 use SampleSpace::{FiveClasses, Simple};
 
-/// All quantities.
 const QUANTITIES: &[Quantity] = &[
     quantity(["p-crit", "Eq. (18)", "p at which Φ gets a stationary point"], N, |i| {
         jump::p_crit(i.vertices()).map(Value::from)
@@ -155,7 +154,7 @@ const QUANTITIES: &[Quantity] = &[
 ];
 
 impl Inputs {
-    /// With the defaults of what the quantity needs.
+    /// Fills in the defaults of the inputs that the quantity needs.
     ///
     /// # Errors
     /// Exit code 2 for an option that it does not use, which is a misunderstanding, and for one that is missing.
@@ -229,7 +228,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     print(&(json + "\n"))
 }
 
-/// One line for each quantity: name, equation, what it needs, what it is.
+/// One line for each quantity: name, equation, inputs, meaning.
 fn list() -> String {
     let option = |need: &&str| match *need {
         "N" => "[N]".into(),
@@ -243,7 +242,7 @@ fn list() -> String {
     QUANTITIES.iter().map(line).collect()
 }
 
-/// What stands below the options in `--help`.
+/// The text below the options in `--help`.
 fn help() -> String {
     format!(
         "Quantities (name, equation, options, meaning):\n{}\nFloats are printed with the fewest digits that read \

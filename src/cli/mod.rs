@@ -15,7 +15,6 @@ pub enum Verb {
     Trace(trace::Args),
 }
 
-/// Runs a verb.
 pub fn run(verb: Verb) -> Result<(), Failure> {
     match verb {
         Verb::Eval(args) => eval::run(args),

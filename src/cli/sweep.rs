@@ -122,7 +122,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     print(&table(&rows, args.format == "json")?)
 }
 
-/// Runs all σ.
 fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Printed>, Failure> {
     let cutting: Cutting<Vec<Ensemble>, Counts, Vec<Counts>> = Cutting {
         rows: CUTTING.rows,
@@ -169,7 +168,6 @@ fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Printed {
     }
 }
 
-/// The table, as JSON or as CSV.
 fn table(rows: &[Printed], as_json: bool) -> Result<String, Failure> {
     if as_json {
         return Ok(serde_json::to_string_pretty(rows)? + "\n");
@@ -181,7 +179,7 @@ fn table(rows: &[Printed], as_json: bool) -> Result<String, Failure> {
 
 /// Refuses what needs more memory than there is, in bytes.
 fn fits(needed: u128) -> Result<(), Failure> {
-    // Linux says it, elsewhere 4 GiB are taken for granted. No process has more addresses than half of all.
+    // Linux reports it, elsewhere 4 GiB are assumed. A process has at most half of all addresses.
     let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
     let free = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
     let kib = free.and_then(|line| line.split_whitespace().next()?.parse::<u128>().ok());

@@ -23,15 +23,15 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 ///
 /// Count gaps from the left wall: gap 0 lies between it and mass 1, gap j between masses j and
 /// j + 1; on a ring gap n lies between masses n and 1. Of neighbouring gaps that close at exactly
-/// the same instant the lowest is taken first; of the method certified, standard error says how often.
+/// the same instant the lowest is taken first; of the method certified, standard error reports how often.
 ///
 /// Do not trust single impacts far into a chaotic run: errors grow about tenfold in a dozen units
 /// of time. Compare with --method truth to see from where on a run is off. The truth has every
-/// time to 106 bits, but only for walls, one frequency and no contact; it asks the engine which
-/// gap is next, so it cannot show an impact that the engine misses.
+/// time to 106 bits, but only for walls, one frequency and no contact; it takes the next gap from
+/// the engine, so it cannot show an impact that the engine misses.
 ///
 /// Give smaller amplitudes where rounding may move a gap by more than 1e-6 of the spacing (near
-/// resonance, say): they are refused. From 1e-9 on, standard error says by how much (methods in
+/// resonance, say): they are refused. From 1e-9 on, standard error reports by how much (methods in
 /// closed form). Bodies that part more slowly than 1e-10 d w stay in contact while forces press
 /// them.
 #[derive(clap::Args)]
@@ -69,7 +69,7 @@ initial:  "rest" (at equilibrium), "zero" (no free part),
           {"at": {"positions": [x_1, ...], "velocities": [v_1, ...]}} (from the left wall),
           {"random": {"sigma": s, "seed": k}} (normal free parts)."#;
 
-/// So much is printed at once, in bytes, in whole lines: a signal that ends the program leaves no half of a number.
+/// Bytes that are printed at once, in whole lines: a signal that ends the program leaves no half of a number.
 const BLOCK: usize = 16 << 10;
 
 /// Closing speed below which an impact belongs to a chatter, in units of d ω, and how many of them are worth a line.
@@ -132,7 +132,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let width = rounding::width(&scenario);
     let closed = matches!(args.method, MethodName::Certified | MethodName::Sampled);
     if closed
-        && width > rounding::TOLD * scenario.spacing
+        && width > rounding::REPORTED * scenario.spacing
         && matches!(ran, Ok(_) | Err(Error::Work { .. }))
     {
         warn(&format!(
@@ -155,7 +155,7 @@ fn read(path: &Path) -> Result<(String, Scenario), Failure> {
     Ok((name, scenario))
 }
 
-/// What is wrong with a scenario, a setting or a run.
+/// The failure for an error in a scenario or a setting (exit code 2) or a run (1).
 fn in_file(name: &str, error: Error) -> Failure {
     match error {
         Error::Work { .. } => Failure::check(error.to_string()),

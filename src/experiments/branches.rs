@@ -1,5 +1,5 @@
-//! Whether the threshold forgets its history: chains from rest, and chains from above, where all forces were lowered from
-//! well beyond the rise; of several lengths, after several transients.
+//! Whether the threshold depends on the history: chains from rest, and chains from above, where all forces were lowered
+//! from well beyond the rise; of several lengths, after several transients.
 
 use super::starts::HALF_HEIGHT;
 use crate::experiments::prelude::*;
@@ -7,7 +7,6 @@ use impact_chain::{Protocol, Start};
 
 const WIDTH: &str = "from a quarter to three quarters of all gaps";
 
-/// Masses of the chain of an ensemble.
 fn masses(own: &Counted) -> usize {
     own.ensemble.chain.masses
 }
@@ -40,7 +39,7 @@ impl Both<'_> {
     }
 }
 
-/// Of the length that was run from above too.
+/// Both branches after each transient, of the length that was run from above too.
 pub fn both(found: &[Counted]) -> Vec<Both<'_>> {
     let mut both = Vec::new();
     for rest in from_rest(found) {
@@ -54,7 +53,7 @@ pub fn both(found: &[Counted]) -> Vec<Both<'_>> {
     both
 }
 
-/// Share of all gaps with an impact at a σ; none where it was not run so long.
+/// Share of all gaps with an impact at a σ; none where the runs were shorter.
 pub fn share((own, curve): (&Counted, &Curve), sigma: f64) -> Option<Estimate> {
     let row = curve.rows.iter().find(|row| row.sigma == sigma)?;
     let mean = row.mean_all?.estimate()?;

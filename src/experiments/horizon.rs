@@ -26,7 +26,7 @@ pub struct Twins {
 }
 
 impl Horizon {
-    /// Mean over the twins of what they have.
+    /// Mean of a quantity over the twins that have it.
     fn over(&self, pick: fn(&Twins) -> Option<f64>) -> Option<Estimate> {
         average(&self.twins.iter().filter_map(pick).collect::<Vec<f64>>())
     }

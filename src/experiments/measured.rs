@@ -8,7 +8,7 @@ use crate::experiments::prelude::*;
 use crate::params::Setting;
 use literate::input::one_line;
 
-/// Where the file lies, seen from the top of the project.
+/// Path of the file from the top of the project.
 pub const FILE: &str = "benches/measured.json";
 
 /// What was measured.
@@ -84,7 +84,7 @@ pub struct Measurement {
     pub seconds: Option<f64>,
     /// Processor time of the engine on the same chains, in seconds, for methods.
     pub engine_seconds: Option<f64>,
-    /// What else one must know; may be empty.
+    /// Remarks; may be empty.
     pub note: String,
 }
 
@@ -136,7 +136,7 @@ impl Measurement {
     }
 }
 
-/// When and where times were measured, and what they say.
+/// When and where times were measured, and those that the report quotes.
 pub fn tables(measured: &Measured) -> Vec<Table> {
     // The last session of the engine and that of the methods, which may be one.
     let parts = [("engine", What::Engine), ("methods", What::Method)];

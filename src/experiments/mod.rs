@@ -1,6 +1,5 @@
-//! What is run: one experiment a file, and the list of them ([`ALL`]): names, parameters, runs and tables. An
-//! experiment that stands there is known to the whole program. How experiments are saved and cut is for
-//! [`literate::experiments`].
+//! What is run: one file for each experiment, and the list of them ([`ALL`]): names, parameters, runs and tables. The
+//! whole program uses this list. [`literate::experiments`] saves them and cuts them into units.
 
 // Parameters and results are what an experiment declares, and a vector is one of them.
 #![allow(clippy::ptr_arg)]
@@ -22,7 +21,6 @@ pub mod sweep;
 pub mod theory;
 pub mod two_masses;
 
-/// What experiments and their tables use.
 pub(crate) mod prelude {
     pub use super::ensembles::{each, named};
     pub use super::{Error, Progress, Results, Session};
@@ -100,12 +98,12 @@ const SHARED: &[&str] = &[
     "src/experiments/ensembles.rs",
 ];
 
-/// The paper with its experiments, and nothing yet that shows them.
+/// The paper with its experiments, without figures, claims and documents.
 pub fn bare() -> Paper {
     let sources = literate::sources!("src", "crates");
     let project = Project::new(sources);
     let title = "A literate, reproducible edition of Homer & Hogan (2007), Impact Dynamics of Large Dimensional Systems";
-    // Tables are made of results anew each time.
+    // Tables are computed from saved results each time, so their code makes no result stale.
     let project = Project { shared: SHARED, left_out: &["/tables.rs"], ..project };
     #[cfg(feature = "embed")]
     let project =
@@ -240,7 +238,7 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
     tables: tables::race,
 };
 
-/// What methods do to the mean count.
+/// The errors of methods in the mean count.
 pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
     name: "bias",
     code: &["src/experiments/accuracy/bias.rs", "src/experiments/accuracy"],
@@ -280,13 +278,13 @@ pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation> = Exp
     parameters: NucleationParams::new,
     how: Whole {
         run: nucleation::run,
-        // A search of a gap costs about what an impact does.
+        // A search of a gap costs about as much as an impact.
         weight: |p| 100 * nucleation::count(p),
     },
     tables: nucleation::tables::tables,
 };
 
-/// What one gap that closes by itself sets off.
+/// How impacts spread from one gap that closes by itself.
 pub const SEEDS: Experiment<SeedsParams, seeds::Seeds> = Experiment {
     name: "seeds",
     code: &["src/experiments/seeds"],

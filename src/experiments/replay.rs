@@ -1,4 +1,4 @@
-//! Runs that a page repeats: each with a digest of its impacts, which whoever computes the same bits finds again.
+//! Runs that a page repeats, each with a digest of its impacts: equal bits give an equal digest.
 
 use crate::experiments::prelude::*;
 use crate::params::{Boundary, Profile, Protocol, SEED, Start};
@@ -7,16 +7,16 @@ use impact_chain::replay::{Asked, Forces, Replay};
 /// What is run: each run with a name.
 pub type Runs = Vec<(String, Asked)>;
 
-/// What came out, run by run.
+/// The results, run by run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replays {
     /// What was run.
     pub parameters: Runs,
-    /// What each gave.
+    /// The result of each.
     pub found: Vec<Found>,
 }
 
-/// What a run gave.
+/// The result of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     /// Impacts.
@@ -31,7 +31,7 @@ pub struct Found {
     pub digest: String,
 }
 
-/// The first are realisations behind Fig. 3; the others go where an engine may go wrong.
+/// The first are realisations behind Fig. 3; the others are difficult for an engine.
 pub fn runs(_: Profile) -> Runs {
     let drawn = |sigma: f64, chain: Chain| {
         let forces = Forces::Drawn { sigma, stream: "sweep".into(), seed: SEED, realisation: 0 };
@@ -80,7 +80,7 @@ fn mirrored() -> Vec<[f64; 2]> {
     half.iter().copied().chain(other).collect()
 }
 
-/// Runs them.
+/// Runs all.
 pub fn run(parameters: &Runs, progress: &Progress) -> Result<Replays, Error> {
     let stage = progress.stage("replays", parameters.len() as u64);
     let one = |(_, asked): &(String, Asked)| {
@@ -99,7 +99,7 @@ pub fn run(parameters: &Runs, progress: &Progress) -> Result<Replays, Error> {
     Ok(Replays { parameters: parameters.clone(), found: each(&stage, progress, parameters, one)? })
 }
 
-/// What the pages hold their own runs against.
+/// The digests with which the pages compare their runs.
 pub fn tables(own: &Replays) -> Vec<Table> {
     let rows: Vec<_> = own.parameters.iter().zip(&own.found).collect();
     let runs = Table::of("replay.runs", &rows, |_| 1)

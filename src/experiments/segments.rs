@@ -110,7 +110,6 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
 /// The files of the saved scenarios, below the templates directory.
 pub const FILES: [&str; 2] = ["scenarios/fig05.json", "scenarios/fig06.json"];
 
-/// A saved scenario.
 #[derive(Deserialize)]
 struct Saved {
     scenario: serde_json::Value,

@@ -1,8 +1,7 @@
 //! One long run at the printed threshold, impact by impact: where impacts start, how they spread
 //! along the chain, and where they stop.
 //!
-//! Which run is shown is not a matter of taste: it is the first realisation of its stream that
-//! still has impacts in the last part of the run.
+//! The run is the first realisation of its stream that still has impacts in its last part.
 
 use crate::experiments::prelude::*;
 use crate::params::Runs;
@@ -57,7 +56,7 @@ impl SpaceTime {
     }
 
     /// For each gap that is hit its first impact, and the earlier of those of its neighbours.
-    fn beside(&self) -> impl Iterator<Item = (usize, f64, Option<f64>)> {
+    fn with_neighbours(&self) -> impl Iterator<Item = (usize, f64, Option<f64>)> {
         let firsts = self.firsts();
         (0..firsts.len()).filter_map(move |gap| {
             let left = gap.checked_sub(1).and_then(|left| firsts[left]);
@@ -69,8 +68,8 @@ impl SpaceTime {
     /// The gaps at which impacts start: hit when neither neighbour had been. Such a gap closes by
     /// itself, since its masses move as they did from the beginning.
     pub fn starts(&self) -> Vec<usize> {
-        let alone = |own: &(usize, f64, Option<f64>)| own.2.is_none_or(|near| near >= own.1);
-        self.beside().filter(alone).map(|(gap, ..)| gap).collect()
+        let first = |(_, at, near): &(usize, f64, Option<f64>)| near.is_none_or(|near| near >= *at);
+        self.with_neighbours().filter(first).map(|(gap, ..)| gap).collect()
     }
 
     /// How long each step of a front takes, the quickest first: from the first impact of the earlier neighbour of a gap to
@@ -79,7 +78,7 @@ impl SpaceTime {
         let advance = |(_, time, near): (usize, f64, Option<f64>)| {
             near.filter(|near| *near < time).map(|near| time - near)
         };
-        let mut advances: Vec<f64> = self.beside().filter_map(advance).collect();
+        let mut advances: Vec<f64> = self.with_neighbours().filter_map(advance).collect();
         advances.sort_by(f64::total_cmp);
         advances
     }

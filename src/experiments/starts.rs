@@ -10,7 +10,7 @@ pub fn half_height(of: &Counted) -> Option<Estimate> {
 
 pub(super) const HALF_HEIGHT: &str = "σ where the mean of all passes half of all gaps";
 
-/// Of variants of the paper's chain.
+/// Half heights of variants of the paper's chain.
 pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
     let rest = named(variants, "rest").and_then(half_height);
     let table = Table::of("starts.variants", variants, |own| own.ensemble.realisations)
@@ -26,7 +26,7 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
     vec![table]
 }
 
-/// Of chains of several restitutions.
+/// Half heights of chains of several restitutions.
 pub fn of_restitutions(found: &Vec<Counted>) -> Vec<Table> {
     let table = Table::of("restitution.curves", found, |own| own.ensemble.realisations)
         .key("r", "1", |own| own.ensemble.chain.restitution)
@@ -35,7 +35,7 @@ pub fn of_restitutions(found: &Vec<Counted>) -> Vec<Table> {
     vec![table.done()]
 }
 
-/// What of the distance to the theory the start explains.
+/// The part of the distance to the theory that the start explains.
 pub fn beside_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let starts = results.of(&STARTS).ok()?;
     let half = |name: &str| named(starts, name).and_then(half_height);
@@ -54,8 +54,8 @@ pub fn beside_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     Some(vec![table])
 }
 
-/// How much of the distance between theory and simulation the start explains: half heights from
-/// rest, from random free parts, and of the theory.
+/// The part of the distance between theory and simulation that the start explains, from the half
+/// heights from rest, from random free parts, and of the theory.
 pub fn share_of_start(rest: Estimate, random: Estimate, theory: f64) -> Estimate {
     let (moved, all) = (difference(random, rest), theory - rest.value);
     with_error(moved.value / all, moved.error / all)

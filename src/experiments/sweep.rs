@@ -1,5 +1,5 @@
-//! The numerical simulations of Sec. 2 (Figs. 2, 3, 12 and 15): means and shares at each σ, where the rise is, and what is
-//! rare.
+//! The numerical simulations of Sec. 2 (Figs. 2, 3, 12 and 15): means and shares at each σ, where the rise is, and rare
+//! events.
 
 use super::SWEEP;
 use super::starts::HALF_HEIGHT;
@@ -31,7 +31,7 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     vec![run(sweep), rows(sweep), rise_table(sweep), modes(sweep), rare(sweep), sticking()]
 }
 
-/// That of the sweep with the second seed.
+/// The table of the sweep with the second seed.
 pub fn of_second_seed(found: &Vec<Counted>) -> Vec<Table> {
     let table = Table::of("second_seed.rise", found, |own| own.ensemble.realisations)
         .count("seed", "master seed", |own| own.ensemble.seed)
@@ -46,7 +46,6 @@ pub(super) const ANY_IMPACT: &str = "σ where half of the realisations have an i
 const WIDTH_OF_ACTIVE: &str =
     "from a quarter to three quarters of all gaps, of the mean of realisations with an impact";
 
-/// What was run.
 fn run(sweep: &Counted) -> Table {
     let of = |pick: fn(&Runs) -> u64| move |own: &&Counted| own.runs.iter().map(pick).sum();
     let protocol = sweep.first().protocol;
@@ -69,7 +68,6 @@ fn run(sweep: &Counted) -> Table {
         .done()
 }
 
-/// Means and shares at each σ.
 fn rows(sweep: &Counted) -> Table {
     let estimate = |own: Option<Mean>| own?.estimate();
     Table::of("sweep.rows", &sweep.first().rows, |row| row.ran)
@@ -97,7 +95,6 @@ fn rows(sweep: &Counted) -> Table {
         .done()
 }
 
-/// Places of the rise.
 fn rise_table(sweep: &Counted) -> Table {
     let end = |own: &Rise, end: usize| own.half_height.map_or(f64::NAN, |half| half.interval[end]);
     Table::of("sweep.rise", &[&sweep.first().rise], |_| sweep.ensemble.realisations)
@@ -113,7 +110,6 @@ fn rise_table(sweep: &Counted) -> Table {
         .done()
 }
 
-/// Where the mode is.
 fn modes(sweep: &Counted) -> Table {
     let width = |row: &RisePoint| row.mode_interval.map_or(0, |[low, high]| high - low.min(high));
     let noisiest =
@@ -135,7 +131,7 @@ fn modes(sweep: &Counted) -> Table {
         .done()
 }
 
-/// Impacts within 1e−9 of one in an adjacent gap, and impacts slower than 1e−8, that chance lets expect in a whole sweep.
+/// Impacts within 1e−9 of one in an adjacent gap, and impacts slower than 1e−8, expected by chance in a whole sweep.
 /// The number of impacts within δ falls in proportion to δ, once that is short against the time between impacts (from 1e−2
 /// on), and the number below a speed v in proportion to v², because the rate of impacts goes with the speed itself.
 pub fn expected(total: &Total) -> [f64; 2] {
@@ -146,7 +142,6 @@ pub fn expected(total: &Total) -> [f64; 2] {
     ]
 }
 
-/// What is rare, over all σ.
 fn rare(sweep: &Counted) -> Table {
     let total = total(sweep);
     let last = |decades: &[u64]| decades.last().copied().unwrap_or(0);
@@ -182,8 +177,8 @@ fn sticking() -> Table {
         .done()
 }
 
-/// Between which σ the mode passes half of all gaps: below the first it is surely under one half,
-/// from the second on surely over it, as far as its bootstrap intervals tell.
+/// Between which σ the mode passes half of all gaps: by its bootstrap intervals it is under one half
+/// below the first, and over it from the second on.
 pub fn mode_half(curve: &Curve, gaps: usize) -> Option<[f64; 2]> {
     let half = gaps as f64 / 2.0;
     let intervals: Vec<(f64, [usize; 2])> =

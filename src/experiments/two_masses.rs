@@ -1,6 +1,6 @@
 //! Two masses (the remark of Sec. 2): under a low enough force they never hit.
 //!
-//! For a start from rest every gap keeps R1 + R2 < d, and so stays open for ever, as long as the
+//! After a start from rest every gap keeps R1 + R2 < d, and so never closes, as long as the
 //! amplitudes are below a bound in closed form. A chain with fixed directions of the forcing and
 //! growing amplitude must therefore have its first impact at that bound or above, and come close
 //! to it when given time, because ω and Ω are incommensurable.
@@ -16,7 +16,7 @@ pub struct TwoMasses {
     /// For each time, over random directions: least and largest amplitude with an impact by then, divided by the bound
     /// of its direction.
     pub excess: Vec<[f64; 2]>,
-    /// Impacts seen below the bound, over all directions and times: must be 0.
+    /// Impacts below the bound, over all directions and times: must be 0.
     pub violations: u64,
 }
 
@@ -30,7 +30,7 @@ const HALVINGS: usize = 28;
 pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasses, Error> {
     let directions = parameters.directions.realisations;
     let stage = progress.stage("two masses", directions as u64 + 1);
-    // The last is the worst.
+    // The last direction is the worst one.
     let found = each(&stage, progress, 0..=directions, |index| {
         let forcing = match index < directions {
             true => parameters.directions.scenario(index as u64).forcing,

@@ -10,7 +10,7 @@ const CURVE: Stroke = Stroke::solid(GREEN, LINE);
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(7950);
     let top = (N as f64 / 20.0).ceil() * 20.0;
-    // The values at one are seen above the axis.
+    // From below zero, so that the values at one are above the axis.
     let y = |label: &str| Axis::linear(-4.0, top, 20.0, 2, label);
     let p = || Axis::decades(-3, 0, 1, "*p*");
     let frame = Frame::new(1150, 430, 8150, 3430);

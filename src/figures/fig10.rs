@@ -39,7 +39,7 @@ pub fn draw() -> Result<Figure, Error> {
         let highest = if at == jump { vec![1, after] } else { vec![k_star(at)] };
         weight(&right, &highest, &columns)?;
         if let (0, Some(&height)) = (i, columns.first()) {
-            // Once, where all else is low.
+            // Named once, where all else is low.
             right.label("height at *k* = 1", (right.x.hi, height), (-1, 1), INK)?;
         }
     }
@@ -85,7 +85,7 @@ fn weight(panel: &Panel, highest: &[usize], shown: &[f64]) -> Result<(), Error> 
         let at = (k as f64, shown[k - 1]);
         let disc = (Mark::Disc, 75, Stroke::solid(RED, HAIR));
         panel.marks("most likely", &[at], disc, Outside::Refuse)?;
-        // Beside the first column, under the broken line; above the other columns.
+        // Next to the first column, under the broken line; above the other columns.
         match (k, highest.len()) {
             (1, 1) => panel.label("*k*^{∗} = 1", at, (2, 1), RED)?,
             (1, _) => (),

@@ -1,5 +1,5 @@
-//! Fig. 13: (a) to (d) distributions with higher-order circuits and what each class contributes; (e) and (f), (a)
-//! and (d) on a logarithmic axis, which the paper does not have and where each class is seen and named.
+//! Fig. 13: (a) to (d) distributions with higher-order circuits and the parts of the classes; (e) and (f), (a) and (d) on
+//! a logarithmic axis, which the paper does not have and where each class is visible and named.
 
 use super::prelude::*;
 use crate::experiments::Results;
@@ -12,10 +12,10 @@ const DETAIL: usize = 20;
 /// Name, symbol, colour and dash of a class.
 type Class = (&'static str, &'static str, Colour, Dash);
 
-/// The sum of all classes, wide enough to be seen below them.
+/// The sum of all classes, wide enough to be visible below them.
 const SUM: Stroke = Stroke::solid(RED, 68);
 
-/// The class that makes up most of what is seen in (a) to (d).
+/// The class that is largest in each of (a) to (d).
 const SHOWN: [usize; 4] = [0, 1, 0, 4];
 
 /// The five classes in the order of Eq. (38).
@@ -102,7 +102,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn series(panel: &Panel, p: f64) -> Result<(), Error> {
     panel.curve("all five classes", &over_k(&five(p)), SUM, Outside::Cut)?;
     for (class, (name, _, colour, dash)) in contributions(p).iter().zip(CLASSES) {
-        // On a logarithmic axis each is seen.
+        // On a logarithmic axis each is visible.
         let points = match panel.y.scale {
             Scale::Linear => visible(class, panel.y.hi),
             _ => over_k(class),

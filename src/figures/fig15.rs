@@ -1,4 +1,4 @@
-//! Fig. 15: as Fig. 12, with higher-order circuits; and what these add, which the paper does not show.
+//! Fig. 15: as Fig. 12, with higher-order circuits, and the change by these, which the paper does not show.
 
 use super::prelude::*;
 use super::simulated::*;
@@ -20,7 +20,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
     panel.label("simple circuits only", reaches(&simple, 0.5 * n as f64), (2, 0), GREEN)?;
     panel.label("with higher orders", reaches(&higher, 0.08 * n as f64), (-2, 0), BLUE)?;
-    // What the orders add, since the two lines nearly coincide.
+    // The change by the orders, since the two lines nearly coincide.
     let change: Vec<_> =
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);

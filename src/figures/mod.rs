@@ -1,5 +1,4 @@
-//! The fifteen figures of the paper and those of this edition, one a file; each returns an SVG
-//! string and its data.
+//! The fifteen figures of the paper and those of this edition, one file each, and the list of them ([`ALL`]).
 
 mod fig01;
 mod fig02;

@@ -24,8 +24,7 @@ pub fn look(method: MethodName) -> Marker {
 /// The points of each method.
 pub type Curves = Vec<(MethodName, Vec<(f64, f64)>)>;
 
-/// Where the name of a method stands: next to which of its settings, or the finest, and so many millimetres to the right and
-/// below.
+/// Where the name of a method stands: next to which of its settings, with an offset to the right and down in millimetres.
 pub type Place = (MethodName, usize, (i32, i32));
 
 /// The finest setting.
@@ -45,14 +44,14 @@ pub fn draw(
     names(panel, curves, places)
 }
 
-/// The names of methods.
+/// Writes the names of methods next to their marks.
 pub fn names(panel: &Panel, curves: &Curves, places: &[Place]) -> Result<(), Error> {
-    for (method, setting, beside) in places {
+    for (method, setting, offset) in places {
         let own = curves.iter().find(|own| own.0 == *method).map(|own| &own.1);
         if let Some(at) = own.and_then(|own| own.get(*setting).or(own.last())) {
             let inside = (at.0, at.1.clamp(panel.y.lo, panel.y.hi));
             let colour = if *method == MethodName::Certified { RED } else { INK };
-            panel.name(name(*method), inside, *beside, colour)?;
+            panel.name(name(*method), inside, *offset, colour)?;
         }
     }
     Ok(())
@@ -70,8 +69,8 @@ pub fn by_method<T, P>(
     MethodName::ALL.into_iter().map(of).filter(|(_, points)| !points.is_empty()).collect()
 }
 
-/// Other programs on one chain of so many masses: of each setting the time of an impact over the engine's, and the time up to
-/// which the run is true, which is its end if it is true to the end.
+/// Other programs on one chain of `masses` masses: for each setting the time of an impact over the engine's, and the time
+/// up to which the run is right, at most its end.
 pub fn programs(measured: &Measured, masses: usize) -> Vec<(&str, Vec<(f64, f64)>)> {
     let mut found: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
     for row in measured.of(What::Peer).filter(|row| row.n == masses as u64) {

@@ -1,4 +1,4 @@
-//! Fig. S3: what one gap that closes by itself sets off, and the mean count that follows.
+//! Fig. S3: how impacts spread from one gap that closes by itself, and the mean count that follows.
 
 use super::FORCING;
 use super::prelude::*;

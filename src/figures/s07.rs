@@ -100,7 +100,6 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     Ok(sheet.finish("s07", "How long a run is true", description(race)))
 }
 
-/// The axis of horizons.
 fn horizon(top: f64) -> Axis {
     let step = if top > 60.0 { 50.0 } else { 10.0 };
     Axis::linear(0.0, top, step, 1, "horizon *t* (1/*ω*)").column("horizon (1/omega)")

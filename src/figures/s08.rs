@@ -10,14 +10,13 @@ use crate::params::Setting;
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 
-/// Errors that are smaller than this many standard errors are given as bounds; of so many points, one is twice its error by
+/// Errors below this many standard errors are drawn as bounds: among all points, one exceeds two standard errors by
 /// chance.
 const CLEAR: f64 = 3.0;
 
-/// Such a bound is so many standard errors above the value.
+/// Standard errors from the value up to such a bound.
 const BOUND: f64 = 2.0;
 
-/// Where the names stand.
 const NAMES: [Place; 6] = [
     (Verlet, 0, (0, 4)),
     (Advancement, FINEST, (1, 5)),

@@ -1,4 +1,4 @@
-//! Fig. S9: what an impact costs against the number of masses, counted and measured.
+//! Fig. S9: the cost of an impact against the number of masses, counted and measured.
 
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look};
@@ -7,7 +7,6 @@ use crate::experiments::accuracy::scale::Scale as Costs;
 use crate::experiments::measured::{Measurement, What};
 use crate::params::MethodName::*;
 
-/// Where the names stand.
 const NAMES: [Place; 4] = [
     (Certified, FINEST, (0, -2)),
     (Sampled, FINEST, (2, 0)),
@@ -16,7 +15,7 @@ const NAMES: [Place; 4] = [
 ];
 
 /// The measured times of the engine with one chain on one thread.
-fn own(measured: &Measured) -> Vec<&Measurement> {
+fn of_engine(measured: &Measured) -> Vec<&Measurement> {
     measured.of(What::Engine).filter(|row| row.chains == 1 && row.note.is_empty()).collect()
 }
 
@@ -34,7 +33,7 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
         counted.name("Verlet, time stepping", *at, (2, 0), INK)?;
     }
 
-    let own = own(measured);
+    let own = of_engine(measured);
     let times = own.iter().filter_map(|row| row.microseconds_per_impact);
     let (x, y) =
         (masses(), Axis::around(times, 1, "µs per impact").finely().column("time per impact (us)"));

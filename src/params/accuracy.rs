@@ -1,4 +1,4 @@
-//! Methods of simulation by name, and the sizes of what compares their speed and accuracy.
+//! Methods of simulation by name, and the sizes of the experiments on their speed and accuracy.
 
 use super::{Chain, Profile, Protocol, Runs, SEED};
 use impact_chain::methods::{
@@ -26,7 +26,7 @@ pub enum MethodName {
     Verlet,
     /// A stiff damped spring for each contact, --step [0.0001]: order 1/2, restitution off in clusters.
     Penalty,
-    /// Every time to 106 bits, slowly: walls, one frequency, no contact; asks the engine which gap is next.
+    /// Every time to 106 bits, slowly: walls, one frequency, no contact; takes the next gap from the engine.
     Truth,
 }
 
@@ -135,7 +135,7 @@ pub const BENCH: (&str, u64) = ("bench", 1);
 /// and whole runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RaceParams {
-    /// The twins whose growth gives the line that chaos allows; all methods run the same chains.
+    /// The twins whose growth gives the horizon that chaos allows; all methods run the same chains.
     pub growth: Runs,
     /// Length of the runs; a run ends where it has left the truth.
     pub until: f64,

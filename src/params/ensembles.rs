@@ -121,7 +121,7 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
     };
     let of = |&(stream, masses, heating, [from, to, step], realisations, transients): &Case| {
         let start = if heating.is_some() { "above" } else { "rest" };
-        // Of the paper's chain after the longest time a wider window too.
+        // The paper's chain has a wider window too after the longest time.
         let wide = transients == [5e4] && masses == 100;
         Ensemble {
             chain: Chain { masses, ..Chain::default() },
@@ -143,7 +143,7 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
         chain: Chain { start: Start::Random, ..Chain::default() },
         protocols: windows(transients, &[200.0]),
         stream: "chains".into(),
-        // Beyond the rise the half height lies where more starts overlap; what is left of them is counted.
+        // The half height lies where many starts overlap; the others are counted.
         most_rejected: 1.0,
         ..paper("random", Grid::default().and(9, 18, step, 100), realisations)
     };

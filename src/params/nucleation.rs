@@ -1,4 +1,4 @@
-//! Gaps that close by themselves, and what one of them sets off: sizes of the experiments.
+//! Sizes of the experiments on gaps that close by themselves and on the spreading of impacts from one of them.
 
 use super::{Chain, Grid, Profile, SEED};
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,7 @@
-//! Segments: from one state, is the next impact the right one, and at the right time?
+//! Segments: the next impact from one state against the reference, in gap, time and closing speed.
 //!
-//! The state is what the doubles of the scenario say, exactly; chaos has no time to act. Times and
-//! closing speeds are held to the bounds of `impact_chain::rounding`, and misses and ghosts are counted.
+//! The doubles of the scenario are exact, and chaos has no time to act. Times and closing speeds
+//! are held to the bounds of `impact_chain::rounding`, and misses and ghosts are counted.
 
 use crate::reference::{Dd, Real, Reference};
 use crate::{first, given};
@@ -10,14 +10,14 @@ use impact_chain::{Engine, Scenario};
 use impact_numerics::random::NormalPairs;
 use impact_paper::params::Boundary;
 
-/// The closing speed is off by at most ε S (C′ max(ω, Ω) + C M₂/v), where M₂ = ω² R₁ + Ω² R₂ bounds Δ'' and its term is what
-/// the error of the time does to the speed. This is C′.
+/// The closing speed is off by at most ε S (C′ max(ω, Ω) + C M₂/v), where M₂ = ω² R₁ + Ω² R₂ bounds Δ'' and its term is
+/// due to the error of the time. This is C′.
 const SPEED: f64 = 47.0;
 
 /// An impact is no graze if v² is at least this many M₂ C ε S.
 const TRANSVERSAL: f64 = 50.0;
 
-/// What was seen.
+/// The results of all segments.
 #[derive(Debug, Default)]
 struct Tally {
     segments: usize,
@@ -30,7 +30,7 @@ struct Tally {
     worst_speed: f64,
 }
 
-/// What rounding may do to one gap.
+/// The scales of rounding in one gap.
 struct Unit {
     /// ε S.
     rounding: f64,
@@ -69,7 +69,7 @@ impl Unit {
     }
 }
 
-/// Holds one segment against the reference.
+/// Compares one segment with the reference.
 fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
     let start = Reference::<Dd>::new(scenario);
     let mut chain = start.clone();
@@ -114,7 +114,7 @@ fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
     }
 }
 
-/// A random scenario of few masses, with a taste for corners: sizes over decades, gaps that
+/// A random scenario of few masses, biased to extreme cases: sizes over decades, gaps that
 /// nearly or just cannot close, masses that start touching, frequencies near and far.
 fn corner(index: u64) -> Option<Scenario> {
     let mut normals = NormalPairs::new("segments", 3, index);
@@ -139,7 +139,7 @@ fn corner(index: u64) -> Option<Scenario> {
     let mut free = draw(&mut normals, free_size);
     let forced = draw(&mut normals, forced_size * factor);
     if touch {
-        // The first mass starts a hair off the left wall, whatever it does then.
+        // The first mass starts very near to the left wall.
         let hair = 10f64.powf(-3.0 - 3.0 * normals.pair()[0].abs());
         let c = forced[0][0] / (omega * omega - forcing * forcing);
         free[0][0] = spacing * (hair - 1.0) - c;

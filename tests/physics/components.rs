@@ -1,4 +1,4 @@
-//! Forcing of several components, Eq. (3), against the reference; and what is refused.
+//! Forcing of several components, Eq. (3), against the reference; and invalid ones, which are refused.
 
 use crate::reference::Real;
 use crate::trace;

@@ -1,4 +1,4 @@
-//! Contact of pairs and clusters: how it comes about, what holds it, when it ends. Ω = 2 and cosine
+//! Contact of pairs and clusters: how it begins, which forces hold it, when it ends. Ω = 2 and cosine
 //! forcing only, so a mass under F cos Ωt is at j d + a − F/3 at t = 0, and forces are known.
 
 use crate::{given, run};
@@ -82,7 +82,7 @@ fn a_pair_that_is_shut_but_for_rounding_is_shut() {
 #[test]
 fn three_masses_collapse_in_a_geometric_series() {
     for r in [0.0, 0.02, 0.05] {
-        // Pressed together, so that contact is what comes of it; the middle one between the others.
+        // Pressed together, so that contact follows; the middle one between the others.
         let masses = [(2.0 - 1e-3, 1.0), (2.0, 0.0), (2.0 + 2e-3, -1.0)];
         let mut engine = Engine::new(&scene(&masses, &[9.0, 0.0, -9.0], r)).unwrap();
         let impacts = run(&mut engine, 0.1);
@@ -100,7 +100,7 @@ fn three_masses_collapse_in_a_geometric_series() {
         let half = 0.25 * (1.0 + r);
         let root = (half * half - r).sqrt();
         let (mu, ratio) = (half + root, (half - root) / (half + root));
-        // Those that alternate, past the first few and above what counts as slow.
+        // Those that alternate, past the first few and above the speed of contact.
         let series: Vec<&Impact> = impacts.iter().filter(|hit| hit.closing_speed > 1e-3).collect();
         let tail = &series[series.len() - 4..];
         assert!(series.len() > 6 && tail.windows(2).all(|pair| pair[0].gap != pair[1].gap));

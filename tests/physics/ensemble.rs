@@ -1,4 +1,4 @@
-//! An ensemble against what an independent simulator measured.
+//! An ensemble against the half height of an independent simulator.
 
 use impact_chain::{Ensemble, Start};
 use impact_paper::experiments::{Progress, ensembles::CUTTING};

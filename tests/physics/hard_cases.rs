@@ -1,11 +1,11 @@
-//! Searches next to resonance, which must not take for ever. Grazing and contact are in the scenes of the experiment `trials`.
+//! Searches next to resonance, which must end soon. Grazing and contact are in the scenes of the experiment `trials`.
 
 use crate::{first, given};
 use impact_chain::{Engine, Initial, Overtone, Scenario};
 use impact_paper::params::Chain;
 
-/// Next to resonance amplitudes are ten million times a gap, and hide that it hardly moves: the certified steps
-/// are to go by the gap.
+/// Next to resonance amplitudes are ten million times a gap that hardly moves: the certified steps must follow the gap
+/// and not the amplitudes.
 #[test]
 fn next_to_resonance_a_gap_that_hardly_moves_is_soon_passed() {
     for (k, scale) in [(1.0, 1.65e-7), (2.0, 1.6e-7), (16.0, 1.1e-7), (64.0, 1.6e-7)] {

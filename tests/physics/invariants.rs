@@ -1,4 +1,4 @@
-//! What must hold whatever the arithmetic: conservation, symmetry, and the declared impact law.
+//! Laws that hold for any arithmetic: conservation, symmetry, and the impact law.
 
 use crate::components::{self, EIGHT};
 use crate::reference::{Big, Dd, Real, Reference};
@@ -53,7 +53,7 @@ fn arcsine_of_inverse(x: f64) -> Dd {
     (0..3).fold(Dd::of((1.0 / x).asin()), newton)
 }
 
-/// Without loss and forcing, impact k comes at θ + (k − 1) p for ever, with θ = asin(1/A). Errors of single impacts add up as
+/// Without loss and forcing, every impact k is at θ + (k − 1) p, with θ = asin(1/A). Errors of single impacts add up as
 /// √k; a bias of times or speeds by a hundredth of a last bit would add up as k or k².
 #[test]
 fn orbits_that_repeat_themselves_keep_their_times() {
@@ -92,7 +92,6 @@ fn orbits_that_repeat_themselves_keep_their_times() {
     println!("times of repeating orbits: off by {largest:.1} √k last bits of the period");
 }
 
-/// The same chain seen from the other side.
 fn mirrored(scenario: &Scenario) -> Scenario {
     let turn = |pairs: &[[f64; 2]]| -> Vec<[f64; 2]> {
         pairs.iter().rev().map(|[x, y]| [-x, -y]).collect()

@@ -1,5 +1,5 @@
-//! The engine against what it must obey: a second simulator of higher precision, laws that hold
-//! whatever the arithmetic, and scenes whose outcome is known beforehand.
+//! Tests of the engine: against a second simulator of higher precision, by laws that hold for any
+//! arithmetic, and in scenes whose outcome is known beforehand.
 
 mod certified;
 mod components;
@@ -28,12 +28,12 @@ fn given(free: Vec<[f64; 2]>, forcing: Vec<[f64; 2]>) -> Scenario {
     Scenario { initial, forcing, ..drawn(&Chain::default(), 0.0, "given", 0) }
 }
 
-/// Its impacts from where an engine is to a time.
+/// The further impacts of an engine up to a time.
 fn run(engine: &mut Engine, until: f64) -> Vec<Impact> {
     engine.impacts(until).unwrap()
 }
 
-/// The next of them.
+/// The next impact of an engine up to a time.
 fn first(engine: &mut Engine, until: f64) -> Option<Impact> {
     engine.next_impact(until).unwrap()
 }

@@ -1,4 +1,4 @@
-//! The rivals of the engine: each converges at its order, and fails where its documentation says.
+//! The rivals of the engine: each converges at its order, and fails as documented.
 
 use crate::{drawn, given, run};
 use impact_chain::methods::{
@@ -142,7 +142,7 @@ fn no_method_loops_or_panics_on_bad_data() {
     let mut overlapped = State::of(&good);
     overlapped.positions.swap(0, 1);
     let broken = Scenario { restitution: f64::NAN, ..good.clone() };
-    // A speed of 1e7 between walls: ten million impacts a unit of time, or none at all that is seen.
+    // A speed of 1e7 between walls: ten million impacts a unit of time, or none found.
     let hot = free(&[[0.0, 1e7]], 1.0);
     for method in all() {
         let name = method.name();

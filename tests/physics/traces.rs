@@ -5,7 +5,7 @@ use crate::{drawn, trace};
 use impact_chain::Scenario;
 use impact_paper::params::{Boundary, Chain, Start};
 
-/// One chain, what is drawn for it, how long the engine must agree, and a least number of impacts.
+/// One chain with its draw, how long the engine must agree with the reference, and a least number of impacts.
 struct Case {
     chain: Chain,
     sigma: f64,
@@ -58,7 +58,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// Holds the impacts of a scenario against those of the reference, which are given back.
+/// Compares the impacts of a scenario with those of the reference, which are returned.
 pub fn held(scenario: &Scenario, until: f64, of: &str) -> Vec<Hit<Dd>> {
     let ours = trace(scenario, until);
     let theirs = Reference::<Dd>::new(scenario).run(until).unwrap();

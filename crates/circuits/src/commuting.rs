@@ -1,7 +1,7 @@
-//! Orders of impacts that no mass notices.
+//! Circuits that differ only by the order of impacts without a common mass (ours).
 //!
 //! Two impacts without a common mass may change places in the order of impacts, and every mass
-//! still sees its own impacts in the same order. Gap i lies between masses i and i + 1, so impacts
+//! still has its impacts in the same order. Gap i lies between masses i and i + 1, so impacts
 //! of gaps i and j have a common mass where |i − j| ≤ 1. In a simple circuit each gap appears once, and
 //! a mass meets the gap to its left and the gap to its right by turns, whichever of the (k − 1)! cyclic
 //! orders of the k gaps it is: all of them are one order up to such changes.

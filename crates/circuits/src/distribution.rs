@@ -2,13 +2,13 @@
 //!
 //! Plain factorials leave the range of doubles at N = 171, and differences of log-gamma lose
 //! digits as N grows. Here every weight is a running product of the factors p (N − k), carried
-//! with 106 bits and an exponent of its own, so N = 10^6 costs neither digits nor range.
+//! with 106 bits and a separate exponent, so N = 10^6 costs neither digits nor range.
 
 use super::{Error, check_k, check_p, check_vertices, higher_order, jump};
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::scaled::Scaled;
 
-/// Which circuits are possible at all.
+/// The circuits that are possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleSpace {
     /// Simple circuits only (Sec. 6).
@@ -158,7 +158,7 @@ impl Law {
         self.weights().map(|weights| weights.moment() / Scaled::from(weights.k))
     }
 
-    /// What one of the five classes contributes to P(X = k), k = 1..=N: the classes add up to
+    /// The part of one of the five classes in P(X = k), k = 1..=N: the classes add up to
     /// [`Law::probabilities`]. For a sample space of five classes.
     pub fn contribution(&self, class: &higher_order::Class) -> Vec<f64> {
         let total = self.sums().total;

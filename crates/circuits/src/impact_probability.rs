@@ -1,4 +1,4 @@
-//! The relation of p and σ (Sec. 8): how likely it is that a gap closes by itself.
+//! The relation of p and σ (Sec. 8): the probability that a gap closes by itself.
 //!
 //! The gap of two neighbours never closes while Y_0 + Y_1/|ω² − Ω²| < d, with Y_0 and Y_1 the
 //! amplitudes of its free and forced parts. As printed, Eq. (25) is one minus a double integral,
@@ -12,7 +12,7 @@
 //! a sum of positive terms: nothing cancels, for any ω, Ω, d and σ.
 //!
 //! Eq. (25) draws the free part of the motion independently of the forcing, with the same σ. A
-//! chain that is at rest when the forcing sets in has no such freedom: its free part cancels the
+//! chain that is at rest when the forcing sets in has no such random part: its free part cancels the
 //! forced position and velocity at t = 0, so with δα, δβ the differences of forcing amplitudes
 //! Y_0 = √(δα² + (Ω/ω)² δβ²)/|ω² − Ω²|, which goes with Y_1. In polar form the radius integrates
 //! out and one angle is left (ours):
@@ -109,7 +109,7 @@ impl ImpactProbability {
     /// For a gap of masses d = `spacing` apart, natural frequency ω and forcing frequency Ω.
     pub fn new(sigma: f64, spacing: f64, omega: f64, forcing: f64) -> Result<Self, Error> {
         check_positive("sigma", sigma, [0.0, 1e6])?;
-        // As of a scenario.
+        // The ranges of a scenario.
         check_positive("spacing", spacing, [1e-6, 1e6])?;
         check_positive("omega", omega, [1e-3, 1e3])?;
         check_positive("forcing-frequency", forcing, [1e-3, 1e3])?;

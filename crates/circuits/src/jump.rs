@@ -1,4 +1,4 @@
-//! Why the most likely number of impacts jumps (Sec. 7).
+//! The jump of the most likely number of impacts (Sec. 7).
 
 use super::distribution::{Law, SampleSpace, Weights};
 use super::{Error, check_vertices};
@@ -22,7 +22,7 @@ pub fn f(big_n: usize, p: f64, k: f64) -> f64 {
 
 /// f_{N,p} at an integer k, exactly.
 fn f_exact(big_n: usize, p: f64, k: usize) -> DoubleDouble {
-    // k (N − k) ≤ N²/4 < 2^53 for every N allowed, so one error-free product is all.
+    // k (N − k) ≤ N²/4 < 2^53 for every N allowed, so one error-free product is enough.
     two_product(p, (k * (big_n - k)) as f64) - DoubleDouble::from(k + 1)
 }
 

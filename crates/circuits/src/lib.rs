@@ -1,20 +1,20 @@
 //! Sections 3 to 9: periodic orbits as circuits of the impact graph, how many there are, how
-//! likely each is, and what that says about the number of impacts.
+//! likely each is, and what follows for the number of impacts.
 //!
 //! - [`graph`]: the graph of Sec. 3 and its circuits, one by one (Figs. 4 to 6).
 //! - [`counting`]: how many simple circuits there are, Eqs. (6) to (8) (Fig. 7).
 //! - [`distribution`]: the number X of different impacts, Eqs. (9) and (10) (Figs. 8 and 9).
-//! - [`jump`]: why its most likely value jumps, Eqs. (11) to (18) (Fig. 10).
+//! - [`jump`]: the jump of its most likely value, Eqs. (11) to (18) (Fig. 10).
 //! - [`impact_probability`]: the relation of p and σ, Eqs. (20) to (25) (Fig. 11).
 //! - [`higher_order`]: circuits that repeat vertices, Eqs. (26) to (38) (Figs. 13 to 15).
-//! - [`commuting`]: orders of impacts that no mass notices (ours).
-//! - [`nucleation`]: gaps of a chain at rest that close by themselves (ours).
+//! - [`commuting`]: circuits that differ only by the order of impacts without a common mass (ours).
+//! - [`nucleation`]: gaps of a chain from rest that close by themselves (ours).
 //!
 //! ```
 //! use impact_circuits::distribution::{Law, SampleSpace};
 //! use impact_circuits::jump;
 //!
-//! // A hundred gaps: where Φ has a double zero, and how many gaps are most likely hit just beyond the jump.
+//! // A hundred gaps: the p at which f has a double zero, and the distribution of X beyond the jump.
 //! let p_crit = jump::p_crit(100)?;
 //! assert!((p_crit - 0.0122099).abs() < 1e-7);
 //! let law = Law::new(SampleSpace::Simple, 100, 0.02)?;
@@ -34,7 +34,7 @@ pub mod impact_probability;
 pub mod jump;
 pub mod nucleation;
 
-/// What the theory refuses, or what doubles do not hold.
+/// An argument outside the theory, or a value outside the range of doubles.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{field}: {problem}; {remedy}")]
 pub struct Error {

@@ -1,7 +1,7 @@
-//! Nucleation: how likely it is that a gap of a chain at rest closes by itself, and that one of a chain does (ours).
+//! Nucleation (ours): the probabilities that a gap of a chain from rest closes by itself, and that some gap of it does.
 //!
 //! # One gap
-//! A chain at rest has free parts that cancel the forced positions and velocities at t = 0. With the
+//! A chain from rest has free parts that cancel the forced positions and velocities at t = 0. With the
 //! differences δα = ρ cos θ, δβ = ρ sin θ of the amplitudes on both sides of a gap, its width is
 //!
 //! Δ(t) = d − ρ E(t) · (cos θ, sin θ),
@@ -28,18 +28,18 @@
 //! P = ⟨ ∫_0^{m_2/m_1} (2 t D/Q²)(1 + h) e^{−h} dt ⟩ over θ_1 and θ_2, and the same with 1 and 2 exchanged,
 //! Q = v_2 + v_1 t² + 2σ² t cos(θ_1 − θ_2),  D = v_1 v_2 − σ⁴,  h = m_2² Q/(2 D t²),
 //!
-//! v_1 and v_2 being the variances of the differences. No function but the exponential is asked for.
+//! v_1 and v_2 being the variances of the differences. The exponential is the only function needed.
 //!
 //! # At least one gap of a chain
-//! The gaps are 1-dependent: gaps that share no mass know nothing of one another, neighbours do, and
-//! those that close by themselves come in clumps. Let a clump begin at a gap that closes when the gap to its left does
-//! not. There is a gap that closes if and only if there is a clump, and beginnings of clumps are nearly
-//! independent: with their mean number λ, none begins with a probability near e^{−λ}.
+//! The gaps are 1-dependent: gaps that share no mass are independent, neighbours are not, and those that close by
+//! themselves come in clumps. A clump begins at a gap that closes when the gap to its left does not. There is a gap that
+//! closes if and only if there is a clump, and beginnings of clumps are nearly independent: with their mean number λ,
+//! there is none with a probability near e^{−λ}.
 //!
 //! Dependence only makes chains without such a gap more frequent. In unlimited time a gap does not close if the
 //! difference of its forces lies in a set that is convex and symmetric about zero, and forces are jointly normal. By the
 //! Gaussian correlation inequality (Royen 2014) all gaps stay open with at least the product of their probabilities
-//! to do so: as if gaps were independent is a bound on the share of chains with a gap that closes.
+//! to do so: independent gaps give an upper bound on the share of chains with a gap that closes.
 
 use impact_chain::{Boundary, Chain};
 use impact_numerics::quadrature::GaussLegendre;
@@ -129,8 +129,7 @@ impl Reach {
     }
 }
 
-/// Whether a gap between amplitudes that differ by these of a chain at rest closes in unlimited
-/// time.
+/// Whether a gap of a chain from rest, whose two forces differ by these amplitudes, closes in unlimited time.
 pub fn closes_by_itself(chain: &Chain, [delta_alpha, delta_beta]: [f64; 2]) -> bool {
     let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
     let turned = big_omega / omega * delta_beta;
@@ -202,7 +201,7 @@ fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
     2.0 * determinant * sum / (angles * angles) as f64
 }
 
-/// How likely it is that single gaps and neighbours close by themselves, of a chain from rest.
+/// The probabilities that single gaps and neighbours of a chain from rest close by themselves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chances {
     /// A gap between masses.
@@ -216,8 +215,8 @@ pub struct Chances {
 }
 
 impl Chances {
-    /// The chances within a reach, for forces of standard deviation `sigma`; for neighbours, which take
-    /// the square of the number of angles, that reach may be at `fewer` angles.
+    /// The chances within a reach, for forces of standard deviation `sigma`; `fewer` is the reach at fewer angles, for
+    /// neighbours, which cost the square of their number.
     pub fn new(chain: &Chain, reach: &Reach, fewer: &Reach, sigma: f64) -> Chances {
         let (mass, wall) = (2.0 * sigma * sigma, sigma * sigma);
         let d = chain.spacing;

@@ -1,4 +1,4 @@
-//! The chain of Sec. 2: what it is, without its forcing.
+//! The chain of Sec. 2: its masses, its ends and its start, without the forcing.
 
 use serde::{Deserialize, Serialize};
 
@@ -28,7 +28,7 @@ impl Boundary {
 pub enum Start {
     /// At rest at equilibrium, when the forcing sets in.
     Rest,
-    /// Without a free part: on the forced response.
+    /// Without a free part, on the forced response alone.
     Zero,
     /// With a free part whose two amplitudes are normal with standard deviation σ.
     Random,

@@ -24,7 +24,7 @@ use std::collections::BTreeMap;
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
 pub(super) const CONTACT_SPEED: f64 = 1e-10;
 
-/// In the settled run, gaps may still move this much faster, and be this wide in units of d.
+/// Rate, in units of d ω, and width, in units of d, up to which a gap belongs to a settled run.
 const SLOW: f64 = 10.0 * CONTACT_SPEED;
 const SHUT: f64 = 1e-16;
 
@@ -34,14 +34,14 @@ type Resting = (usize, [f64; 2]);
 const STILL: [f64; 2] = [0.0; 2];
 
 impl<const M: usize> Simulation<M> {
-    /// Whether the impact of gap k at `speed` needs more than the impact law.
+    /// Whether the impact of gap k at `speed` is so slow that contact may begin, or hits a cluster.
     pub(super) fn is_contact_matter(&self, k: usize, speed: f64) -> bool {
         let near = self.topology.adjacent(k);
         self.restitution * speed <= CONTACT_SPEED * self.spacing * self.search.frequencies.omega
             || near.into_iter().flatten().any(|near| self.gaps[near].in_contact)
     }
 
-    /// An impact that is slow, or that hits a cluster.
+    /// Carries out such an impact.
     pub(super) fn collide_in_contact(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
         let mut freed = Vec::new();
         for near in self.topology.adjacent(k).into_iter().flatten() {
@@ -64,7 +64,7 @@ impl<const M: usize> Simulation<M> {
         self.settle_runs(resting, phases, None);
     }
 
-    /// The force of gap `k`, or of another gap of its cluster, has come to zero.
+    /// Releases gap `k`, whose contact force has come to zero, and settles its cluster without it.
     pub(super) fn release(&mut self, k: usize, phases: &Phases<M>) {
         let freed = self.free_cluster(k, phases);
         self.settle(phases, &freed, Some(k));
@@ -75,7 +75,7 @@ impl<const M: usize> Simulation<M> {
         self.settle_runs(shut.iter().map(|&k| (k, STILL)).collect(), p, released);
     }
 
-    /// Width and rate of gap k now.
+    /// Width and rate of gap k now, after a jump of its rate.
     fn resting(&self, k: usize, phases: &Phases<M>, jump: f64) -> [f64; 2] {
         let frame = self.look(k, phases);
         self.carried(k, &frame, jump).unwrap_or([frame.f0, frame.g0])
@@ -103,7 +103,7 @@ impl<const M: usize> Simulation<M> {
                     continue;
                 }
                 let more: Vec<Resting> = if self.gaps[near].in_contact {
-                    // Its masses would be given another motion, and its contact not know of it.
+                    // Settling moves its masses, so its cluster is freed first.
                     self.free_cluster(near, p).into_iter().map(|k| (k, STILL)).collect()
                 } else {
                     vec![(near, self.resting(near, p, 0.0))]
@@ -112,7 +112,7 @@ impl<const M: usize> Simulation<M> {
                 known.extend(more);
             }
         }
-        // What the rates of the gaps beside the runs jump by.
+        // The jumps of the rates of the gaps next to the runs.
         let mut jumps: BTreeMap<usize, f64> = BTreeMap::new();
         for run in self.runs(&known) {
             let rates: Vec<f64> = run.iter().map(|k| known[k][1]).collect();
@@ -161,8 +161,8 @@ impl<const M: usize> Simulation<M> {
         runs
     }
 
-    /// Settles one run: common velocity, then the forces say which gaps stay shut. Returns what the velocities of its
-    /// first and last mass jump by.
+    /// Gives a run a common velocity and finds from the contact forces which of its gaps stay shut. Returns the jumps of
+    /// velocity of its first and last mass.
     fn settle_run(
         &mut self,
         gaps: &[usize],
@@ -172,7 +172,7 @@ impl<const M: usize> Simulation<M> {
     ) -> [f64; 2] {
         let allowed: Vec<bool> = gaps.iter().map(|&k| Some(k) != released).collect();
         let accelerations: Vec<_> = gaps.iter().map(|&k| self.acceleration(k)).collect();
-        // What a unit of contact force does to its gap: the sum of the inverse masses.
+        // The acceleration of a gap by a unit of its contact force: the sum of the inverse masses.
         let stiffness = |&k: &usize| self.topology.inverse_masses(k).iter().sum();
         let stiffness: Vec<f64> = gaps.iter().map(stiffness).collect();
         let forces =
@@ -206,7 +206,7 @@ impl<const M: usize> Simulation<M> {
         jumps
     }
 
-    /// What the velocities of the first and the last mass along `gaps` jump by when all take their common one.
+    /// The jumps of velocity of the first and the last mass along `gaps` when all take a common one.
     fn jumps_of_run(&self, gaps: &[usize], rates: &[f64]) -> [f64; 2] {
         let members = self.members(gaps);
         // Each relative to the first.
@@ -264,7 +264,7 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// Gives the masses along `gaps` their own forcing back, at unchanged place and velocity.
+    /// Gives each mass along `gaps` its separate motion again, at unchanged place and velocity.
     fn make_free(&mut self, gaps: &[usize], p: &Phases<M>) {
         for m in self.members(gaps) {
             if self.topology.is_wall(m) {
@@ -311,13 +311,13 @@ impl<const M: usize> Simulation<M> {
         gaps
     }
 
-    /// Waits for the zero of the contact force of gap k.
+    /// Searches the zero of the contact force of gap k.
     pub(super) fn watch_contact(&mut self, k: usize, p: &Phases<M>) {
         let force = self.forces[k];
         let frequencies = &self.search.frequencies;
         let motion = Motion { forced: force.forced, ..Motion::STILL };
         let mut frame = motion.frame(force.constant, p, frequencies);
-        // What began with a force that only its curvature makes press is not to end by rounding.
+        // Where the force is zero and grows by its curvature alone, rounding must not end the contact.
         let rounding = ROUNDING * force.size();
         if frame.f0.abs() <= rounding {
             frame.f0 = 0.0;

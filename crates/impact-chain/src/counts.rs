@@ -1,5 +1,5 @@
-//! What an ensemble showed at one σ, in whole numbers that add: different gaps in each window, close and slow impacts. No
-//! list of impacts is kept. The code sees every impact, so it is compiled for speed with the engine.
+//! Counts of an ensemble at one σ: different gaps with an impact in each window, close and slow impacts. All are whole
+//! numbers that add. This code runs at every impact, so it is compiled for speed with the engine.
 
 use crate::topology::Topology;
 use crate::{Boundary, Counters, Engine, Ensemble, Error, Impact, Protocol};
@@ -11,7 +11,7 @@ pub const NEAR_DECADES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e
 /// The v below which a closing speed is counted as slow, in units of d ω.
 pub const SLOW_DECADES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 
-/// Impacts between two questions whether to stop.
+/// Impacts after which a run checks again whether to stop.
 const LOOK_EVERY: u64 = 4096;
 
 /// Realisations in their order, for each window of the ensemble. Counts of realisations that follow one another are joined
@@ -57,7 +57,6 @@ impl Total {
 }
 
 impl Counts {
-    /// One realisation without any count.
     fn none(ensemble: &Ensemble) -> Counts {
         let windows = ensemble.protocols.len();
         Counts {
@@ -68,12 +67,10 @@ impl Counts {
         }
     }
 
-    /// One realisation whose start overlaps.
     pub(crate) fn rejected(ensemble: &Ensemble) -> Counts {
         Counts { rejected: 1, ..Counts::none(ensemble) }
     }
 
-    /// One realisation that the engine ended.
     pub(crate) fn failed(ensemble: &Ensemble) -> Counts {
         Counts { failed: 1, ..Counts::none(ensemble) }
     }
@@ -101,7 +98,7 @@ impl FromIterator<Counts> for Counts {
     }
 }
 
-/// The running observation of one realisation.
+/// Counts the impacts of one realisation while it runs.
 pub(crate) struct Watch {
     topology: Topology,
     total: Total,
@@ -115,7 +112,7 @@ pub(crate) struct Watch {
     known: Vec<usize>,
     /// Begins and ends of windows, rising.
     edges: Vec<f64>,
-    /// What the engine had counted at each of them.
+    /// The counters of the engine at each of them.
     at: Vec<Counters>,
 }
 
@@ -171,7 +168,7 @@ impl Watch {
         self.total.impacts += 1;
     }
 
-    /// Follows an engine to a time; stops where `stopped` says so.
+    /// Runs an engine to a time and counts its impacts; ends early when `stopped` returns true.
     pub fn follow(
         &mut self,
         engine: &mut Engine,
@@ -188,7 +185,7 @@ impl Watch {
         Ok(())
     }
 
-    /// What was counted, of a run that ended so.
+    /// The counts of the realisation, given how its run ended.
     pub fn counts(
         mut self,
         ensemble: &Ensemble,

@@ -1,20 +1,20 @@
-//! Impacts that lose nothing: elastic, of neighbours whose forcing does not tell them apart. Orbits of such masses may repeat
-//! themselves for ever, and a rounding that is the same whenever an orbit comes by would add up.
+//! Elastic impacts (r = 1) of neighbours under equal forces, which conserve the energy of their relative motion. Such
+//! orbits may be periodic, and a rounding that is the same in every period would add up.
 //!
 //! The impact reflects the relative free part X = (a, b) of the two in the direction n = (−sin ωt, cos ωt) of their kick:
-//! X' = X − 2 n (n·X)/(n·n). In double-doubles this keeps |X| to 1e−31, whatever rounding did to n. And n is turned to the
-//! instant at which the motions close the gap, some 1e−16 from the root that was found: so what the search rounds moves one
-//! impact, and none after it.
+//! X' = X − 2 n (n·X)/(n·n). In double-doubles this keeps |X| to 1e−31, whatever the rounding of n. And n is turned to the
+//! instant at which the motions close the gap, some 1e−16 from the root that was found, so the rounding of the search
+//! moves one impact and none after it.
 
 use super::flight::Phases;
 use super::simulation::Simulation;
 use impact_numerics::double_double::DoubleDouble;
 
-/// At slower impacts, in units of d ω, a gap is known better from its frame than from the motions.
+/// Closing speed, in units of d ω, below which the frame of a gap is more accurate than the motions.
 const SLOW: f64 = 1e-3;
 
 impl<const M: usize> Simulation<M> {
-    /// Whether the impact of gap k at `speed` keeps the energy of its neighbours' free motion.
+    /// Whether the impact of gap k at `speed` conserves the energy of its neighbours' free motion.
     #[inline(always)]
     pub(super) fn is_conservative(&self, k: usize, speed: f64) -> bool {
         self.restitution == 1.0 && {
@@ -24,7 +24,7 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// The impact of gap k at `speed`, where it [keeps energy](Self::is_conservative).
+    /// Carries out the impact of gap k at `speed` where it [conserves energy](Self::is_conservative).
     #[cold]
     pub(super) fn reflect(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
         let w = self.search.frequencies.omega;
@@ -51,7 +51,7 @@ impl<const M: usize> Simulation<M> {
         self.set_frame(k, phases, 0.0, -w * rate.hi);
         self.gaps[k].origin = self.now.after(late);
         self.queue.set(k, [self.queue.key(k).after(late)]);
-        self.reframe_beside(k, phases, weights.map(|weight| weight * w * kick.hi));
+        self.reframe_adjacent(k, phases, weights.map(|weight| weight * w * kick.hi));
     }
 
     /// The free part (a, b) of mass m.

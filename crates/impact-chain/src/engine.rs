@@ -1,4 +1,4 @@
-//! The exact event-driven engine.
+//! The event-driven engine as others use it; its algorithm is in `simulation`.
 
 use super::flight::Motion;
 use super::force::Force;
@@ -19,10 +19,10 @@ pub struct Impact {
     pub closing_speed: f64,
 }
 
-/// Who is handed the impacts of a run; false stops it.
+/// Receives the impacts of a run in order; returns false to stop it.
 pub type Sink<'a> = &'a mut dyn FnMut(Impact) -> bool;
 
-/// The first impacts of a run, at most so many.
+/// The first `most` impacts of a run, or all if there are fewer.
 pub fn collected<T>(
     most: usize,
     run: impl FnOnce(Sink) -> Result<T, Error>,
@@ -39,14 +39,14 @@ pub fn collected<T>(
 #[derive(Clone, Debug)]
 pub struct Engine(Kind);
 
-/// One component of the forcing is the model of the paper, and has its own code for speed.
+/// The paper's model has one component of the forcing: its code is compiled separately, for speed.
 #[derive(Clone, Debug)]
 enum Kind {
     One(Box<Simulation<1>>),
     Several(Box<Simulation<COMPONENTS>>),
 }
 
-/// The same call on the simulation inside.
+/// Makes the same call on either kind of simulation.
 macro_rules! inside {
     ($engine:expr, $simulation:ident => $call:expr) => {
         match $engine {
@@ -69,7 +69,7 @@ impl Engine {
         }))
     }
 
-    /// Bytes that a simulation of so many masses and components takes, its scenario included.
+    /// Bytes of a simulation with so many masses and components of the forcing, its scenario included.
     pub fn memory(masses: usize, components: usize) -> u128 {
         let each = if components == 1 { bytes::<1>() } else { bytes::<COMPONENTS>() };
         masses as u128 * (each + size_of::<[f64; 2]>() * (1 + components)) as u128
@@ -94,8 +94,7 @@ impl Engine {
         collected(usize::MAX, |sink| self.run_to(until, sink))
     }
 
-    /// One code for every receiver: with one for each, all below would be compiled where it is called, as fast as that
-    /// crate is.
+    /// Not generic over the receiver: generic code would be compiled with the caller's crate, which may be unoptimised.
     fn run_to(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
         inside!(&mut self.0, simulation => simulation.run(until, sink))
     }

@@ -5,7 +5,7 @@ use crate::{Chain, Engine, Error, Scenario};
 use impact_numerics::random::NormalPairs;
 use serde::{Deserialize, Serialize};
 
-/// How impacts are counted (ours; Sec. 2 speaks only of "a suitable transient time"): different gaps with an impact in
+/// How impacts are counted (ours; Sec. 2 has only "a suitable transient time"): different gaps with an impact in
 /// the window (T, T + W].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Protocol {
@@ -28,16 +28,16 @@ impl Protocol {
     }
 }
 
-/// A stronger force before the count begins; then all forces are lowered to σ, places and velocities going on.
+/// A stronger force before the count begins; then all forces are lowered to σ at unchanged positions and velocities.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Heating {
     /// Standard deviation of the amplitudes before.
     pub sigma: f64,
-    /// For so long, in units of 1/ω.
+    /// Its duration, in units of 1/ω.
     pub time: f64,
 }
 
-/// Beyond the rise all chains count nearly the same number of gaps, and each costs most: fewer or shorter runs do.
+/// Fewer or shorter runs beyond the rise, where all chains count nearly the same number of gaps and each costs most.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Beyond {
     /// The σ above which runs are fewer or shorter, in units of d ω².
@@ -48,10 +48,10 @@ pub struct Beyond {
     pub until: Option<f64>,
 }
 
-/// An ensemble. Realisation i has the same standard normals at every σ.
+/// Random chains of one kind at several σ. Realisation i has the same standard normals at every σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ensemble {
-    /// Its name among others.
+    /// Name, as in the tables of results.
     pub name: String,
     /// The chain, with its start.
     pub chain: Chain,
@@ -63,9 +63,9 @@ pub struct Ensemble {
     pub protocols: Vec<Protocol>,
     /// Realisations at each σ.
     pub realisations: usize,
-    /// Where fewer or shorter ones do.
+    /// Fewer or shorter runs beyond the rise.
     pub beyond: Option<Beyond>,
-    /// Share of overlapping starts above which a σ is not compared with others: no place is read from it.
+    /// Share of overlapping starts above which a σ is left out when the places of the rise are found.
     pub most_rejected: f64,
     /// Pieces of about equal length in which a long chain is counted, each like a realisation.
     pub pieces: usize,
@@ -93,8 +93,8 @@ impl Default for Ensemble {
     }
 }
 
-/// Impacts that a run of a chain is likely to have, to share work and to show progress: no result depends on it. A gap
-/// that is searched once counts as one.
+/// Estimated impacts of a run up to `time`, plus one for the first search of each mass: to share work and to show
+/// progress. No result depends on it.
 pub fn work(chain: &Chain, sigma: f64, time: f64) -> u64 {
     // Impacts per unit of time and mass, of the paper's chain, roughly.
     let rate = (1.6 * (sigma - 0.085)).clamp(0.0, 0.3);
@@ -129,8 +129,8 @@ impl Ensemble {
         }
     }
 
-    /// Runs realisation `index` at a σ and counts; gives up where `stopped` says so, with counts that are then of no use.
-    /// A start that overlaps, and a run that the engine ended early, are counted as such.
+    /// Runs realisation `index` at a σ and counts its impacts; ends early, with incomplete counts, when `stopped` returns
+    /// true. A start that overlaps, and a run that the engine ended early, are counted as such.
     ///
     /// # Errors
     /// [`Error::Input`] if the chain is not allowed.

@@ -5,7 +5,7 @@ use impact_numerics::text::one_line;
 /// An error of the dynamics.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// A field of the scenario has a value that the model does not allow (exit code 2).
+    /// A field of the scenario has a value that the model does not allow.
     #[error("{field}: {problem}; {remedy}")]
     Input {
         /// Name of the field, as in the scenario file.
@@ -15,7 +15,7 @@ pub enum Error {
         /// What to write instead.
         remedy: String,
     },
-    /// The start has masses in reversed order (exit code 2; sweeps count it as rejected).
+    /// The start has masses in reversed order; ensembles count it as rejected.
     #[error("initial: gap {gap} starts overlapped by {depth:e}; give a start with all gaps ≥ 0")]
     Overlap {
         /// The first overlapped gap.
@@ -23,7 +23,7 @@ pub enum Error {
         /// How deep, in units of length.
         depth: f64,
     },
-    /// The bound on work was exceeded (exit code 4).
+    /// The bound on work was exceeded.
     #[error(
         "the chain has more than {bound} events within one unit of time, the last at gap {gap}; the run was stopped \
          at t = {time}; give an earlier end or weaker forces"
@@ -45,7 +45,7 @@ impl Error {
         problem: impl Into<String>,
         remedy: impl Into<String>,
     ) -> Self {
-        // Both may repeat what stands in a file.
+        // Both may quote a file, at any length.
         let field = match one_line(&field.into(), 80) {
             empty if empty.is_empty() => "a field of no name".into(),
             field => field,

@@ -58,7 +58,7 @@ pub struct Motion<const M: usize> {
     pub offset: f64,
 }
 
-/// A motion seen at one instant, each part with its quadrature.
+/// The parts of a motion at one instant, each with its quadrature.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<const M: usize> {
     /// Free part u.

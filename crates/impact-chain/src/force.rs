@@ -1,4 +1,4 @@
-//! A contact force, or the acceleration it fights: a constant and what oscillates with the forcing.
+//! A contact force, or an acceleration: a constant plus sinusoids with the frequencies of the forcing.
 
 use super::flight::Phases;
 use crate::search::local_frame::{Frequencies, ROUNDING};
@@ -12,13 +12,13 @@ pub struct Force<const M: usize> {
     pub forced: [[f64; 2]; M],
 }
 
-/// Derivatives that are looked at, the value itself among them: more than any symmetry has made zero at once.
+/// Derivatives that [`Force::falls`] examines, the value included: more than any known symmetry makes zero at once.
 const ORDERS: usize = 6;
 
 impl<const M: usize> Force<M> {
     pub const ZERO: Force<M> = Force { constant: 0.0, forced: [[0.0; 2]; M] };
 
-    /// Of each part of two forces what `of` says.
+    /// Two forces combined part by part with `of`.
     pub fn zip(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
         Force {
             constant: of(self.constant, other.constant),
@@ -32,13 +32,13 @@ impl<const M: usize> Force<M> {
         p.seen(&self.forced).iter().fold(self.constant, |sum, part| sum + part[0])
     }
 
-    /// The sum of the absolute values of what it is made of.
+    /// The sum of the absolute values of its coefficients.
     pub fn size(&self) -> f64 {
         self.forced.iter().fold(self.constant.abs(), |sum, [c, s]| sum + c.abs() + s.abs())
     }
 
-    /// Whether an acceleration is negative at an instant or right after it, where it is made of parts of this `size`:
-    /// the first of its derivatives that is not zero to rounding decides.
+    /// Whether an acceleration is negative at an instant or right after it: the first derivative that exceeds the rounding
+    /// of terms of this `size` decides.
     pub fn falls(&self, size: f64, p: &Phases<M>, frequencies: &Frequencies<M>) -> bool {
         let seen = p.seen(&self.forced);
         let (mut powers, mut rounding) = ([1.0; M], ROUNDING * size);

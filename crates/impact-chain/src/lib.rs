@@ -1,9 +1,17 @@
 #![doc = include_str!("../README.md")]
 //!
-//! Numbers of equations are those of M. Homer and S. J. Hogan (2007), *Impact Dynamics of Large Dimensional
-//! Systems*. The chain is a piecewise smooth system: smooth in flight, with a jump of velocities at impacts.
+//! # Contents
 //!
-//! **Eq. (1)** (step towards (2)): its general form has no code of its own.
+//! - [`Chain`], [`Scenario`]: the chain of Sec. 2, and a chain with the amplitudes of its forcing and its start.
+//! - [`Engine`], [`Impact`], [`Counters`]: the simulation of a scenario, its impacts, and its counted work.
+//! - [`Ensemble`], [`Counts`], [`rise`]: many random chains, counted in windows of time; means and places of the rise.
+//! - [`Error`], [`rounding`]: input that is refused, and a bound of the errors of impacts.
+//! - [`replay`]: runs with a digest of their impacts, to be repeated bit for bit. [`counts`]: close and slow impacts.
+//! - [`methods`]: other ways to simulate a chain, to compare with, and the motion to 106 bits.
+//!
+//! Equations are those of M. Homer and S. J. Hogan (2007), *Impact Dynamics of Large Dimensional Systems*.
+//!
+//! **Eq. (1)** (step towards (2)): a piecewise smooth system, smooth in flight, with a jump of velocities at impacts.
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 

@@ -11,7 +11,7 @@ use crate::search::local_frame::Frequencies;
 /// and adding every gap that would be driven shut ends at the solution after at
 /// most as many rounds as there are gaps (Chandrasekaran, 1970, Opsearch 7, 263).
 ///
-/// Gaps that are not `allowed` stay open. Returns for each gap λ_i, or `None`.
+/// Gaps that are not `allowed` stay open. Returns for each gap λ_i, or `None` if it is open.
 pub fn contact_forces<const M: usize>(
     g: &[Force<M>],
     stiffness: &[f64],
@@ -25,7 +25,7 @@ pub fn contact_forces<const M: usize>(
     shut.forces()
 }
 
-/// The gaps that are known to stay shut.
+/// The gaps found so far to stay shut (`active`).
 struct Shut<'a, const M: usize> {
     g: &'a [Force<M>],
     stiffness: &'a [f64],
@@ -36,8 +36,8 @@ struct Shut<'a, const M: usize> {
 }
 
 impl<const M: usize> Shut<'_, M> {
-    /// Adds gaps that are driven shut; true if none is left. Runs grow to the right, then to the left, as far as they
-    /// do, so that a long one needs few rounds.
+    /// Adds gaps that are driven shut; true if none is left. A sweep to the right and one to the left make a long run
+    /// grow in few rounds.
     fn grow(&mut self) -> bool {
         let n = self.g.len();
         self.spread(0..n);
@@ -50,8 +50,8 @@ impl<const M: usize> Shut<'_, M> {
         more.is_empty()
     }
 
-    /// Adds, one after the other, every gap that the run before it drives shut. What that takes for its last force is
-    /// what it would be if the next gap were open: never more than it is.
+    /// Adds, one after the other, every gap that the run before it drives shut. The last force of that run is taken as if
+    /// the next gap were open, which is a lower bound.
     fn spread(&mut self, order: impl Iterator<Item = usize>) {
         let mut last = None;
         for i in order {
@@ -65,23 +65,23 @@ impl<const M: usize> Shut<'_, M> {
 
     /// Whether an open gap is driven shut by its acceleration and the forces of its neighbours.
     ///
-    /// An acceleration shuts a gap when it is negative. Where several gaps are released at once, by a symmetry, those of
-    /// the others are zero but for rounding, and what it makes of their sign must not press them again.
-    fn is_driven(&self, i: usize, beside: [Force<M>; 2]) -> bool {
-        let size = beside.iter().fold(self.g[i].size(), |size, force| size + force.size());
+    /// Its acceleration must be negative beyond rounding: where a symmetry releases several gaps at once, those of the
+    /// others are zero up to rounding, whose sign must not shut them again.
+    fn is_driven(&self, i: usize, neighbours: [Force<M>; 2]) -> bool {
+        let size = neighbours.iter().fold(self.g[i].size(), |size, force| size + force.size());
         // Elimination adds up the rounding of the gaps of a long run.
         let size = size * (self.g.len() as f64 / 8.0).max(1.0);
         let total =
-            beside.into_iter().fold(self.g[i], |total, force| total.zip(force, |a, b| a - b));
+            neighbours.into_iter().fold(self.g[i], |total, force| total.zip(force, |a, b| a - b));
         let open = self.allowed[i] && !self.active[i];
         open && total.falls(size, self.p, self.frequencies)
     }
 
     /// Pivot m and right side r of gap i, after those of the active gap before it: λ_i = (r + λ of the next) / m.
     fn eliminated(&self, i: usize, last: Option<(f64, Force<M>)>) -> (f64, Force<M>) {
-        let (own, g) = (self.stiffness[i], self.g[i]);
+        let (k, g) = (self.stiffness[i], self.g[i]);
         let right = g.zip(g, |x, _| -x);
-        last.map_or((own, right), |(m, r)| (own - 1.0 / m, right.zip(r, |a, b| a + b / m)))
+        last.map_or((k, right), |(m, r)| (k - 1.0 / m, right.zip(r, |a, b| a + b / m)))
     }
 
     /// λ of the active gaps from g + A λ = 0: elimination along each run of adjacent active gaps.

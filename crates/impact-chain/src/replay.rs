@@ -1,20 +1,20 @@
-//! A run that can be repeated and proved by a digest: the same impacts, to the last bit, wherever it is run.
+//! Runs that can be repeated elsewhere: a digest of the impacts shows that they are the same to the last bit.
 
 use crate::{Chain, Engine, Error, Impact, Scenario};
 use impact_numerics::random::NormalPairs;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// All that decides the bits of a run.
+/// The input of a run: all that determines its bits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Asked {
     /// The chain.
     pub chain: Chain,
-    /// Its forcing and its start.
+    /// Its forcing.
     pub forces: Forces,
-    /// Gaps with an impact are counted after this time ...
+    /// Transient T after which gaps with an impact are counted.
     pub transient: f64,
-    /// ... for so long.
+    /// Window W in which they are counted.
     pub window: f64,
 }
 
@@ -33,7 +33,7 @@ pub enum Forces {
         /// Which of its realisations.
         realisation: u64,
     },
-    /// Given one by one; the start is one without chance.
+    /// Given as (α, β) for each mass; the start is not random.
     Given(Vec<[f64; 2]>),
 }
 
@@ -43,7 +43,7 @@ impl Asked {
         self.transient + self.window
     }
 
-    /// The scenario.
+    /// The scenario, checked.
     pub fn scenario(&self) -> Result<Scenario, Error> {
         for (field, time) in [("transient", self.transient), ("window", self.window)] {
             if !(time >= 0.0 && time.is_finite()) {
@@ -61,7 +61,7 @@ impl Asked {
     }
 }
 
-/// A run on its way, piece by piece.
+/// A run that is advanced piece by piece.
 #[derive(Clone, Debug)]
 pub struct Replay {
     engine: Engine,
@@ -72,7 +72,7 @@ pub struct Replay {
 }
 
 impl Replay {
-    /// Sets a run at its beginning.
+    /// The run at t = 0.
     pub fn new(asked: &Asked) -> Result<Replay, Error> {
         let scenario = asked.scenario()?;
         Ok(Replay {
@@ -84,7 +84,7 @@ impl Replay {
         })
     }
 
-    /// Goes on for so many impacts at most, and shows each with its gap counted from 0. False at the end of the run.
+    /// Advances by at most `most` impacts and calls `see` with time and gap of each, gaps counted from 0. False at the end.
     pub fn advance(&mut self, most: u64, mut see: impl FnMut(f64, usize)) -> Result<bool, Error> {
         let (mut left, gaps) = (most, self.hit.len());
         let Replay { engine, hit, seen, transient, .. } = self;

@@ -19,14 +19,14 @@ pub const ONSET: f64 = 0.05;
 /// Resamples behind each interval.
 const RESAMPLES: u64 = 1000;
 
-/// An ensemble that was run.
+/// An ensemble with its results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Counted {
     /// What was run.
     pub ensemble: Ensemble,
-    /// For each σ, what whole runs had.
+    /// For each σ, totals of whole runs.
     pub runs: Vec<Runs>,
-    /// For each window, what was counted in it.
+    /// For each window, the counts against σ.
     pub curves: Vec<Curve>,
 }
 
@@ -56,12 +56,12 @@ pub struct Curve {
     pub rise: Rise,
 }
 
-/// A mean, with what is known of its error.
+/// A mean with its errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mean {
     /// The mean.
     pub value: f64,
-    /// Its standard error; none of a single number.
+    /// Its standard error; none from a single number.
     pub error: Option<f64>,
     /// Its bootstrap interval.
     pub interval: Option<[f64; 2]>,
@@ -72,14 +72,14 @@ impl Mean {
         Some(Mean { value: stat::mean(sample)?, error: standard_error(sample), interval })
     }
 
-    /// With its normal interval.
+    /// The mean with its standard error and the normal interval.
     pub fn estimate(&self) -> Option<Estimate> {
         Some(with_error(self.value, self.error?))
     }
 }
 
-/// Counts at one σ, of chains or of the pieces in which they are counted. Those that count have at least one impact in the
-/// window: the paper discards the others.
+/// Counts at one σ, of chains or of the pieces in which they are counted. The paper discards those without an impact in
+/// the window.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RisePoint {
     /// Standard deviation σ of the amplitudes.
@@ -104,8 +104,8 @@ pub struct RisePoint {
     pub counts: Vec<u32>,
 }
 
-/// The place of the rise on the σ axis, in several declared senses. Each is the last rise of a
-/// curve through a level, linear between rows; a curve that does not rise through it has none.
+/// The place of the rise on the σ axis, in several senses. Each is the last rise of a curve through a level, linear
+/// between rows; none if it does not rise through it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rise {
     /// Half height: the mean over realisations with an impact reaches N/2.
@@ -118,9 +118,9 @@ pub struct Rise {
     pub kept_half: Option<Estimate>,
     /// Width of the rise: the mean over all from a tenth to nine tenths of N.
     pub width: Option<Estimate>,
-    /// The mean over realisations with an impact from N/4 to 3N/4: it is never as low as a tenth where there are any.
+    /// Width of the mean over realisations with an impact, from N/4 to 3N/4.
     pub kept_width: Option<Estimate>,
-    /// The mean over all from N/4 to 3N/4.
+    /// Width of the mean over all, from N/4 to 3N/4.
     pub quarters: Option<Estimate>,
 }
 
@@ -147,7 +147,7 @@ impl Counted {
         &self.curves[0]
     }
 
-    /// Its rows that may be compared with others.
+    /// Its rows whose share of overlapping starts is small enough ([`Ensemble::most_rejected`]).
     pub fn comparable(&self) -> impl Iterator<Item = &RisePoint> {
         let both = self.first().rows.iter().zip(&self.runs);
         let most = self.ensemble.most_rejected;
@@ -258,7 +258,7 @@ impl Resampled {
 }
 
 impl Curve {
-    /// The curve of the window in this place.
+    /// The curve of the window with this index.
     pub fn new(ensemble: &Ensemble, counts: &[Counts], window: usize) -> Curve {
         let mut used: Vec<&[Option<u32>]> = Vec::new();
         for (&sigma, own) in ensemble.sigmas.iter().zip(counts) {
@@ -285,7 +285,7 @@ impl Curve {
 }
 
 impl RisePoint {
-    /// The row of a σ in one window, without the interval of the mode; counts reach to `largest`, and the intervals are
+    /// The row of a σ in one window, without the interval of the mode; counts go up to `largest`, and the intervals are
     /// those of both means.
     pub fn new(
         sigma: f64,

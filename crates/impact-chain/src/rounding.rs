@@ -3,9 +3,8 @@
 //! Take the doubles of a scenario as exact, and let gap Δ of two neighbours close next, at t + s, falling with speed
 //! v = −Δ'(t + s). Then the engine's waiting time is off by at most |δs| ≤ C ε S/v, with C = [`TIME`], ε = 2⁻⁵² and
 //! S = d + Q₁ + Q₂, where Q₁ and Q₂ are the free and the forced amplitudes of *both* neighbours, summed. Amplitudes that two
-//! neighbours share vanish from the gap, and yet their roundings stay: each forced amplitude is divided by ω² − Ω² on its
-//! own, so near resonance the lengths of their differences would be no unit. An impact that all but grazes is excepted: there no
-//! double can tell whether the gap closes.
+//! neighbours share vanish from the gap, but their roundings do not: each forced amplitude is divided by ω² − Ω²
+//! separately. Impacts that nearly graze are excepted: there no double can decide whether the gap closes.
 //!
 //! Scenarios whose C ε S exceeds [`MOST`] of d are refused: near resonance S is the amplitude over |ω² − Ω²|, however slowly the
 //! motion grows.
@@ -16,15 +15,15 @@ use super::{Initial, Scenario};
 /// The largest E = C ε S that a scenario may have, as a part of d.
 pub const MOST: f64 = 1e-6;
 
-/// `trace` says so where E is a larger part of d than this.
-pub const TOLD: f64 = 1e-9;
+/// `trace` reports E where it is a larger part of d than this.
+pub const REPORTED: f64 = 1e-9;
 
-/// C of the waiting time: eighteen times the worst that was measured. Of 560 000 impacts of random chains with a taste for
-/// corners, held against a simulator of 106 bits (`tests/physics/certified.rs`), the worst had 3.7.
+/// C of the waiting time: eighteen times the largest that was measured, 3.7 in 560 000 impacts of random chains biased
+/// to extreme cases, against a simulator of 106 bits (`tests/physics/certified.rs`).
 pub const TIME: f64 = 66.3;
 
-/// E = C ε S at the start, S taken from above for all gaps at once: the width of a gap that rounding
-/// may add or take. An impact that closes at speed v is off by at most E/v in time.
+/// E = C ε S at the start, with a bound of S over all gaps: rounding may change the width of a gap by E, and the time of
+/// an impact at closing speed v by E/v.
 pub fn width(scenario: &Scenario) -> f64 {
     let length = |[a, b]: [f64; 2]| (a * a + b * b).sqrt();
     let w = scenario.natural_frequency;

@@ -77,7 +77,7 @@ impl Form {
     fn read(text: &str) -> Result<Self, Error> {
         let mut reader = serde_json::Deserializer::from_str(text);
         let form = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
-            // What has no name in the path is called "?".
+            // A part of the path that has no name is "?".
             let path = error.path().to_string().replace(".?", "");
             let field = if [".", "?"].contains(&path.as_str()) { "scenario" } else { &path };
             Error::input(field, plain(&error.inner().to_string()), FORM)
@@ -155,7 +155,7 @@ pub(crate) fn within(field: &str, x: f64, low: f64, high: f64) -> Result<(), Err
     Err(Error::input(field, format!("{x:?} is out of range"), remedy))
 }
 
-/// Refuses what is not one pair of numbers for each of so many masses.
+/// Refuses a list that is not one pair of numbers for each mass.
 fn pairs_within(field: &str, pairs: &[[f64; 2]], masses: usize) -> Result<(), Error> {
     if pairs.len() != masses || masses == 0 {
         let problem = format!("it has {} pairs for {masses} masses", pairs.len());
@@ -210,7 +210,7 @@ impl Scenario {
         scenario
     }
 
-    /// A chain with given amplitudes; a random start, of which there is no chance here, is one without a free part.
+    /// A chain with given amplitudes; [`Start::Random`] is taken as [`Start::Zero`], as there are no random numbers.
     pub fn given(chain: &Chain, forcing: Vec<[f64; 2]>) -> Result<Scenario, Error> {
         pairs_within("forcing", &forcing, chain.masses)?;
         Ok(Scenario::of(chain, forcing))
@@ -230,7 +230,7 @@ impl Scenario {
         }
     }
 
-    /// Reads a scenario from JSON: `{"forcing": [[α₁, β₁], …]}`, with the fields of [`Chain`] beside it where they are not as in the paper.
+    /// Reads a scenario from JSON: `{"forcing": [[α₁, β₁], …]}`, with those fields of [`Chain`] that differ from the paper's.
     ///
     /// `"initial"` is `"rest"`, `"zero"`, `{"free": [[a₁, b₁], …]}`, `{"at": {"positions": [x₁, …], "velocities": [v₁, …]}}`
     /// or `{"random": {"sigma": σ, "seed": k}}`. Several components are `"forcing_frequencies": [Ω₁, …]` with a list of pairs for each.
@@ -283,9 +283,9 @@ impl Scenario {
         ))
     }
 
-    /// The scenario that goes on from a time at which all forces change by a factor, with time begun anew: every phase is
-    /// turned by what passed. Places and velocities stay, so the free parts, given as they are then, take what the
-    /// forced parts lose.
+    /// The continuation from `time`, when all forces change by `factor`, with time counted from there: every phase is
+    /// advanced by it. Positions and velocities are continuous, so the free parts, `free` until then, take up the change of
+    /// the forced response.
     pub fn lowered(&self, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
         let omega = self.natural_frequency;
         let turned = |pairs: &[[f64; 2]], frequency: f64| -> Pairs {

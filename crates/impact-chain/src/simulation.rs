@@ -1,10 +1,9 @@
-//! The exact event-driven engine.
+//! The main loop of the event-driven engine.
 //!
-//! Nothing is integrated. Each gap knows the instant of its next impact, found by the certified
-//! search from its own local frame; the earliest is taken from a winner tree, two masses are
-//! kicked, and the three gaps that they border are framed anew. Of gaps that close at the same instant
-//! the lowest comes first, each by the law for two, until none closes. Instants are whole numbers of ticks, so "the same" means
-//! the same; such ties come from exact symmetries, and are counted.
+//! Nothing is integrated. A certified search in the local frame of each gap finds the instant of its next impact; the
+//! earliest is taken from a winner tree, two masses are kicked, and the three gaps that they border get new frames.
+//! Of gaps that close at the same instant the lowest comes first, each by the law for two, until none closes. Instants
+//! are whole numbers of ticks, so "the same" is exact; such ties come from symmetries, and are counted.
 
 use super::engine::{Impact, Sink};
 use super::flight::{Motion, Phases, Rates};
@@ -40,7 +39,7 @@ pub(super) enum Awaits {
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap<const M: usize> {
-    /// The gap (or in contact its contact force) seen from `origin`.
+    /// The gap (or in contact its contact force) in the local frame of `origin`.
     pub frame: Frame<M>,
     pub origin: Instant,
     pub awaits: Awaits,
@@ -51,15 +50,15 @@ pub(super) struct Gap<const M: usize> {
 /// A hot chain has about one impact a gap; a chatter with r = 0.99 takes some 2500.
 const EVENTS_PER_GAP: u64 = 100_000;
 
-/// Below this fraction of d a gap is carried on in its own frame when a neighbour is hit: as a
+/// Below this fraction of d a gap is carried on in its last frame when a neighbour is hit: as a
 /// difference of two positions it would have lost its digits.
 pub(super) const NEARLY_SHUT: f64 = 1e-9;
 
 /// Overlap, as a fraction of d + R₁ + R₂, beyond which a gap cannot be explained by rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Below this part of what its positions are made of at t = 0, a gap may be exactly shut: roundings
-/// of amplitudes and sums add up to 5 · 2^-53.
+/// Below this fraction of the sum of the terms of its positions at t = 0, a gap may be exactly shut:
+/// roundings of amplitudes and sums add up to 5 · 2^-53.
 const SHUT: f64 = 4.0 * f64::EPSILON;
 
 /// The simulation of one scenario with `M` components of the forcing.
@@ -72,9 +71,9 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) topology: Topology,
     /// Masses 1..n; 0 and n + 1 are the walls.
     pub(super) motions: Vec<Motion<M>>,
-    /// What doubles leave of their free parts, if impacts are elastic.
+    /// Low words of their free parts as double-doubles, used if impacts are elastic.
     pub(super) remainders: Vec<[f64; 2]>,
-    /// The forced response (c, s) of each mass on its own.
+    /// The forced response (c, s) of each mass outside a cluster.
     pub(super) forced: Vec<[[f64; 2]; M]>,
     pub(super) gaps: Vec<Gap<M>>,
     /// Contact force of each gap in contact: constant, cos Ωt and sin Ωt parts.
@@ -88,7 +87,7 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) budget_left: u64,
 }
 
-/// A width below zero by rounding is zero unless the gap is closing, and then due now.
+/// Sets a width below zero by rounding to zero, unless the gap is closing: then its impact is due now.
 #[inline(always)]
 fn not_below<const M: usize>(frame: &mut Frame<M>) {
     if frame.f0 < 0.0 && frame.g0 >= 0.0 {
@@ -172,7 +171,7 @@ impl<const M: usize> Simulation<M> {
         Ok(())
     }
 
-    /// d and the parts of both neighbours' positions at t = 0, summed: what rounding follows there.
+    /// d plus the absolute terms of both neighbours' positions at t = 0, the scale of their rounding.
     fn made_of(&self, k: usize) -> f64 {
         let parts = |side: usize| {
             let motion = &self.motions[side];
@@ -197,7 +196,7 @@ impl<const M: usize> Simulation<M> {
     #[inline(always)]
     fn next_event(&mut self, end: Instant) -> Option<usize> {
         let (mut k, mut at) = self.queue.first();
-        // A search changes nothing that others see, so its place among others does not matter.
+        // A search has no effect on other gaps, so its order among equal events does not matter.
         let seen = !matches!(self.gaps[k].awaits, Awaits::Search { .. });
         if (at > end || seen) && self.queue.is_close(k) {
             (k, at) = self.queue.first_in_full();
@@ -209,7 +208,7 @@ impl<const M: usize> Simulation<M> {
         Some(k)
     }
 
-    /// What gap k waited for has come, at the instant `now`; returns the impact if it is one.
+    /// Handles the event of gap k at the instant `now`; returns the impact if it is one.
     #[inline(always)]
     fn step(&mut self, k: usize) -> Result<Option<Impact>, Error> {
         match self.gaps[k].awaits {
@@ -222,15 +221,14 @@ impl<const M: usize> Simulation<M> {
             Awaits::Impact(speed) => {
                 let impact = self.count_impact(k, speed)?;
                 let phases = Phases::at(&self.rates, self.now);
-                if self.queue.ties_beside(k) {
+                if self.queue.ties_with_neighbour(k) {
                     self.count_tie(k);
                 }
                 self.collide(k, speed, &phases);
                 return Ok(Some(impact));
             }
             Awaits::Search { whole_reach: true } if !self.gaps[k].in_contact => {
-                // The next frame will come from the motions, which do not drift, and with an eye
-                // to a longer wait.
+                // The frame after this one comes from the motions, which do not drift.
                 let gap = &mut self.gaps[k];
                 gap.frame = gap.frame.advanced(&self.search.frequencies);
                 not_below(&mut gap.frame);
@@ -258,7 +256,7 @@ impl<const M: usize> Simulation<M> {
         Ok(None)
     }
 
-    /// Counts the instant, once, if a gap beside gap k closes now as gap k does.
+    /// Counts this instant, once, if a gap next to gap k closes now as well.
     #[cold]
     fn count_tie(&mut self, k: usize) {
         let is_due = |near: usize| {
@@ -293,7 +291,7 @@ impl<const M: usize> Simulation<M> {
         Ok(())
     }
 
-    /// The impact of gap k at `speed`.
+    /// Carries out the impact of gap k at `speed`.
     #[inline(always)]
     fn collide(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
         if self.is_contact_matter(k, speed) {
@@ -307,9 +305,9 @@ impl<const M: usize> Simulation<M> {
             // Each neighbour shares one mass with the gap.
             self.look_again(k - 1, phases, jumps[0]);
             self.look_again(k + 1, phases, -jumps[1]);
-            let mut own = self.look(k, phases);
-            (own.f0, own.g0) = (0.0, self.restitution * speed);
-            self.gaps[k].frame = own;
+            let mut frame = self.look(k, phases);
+            (frame.f0, frame.g0) = (0.0, self.restitution * speed);
+            self.gaps[k].frame = frame;
             let mut keys = [Instant::NEVER; 3];
             for (near, key) in (k - 1..).zip(&mut keys) {
                 *key = self.search(near, true);
@@ -317,11 +315,11 @@ impl<const M: usize> Simulation<M> {
             return self.queue.set(k - 1, keys);
         }
         self.set_frame(k, phases, 0.0, self.restitution * speed);
-        self.reframe_beside(k, phases, jumps);
+        self.reframe_adjacent(k, phases, jumps);
     }
 
-    /// Frames the gaps that share a mass with gap k, whose neighbours' velocities have just jumped by `jumps`.
-    pub(super) fn reframe_beside(&mut self, k: usize, phases: &Phases<M>, jumps: [f64; 2]) {
+    /// Takes new frames of the gaps next to gap k, whose masses' velocities have just jumped by `jumps`.
+    pub(super) fn reframe_adjacent(&mut self, k: usize, phases: &Phases<M>, jumps: [f64; 2]) {
         let [before, after] = self.topology.adjacent(k);
         for near in [before, after].into_iter().flatten() {
             self.reframe(near, phases, self.jump_of_gap(near, k, jumps));
@@ -360,7 +358,7 @@ impl<const M: usize> Simulation<M> {
         motion.frame(self.spacing, phases, &self.search.frequencies)
     }
 
-    /// Takes the frame of gap k anew, `jump` being what its rate has just jumped by.
+    /// Takes a new frame of gap k, whose rate has just jumped by `jump`.
     #[inline(always)]
     fn look_again(&mut self, k: usize, phases: &Phases<M>, jump: f64) {
         let mut frame = self.look(k, phases);
@@ -378,12 +376,12 @@ impl<const M: usize> Simulation<M> {
         self.queue.set(k, [key]);
     }
 
-    /// Frames gap k now with width `f0` and rate `g0`, which are known better than by looking, and
-    /// looks for its next impact.
+    /// Takes a new frame of gap k with width `f0` and rate `g0`, which are more accurate than those of
+    /// the motions, and searches its next impact.
     pub(super) fn set_frame(&mut self, k: usize, phases: &Phases<M>, f0: f64, g0: f64) {
         let mut frame = Frame { f0, g0, ..self.look(k, phases) };
         not_below(&mut frame);
-        // Of a gap at rest, rounding of the acceleration decides nothing: a released one would shut again.
+        // For a gap at rest the rounding of its acceleration must not decide, or a released one would shut again.
         if f0 == 0.0 && g0 == 0.0 {
             frame.not_falling(&self.search.frequencies);
         }
@@ -392,7 +390,7 @@ impl<const M: usize> Simulation<M> {
         self.queue.set(k, [key]);
     }
 
-    /// Width and rate of a nearly shut gap from its own last frame.
+    /// Width and rate of a nearly shut gap from its last frame.
     #[inline(always)]
     pub(super) fn carried(&self, k: usize, seen: &Frame<M>, jump: f64) -> Option<[f64; 2]> {
         if seen.f0 >= NEARLY_SHUT * self.spacing || self.gaps[k].in_contact {
@@ -436,7 +434,7 @@ impl<const M: usize> Simulation<M> {
     }
 
     /// Lets gap k, which is open, wait without a search for as long as it certainly stays open, if
-    /// that is longer than a search can see.
+    /// that is longer than the reach of a search.
     fn waits(&mut self, k: usize, phases: &Phases<M>) -> bool {
         let [left, right] = self.topology.sides(k);
         let motion = self.motions[right].minus(&self.motions[left]);
@@ -457,7 +455,7 @@ impl<const M: usize> Simulation<M> {
         true
     }
 
-    // What `Engine` hands out under the same names.
+    // Documented in `Engine`, under the same names.
     pub fn positions(&self, time: f64) -> Vec<f64> {
         let phases = Phases::at(&self.rates, Instant::at(time));
         self.masses(|j, motion| {

@@ -1,4 +1,4 @@
-//! Who is next to whom.
+//! Which masses and gaps are neighbours.
 
 use crate::Boundary;
 
@@ -20,7 +20,7 @@ impl Topology {
         self.boundary.gaps(self.masses)
     }
 
-    /// The name of gap k for the outside: 0..=n between walls, 1..=n on a ring.
+    /// The number of gap k in results: 0..=n between walls, 1..=n on a ring.
     #[inline]
     pub fn label(&self, k: usize) -> usize {
         match self.boundary {

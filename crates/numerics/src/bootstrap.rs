@@ -1,12 +1,12 @@
-//! Bootstrap intervals with a random stream of their own, in a fixed order.
+//! Bootstrap intervals, with a separate random stream and in a fixed order.
 
 use super::random::generator;
 use super::statistics::{Estimate, quantile, standard_deviation};
 use rand::Rng;
 
 /// How often each of `size` members of a sample is drawn in resample `index`: `size` draws with
-/// replacement. The same (seed, index, size) always gives the same weights, so quantities that
-/// are to be resampled jointly just ask for the same index.
+/// replacement. The same (seed, index, size) always gives the same weights, so quantities are
+/// resampled jointly by use of the same index.
 pub fn weights(seed: u64, index: u64, size: usize) -> Vec<u32> {
     let mut random = generator("bootstrap", seed, index);
     let mut weights = vec![0; size];
@@ -18,8 +18,8 @@ pub fn weights(seed: u64, index: u64, size: usize) -> Vec<u32> {
     weights
 }
 
-/// The histogram of a resample: how often each number was counted, by the weights of the members; a member that counted
-/// nothing is left out. The histogram is as long as numbers are large.
+/// The histogram of a resample: how often each count occurs, by the weights of the members; members without a count are
+/// left out. `histogram` must be longer than the largest count.
 pub fn histogram(counts: &[Option<u32>], weights: &[u32], histogram: &mut [u32]) {
     histogram.fill(0);
     for (&count, &weight) in counts.iter().zip(weights) {
@@ -29,7 +29,7 @@ pub fn histogram(counts: &[Option<u32>], weights: &[u32], histogram: &mut [u32])
     }
 }
 
-/// How many there are in a histogram, and the sum of their numbers.
+/// The number of members of a histogram, and the sum of their counts.
 pub fn total(histogram: &[u32]) -> [u64; 2] {
     let one = |[n, sum]: [u64; 2], (k, &h): (u64, &u32)| [n + u64::from(h), sum + k * u64::from(h)];
     (0_u64..).zip(histogram).fold([0; 2], one)
@@ -63,7 +63,7 @@ mod tests {
     #[test]
     fn the_error_of_a_mean_is_the_known_one() {
         // 400 standard normals: the standard error of the mean is s/√400 by theory, and the
-        // bootstrap with 2000 resamples knows a standard deviation to 1.6 %: allow five times that.
+        // bootstrap with 2000 resamples gives a standard deviation to 1.6 %: allow five times that.
         let mut normals = NormalPairs::new("test", 1, 0);
         let sample: Vec<f64> = (0..200).flat_map(|_| normals.pair()).collect();
         let resampled: Vec<Option<f64>> = (0..2000)

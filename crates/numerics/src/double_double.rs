@@ -171,7 +171,7 @@ const HALF_PI: DoubleDouble =
 /// Terms below this part of the sum change no bit of 106.
 const NEGLIGIBLE: f64 = 1e-33;
 
-/// sin x and cos x; the absolute error grows as 1e−32 |x|. They are series of falling terms, and slow.
+/// sin x and cos x by their Taylor series, which is slow; the absolute error grows as 1e−32 |x|.
 pub fn sin_cos(x: DoubleDouble) -> [DoubleDouble; 2] {
     let turns = (x / HALF_PI).hi.round();
     let r = x - HALF_PI * turns;

@@ -16,20 +16,19 @@ pub fn average(sample: &[f64]) -> Option<Estimate> {
     Some(with_error(mean(sample)?, standard_error(sample)?))
 }
 
-/// A share of so many, with its binomial error; none of nothing.
+/// The share `part`/`whole` with its binomial error; none if `whole` is 0.
 pub fn share(part: u64, whole: u64) -> Option<Estimate> {
     let (p, n) = (part as f64 / whole as f64, whole as f64);
     (whole > 0).then(|| with_error(p, (p * (1.0 - p) / n).sqrt()))
 }
 
-/// How much the one is larger than the other, of independent samples.
-pub fn difference(own: Estimate, other: Estimate) -> Estimate {
-    let error = (own.error * own.error + other.error * other.error).sqrt();
-    with_error(own.value - other.value, error)
+/// The difference a − b of estimates from independent samples.
+pub fn difference(a: Estimate, b: Estimate) -> Estimate {
+    with_error(a.value - b.value, (a.error * a.error + b.error * b.error).sqrt())
 }
 
-/// A statistic of so many realisations, given the one that is left out, with the error that follows from what it is
-/// when each is left out in turn; none if it does not exist without each of them, or there are fewer than two.
+/// `statistic` of all realisations, with the jackknife error from its values without each in turn (its argument is the
+/// one left out). None if one of these does not exist, or there are fewer than two realisations.
 pub fn jackknife(
     realisations: usize,
     statistic: impl Fn(Option<usize>) -> Option<f64>,
@@ -39,7 +38,7 @@ pub fn jackknife(
     Some(with_error(statistic(None)?, error))
 }
 
-/// The ratio of two sums over realisations.
+/// The ratio of two sums over realisations, with its jackknife error.
 pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
     jackknife(pairs.len(), |out| {
         let used = pairs.iter().enumerate().filter(|(at, _)| Some(*at) != out);

@@ -1,10 +1,11 @@
-//! Mathematics that knows no physics: long numbers, roots, integrals, statistics and random streams. Everything here gives the same bits on every machine: only + − × ÷ √ and the
-//! functions of `pxfm` are used, never the platform's libm.
+//! Mathematics without physics. Everything gives the same bits on every machine: only + − × ÷ √ and the functions of
+//! `pxfm` are used, never the platform's libm.
 //!
 //! - Numbers beyond f64: [`double_double`] has 32 digits, [`scaled`] the exponents of factorials.
-//! - Roots and integrals: [`roots`], [`quadrature`].
-//! - Samples: [`random`] streams that depend on nothing but their names, [`statistics`], the
-//!   [`bootstrap`], and [`estimates`] with the jackknife's errors.
+//! - [`roots`] and integrals ([`quadrature`]).
+//! - Samples: [`random`] streams that depend on their names only, [`statistics`], the [`bootstrap`], and [`estimates`]
+//!   with errors by the jackknife.
+//! - [`text`]: words and numbers in messages.
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 

@@ -22,7 +22,7 @@ pub fn bracket(low: f64, high: f64, mut holds: impl FnMut(f64) -> bool) -> [f64;
 const MOST: usize = 100;
 
 /// Where a continuous function crosses zero from below: false position, in which an end that stays for a second
-/// time counts with half its height, so that it does not stay for ever (the Illinois method; Dowell and Jarratt 1971). It ends
+/// time counts with half its value, so that both ends move (the Illinois method; Dowell and Jarratt 1971). It ends
 /// when two estimates in a row differ by no more than `tolerance`, which is not a bound of the error.
 ///
 /// `f` must be negative at `low` and positive at `high`; it is evaluated there too.

@@ -10,7 +10,7 @@ pub struct Estimate {
     pub value: f64,
     /// Its standard error.
     pub error: f64,
-    /// Its interval, at the level that was asked for.
+    /// Its confidence interval.
     pub interval: [f64; 2],
 }
 
@@ -60,8 +60,7 @@ pub fn mode(histogram: &[u32]) -> Option<usize> {
 
 /// The two-sided standard normal quantile: the z with P(|Z| < z) = `level`.
 ///
-/// Rounded to 1e−9, because its algorithm asks the platform for logarithms: so the last bits of
-/// statrs do not reach a file.
+/// Rounded to 1e−9: statrs computes logarithms by the platform, whose last bits must not reach a file.
 pub fn normal_quantile(level: f64) -> f64 {
     let z = Normal::standard().inverse_cdf(0.5 + 0.5 * level);
     (z * 1e9).round() / 1e9

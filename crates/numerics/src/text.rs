@@ -1,7 +1,7 @@
-//! Text that others wrote, for messages.
+//! Words and numbers in messages; texts of parsers and users made fit for them.
 
-/// A message in one line of at most `most` characters: parsers repeat what they were given. Of a
-/// longer one the beginning and the end are kept, for both tell something.
+/// A message in one line of at most `most` characters, since parsers repeat their input. A longer
+/// one keeps its beginning and its end.
 pub fn one_line(text: &str, most: usize) -> String {
     let visible = |c: char| if is_obeyed(c) { ' ' } else { c };
     let line: String = text.chars().map(visible).collect();
@@ -28,7 +28,7 @@ pub fn count(number: usize, noun: &str) -> String {
 const NUMBER: &str = "it is no number; write one such as 0.12";
 const WHOLE: &str = "it is no whole number of 0 or more; write one such as 1000";
 
-/// What parsers say to programmers, and what it says to everybody.
+/// Words of parsers for programmers, and words for everybody.
 const PLAIN: [(&str, &str); 11] = [
     (" as i128", ""),
     ("`usize`", "a whole number"),
@@ -48,7 +48,7 @@ pub fn plain(message: &str) -> String {
     PLAIN.iter().fold(message.into(), |line: String, (theirs, ours)| line.replace(theirs, ours))
 }
 
-/// Does a terminal or an editor take the character for more than a sign, or hide it?
+/// Whether a terminal or an editor obeys the character as a command, or hides it.
 pub fn is_obeyed(c: char) -> bool {
     let unseen = [
         '\u{200b}'..='\u{200f}',

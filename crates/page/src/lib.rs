@@ -1,5 +1,9 @@
-//! What a page calls: numbers go in and out as they are, texts and lists lie in memory that the page may look at until
-//! it calls again. One run is under way at a time, and whatever it is, it takes no more memory than [`MOST`] masses need.
+//! The functions that a page of the report calls, as WebAssembly. Numbers are passed directly; texts and lists lie in
+//! memory that is valid until the next call.
+//!
+//! - [`room`], [`open`], [`advance`]: one run of the engine at a time, of at most a thousand masses.
+//! - [`law`], [`p_of_sigma`], [`mean`], [`k_star`]: the theory.
+//! - [`text`], [`numbers`], [`picture`], with [`text_length`] and [`columns`]: where the results lie.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![deny(unsafe_op_in_unsafe_fn)]
 
@@ -35,7 +39,7 @@ impl Page {
         self.text = text.to_string().into_bytes();
     }
 
-    /// The run that numbers and text ask for.
+    /// Starts the run that numbers and text describe.
     fn open(&mut self) -> Result<(), String> {
         self.run = None;
         let asked = asked(&self.numbers, &String::from_utf8_lossy(&self.text))?;
@@ -52,7 +56,7 @@ impl Page {
         Ok(())
     }
 
-    /// The run, further by so many impacts; whether it goes on.
+    /// Advances the run by at most `impacts` impacts; returns whether there may be more.
     fn advance(&mut self, impacts: u64) -> Result<bool, String> {
         let Some((run, until)) = &mut self.run else { return Ok(false) };
         let picture = &mut self.picture;
@@ -72,8 +76,8 @@ impl Page {
     }
 }
 
-/// What is asked for, as numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a ring, start 0 rest, 1 none or
-/// 2 random), then σ, seed and realisation of the stream that the text names; without one, α and β of each mass.
+/// A run from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a ring, start 0 rest, 1 none or 2 random),
+/// then σ, seed and realisation of the stream that the text names; without one, α and β of each mass.
 fn asked(numbers: &[f64], stream: &str) -> Result<Asked, String> {
     let [
         transient,
@@ -114,7 +118,7 @@ fn asked(numbers: &[f64], stream: &str) -> Result<Asked, String> {
     Ok(Asked { chain, forces, transient: *transient, window: *window })
 }
 
-/// Calls with the page; what is refused is its text then, and 2 the answer.
+/// Runs `work` on the page: 1 or 0 for its result, or 2 with the refusal as the text.
 fn answer(work: impl FnOnce(&mut Page) -> Result<bool, String>) -> u32 {
     PAGE.with_borrow_mut(|page| match work(page) {
         Ok(on) => u32::from(on),
@@ -125,7 +129,7 @@ fn answer(work: impl FnOnce(&mut Page) -> Result<bool, String>) -> u32 {
     })
 }
 
-/// Room for a text of so many bytes and for so many numbers, into which the page writes what it asks for.
+/// Makes room for a text of so many bytes and for so many numbers, into which the page writes its arguments.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(bytes: usize, numbers: usize) {
     PAGE.with_borrow_mut(|page| {
@@ -134,14 +138,14 @@ pub extern "C" fn room(bytes: usize, numbers: usize) {
     });
 }
 
-/// Sets the run that numbers and text ask for at its beginning: 0, or 2 and the text says why not.
+/// Starts the run that numbers and text describe: 0, or 2 with the reason as the text.
 #[unsafe(no_mangle)]
 pub extern "C" fn open() -> u32 {
     answer(|page| page.open().map(|()| false))
 }
 
-/// Goes on for so many impacts at most: 1 if there may be more, 0 at the end, 2 if it failed. The numbers are then time,
-/// impacts, different gaps in the window, and gaps; the text is the digest, or says what failed.
+/// Advances by so many impacts at most: 1 if there may be more, 0 at the end, 2 if it failed. The numbers are then time,
+/// impacts, different gaps in the window, and gaps; the text is the digest, or the error.
 #[unsafe(no_mangle)]
 pub extern "C" fn advance(impacts: u32) -> u32 {
     answer(|page| page.advance(impacts.into()))
@@ -246,7 +250,7 @@ mod tests {
         assert_eq!(page.picture.iter().sum::<u32>() as f64, impacts);
         let none = opened("", &NUMBERS[..9]).map(|_| ()).unwrap_err();
         assert!(none.starts_with("forcing: it has 0 pairs for 30 masses; give one"), "{none}");
-        // Amplitudes one by one: no name.
+        // Amplitudes one by one, without a stream.
         let pairs = own.scenario().unwrap().forcing;
         let given: Vec<f64> =
             NUMBERS[..9].iter().copied().chain(pairs.into_iter().flatten()).collect();

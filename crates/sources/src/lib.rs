@@ -1,5 +1,5 @@
-//! Macros that put the text of files into a program. The compiler watches these files: after a change of one of them the
-//! program is built again, and so what it says of its source is what it was made of.
+//! Macros that put the text of files into a program, which is built again when one of them changes: [`sources!`] for the
+//! source that it was made of, [`texts!`] for prose.
 
 use proc_macro::{TokenStream, TokenTree};
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ pub fn sources(folders: TokenStream) -> TokenStream {
     })
 }
 
-/// Paths and texts of files, as `&[(&str, &str)]`: of those that are named, and of every text below the folders that are.
+/// Paths and texts of files, as `&[(&str, &str)]`: of the named files, and of every text below the named folders.
 #[proc_macro]
 pub fn texts(places: TokenStream) -> TokenStream {
     let endings = ["md", "tex", "bib", "toml", "html", "css", "js", "json"];

@@ -1,4 +1,4 @@
-//! What a method does to the mean number of gaps that impact: the same chains by every method, and
+//! The error of a method in the mean number of gaps that impact: the same chains by every method, and
 //! the differences chain by chain.
 
 use crate::experiments::prelude::*;
@@ -13,7 +13,7 @@ pub struct Biases {
     pub runs: Vec<Vec<Vec<Counted>>>,
 }
 
-/// Distinct gaps that impact in the window (T, T + W] of one realisation; none if the method gave it up.
+/// Distinct gaps that impact in the window (T, T + W] of one realisation; none if the method gave up.
 pub type Counted = Option<u32>;
 
 /// Runs everything.

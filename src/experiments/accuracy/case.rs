@@ -1,9 +1,9 @@
-//! A run, what must come out of it, and what a method made of it.
+//! A run, its expected outcome, and the verdict on a method.
 
 use crate::experiments::prelude::*;
 use impact_chain::methods::Method;
 
-/// One run and its outcome.
+/// One run and its expected outcome.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The chain.
@@ -12,7 +12,7 @@ pub struct Case {
     pub start: State,
     /// When it ends.
     pub until: f64,
-    /// What must come out.
+    /// The expected outcome.
     pub expected: Expected,
 }
 
@@ -23,24 +23,24 @@ pub const NEAR: f64 = 1e-2;
 /// How far off a speed may be that should not change, relative to it.
 pub const STEADY: f64 = 1e-6;
 
-/// What must come out of a case.
+/// The expected outcome of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expected {
-    /// Impacts in order, of those that count: bounces that die out and what happens within a cluster are a matter of the
-    /// method.
+    /// The impacts that count, in order. The last bounces of a chatter and those within a cluster do not: they depend on
+    /// the method.
     Impacts {
         /// Time and gap of each.
         impacts: Vec<(f64, usize)>,
         /// Slower impacts do not count.
         faster: f64,
-        /// Nor do those of other gaps; all gaps do if this is empty.
+        /// Impacts of other gaps do not count either; all gaps do if this is empty.
         among: Vec<usize>,
         /// Whether none may follow to the end of the run.
         all: bool,
         /// How far off a time may be.
         within: f64,
     },
-    /// So many impacts at least, the first of them all at this closing speed.
+    /// At least `impacts` impacts, the first of them all at this closing speed.
     Speed {
         /// How many.
         impacts: usize,
@@ -71,7 +71,7 @@ impl Expected {
 pub enum Verdict {
     /// As expected.
     Right,
-    /// An impact was not seen, or far too late.
+    /// An impact was not found, or far too late.
     Missed,
     /// An impact where there is none, or one too early.
     Ghost,
@@ -101,7 +101,7 @@ impl Verdict {
 }
 
 impl Case {
-    /// Runs a method on this case and judges what it did.
+    /// Runs a method on this case and judges its impacts.
     pub fn judge(&self, method: &dyn Method) -> Verdict {
         let mut seen = Vec::new();
         let ran = method.run((&self.scenario, &self.start, self.until), &mut |impact| {
@@ -175,9 +175,8 @@ mod tests {
         }
     }
 
-    /// A judge that lets everything pass would be no judge.
     #[test]
-    fn a_method_that_errs_is_told() {
+    fn a_method_that_errs_is_not_right() {
         for scene in scenes::all(true).unwrap() {
             for case in &scene.cases {
                 let [late, blind] = [0.05, 0.0].map(|by| case.judge(&False(by)));

@@ -15,7 +15,7 @@ pub const DISPLACED: f64 = 1e-3;
 /// No state waits longer than this for its next impact.
 const LONGEST: f64 = 1e3;
 
-/// Waiting longer than this beyond the true impact is no use.
+/// Time after the true impact within which a method may still find it.
 const PATIENCE: f64 = 0.1;
 
 /// All methods against the truth.
@@ -39,7 +39,7 @@ pub struct Entry {
     /// When each run left the truth: the time of the first impact of the truth that it has not within [`DISPLACED`], or
     /// the end of the run.
     pub runs: Vec<f64>,
-    /// Exact states from which the next impact was asked.
+    /// Number of exact states from which the next impact was computed.
     pub tried: u64,
     /// Those of them whose next impact was not found, or not within [`DISPLACED`].
     pub misses: u64,
@@ -86,11 +86,11 @@ struct Target {
     scenario: Scenario,
     state: State,
     hit: Hit,
-    /// ε (d + R₁ + R₂)/|Δ'|: what rounding the gap makes of its time.
+    /// ε (d + R₁ + R₂)/|Δ'|: the error of the time by the rounding of the gap.
     unit: f64,
 }
 
-/// So many states right after impacts of the true motion. Each is moved to t = 0, the forcing with it, so
+/// At most `number` states right after impacts of the true motion. Each is moved to t = 0, the forcing with it, so
 /// that the rounding of a late time hides no error.
 fn targets(number: usize, courses: &[Course]) -> Result<Vec<Target>, impact_chain::Error> {
     let mut targets = Vec::with_capacity(number);
@@ -153,8 +153,8 @@ fn entry(
     })
 }
 
-/// Runs one chain from its start until it has left the truth and its cost is known: when it did, and the cost, zero if it
-/// could not go on so long.
+/// Runs one chain from its start until it has left the truth and its cost is known. Returns the time at which it left,
+/// and the cost, zero if the method failed before.
 fn follow(
     parameters: &RaceParams,
     method: &dyn Method,
@@ -170,7 +170,7 @@ fn follow(
         (left.is_none() || impact.time < parameters.at_least) && !progress.stopped()
     };
     let cost = method.run((scenario, &State::of(scenario), parameters.until), &mut compare);
-    // Or at an impact of the truth that the run never came to.
+    // Or at the first impact of the truth that the run did not reach.
     let left = left.or_else(|| truth.next().map(|hit| hit.time.to_f64()));
     (left.unwrap_or(parameters.until), cost.unwrap_or_default())
 }

@@ -1,6 +1,5 @@
-//! Scenes in which methods fail, as data: what each is, and what must come out.
-//!
-//! In each some method fails. An expectation comes from a closed form where there is one, else from the motion to 106 bits.
+//! Scenes in each of which some method fails. The expected outcome is a closed form where there is one, else it comes from
+//! the motion to 106 bits.
 
 use super::case::{Case, Expected, NEAR, STEADY};
 use crate::experiments::prelude::*;
@@ -9,7 +8,7 @@ use impact_chain::methods::{Certified, Method};
 use impact_chain::{Error, Initial, Overtone};
 use std::f64::consts::{PI, SQRT_2};
 
-/// One kind of trouble.
+/// Cases of one kind of difficulty.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Short name: `grazing-hits`.
@@ -153,8 +152,8 @@ fn ball() -> Vec<Case> {
     vec![case(scenario, 3.0, Expected::Impacts { impacts, faster, among, all: true, within })]
 }
 
-/// A ball on a table that vibrates with twice the acceleration of gravity, seen from the table: in each period it is thrown up,
-/// lands, and bounces to rest. Gravity becomes weaker by a tenth meanwhile.
+/// A ball on a table that vibrates with twice the acceleration of gravity, in the frame of the table: in each period it
+/// is thrown up, lands, and bounces to rest. Gravity becomes weaker by a tenth meanwhile.
 fn table() -> Result<Vec<Case>, Error> {
     let vibration = Overtone { frequency: 1.0, amplitudes: vec![[0.0, 2.0]] };
     let base = loose(vec![[-1.0, 0.0]], 0.3);
@@ -188,7 +187,7 @@ fn held() -> Result<Vec<Case>, Error> {
     let free = pxfm::f_acos(1.0 / 3.0) / SQRT_2;
     let released = State { time: free, ..on_the_wall() };
     let then = match TrueMotion::of(&scenario, &released).next(free + 20.0)? {
-        // What opens the gap at no speed leaves it for good: the next impact is another.
+        // The gap opens with no speed at `free`, which is not an impact.
         Some(hit) if hit.time.to_f64() > free + 0.1 => {
             let (impacts, among) = (vec![(hit.time.to_f64(), hit.gap)], vec![0, 1]);
             Expected::Impacts { impacts, faster: BOUNCE, among, all: false, within: NEAR }

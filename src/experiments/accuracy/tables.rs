@@ -1,4 +1,4 @@
-//! What the comparison of methods says.
+//! Tables of the comparison of methods.
 
 use super::bias::{self, Biases, Counted};
 use super::race::{self, DISPLACED, Entry, Race};
@@ -7,7 +7,7 @@ use crate::experiments::prelude::*;
 use crate::params::{MethodName, Setting};
 use impact_numerics::statistics::{mean, standard_error};
 
-/// What a method is called in figures and tables.
+/// The name of a method in figures and tables.
 pub fn name(method: MethodName) -> &'static str {
     match method {
         MethodName::Certified => "engine",
@@ -135,7 +135,7 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
             let differences: Vec<f64> = theirs.iter().zip(&ours).map(|(a, b)| a - b).collect();
             let share = || {
                 let own = mean(&ours).filter(|own| *own > 0.0)?;
-                // Of a few chains all differences may be alike.
+                // With few chains all differences may be equal.
                 let error = standard_error(&differences).filter(|error| *error > 0.0)?;
                 Some(with_error(mean(&differences)? / own, error / own))
             };

@@ -5,24 +5,24 @@ use super::scenes;
 use crate::experiments::prelude::*;
 use crate::params::TrialParams;
 
-/// What became of every method in every scene.
+/// The outcomes of every method in every scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trials {
     /// What was run.
     pub parameters: TrialParams,
-    /// What happens in each scene, and for each setting in their order what it made of each case.
+    /// For each scene what happens in it, and for each setting in their order its verdicts.
     pub scenes: Vec<(String, Vec<Trial>)>,
 }
 
-/// What one method made of each case of a scene.
+/// The verdicts on one method in each case of a scene.
 pub type Trial = Vec<Verdict>;
 
-/// Cases that came out as they must.
+/// Number of cases with the expected outcome.
 pub fn right(trial: &Trial) -> usize {
     trial.iter().filter(|verdict| **verdict == Verdict::Right).count()
 }
 
-/// What went wrong most often; of several the first in the order of [`Verdict`].
+/// The most frequent wrong verdict; of several the first in the order of [`Verdict`].
 pub fn trouble(trial: &Trial) -> Option<Verdict> {
     let mut wrong: Vec<Verdict> =
         trial.iter().copied().filter(|verdict| *verdict != Verdict::Right).collect();

@@ -1,4 +1,4 @@
-//! First impacts: how many chains have one by some time, against what the reach of single gaps says.
+//! First impacts: how many chains have one by some time, and the number expected from the reach of single gaps.
 
 pub mod tables;
 

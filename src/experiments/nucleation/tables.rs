@@ -1,4 +1,4 @@
-//! What follows from first impacts, beside what the reach of single gaps says.
+//! Tables of first impacts, found and expected from the reach of single gaps.
 
 use super::{First, Nucleation, ensembles};
 use crate::experiments::prelude::*;
@@ -9,10 +9,10 @@ use rayon::prelude::*;
 /// Angles at which the reach of a gap is computed.
 const ANGLES: usize = 256;
 
-/// Angles of the rule for neighbours, which takes their square.
+/// Angles of the rule for neighbours, whose cost grows as their square.
 const COARSE: usize = 64;
 
-/// Gaps at one σ: what they do within each time, and in unlimited time.
+/// The chances of gaps at one σ, within each time and in unlimited time.
 struct Gaps {
     sigma: f64,
     within: Vec<Chances>,
@@ -93,7 +93,7 @@ fn shares(parameters: &NucleationParams, curve: &[(f64, Chances)]) -> Table {
         .done()
 }
 
-/// What a finite time misses.
+/// The share of closing gaps that a finite time misses.
 fn times(parameters: &NucleationParams, gaps: &[Gaps]) -> Table {
     let rows: Vec<(&Gaps, f64, Chances)> = gaps
         .iter()
@@ -108,7 +108,6 @@ fn times(parameters: &NucleationParams, gaps: &[Gaps]) -> Table {
         .done()
 }
 
-/// Chains with an impact, found and expected.
 fn chains_table(rows: &[Chains<'_>]) -> Table {
     Table::of("nucleation.chains", rows, |row| row.part.len())
         .key("masses", "1", |row| row.masses as f64)
@@ -121,7 +120,6 @@ fn chains_table(rows: &[Chains<'_>]) -> Table {
         .done()
 }
 
-/// Numbers of all of them.
 fn all(parameters: &NucleationParams, chains: &[Chains<'_>], half: f64) -> Table {
     let shortest = parameters.lengths.iter().map(|(masses, _)| *masses).min().unwrap_or(0);
     let last = parameters.times.last().copied();

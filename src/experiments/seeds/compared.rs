@@ -8,7 +8,7 @@ use crate::experiments::{PROTOCOL, SEEDS};
 const OFF: &str =
     "root mean square distance of the predicted mean counts from the simulated ones, in gaps";
 
-/// Mean count of all chains at a σ; none where it was not run so long.
+/// Mean count of all chains at a σ; none where the runs were shorter.
 fn mean(cell: &Curve, sigma: f64) -> Option<f64> {
     Some(cell.rows.iter().find(|row| row.sigma == sigma)?.mean_all?.value)
 }

@@ -25,7 +25,6 @@ pub(super) fn bits(from: usize, count: usize) -> u64 {
 }
 
 impl ByDistance {
-    /// Counts the impacts of some runs.
     pub(super) fn count(parameters: &SeedsParams, traces: &[Option<Trace>]) -> Self {
         let (gaps, bins, window) = (parameters.chain.gaps(), parameters.bins, parameters.window);
         let starts = 0..=bins.saturating_sub(window);
@@ -47,7 +46,7 @@ impl ByDistance {
         ByDistance { places, active, reached: hit }
     }
 
-    /// What groups of runs saw together, one of them left out if there is one of that number.
+    /// The sum over groups of runs, without the group of index `left_out` if there is one.
     pub(super) fn sum(groups: &[ByDistance], left_out: usize) -> Self {
         let of = groups.iter().enumerate().filter(|(group, _)| *group != left_out);
         let mut seen = of.map(|(_, own)| own.clone());
@@ -63,7 +62,7 @@ impl ByDistance {
         })
     }
 
-    /// The share of the gaps at each distance; a distance that no gap has counts for nothing.
+    /// The share of the gaps at each distance; 0 where no gap has that distance.
     pub(super) fn shares<'a>(&'a self, hit: &'a [u64]) -> impl Iterator<Item = f64> + 'a {
         let share = |(own, all): (&u64, &u64)| {
             if *all > 0 { *own as f64 / *all as f64 } else { 0.0 }

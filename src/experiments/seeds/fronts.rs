@@ -1,4 +1,4 @@
-//! How fronts advance: how long they stand before a gap.
+//! How fronts advance: how long each waits for the next gap.
 //!
 //! Ahead of a front no mass was ever hit, and no gap closes by itself there. So a front takes one gap after the
 //! other, and between two first impacts it waits for the gap ahead. A wait ends with a step or with the run; a
@@ -10,7 +10,7 @@ use crate::params::SeedsParams;
 use impact_numerics::estimates::ratio;
 use std::f64::consts::TAU;
 
-/// What the fronts of one run did, as numbers of fronts, steps and units of time.
+/// The fronts of one run, as numbers of fronts, steps and units of time.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Fronts {
     /// Sides of the seed that are not at a wall.
@@ -25,14 +25,13 @@ pub struct Fronts {
     pub standing: f64,
 }
 
-/// The time 2π/|Ω − ω| after which a free and a forced motion meet again in any relation that they had: what can
-/// be passed at all with the motions at hand is passed by then, as a rule.
+/// The time 2π/|Ω − ω| after which free and forced motion have the same relative phase again: a gap that the present
+/// motions can close is closed by then, as a rule.
 pub fn beat(chain: &Chain) -> f64 {
     TAU / (chain.forcing_frequency - chain.natural_frequency).abs()
 }
 
 impl Fronts {
-    /// Of a run and its seed.
     pub(super) fn of(parameters: &SeedsParams, (seed, trace): (usize, &Trace)) -> Self {
         let (end, beat) = (parameters.until() as u32, beat(&parameters.chain) as u32);
         let mut own = Fronts::default();

@@ -1,8 +1,8 @@
-//! The mean count that nucleation and growth let expect, from the derived chances of single gaps and the
-//! measured spreading from one of them, and from nothing else.
+//! The mean count expected from nucleation and growth: from the derived chances of single gaps and the
+//! measured spreading from one of them alone.
 //!
-//! A gap at the place x has no impact in the window (T, T + W] if no seed y sends one there. Were
-//! seeds independent, and what each sets off the same as alone, the probability would be
+//! A gap at the place x has no impact in the window (T, T + W] if no seed y sends one there. If seeds
+//! are independent and each spreads as if alone, the probability is
 //!
 //! ∏_y (1 − ∫_0^T B(|x − y|, T − s) dp_y(s) − ∫_T^{T+W} R(|x − y|, T + W − s) dp_y(s)),
 //!
@@ -19,7 +19,7 @@ use impact_numerics::statistics::{Estimate, last_rise};
 /// Angles at which the reach of a gap is computed.
 const ANGLES: usize = 256;
 
-/// Groups of runs, each of which is left out in turn for the errors of what all say together.
+/// Groups of runs, each of which is left out in turn for the error of their sum.
 pub(super) const GROUPS: usize = 8;
 
 /// Mean counts after one transient.
@@ -59,7 +59,7 @@ fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 2]> {
     parameters.sigmas.iter().map(of).collect()
 }
 
-/// The predictions of all transients, from what groups of runs saw at each σ.
+/// The predictions of all transients, from the counts of groups of runs at each σ.
 pub(super) fn predictions(parameters: &SeedsParams, seen: &[Vec<ByDistance>]) -> Vec<Prediction> {
     let closing = closing(parameters);
     let sum = |left| seen.iter().map(|own| ByDistance::sum(own, left)).collect();
@@ -118,7 +118,7 @@ mod tests {
     use super::*;
     use crate::params::Profile;
 
-    /// Gap by gap and seed by seed, with products as sums of logarithms and walls as what they change.
+    /// Against the formula of this module evaluated by logarithms, with walls as corrections.
     #[test]
     fn the_mean_count_by_logarithms() {
         let mut parameters = SeedsParams::new(Profile::Quick);

@@ -1,11 +1,11 @@
-//! What one gap that closes by itself sets off: spreading, and the mean count that
-//! nucleation and growth let expect.
+//! How impacts spread from one gap that closes by itself, and the mean count expected from
+//! nucleation and growth.
 //!
 //! - [`run`](mod@run): chains with exactly one such gap, and where impacts get from there.
 //! - [`counting`]: their impacts by distance, and how far they spread.
 //! - [`fronts`]: how long fronts stand.
-//! - [`growth`]: what follows for a chain with as many of them as chance gives it.
-//! - [`tables`]: the numbers of all this, and [`compared`]: beside the main sweep and the map of the protocol.
+//! - [`growth`]: the mean count of a chain with a random number of them.
+//! - [`tables`]: the numbers of all this, and [`compared`]: with the main sweep and the map of the protocol.
 
 pub mod compared;
 pub mod counting;

@@ -52,10 +52,10 @@ impl Search<'_> {
     }
 
     /// Draws the amplitudes of these bodies, the walls being the first and the last, until at most one gap between them
-    /// closes by itself; which does.
+    /// closes by itself, and returns that gap.
     ///
-    /// Both halves are drawn so, until the whole is so too. What comes of it is distributed as if whole chains
-    /// had been drawn and thrown away, but of those it would take a hundred thousand.
+    /// Both halves are drawn in this way, until it holds for the whole. The result is distributed as if whole chains
+    /// had been drawn and rejected, which would take a hundred thousand of them.
     fn part(&mut self, of: Range<usize>, bodies: &mut Vec<[f64; 2]>) -> Option<usize> {
         let (middle, begin) = (of.start.midpoint(of.end), bodies.len());
         if of.len() == 1 {
@@ -138,7 +138,7 @@ mod tests {
         (0..chain.gaps()).filter(closes).collect()
     }
 
-    /// As whole chains that are drawn until one is right: where its gap is, and how far the forces reach.
+    /// Against whole chains that are drawn until one is accepted: the place of its gap and the mean square of the forces.
     #[test]
     fn a_drawn_chain_has_one_gap_that_closes_by_itself() {
         let (chain, sigma) = (Chain { masses: 5, ..Chain::default() }, 0.25);

@@ -1,4 +1,4 @@
-//! What follows from the runs.
+//! Tables of the runs, of fronts, and of the mean counts that follow.
 
 use super::counting::{bits, ran};
 use super::fronts::{Fronts, beat, over};
@@ -8,7 +8,6 @@ use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
 use rayon::prelude::*;
 
-/// The runs at one σ.
 struct RunsAtSigma<'a> {
     parameters: &'a SeedsParams,
     sigma: f64,
@@ -47,7 +46,7 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
     ]
 }
 
-/// How things stand when the window after each transient ends.
+/// Counts at the end of the window after each transient.
 fn course(rows: &[RunsAtSigma<'_>]) -> Table {
     let rows: Vec<(&RunsAtSigma<'_>, usize)> = rows
         .iter()
@@ -65,7 +64,6 @@ fn course(rows: &[RunsAtSigma<'_>]) -> Table {
         .done()
 }
 
-/// The advance against time.
 fn advance(rows: &[RunsAtSigma<'_>]) -> Table {
     let rows: Vec<(&RunsAtSigma<'_>, usize)> =
         rows.iter().flat_map(|row| (1..=row.parameters.bins).map(move |bin| (row, bin))).collect();
@@ -78,7 +76,6 @@ fn advance(rows: &[RunsAtSigma<'_>]) -> Table {
         .done()
 }
 
-/// What fronts do.
 fn fronts(rows: &[RunsAtSigma<'_>]) -> Table {
     Table::of("seeds.fronts", rows, |row| row.runs.len())
         .key("sigma", SIGMA, |row| row.sigma)
@@ -99,7 +96,6 @@ fn fronts(rows: &[RunsAtSigma<'_>]) -> Table {
         .done()
 }
 
-/// The mean counts that follow.
 fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
     let sigmas = |own| rows.iter().enumerate().map(move |(place, row)| (own, place, row));
     let rows: Vec<(&Prediction, usize, &RunsAtSigma<'_>)> =
@@ -113,7 +109,7 @@ fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
         .done()
 }
 
-/// Where they pass half of all gaps.
+/// Where the mean counts pass half of all gaps.
 fn rise(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
     Table::of("seeds.rise", predicted, |_| parameters.realisations)
         .key("transient", TIME, |own| own.transient as f64 * parameters.bin)
@@ -123,7 +119,6 @@ fn rise(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
         .done()
 }
 
-/// Numbers of all σ together.
 fn all(parameters: &SeedsParams) -> Table {
     Table::of("seeds.all", &[parameters], |own| own.realisations)
         .count("realisations", "chains at each σ", |own| own.realisations as u64)

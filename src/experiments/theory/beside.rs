@@ -1,4 +1,4 @@
-//! The theory beside the simulation.
+//! The theory compared with the simulation.
 
 use crate::experiments::prelude::*;
 use crate::experiments::sweep;
@@ -41,7 +41,7 @@ fn distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64> {
     (!differences.is_empty()).then(|| (squares.sum::<f64>() / differences.len() as f64).sqrt())
 }
 
-/// What the text says of both.
+/// The table of the comparison.
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let sweep = sweep::main(results).ok()?;
     let table = |name| all.iter().find(|table| table.name() == name);

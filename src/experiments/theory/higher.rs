@@ -16,7 +16,7 @@ pub fn five(p: f64) -> Vec<f64> {
     law(FiveClasses, p).probabilities()
 }
 
-/// What each of the five classes contributes to it, in the order of Eq. (38).
+/// The parts of the five classes in it, in the order of Eq. (38).
 pub fn contributions(p: f64) -> [Vec<f64>; 5] {
     CLASSES.map(|class| law(FiveClasses, p).contribution(&class))
 }

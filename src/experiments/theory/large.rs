@@ -7,7 +7,7 @@ use impact_circuits::distribution::SampleSpace::Simple;
 use impact_circuits::jump::{self, Jump, jump_rule, limit_share, p_jump};
 use rayon::prelude::*;
 
-/// So many steps of k* between two values of p N are drawn one by one.
+/// At most this many steps of k* between two values of p N are drawn one by one.
 const FEW: usize = 3;
 
 /// Values of p N that are drawn.
@@ -48,7 +48,7 @@ pub fn shares(vertices: usize) -> [Vec<(f64, f64)>; 2] {
     let (mut level, mut rows) = (leap.k_after, vec![point(at, leap.k_after)]);
     for x in after {
         let k = jump::local_maximum(vertices, x / big_n).max(leap.k_after);
-        // Few steps are drawn as steps; where there are many they cannot be seen.
+        // A few steps are drawn as steps; many would not be visible.
         if k - level <= FEW {
             let steps = (level..k).map(|k| (big_n * jump::step(vertices, k), k));
             rows.extend(steps.flat_map(|(x, k)| [point(x, k), point(x, k + 1)]));

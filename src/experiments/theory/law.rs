@@ -1,4 +1,4 @@
-//! The number of different impacts, and why its most likely value jumps: Secs. 6 and 7, Figs. 8 to 10.
+//! The number of different impacts and the jump of its most likely value: Secs. 6 and 7, Figs. 8 to 10.
 
 use super::{known, one};
 use crate::experiments::identities::jump::{flat, mean_slopes, top, touching};
@@ -38,7 +38,7 @@ fn distributions() -> Table {
         .done()
 }
 
-/// Fig. 9 (a): where k* leaves its value before, and what it is then; from p = 0 on, the last holds to p = 1.
+/// Fig. 9 (a): each p at which k* changes, from p = 0 on, and its value from there.
 pub fn steps() -> Vec<(f64, usize)> {
     let leap = known(jump::p_jump(Simple, VERTICES));
     let later = (leap.k_after..VERTICES - 1).map(|k| (jump::step(VERTICES, k), k + 1));

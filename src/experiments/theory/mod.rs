@@ -1,5 +1,5 @@
 //! The graph theory of Secs. 3 to 9 as tables, and beyond the paper many vertices and circuits up to the order of
-//! distant impacts. Curves that only a figure draws are functions, for they stand in its data file.
+//! distant impacts. Curves that only a figure draws are functions, as its data file has their values.
 //!
 //! Cheap: all tables take some tenths of a second, and nothing is saved.
 
@@ -14,7 +14,7 @@ use impact_circuits::Error;
 use literate::table::{Building, Table};
 use literate::value::Origin;
 
-/// All tables but those that set the theory beside a simulation.
+/// All tables but those that compare the theory with a simulation.
 pub fn tables() -> Vec<Table> {
     let ((curve, relation), large) =
         rayon::join(|| rayon::join(relation::curve, relation::relation), large::tables);
@@ -24,7 +24,7 @@ pub fn tables() -> Vec<Table> {
     tables
 }
 
-/// What a formula gives for the numbers of the paper, where it exists.
+/// The value of a formula that exists for the numbers of the paper.
 pub(crate) fn known<T>(found: Result<T, Error>) -> T {
     found.expect("the theory exists for the paper's N and p")
 }

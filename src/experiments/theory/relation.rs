@@ -73,7 +73,7 @@ fn any(p: f64, gaps: usize) -> f64 {
     -pxfm::f_expm1(gaps as f64 * pxfm::f_log1p(-p))
 }
 
-/// The same by p of Eq. (25), for random free parts, gaps at the walls by their own p, since a wall does not move: an upper
+/// The same by p of Eq. (25), for random free parts, with another p for gaps at the walls, which do not move: an upper
 /// bound, since normal variables make symmetric convex events no less likely together than one by one.
 fn any_random(sigma: &f64) -> f64 {
     let none = (Chain::default().gaps() - 2) as f64 * pxfm::f_log1p(-p_of(*sigma));

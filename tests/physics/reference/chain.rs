@@ -8,15 +8,15 @@ use impact_paper::params::Boundary;
 /// One impact.
 #[derive(Clone, Debug)]
 pub struct Hit<R> {
-    /// When.
+    /// Time t.
     pub time: R,
-    /// Which gap, as the engine counts them.
+    /// The gap, in the numbering of the engine.
     pub gap: usize,
     /// −Δ' just before.
     pub closing_speed: R,
 }
 
-/// What is known of a gap's future: no root before the time, or a root at it.
+/// The result of the search of a gap: no root before the time, or a root at it.
 #[derive(Clone, Debug)]
 enum Next<R> {
     None,

@@ -1,9 +1,8 @@
-//! Double-doubles of 106 bits; `traces.rs` holds them against dashu's floats.
+//! Double-doubles of 106 bits; `traces.rs` compares them with dashu's floats.
 
 use super::real::Real;
 use impact_numerics::double_double::{DoubleDouble, sin_cos};
 
-/// An unevaluated sum of two doubles.
 pub type Dd = DoubleDouble;
 
 impl Real for Dd {

@@ -1,4 +1,4 @@
-//! An independent simulator of the chain in higher precision, to hold the engine against.
+//! An independent simulator of the chain in higher precision, with which the engine is compared.
 //!
 //! Nothing here is taken from the engine but the description of a scenario. It works in absolute time
 //! with the plain amplitudes of Eq. (19), searches by certified subdivision of intervals instead

@@ -1,4 +1,4 @@
-//! What the reference needs of a number.
+//! The operations on numbers that the reference needs.
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -10,9 +10,9 @@ use crate::search::earliest::Earliest;
 /// - Source: Mirtich (1996), Impulse-based dynamic simulation of rigid body systems, thesis, University of California,
 ///   Berkeley; the queue of gaps is that of the engine.
 /// - Order: none, it has no step. An impact is early by up to the tolerance over its closing speed.
-/// - Fails: no zero is passed, but a gap that only comes near to zero, to within the tolerance, is hit, and one that opens and shuts
-///   again without ever being wider is hit at its turn; near a graze the steps get short; a chatter has infinitely many impacts in
-///   a finite time, and rest in contact is unknown: the bound on work ends the run there.
+/// - Fails: no zero is passed, but a gap that comes near to zero, to within the tolerance, is hit, also one that opens and
+///   turns back within it; near a graze the steps get short; a chatter has infinitely many impacts in a finite time, and
+///   there is no rest in contact: the bound on work ends the run there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Advancement {
     /// Width of a closing gap, in units of d, at which it is hit.
@@ -38,7 +38,7 @@ impl Method for Advancement {
     }
 }
 
-/// The shortest advance: what a gap that is shut and stands still needs to go on.
+/// The shortest advance, without which a gap that is shut and at rest would not go on.
 const LEAST: f64 = 1e-18;
 
 struct Run {
@@ -73,7 +73,7 @@ impl Run {
                 self.open(k, now, look);
                 tally.impact(k, now.time(), speed)?;
             } else {
-                // So near to zero a gap may be looked at for ever.
+                // So near to zero the number of looks has no bound.
                 if look.width <= self.reached {
                     tally.spend(k, now.time())?;
                 }
@@ -82,7 +82,7 @@ impl Run {
         }
     }
 
-    /// Advances gap k, seen now, to the zero of f + g s − b s²/2, with a bound b on its second derivative.
+    /// Advances gap k from now to the zero of f + g s − b s²/2, with a bound b on its second derivative.
     fn open(&mut self, k: usize, now: Instant, Look { width, rate, .. }: Look) {
         let (f, b) = (width.max(0.0), self.flights.bend(k));
         let root = (rate * rate + 2.0 * b * f).sqrt();

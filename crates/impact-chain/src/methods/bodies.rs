@@ -1,4 +1,4 @@
-//! The row of masses as an integrator sees it: displacements, velocities, forces, impact law.
+//! The row of masses for integrators: displacements, velocities, forces, impact law.
 
 use super::forcing::Component;
 use super::prelude::*;
@@ -89,7 +89,7 @@ impl Bodies {
         }
     }
 
-    /// Whether any gap would be shut after `ahead` at its present rate: a cheap look, as mostly none is.
+    /// Whether any gap would be shut after `ahead` at its present rate: a cheap test, as mostly none is.
     pub fn any_shut(&self, ahead: f64) -> bool {
         let (u, v) = (&self.u, &self.v);
         let is_shut =
@@ -103,7 +103,7 @@ impl Bodies {
         any
     }
 
-    /// Number of masses, as counted work.
+    /// Number of masses, the unit of counted work.
     pub fn masses(&self) -> u64 {
         self.u.len() as u64 - 2
     }

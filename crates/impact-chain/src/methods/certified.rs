@@ -12,7 +12,7 @@ use crate::Engine;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Certified;
 
-/// Closing speed, in units of d ω, that only rounding of a start explains.
+/// Closing speed, in units of d ω, up to which rounding of a start explains it.
 const AT_REST: f64 = 1e-12;
 
 impl Method for Certified {
@@ -52,7 +52,7 @@ impl Method for Certified {
     }
 }
 
-/// The gaps that are shut and at rest but for rounding: in contact, or hit with r = 0. Rounding may
+/// The gaps that are shut and at rest up to rounding: in contact, or hit with r = 0. Rounding may
 /// close them again at once, which is no impact.
 fn resting(scenario: &Scenario, start: &State) -> Vec<usize> {
     let topology = Topology::new(scenario.forcing.len(), scenario.boundary);

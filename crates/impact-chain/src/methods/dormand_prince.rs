@@ -87,7 +87,7 @@ impl Stages {
         a.iter().zip(&self.k).fold(0.0, |sum, (a, k)| sum + a * k[i])
     }
 
-    /// Component i at the part θ of the step.
+    /// Component i at the fraction θ of the step.
     pub fn dense(&self, i: usize, theta: f64) -> f64 {
         let (h, rest) = (self.h, 1.0 - theta);
         let difference = self.next[i] - self.y[i];
@@ -103,7 +103,7 @@ impl Stages {
         self.k.swap(0, 6);
     }
 
-    /// Goes back to the part θ of the step; [`Stages::restart`] must follow.
+    /// Goes back to the fraction θ of the step; [`Stages::restart`] must follow.
     pub fn cut(&mut self, theta: f64) {
         for i in 0..self.y.len() {
             self.next[i] = self.dense(i, theta);

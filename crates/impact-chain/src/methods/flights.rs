@@ -1,4 +1,4 @@
-//! Flight in closed form, as sampling looks at it.
+//! Flight in closed form, for methods that evaluate gaps at given times.
 
 use super::forcing::{COMPONENTS, Component};
 use super::prelude::*;

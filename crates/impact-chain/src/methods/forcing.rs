@@ -1,4 +1,4 @@
-//! The forcing of a scenario as the rivals see it: the one place that knows its components.
+//! The forcing of a scenario, component by component, for all rivals.
 
 use super::prelude::*;
 pub use crate::scenario::COMPONENTS;
@@ -6,16 +6,16 @@ pub use crate::scenario::COMPONENTS;
 /// The forced response of each mass at t = 0: displacement and velocity.
 pub fn response(scenario: &Scenario) -> Vec<[f64; 2]> {
     let mut response = vec![[0.0; 2]; scenario.forcing.len()];
-    for own in Component::response(scenario) {
+    for component in Component::response(scenario) {
         for (j, [x, v]) in response.iter_mut().enumerate() {
-            *x += own.cos[j + 1];
-            *v += own.frequency * own.sin[j + 1];
+            *x += component.cos[j + 1];
+            *v += component.frequency * component.sin[j + 1];
         }
     }
     response
 }
 
-/// Rotates the forcing so that it is at t = 0 what it was at the instant `at`.
+/// Rotates the phases of the forcing by those at the instant `at`, which becomes t = 0.
 pub fn turn(scenario: &mut Scenario, at: Instant) {
     let first = (scenario.forcing_frequency, &mut scenario.forcing);
     let further = scenario.overtones.iter_mut().map(|own| (own.frequency, &mut own.amplitudes));

@@ -1,9 +1,11 @@
 //! The engine, its rivals and the truth: ways to simulate one chain, under one trait.
 //!
-//! Each rival is the textbook form of a method that is in use, so that its cost and its failures
-//! can be measured on the same scenes: sampled gaps, conservative advancement, a
-//! Runge–Kutta pair with events, time stepping on velocities, Verlet with a flip, penalty springs. Each file says
-//! what its method is, where it comes from, of which order it is, and where it fails.
+//! Each rival is the textbook form of a method that is in use, so that its cost and its failures can be measured on the
+//! same scenes. Each has its source, its order and its failures in its documentation.
+//!
+//! - [`Certified`]: the engine of this project. [`Truth`], [`truth::TrueMotion`]: the motion to 106 bits.
+//! - In closed form: [`Sampled`] gaps, conservative [`Advancement`].
+//! - Integrated: a [`RungeKutta`] pair with events, [`MoreauJean`] time stepping, [`Verlet`] with a flip, [`Penalty`] springs.
 
 mod advancement;
 mod bodies;
@@ -36,7 +38,6 @@ use super::{Error, Impact, Scenario};
 pub use crate::engine::Sink;
 use crate::engine::collected;
 
-/// What the files of the methods use.
 mod prelude {
     pub use super::bodies::{Bodies, Stepper, run_steps};
     pub use super::crossing::{crossing, is_rounding};
@@ -60,7 +61,7 @@ pub struct Cost {
     pub steps: u64,
     /// Evaluations of one mass's acceleration or of one gap's width, with its sines.
     pub evaluations: u64,
-    /// Runs of neighbouring gaps that closed at exactly the same instant, which no rival sees.
+    /// Runs of neighbouring gaps that closed at exactly the same instant, which no rival detects.
     pub simultaneous: u64,
 }
 
@@ -71,7 +72,7 @@ impl Cost {
     }
 }
 
-/// What a method runs: a chain, from a state, to a time. The start of the scenario is not looked at.
+/// What a method runs: a chain, from a state, to a time. The start of the scenario is ignored.
 pub type Task<'a> = (&'a Scenario, &'a State, f64);
 
 /// A way to simulate a chain.
@@ -81,7 +82,7 @@ pub trait Method: Sync {
 
     /// Runs and hands each impact to `sink`, which stops the run right after that impact by returning false.
     ///
-    /// A gap of the start that is shut but for rounding is shut; it is hit only if it is closing.
+    /// A gap of the start that is shut up to rounding counts as shut; it is hit only if it is closing.
     ///
     /// # Errors
     /// [`Error::Input`] for a scenario, start, step or tolerance outside the model,

@@ -15,7 +15,7 @@ use super::prelude::*;
 /// - Fails: impacts of one gap within neighbouring steps are one; impacts of different gaps within
 ///   a step are simultaneous, so their order is lost; the forecast hits gaps that only come near, to
 ///   |Δ''| h²/8; overlaps of up to a step times the speed stay; a gap that is hit right after it was
-///   pressed is no new impact. Rest in contact is what it is made for.
+///   pressed is no new impact. It is made for rest in contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MoreauJean {
     /// Length h of a step.
@@ -44,7 +44,6 @@ struct Active {
     k: usize,
     /// Its rate U before the step.
     rate: f64,
-    /// The impulse P.
     impulse: f64,
 }
 
@@ -83,7 +82,7 @@ impl Stepper for Impulses {
             *u += half * (v + before);
         }
         std::mem::swap(&mut self.forces, &mut self.later);
-        // What has an impulse and had none is an impact.
+        // A gap with an impulse that had none in the last step has an impact.
         let pressed = || self.active.iter().filter(|gap| gap.impulse > 0.0);
         let before = std::mem::take(&mut self.touching);
         self.touching = pressed().map(|gap| gap.k).collect();

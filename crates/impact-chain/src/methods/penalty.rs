@@ -59,7 +59,7 @@ struct Springs {
     damping: f64,
     /// Whether the gap is in an episode of contact.
     touching: Vec<bool>,
-    /// How many are.
+    /// Number of such gaps.
     contacts: usize,
     accelerations: Vec<f64>,
 }
@@ -116,7 +116,7 @@ impl Stepper for Springs {
             }
             self.contacts = self.touching.iter().filter(|touching| **touching).count();
         }
-        // The damper sees the velocity in the middle of the step, half a step ago.
+        // The damper uses the velocity in the middle of the step, half a step ago.
         self.push(row, step.to);
         for (v, a) in row.v.iter_mut().zip(&self.accelerations) {
             *v += half * a;

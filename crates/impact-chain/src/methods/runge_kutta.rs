@@ -46,7 +46,7 @@ impl Method for RungeKutta {
 }
 
 struct Run {
-    /// The row; its own displacements and velocities are stale but at impacts.
+    /// The row; its displacements and velocities are up to date at impacts only.
     row: Bodies,
     stages: Stages,
     now: Instant,
@@ -70,7 +70,7 @@ impl Run {
             match self.event(h, tally) {
                 Some((k, s)) => self.impact(k, s, h, tally)?,
                 None => {
-                    // The last, cut step says nothing against a longer one.
+                    // A step cut short by the end of the run is no reason against a longer one.
                     wanted = if h < wanted { wanted.max(grown) } else { grown };
                     self.now = if h == left { end } else { self.now.after(h) };
                     self.stages.accept();
@@ -120,7 +120,7 @@ impl Run {
         v.copy_from_slice(&self.row.v);
         self.stages.restart(&self.row, self.now);
         tally.cost.evaluations += self.row.masses();
-        // A gap that stands still at zero is no impact, but it is work: it may do so for ever.
+        // A gap at rest at zero is no impact, but counts as an event: it may stay so for ever.
         if speed > 0.0 {
             tally.impact(k, self.now.time(), speed)
         } else {

@@ -2,19 +2,18 @@
 
 use super::prelude::*;
 
-/// Flight in closed form; every gap is looked at with a fixed step, and a change of its sign is
+/// Flight in closed form; every gap is sampled with a fixed step, and a change of its sign is
 /// bisected down to neighbouring doubles.
 ///
 /// - Source: the bracketing and bisection of every textbook (Press et al., Numerical Recipes, sec.
 ///   9.1); simulations of impacting oscillators are mostly written so.
-/// - Order: none; an impact that is seen has the accuracy of rounding. What the step decides is
-///   whether it is seen.
+/// - Order: none; an impact that is found is accurate to rounding, and the step decides whether it is found.
 /// - Fails: two roots within a step leave no change of sign, so grazes and short dips are missed, of
 ///   depth up to |Δ''| h²/8; three are taken for one, often the wrong one. A chatter has infinitely
 ///   many impacts in a finite time: the bound on work ends the run there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
-    /// Time h between two looks.
+    /// Time h between two samples.
     pub step: f64,
 }
 
@@ -42,7 +41,7 @@ impl Method for Sampled {
 
 /// All gaps in one step.
 struct Samples {
-    /// At the beginning of the step, or right after the last impact beside the gap.
+    /// At the beginning of the step, or right after the last impact of the gap or one next to it.
     begin: Vec<Look>,
     end: Vec<Look>,
     /// When the gap closes between.
@@ -76,7 +75,7 @@ impl Samples {
                 tally.cost.evaluations += 2;
                 self.roots[j] = self.locate(j, flights, step, tally);
             }
-            // A gap that stands still at zero is no impact, but it is work: it may do so for ever.
+            // A gap at rest at zero is no impact, but counts as an event: it may stay so for ever.
             if speed > 0.0 {
                 tally.impact(k, time, speed)?;
             } else {

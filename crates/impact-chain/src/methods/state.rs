@@ -4,7 +4,7 @@ use super::forcing;
 use super::prelude::*;
 use crate::scenario::within;
 
-/// Positions and velocities of the masses 1..n at a time: what a method starts from.
+/// Positions and velocities of the masses 1..n at a time, from which a method starts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
     /// Time t, from 0 to 1e12.
@@ -15,8 +15,8 @@ pub struct State {
     pub velocities: Vec<f64>,
 }
 
-/// A gap is shut but for rounding when its width is below this many roundings of its place, of a
-/// displacement beside it, and of the way that it goes while the time is rounded.
+/// A gap is shut up to rounding when its width is below this many roundings of its place, of a
+/// displacement next to it, and of the distance it moves within the rounding of the time.
 const UNITS: f64 = 16.0;
 
 impl State {

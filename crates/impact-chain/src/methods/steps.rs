@@ -1,11 +1,10 @@
-//! Steps in time of equal length, and what is refused of a step, a tolerance or an end.
+//! Equal steps in time, and the ranges of steps, tolerances and end times.
 
 use super::prelude::*;
 use crate::scenario::within;
 
 pub const MOST_STEPS: f64 = 1e10;
 
-/// The shortest step.
 const SHORTEST: f64 = 1e-9;
 
 /// One of equal steps in time; the last one may be shorter.
@@ -50,7 +49,7 @@ pub fn check_end(until: f64) -> Result<(), Error> {
     within("until", until, -LATEST, LATEST)
 }
 
-/// Refuses a tolerance that makes no sense in doubles.
+/// Refuses a tolerance outside 1e-15 to 0.1.
 pub fn check_tolerance(tolerance: f64) -> Result<(), Error> {
     within("tolerance", tolerance, 1e-15, 0.1)
 }

@@ -4,13 +4,13 @@ use super::prelude::*;
 use super::steps::{MOST_STEPS, too_many};
 
 /// Events that one gap may need within one unit of time 1/ω on average before a run is given up. A
-/// rival that cannot rest in contact sees infinitely many impacts in a finite time there.
+/// rival that cannot rest in contact has infinitely many impacts in a finite time there.
 const EVENTS_PER_GAP: u64 = 10_000;
 
 /// Why a run ends before its time.
 pub enum Stop {
-    /// The receiver of the impacts wants no more.
-    Asked,
+    /// The receiver of the impacts stopped the run.
+    Received,
     Failed(Error),
 }
 
@@ -66,7 +66,7 @@ impl<'a> Tally<'a> {
         self.cost.impacts += 1;
         match (self.sink)(Impact { time, gap: self.topology.label(k), closing_speed }) {
             true => Ok(()),
-            false => Err(Stop::Asked),
+            false => Err(Stop::Received),
         }
     }
 
@@ -79,11 +79,11 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// The cost of a run that has ended so.
+    /// The cost of a run that ended in this way.
     pub fn finish(self, ended: Result<(), Stop>) -> Result<Cost, Error> {
         match ended {
             Err(Stop::Failed(error)) => Err(error),
-            Err(Stop::Asked) | Ok(()) => Ok(self.cost),
+            Err(Stop::Received) | Ok(()) => Ok(self.cost),
         }
     }
 }

@@ -1,8 +1,8 @@
-//! The motion of a chain to 106 bits: what every method is held against.
+//! The motion of a chain to 106 bits, with which every method is compared.
 //!
-//! Which gap closes next is asked of the certified engine, started from the state rounded to
-//! doubles; when it closes is then refined here, by Newton's iteration on plain amplitudes of 106
-//! bits, and so is all that follows from it. Chaos enlarges 1e−31 to 1e−3 in about twice the time
+//! The certified engine, started from the state rounded to doubles, finds which gap closes next; the
+//! instant is then refined here, by Newton's iteration on plain amplitudes of 106 bits, and so is
+//! all that follows from it. Chaos enlarges 1e−31 to 1e−3 in about twice the time
 //! in which it enlarges the rounding of doubles, so runs are true far beyond the horizon of any
 //! method. A tie of two gaps within the rounding of doubles could be taken in the wrong order; it
 //! has a probability of about 1e−14 an impact.
@@ -17,8 +17,8 @@ use impact_numerics::double_double::{DoubleDouble, sin_cos};
 ///
 /// - Source: this project, [`TrueMotion`].
 /// - Order: none, it has no step. Times are right to some thirty digits as long as the gaps are.
-/// - Fails: it shares the engine's choice of the next gap, so an impact that the engine misses it misses too. What it has not
-///   (a ring, several frequencies, contact) is an error.
+/// - Fails: it shares the engine's choice of the next gap, so it misses an impact that the engine misses. A ring, several
+///   frequencies and contact are refused.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Truth;
 
@@ -183,13 +183,13 @@ impl TrueMotion {
         Ok(found.map(|impact| self.refined(impact)))
     }
 
-    /// The impact at the zero of its gap next to where the engine saw it.
+    /// The impact at the zero of its gap nearest to where the engine found it.
     fn refined(&self, seen: Impact) -> Hit {
         let mut time = dd(seen.time);
         for _ in 0..8 {
             let [width, rate] = self.gap(seen.gap, &self.phases(time));
             let step = width / rate;
-            // At a grazing impact the rate all but vanishes; a step is never a long one.
+            // At a grazing impact the rate nearly vanishes, and a Newton step would be far too long.
             if step.hi.is_nan() || step.hi.abs() >= 1e-3 {
                 break;
             }
@@ -202,7 +202,7 @@ impl TrueMotion {
         Hit { time, gap: seen.gap, closing_speed: -rate.to_f64() }
     }
 
-    /// Moves on to an impact and lets it happen.
+    /// Advances to an impact and carries it out.
     pub fn advance(&mut self, hit: &Hit) {
         let phases = self.phases(hit.time);
         let [_, rate] = self.gap(hit.gap, &phases);
@@ -241,8 +241,8 @@ mod tests {
         Scenario::draw(&chain, 0.3, &mut NormalPairs::new("truth", 1, index))
     }
 
-    /// The truth does not depend on the doubles through which it looks: started from a state of
-    /// its own whose amplitudes are moved by one part in 10^20, it stays as near as chaos allows.
+    /// The true motion does not depend on the rounding of the states that the engine gets: with
+    /// amplitudes changed by one part in 10^20, it stays as near as chaos allows.
     #[test]
     fn the_truth_has_digits_beyond_doubles() {
         let scenario = chain(1);

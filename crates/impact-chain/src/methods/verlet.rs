@@ -6,11 +6,11 @@ use super::prelude::*;
 /// the impact law.
 ///
 /// - Source: Verlet (1967), Phys. Rev. 159, 98, in the form of Swope et al. (1982), J. Chem. Phys.
-///   76, 637; the flip is what simulations for pictures and games do.
+///   76, 637; the flip is common in simulations for pictures and games.
 /// - Order: 2 in flight, 1 as soon as there is an impact, whose time is late by up to a step.
 /// - Fails: each impact is late by half a step in the mean, and the way back takes as long, so that
 ///   the delays of all impacts add up; grazes and near misses are decided by the error of flight,
-///   and a dip that opens again within a step is not seen (tunnelling); overlaps of up to a step times
+///   and a dip that opens again within a step is missed (tunnelling); overlaps of up to a step times
 ///   the speed stay, and r < 1 takes its part of the wrong energy there; a gap pressed shut is flipped,
 ///   and counted, again and again. With r = 1 and no forcing the energy is kept: flips only exchange it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -28,7 +28,7 @@ impl Instant {
         Instant((t * TICKS) as i128)
     }
 
-    /// The instant `s` units of time later, without what lies below a tick.
+    /// The instant `s` units of time later, truncated to a tick.
     #[inline(always)]
     pub fn after(self, s: f64) -> Instant {
         // A number from 2^-28 to 2^36 is its mantissa shifted to the left; a conversion to 128 bits is a long routine.
@@ -133,7 +133,7 @@ mod tests {
     use super::*;
     use impact_numerics::random::NormalPairs;
 
-    /// The quick conversions are those of the language.
+    /// The fast conversions agree with those of the language.
     #[test]
     fn conversions_are_rounded_once() {
         let mut normals = NormalPairs::new("conversions", 1, 0);

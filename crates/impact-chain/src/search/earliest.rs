@@ -2,14 +2,14 @@
 
 use super::clock::Instant;
 
-/// Keys 0..len with the earliest at hand; among equal keys the lowest index wins.
+/// Keys 0..len, of which the earliest is found at once; among equal keys the lowest index wins.
 ///
 /// A winner tree over single words: the time from an epoch to the key in units of 2^-58, whose last bits give way to the
 /// index. The lesser word is the earlier key, unless the two agree in all other bits (2^-51 of time for 100 keys, 2^-38 for a
-/// million). Then the lower index is [`first`](Self::first), which [`is_close`](Self::is_close) tells, and
+/// million). Then [`first`](Self::first) is the lower index, [`is_close`](Self::is_close) is true, and
 /// [`first_in_full`](Self::first_in_full) compares the full keys of all words that agree with the root. So there is no branch
-/// on the way up, and only who needs the exact order asks for it. Words end 64 units of time after the epoch; when no key is left
-/// before that end, the earliest becomes the epoch. The shape is fixed, so the order of changes never matters.
+/// on the way up, and only callers that need the exact order pay for it. Words end 64 units of time after the epoch; when no
+/// key is left before that end, the earliest becomes the epoch. The shape is fixed, so the order of changes never matters.
 #[derive(Clone, Debug)]
 pub struct Earliest {
     /// The keys in full, "never" beyond `len`.
@@ -63,8 +63,8 @@ impl Earliest {
     /// Changes the keys of `first`, `first` + 1, …, at most three.
     ///
     /// Neighbours have at most two nodes of each level above them. The two winners are carried
-    /// upwards in registers, each against one sibling from memory, so the wait is a comparison a
-    /// level; no branch depends on who wins, for no processor can predict it.
+    /// upwards in registers, each against one sibling from memory, so the latency is a comparison a
+    /// level; no branch depends on the winner, which no processor can predict.
     #[inline(always)]
     pub fn set<const K: usize>(&mut self, first: usize, keys: [Instant; K]) {
         const { assert!(K <= 3) };
@@ -90,7 +90,7 @@ impl Earliest {
 
     /// Whether key `index` has an equal next to it, where the last and the first are neighbours too.
     #[inline(always)]
-    pub fn ties_beside(&self, index: usize) -> bool {
+    pub fn ties_with_neighbour(&self, index: usize) -> bool {
         let before = if index == 0 { self.last } else { index - 1 };
         let after = if index == self.last { 0 } else { index + 1 };
         let own = self.keys[index];
@@ -102,7 +102,7 @@ impl Earliest {
         self.keys[index]
     }
 
-    /// The index of the least word, and its key: no other is earlier by more than words can tell.
+    /// The index of the least word, and its key: no other is earlier by more than the resolution of words.
     #[inline(always)]
     pub fn first(&mut self) -> (usize, Instant) {
         let (word, mask) = (self.nodes[1], self.mask());
@@ -116,7 +116,7 @@ impl Earliest {
     /// Whether another word agrees with that of `index`, the first, but for the index.
     #[inline(always)]
     pub fn is_close(&self, index: usize) -> bool {
-        // Such a word, or one like it, lost to it on its way up.
+        // Such a word, or another that agrees with it, lost to this one on its way up.
         let nodes = self.nodes.as_slice();
         let (word, mask) = (nodes[1], nodes.len() - 1);
         let mut node = self.keys.len() + index;
@@ -164,7 +164,7 @@ mod tests {
     use impact_numerics::random::generator;
     use rand::Rng;
 
-    /// Against a scan of all keys, with many exact ties, many that only words make, and times before and after the epoch.
+    /// Against a scan of all keys, with many exact ties, ties of words alone, and times before and after the epoch.
     #[test]
     fn agrees_with_a_scan() {
         fn check(earliest: &mut Earliest, keys: &[Instant]) {
@@ -192,7 +192,7 @@ mod tests {
                 check(&mut earliest, &keys);
                 let beside = [(index + len - 1) % len, (index + 1) % len];
                 let tied = beside.into_iter().any(|i| keys[i] == keys[index]);
-                assert_eq!(earliest.ties_beside(index), tied);
+                assert_eq!(earliest.ties_with_neighbour(index), tied);
                 if index + 3 <= len {
                     let three = [0, 1, 2].map(|i| moment.after(f64::from(i) * 0.25));
                     keys[index..index + 3].copy_from_slice(&three);

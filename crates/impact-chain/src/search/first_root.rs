@@ -12,17 +12,13 @@ pub enum Next {
     Root {
         /// Time since the frame's instant.
         s: f64,
-        /// −f' at the root.
         speed: f64,
     },
     /// No root in (0, s].
-    Clear {
-        /// Certified up to here.
-        s: f64,
-    },
+    Clear { s: f64 },
 }
 
-/// Counted work of a run: deterministic, and a result like any other.
+/// Counted work of a run, the same on every machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
     /// Impacts.
@@ -108,7 +104,7 @@ impl<const M: usize> Search<M> {
     /// Their polynomial p lies below f and is above zero before its one root (Descartes). With M₂ ≥ |f''|,
     /// f ≥ speed h − M₂ h²/2 at s − h, so there is no root within speed/M₂ before s. Where that stretch begins (if it
     /// is before 0, nothing is left to show) f is at least speed²/2M₂. If that is more than f can lie above p, then p
-    /// is above zero there, hence before it, and so is f. Twice as much is asked for, since s and its speed are rounded.
+    /// is above zero there, hence before it, and so is f. Twice as much is required, since s and its speed are rounded.
     #[inline(always)]
     fn is_first(&self, frame: &Frame<M>, speed: f64) -> bool {
         let bound = self.curvature * frame.bound;
@@ -149,8 +145,7 @@ impl<const M: usize> Search<M> {
         }
     }
 
-    /// The last step: a root in sight to full accuracy, and certified steps where nothing else
-    /// decides.
+    /// Refines a located root to full accuracy, and takes certified steps where the screen is undecided.
     #[inline(always)]
     fn settle(&self, frame: &Frame<M>, sight: Sight, work: &mut Counters) -> Next {
         let reach = self.frequencies.reach;
@@ -167,7 +162,7 @@ impl<const M: usize> Search<M> {
     }
 }
 
-/// What the screen shows of a frame that it could not decide at one look.
+/// What the screen finds in a frame where the whole reach does not decide.
 enum Sight {
     /// No root in the whole reach.
     Clear,

@@ -31,7 +31,7 @@ fn waves(nu: f64, s: f64) -> [Taylor; 2] {
 }
 
 impl<const M: usize, const N: usize> Linear<M, N> {
-    /// The numbers that `of` makes of a function, which is told by its Taylor coefficients about any instant.
+    /// The numbers that `of` computes from a function, given as its Taylor coefficients about any instant.
     pub fn new(
         frequencies: &Frequencies<M>,
         of: impl Fn(&dyn Fn(f64) -> Taylor) -> [f64x2; N],

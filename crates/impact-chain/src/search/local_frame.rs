@@ -1,4 +1,4 @@
-//! A sum of sinusoids and a constant, seen from one instant.
+//! A sum of sinusoids and a constant in the local frame of one instant.
 //!
 //! In the *local frame* of an instant, with s the time since then, the function is
 //!
@@ -21,7 +21,7 @@ pub struct Frequencies<const M: usize> {
     pub fastest: f64,
     /// The longest stretch of time that one frame covers, [`RANGE`] / fastest.
     pub reach: f64,
-    /// 1 + 2 Ω/ω: what a forced part of amplitude 1 adds to the size of a frame at most.
+    /// 1 + 2 Ω/ω: the largest part of a forced amplitude of 1 in the size of a frame.
     pub weights: [f64; M],
     inverse_omega: f64,
     /// (sin ωs, cos ωs) at the end of the reach, and (sin Ωs, cos Ωs).
@@ -64,7 +64,7 @@ pub struct Frame<const M: usize> {
     pub forced: [[f64; 2]; M],
     /// M₄ ≥ |f''''(s)| for every s: Σ ω⁴ R over the parts, R ≥ the amplitude of the part.
     pub bound: f64,
-    /// What f is made of at most: |mean| + R₁ + Σ (1 + 2 Ω/ω) R₂. Its rounding follows.
+    /// Bound of the sum of the absolute terms of f, the scale of its rounding: |mean| + R₁ + Σ (1 + 2 Ω/ω) R₂.
     pub size: f64,
 }
 
@@ -93,11 +93,11 @@ pub struct Point<const M: usize> {
 pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl<const M: usize> Frame<M> {
-    /// A function that is zero for ever.
+    /// The function 0.
     pub const ZERO: Frame<M> =
         Frame { f0: 0.0, g0: 0.0, alpha: 0.0, forced: [[0.0; 2]; M], bound: 0.0, size: 0.0 };
 
-    /// Amplitude of sin ωs: what the slope at s = 0 leaves to the free part.
+    /// Amplitude of sin ωs, from the slope at s = 0 less the forced parts.
     #[inline(always)]
     fn sine(&self, frequencies: &Frequencies<M>) -> f64 {
         let mut slope = self.g0;
@@ -107,8 +107,8 @@ impl<const M: usize> Frame<M> {
         slope * frequencies.inverse_omega
     }
 
-    /// At rest at zero, a function that is known not to fall: where rounding makes its curvature negative, it is
-    /// positive by as much as rounding may.
+    /// For a function at rest at zero that cannot fall: a curvature that rounding made negative is set to the bound of
+    /// that rounding.
     pub fn not_falling(&mut self, frequencies: &Frequencies<M>) {
         let w2 = frequencies.omega * frequencies.omega;
         let (mut forced, mut size) = (0.0, w2 * self.alpha.abs());
@@ -121,7 +121,7 @@ impl<const M: usize> Frame<M> {
         }
     }
 
-    /// The same function seen from the end of the reach.
+    /// The same function in the frame of the end of the reach.
     #[inline(always)]
     pub fn advanced(&self, frequencies: &Frequencies<M>) -> Frame<M> {
         let rotated = |[value, quadrature]: [f64; 2], [sin, cos]: [f64; 2]| {

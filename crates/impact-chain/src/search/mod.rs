@@ -1,6 +1,9 @@
-//! The first root of a sum of sinusoids and a constant, found with a proof that none before it was missed: [`first_root`], in frames
-//! ([`local_frame`]) that lose no digits, screened by polynomials ([`screen`]); phases without drift from a [`clock`] of
-//! 96 bits; the next event of many from [`earliest`].
+//! The first root of a sum of sinusoids and a constant, found with a proof that none before it was missed.
+//!
+//! - [`first_root`] searches in frames that lose no digits ([`local_frame`]): polynomials screen a piece of time
+//!   ([`screen`]), Taylor polynomials refine a root (`nodes`), certified steps decide the rest (`stepping`).
+//! - [`window`]: waits that are longer than a frame. [`earliest`]: the next event of all gaps.
+//! - [`clock`]: instants and phases without drift. [`trig`]: sines with the same bits on every machine.
 
 pub mod clock;
 pub mod earliest;

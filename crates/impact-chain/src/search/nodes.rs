@@ -11,8 +11,8 @@ use wide::f64x2;
 /// Nodes over the reach, both ends included; a power of two.
 const NODES: usize = 32;
 
-/// How far from a node its polynomial serves, over the fastest frequency: what it leaves out is 0.06¹⁰/10! < 2e-19 of
-/// f's size and 0.06⁹/9! < 3e-17 of its slope's. Nodes are 0.092 apart.
+/// How far from a node its polynomial is used, over the fastest frequency: the remainder is 0.06¹⁰/10! < 2e-19 of f's
+/// size and 0.06⁹/9! < 3e-17 of its slope's. Nodes are 0.092 apart.
 const RADIUS: f64 = 0.06;
 
 /// All nodes of given frequencies.
@@ -25,7 +25,7 @@ pub struct Nodes<const M: usize> {
     radius: f64,
 }
 
-/// Steps of fourth order that are enough.
+/// Most steps; they converge with order four.
 const STEPS: u32 = 4;
 
 impl<const M: usize> Nodes<M> {
@@ -84,11 +84,11 @@ impl<const M: usize> Nodes<M> {
     }
 }
 
-/// A Taylor polynomial of degree nine, its coefficients of even and of odd order side by side.
+/// A Taylor polynomial of degree nine, with its coefficients of even and odd order in pairs.
 struct Taylor([f64x2; 5]);
 
 impl Taylor {
-    /// Its own Taylor coefficients about h, up to the third.
+    /// Its Taylor coefficients about h, up to the third.
     #[inline(always)]
     fn at(&self, h: f64) -> [f64; 4] {
         let c = &self.0;

@@ -1,4 +1,4 @@
-//! A quick certificate: does a function stay open over a piece of its frame, or close just once?
+//! A quick certificate that a function stays positive over a piece of its frame, or has just one root there.
 //!
 //! On a piece [a, a + w] the function f is compared with the polynomial p of degree seven that
 //! shares its value and first three derivatives at both ends (Hermite). The difference is at most
@@ -63,7 +63,7 @@ pub struct Piece<const M: usize> {
     factors: Linear<M, { N / 2 }>,
     /// The largest difference between f and p over M₄, as it enters b₄, and 0 for b₃.
     difference: f64x2,
-    /// What the same difference does to b_{i+1} − b_i at most.
+    /// The largest effect of the same difference on b_{i+1} − b_i.
     difference_of_slope: f64,
 }
 
@@ -71,11 +71,11 @@ pub struct Piece<const M: usize> {
 #[derive(Clone, Copy, Debug)]
 pub struct Coefficients {
     row: CoefficientPairs,
-    /// What rounding can have done to each of them, twice.
+    /// Twice a bound of the rounding of each.
     slack: f64,
 }
 
-/// C(i, k) k! (8 − k)!/8! wᵏ: what the k-th Taylor coefficient at an end adds to the i-th coefficient.
+/// C(i, k) k! (8 − k)!/8! wᵏ: the factor of the k-th Taylor coefficient at an end in the i-th Bernstein coefficient.
 fn weight(i: usize, k: usize, w: f64) -> f64 {
     let mut out = 1.0;
     for m in 0..k {
@@ -120,7 +120,7 @@ impl<const M: usize> Piece<M> {
         }
     }
 
-    /// What f can lie above p at most, where p is below f, rounding included.
+    /// A bound of f − p, where p is below f, rounding included.
     #[inline(always)]
     pub fn doubt(&self, frame: &Frame<M>) -> f64 {
         // Twice M₈ (w/2)⁸/8! = b₄'s part · 70/256.

@@ -1,4 +1,4 @@
-//! The first root by certified steps: slower than the screen, and never at a loss.
+//! The first root by certified steps: slower than the screen, but always decisive.
 
 use super::first_root::{Counters, Next};
 use super::local_frame::{Frame, Frequencies, Point, ROUNDING};
@@ -20,13 +20,13 @@ fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
     h.min(far)
 }
 
-/// A gap barely opens where another trial gives a stretch so many times as long: its rate is below 1e-9 of what is usual.
+/// A gap barely opens where another trial gives a stretch so many times as long: its rate is below 1e-9 of the usual one.
 const BARELY: f64 = 1e6;
 
 /// The parts of a gap are far larger than itself where another trial gives a stretch so many times as long.
 const FAR_LARGER: f64 = 1e3;
 
-/// The parts of a gap cancel where its own second and third derivative are so many times below the bound of the fourth.
+/// The parts of a gap cancel where its second and third derivative are so many times below the bound of the fourth.
 const CANCELS: f64 = 1e4;
 
 // listing: stretch
@@ -50,7 +50,7 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
         limit
     };
     let h = certified(first.min(limit));
-    // Where neither is a good trial: it can only be so if the term of M₄ alone lets the gap go far longer.
+    // Where neither trial is good, which needs that the term of M₄ alone allows a far longer stretch.
     let cube = bound * (h * h * h);
     let far_larger = (FAR_LARGER * FAR_LARGER) * (FAR_LARGER * FAR_LARGER);
     let barely = BARELY * BARELY * BARELY;
@@ -64,7 +64,7 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
 }
 // end
 
-/// How far the worst term of K alone lets a gap go, by its rate and by its width.
+/// The stretch that the worst term of K alone allows, by the rate and by the width of the gap.
 #[cold]
 fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
     let (down, third) = ((-p.h).max(0.0), p.j.abs());
@@ -129,7 +129,7 @@ fn lift<const M: usize>(p: &Point<M>, frame: &Frame<M>, frequencies: &Frequencie
     }
 }
 
-/// Evaluations after which a search stops with what is certified so far; its owner resumes it.
+/// Evaluations after which a search stops with the stretch certified so far; the engine resumes it later.
 const PATIENCE: u32 = 64;
 
 // listing: first_root_by_steps
@@ -260,7 +260,7 @@ fn shorter_leap<const M: usize>(
     None
 }
 
-/// A guess of where f, seen from `p`, has just crossed zero; `left` if no root is in sight.
+/// A guess from `p` of where f has just crossed zero; `left` if no root is near.
 #[inline]
 fn beyond_root<const M: usize>(p: &Point<M>, root: f64, discriminant: f64, left: f64) -> f64 {
     let crosses = discriminant > 0.0 && (p.g < 0.0 || p.h < 0.0);
@@ -305,12 +305,12 @@ fn before_root<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64) 
     (slope < 0.0 && t > 0.0 && t < 1.0).then_some(t * h)
 }
 
-/// The root s + h of the quadratic about a point, which falls there at `slope`, put right by the
+/// The root s + h of the quadratic about a point, which falls there at `slope`, corrected by the
 /// terms of higher order.
 ///
 /// What the quadratic leaves out is below the margin in f, yet not in f': at h = 1e-5 the slope
 /// f''' h²/2 is 1e-10, and f'''' h³/6, which has one sign, would take energy from a chain.
-/// A grazing root, where what is left out is not small beside the slope, is left as it is.
+/// A grazing root, where these terms are not small compared with the slope, is not changed.
 fn polish<const M: usize>(
     s: f64,
     h: f64,

@@ -40,7 +40,7 @@ const COS: [f64; TERMS] = adjusted(
 /// and the cosine by 2e-16 at [`RANGE`], always to the same side, and a chain without forcing would
 /// lose 1e-17 of its energy an impact. The coefficients after them take these errors up: least
 /// squares over 0 ≤ x ≤ [`RANGE`], one coefficient after the other rounded. What is left of the
-/// polynomial's own error is below 3e-18.
+/// polynomial's error is below 3e-18.
 const fn adjusted(m: usize, by: [f64; 6]) -> [f64; TERMS] {
     let mut out = inverse_factorials(m);
     let mut k = 0;
@@ -98,8 +98,8 @@ fn polynomials(z: f64x2) -> f64x2 {
     even + z * odd
 }
 
-/// The same from the first eight rows, which a quarter turn needs: the first omitted ones are below 1e-19 and 3e-18. In the
-/// order that ends first, since all that follows an event waits for its phases.
+/// The same from the first eight rows, enough for a quarter turn: the first omitted ones are below 1e-19 and 3e-18. The
+/// order is that of least latency, since all work at an event waits for its phases.
 #[inline(always)]
 fn quarter_polynomials(z: f64x2) -> f64x2 {
     let square = z * z;
@@ -114,7 +114,7 @@ fn remainders(x: f64, polynomials: impl Fn(f64x2) -> f64x2) -> [f64; 2] {
     (polynomials(f64x2::splat(z)) * f64x2::from([z * x, z])).to_array()
 }
 
-/// sin x − x and 1 − cos x for |x| ≤ [`RANGE`], each to a few units in its own last place.
+/// sin x − x and 1 − cos x for |x| ≤ [`RANGE`], each to a few units in its last place.
 ///
 /// The omitted terms are below 2.83^31/31! < 2e-20 and 2.83^30/30! < 2e-19.
 #[inline(always)]
@@ -158,7 +158,7 @@ const ARCTAN: [f64; 10] = [
     -0.001701169973,
 ];
 
-/// The angles of two vectors from the axis of x, in [−π, π] and to 2e-9, for what is given more room than that.
+/// The angles of two vectors from the axis of x, in [−π, π] and to 2e-9, for windows that are widened by more than that.
 #[inline(always)]
 pub fn rough_angles(y: f64x2, x: f64x2) -> f64x2 {
     use std::f64::consts::{FRAC_PI_2, PI};

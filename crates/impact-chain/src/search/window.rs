@@ -1,4 +1,4 @@
-//! Long waits: when can all parts of a sum of sinusoids be low at once?
+//! Long waits: the next time at which all parts of a sum of sinusoids can be low together.
 
 use super::local_frame::Frequencies;
 use super::trig::rough_angles;
@@ -21,7 +21,7 @@ const WIDENED: f64 = 1e-7;
 /// Windows passed in one call.
 const HOPS: u32 = 64;
 
-/// A time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain; nothing if it is so for ever.
+/// A time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain; `None` if it always is.
 ///
 /// The part with amplitude R is low enough only while R cos(νs + θ) ≤ −(mean − Σ of the other
 /// amplitudes): in one window a period. Before s no instant lies in the windows of all parts.
@@ -74,7 +74,7 @@ impl Part {
             return 0.0;
         }
         let angle = self.angle + self.frequency * s;
-        // Behind the middle of the nearest window; the sum has no place for a fraction.
+        // Behind the middle of the nearest window; adding WHOLE rounds to a whole number.
         const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
         let behind = angle - TURN * ((angle * (1.0 / TURN) + WHOLE) - WHOLE);
         if behind.abs() <= self.half_width + 1e-3 * WIDENED {
