@@ -42,7 +42,7 @@ pub fn paper() -> Paper {
     }
 }
 
-/// Documents for five minutes, half an hour, and a day.
+/// The documents: overview (five minutes), edition (half an hour), second paper, methods, ledger.
 const DOCUMENTS: [Document; 5] = [
     Document {
         prose: "front",

@@ -52,13 +52,13 @@ fn parameters(e: &Evidence, s: &Statement) -> Judged {
     ))
 }
 
-/// The largest σ below two thirds of the printed threshold.
+/// The largest σ below about two thirds of the printed threshold (0.67, so that 0.08 is one).
 pub(super) fn small<'a>(e: &Evidence<'a>) -> Result<&'a rise::RisePoint, Error> {
     let threshold = e.published.statement("sec2_half_height")?.number()?;
     some(e.sweep()?.first().rows.iter().rev().find(|row| row.sigma < 0.67 * threshold))
 }
 
-/// N over the number of gaps that is called very few (ours).
+/// “Very few” is at most N over this (ours).
 pub(super) const VERY_FEW: f64 = 20.0;
 
 /// By the mean of the realisations with an impact, in each window of the map of protocols.
@@ -280,7 +280,7 @@ fn walls_like_masses(e: &Evidence, s: &Statement) -> Judged {
     let apart = difference(half("ring")?, half("rest")?);
     let allowed = e.half_unit()?;
     let agrees = apart.value.abs() <= allowed + e.level.quantile * apart.error;
-    Ok(s.found(Text::of("σ½ differs by {}", [estimate(&apart)]), agrees)
+    Ok(s.found(Text::of("σ½ of the mean of all differs by {}", [estimate(&apart)]), agrees)
         .within(plus_minus(allowed), LAST_DIGIT)
         .note(
             "A ring has N = n gaps, a chain between walls N = n + 1. After longer transients a ring rises somewhat \

@@ -68,14 +68,14 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
 }
 
 fn half_heights(both: &[Both<'_>]) -> Table {
-    Table::of("branches.half_heights", both, |own| own.rest.0.ensemble.realisations)
+    Table::of("branches.half_heights", both, |both| both.rest.0.ensemble.realisations)
         .key("transient", TIME, Both::transient)
-        .chosen("masses", "1", "masses of a chain", |own| Some(masses(own.rest.0) as f64))
+        .chosen("masses", "1", "masses of a chain", |both| Some(masses(both.rest.0) as f64))
         .computed_by(origin(Curve::new))
-        .estimate("from_rest", SIGMA, HALF_HEIGHT, |own| own.rest.1.rise.half_height_all)
-        .estimate("from_above", SIGMA, HALF_HEIGHT, |own| own.above.1.rise.half_height_all)
-        .estimate("width_from_rest", SIGMA, WIDTH, |own| own.rest.1.rise.quarters)
-        .estimate("width_from_above", SIGMA, WIDTH, |own| own.above.1.rise.quarters)
+        .estimate("from_rest", SIGMA, HALF_HEIGHT, |both| both.rest.1.rise.half_height_all)
+        .estimate("from_above", SIGMA, HALF_HEIGHT, |both| both.above.1.rise.half_height_all)
+        .estimate("width_from_rest", SIGMA, WIDTH, |both| both.rest.1.rise.quarters)
+        .estimate("width_from_above", SIGMA, WIDTH, |both| both.above.1.rise.quarters)
         .computed_by(origin(Both::distance))
         .estimate("distance", SIGMA, "half height from rest less that from above", Both::distance)
         .done()
@@ -84,10 +84,10 @@ fn half_heights(both: &[Both<'_>]) -> Table {
 /// At the σ that were run on both branches.
 fn shares(both: &[Both<'_>]) -> Table {
     let mut rows: Vec<(f64, &Both<'_>)> = Vec::new();
-    for own in both {
-        let above = &own.above.0.ensemble.sigmas;
-        let common = own.rest.0.ensemble.sigmas.iter().filter(|sigma| above.contains(sigma));
-        rows.extend(common.map(|&sigma| (sigma, own)));
+    for pair in both {
+        let above = &pair.above.0.ensemble.sigmas;
+        let common = pair.rest.0.ensemble.sigmas.iter().filter(|sigma| above.contains(sigma));
+        rows.extend(common.map(|&sigma| (sigma, pair)));
     }
     const SHARE: &str = "share of all gaps with an impact";
     Table::of("branches.shares", &rows, |row| row.1.rest.0.ensemble.realisations)

@@ -308,7 +308,7 @@ pub const BRANCHES: Ensembles =
     ensembles("branches", "branches", params::branches, branches::tables);
 
 /// Runs that a page repeats.
-pub const REPLAY: Experiment<replay::Runs, replay::Replays> = Experiment {
+pub const REPLAY: Experiment<replay::ReplayRuns, replay::Replays> = Experiment {
     name: "replay",
     code: &["src/experiments/replay.rs"],
     parameters: replay::runs,

@@ -5,13 +5,13 @@ use crate::params::{Boundary, Profile, Protocol, SEED, Start};
 use impact_chain::replay::{Asked, Forces, Replay};
 
 /// What is run: each run with a name.
-pub type Runs = Vec<(String, Asked)>;
+pub type ReplayRuns = Vec<(String, Asked)>;
 
 /// The results, run by run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replays {
     /// What was run.
-    pub parameters: Runs,
+    pub parameters: ReplayRuns,
     /// The result of each.
     pub found: Vec<Found>,
 }
@@ -32,7 +32,7 @@ pub struct Found {
 }
 
 /// The first are realisations behind Fig. 3; the others are difficult for an engine.
-pub fn runs(_: Profile) -> Runs {
+pub fn runs(_: Profile) -> ReplayRuns {
     let drawn = |sigma: f64, chain: Chain| {
         let forces = Forces::Drawn { sigma, stream: "sweep".into(), seed: SEED, realisation: 0 };
         let Protocol { transient, window } = Protocol::default();
@@ -81,7 +81,7 @@ fn mirrored() -> Vec<[f64; 2]> {
 }
 
 /// Runs all.
-pub fn run(parameters: &Runs, progress: &Progress) -> Result<Replays, Error> {
+pub fn run(parameters: &ReplayRuns, progress: &Progress) -> Result<Replays, Error> {
     let stage = progress.stage("replays", parameters.len() as u64);
     let one = |(_, asked): &(String, Asked)| {
         let failed = |source| Error::failed("replay", source);

@@ -6,7 +6,7 @@ use super::starts::HALF_HEIGHT;
 use crate::experiments::prelude::*;
 use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
-use impact_chain::rise::{Mean, Rise, RisePoint, Runs};
+use impact_chain::rise::{Mean, Rise, RisePoint, RunTotals};
 
 /// A σ above the rise.
 const ABOVE: f64 = 0.2;
@@ -31,12 +31,12 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     vec![run(sweep), rows(sweep), rise_table(sweep), modes(sweep), rare(sweep), sticking()]
 }
 
-/// The table of the sweep with the second seed.
+/// The rise with the second seed.
 pub fn of_second_seed(found: &Vec<Counted>) -> Vec<Table> {
-    let table = Table::of("second_seed.rise", found, |own| own.ensemble.realisations)
-        .count("seed", "master seed", |own| own.ensemble.seed)
+    let table = Table::of("second_seed.rise", found, |sweep| sweep.ensemble.realisations)
+        .count("seed", "master seed", |sweep| sweep.ensemble.seed)
         .computed_by(origin(Curve::new))
-        .estimate("half_height", SIGMA, OF_ACTIVE, |own| own.first().rise.half_height);
+        .estimate("half_height", SIGMA, OF_ACTIVE, |sweep| sweep.first().rise.half_height);
     vec![table.done()]
 }
 
@@ -47,29 +47,29 @@ const WIDTH_OF_ACTIVE: &str =
     "from a quarter to three quarters of all gaps, of the mean of realisations with an impact";
 
 fn run(sweep: &Counted) -> Table {
-    let of = |pick: fn(&Runs) -> u64| move |own: &&Counted| own.runs.iter().map(pick).sum();
+    let of = |pick: fn(&RunTotals) -> u64| move |all: &&Counted| all.runs.iter().map(pick).sum();
     let protocol = sweep.first().protocol;
-    Table::of("sweep.run", &[sweep], |own| own.ensemble.realisations)
-        .count("gaps", "gaps of a chain", |own| own.ensemble.chain.gaps() as u64)
+    Table::of("sweep.run", &[sweep], |sweep| sweep.ensemble.realisations)
+        .count("gaps", "gaps of a chain", |sweep| sweep.ensemble.chain.gaps() as u64)
         .chosen("transient", TIME, "", |_| Some(protocol.transient))
         .chosen("window", TIME, "", |_| Some(protocol.window))
-        .count("realisations", "chains at each σ", |own| own.ensemble.realisations as u64)
-        .chosen("level_above", SIGMA, "above this σ fewer chains are run", |own| {
-            own.ensemble.beyond.map(|beyond| beyond.above)
+        .count("realisations", "chains at each σ", |sweep| sweep.ensemble.realisations as u64)
+        .chosen("level_above", SIGMA, "above this σ fewer chains are run", |sweep| {
+            sweep.ensemble.beyond.map(|beyond| beyond.above)
         })
-        .chosen("level_realisations", "1", "so many", |own| {
-            own.ensemble.beyond?.realisations.map(|few| few as f64)
+        .chosen("level_realisations", "1", "so many", |sweep| {
+            sweep.ensemble.beyond?.realisations.map(|few| few as f64)
         })
-        .count("sigmas", "values of σ", |own| own.runs.len() as u64)
-        .count("seed", "master seed", |own| own.ensemble.seed)
+        .count("sigmas", "values of σ", |sweep| sweep.runs.len() as u64)
+        .count("seed", "master seed", |sweep| sweep.ensemble.seed)
         .chosen("confidence", "1", "of all intervals", |_| Some(LEVEL))
-        .count("impacts", "impacts simulated, transients included", of(|own| own.total.impacts))
-        .count("failed", "realisations that the engine ended early", of(|own| own.failed as u64))
+        .count("impacts", "impacts simulated, transients included", of(|runs| runs.total.impacts))
+        .count("failed", "realisations that the engine ended early", of(|runs| runs.failed as u64))
         .done()
 }
 
 fn rows(sweep: &Counted) -> Table {
-    let estimate = |own: Option<Mean>| own?.estimate();
+    let estimate = |mean: Option<Mean>| mean?.estimate();
     Table::of("sweep.rows", &sweep.first().rows, |row| row.ran)
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(RisePoint::new))
@@ -96,17 +96,17 @@ fn rows(sweep: &Counted) -> Table {
 }
 
 fn rise_table(sweep: &Counted) -> Table {
-    let end = |own: &Rise, end: usize| own.half_height.map_or(f64::NAN, |half| half.interval[end]);
+    let end = |rise: &Rise, at: usize| rise.half_height.map_or(f64::NAN, |half| half.interval[at]);
     Table::of("sweep.rise", &[&sweep.first().rise], |_| sweep.ensemble.realisations)
         .computed_by(origin(Curve::new))
-        .estimate("half_height", SIGMA, OF_ACTIVE, |own| own.half_height)
-        .real("half_height_from", SIGMA, 4, "lower end of its interval", |own| end(own, 0))
-        .real("half_height_to", SIGMA, 4, "upper end of its interval", |own| end(own, 1))
-        .estimate("half_height_all", SIGMA, HALF_HEIGHT, |own| own.half_height_all)
-        .estimate("onset", SIGMA, "σ where it passes a twentieth of all gaps", |own| own.onset)
-        .estimate("kept_half", SIGMA, ANY_IMPACT, |own| own.kept_half)
-        .estimate("width", SIGMA, "from a tenth to nine tenths of all gaps", |own| own.width)
-        .estimate("kept_width", SIGMA, WIDTH_OF_ACTIVE, |own| own.kept_width)
+        .estimate("half_height", SIGMA, OF_ACTIVE, |rise| rise.half_height)
+        .real("half_height_from", SIGMA, 4, "lower end of its interval", |rise| end(rise, 0))
+        .real("half_height_to", SIGMA, 4, "upper end of its interval", |rise| end(rise, 1))
+        .estimate("half_height_all", SIGMA, HALF_HEIGHT, |rise| rise.half_height_all)
+        .estimate("onset", SIGMA, "σ where it passes a twentieth of all gaps", |rise| rise.onset)
+        .estimate("kept_half", SIGMA, ANY_IMPACT, |rise| rise.kept_half)
+        .estimate("width", SIGMA, "from a tenth to nine tenths of all gaps", |rise| rise.width)
+        .estimate("kept_width", SIGMA, WIDTH_OF_ACTIVE, |rise| rise.kept_width)
         .done()
 }
 
@@ -131,9 +131,9 @@ fn modes(sweep: &Counted) -> Table {
         .done()
 }
 
-/// Impacts within 1e−9 of one in an adjacent gap, and impacts slower than 1e−8, expected by chance in a whole sweep.
-/// The number of impacts within δ falls in proportion to δ, once that is short against the time between impacts (from 1e−2
-/// on), and the number below a speed v in proportion to v², because the rate of impacts goes with the speed itself.
+/// Impacts within [`NEAR_SIMULTANEOUS`] of one in an adjacent gap, and impacts slower than [`SLOW`], expected by chance
+/// in a whole sweep: from those within δ = 1e−2 in proportion to δ, and from those below v = 0.1 in proportion to v², as
+/// the rate of impacts grows with v.
 pub fn expected(total: &Total) -> [f64; 2] {
     let slow = SLOW / SLOW_DECADES[0];
     [
@@ -148,12 +148,12 @@ fn rare(sweep: &Counted) -> Table {
     let [near, slow] = expected(&total);
     Table::of("sweep.rare", &[total], |_| 0)
         .computed_by(origin(expected))
-        .count("near_simultaneous", "impacts next to another within the limit", |own| {
-            last(&own.near)
+        .count("near_simultaneous", "impacts next to another within the limit", |total| {
+            last(&total.near)
         })
         .real("near_expected", "1", 2, "the law's", |_| near)
         .real("near_limit", TIME, 1, "", |_| NEAR_SIMULTANEOUS)
-        .count("slow", "impacts slower than the limit", |own| last(&own.slow))
+        .count("slow", "impacts slower than the limit", |total| last(&total.slow))
         .real("slow_expected", "1", 1, "the law's", |_| slow)
         .real("slow_limit", "d omega", 1, "", |_| SLOW)
         .chosen("contact_sigma", SIGMA, "above the rise", |_| Some(ABOVE))
@@ -161,11 +161,12 @@ fn rare(sweep: &Counted) -> Table {
             let below = sweep.runs.iter().filter(|row| row.sigma <= ABOVE);
             below.map(|row| row.total.contact_phases).sum()
         })
-        .count("contact_phases", "contact phases of all σ", |own| own.contact_phases)
+        .count("contact_phases", "contact phases of all σ", |total| total.contact_phases)
         .done()
 }
 
-/// The probability that the forces on a pair can press it together: |ΔF| > d ω².
+/// The probability that the forces on a pair can press it together: an amplitude of ΔF, Rayleigh distributed with scale
+/// √2 σ, above d ω² = 1.
 fn can_stick(sigma: &f64) -> f64 {
     pxfm::f_exp(-0.25 / (sigma * sigma))
 }

@@ -1,4 +1,4 @@
-//! Fig. 3: the expected number of impacts against σ, simulated, and how many runs it rests on.
+//! Fig. 3: the expected number of impacts (of different gaps) against σ, simulated, and how many runs it rests on.
 
 use super::prelude::*;
 use super::simulated::*;

@@ -1,4 +1,4 @@
-//! Fig. S7: how long a run is true, against its time and against the error of one impact.
+//! Fig. S7: how long all impacts of a run are right, against its time and against the error of one impact.
 
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look, programs};
@@ -36,7 +36,7 @@ const BY_ERROR: [Place; 4] = [
     (RungeKutta, 0, (-2, -1)),
 ];
 
-/// Time after which an error ε has grown to [`DISPLACED`]: ln(10⁻³/ε)/λ, with λ and its error.
+/// The time in which an error ε grows to [`DISPLACED`], ln([`DISPLACED`]/ε)/λ, and its interval: [low, value, high].
 fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
     let growth = race.growth.growth()?;
     let folds = pxfm::f_log(DISPLACED / error).max(0.0);
@@ -50,10 +50,10 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         .from(0.3, 8e3)
         .column("measured time over the engine's (1)");
     let by_time = Frame::new(1100, 430, 8250, 4330);
-    let by_time = sheet.lettered(LETTERS[0], by_time, x, horizon(top))?;
+    let by_time = sheet.lettered(LETTERS[0], by_time, x, horizon_axis(top))?;
     let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").from(1e-19, 0.5);
     let by_error = Frame::new(1100, 5500, 8250, 7700);
-    let by_error = sheet.lettered(LETTERS[1], by_error, x, horizon(top))?;
+    let by_error = sheet.lettered(LETTERS[1], by_error, x, horizon_axis(top))?;
 
     chaos(&by_error, race)?;
     if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|own| own[1] < top) {
@@ -100,7 +100,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     Ok(sheet.finish("s07", "How long a run is true", description(race)))
 }
 
-fn horizon(top: f64) -> Axis {
+fn horizon_axis(top: f64) -> Axis {
     let step = if top > 60.0 { 50.0 } else { 10.0 };
     Axis::linear(0.0, top, step, 1, "horizon *t* (1/*ω*)").column("horizon (1/omega)")
 }

@@ -9,7 +9,7 @@ fn windows(transients: &[f64], windows: &[f64]) -> Vec<Protocol> {
     transients.iter().flat_map(of).collect()
 }
 
-/// The paper's chain with the paper's protocol.
+/// The paper's chain from rest, with our protocol (the default of [`Ensemble`]).
 fn paper(name: &str, sigmas: Grid, realisations: usize) -> Ensemble {
     Ensemble {
         name: name.into(),
@@ -91,6 +91,7 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
     const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });
     // Stream, masses, start, σ in thousandths (first, last, step), realisations, transients.
     type Case = (&'static str, usize, Option<Heating>, [u32; 3], usize, &'static [f64]);
+    // Random streams: of chains of several lengths, and of both branches.
     const LENGTH: &str = "sizes";
     const BOTH: &str = "history";
     let late: &[f64] = &[5e4, 1e5];
@@ -143,7 +144,7 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
         chain: Chain { start: Start::Random, ..Chain::default() },
         protocols: windows(transients, &[200.0]),
         stream: "chains".into(),
-        // The half height lies where many starts overlap; the others are counted.
+        // The half height lies at larger σ, where many random starts overlap; the others are counted.
         most_rejected: 1.0,
         ..paper("random", Grid::default().and(9, 18, step, 100), realisations)
     };

@@ -7,13 +7,13 @@
 //! decided for the cluster, not pair by pair: a neighbour's pressure may hold a gap shut that
 //! would open alone.
 //!
-//! In a cluster each contact force is L₀ + L₁ cos Ωt + L₂ sin Ωt exactly, so its first zero is
+//! In a cluster each contact force is L + C cos Ωt + S sin Ωt exactly, so its first zero is
 //! found by the same certified search as an impact. A hit from outside frees the masses of the
 //! cluster, is carried through it by the impact law, and what is slow is settled again.
 
+use super::complementarity::contact_forces;
 use super::flight::{Motion, Phases};
 use super::force::Force;
-use super::linear::contact_forces;
 use super::simulation::{Awaits, Simulation};
 use crate::search::clock::Instant;
 use crate::search::first_root::Next;
@@ -25,10 +25,10 @@ use std::collections::BTreeMap;
 pub(super) const CONTACT_SPEED: f64 = 1e-10;
 
 /// Rate, in units of d ω, and width, in units of d, up to which a gap belongs to a settled run.
-const SLOW: f64 = 10.0 * CONTACT_SPEED;
-const SHUT: f64 = 1e-16;
+const SETTLED_RATE: f64 = 10.0 * CONTACT_SPEED;
+const SETTLED_WIDTH: f64 = 1e-16;
 
-/// Width and rate of a gap that may be settled.
+/// A gap that may be settled: (gap, [width, rate]).
 type Resting = (usize, [f64; 2]);
 
 const STILL: [f64; 2] = [0.0; 2];
@@ -77,13 +77,13 @@ impl<const M: usize> Simulation<M> {
 
     /// Width and rate of gap k now, after a jump of its rate.
     fn resting(&self, k: usize, phases: &Phases<M>, jump: f64) -> [f64; 2] {
-        let frame = self.look(k, phases);
+        let frame = self.frame_of(k, phases);
         self.carried(k, &frame, jump).unwrap_or([frame.f0, frame.g0])
     }
 
     fn is_settled(&self, [width, rate]: [f64; 2]) -> bool {
-        width <= SHUT * self.spacing
-            && rate.abs() <= SLOW * self.spacing * self.search.frequencies.omega
+        width <= SETTLED_WIDTH * self.spacing
+            && rate.abs() <= SETTLED_RATE * self.spacing * self.search.frequencies.omega
     }
 
     /// Takes the gaps whose state has just changed, grows them to whole runs of shut and slow
@@ -129,13 +129,13 @@ impl<const M: usize> Simulation<M> {
         // The motions are final now: frame everything else that was touched.
         for (&k, [width, rate]) in &known {
             if !self.gaps[k].in_contact {
-                self.set_frame(k, p, *width, rate + jump(k));
+                self.set_and_search(k, p, *width, rate + jump(k));
             }
         }
         for &k in known.keys() {
             for near in self.topology.adjacent(k).into_iter().flatten() {
                 if !known.contains_key(&near) && !self.gaps[near].in_contact {
-                    self.reframe(near, p, jump(near));
+                    self.renew_and_search(near, p, jump(near));
                 }
             }
         }
@@ -173,10 +173,10 @@ impl<const M: usize> Simulation<M> {
         let allowed: Vec<bool> = gaps.iter().map(|&k| Some(k) != released).collect();
         let accelerations: Vec<_> = gaps.iter().map(|&k| self.acceleration(k)).collect();
         // The acceleration of a gap by a unit of its contact force: the sum of the inverse masses.
-        let stiffness = |&k: &usize| self.topology.inverse_masses(k).iter().sum();
-        let stiffness: Vec<f64> = gaps.iter().map(stiffness).collect();
+        let inverse_mass = |&k: &usize| self.topology.inverse_masses(k).iter().sum();
+        let inverse_mass: Vec<f64> = gaps.iter().map(inverse_mass).collect();
         let forces =
-            contact_forces(&accelerations, &stiffness, &allowed, p, &self.search.frequencies);
+            contact_forces(&accelerations, &inverse_mass, &allowed, p, &self.search.frequencies);
         let alone = gaps.len() == 1;
         if alone && (rates[0] < 0.0 || forces[0].is_none()) {
             return [0.0; 2];
@@ -306,6 +306,7 @@ impl<const M: usize> Simulation<M> {
         self.make_free(&gaps, phases);
         for &k in &gaps {
             self.gaps[k].in_contact = false;
+            // A mark: if the gap is pressed again at once, its contact phase goes on and is not counted anew.
             self.gaps[k].awaits = Awaits::Release;
         }
         gaps

@@ -11,7 +11,7 @@ use super::simulation::Simulation;
 use impact_numerics::double_double::DoubleDouble;
 
 /// Closing speed, in units of d ω, below which the frame of a gap is more accurate than the motions.
-const SLOW: f64 = 1e-3;
+const LEAST_SPEED: f64 = 1e-3;
 
 impl<const M: usize> Simulation<M> {
     /// Whether the impact of gap k at `speed` conserves the energy of its neighbours' free motion.
@@ -19,7 +19,7 @@ impl<const M: usize> Simulation<M> {
     pub(super) fn is_conservative(&self, k: usize, speed: f64) -> bool {
         self.restitution == 1.0 && {
             let [left, right] = self.topology.sides(k);
-            speed > SLOW * self.spacing * self.search.frequencies.omega
+            speed > LEAST_SPEED * self.spacing * self.search.frequencies.omega
                 && self.forced[left] == self.forced[right]
         }
     }
@@ -48,10 +48,10 @@ impl<const M: usize> Simulation<M> {
             (self.motions[m].a, self.motions[m].b) = (a.hi, b.hi);
             self.remainders[m] = [a.lo, b.lo];
         }
-        self.set_frame(k, phases, 0.0, -w * rate.hi);
+        self.set_and_search(k, phases, 0.0, -w * rate.hi);
         self.gaps[k].origin = self.now.after(late);
         self.queue.set(k, [self.queue.key(k).after(late)]);
-        self.reframe_adjacent(k, phases, weights.map(|weight| weight * w * kick.hi));
+        self.renew_adjacent(k, phases, weights.map(|weight| weight * w * kick.hi));
     }
 
     /// The free part (a, b) of mass m.

@@ -121,7 +121,7 @@ impl Ensemble {
     pub fn work(&self, sigma: f64) -> u64 {
         let until = self.until(sigma);
         match self.heating {
-            // From above the rise lies lower.
+            // From above, impacts go on at lower σ: roughly as those from rest at σ + 0.03.
             Some(Heating { sigma: hot, time }) => {
                 work(&self.chain, hot, time) + work(&self.chain, sigma + 0.03, until)
             }

@@ -16,6 +16,7 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod chain;
+mod complementarity;
 mod contact;
 pub mod counts;
 mod elastic;
@@ -25,7 +26,6 @@ mod error;
 mod flight;
 mod force;
 mod impact;
-mod linear;
 pub mod methods;
 pub mod replay;
 pub mod rise;

@@ -25,14 +25,14 @@ pub struct Counted {
     /// What was run.
     pub ensemble: Ensemble,
     /// For each σ, totals of whole runs.
-    pub runs: Vec<Runs>,
+    pub runs: Vec<RunTotals>,
     /// For each window, the counts against σ.
     pub curves: Vec<Curve>,
 }
 
 /// The runs at one σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Runs {
+pub struct RunTotals {
     /// Standard deviation σ of the amplitudes.
     pub sigma: f64,
     /// Realisations drawn.
@@ -127,19 +127,19 @@ pub struct Rise {
 impl Counted {
     /// From the counts at each σ, and the curve of each window.
     pub fn new(ensemble: Ensemble, counts: &[Counts], curves: Vec<Curve>) -> Counted {
-        let runs = |(&sigma, own): (&f64, &Counts)| Runs {
+        let runs = |(&sigma, counts): (&f64, &Counts)| RunTotals {
             sigma,
             realisations: ensemble.realisations_at(sigma),
-            rejected: own.rejected,
-            failed: own.failed,
-            total: own.total.clone(),
+            rejected: counts.rejected,
+            failed: counts.failed,
+            total: counts.total.clone(),
         };
         Counted { runs: ensemble.sigmas.iter().zip(counts).map(runs).collect(), curves, ensemble }
     }
 
     /// The curve of a window.
     pub fn curve(&self, transient: f64, window: f64) -> Option<&Curve> {
-        self.curves.iter().find(|own| own.protocol == Protocol { transient, window })
+        self.curves.iter().find(|curve| curve.protocol == Protocol { transient, window })
     }
 
     /// The curve of the first window.
@@ -151,7 +151,7 @@ impl Counted {
     pub fn comparable(&self) -> impl Iterator<Item = &RisePoint> {
         let both = self.first().rows.iter().zip(&self.runs);
         let most = self.ensemble.most_rejected;
-        let few = move |own: &Runs| own.rejected as f64 <= most * own.realisations as f64;
+        let few = move |runs: &RunTotals| runs.rejected as f64 <= most * runs.realisations as f64;
         both.filter(move |(_, runs)| few(runs)).map(|(row, _)| row)
     }
 }
@@ -224,7 +224,7 @@ struct Resampled {
 
 impl Resampled {
     fn new(sample: &Sample<'_>, seed: u64) -> Self {
-        let size = sample.counts.iter().map(|own| own.len()).max().unwrap_or(0);
+        let size = sample.counts.iter().map(|counts| counts.len()).max().unwrap_or(0);
         let one = |index| sample.places(&bootstrap::weights(seed, index, size));
         Resampled {
             whole: sample.places(&vec![1; size]),
@@ -249,7 +249,7 @@ impl Resampled {
     fn mode_interval(&self, row: usize) -> Option<[usize; 2]> {
         self.whole.mode[row]?;
         let mut histogram = vec![0; self.largest + 1];
-        for k in self.resamples.iter().filter_map(|own| own.mode[row]) {
+        for k in self.resamples.iter().filter_map(|places| places.mode[row]) {
             histogram[k] += 1;
         }
         let tail = 0.5 * (1.0 - LEVEL);
@@ -261,26 +261,26 @@ impl Curve {
     /// The curve of the window with this index.
     pub fn new(ensemble: &Ensemble, counts: &[Counts], window: usize) -> Curve {
         let mut used: Vec<&[Option<u32>]> = Vec::new();
-        for (&sigma, own) in ensemble.sigmas.iter().zip(counts) {
+        for (&sigma, found) in ensemble.sigmas.iter().zip(counts) {
             let most = ensemble.most_rejected * ensemble.realisations_at(sigma) as f64;
-            used.push(if own.rejected as f64 <= most { &own.distinct[window] } else { &[] });
+            used.push(if found.rejected as f64 <= most { &found.distinct[window] } else { &[] });
         }
         let gaps = ensemble.chain.gaps() as f64 / ensemble.pieces as f64;
         let sample = Sample { sigmas: &ensemble.sigmas, counts: used, gaps };
-        let found = Resampled::new(&sample, ensemble.seed);
-        let interval = |pick: &dyn Fn(&Places) -> Option<f64>| Some(found.estimate(pick)?.interval);
-        let row = |(row, (&sigma, own)): (usize, (&f64, &Counts))| RisePoint {
-            mode_interval: found.mode_interval(row),
+        let all = Resampled::new(&sample, ensemble.seed);
+        let interval = |pick: &dyn Fn(&Places) -> Option<f64>| Some(all.estimate(pick)?.interval);
+        let row = |(row, (&sigma, found)): (usize, (&f64, &Counts))| RisePoint {
+            mode_interval: all.mode_interval(row),
             ..RisePoint::new(
                 sigma,
-                own,
+                found,
                 window,
-                found.largest,
-                [interval(&|own| own.mean[row]), interval(&|own| own.mean_all[row])],
+                all.largest,
+                [interval(&|places| places.mean[row]), interval(&|places| places.mean_all[row])],
             )
         };
         let rows = ensemble.sigmas.iter().zip(counts).enumerate().map(row).collect();
-        Curve { protocol: ensemble.protocols[window], rows, rise: found.rise() }
+        Curve { protocol: ensemble.protocols[window], rows, rise: all.rise() }
     }
 }
 
@@ -300,9 +300,9 @@ impl RisePoint {
         let kept: Vec<f64> = all.iter().copied().filter(|&k| k > 0.0).collect();
         let mut kept_counts = counts.clone();
         kept_counts[0] = 0;
-        let active = || of.impacts[window].iter().zip(&of.masses[window]).filter(|own| *own.0 > 0);
-        let impacts: Vec<f64> = active().map(|own| *own.0 as f64).collect();
-        let masses: Vec<f64> = active().map(|own| f64::from(*own.1)).collect();
+        let active = || of.impacts[window].iter().zip(&of.masses[window]).filter(|run| *run.0 > 0);
+        let impacts: Vec<f64> = active().map(|(impacts, _)| *impacts as f64).collect();
+        let masses: Vec<f64> = active().map(|(_, masses)| f64::from(*masses)).collect();
         RisePoint {
             sigma,
             ran: all.len(),
@@ -375,7 +375,7 @@ mod tests {
         let counts: Counts = all.into_iter().chain([rejected]).collect();
         let row = RisePoint::new(0.1, &counts, 0, 10, [None; 2]);
         assert_eq!((row.ran, row.kept, row.mode), (4, 3, Some(4)));
-        let mean = |own: Option<Mean>| own.map(|own| (own.value, own.error.unwrap()));
+        let mean = |mean: Option<Mean>| mean.map(|mean| (mean.value, mean.error.unwrap()));
         assert_eq!(mean(row.mean), Some((6.0, 2.0))); // s = √12, over √3
         assert_eq!(row.mean_all.unwrap().value, 4.5);
         assert_eq!(mean(row.masses), Some((5.0, 2.0)));

@@ -54,12 +54,12 @@ const EVENTS_PER_GAP: u64 = 100_000;
 /// difference of two positions it would have lost its digits.
 pub(super) const NEARLY_SHUT: f64 = 1e-9;
 
-/// Overlap, as a fraction of d + R₁ + R₂, beyond which a gap cannot be explained by rounding.
-const ROUNDING: f64 = 1e-12;
+/// Overlap, as a fraction of `Frame::size`, beyond which a gap cannot be explained by rounding.
+const OVERLAP: f64 = 1e-12;
 
 /// Below this fraction of the sum of the terms of its positions at t = 0, a gap may be exactly shut:
 /// roundings of amplitudes and sums add up to 5 · 2^-53.
-const SHUT: f64 = 4.0 * f64::EPSILON;
+const SHUT_AT_START: f64 = 4.0 * f64::EPSILON;
 
 /// The simulation of one scenario with `M` components of the forcing.
 #[derive(Clone, Debug)]
@@ -71,7 +71,7 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) topology: Topology,
     /// Masses 1..n; 0 and n + 1 are the walls.
     pub(super) motions: Vec<Motion<M>>,
-    /// Low words of their free parts as double-doubles, used if impacts are elastic.
+    /// Low words of their free parts as double-doubles; empty unless r = 1 (`elastic`).
     pub(super) remainders: Vec<[f64; 2]>,
     /// The forced response (c, s) of each mass outside a cluster.
     pub(super) forced: Vec<[[f64; 2]; M]>,
@@ -89,7 +89,7 @@ pub(super) struct Simulation<const M: usize> {
 
 /// Sets a width below zero by rounding to zero, unless the gap is closing: then its impact is due now.
 #[inline(always)]
-fn not_below<const M: usize>(frame: &mut Frame<M>) {
+fn clamp_width<const M: usize>(frame: &mut Frame<M>) {
     if frame.f0 < 0.0 && frame.g0 >= 0.0 {
         frame.f0 = 0.0;
     }
@@ -153,16 +153,16 @@ impl<const M: usize> Simulation<M> {
         let phases = Phases::at(&self.rates, self.now);
         let mut shut = Vec::new();
         for k in 0..self.gaps.len() {
-            let frame = self.look(k, &phases);
-            if frame.f0 < -ROUNDING * frame.size {
+            let frame = self.frame_of(k, &phases);
+            if frame.f0 < -OVERLAP * frame.size {
                 return Err(Error::Overlap { gap: self.topology.label(k), depth: -frame.f0 });
             }
-            let f0 = if frame.f0 <= SHUT * self.made_of(k) { 0.0 } else { frame.f0 };
+            let f0 = if frame.f0 <= SHUT_AT_START * self.made_of(k) { 0.0 } else { frame.f0 };
             if f0 == 0.0 && frame.g0 == 0.0 {
                 shut.push(k);
             }
-            if f0 == 0.0 || !self.waits(k, &phases) {
-                self.set_frame(k, &phases, f0, frame.g0);
+            if f0 == 0.0 || !self.try_long_wait(k, &phases) {
+                self.set_and_search(k, &phases, f0, frame.g0);
             }
         }
         if !shut.is_empty() {
@@ -228,22 +228,24 @@ impl<const M: usize> Simulation<M> {
                 return Ok(Some(impact));
             }
             Awaits::Search { whole_reach: true } if !self.gaps[k].in_contact => {
-                // The frame after this one comes from the motions, which do not drift.
+                // After an empty reach the frame is rotated, which is cheap; after the next one it comes from the
+                // motions, which do not drift, and a longer wait is tried.
                 let gap = &mut self.gaps[k];
                 gap.frame = gap.frame.advanced(&self.search.frequencies);
-                not_below(&mut gap.frame);
-                let key = self.search(k, false);
+                clamp_width(&mut gap.frame);
+                let key = self.search_gap(k, false);
                 self.queue.set(k, [key]);
             }
             Awaits::Search { .. } => {
                 if self.now == self.gaps[k].origin {
+                    // no progress, which must not repeat for ever
                     self.spend(k)?;
                 }
                 let phases = Phases::at(&self.rates, self.now);
                 if self.gaps[k].in_contact {
                     self.watch_contact(k, &phases);
-                } else if !self.waits(k, &phases) {
-                    self.reframe(k, &phases, 0.0);
+                } else if !self.try_long_wait(k, &phases) {
+                    self.renew_and_search(k, &phases, 0.0);
                 }
             }
             Awaits::Release => {
@@ -303,26 +305,26 @@ impl<const M: usize> Simulation<M> {
         let jumps = self.kick_neighbours(k, speed, phases);
         if k > 0 && k + 1 < self.gaps.len() {
             // Each neighbour shares one mass with the gap.
-            self.look_again(k - 1, phases, jumps[0]);
-            self.look_again(k + 1, phases, -jumps[1]);
-            let mut frame = self.look(k, phases);
+            self.renew(k - 1, phases, jumps[0]);
+            self.renew(k + 1, phases, -jumps[1]);
+            let mut frame = self.frame_of(k, phases);
             (frame.f0, frame.g0) = (0.0, self.restitution * speed);
             self.gaps[k].frame = frame;
             let mut keys = [Instant::NEVER; 3];
             for (near, key) in (k - 1..).zip(&mut keys) {
-                *key = self.search(near, true);
+                *key = self.search_gap(near, true);
             }
             return self.queue.set(k - 1, keys);
         }
-        self.set_frame(k, phases, 0.0, self.restitution * speed);
-        self.reframe_adjacent(k, phases, jumps);
+        self.set_and_search(k, phases, 0.0, self.restitution * speed);
+        self.renew_adjacent(k, phases, jumps);
     }
 
     /// Takes new frames of the gaps next to gap k, whose masses' velocities have just jumped by `jumps`.
-    pub(super) fn reframe_adjacent(&mut self, k: usize, phases: &Phases<M>, jumps: [f64; 2]) {
+    pub(super) fn renew_adjacent(&mut self, k: usize, phases: &Phases<M>, jumps: [f64; 2]) {
         let [before, after] = self.topology.adjacent(k);
         for near in [before, after].into_iter().flatten() {
-            self.reframe(near, phases, self.jump_of_gap(near, k, jumps));
+            self.renew_and_search(near, phases, self.jump_of_gap(near, k, jumps));
             if before == after {
                 break;
             }
@@ -352,7 +354,7 @@ impl<const M: usize> Simulation<M> {
 
     /// The frame of gap k from the motions of its neighbours.
     #[inline(always)]
-    pub(super) fn look(&self, k: usize, phases: &Phases<M>) -> Frame<M> {
+    pub(super) fn frame_of(&self, k: usize, phases: &Phases<M>) -> Frame<M> {
         let [left, right] = self.topology.sides(k);
         let motion = self.motions[right].minus(&self.motions[left]);
         motion.frame(self.spacing, phases, &self.search.frequencies)
@@ -360,33 +362,33 @@ impl<const M: usize> Simulation<M> {
 
     /// Takes a new frame of gap k, whose rate has just jumped by `jump`.
     #[inline(always)]
-    fn look_again(&mut self, k: usize, phases: &Phases<M>, jump: f64) {
-        let mut frame = self.look(k, phases);
+    fn renew(&mut self, k: usize, phases: &Phases<M>, jump: f64) {
+        let mut frame = self.frame_of(k, phases);
         if let Some([f0, g0]) = self.carried(k, &frame, jump) {
             (frame.f0, frame.g0) = (f0, g0);
         }
-        not_below(&mut frame);
+        clamp_width(&mut frame);
         self.gaps[k].frame = frame;
     }
 
     /// The same, and looks for the next impact of gap k.
-    pub(super) fn reframe(&mut self, k: usize, phases: &Phases<M>, jump: f64) {
-        self.look_again(k, phases, jump);
-        let key = self.search(k, true);
+    pub(super) fn renew_and_search(&mut self, k: usize, phases: &Phases<M>, jump: f64) {
+        self.renew(k, phases, jump);
+        let key = self.search_gap(k, true);
         self.queue.set(k, [key]);
     }
 
     /// Takes a new frame of gap k with width `f0` and rate `g0`, which are more accurate than those of
     /// the motions, and searches its next impact.
-    pub(super) fn set_frame(&mut self, k: usize, phases: &Phases<M>, f0: f64, g0: f64) {
-        let mut frame = Frame { f0, g0, ..self.look(k, phases) };
-        not_below(&mut frame);
+    pub(super) fn set_and_search(&mut self, k: usize, phases: &Phases<M>, f0: f64, g0: f64) {
+        let mut frame = Frame { f0, g0, ..self.frame_of(k, phases) };
+        clamp_width(&mut frame);
         // For a gap at rest the rounding of its acceleration must not decide, or a released one would shut again.
         if f0 == 0.0 && g0 == 0.0 {
             frame.not_falling(&self.search.frequencies);
         }
         self.gaps[k].frame = frame;
-        let key = self.search(k, true);
+        let key = self.search_gap(k, true);
         self.queue.set(k, [key]);
     }
 
@@ -410,13 +412,13 @@ impl<const M: usize> Simulation<M> {
         } else {
             return None;
         };
-        Some([p.f, p.g + jump])
+        Some([p.f, p.d1 + jump])
     }
 
     /// Searches the frame of gap k, taken at this instant; returns the key of what it now awaits.
-    /// `looked` if the frame came from the motions.
+    /// `from_motions` if the frame came from the motions.
     #[inline(always)]
-    fn search(&mut self, k: usize, looked: bool) -> Instant {
+    fn search_gap(&mut self, k: usize, from_motions: bool) -> Instant {
         let gap = &mut self.gaps[k];
         gap.origin = self.now;
         gap.in_contact = false;
@@ -426,7 +428,7 @@ impl<const M: usize> Simulation<M> {
                 self.now.after(s)
             }
             Next::Clear { s } => {
-                let whole_reach = looked && s == self.search.frequencies.reach;
+                let whole_reach = from_motions && s == self.search.frequencies.reach;
                 gap.awaits = Awaits::Search { whole_reach };
                 self.now.after(s)
             }
@@ -435,7 +437,7 @@ impl<const M: usize> Simulation<M> {
 
     /// Lets gap k, which is open, wait without a search for as long as it certainly stays open, if
     /// that is longer than the reach of a search.
-    fn waits(&mut self, k: usize, phases: &Phases<M>) -> bool {
+    fn try_long_wait(&mut self, k: usize, phases: &Phases<M>) -> bool {
         let [left, right] = self.topology.sides(k);
         let motion = self.motions[right].minus(&self.motions[left]);
         let seen = motion.seen(phases);

@@ -76,7 +76,7 @@ impl Page {
     }
 }
 
-/// A run from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a ring, start 0 rest, 1 none or 2 random),
+/// A run from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a ring, start 0 rest, 1 zero or 2 random),
 /// then σ, seed and realisation of the stream that the text names; without one, α and β of each mass.
 fn asked(numbers: &[f64], stream: &str) -> Result<Asked, String> {
     let [

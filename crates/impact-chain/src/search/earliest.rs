@@ -21,7 +21,7 @@ pub struct Earliest {
 }
 
 impl Earliest {
-    /// Bytes for each key, of a power of two of them.
+    /// Bytes for each key; the number of keys is rounded up to a power of two.
     pub const BYTES: usize = size_of::<Instant>() + 2 * size_of::<u64>();
 
     /// `len` ≥ 1 keys, all [`Instant::NEVER`].

@@ -95,15 +95,15 @@ impl<const M: usize> Search<M> {
             return Next::Root { s, speed };
         }
         let sight = self.look_closer(frame, work);
-        self.settle(frame, sight, work)
+        self.refine(frame, sight, work)
     }
 
     /// Whether a root at s > 0 where f falls with `speed` is the first, given that the coefficients of the whole
     /// reach change their sign once.
     ///
-    /// Their polynomial p lies below f and is above zero before its one root (Descartes). With M₂ ≥ |f''|,
+    /// Their polynomial q lies below f and is above zero before its one root (Descartes). With M₂ ≥ |f''|,
     /// f ≥ speed h − M₂ h²/2 at s − h, so there is no root within speed/M₂ before s. Where that stretch begins (if it
-    /// is before 0, nothing is left to show) f is at least speed²/2M₂. If that is more than f can lie above p, then p
+    /// is before 0, nothing is left to show) f is at least speed²/2M₂. If that is more than f − q can be, then q
     /// is above zero there, hence before it, and so is f. Twice as much is required, since s and its speed are rounded.
     #[inline(always)]
     fn is_first(&self, frame: &Frame<M>, speed: f64) -> bool {
@@ -147,7 +147,7 @@ impl<const M: usize> Search<M> {
 
     /// Refines a located root to full accuracy, and takes certified steps where the screen is undecided.
     #[inline(always)]
-    fn settle(&self, frame: &Frame<M>, sight: Sight, work: &mut Counters) -> Next {
+    fn refine(&self, frame: &Frame<M>, sight: Sight, work: &mut Counters) -> Next {
         let reach = self.frequencies.reach;
         let clear = match sight {
             Sight::Clear => return Next::Clear { s: reach },

@@ -74,11 +74,11 @@ pub struct Point<const M: usize> {
     /// f(s).
     pub f: f64,
     /// f'(s).
-    pub g: f64,
+    pub d1: f64,
     /// f''(s).
-    pub h: f64,
+    pub d2: f64,
     /// f'''(s).
-    pub j: f64,
+    pub d3: f64,
     /// The computed f(s) is within this of the exact one.
     pub margin: f64,
     /// Free part at s and its quadrature: value u and u̇/ω.
@@ -152,11 +152,11 @@ impl<const M: usize> Frame<M> {
         let mut f = self.f0 + linear - along;
         let mut size = self.f0.abs() + linear.abs() + along.abs();
         let aw = self.alpha * w;
-        let mut g = self.g0 * cos - aw * sin;
+        let mut d1 = self.g0 * cos - aw * sin;
         let sine = self.sine(frequencies);
         let free = [self.alpha * cos + sine * sin, sine * cos - self.alpha * sin];
-        let mut h = -(w * w * free[0]);
-        let mut j = -(w * w * w * free[1]);
+        let mut d2 = -(w * w * free[0]);
+        let mut d3 = -(w * w * w * free[1]);
         let mut forced = [[0.0; 2]; M];
         for (m, seen) in forced.iter_mut().enumerate() {
             let (big_w, [gamma, delta]) = (frequencies.big_omegas[m], self.forced[m]);
@@ -167,13 +167,13 @@ impl<const M: usize> Frame<M> {
             let along = gamma * big_versine;
             f = f - along + delta * (big_sin_rest - ratio * sin_rest);
             size += along.abs() + delta.abs() * (big_sin_rest.abs() + ratio * sin_rest.abs());
-            g = g - gamma * big_w * big_sin + delta * big_w * (versine - big_versine);
+            d1 = d1 - gamma * big_w * big_sin + delta * big_w * (versine - big_versine);
             let part = [gamma * big_cos + delta * big_sin, delta * big_cos - gamma * big_sin];
-            h -= big_w * big_w * part[0];
-            j -= big_w * big_w * big_w * part[1];
+            d2 -= big_w * big_w * part[0];
+            d3 -= big_w * big_w * big_w * part[1];
             *seen = part;
         }
-        Point { f, g, h, j, margin: ROUNDING * size, free, forced }
+        Point { f, d1, d2, d3, margin: ROUNDING * size, free, forced }
     }
 
     /// Value and derivatives at s = 0, where no sine is needed and the value is exact.
@@ -181,15 +181,15 @@ impl<const M: usize> Frame<M> {
     pub fn start(&self, frequencies: &Frequencies<M>) -> Point<M> {
         let w = frequencies.omega;
         let sine = self.sine(frequencies);
-        let mut h = -(self.alpha * w * w);
-        let mut j = -(sine * w * w * w);
+        let mut d2 = -(self.alpha * w * w);
+        let mut d3 = -(sine * w * w * w);
         for m in 0..M {
             let (big_w, [gamma, delta]) = (frequencies.big_omegas[m], self.forced[m]);
-            h -= gamma * big_w * big_w;
-            j -= delta * big_w * big_w * big_w;
+            d2 -= gamma * big_w * big_w;
+            d3 -= delta * big_w * big_w * big_w;
         }
         let (free, forced) = ([self.alpha, sine], self.forced);
-        Point { f: self.f0, g: self.g0, h, j, margin: 0.0, free, forced }
+        Point { f: self.f0, d1: self.g0, d2, d3, margin: 0.0, free, forced }
     }
 }
 

@@ -3,7 +3,7 @@
 //! On a piece [a, a + w] the function f is compared with the polynomial p of degree seven that
 //! shares its value and first three derivatives at both ends (Hermite). The difference is at most
 //! M₈ (s − a)⁴ (a + w − s)⁴ / 8!, a polynomial of degree eight with one Bernstein coefficient, so
-//! p minus the difference is below f and its nine Bernstein coefficients bound it from below. They
+//! q, p minus the difference, is below f and its nine Bernstein coefficients bound it from below. They
 //! are linear in f₀, g₀, α, γ and δ, with factors that depend on the frequencies and the piece
 //! alone: a table, made once, replaces every sine.
 
@@ -120,15 +120,15 @@ impl<const M: usize> Piece<M> {
         }
     }
 
-    /// A bound of f − p, where p is below f, rounding included.
+    /// A bound of f − q, rounding included.
     #[inline(always)]
     pub fn doubt(&self, frame: &Frame<M>) -> f64 {
-        // Twice M₈ (w/2)⁸/8! = b₄'s part · 70/256.
+        // f − q ≤ 2 M₈ (w/2)⁸/8!, which is 140/256 of b₄'s part, so b₄'s part is enough.
         let [_, difference] = self.difference.to_array();
         frame.bound * difference + SLACK * frame.size
     }
 
-    /// The coefficients b₁ … b₈ of p over this piece; b₀ is f(a).
+    /// The coefficients b₁ … b₈ of q over this piece; b₀ is f(a).
     #[inline(always)]
     pub fn coefficients(&self, frame: &Frame<M>) -> Coefficients {
         let mut row = self.factors.of(frame).map(|x| x + f64x2::splat(frame.f0));

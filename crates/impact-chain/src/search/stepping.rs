@@ -20,10 +20,10 @@ fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
     h.min(far)
 }
 
-/// A gap barely opens where another trial gives a stretch so many times as long: its rate is below 1e-9 of the usual one.
+/// Ratio of stretches from which on the trial by the rate is taken: of a gap that barely opens.
 const BARELY: f64 = 1e6;
 
-/// The parts of a gap are far larger than itself where another trial gives a stretch so many times as long.
+/// Ratio of stretches from which on the trial by the width is taken: of a gap far narrower than its parts.
 const FAR_LARGER: f64 = 1e3;
 
 /// The parts of a gap cancel where its second and third derivative are so many times below the bound of the fourth.
@@ -33,30 +33,30 @@ const CANCELS: f64 = 1e4;
 /// A certified stretch: f > 0 on (s, s + h) for the returned h ≤ `limit`.
 ///
 /// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f stays
-/// above the parabola f + g h − ½ K h² there, and has no root before the smaller of L and the
+/// above the parabola f + f' h − ½ K h² there, and has no root before the smaller of L and the
 /// parabola's first root. Any L gives a certified stretch; two are tried and the longer is taken.
 fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 {
     let certified = |trial: f64| {
-        let k = (-(p.j * trial)).max(0.0) + 0.5 * bound * trial * trial - p.h;
-        parabola(f, p.g, k, trial)
+        let k = (-(p.d3 * trial)).max(0.0) + 0.5 * bound * trial * trial - p.d2;
+        parabola(f, p.d1, k, trial)
     };
     // Closing: most gaps shut near the tangent's root; beyond twice that there is no gain.
     // Opening: where f'' > 0, K stays negative up to f''/(|f'''| + √(M₄ f'')) at least.
-    let first = if p.g < 0.0 {
-        2.0 * f / -p.g
-    } else if p.h > 0.0 {
-        p.h / (p.j.abs() + (bound * p.h).sqrt())
+    let first = if p.d1 < 0.0 {
+        2.0 * f / -p.d1
+    } else if p.d2 > 0.0 {
+        p.d2 / (p.d3.abs() + (bound * p.d2).sqrt())
     } else {
         limit
     };
     let h = certified(first.min(limit));
-    // Where neither trial is good, which needs that the term of M₄ alone allows a far longer stretch.
+    // A trial was bad if f or f' with the term of M₄ alone allow a far longer stretch; only then try others.
     let cube = bound * (h * h * h);
     let far_larger = (FAR_LARGER * FAR_LARGER) * (FAR_LARGER * FAR_LARGER);
     let barely = BARELY * BARELY * BARELY;
-    if cube * h * far_larger < 4.0 * f || cube * barely < 4.0 * p.g {
+    if cube * h * far_larger < 4.0 * f || cube * barely < 4.0 * p.d1 {
         let [by_rate, by_width] = by_one_term(f, p, bound);
-        if p.h <= 0.0 && by_rate > BARELY * h || by_width > FAR_LARGER * h {
+        if p.d2 <= 0.0 && by_rate > BARELY * h || by_width > FAR_LARGER * h {
             return certified(by_rate.max(by_width).min(limit)).max(h);
         }
     }
@@ -67,11 +67,11 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
 /// The stretch that the worst term of K alone allows, by the rate and by the width of the gap.
 #[cold]
 fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
-    let (down, third) = ((-p.h).max(0.0), p.j.abs());
-    let by_rate = (2.0 * p.g / down).min((2.0 * p.g / third).sqrt());
-    let by_width = (f / (-p.g).max(0.0)).min((2.0 * f / down).sqrt());
+    let (down, third) = ((-p.d2).max(0.0), p.d3.abs());
+    let by_rate = (2.0 * p.d1 / down).min((2.0 * p.d1 / third).sqrt());
+    let by_width = (f / (-p.d1).max(0.0)).min((2.0 * f / down).sqrt());
     let by_width = by_width.min(pxfm::f_cbrt(2.0 * f / third));
-    [by_rate.min(pxfm::f_cbrt(4.0 * p.g / bound)), by_width.min((4.0 * f / bound).sqrt().sqrt())]
+    [by_rate.min(pxfm::f_cbrt(4.0 * p.d1 / bound)), by_width.min((4.0 * f / bound).sqrt().sqrt())]
 }
 
 /// Whether f > 0 is certain on (a, a + h), from value, slope and curvature at both ends.
@@ -82,10 +82,10 @@ fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
 /// no division. The first is f(a) ≥ 0 and the last f(b); `slack` covers the rounding of the values.
 #[inline]
 fn stays_open<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64, slack: f64) -> bool {
-    let (ga, gb) = (h * a.g, h * b.g);
+    let (ga, gb) = (h * a.d1, h * b.d1);
     let h2 = h * h;
-    let (ha, hb) = (h2 * a.h, h2 * b.h);
-    let remainder = bound6 * (h2 * h2 * h2) * (1.0 / 14400.0);
+    let (ha, hb) = (h2 * a.d2, h2 * b.d2);
+    let remainder = bound6 * (h2 * h2 * h2) * (1.0 / 14400.0); // t³ (h − t)³ = h⁶ B₃/20
     let coefficients = [
         a.f + ga * (1.0 / 6.0),
         a.f + ga * (1.0 / 3.0) + ha * (1.0 / 30.0),
@@ -105,11 +105,11 @@ fn leading<const M: usize>(
 ) -> Option<(u32, f64)> {
     let fast = frequencies.fastest;
     let rounding = times * ROUNDING * fast * fast * frame.size;
-    if p.h.abs() > rounding {
-        return Some((2, p.h));
+    if p.d2.abs() > rounding {
+        return Some((2, p.d2));
     }
-    if p.j.abs() > rounding * fast {
-        return Some((3, p.j));
+    if p.d3.abs() > rounding * fast {
+        return Some((3, p.d3));
     }
     let [fourth, _] = p.higher(frequencies);
     (fourth.abs() > rounding * fast * fast).then_some((4, fourth))
@@ -122,7 +122,7 @@ fn leading<const M: usize>(
 /// −(8/3) |f''|³/f'''², far less than the rounding of places, and positive from h = 6 |f''|/f''' on. Likewise with f'''' and
 /// M₅ ≤ max(ω, Ω) M₄.
 fn lift<const M: usize>(p: &Point<M>, frame: &Frame<M>, frequencies: &Frequencies<M>) -> f64 {
-    match leading(p, 1.0, frame, frequencies).filter(|_| p.g >= 0.0) {
+    match leading(p, 1.0, frame, frequencies).filter(|_| p.d1 >= 0.0) {
         Some((3, third)) if third > 0.0 => 2.0 * third / frame.bound,
         Some((4, fourth)) if fourth > 0.0 => 2.0 * fourth / (frequencies.fastest * frame.bound),
         _ => 0.0,
@@ -148,7 +148,7 @@ const PATIENCE: u32 = 64;
 /// Where the minimum of that quadratic lies within two margins of zero, a double cannot tell a
 /// grazing impact from a near miss. The quadratic then decides, hit if its minimum is ≤ 0, and the
 /// decision is counted in [`Counters::undecided`]. A margin is 8 ε times the sum of the absolute
-/// values of the terms of f, ε = 2^-52, which is never more than d + 2 (R₁ + R₂) + 3 R₂ Ω/ω.
+/// values of the terms of f, ε = 2^-52; that sum is at most d + 2 (R₁ + R₂) + 3 R₂ Ω/ω.
 pub fn first_root_by_steps<const M: usize>(
     frame: &Frame<M>,
     from: f64,
@@ -167,19 +167,19 @@ pub fn first_root_by_steps<const M: usize>(
     };
     // Shut and at rest, and accelerated towards one another by more than rounding: they touch, and stay.
     let pressed = |lead| matches!(lead, Some((2, second)) if second < 0.0);
-    if s == 0.0 && p.f == 0.0 && p.g == 0.0 && pressed(leading(&p, 2.0, frame, frequencies)) {
+    if s == 0.0 && p.f == 0.0 && p.d1 == 0.0 && pressed(leading(&p, 2.0, frame, frequencies)) {
         return Next::Root { s, speed: 0.0 };
     }
     for _ in 0..PATIENCE {
         let in_band = s > 0.0 && p.f <= 2.0 * p.margin;
         // The quadratic through this point; its minimum is −discriminant / 2 f''.
-        let discriminant = p.g * p.g - 2.0 * p.h * p.f;
+        let discriminant = p.d1 * p.d1 - 2.0 * p.d2 * p.f;
         let root = discriminant.max(0.0).sqrt();
-        if p.g < 0.0 && discriminant >= 0.0 {
-            let h = 2.0 * p.f / (root - p.g);
-            let rest = (p.j.abs() * (1.0 / 6.0) + frame.bound * h * (1.0 / 24.0)) * (h * h * h);
+        if p.d1 < 0.0 && discriminant >= 0.0 {
+            let h = 2.0 * p.f / (root - p.d1);
+            let rest = (p.d3.abs() * (1.0 / 6.0) + frame.bound * h * (1.0 / 24.0)) * (h * h * h);
             if in_band || rest <= p.margin {
-                work.undecided += u64::from(discriminant <= 4.0 * p.h * p.margin);
+                work.undecided += u64::from(discriminant <= 4.0 * p.d2 * p.margin);
                 let (s, speed) = polish(s, h, root, &p, frequencies);
                 return if s <= limit { Next::Root { s, speed } } else { Next::Clear { s: limit } };
             }
@@ -207,23 +207,23 @@ pub fn first_root_by_steps<const M: usize>(
             }
             leap = h;
         }
-        let h = if in_band && p.h > 0.0 {
+        let h = if in_band && p.d2 > 0.0 {
             // A dip that the quadratic does not reach zero in: on to where it leaves the band.
             work.undecided += 1;
-            let up = (p.g * p.g + 2.0 * p.h * (4.0 * p.margin)).sqrt();
-            (up - p.g) / p.h
+            let up = (p.d1 * p.d1 + 2.0 * p.d2 * (4.0 * p.margin)).sqrt();
+            (up - p.d1) / p.d2
         } else {
             stretch((p.f - p.margin).max(0.0), &p, frame.bound, limit - s)
         };
         if FAR_LARGER * h < leap
-            && fast * (fast * p.h.abs() + p.j.abs()) * CANCELS < frame.bound
+            && fast * (fast * p.d2.abs() + p.d3.abs()) * CANCELS < frame.bound
             && let Some((h, b)) = shorter_leap(&p, s, [h, leap], frame, frequencies, work)
         {
             (s, p) = (s + h, b);
             continue;
         }
         // Where f, f' and f'' vanish, f''' lifts f: above zero while h < 4 f'''/M₄.
-        let h = if h > 0.0 { h } else { 2.0 * p.j.abs() / frame.bound };
+        let h = if h > 0.0 { h } else { 2.0 * p.d3.abs() / frame.bound };
         let h = h.max(lift(&p, frame, frequencies));
         let next = s + h * (1.0 - 4.0 * f64::EPSILON);
         s = if next > s { next } else { s + s * f64::EPSILON };
@@ -263,17 +263,17 @@ fn shorter_leap<const M: usize>(
 /// A guess from `p` of where f has just crossed zero; `left` if no root is near.
 #[inline]
 fn beyond_root<const M: usize>(p: &Point<M>, root: f64, discriminant: f64, left: f64) -> f64 {
-    let crosses = discriminant > 0.0 && (p.g < 0.0 || p.h < 0.0);
+    let crosses = discriminant > 0.0 && (p.d1 < 0.0 || p.d2 < 0.0);
     if !crosses {
         return left;
     }
-    let guess = if p.g < 0.0 { 2.0 * p.f / (root - p.g) } else { (root + p.g) / -p.h };
+    let guess = if p.d1 < 0.0 { 2.0 * p.f / (root - p.d1) } else { (root + p.d1) / -p.d2 };
     if guess >= left {
         return left;
     }
     // One Newton step with the cubic term.
-    let value = p.f + guess * (p.g + guess * (0.5 * p.h + guess * p.j * (1.0 / 6.0)));
-    let slope = p.g + guess * (p.h + guess * 0.5 * p.j);
+    let value = p.f + guess * (p.d1 + guess * (0.5 * p.d2 + guess * p.d3 * (1.0 / 6.0)));
+    let slope = p.d1 + guess * (p.d2 + guess * 0.5 * p.d3);
     let better = guess - value / slope;
     if better > 0.0 { (1.0625 * better).min(left) } else { guess }
 }
@@ -282,9 +282,9 @@ fn beyond_root<const M: usize>(p: &Point<M>, root: f64, discriminant: f64, left:
 /// where f < 0, from the quintic through both ends.
 #[inline]
 fn before_root<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64) -> Option<f64> {
-    let (ga, gb) = (h * a.g, h * b.g);
+    let (ga, gb) = (h * a.d1, h * b.d1);
     let h2 = h * h;
-    let (ha, hb) = (h2 * a.h, h2 * b.h);
+    let (ha, hb) = (h2 * a.d2, h2 * b.d2);
     let d = b.f - a.f - ga - 0.5 * ha;
     let e = gb - ga - ha;
     let c = hb - ha;
@@ -319,7 +319,7 @@ fn polish<const M: usize>(
     frequencies: &Frequencies<M>,
 ) -> (f64, f64) {
     let [fourth, fifth] = p.higher(frequencies);
-    let (c3, c4, c5) = (p.j * (1.0 / 6.0), fourth * (1.0 / 24.0), fifth * (1.0 / 120.0));
+    let (c3, c4, c5) = (p.d3 * (1.0 / 6.0), fourth * (1.0 / 24.0), fifth * (1.0 / 120.0));
     let h2 = h * h;
     let bend = h2 * (3.0 * c3 + h * (4.0 * c4 + h * 5.0 * c5));
     if slope <= 2.0 * bend.abs() {
@@ -327,7 +327,7 @@ fn polish<const M: usize>(
     }
     let speed = slope - bend;
     let shift = h2 * h * (c3 + h * c4) / speed;
-    let fall = speed - p.h * shift;
+    let fall = speed - p.d2 * shift;
     if fall < 0.0 {
         return ((s + h).max(0.0), slope);
     }

@@ -6,7 +6,7 @@ use crate::search::local_frame::Frequencies;
 
 /// Which gaps of a run stay shut, and with which contact force.
 ///
-/// Gap i accelerates by g_i + K_i λ_i − λ_{i−1} − λ_{i+1}, where K_i is `stiffness` and λ_i ≥ 0 the contact force; a shut gap needs
+/// Gap i accelerates by g_i + K_i λ_i − λ_{i−1} − λ_{i+1}, where K_i is `inverse_mass` and λ_i ≥ 0 the contact force; a shut gap needs
 /// acceleration ≥ 0, and λ_i = 0 where it is > 0. The matrix is an M-matrix, so starting from no gap
 /// and adding every gap that would be driven shut ends at the solution after at
 /// most as many rounds as there are gaps (Chandrasekaran, 1970, Opsearch 7, 263).
@@ -14,13 +14,13 @@ use crate::search::local_frame::Frequencies;
 /// Gaps that are not `allowed` stay open. Returns for each gap λ_i, or `None` if it is open.
 pub fn contact_forces<const M: usize>(
     g: &[Force<M>],
-    stiffness: &[f64],
+    inverse_mass: &[f64],
     allowed: &[bool],
     p: &Phases<M>,
     frequencies: &Frequencies<M>,
 ) -> Vec<Option<Force<M>>> {
     let n = g.len();
-    let mut shut = Shut { g, stiffness, allowed, p, frequencies, active: vec![false; n] };
+    let mut shut = Shut { g, inverse_mass, allowed, p, frequencies, active: vec![false; n] };
     while !shut.grow() {}
     shut.forces()
 }
@@ -28,7 +28,7 @@ pub fn contact_forces<const M: usize>(
 /// The gaps found so far to stay shut (`active`).
 struct Shut<'a, const M: usize> {
     g: &'a [Force<M>],
-    stiffness: &'a [f64],
+    inverse_mass: &'a [f64],
     allowed: &'a [bool],
     p: &'a Phases<M>,
     frequencies: &'a Frequencies<M>,
@@ -79,7 +79,7 @@ impl<const M: usize> Shut<'_, M> {
 
     /// Pivot m and right side r of gap i, after those of the active gap before it: λ_i = (r + λ of the next) / m.
     fn eliminated(&self, i: usize, last: Option<(f64, Force<M>)>) -> (f64, Force<M>) {
-        let (k, g) = (self.stiffness[i], self.g[i]);
+        let (k, g) = (self.inverse_mass[i], self.g[i]);
         let right = g.zip(g, |x, _| -x);
         last.map_or((k, right), |(m, r)| (k - 1.0 / m, right.zip(r, |a, b| a + b / m)))
     }
