@@ -100,9 +100,9 @@ fn distances(sheet: &Sheet) -> Result<(), Error> {
         sheet.free().line(vec![(x, y - 90), (x, HEIGHT - RADIUS)], Stroke::solid(INK, HAIR));
     }
     double_arrow(sheet, (LEFT + 20, y), (x1, y));
-    label("*x*_{1}(*t*)", ((LEFT + x1) / 2, y - 80), VPos::Bottom)?;
+    label("*x*_{1}(*t*)", ((LEFT + x1) / 2, y - 140), VPos::Bottom)?;
     double_arrow(sheet, (x1, y), (x2, y));
-    label("Δ_{1}(*t*)", ((x1 + x2) / 2, y - 80), VPos::Bottom)?;
+    label("Δ_{1}(*t*)", ((x1 + x2) / 2, y - 140), VPos::Bottom)?;
     // The force on mass 2.
     let start = x2 + RADIUS + 25;
     sheet.free().arrow(vec![(start + 480, HEIGHT), (start, HEIGHT)], Stroke::solid(BLUE, 40));

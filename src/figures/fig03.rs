@@ -3,6 +3,7 @@
 use super::prelude::*;
 use super::simulated::*;
 use crate::experiments::rise::Counted;
+use crate::experiments::theory::beside;
 
 pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let sheet = Sheet::new(7550);
@@ -16,13 +17,13 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
         .filter_map(|row| row.mean?.interval.map(|[low, high]| (row.sigma, low, high)));
     let intervals: Vec<_> = intervals.collect();
     panel.bars("mean of those with an impact", &intervals, 0, INTERVAL, Outside::Cut)?;
-    printed(&panel, 0.0)?;
+    printed(&panel, beside::at(&means(sweep), PRINTED).unwrap_or(0.0))?;
     let broken = Stroke::dashed(GREY, LINE, Dash::Short);
     panel.curve("mean of all", &all, broken, Outside::Cut)?;
     panel.marks("mean of those with an impact", &means(sweep), CROSSES, Outside::Cut)?;
     let end = (panel.x.hi, n as f64);
     panel.label("mean of those with an impact", end, (-1, 3), RED)?;
-    panel.label("mean of all", reaches(&all, 7.0), (-2, 0), GREY)?;
+    panel.label("mean of all", reaches(&all, 7.0), (3, 0), GREY)?;
     if let Some(half) = sweep.first().rise.half_height {
         let level = n as f64 / 2.0;
         let guide = Stroke::dashed(GREY, HAIR, Dash::Dotted);

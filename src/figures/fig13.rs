@@ -12,8 +12,8 @@ const DETAIL: usize = 20;
 /// Name, symbol, colour and dash of a class.
 type Class = (&'static str, &'static str, Colour, Dash);
 
-/// The sum of all classes, wide enough to be visible below them.
-const SUM: Stroke = Stroke::solid(RED, 68);
+/// The sum of all classes: wide and pale, so that the classes are seen on it in grey too.
+const SUM: Stroke = Stroke::solid(PALE, 100);
 
 /// The class that is largest in each of (a) to (d).
 const SHOWN: [usize; 4] = [0, 1, 0, 4];
@@ -23,7 +23,7 @@ const CLASSES: [Class; 5] = [
     ("simple circuits", "*ϕ*_{*N*}", GREEN, Dash::Long),
     ("one vertex twice", "*ϕ*_{*N*}^{1}", PURPLE, Dash::Short),
     ("one vertex three times", "*ϕ*_{*N*}^{1,0}", ORANGE, Dash::Twice),
-    ("one vertex four times", "*ϕ*_{*N*}^{1,0,0}", GREY, Dash::Dotted),
+    ("one vertex four times", "*ϕ*_{*N*}^{1,0,0}", BLUE, Dash::Dotted),
     ("two vertices twice", "*ϕ*_{*N*}^{2}", INK, Dash::Alternate),
 ];
 
@@ -48,7 +48,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         series(&panel, p)?;
         let (corner, side) = if i == 3 { (0.0, 1) } else { (panel.x.hi, -1) };
         if i != 1 {
-            panel.label("all five classes", (corner, panel.y.hi), (side, 4), RED)?;
+            panel.label("all five classes", (corner, panel.y.hi), (side, 4), GREY)?;
         }
         let (name, _, colour, _) = CLASSES[SHOWN[i]];
         panel.label(name, (corner, panel.y.hi), (side, 8), colour)?;
@@ -58,7 +58,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let few = sheet.panel(Frame::new(1200, 5850, 5350, 8450), x, y(-14))?;
     heading(&few, "(e)", &format!("*p* = {}", short(small, 3)))?;
     series(&few, small)?;
-    let mut names = vec![("all five classes".to_string(), over_k(&five(small)), RED)];
+    let mut names = vec![("all five classes".to_string(), over_k(&five(small)), GREY)];
     names.extend(
         CLASSES
             .iter()
@@ -72,8 +72,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     heading(&many, "(f)", &format!("*p* = {}", short(large, 3)))?;
     series(&many, large)?;
     let flank = super::simulated::reaches(&over_k(&five(large)), 1e-3);
-    many.label("all five classes", flank, (-3, 0), RED)?;
-    for (class, side) in [(0, (0, 3)), (1, (0, 3)), (2, (-1, -1)), (3, (1, -1)), (4, (0, -2))] {
+    many.label("all five classes", flank, (-3, 0), GREY)?;
+    for (class, side) in [(0, (0, 3)), (1, (0, 4)), (2, (-1, -1)), (3, (1, -1)), (4, (0, -2))] {
         let values = &contributions(large)[class];
         let top = largest(values);
         let peak = values.iter().position(|own| *own == top).unwrap_or(0) as f64 + 1.0;
@@ -87,7 +87,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         share.map(|share| short(share, 2))
     };
     let description = seen!(
-        "Probability of k different impacts, N = {N}, for five classes of circuits: a red line for the sum, broken ones for the \
+        "Probability of k different impacts, N = {N}, for five classes of circuits: a wide grey line for the sum, broken ones for the \
          classes. (b) enlarges (a); (e), (f) are (a), (d) on a logarithmic axis. Simple circuits hold {} of the whole at p = {}, {} at p = {} and {} at p = {}.",
         share(small)?,
         short(small, 3),

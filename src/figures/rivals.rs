@@ -11,12 +11,12 @@ use crate::params::MethodName;
 pub fn look(method: MethodName) -> Marker {
     let (mark, size) = match method {
         MethodName::Certified => return (Mark::Disc, LARGE + 12, Stroke::solid(RED, LINE)),
-        MethodName::Sampled => (Mark::Ring, MEDIUM),
-        MethodName::Advancement => (Mark::OpenSquare, MEDIUM - 6),
-        MethodName::RungeKutta => (Mark::Disc, MEDIUM - 8),
-        MethodName::MoreauJean => (Mark::Plus, MEDIUM),
-        MethodName::Penalty => (Mark::OpenTriangle, MEDIUM - 8),
-        MethodName::Verlet | MethodName::Truth => (Mark::Cross, MEDIUM - 8),
+        MethodName::Sampled => (Mark::Ring, MEDIUM + 4),
+        MethodName::Advancement => (Mark::OpenSquare, MEDIUM),
+        MethodName::RungeKutta => (Mark::Disc, MEDIUM),
+        MethodName::MoreauJean => (Mark::Plus, MEDIUM + 14),
+        MethodName::Penalty => (Mark::OpenTriangle, MEDIUM),
+        MethodName::Verlet | MethodName::Truth => (Mark::Cross, MEDIUM),
     };
     (mark, size, Stroke::solid(GREY, THIN))
 }
@@ -51,7 +51,7 @@ pub fn names(panel: &Panel, curves: &Curves, places: &[Place]) -> Result<(), Err
         if let Some(at) = own.and_then(|own| own.get(*setting).or(own.last())) {
             let inside = (at.0, at.1.clamp(panel.y.lo, panel.y.hi));
             let colour = if *method == MethodName::Certified { RED } else { INK };
-            panel.name(name(*method), inside, *offset, colour)?;
+            panel.label(name(*method), inside, *offset, colour)?;
         }
     }
     Ok(())

@@ -53,7 +53,7 @@ fn window(panel: &Panel, until: f64) -> Result<(), Error> {
     }
     let (low, high) = (panel.y.lo, panel.y.hi);
     panel.area("window", &[(from, low), (to, low), (to, high), (from, high)], ORANGE, 30)?;
-    panel.label("counting window", (to, high), (1, -1), ORANGE)
+    panel.label("counting window", (from, high), (1, -1), ORANGE)
 }
 
 /// A disc at the first impact of each gap at which impacts start.
@@ -61,9 +61,6 @@ fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
     let firsts = run.firsts();
     let own = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
     let own: Vec<_> = own.filter(|(time, _)| *time <= until).collect();
-    // A white rim lifts the disc off the ticks.
-    let rim = (Mark::Disc, START.1 + 22, Stroke::solid(WHITE, HAIR));
-    panel.quiet().marks("rims", &own, rim, Outside::Refuse)?;
     panel.quiet().marks("starts", &own, START, Outside::Refuse)?;
     panel.record("starts", own.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     Ok(())

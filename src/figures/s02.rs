@@ -39,7 +39,8 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result
         panel.record(&format!("{name}, simulation"), own.iter().copied());
         panel.quiet().estimates(&name, &own, (Mark::Disc, LARGE, Stroke::solid(colour, THIN)))?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, share)| (share, sigma)).collect();
-        panel.label(&name, (at(&rising, 0.45).unwrap_or(SIGMAS.0), 0.45), (-3, 0), colour)?;
+        let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-2, 0)) };
+        panel.label(&name, (at(&rising, height).unwrap_or(SIGMAS.0), height), side, colour)?;
     }
     let ring = kept.iter().copied().rfind(|(_, share)| *share < 0.9);
     ring.map_or(Ok(()), |ring| panel.label("main sweep, *n* = 100", ring, (2, 1), INK))

@@ -70,7 +70,7 @@ fn spread<T: Copy>(all: &[T]) -> Vec<T> {
 }
 
 fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "time since the first impact (1/*ω*)").from(20.0, 7000.0);
+    let x = Axis::decades(1, 4, 1, "time since first impact (1/*ω*)").from(20.0, 7000.0);
     let y = Axis::decades(-1, 2, 1, "advance (gaps)").from(0.3, 80.0);
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4100, 7650), x, y)?;
     let sigmas = spread(&advance.values("sigma"));

@@ -38,9 +38,8 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
         let look = (Mark::Disc, MEDIUM, Stroke::solid(colour, THIN));
         let own = both.estimates(&[], "transient", column);
         panel.joined(name, &own, look)?;
-        if let Some((_, own)) = own.last() {
-            let place = (panel.x.hi, own.value);
-            panel.label(name, place, (-1, 2), colour)?;
+        if let Some((time, own)) = own.last() {
+            panel.label(name, (*time, own.value), (2, 0), colour)?;
         }
     }
     Ok(())
@@ -74,9 +73,9 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
                 panel.label(&name, corner, side, colour)?;
             } else if start == "from_rest" {
                 let last = points.last().map_or(corner, |own| (own.0, own.1.value));
-                panel.name(&time, last, (2, 0), colour)?;
+                panel.name(&name, last, (2, -1), colour)?;
             } else if let Some((sigma, own)) = late {
-                panel.label(&time, (*sigma, own.value), (-4, -1), colour)?;
+                panel.label(&name, (*sigma, own.value), (-4, 0), colour)?;
             }
         }
     }

@@ -45,7 +45,7 @@ fn shares(sheet: &Sheet) -> Result<(), Error> {
     let limit = large::limit();
     let stroke = Stroke::dashed(RED, LINE, Dash::Short);
     panel.curve("limit", &limit, stroke, Outside::Cut)?;
-    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, 3), RED)
+    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), RED)
 }
 
 fn jumps(sheet: &Sheet, table: &Table) -> Result<(), Error> {

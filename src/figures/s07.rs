@@ -15,7 +15,7 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 const NAMES: [Place; 4] = [
     (Certified, FINEST, (2, 0)),
     (Sampled, FINEST, (2, 1)),
-    (Advancement, FINEST, (1, -2)),
+    (Advancement, 2, (-1, 0)),
     (RungeKutta, FINEST, (2, 0)),
 ];
 
@@ -46,8 +46,8 @@ fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
 pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let sheet = Sheet::new(8700);
     let top = (race.parameters.until / 50.0).ceil() * 50.0;
-    let x = Axis::decades(0, 4, 1, "measured time of an impact over the engine's")
-        .from(0.3, 8e3)
+    let x = Axis::decades(0, 4, 1, "measured time of an impact over the engine’s")
+        .from(0.2, 8e3)
         .column("measured time over the engine's (1)");
     let by_time = Frame::new(1100, 430, 8250, 4330);
     let by_time = sheet.lettered(LETTERS[0], by_time, x, horizon_axis(top))?;
@@ -58,9 +58,9 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     chaos(&by_error, race)?;
     if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|own| own[1] < top) {
         let line = Stroke::dashed(GREY, LINE, Dash::Short);
-        by_time.level("what chaos allows to doubles", ceiling, line)?;
+        by_time.level("what chaos allows in double precision", ceiling, line)?;
         let end = (by_time.x.hi, ceiling);
-        by_time.label("what chaos allows to doubles", end, (-1, -1), GREY)?;
+        by_time.label("what chaos allows in double precision", end, (-1, -1), GREY)?;
     }
     let run = &race.parameters.growth;
     let others = programs(measured, run.chain.masses);

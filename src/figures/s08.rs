@@ -18,8 +18,8 @@ const CLEAR: f64 = 3.0;
 const BOUND: f64 = 2.0;
 
 const NAMES: [Place; 6] = [
-    (Verlet, 0, (0, 4)),
-    (Advancement, FINEST, (1, 5)),
+    (Verlet, 0, (-1, 0)),
+    (Advancement, FINEST, (0, 5)),
     (Sampled, 0, (0, 4)),
     (RungeKutta, 0, (-1, -1)),
     (MoreauJean, 0, (1, -1)),
@@ -96,7 +96,7 @@ fn shown(
             let bar = [(*x, y - own.error, y + own.error)];
             panel.bars(title, &bar, 0, stroke, Outside::Edge)?;
         } else {
-            sheet.free().arrow([*y, 0.4 * y].map(|y| panel.at(*x, y)).into(), stroke);
+            sheet.free().arrow([*y, 0.5 * y].map(|y| panel.at(*x, y)).into(), stroke);
         }
         panel.marks(title, &[(*x, *y)], (mark, size, stroke), Outside::Edge)?;
     }
