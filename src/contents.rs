@@ -48,7 +48,7 @@ pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str
         ("basis_table", Basis::ALL.iter().filter_map(|basis| split(*basis, &statements)).collect()),
         ("strip", by_section.chunk_by(|a, b| section(a) == section(b)).map(strip).collect()),
         ("scene_heads", json!(heads)),
-        ("scene_table", trials.scenes.iter().map(|(what, own)| scene(what, own, &sizes)).collect()),
+        ("scene_table", trials.scenes.iter().map(|(what, all)| scene(what, all, &sizes)).collect()),
     ]))
 }
 
@@ -66,9 +66,9 @@ fn strip(checks: &[&Check]) -> Json {
 
 /// How many statements have a verdict, and references to them.
 fn score(verdict: Verdict, checks: &[&Check]) -> Json {
-    let own = checks.iter().filter(|check| check.verdict == verdict);
-    let own: Vec<String> = own.map(|check| format!("@claim:{}", check.id)).collect();
-    let which = if own.is_empty() { "none".into() } else { format!("[{}]", own.join("; ")) };
+    let found = checks.iter().filter(|check| check.verdict == verdict);
+    let found: Vec<String> = found.map(|check| format!("@claim:{}", check.id)).collect();
+    let which = if found.is_empty() { "none".into() } else { format!("[{}]", found.join("; ")) };
     json!({"verdict": verdict.words(), "count": mark(verdict.words()), "claims": which})
 }
 
@@ -97,13 +97,13 @@ fn scene(what: &str, trials: &[Trial], sizes: &[usize]) -> Json {
     };
     let mut rest = trials;
     let cell = |&size: &usize| {
-        let (own, others) = rest.split_at(size);
+        let (shown, others) = rest.split_at(size);
         rest = others;
-        let mut outcomes: Vec<String> = own.iter().map(outcome).collect();
+        let mut outcomes: Vec<String> = shown.iter().map(outcome).collect();
         outcomes.dedup();
         // Of two numbers of the same failure, the words stand once.
         if let [coarse, fine] = &mut outcomes[..] {
-            let same = |own: &str| own.split_once(' ').map(|(_, words)| words.to_string());
+            let same = |text: &str| text.split_once(' ').map(|(_, words)| words.to_string());
             if let Some(words) = same(coarse).filter(|words| same(fine).as_ref() == Some(words)) {
                 coarse.truncate(coarse.len() - words.len() - 1);
             }

@@ -33,7 +33,7 @@ fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Fail
     let runs: Vec<_> = runs
         .map(|((name, asked), found)| json!({ "name": name, "asked": asked, "found": found }))
         .collect();
-    let value = |own: Option<Mean>| own.map(|own| own.value);
+    let value = |mean: Option<Mean>| mean.map(|mean| mean.value);
     let row = |row: &RisePoint| {
         let [low, high] = [0.05, 0.95].map(|share| quantile(&row.counts, share));
         (row.sigma, value(row.mean_all), value(row.mean), low, high)
@@ -82,13 +82,13 @@ mod tests {
         let data = text.split("const LAB = ").nth(1).unwrap().strip_suffix(";\nend();").unwrap();
         let data: serde_json::Value = serde_json::from_str(data).unwrap();
         assert_eq!(data["module"], "Zm9vYmFy");
-        let own = results.of(&REPLAY).unwrap();
-        assert_eq!(data["runs"].as_array().unwrap().len(), own.found.len());
-        for (i, found) in own.found.iter().enumerate() {
+        let replays = results.of(&REPLAY).unwrap();
+        assert_eq!(data["runs"].as_array().unwrap().len(), replays.found.len());
+        for (i, found) in replays.found.iter().enumerate() {
             assert_eq!(data["runs"][i]["found"]["digest"], found.digest.as_str());
             let asked = serde_json::from_value(data["runs"][i]["asked"].clone());
             let asked: impact_chain::replay::Asked = asked.unwrap();
-            assert_eq!(asked, own.parameters[i].1);
+            assert_eq!(asked, replays.parameters[i].1);
         }
     }
 }

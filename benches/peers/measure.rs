@@ -123,21 +123,21 @@ fn engine(
     for repetition in 1..=repetitions {
         // The last repetition needs no copy of the start: at a million masses that is memory.
         let last = repetition == repetitions;
-        let mut own = if last { engines.take() } else { engines.clone() }.unwrap_or_default();
+        let mut running = if last { engines.take() } else { engines.clone() }.unwrap_or_default();
         let began = Instant::now();
         let run = |engine: &mut Engine| engine.run(until, |_| true);
         pool.install(|| {
-            own.par_iter_mut().with_max_len(1).map(run).collect::<Result<(), Error>>()
+            running.par_iter_mut().with_max_len(1).map(run).collect::<Result<(), Error>>()
         })?;
         seconds.push(began.elapsed().as_secs_f64());
         counted = Counters::default();
-        for own in own.iter().map(Engine::counters) {
-            counted.impacts += own.impacts;
-            counted.contact_phases += own.contact_phases;
-            counted.searches += own.searches;
-            counted.pieces += own.pieces;
-            counted.evaluations += own.evaluations;
-            counted.undecided += own.undecided;
+        for work in running.iter().map(Engine::counters) {
+            counted.impacts += work.impacts;
+            counted.contact_phases += work.contact_phases;
+            counted.searches += work.searches;
+            counted.pieces += work.pieces;
+            counted.evaluations += work.evaluations;
+            counted.undecided += work.undecided;
         }
     }
     seconds.sort_by(f64::total_cmp);
@@ -182,13 +182,13 @@ fn race() -> Runs {
 fn cases(of: Of) -> Vec<(Runs, Setting)> {
     match of {
         Of::Race => {
-            RaceParams::new(Profile::Full).settings.into_iter().map(|own| (race(), own)).collect()
+            RaceParams::new(Profile::Full).settings.into_iter().map(|way| (race(), way)).collect()
         }
         Of::Bias => {
             let BiasParams { chains, settings, .. } = BiasParams::new(Profile::Full);
             let of = |runs: &Runs| {
                 let with = |n: usize| Runs { realisations: n, ..runs.clone() };
-                settings.iter().map(|(own, n)| (with(*n), *own)).collect::<Vec<_>>()
+                settings.iter().map(|(setting, n)| (with(*n), *setting)).collect::<Vec<_>>()
             };
             chains.iter().flat_map(of).collect()
         }
@@ -238,7 +238,7 @@ fn row((runs, setting): &(Runs, Setting), repetitions: usize) -> Result<Value, F
     eprintln!("{} {}, σ = {}: {best} s", method.name(), setting.value, runs.sigma);
     let text = match setting.method {
         MethodName::Certified => String::new(),
-        own => format!("{}={:e}", if own.has_tolerance() { "tol" } else { "h" }, setting.value),
+        way => format!("{}={:e}", if way.has_tolerance() { "tol" } else { "h" }, setting.value),
     };
     Ok(json!({
         "what": "method", "name": method.name(), "version": env!("CARGO_PKG_VERSION"),

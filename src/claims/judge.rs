@@ -25,8 +25,8 @@ pub fn some<T>(found: Option<T>) -> Result<T, Error> {
 }
 
 /// A number with its standard error.
-pub fn estimate(own: &Estimate) -> Number {
-    super::with_error(own.value, own.error)
+pub fn estimate(found: &Estimate) -> Number {
+    super::with_error(found.value, found.error)
 }
 
 impl<'a> Evidence<'a> {

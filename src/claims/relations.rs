@@ -78,7 +78,7 @@ fn two_seeds(e: &Evidence) -> Departures {
     let (first, second) = (e.sweep()?.first(), e.results.of(&SECOND_SEED)?[0].first());
     let halves = first.rise.half_height.zip(second.rise.half_height);
     let halves = halves.map(|(a, b)| apart(e, &a, &b));
-    let estimate = |own: &RisePoint| own.mean.filter(|_| own.kept >= FEWEST)?.estimate();
+    let estimate = |row: &RisePoint| row.mean.filter(|_| row.kept >= FEWEST)?.estimate();
     let between = |b: &RisePoint| {
         let a = first.rows.iter().find(|a| a.sigma == b.sigma)?;
         Some(difference(estimate(a)?, estimate(b)?)).filter(|apart| apart.error > 0.0)
@@ -112,14 +112,14 @@ fn laws_of_chance(e: &Evidence) -> Departures {
 fn map_meets_sweep(e: &Evidence) -> Departures {
     let sweep = e.sweep()?.first();
     let map = &e.results.of(&PROTOCOL)?[0];
-    let Some(own) = map.curve(sweep.protocol.transient, sweep.protocol.window) else {
+    let Some(cell) = map.curve(sweep.protocol.transient, sweep.protocol.window) else {
         return Err(Error::Undecided);
     };
     let places = |cell: &Curve| {
         let rise = &cell.rise;
         [rise.half_height, rise.half_height_all, rise.onset, rise.kept_half]
     };
-    let pairs = places(own).into_iter().zip(places(sweep));
+    let pairs = places(cell).into_iter().zip(places(sweep));
     Ok(pairs.filter_map(|(a, b)| Some(apart(e, &a?, &b?))).collect())
 }
 
@@ -129,14 +129,14 @@ fn no_rise_before_seeds(e: &Evidence) -> Departures {
     let [half, onset] = e.numbers("theory.relation", ["sigma_kept_half", "sigma_kept_onset"])?;
     let (map, found) = (&e.results.of(&PROTOCOL)?[0], e.results.of(&BRANCHES)?);
     let masses = map.ensemble.chain.masses;
-    let long = branches::from_rest(found).filter(|(own, _)| own.ensemble.chain.masses == masses);
+    let long = branches::from_rest(found).filter(|(all, _)| all.ensemble.chain.masses == masses);
     let bounds = map.curves.iter().chain(long.map(|(_, curve)| curve)).flat_map(|cell| {
         let rise = &cell.rise;
         [(rise.half_height_all, half), (rise.kept_half, half), (rise.onset, onset)]
     });
     let other = e.results.table("restitution.curves")?.estimates(&[], "r", "half_height");
-    let all = bounds.chain(other.into_iter().map(|(_, own)| (Some(own), half)));
-    let early = all.filter_map(|(own, bound)| own.map(|own| (bound - own.value, own.error)));
+    let all = bounds.chain(other.into_iter().map(|(_, at)| (Some(at), half)));
+    let early = all.filter_map(|(at, bound)| at.map(|at| (bound - at.value, at.error)));
     Ok(early.map(|(early, error)| over(early, e.level.quantile * error)).collect())
 }
 
@@ -152,8 +152,8 @@ fn above_stays_above(e: &Evidence) -> Departures {
         let of = |column| shares.estimates(&[("transient", transient)], "sigma", column);
         let above = of("from_above");
         for (sigma, rest) in of("from_rest") {
-            if let Some((_, own)) = above.iter().find(|(other, _)| *other == sigma) {
-                let less = difference(rest, *own);
+            if let Some((_, more)) = above.iter().find(|(other, _)| *other == sigma) {
+                let less = difference(rest, *more);
                 found.push(over(less.value, 5.0 * less.error));
             }
         }
@@ -173,7 +173,7 @@ fn branches_approach(e: &Evidence) -> Departures {
 
 fn seeds_before_circuits(e: &Evidence) -> Departures {
     let scores = e.results.table("seeds.scores")?;
-    let of = |column| scores.points(&[], "transient", column).into_iter().map(|own| own.1);
+    let of = |column| scores.points(&[], "transient", column).into_iter().map(|point| point.1);
     let circuits = of("eq25").zip(of("from_rest")).map(|(a, b)| a.min(b));
     Ok(of("grown").zip(circuits).map(|(grown, circuits)| grown / circuits).collect())
 }
@@ -205,9 +205,9 @@ const WAITING: f64 = 8.0;
 /// the largest chain at most twice those at a hundred masses, and no scene of failure with another outcome than expected.
 fn engine_as_promised(e: &Evidence) -> Departures {
     let (scale, race) = (e.results.of(&SCALE)?, e.results.of(&RACE)?);
-    let own = || scale.iter().filter(|row| row.0.method == MethodName::Certified);
-    let largest = own().max_by_key(|row| row.1).zip(own().find(|row| row.1 == 100));
-    let entry = race.entries.iter().find(|own| own.setting.method == MethodName::Certified);
+    let rows = || scale.iter().filter(|row| row.0.method == MethodName::Certified);
+    let largest = rows().max_by_key(|row| row.1).zip(rows().find(|row| row.1 == 100));
+    let entry = race.entries.iter().find(|entry| entry.setting.method == MethodName::Certified);
     // The engine is the first of the methods.
     let first = e.results.of(&TRIALS)?.scenes.iter().map(|(_, trials)| &trials[0]);
     let wrong: usize = first.map(|trial| trial.len() - right(trial)).sum();
@@ -237,9 +237,9 @@ mod tests {
             |results| results.of_mut(&RACE).unwrap().entries[0].units = Some(9.0),
             |results| results.of_mut(&TRIALS).unwrap().scenes[0].1[0][0] = Missed,
             |results| {
-                let own = |m: MethodName| m == MethodName::Certified;
+                let ours = |m: MethodName| m == MethodName::Certified;
                 let scale = results.of_mut(&SCALE).unwrap();
-                scale.iter_mut().filter(|row| own(row.0.method)).last().unwrap().2 *= 3.0;
+                scale.iter_mut().filter(|row| ours(row.0.method)).last().unwrap().2 *= 3.0;
             },
         ];
         for worse in worse {

@@ -3,7 +3,7 @@
 use super::judge::*;
 use crate::experiments::branches::from_rest;
 use crate::experiments::ensembles::named;
-use crate::experiments::starts::half_height as half_of;
+use crate::experiments::starts::half_height_all;
 use crate::experiments::sweep::{expected, mode_half, total};
 use crate::experiments::{BRANCHES, PROTOCOL, STARTS, TWO_MASSES, two_masses};
 use crate::params::{NEAR_SIMULTANEOUS, Protocol, SLOW};
@@ -96,7 +96,7 @@ fn rise_exists(e: &Evidence, s: &Statement) -> Judged {
     let rise = &e.sweep()?.first().rise;
     let (width, half) = (some(rise.kept_width)?, some(rise.half_height)?);
     let share = width.value / half.value;
-    let [a, b] = [&width, &half].map(|own| (own.error / own.value) * (own.error / own.value));
+    let [a, b] = [&width, &half].map(|x| (x.error / x.value) * (x.error / x.value));
     let error = share * (a + b).sqrt();
     let found = Text::of(
         "a quarter to three quarters of all gaps within {} of σ½",
@@ -152,15 +152,15 @@ fn undecided(
 ) -> Result<Text, Error> {
     let map = &e.results.of(&PROTOCOL)?[0];
     let [from, to] = s.interval()?;
-    let printed = map.curves.iter().filter_map(|own| place(&own.rise));
-    let printed = printed.filter(|own| (from..to).contains(&own.value)).count();
+    let printed = map.curves.iter().filter_map(|curve| place(&curve.rise));
+    let printed = printed.filter(|at| (from..to).contains(&at.value)).count();
     let mut text = Text::of(
         "The protocol, which is not printed, decides. Of {} pairs of transient T and window W {} give the printed digits. \
          From the narrowest W to the widest that has such a place:",
         [integer(map.curves.len()), integer(printed)],
     );
     for of_one in map.curves.chunk_by(|a, b| a.protocol.transient == b.protocol.transient) {
-        let places: Vec<Estimate> = of_one.iter().filter_map(|own| place(&own.rise)).collect();
+        let places: Vec<Estimate> = of_one.iter().filter_map(|curve| place(&curve.rise)).collect();
         let [Some(first), Some(last)] = [places.first(), places.last()] else { continue };
         text = text.then(Text::of(
             if of_one[0] == map.curves[0] { " {} to {} for T = {}" } else { ", {} to {} for {}" },
@@ -181,7 +181,7 @@ fn half_height(e: &Evidence, s: &Statement) -> Judged {
     let half = some(e.sweep()?.first().rise.half_height)?;
     let found = ours(e, Text::of("σ½ = {}", [estimate(&half)]))?;
     Ok(s.open(found)
-        .note(Text::from(WITH_AN_IMPACT).then(" ").then(undecided(e, s, |own| own.half_height)?)))
+        .note(Text::from(WITH_AN_IMPACT).then(" ").then(undecided(e, s, |rise| rise.half_height)?)))
 }
 
 fn onset(e: &Evidence, s: &Statement) -> Judged {
@@ -190,7 +190,7 @@ fn onset(e: &Evidence, s: &Statement) -> Judged {
     let note = Text::from(
         "Judged by the mean of all: where any realisation has an impact, the mean of those is above a twentieth. ",
     );
-    Ok(s.open(found).note(note.then(undecided(e, s, |own| own.onset)?)))
+    Ok(s.open(found).note(note.then(undecided(e, s, |rise| rise.onset)?)))
 }
 
 /// The mode passes half of all gaps within a range of σ; it agrees if this meets the printed digits.
@@ -200,7 +200,7 @@ fn mode_rise(e: &Evidence, s: &Statement) -> Judged {
     let [from, to] = s.interval()?;
     let found = ours(e, Text::of("between σ = {} and {}", [chosen(low), chosen(high)]))?;
     let map = &e.results.of(&PROTOCOL)?[0];
-    let halves = map.curves.iter().filter_map(|own| mode_half(own, map.ensemble.chain.gaps()));
+    let halves = map.curves.iter().filter_map(|curve| mode_half(curve, map.ensemble.chain.gaps()));
     let ranges: Vec<[f64; 2]> = halves.collect();
     let meets = ranges.iter().filter(|[low, high]| *low <= to && *high >= from).count();
     Ok(s.open(found).note(Text::of(
@@ -258,7 +258,7 @@ fn sticking(e: &Evidence, s: &Statement) -> Judged {
 
 fn without_impact(e: &Evidence, s: &Statement) -> Judged {
     let found = e.results.of(&TWO_MASSES)?;
-    let least = some(found.excess.iter().map(|own| own[0]).reduce(f64::min))?;
+    let least = some(found.excess.iter().map(|pair| pair[0]).reduce(f64::min))?;
     let safe = two_masses::safe_force(&found.parameters.directions.chain);
     let text = Text::of(
         "{} impacts below the force that the amplitudes allow; smallest force with an impact, over that bound: {}",
@@ -276,7 +276,7 @@ fn without_impact(e: &Evidence, s: &Statement) -> Judged {
 
 fn walls_like_masses(e: &Evidence, s: &Statement) -> Judged {
     let starts = e.results.of(&STARTS)?;
-    let half = |name| some(named(starts, name).and_then(half_of));
+    let half = |name| some(named(starts, name).and_then(half_height_all));
     let apart = difference(half("ring")?, half("rest")?);
     let allowed = e.half_unit()?;
     let agrees = apart.value.abs() <= allowed + e.level.quantile * apart.error;
@@ -293,13 +293,13 @@ fn percolation(e: &Evidence, s: &Statement) -> Judged {
     let transient = e.sweep()?.first().protocol.transient;
     let widths = from_rest(e.results.of(&BRANCHES)?)
         .filter(|(_, curve)| curve.protocol.transient == transient)
-        .filter_map(|(own, curve)| Some((own.ensemble.chain.masses, curve.rise.width?)));
+        .filter_map(|(chains, curve)| Some((chains.ensemble.chain.masses, curve.rise.width?)));
     let mut widths: Vec<_> = widths.filter(|(masses, _)| *masses >= 100).collect();
     widths.sort_by_key(|(masses, _)| *masses);
     let found = match (widths.first(), widths.last()) {
-        (Some((n, own)), Some((most, long))) if most > n => Text::of(
+        (Some((n, short)), Some((most, long))) if most > n => Text::of(
             "width of the rise {} for n = {}, {} for n = {}",
-            [estimate(own), integer(*n), estimate(long), integer(*most)],
+            [estimate(short), integer(*n), estimate(long), integer(*most)],
         ),
         _ => "chains of one length only".into(),
     };

@@ -5,7 +5,7 @@ use super::sec2::NEGLIGIBLE;
 use super::sec6::{RISES, ends, rises};
 use crate::experiments::ensembles::named;
 use crate::experiments::protocol::range;
-use crate::experiments::starts::{half_height, share_of_start};
+use crate::experiments::starts::{half_height_all, share_of_start};
 use crate::experiments::theory::beside::LARGE_SIGMA;
 use crate::experiments::{BRANCHES, PROTOCOL, RESTITUTION, STARTS};
 use crate::params::{NEAR_SIMULTANEOUS, Protocol, VERTICES};
@@ -96,8 +96,8 @@ fn no_impact(e: &Evidence, s: &Statement) -> Judged {
         }
     }
     some((telling.len() >= 3).then_some(()))?;
-    let least = telling.iter().map(|own| own.0).fold(f64::INFINITY, f64::min);
-    Ok(s.found(text, above == 0 && !telling.iter().any(|own| own.1))
+    let least = telling.iter().map(|point| point.0).fold(f64::INFINITY, f64::min);
+    Ok(s.found(text, above == 0 && !telling.iter().any(|point| point.1))
         .within(
             "none above its bound, none below two thirds of it",
             "intervals at the level of the table; two thirds are ours, for gaps that share a mass \
@@ -192,10 +192,10 @@ fn mean_is_easier(e: &Evidence, s: &Statement) -> Judged {
 fn of_starts(e: &Evidence) -> Result<Vec<(f64, Estimate, Estimate)>, Error> {
     let (map, chains) = (&e.results.of(&PROTOCOL)?[0], e.results.of(&BRANCHES)?);
     let random = named(chains, "random").map_or(&[][..], |found| &found.curves);
-    let both = random.iter().filter_map(|own| {
-        let Protocol { transient, window } = own.protocol;
+    let both = random.iter().filter_map(|cell| {
+        let Protocol { transient, window } = cell.protocol;
         let rest = map.curve(transient, window)?.rise.half_height_all?;
-        Some((transient, rest, own.rise.half_height_all?))
+        Some((transient, rest, cell.rise.half_height_all?))
     });
     Ok(both.collect())
 }
@@ -204,10 +204,10 @@ fn of_starts(e: &Evidence) -> Result<Vec<(f64, Estimate, Estimate)>, Error> {
 fn restitution_omitted(e: &Evidence, s: &Statement) -> Judged {
     let theory = e.number("theory.relation.sigma_half")?;
     let starts = e.results.of(&STARTS)?;
-    let half = |name| some(named(starts, name).and_then(half_height));
+    let half = |name| some(named(starts, name).and_then(half_height_all));
     let share = share_of_start(half("rest")?, half("random")?, theory);
     let halves = e.results.table("restitution.curves")?.estimates(&[], "r", "half_height");
-    let ends = [halves.first(), halves.last()].map(|own| own.map_or(f64::NAN, |own| own.0));
+    let ends = [halves.first(), halves.last()].map(|end| end.map_or(f64::NAN, |end| end.0));
     let moved = some(range(halves.into_iter().map(|(_, own)| Some(own))))?;
     let mut note = Text::from(
         "The paper says “perhaps”, and does not print its start. In smaller samples the share is",
@@ -232,8 +232,8 @@ fn restitution_omitted(e: &Evidence, s: &Statement) -> Judged {
 
 /// Shares of all impacts that are contact phases, and that come near another at once, at r and σ.
 fn shares(found: &[Counted], r: f64, sigma: f64) -> Option<[f64; 2]> {
-    let own = found.iter().find(|own| own.ensemble.chain.restitution == r)?;
-    let total = &own.runs.iter().find(|row| row.sigma == sigma)?.total;
+    let all = found.iter().find(|all| all.ensemble.chain.restitution == r)?;
+    let total = &all.runs.iter().find(|row| row.sigma == sigma)?.total;
     let of = |count: u64| count as f64 / total.impacts.max(1) as f64;
     Some([of(total.contact_phases), of(*total.near.last()?)])
 }
@@ -251,13 +251,13 @@ fn runs<'a>(e: &Evidence<'a>) -> Result<Restitutions<'a>, Error> {
 
 /// At strong forces r decides: a share of impacts at the paper's r and at the lowest.
 fn ensured(e: &Evidence, s: &Statement, which: usize, note: &str) -> Judged {
-    let (found, [own, lowest], sigmas) = runs(e)?;
+    let (found, [r, lowest], sigmas) = runs(e)?;
     let sigma = some(sigmas.last().copied())?;
-    let [ours, without] = [own, lowest].map(|r| shares(found, r, sigma).map(|all| all[which]));
+    let [ours, without] = [r, lowest].map(|r| shares(found, r, sigma).map(|all| all[which]));
     let (ours, without) = (some(ours)?, some(without)?);
     let text = Text::of(
         "at σ = {} a share of {} at r = {}, {} at r = {}",
-        [chosen(sigma), significant(ours, 1), chosen(own), significant(without, 1), chosen(lowest)],
+        [chosen(sigma), significant(ours, 1), chosen(r), significant(without, 1), chosen(lowest)],
     );
     Ok(s.found(text, ours <= NEGLIGIBLE && without > NEGLIGIBLE)
         .within(

@@ -48,19 +48,19 @@ pub fn run(parameters: &Runs, progress: &Progress) -> Result<Horizon, Error> {
 
 /// Means over the twins.
 pub fn tables(found: &Horizon) -> Vec<Table> {
-    let table = Table::of("horizon.twins", &[found], |own| own.twins.len())
+    let table = Table::of("horizon.twins", &[found], |found| found.twins.len())
         .computed_by(origin(run))
-        .count("pairs", "pairs of twins", |own| own.twins.len() as u64)
-        .chosen("sigma", SIGMA, "", |own| Some(own.parameters.sigma))
-        .estimate("order", TIME, "time of the first impact of another gap", |own| {
-            own.over(|twins| Some(twins.order?.0))
+        .count("pairs", "pairs of twins", |found| found.twins.len() as u64)
+        .chosen("sigma", SIGMA, "", |found| Some(found.parameters.sigma))
+        .estimate("order", TIME, "time of the first impact of another gap", |found| {
+            found.over(|twins| Some(twins.order?.0))
         })
-        .estimate("impacts", "1", "impacts before it", |own| {
-            own.over(|twins| Some(twins.order?.1 as f64))
+        .estimate("impacts", "1", "impacts before it", |found| {
+            found.over(|twins| Some(twins.order?.1 as f64))
         })
-        .real("first_order", TIME, 3, "least time of the first impact of another gap", |own| {
-            let orders = own.twins.iter().filter_map(|pair| pair.order);
-            orders.map(|own| own.0).fold(f64::INFINITY, f64::min)
+        .real("first_order", TIME, 3, "least time of the first impact of another gap", |found| {
+            let orders = found.twins.iter().filter_map(|pair| pair.order);
+            orders.map(|order| order.0).fold(f64::INFINITY, f64::min)
         })
         .done();
     vec![table]
@@ -75,7 +75,7 @@ const STRIDE: f64 = 5.0;
 /// The rate λ of the growth e^λt of differences with their times, which rise: by a straight line through the logarithms of
 /// the largest in each stride; none from fewer than three points.
 fn rate(differences: &[(f64, f64)]) -> Option<f64> {
-    let stride = |own: &(f64, f64)| (own.0 / STRIDE) as u64;
+    let stride = |point: &(f64, f64)| (point.0 / STRIDE) as u64;
     let points: Vec<(f64, f64)> = differences
         .chunk_by(|a, b| stride(a) == stride(b))
         .map(|own| (stride(&own[0]), own.iter().map(|own| own.1).fold(0.0, f64::max)))
@@ -95,11 +95,11 @@ fn pair(parameters: &Runs, index: u64) -> Result<Twins, impact_chain::Error> {
     let first = Engine::new(&scenario)?.impacts(parameters.until)?;
     let (mut growth, mut order, mut met) = (Vec::new(), None, first.iter().zip(0..));
     Engine::new(&twin)?.run(parameters.until, |other| {
-        let Some((own, before)) = met.next() else { return false };
-        if own.gap == other.gap {
-            growth.push((own.time, (own.time - other.time).abs()));
+        let Some((one, before)) = met.next() else { return false };
+        if one.gap == other.gap {
+            growth.push((one.time, (one.time - other.time).abs()));
         } else {
-            order = Some((own.time.min(other.time), before));
+            order = Some((one.time.min(other.time), before));
         }
         order.is_none()
     })?;

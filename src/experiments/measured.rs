@@ -105,7 +105,7 @@ impl Measured {
 
     /// Rows of one kind.
     pub fn of(&self, what: What) -> impl Iterator<Item = &Measurement> {
-        self.sessions.iter().flat_map(|own| &own.rows).filter(move |row| row.what == what)
+        self.sessions.iter().flat_map(|session| &session.rows).filter(move |row| row.what == what)
     }
 
     /// The row of a method with a setting on n masses at σ.
@@ -118,9 +118,9 @@ impl Measured {
 
     /// Time of an impact in one chain of n masses by the engine, in microseconds, in the session of a row.
     pub fn engine(&self, row: &Measurement) -> Option<f64> {
-        let session = self.sessions.iter().find(|own| own.rows.contains(row))?;
-        let own = session.rows.iter().filter(|own| own.what == What::Engine && own.n == row.n);
-        own.filter_map(|own| own.microseconds_per_impact).next_back()
+        let session = self.sessions.iter().find(|session| session.rows.contains(row))?;
+        let engine = session.rows.iter().filter(|at| at.what == What::Engine && at.n == row.n);
+        engine.filter_map(|row| row.microseconds_per_impact).next_back()
     }
 }
 
@@ -141,16 +141,16 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
     // The last session of the engine and that of the methods, which may be one.
     let parts = [("engine", What::Engine), ("methods", What::Method)];
     let session = |what: What| {
-        measured.sessions.iter().rfind(|own| own.rows.iter().any(|row| row.what == what))
+        measured.sessions.iter().rfind(|session| session.rows.iter().any(|row| row.what == what))
     };
     let found: Vec<(&str, &MeasuredOn)> =
         parts.into_iter().filter_map(|(of, what)| Some((of, session(what)?))).collect();
     let machine = Table::of("measured.machine", &found, |_| 1)
         .text_key("of", |(of, _)| (*of).into())
         .computed_by(origin(Measured::committed))
-        .words("date", "when", |(_, own)| own.date.clone())
-        .words("processor", "on what", |(_, own)| own.machine.processor.replace("(R)", ""))
-        .words("os", "under what", |(_, own)| own.machine.os.replace('_', "-"))
+        .words("date", "when", |(_, on)| on.date.clone())
+        .words("processor", "on what", |(_, on)| on.machine.processor.replace("(R)", ""))
+        .words("os", "under what", |(_, on)| on.machine.os.replace('_', "-"))
         .measured();
     let one = |row: &&Measurement| row.n == 100 && row.chains == 1;
     let engine =

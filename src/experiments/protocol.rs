@@ -9,15 +9,15 @@ use impact_chain::Protocol;
 /// All tables.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let map = &found[0];
-    let halves = || map.curves.iter().filter_map(|own| Some((own.rise.half_height?, own)));
-    let least = halves().min_by(|a, b| a.0.value.total_cmp(&b.0.value)).map(|(_, own)| own);
-    let most = halves().max_by(|a, b| a.0.value.total_cmp(&b.0.value)).map(|(_, own)| own);
-    let half = |own: Option<&Curve>| own.and_then(|own| own.rise.half_height);
-    let same = |own: Option<&Curve>| own.map(|own| address(own, "half_height"));
-    let all = Table::of("protocol.all", &[map], |own| own.ensemble.realisations)
-        .count("realisations", "chains at each σ", |own| own.ensemble.realisations as u64)
-        .count("sigmas", "values of σ", |own| own.ensemble.sigmas.len() as u64)
-        .count("combinations", "transients times windows", |own| own.curves.len() as u64)
+    let halves = || map.curves.iter().filter_map(|cell| Some((cell.rise.half_height?, cell)));
+    let least = halves().min_by(|a, b| a.0.value.total_cmp(&b.0.value)).map(|(_, cell)| cell);
+    let most = halves().max_by(|a, b| a.0.value.total_cmp(&b.0.value)).map(|(_, cell)| cell);
+    let half = |cell: Option<&Curve>| cell.and_then(|cell| cell.rise.half_height);
+    let same = |cell: Option<&Curve>| cell.map(|cell| address(cell, "half_height"));
+    let all = Table::of("protocol.all", &[map], |map| map.ensemble.realisations)
+        .count("realisations", "chains at each σ", |map| map.ensemble.realisations as u64)
+        .count("sigmas", "values of σ", |map| map.ensemble.sigmas.len() as u64)
+        .count("combinations", "transients times windows", |map| map.curves.len() as u64)
         .count("as_printed", "of these, half heights that round to the printed one", |_| {
             halves().filter(|(half, _)| prints_as_published(half.value)).count() as u64
         })
@@ -45,18 +45,18 @@ pub fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate>
 }
 
 /// The address of a number of a cell.
-pub fn address(own: &Curve, column: &str) -> String {
-    let Protocol { transient, window } = own.protocol;
+pub fn address(cell: &Curve, column: &str) -> String {
+    let Protocol { transient, window } = cell.protocol;
     format!("protocol.cells[transient={transient},window={window}].{column}")
 }
 
 fn cells(map: &Counted) -> Table {
     Table::of("protocol.cells", &map.curves, |_| map.ensemble.realisations)
-        .key("transient", TIME, |own| own.protocol.transient)
-        .key("window", TIME, |own| own.protocol.window)
+        .key("transient", TIME, |cell| cell.protocol.transient)
+        .key("window", TIME, |cell| cell.protocol.window)
         .computed_by(origin(Curve::new))
-        .estimate("half_height", SIGMA, OF_ACTIVE, |own| own.rise.half_height)
-        .estimate("half_height_all", SIGMA, HALF_HEIGHT, |own| own.rise.half_height_all)
-        .estimate("kept_half", SIGMA, ANY_IMPACT, |own| own.rise.kept_half)
+        .estimate("half_height", SIGMA, OF_ACTIVE, |cell| cell.rise.half_height)
+        .estimate("half_height_all", SIGMA, HALF_HEIGHT, |cell| cell.rise.half_height_all)
+        .estimate("kept_half", SIGMA, ANY_IMPACT, |cell| cell.rise.kept_half)
         .done()
 }

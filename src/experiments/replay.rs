@@ -100,8 +100,8 @@ pub fn run(parameters: &ReplayRuns, progress: &Progress) -> Result<Replays, Erro
 }
 
 /// The digests with which the pages compare their runs.
-pub fn tables(own: &Replays) -> Vec<Table> {
-    let rows: Vec<_> = own.parameters.iter().zip(&own.found).collect();
+pub fn tables(all: &Replays) -> Vec<Table> {
+    let rows: Vec<_> = all.parameters.iter().zip(&all.found).collect();
     let runs = Table::of("replay.runs", &rows, |_| 1)
         .text_key("run", |((name, _), _)| name.clone())
         .computed_by(origin(run))
@@ -113,10 +113,10 @@ pub fn tables(own: &Replays) -> Vec<Table> {
         .count("simultaneous", "ties", |(_, found)| found.simultaneous)
         .words("sha256", "of all impacts: time, gap, speed", |(_, found)| found.digest.clone())
         .done();
-    let all = Table::of("replay.all", &[own], |own| own.found.len())
+    let sums = Table::of("replay.all", &[all], |all| all.found.len())
         .computed_by(origin(run))
-        .count("runs", "runs", |own| own.found.len() as u64)
-        .count("impacts", "impacts of all", |own| own.found.iter().map(|one| one.impacts).sum())
+        .count("runs", "runs", |all| all.found.len() as u64)
+        .count("impacts", "impacts of all", |all| all.found.iter().map(|one| one.impacts).sum())
         .done();
-    vec![runs, all]
+    vec![runs, sums]
 }

@@ -98,11 +98,11 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
     let table = Table::of("segments.circuits", &both, |_| 1)
         .key("figure", "1", |(figure, _)| *figure)
         .computed_by(origin(Segment::masses_hit))
-        .count("masses", "that take part", |(_, own)| own.masses_hit() as u64)
+        .count("masses", "that take part", |(_, one)| one.masses_hit() as u64)
         .computed_by(origin(Segment::circuit))
-        .count("length", "impacts", |(_, own)| own.circuit().len() as u64)
-        .count("distinct", "different impacts", |(_, own)| own.gaps().len() as u64)
-        .count("repeated", "of them repeated", |(_, own)| own.repeats().len() as u64)
+        .count("length", "impacts", |(_, one)| one.circuit().len() as u64)
+        .count("distinct", "different impacts", |(_, one)| one.gaps().len() as u64)
+        .count("repeated", "of them repeated", |(_, one)| one.repeats().len() as u64)
         .done();
     vec![table]
 }

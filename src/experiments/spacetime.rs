@@ -85,14 +85,14 @@ impl SpaceTime {
 }
 
 /// The table of the run.
-pub fn tables(own: &SpaceTime) -> Vec<Table> {
-    let advances = own.advances();
+pub fn tables(found: &SpaceTime) -> Vec<Table> {
+    let advances = found.advances();
     let step = |place: usize| advances.get(place).copied().unwrap_or(f64::NAN);
-    let table = Table::of("spacetime.run", &[own], |_| 1)
-        .chosen("sigma", SIGMA, "standard deviation σ", |own| Some(own.parameters.sigma))
-        .chosen("until", TIME, "length of the run", |own| Some(own.parameters.until))
+    let table = Table::of("spacetime.run", &[found], |_| 1)
+        .chosen("sigma", SIGMA, "standard deviation σ", |found| Some(found.parameters.sigma))
+        .chosen("until", TIME, "length of the run", |found| Some(found.parameters.until))
         .computed_by(origin(SpaceTime::starts))
-        .count("starts", "gaps hit when neither neighbour was", |own| own.starts().len() as u64)
+        .count("starts", "gaps hit when neither neighbour was", |found| found.starts().len() as u64)
         .computed_by(origin(SpaceTime::advances))
         .real("advance_median", TIME, 3, "median step of a front", |_| step(advances.len() / 2))
         .real("advance_longest", TIME, 3, "longest step of a front", |_| {

@@ -4,7 +4,7 @@ use super::STARTS;
 use crate::experiments::prelude::*;
 
 /// The half height of the mean of all, in the first window.
-pub fn half_height(of: &Counted) -> Option<Estimate> {
+pub fn half_height_all(of: &Counted) -> Option<Estimate> {
     of.first().rise.half_height_all
 }
 
@@ -12,15 +12,15 @@ pub(super) const HALF_HEIGHT: &str = "σ where the mean of all passes half of al
 
 /// Half heights of variants of the paper's chain.
 pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
-    let rest = named(variants, "rest").and_then(half_height);
-    let table = Table::of("starts.variants", variants, |own| own.ensemble.realisations)
-        .text_key("chain", |own| own.ensemble.name.clone())
-        .count("realisations", "chains at each σ", |own| own.ensemble.realisations as u64)
-        .chosen("forcing_frequency", "omega", "", |own| Some(own.ensemble.chain.forcing_frequency))
+    let rest = named(variants, "rest").and_then(half_height_all);
+    let table = Table::of("starts.variants", variants, |one| one.ensemble.realisations)
+        .text_key("chain", |one| one.ensemble.name.clone())
+        .count("realisations", "chains at each σ", |one| one.ensemble.realisations as u64)
+        .chosen("forcing_frequency", "omega", "", |one| Some(one.ensemble.chain.forcing_frequency))
         .computed_by(origin(Curve::new))
-        .estimate("half_height", SIGMA, HALF_HEIGHT, half_height)
-        .estimate("difference", SIGMA, "half height less that from rest", |own| {
-            Some(difference(half_height(own)?, rest?))
+        .estimate("half_height", SIGMA, HALF_HEIGHT, half_height_all)
+        .estimate("difference", SIGMA, "half height less that from rest", |one| {
+            Some(difference(half_height_all(one)?, rest?))
         })
         .done();
     vec![table]
@@ -28,17 +28,17 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
 
 /// Half heights of chains of several restitutions.
 pub fn of_restitutions(found: &Vec<Counted>) -> Vec<Table> {
-    let table = Table::of("restitution.curves", found, |own| own.ensemble.realisations)
-        .key("r", "1", |own| own.ensemble.chain.restitution)
+    let table = Table::of("restitution.curves", found, |one| one.ensemble.realisations)
+        .key("r", "1", |one| one.ensemble.chain.restitution)
         .computed_by(origin(Curve::new))
-        .estimate("half_height", SIGMA, HALF_HEIGHT, half_height);
+        .estimate("half_height", SIGMA, HALF_HEIGHT, half_height_all);
     vec![table.done()]
 }
 
 /// The part of the distance to the theory that the start explains.
 pub fn beside_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let starts = results.of(&STARTS).ok()?;
-    let half = |name: &str| named(starts, name).and_then(half_height);
+    let half = |name: &str| named(starts, name).and_then(half_height_all);
     let relation = all.iter().find(|table| table.name() == "theory.relation")?;
     let theory = relation.number(&[], "sigma_half").ok()?;
     let both = half("rest").zip(half("random"));

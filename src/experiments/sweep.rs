@@ -68,6 +68,7 @@ fn run(sweep: &Counted) -> Table {
         .done()
 }
 
+/// Means (of different gaps, of impacts, of masses) and shares at each σ.
 fn rows(sweep: &Counted) -> Table {
     let estimate = |mean: Option<Mean>| mean?.estimate();
     Table::of("sweep.rows", &sweep.first().rows, |row| row.ran)

@@ -53,11 +53,11 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
 pub fn tables(found: &TwoMasses) -> Vec<Table> {
     let bound = Table::of("two_masses.bound", &[found], |_| 0)
         .computed_by(origin(safe_force))
-        .real("force", SIGMA, 4, "force amplitude below which two masses never hit", |own| {
-            safe_force(&own.parameters.directions.chain)
+        .real("force", SIGMA, 4, "force amplitude below which two masses never hit", |found| {
+            safe_force(&found.parameters.directions.chain)
         })
-        .count("directions", "random directions of the forcing", |own| {
-            own.parameters.directions.realisations as u64
+        .count("directions", "random directions of the forcing", |found| {
+            found.parameters.directions.realisations as u64
         })
         .done();
     let excess: Vec<_> = found.parameters.times.iter().zip(&found.excess).collect();
@@ -69,7 +69,7 @@ pub fn tables(found: &TwoMasses) -> Vec<Table> {
             "1",
             6,
             "least force with an impact within the time, over its bound, largest of all",
-            |(_, own)| own[1],
+            |(_, pair)| pair[1],
         )
         .done();
     vec![bound, excess]

@@ -119,8 +119,8 @@ const BIAS: [&[(f64, usize)]; 7] = [
 
 /// Each method with each of its values.
 fn all<T: Copy>(values: &[&[T]]) -> Vec<(MethodName, T)> {
-    let own = MethodName::ALL.into_iter().zip(values);
-    own.flat_map(|(method, own)| own.iter().map(move |value| (method, *value))).collect()
+    let all = MethodName::ALL.into_iter().zip(values);
+    all.flat_map(|(method, values)| values.iter().map(move |value| (method, *value))).collect()
 }
 
 fn settings(values: &[&[f64]]) -> Vec<Setting> {
@@ -237,7 +237,7 @@ impl BiasParams {
             chain: Chain::default(),
             sigma,
             until: protocol.end(),
-            realisations: settings.iter().map(|own| own.1).max().unwrap_or(0),
+            realisations: settings.iter().map(|pair| pair.1).max().unwrap_or(0),
             stream: "sweep".into(),
             seed: SEED,
         };

@@ -44,6 +44,7 @@ pub fn second_seed(profile: Profile) -> Vec<Ensemble> {
         Profile::Full => (Grid::default().and(34, 64, 1, 400), 400),
         Profile::Quick => (Grid::default().and(8, 16, 1, 100), 8),
     };
+    // The stream of the main sweep: only the seed differs.
     vec![Ensemble { seed: SECOND_SEED, ..paper("sweep", sigmas, realisations) }]
 }
 
@@ -71,9 +72,9 @@ pub fn starts(profile: Profile) -> Vec<Ensemble> {
     };
     let variant = |name: &str, [from, to]: [u32; 2], change: fn(&mut Chain)| {
         let sigmas = Grid::default().and(from, to, step, 100);
-        let mut own = Ensemble { stream: "starts".into(), ..paper(name, sigmas, realisations) };
-        change(&mut own.chain);
-        own
+        let mut one = Ensemble { stream: "starts".into(), ..paper(name, sigmas, realisations) };
+        change(&mut one.chain);
+        one
     };
     vec![
         variant("rest", [8, 18], |_| ()),

@@ -46,7 +46,7 @@ impl Unit {
         // Where Δ is zero, Δ'' is ω² d and the forcing of both neighbours at most.
         let sides = start.sides(gap).into_iter().flatten();
         let forces: f64 = sides
-            .flat_map(|j| scenario.components().map(move |(_, own)| own[j][0].hypot(own[j][1])))
+            .flat_map(|j| scenario.components().map(move |(_, all)| all[j][0].hypot(all[j][1])))
             .sum();
         let near_root = w * w * scenario.spacing * (1.0 + 1e-4) + forces;
         Unit {

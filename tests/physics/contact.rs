@@ -47,8 +47,8 @@ fn clusters_are_released_gap_by_gap_where_a_force_changes_its_sign() {
             let to = 0.5 * end.acos();
             let after = if from == 0.0 { 0.0 } else { from + 1e-12 };
             for t in [after, 0.5 * (from + to), to - 1e-12] {
-                let own: Vec<usize> = gaps.iter().map(|(gap, ..)| *gap).collect();
-                assert_eq!(held(&mut engine, t), own, "{forces:?} at {t}");
+                let gaps_held: Vec<usize> = gaps.iter().map(|(gap, ..)| *gap).collect();
+                assert_eq!(held(&mut engine, t), gaps_held, "{forces:?} at {t}");
                 for ((_, force), (_, factor, constant)) in engine.contacts(t).iter().zip(*gaps) {
                     let expected = factor * (2.0 * t).cos() + constant;
                     assert!((force - expected).abs() < 1e-13, "{forces:?} at {t}: {force}");

@@ -27,9 +27,9 @@ fn next_to_resonance_a_gap_that_hardly_moves_is_soon_passed() {
 fn components_that_nearly_cancel_are_soon_passed() {
     let frequency = 1.0 - 2.0_f64.powi(-40);
     let from_rest = |forcing| {
-        let own = given(vec![[0.0; 2]], vec![forcing]);
+        let base = given(vec![[0.0; 2]], vec![forcing]);
         let (initial, restitution) = (Initial::Rest, 0.5);
-        Scenario { initial, restitution, forcing_frequency: frequency, ..own }
+        Scenario { initial, restitution, forcing_frequency: frequency, ..base }
     };
     let whole = from_rest([0.5e-6, 2.1e-6]);
     let mut parts = from_rest([-2.7e-6, 7.5e-6]);

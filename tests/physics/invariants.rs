@@ -80,8 +80,8 @@ fn orbits_that_repeat_themselves_keep_their_times() {
             k = number;
             let error = (Dd::of(impact.time) - (first + period * Dd::of(k))).near().abs();
             // A time is rounded once.
-            let own = (error - 0.5 * (impact.time.next_up() - impact.time)).max(0.0);
-            let units = own / (f64::EPSILON * period.near() * (k + 1.0).sqrt());
+            let excess = (error - 0.5 * (impact.time.next_up() - impact.time)).max(0.0);
+            let units = excess / (f64::EPSILON * period.near() * (k + 1.0).sqrt());
             largest = largest.max(units);
             assert!(units < 20.0, "{amplitude} of {parts:?}: {units} at {impact:?}, {k}");
             k < last

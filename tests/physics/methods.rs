@@ -59,10 +59,10 @@ fn error_of(method: &dyn Method) -> (f64, Cost) {
             total.evaluations += cost.evaluations;
             // Order within a step is lost: each gap has a list.
             for gap in 0..7 {
-                let own = |list: &[Impact]| -> Vec<f64> {
+                let of_gap = |list: &[Impact]| -> Vec<f64> {
                     list.iter().filter(|i| i.gap == gap).map(|i| i.time).take(2).collect()
                 };
-                let (exact, found) = (own(&exact), own(&found));
+                let (exact, found) = (of_gap(&exact), of_gap(&found));
                 for (i, t) in exact.iter().enumerate() {
                     let other = found.get(i);
                     let name = method.name();

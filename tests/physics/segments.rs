@@ -22,8 +22,8 @@ fn figures_5_and_6_show_their_circuits() {
         let scenario = Scenario::from_json(&saved["scenario"].to_string()).unwrap();
         let until = saved["until"].as_f64().unwrap();
         let hits = held(&scenario, until, file);
-        for (own, exact) in trace(&scenario, until).iter().zip(&hits) {
-            assert!((own.time - exact.time.near()).abs() < 1e-12, "{own:?}");
+        for (hit, exact) in trace(&scenario, until).iter().zip(&hits) {
+            assert!((hit.time - exact.time.near()).abs() < 1e-12, "{hit:?}");
         }
         assert_eq!(saved["order"], serde_json::json!(order));
         assert_eq!(hits.iter().map(|hit| hit.gap).collect::<Vec<_>>(), order);

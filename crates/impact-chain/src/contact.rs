@@ -250,9 +250,9 @@ impl<const M: usize> Simulation<M> {
                 let motion = &self.motions[m];
                 common.a += share * motion.a;
                 common.b += share * motion.b;
-                for (common, own) in common.forced.iter_mut().zip(self.forced[m]) {
-                    common[0] += share * own[0];
-                    common[1] += share * own[1];
+                for (common, part) in common.forced.iter_mut().zip(self.forced[m]) {
+                    common[0] += share * part[0];
+                    common[1] += share * part[1];
                 }
             }
             share * (0..members.len()).map(place).sum::<f64>()
@@ -271,15 +271,15 @@ impl<const M: usize> Simulation<M> {
                 continue;
             }
             let was = self.motions[m];
-            let own = Motion { forced: self.forced[m], ..Motion::STILL };
-            let (seen, forced) = (was.seen(p), own.seen(p));
+            let alone = Motion { forced: self.forced[m], ..Motion::STILL };
+            let (seen, forced) = (was.seen(p), alone.seen(p));
             let (mut u, mut quadrature) = (was.offset + seen.u, seen.u_quadrature);
-            for (i, (seen, own)) in seen.forced.iter().zip(forced.forced).enumerate() {
+            for (i, (seen, alone)) in seen.forced.iter().zip(forced.forced).enumerate() {
                 let frequencies = &self.search.frequencies;
-                u += seen[0] - own[0];
-                quadrature += frequencies.big_omegas[i] / frequencies.omega * (seen[1] - own[1]);
+                u += seen[0] - alone[0];
+                quadrature += frequencies.big_omegas[i] / frequencies.omega * (seen[1] - alone[1]);
             }
-            self.motions[m] = own;
+            self.motions[m] = alone;
             self.motions[m].set_free(u, quadrature, p);
         }
     }

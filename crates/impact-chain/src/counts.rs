@@ -86,13 +86,13 @@ fn extend<T>(rows: &mut Vec<Vec<T>>, next: Vec<Vec<T>>) {
 impl FromIterator<Counts> for Counts {
     fn from_iter<I: IntoIterator<Item = Counts>>(all: I) -> Self {
         let mut whole = Counts::default();
-        for own in all {
-            extend(&mut whole.distinct, own.distinct);
-            extend(&mut whole.impacts, own.impacts);
-            extend(&mut whole.masses, own.masses);
-            whole.rejected += own.rejected;
-            whole.failed += own.failed;
-            whole.total.add(&own.total);
+        for one in all {
+            extend(&mut whole.distinct, one.distinct);
+            extend(&mut whole.impacts, one.impacts);
+            extend(&mut whole.masses, one.masses);
+            whole.rejected += one.rejected;
+            whole.failed += one.failed;
+            whole.total.add(&one.total);
         }
         whole
     }
@@ -127,7 +127,7 @@ fn rising(times: impl Iterator<Item = f64>) -> Vec<f64> {
 impl Watch {
     pub fn new(ensemble: &Ensemble) -> Self {
         let (gaps, all) = (ensemble.chain.gaps(), &ensemble.protocols);
-        let transients = rising(all.iter().map(|own| own.transient));
+        let transients = rising(all.iter().map(|window| window.transient));
         Watch {
             topology: Topology::new(ensemble.chain.masses, ensemble.chain.boundary),
             total: Total::default(),

@@ -104,17 +104,17 @@ pub fn work(chain: &Chain, sigma: f64, time: f64) -> u64 {
 impl Ensemble {
     /// Realisations at a σ.
     pub fn realisations_at(&self, sigma: f64) -> usize {
-        self.beyond(sigma).and_then(|own| own.realisations).unwrap_or(self.realisations)
+        self.beyond(sigma).and_then(|less| less.realisations).unwrap_or(self.realisations)
     }
 
     /// When runs at a σ end: with the last window, if they are not shortened.
     pub fn until(&self, sigma: f64) -> f64 {
         let last = self.protocols.iter().map(Protocol::end).fold(0.0, f64::max);
-        self.beyond(sigma).and_then(|own| own.until).map_or(last, |until| last.min(until))
+        self.beyond(sigma).and_then(|less| less.until).map_or(last, |until| last.min(until))
     }
 
     fn beyond(&self, sigma: f64) -> Option<Beyond> {
-        self.beyond.filter(|own| sigma > own.above)
+        self.beyond.filter(|less| sigma > less.above)
     }
 
     /// [`work`] of one realisation.
@@ -194,10 +194,10 @@ mod tests {
             Scenario::draw(&small().chain, 0.16, &mut NormalPairs::new("ensemble", 2007, 2));
         let impacts = Engine::new(&scenario).unwrap().impacts(150.0).unwrap();
         let found = run(&small(), 0.16, 3);
-        for (at, own) in small().protocols.iter().enumerate() {
-            let within = |time| time > own.transient && time <= own.end();
+        for (at, window) in small().protocols.iter().enumerate() {
+            let within = |time| time > window.transient && time <= window.end();
             let gaps: Vec<usize> =
-                impacts.iter().filter(|own| within(own.time)).map(|own| own.gap).collect();
+                impacts.iter().filter(|hit| within(hit.time)).map(|hit| hit.gap).collect();
             let distinct = (0..21).filter(|gap| gaps.contains(gap)).count() as u32;
             assert_eq!(found.distinct[at][2], Some(distinct));
             assert_eq!(found.impacts[at][2], gaps.len() as u64);
@@ -209,7 +209,7 @@ mod tests {
     fn starts_that_overlap_are_counted_as_rejected() {
         let chain = Chain { masses: 40, start: crate::Start::Random, ..Chain::default() };
         let found = run(&Ensemble { chain, ..small() }, 0.3, 4);
-        let none = found.distinct[0].iter().filter(|own| own.is_none()).count();
+        let none = found.distinct[0].iter().filter(|count| count.is_none()).count();
         assert!(found.rejected > 0 && found.rejected == none && found.failed == 0, "{found:?}");
     }
 
@@ -218,7 +218,7 @@ mod tests {
         let whole = run(&small(), 0.16, 4);
         let pieces = run(&Ensemble { pieces: 2, ..small() }, 0.16, 4);
         for (whole, pieces) in whole.distinct.iter().zip(&pieces.distinct) {
-            let sums = pieces.chunks(2).map(|own| Some(own[0]? + own[1]?));
+            let sums = pieces.chunks(2).map(|pair| Some(pair[0]? + pair[1]?));
             assert!(sums.eq(whole.iter().copied()));
         }
     }

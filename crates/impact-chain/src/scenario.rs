@@ -310,7 +310,7 @@ impl Scenario {
 
     /// The components of the forcing: frequency, and amplitudes of each mass.
     pub fn components(&self) -> impl Iterator<Item = (f64, &[[f64; 2]])> {
-        let further = self.overtones.iter().map(|own| (own.frequency, own.amplitudes.as_slice()));
+        let further = self.overtones.iter().map(|o| (o.frequency, o.amplitudes.as_slice()));
         std::iter::once((self.forcing_frequency, self.forcing.as_slice())).chain(further)
     }
 

@@ -240,8 +240,8 @@ mod tests {
         let chain = Chain { masses: 30, forcing_frequency: 1.5, ..Chain::default() };
         let stream = "page".into();
         let forces = Forces::Drawn { sigma: 0.3, stream, seed: 1, realisation: 4 };
-        let own = Asked { chain, forces, transient: 50.0, window: 20.0 };
-        let mut run = Replay::new(&own).unwrap();
+        let asked = Asked { chain, forces, transient: 50.0, window: 20.0 };
+        let mut run = Replay::new(&asked).unwrap();
         run.advance(u64::MAX, |_, _| ()).unwrap();
         assert_eq!(page.text, run.digest().into_bytes());
         let impacts = run.engine().counters().impacts as f64;
@@ -251,7 +251,7 @@ mod tests {
         let none = opened("", &NUMBERS[..9]).map(|_| ()).unwrap_err();
         assert!(none.starts_with("forcing: it has 0 pairs for 30 masses; give one"), "{none}");
         // Amplitudes one by one, without a stream.
-        let pairs = own.scenario().unwrap().forcing;
+        let pairs = asked.scenario().unwrap().forcing;
         let given: Vec<f64> =
             NUMBERS[..9].iter().copied().chain(pairs.into_iter().flatten()).collect();
         let mut page = opened("", &given).unwrap();

@@ -122,11 +122,11 @@ fn entry(
     let method = setting.method.with(setting.value);
     let (mut cost, mut runs) = (Cost::default(), Vec::with_capacity(courses.len()));
     for course in courses {
-        let (run, own) = follow(parameters, method.as_ref(), course, progress);
+        let (run, work) = follow(parameters, method.as_ref(), course, progress);
         progress.check()?;
         runs.push(run);
-        cost.impacts += own.impacts;
-        cost.evaluations += own.evaluations;
+        cost.impacts += work.impacts;
+        cost.evaluations += work.evaluations;
     }
     let (mut misses, mut errors, mut units) = (0, Vec::new(), None);
     for Target { scenario, state, hit, unit } in targets {

@@ -25,7 +25,7 @@ pub fn name(method: MethodName) -> &'static str {
 pub fn titled(settings: &[Setting]) -> String {
     let method = settings[0].method;
     let letter = if method.has_tolerance() { r"\mathrm{tol}" } else { "h" };
-    let values: Vec<String> = settings.iter().map(|own| power(own.value)).collect();
+    let values: Vec<String> = settings.iter().map(|setting| power(setting.value)).collect();
     match method {
         MethodName::Certified => name(method).to_string(),
         _ => format!("{}, ${letter} = {}$", name(method), values.join(r";\ ")),
@@ -97,17 +97,16 @@ fn all(race: &Race) -> Table {
             tried.unwrap_or(0)
         })
         .estimate("growth", "omega", "rate λ at which neighbouring motions part", |()| {
-            growth.map(|own| with_error(own.value, own.error))
+            growth.map(|rate| with_error(rate.value, rate.error))
         })
         .estimate("ceiling", TIME, "time that chaos allows to doubles", |()| {
-            growth
-                .map(|own| with_error(folds / own.value, folds / own.value * own.error / own.value))
+            growth.map(|g| with_error(folds / g.value, folds / g.value * g.error / g.value))
         })
         .words("best", "the cheapest rival without a miss", |()| {
-            best.map_or("none".into(), |own| titled(&[own.setting]).replace(", $", " with $"))
+            best.map_or("none".into(), |entry| titled(&[entry.setting]).replace(", $", " with $"))
         })
         .real("best_work", "1", 2, "its evaluations per impact", |()| {
-            best.map_or(f64::NAN, |own| cost(&own))
+            best.map_or(f64::NAN, |entry| cost(&entry))
         })
         .done()
 }
@@ -134,10 +133,10 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
                 both.map(|(a, b)| (f64::from(a), f64::from(b))).unzip().into();
             let differences: Vec<f64> = theirs.iter().zip(&ours).map(|(a, b)| a - b).collect();
             let share = || {
-                let own = mean(&ours).filter(|own| *own > 0.0)?;
+                let mean_count = mean(&ours).filter(|mean| *mean > 0.0)?;
                 // With few chains all differences may be equal.
                 let error = standard_error(&differences).filter(|error| *error > 0.0)?;
-                Some(with_error(mean(&differences)? / own, error / own))
+                Some(with_error(mean(&differences)? / mean_count, error / mean_count))
             };
             rows.push(Compared { setting, sigma: chains.sigma, pairs: ours.len(), share: share() });
         }
@@ -158,11 +157,11 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
         |runs: &Vec<Vec<Counted>>| runs[0].iter().flatten().map(|k| f64::from(*k)).collect();
     let counts: Vec<Vec<f64>> = biases.runs.iter().map(counts).collect();
     let scenes: Vec<_> = biases.parameters.chains.iter().zip(counts).collect();
-    let means = Table::of("bias.means", &scenes, |(_, own)| own.len())
+    let means = Table::of("bias.means", &scenes, |(_, counts)| counts.len())
         .key("sigma", SIGMA, |(chains, _)| chains.sigma)
         .computed_by(origin(bias::run))
-        .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |(_, own)| {
-            or_nan(mean(own))
+        .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |(_, counts)| {
+            or_nan(mean(counts))
         })
         .done();
     vec![cells, means]
@@ -171,18 +170,18 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
 /// Fig. S8.
 pub fn scale(scale: &Scale) -> Vec<Table> {
     let ends = MethodName::ALL.into_iter().filter_map(|method| {
-        let own = || scale.iter().filter(move |row| row.0.method == method);
-        own().next().zip(own().next_back())
+        let rows = || scale.iter().filter(move |row| row.0.method == method);
+        rows().next().zip(rows().next_back())
     });
     let ends: Vec<_> = ends.collect();
     let table = Table::of("scale.ends", &ends, |_| 1)
-        .text_key("method", |(own, _)| own.0.method.id().into())
-        .chosen("setting", TIME, "step or tolerance", |(own, _)| Some(own.0.value))
-        .chosen("small", "1", "fewest masses", |(own, _)| Some(own.1 as f64))
-        .chosen("large", "1", "most masses", |(_, own)| Some(own.1 as f64))
+        .text_key("method", |(few, _)| few.0.method.id().into())
+        .chosen("setting", TIME, "step or tolerance", |(few, _)| Some(few.0.value))
+        .chosen("small", "1", "fewest masses", |(few, _)| Some(few.1 as f64))
+        .chosen("large", "1", "most masses", |(_, many)| Some(many.1 as f64))
         .computed_by(origin(scale::run))
-        .real("work_small", "1", 2, "evaluations per impact", |(own, _)| own.2)
-        .real("work_large", "1", 2, "evaluations per impact", |(_, own)| own.2)
+        .real("work_small", "1", 2, "evaluations per impact", |(few, _)| few.2)
+        .real("work_large", "1", 2, "evaluations per impact", |(_, many)| many.2)
         .done();
     vec![table]
 }

@@ -28,14 +28,14 @@ pub fn trouble(trial: &Trial) -> Option<Verdict> {
         trial.iter().copied().filter(|verdict| *verdict != Verdict::Right).collect();
     wrong.sort_unstable();
     // Of equal counts `max_by_key` takes the last.
-    wrong.chunk_by(|a, b| a == b).rev().max_by_key(|own| own.len()).map(|own| own[0])
+    wrong.chunk_by(|a, b| a == b).rev().max_by_key(|equal| equal.len()).map(|equal| equal[0])
 }
 
 /// Runs everything.
 pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Error> {
     let scenes = scenes::all(parameters.short).map_err(|source| Error::failed("trials", source))?;
     let settings = &parameters.settings;
-    let pairs = scenes.iter().flat_map(|scene| settings.iter().map(move |own| (scene, own)));
+    let pairs = scenes.iter().flat_map(|scene| settings.iter().map(move |way| (scene, way)));
     let stage = progress.stage("scenes where methods fail", (scenes.len() * settings.len()) as u64);
     let trials = each(&stage, progress, pairs, |(scene, setting)| {
         let method = setting.method.with(setting.value);

@@ -141,8 +141,8 @@ pub(super) fn class_ranges(census: &Census) -> Vec<(f64, usize, Cases, f64, u128
         };
         let possible: Vec<(usize, usize)> =
             enumerated().filter(|&(n, k)| class.different(k).is_some_and(|d| d <= n)).collect();
-        let below = possible.iter().filter(|own| !agrees(own)).map(|own| own.1).max().unwrap_or(0);
-        let cases = cases(possible.iter().filter(|own| own.1 > below).map(agrees));
+        let below = possible.iter().filter(|at| !agrees(at)).map(|at| at.1).max().unwrap_or(0);
+        let cases = cases(possible.iter().filter(|at| at.1 > below).map(agrees));
         let found = formula(3, below).map_or(f64::NAN, Fraction::to_f64);
         let counted = counted(census, 3, below, class.repeats);
         (class.equation.into(), below + 1, cases, found, counted)

@@ -44,8 +44,8 @@ pub fn tables(found: &Nucleation) -> Vec<Table> {
     let gaps: Vec<Gaps> = parameters.sigmas.par_iter().map(gaps).collect();
     let mut chains = Vec::new();
     for (row, ((masses, _, sigma), part)) in ensembles(parameters).zip(&found.rows).enumerate() {
-        let own = &gaps[row % gaps.len()];
-        for (&time, chances) in parameters.times.iter().zip(&own.within) {
+        let at = &gaps[row % gaps.len()];
+        for (&time, chances) in parameters.times.iter().zip(&at.within) {
             let expected = chances.at_least_one(masses, chain.boundary);
             chains.push(Chains { masses, sigma, time, part, expected });
         }
@@ -131,8 +131,8 @@ fn all(parameters: &NucleationParams, chains: &[Chains<'_>], half: f64) -> Table
     Table::of("nucleation.all", &[parameters], |_| 0)
         .real("half", SIGMA, 4, "σ where half of the chains have such a gap", |_| half)
         .count("shortest", "masses of the shortest chains", |_| shortest as u64)
-        .real("off", "1", 1, "largest distance of found and expected shares by then", |own| {
-            off(own.chain.masses)
+        .real("off", "1", 1, "largest distance of found and expected shares by then", |row| {
+            off(row.chain.masses)
         })
         .real("off_shortest", "1", 1, "the same of the shortest chains", |_| off(shortest))
         .done()

@@ -33,12 +33,12 @@ impl ByDistance {
         let mut places = vec![0; gaps];
         let mut hit = vec![vec![0; gaps]; masks.len()];
         for (seed, trace) in ran(traces) {
-            for (gap, own) in trace.hits.iter().enumerate() {
+            for (gap, bits) in trace.hits.iter().enumerate() {
                 let distance = gap.abs_diff(seed);
                 places[distance] += 1;
-                if *own != 0 {
+                if *bits != 0 {
                     let both = hit.iter_mut().zip(&masks);
-                    both.for_each(|(hit, mask)| hit[distance] += u64::from(own & mask != 0));
+                    both.for_each(|(hit, mask)| hit[distance] += u64::from(bits & mask != 0));
                 }
             }
         }
@@ -49,23 +49,23 @@ impl ByDistance {
     /// The sum over groups of runs, without the group of index `left_out` if there is one.
     pub(super) fn sum(groups: &[ByDistance], left_out: usize) -> Self {
         let of = groups.iter().enumerate().filter(|(group, _)| *group != left_out);
-        let mut seen = of.map(|(_, own)| own.clone());
+        let mut seen = of.map(|(_, group)| group.clone());
         let first = seen.next().unwrap_or_default();
-        seen.fold(first, |mut all, own| {
-            let add = |all: &mut Vec<u64>, own: &Vec<u64>| {
-                all.iter_mut().zip(own).for_each(|(all, own)| *all += own);
+        seen.fold(first, |mut all, group| {
+            let add = |all: &mut Vec<u64>, more: &Vec<u64>| {
+                all.iter_mut().zip(more).for_each(|(all, more)| *all += more);
             };
-            add(&mut all.places, &own.places);
-            all.reached.iter_mut().zip(&own.reached).for_each(|(all, own)| add(all, own));
-            all.active.iter_mut().zip(&own.active).for_each(|(all, own)| add(all, own));
+            add(&mut all.places, &group.places);
+            all.reached.iter_mut().zip(&group.reached).for_each(|(all, more)| add(all, more));
+            all.active.iter_mut().zip(&group.active).for_each(|(all, more)| add(all, more));
             all
         })
     }
 
     /// The share of the gaps at each distance; 0 where no gap has that distance.
     pub(super) fn shares<'a>(&'a self, hit: &'a [u64]) -> impl Iterator<Item = f64> + 'a {
-        let share = |(own, all): (&u64, &u64)| {
-            if *all > 0 { *own as f64 / *all as f64 } else { 0.0 }
+        let share = |(part, all): (&u64, &u64)| {
+            if *all > 0 { *part as f64 / *all as f64 } else { 0.0 }
         };
         hit.iter().zip(&self.places).map(share)
     }

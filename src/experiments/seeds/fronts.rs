@@ -34,25 +34,25 @@ pub fn beat(chain: &Chain) -> f64 {
 impl Fronts {
     pub(super) fn of(parameters: &SeedsParams, (seed, trace): (usize, &Trace)) -> Self {
         let (end, beat) = (parameters.until() as u32, beat(&parameters.chain) as u32);
-        let mut own = Fronts::default();
+        let mut sums = Fronts::default();
         let (left, right) = (trace.firsts[..seed].iter().rev(), trace.firsts[seed + 1..].iter());
         for ahead in [left.collect::<Vec<_>>(), right.collect()] {
-            own.fronts += f64::from(!ahead.is_empty());
+            sums.fronts += f64::from(!ahead.is_empty());
             let mut at = 0;
             for first in ahead {
                 let time = first.unwrap_or(end);
                 let wait = time - at;
-                own.waited += f64::from(wait);
+                sums.waited += f64::from(wait);
                 if first.is_none() {
-                    own.standing += f64::from(wait > end / 2);
+                    sums.standing += f64::from(wait > end / 2);
                     break;
                 }
-                own.steps += 1.0;
-                own.short += f64::from(wait <= beat);
+                sums.steps += 1.0;
+                sums.short += f64::from(wait <= beat);
                 at = time;
             }
         }
-        own
+        sums
     }
 }
 

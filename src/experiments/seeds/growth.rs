@@ -51,7 +51,7 @@ fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 2]> {
     let edges: Vec<f64> = (1..=parameters.bins).map(|bin| bin as f64 * parameters.bin).collect();
     let reaches = Reach::within(&parameters.chain, &edges, ANGLES);
     let by = |variance: f64| {
-        let by = reaches.iter().map(|own| own.probability(parameters.chain.spacing, variance));
+        let by = reaches.iter().map(|reach| reach.probability(parameters.chain.spacing, variance));
         let by: Vec<f64> = std::iter::once(0.0).chain(by).collect();
         by.windows(2).map(|pair| pair[1] - pair[0]).collect()
     };
@@ -62,12 +62,12 @@ fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 2]> {
 /// The predictions of all transients, from the counts of groups of runs at each σ.
 pub(super) fn predictions(parameters: &SeedsParams, seen: &[Vec<ByDistance>]) -> Vec<Prediction> {
     let closing = closing(parameters);
-    let sum = |left| seen.iter().map(|own| ByDistance::sum(own, left)).collect();
+    let sum = |left| seen.iter().map(|groups| ByDistance::sum(groups, left)).collect();
     let sums: Vec<Vec<ByDistance>> = (0..=GROUPS).map(sum).collect();
     let of = |&transient: &usize| {
         let means = |seen: &Vec<ByDistance>| {
             let both = closing.iter().zip(seen);
-            both.map(|(own, seen)| expected(parameters, own, seen, transient)).collect()
+            both.map(|(chances, seen)| expected(parameters, chances, seen, transient)).collect()
         };
         Prediction { transient, means: sums.iter().map(means).collect() }
     };
@@ -85,8 +85,8 @@ fn expected(
     // The chance that a gap y sends an impact over a distance into the window.
     let sends = |closing: &[f64]| -> Vec<f64> {
         let mut all = vec![0.0; gaps];
-        let mut add = |chance: f64, own: &[u64]| {
-            for (sum, share) in all.iter_mut().zip(seen.shares(own)) {
+        let mut add = |chance: f64, hit: &[u64]| {
+            for (sum, share) in all.iter_mut().zip(seen.shares(hit)) {
                 *sum += 0.5 * chance * share;
             }
         };

@@ -154,18 +154,18 @@ mod tests {
         let mut sums = [[[0.0; 2]; 6]; 2];
         for index in 0..20_000 {
             let mut normals = NormalPairs::new("test of seeds", 1, index);
-            let own = Search { chain: &chain, sigma, normals: &mut normals }.chain();
-            assert_eq!(closing(&chain, &own.0), [own.1]);
-            for (sums, (forcing, seed)) in sums.iter_mut().zip([own, whole()]) {
+            let drawn = Search { chain: &chain, sigma, normals: &mut normals }.chain();
+            assert_eq!(closing(&chain, &drawn.0), [drawn.1]);
+            for (sums, (forcing, seed)) in sums.iter_mut().zip([drawn, whole()]) {
                 let square: f64 = forcing.as_flattened().iter().map(|x| x * x).sum();
                 sums[seed][0] += 1.0;
                 sums[seed][1] += square / (10.0 * sigma * sigma);
             }
         }
-        for (own, whole) in sums[0].iter().zip(&sums[1]) {
-            let [counts, squares] = [0, 1].map(|i| (own[i] - whole[i]) / whole[0].sqrt());
+        for (drawn, whole) in sums[0].iter().zip(&sums[1]) {
+            let [counts, squares] = [0, 1].map(|i| (drawn[i] - whole[i]) / whole[0].sqrt());
             let near = counts.abs() < 5.0 && squares.abs() < 5.0;
-            assert!(whole[0] > 500.0 && near, "{own:?} {whole:?}");
+            assert!(whole[0] > 500.0 && near, "{drawn:?} {whole:?}");
         }
     }
 }

@@ -83,28 +83,28 @@ fn fronts(rows: &[RunsAtSigma<'_>]) -> Table {
             row.seen.exponent()
         })
         .estimate("bursts", "1", "share of steps within a beat", |row| {
-            over(&row.fronts, |own| [own.short, own.steps])
+            over(&row.fronts, |sums| [sums.short, sums.steps])
         })
         .real("even", "1", 2, "the same for steps at a constant rate and this speed", |row| {
             let beat = beat(&row.parameters.chain);
-            let speed = over(&row.fronts, |own| [own.steps, own.waited]);
+            let speed = over(&row.fronts, |sums| [sums.steps, sums.waited]);
             speed.map_or(0.0, |speed| -pxfm::f_expm1(-speed.value * beat))
         })
         .estimate("standing", "1", "share of fronts without a step in the second half", |row| {
-            over(&row.fronts, |own| [own.standing, own.fronts])
+            over(&row.fronts, |sums| [sums.standing, sums.fronts])
         })
         .done()
 }
 
 fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
-    let sigmas = |own| rows.iter().enumerate().map(move |(place, row)| (own, place, row));
+    let sigmas = |given| rows.iter().enumerate().map(move |(place, row)| (given, place, row));
     let rows: Vec<(&Prediction, usize, &RunsAtSigma<'_>)> =
         predicted.iter().flat_map(sigmas).collect();
     Table::of("seeds.means", &rows, |(.., row)| row.parameters.realisations)
-        .key("transient", TIME, |(own, _, row)| own.transient as f64 * row.parameters.bin)
+        .key("transient", TIME, |(given, _, row)| given.transient as f64 * row.parameters.bin)
         .key("sigma", SIGMA, |(.., row)| row.sigma)
-        .estimate("grown", "1", "mean count by nucleation and growth", |(own, place, _)| {
-            own.mean(*place)
+        .estimate("grown", "1", "mean count by nucleation and growth", |(given, place, _)| {
+            given.mean(*place)
         })
         .done()
 }
@@ -112,19 +112,19 @@ fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
 /// Where the mean counts pass half of all gaps.
 fn rise(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
     Table::of("seeds.rise", predicted, |_| parameters.realisations)
-        .key("transient", TIME, |own| own.transient as f64 * parameters.bin)
-        .estimate("half_height", SIGMA, "σ where that is half of all gaps", |own| {
-            own.half_height(parameters)
+        .key("transient", TIME, |given| given.transient as f64 * parameters.bin)
+        .estimate("half_height", SIGMA, "σ where that is half of all gaps", |given| {
+            given.half_height(parameters)
         })
         .done()
 }
 
 fn all(parameters: &SeedsParams) -> Table {
-    Table::of("seeds.all", &[parameters], |own| own.realisations)
-        .count("realisations", "chains at each σ", |own| own.realisations as u64)
-        .count("sigmas", "values of σ", |own| own.sigmas.len() as u64)
-        .chosen("until", TIME, "time since the first impact", |own| Some(own.until()))
-        .real("beat", TIME, 3, "2π/|Ω − ω|", |own| beat(&own.chain))
+    Table::of("seeds.all", &[parameters], |p| p.realisations)
+        .count("realisations", "chains at each σ", |p| p.realisations as u64)
+        .count("sigmas", "values of σ", |p| p.sigmas.len() as u64)
+        .chosen("until", TIME, "time since the first impact", |p| Some(p.until()))
+        .real("beat", TIME, 3, "2π/|Ω − ω|", |p| beat(&p.chain))
         .done()
 }
 
@@ -137,7 +137,7 @@ impl RunsAtSigma<'_> {
     /// Gaps of a run with an impact in some bins.
     fn hit(&self, from: usize, count: usize) -> Option<Estimate> {
         let mask = bits(from, count);
-        let of = |trace: &Trace| trace.hits.iter().filter(|own| **own & mask != 0).count() as f64;
+        let of = |trace: &Trace| trace.hits.iter().filter(|bits| **bits & mask != 0).count() as f64;
         average(&self.runs.iter().map(|(_, trace)| of(trace)).collect::<Vec<_>>())
     }
 }

@@ -23,10 +23,10 @@ impl Method for Certified {
     fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
         check_end(until)?;
         let mut cost = Cost::default();
-        let own = *start == State::of(scenario);
-        let moved = if own { None } else { Some(start.as_scenario(scenario)?) };
+        let same = *start == State::of(scenario);
+        let moved = if same { None } else { Some(start.as_scenario(scenario)?) };
         let mut engine = Engine::new(moved.as_ref().unwrap_or(scenario))?;
-        let resting = if own { Vec::new() } else { resting(scenario, start) };
+        let resting = if same { Vec::new() } else { resting(scenario, start) };
         let speed = AT_REST * scenario.spacing * scenario.natural_frequency;
         engine
             .run(until - start.time, |impact| {

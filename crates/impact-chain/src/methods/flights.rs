@@ -94,10 +94,10 @@ impl Flights {
         let length = |x: f64, y: f64| (x * x + y * y).sqrt();
         let [of_left, of_right] = [self.free[left], self.free[right]];
         let free = length(of_right[0] - of_left[0], of_right[1] - of_left[1]);
-        let forced = self.forced.iter().map(|own| {
+        let forced = self.forced.iter().map(|part| {
             let [c, s] =
-                [&own.cos, &own.sin].map(|amplitudes| amplitudes[right] - amplitudes[left]);
-            own.frequency * own.frequency * length(c, s)
+                [&part.cos, &part.sin].map(|amplitudes| amplitudes[right] - amplitudes[left]);
+            part.frequency * part.frequency * length(c, s)
         });
         INFLATION * (self.omega * self.omega * free + forced.sum::<f64>())
     }

@@ -18,7 +18,7 @@ pub fn response(scenario: &Scenario) -> Vec<[f64; 2]> {
 /// Rotates the phases of the forcing by those at the instant `at`, which becomes t = 0.
 pub fn turn(scenario: &mut Scenario, at: Instant) {
     let first = (scenario.forcing_frequency, &mut scenario.forcing);
-    let further = scenario.overtones.iter_mut().map(|own| (own.frequency, &mut own.amplitudes));
+    let further = scenario.overtones.iter_mut().map(|o| (o.frequency, &mut o.amplitudes));
     for (big_w, amplitudes) in std::iter::once(first).chain(further) {
         let (sin, cos) = sin_cos_turn(Rate::new(big_w).turn(at));
         for [alpha, beta] in amplitudes {

@@ -94,8 +94,8 @@ impl State {
         let mut moved = scenario.clone();
         forcing::turn(&mut moved, Instant::at(self.time));
         let forced = forcing::response(&moved);
-        let own = u[1..].iter().zip(&self.velocities).zip(forced);
-        let free = own.map(|((u, v), [x, y])| [u - x, (v - y) / scenario.natural_frequency]);
+        let parts = u[1..].iter().zip(&self.velocities).zip(forced);
+        let free = parts.map(|((u, v), [x, y])| [u - x, (v - y) / scenario.natural_frequency]);
         let free = free.collect();
         moved.initial = Initial::Free(free);
         Ok(moved)

@@ -93,8 +93,8 @@ impl Earliest {
     pub fn ties_with_neighbour(&self, index: usize) -> bool {
         let before = if index == 0 { self.last } else { index - 1 };
         let after = if index == self.last { 0 } else { index + 1 };
-        let own = self.keys[index];
-        (self.keys[before] == own) | (self.keys[after] == own)
+        let key = self.keys[index];
+        (self.keys[before] == key) | (self.keys[after] == key)
     }
 
     #[inline(always)]

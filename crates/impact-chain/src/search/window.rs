@@ -34,8 +34,8 @@ pub fn next_window<const M: usize>(
 ) -> Option<f64> {
     let amplitude = |[u, quadrature]: [f64; 2]| (u * u + quadrature * quadrature).sqrt();
     let amplitudes: [f64; M] = std::array::from_fn(|m| amplitude(forced[m]));
-    let own = amplitude(free);
-    let total = amplitudes.iter().fold(own, |sum, r| sum + r) * (1.0 + 1e-12);
+    let amplitude_of_free = amplitude(free);
+    let total = amplitudes.iter().fold(amplitude_of_free, |sum, r| sum + r) * (1.0 + 1e-12);
     if total < mean {
         return None;
     }
@@ -49,7 +49,7 @@ pub fn next_window<const M: usize>(
         let half_width = if narrow { half_width + WIDENED } else { 4.0 };
         Part { frequency, amplitude: r, angle, half_width }
     };
-    let free = part(frequencies.omega, free, own);
+    let free = part(frequencies.omega, free, amplitude_of_free);
     let forced: [Part; M] =
         std::array::from_fn(|m| part(frequencies.big_omegas[m], forced[m], amplitudes[m]));
     let mut s = 0.0;
