@@ -7,7 +7,7 @@ paper: ## the whole reproduction in the full profile, into paper/
 	.ci/module && cargo run --release --locked -- paper
 
 quick: ## the same with small samples, into target/paper-quick/
-	cargo run --release --locked -- paper --profile quick
+	.ci/module && cargo run --release --locked -- paper --profile quick
 
 check: ## every claim with its verdict; fails if one does not hold
 	cargo run --release --locked -- check

@@ -21,7 +21,7 @@ pub fn paper() -> Paper {
     Paper {
         authors: vec![("The impact-paper authors", "")],
         date: "2026-11-27",
-        license: "MIT OR Apache-2.0",
+        license: "text and figures CC BY 4.0, code MIT OR Apache-2.0",
         crates: vec![
             ("impact_numerics", "crates/numerics/src"),
             ("impact_chain", "crates/impact-chain/src"),

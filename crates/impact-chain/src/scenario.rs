@@ -70,8 +70,7 @@ impl Default for Form {
     }
 }
 
-const FORM: &str =
-    r#"write {"forcing": [[alpha, beta], ...]}, and what is not as in the paper beside it"#;
+const FORM: &str = r#"write {"forcing": [[alpha, beta], ...]}, and other fields where they are not as in the paper"#;
 
 impl Form {
     fn read(text: &str) -> Result<Self, Error> {

@@ -71,7 +71,7 @@ pub struct Paper {
     pub authors: Vec<(&'static str, &'static str)>,
     /// Day of this version, YYYY-MM-DD; may be empty.
     pub date: &'static str,
-    /// Its licence, as SPDX writes it; may be empty.
+    /// Its licence in words; may be empty.
     pub license: &'static str,
     /// Its files.
     pub project: Project,
