@@ -28,7 +28,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     decades.curve("p for a start from rest", &from_rest, rest, Outside::Cut)?;
     decades.curve("p of Eq. (25)", &p, main, Outside::Cut)?;
     let on = |points: &[(f64, f64)], height| super::simulated::reaches(points, height);
-    linear.label("start from rest", on(&from_rest, 0.35), (-2, 0), GREY)?;
+    linear.label("start from rest", on(&from_rest, 0.35), (-3, 0), GREY)?;
     linear.label("Eq. (25): random free parts", on(&p, 0.2), (2, 0), BLUE)?;
 
     let (level, bottom) = (results.number("theory.jump.p_jump")?, decades.y.lo);

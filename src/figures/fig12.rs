@@ -37,6 +37,6 @@ fn lag(sheet: &Sheet, panel: &Panel, [from, to]: [f64; 2], level: f64) -> Result
     sheet.free().arrow(vec![panel.at(from, level), panel.at(to, level)], Stroke::solid(INK, THIN));
     let middle = (PRINTED + to) / 2.0;
     panel.label(&format!("+{}", short(to - from, 2)), (middle, level), (0, -1), INK)?;
-    panel.label(&short(from, 4), (from, level), (-1, 0), INK)?;
+    panel.label(&short(from, 4), (from, level), (-2, 0), INK)?;
     panel.label(&short(to, 4), (to, level), (1, 0), INK)
 }
