@@ -1,12 +1,10 @@
 //! What the paper states, row by row, compared with what this edition finds: [`Check`].
 //!
-//! A statement stands in `templates/published.toml` ([`Published`]) with its place; the row here
-//! with the same id computes our finding from the results of the experiments and judges it. Prose,
-//! table, `check` and its exit code read the same row.
+//! A statement stands in `templates/published.toml` ([`Published`]) with its place; the row here with the same id
+//! judges it by the results of the experiments. Prose, table, `check` and its exit code read the same row.
 //!
-//! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a
-//! difference that we explain no longer has the size that the explanation predicts. [`relations`]
-//! compare numbers of this edition with one another.
+//! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a difference no longer has the
+//! size that its explanation predicts. [`relations`] compare numbers of this edition with one another.
 
 mod judge;
 pub mod relations;

@@ -7,15 +7,15 @@ use impact_chain::{Protocol, Start};
 
 const WIDTH: &str = "from a quarter to three quarters of all gaps";
 
-fn masses(own: &Counted) -> usize {
-    own.ensemble.chain.masses
+fn masses(one: &Counted) -> usize {
+    one.ensemble.chain.masses
 }
 
 /// The chains from rest between walls, with their curves.
 pub fn from_rest(found: &[Counted]) -> impl Iterator<Item = (&Counted, &Curve)> {
     let at_rest =
-        |own: &&Counted| own.ensemble.heating.is_none() && own.ensemble.chain.start == Start::Rest;
-    found.iter().filter(at_rest).flat_map(|own| own.curves.iter().map(move |curve| (own, curve)))
+        |one: &&Counted| one.ensemble.heating.is_none() && one.ensemble.chain.start == Start::Rest;
+    found.iter().filter(at_rest).flat_map(|one| one.curves.iter().map(move |curve| (one, curve)))
 }
 
 /// Both branches after one transient: the ensembles with their curves.
@@ -44,20 +44,20 @@ pub fn both(found: &[Counted]) -> Vec<Both<'_>> {
     let mut both = Vec::new();
     for rest in from_rest(found) {
         let Protocol { transient, window } = rest.1.protocol;
-        let hot = |own: &&Counted| own.ensemble.heating.is_some() && masses(own) == masses(rest.0);
-        let mut curves = found.iter().filter(hot).map(|own| (own, own.curve(transient, window)));
-        if let Some((own, Some(curve))) = curves.find(|own| own.1.is_some()) {
-            both.push(Both { rest, above: (own, curve) });
+        let hot = |one: &&Counted| one.ensemble.heating.is_some() && masses(one) == masses(rest.0);
+        let mut curves = found.iter().filter(hot).map(|one| (one, one.curve(transient, window)));
+        if let Some((one, Some(curve))) = curves.find(|one| one.1.is_some()) {
+            both.push(Both { rest, above: (one, curve) });
         }
     }
     both
 }
 
 /// Share of all gaps with an impact at a σ; none where the runs were shorter.
-pub fn share((own, curve): (&Counted, &Curve), sigma: f64) -> Option<Estimate> {
+pub fn share((one, curve): (&Counted, &Curve), sigma: f64) -> Option<Estimate> {
     let row = curve.rows.iter().find(|row| row.sigma == sigma)?;
     let mean = row.mean_all?.estimate()?;
-    let gaps = own.ensemble.chain.gaps() as f64 / own.ensemble.pieces as f64;
+    let gaps = one.ensemble.chain.gaps() as f64 / one.ensemble.pieces as f64;
     Some(with_error(mean.value / gaps, mean.error / gaps))
 }
 
@@ -101,7 +101,7 @@ fn shares(both: &[Both<'_>]) -> Table {
 
 /// Half heights of chains from rest of lengths at which none was run from above.
 fn lengths(found: &[Counted], both: &[Both<'_>]) -> Table {
-    let other = |(own, _): &(&Counted, _)| both.iter().all(|both| !std::ptr::eq(both.rest.0, *own));
+    let other = |(one, _): &(&Counted, _)| both.iter().all(|both| !std::ptr::eq(both.rest.0, *one));
     let rows: Vec<_> = from_rest(found).filter(other).collect();
     Table::of("branches.lengths", &rows, |row| row.0.ensemble.realisations)
         .key("masses", "1", |row| masses(row.0) as f64)
@@ -116,8 +116,8 @@ fn lengths(found: &[Counted], both: &[Both<'_>]) -> Table {
 /// Half heights of chains with random free parts.
 fn random(found: &[Counted]) -> Table {
     let random = named(found, "random");
-    let curves = random.map_or(&[][..], |own| &own.curves);
-    Table::of("branches.random", curves, |_| random.map_or(0, |own| own.ensemble.realisations))
+    let curves = random.map_or(&[][..], |one| &one.curves);
+    Table::of("branches.random", curves, |_| random.map_or(0, |one| one.ensemble.realisations))
         .key("transient", TIME, |curve| curve.protocol.transient)
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, |curve| curve.rise.half_height_all)
@@ -126,16 +126,16 @@ fn random(found: &[Counted]) -> Table {
 
 fn all(found: &[Counted]) -> Table {
     let longest = found.iter().map(masses).max();
-    let heated = found.iter().find_map(|own| own.ensemble.heating.map(|heating| (own, heating)));
+    let heated = found.iter().find_map(|one| one.ensemble.heating.map(|heating| (one, heating)));
     Table::of("branches.all", &[()], |()| 0)
         .chosen("longest", "1", "masses of the longest chains", |()| longest.map(|n| n as f64))
         .chosen("masses", "1", "masses of the chains of both branches, the first of them", |()| {
-            heated.map(|(own, _)| masses(own) as f64)
+            heated.map(|(one, _)| masses(one) as f64)
         })
         .chosen("stretch", "1", "masses of a stretch that is counted like a chain", |()| {
-            heated.map(|(own, _)| (masses(own) / own.ensemble.pieces) as f64)
+            heated.map(|(one, _)| (masses(one) / one.ensemble.pieces) as f64)
         })
-        .chosen("hot", SIGMA, "σ of the force at first", |()| heated.map(|(_, own)| own.sigma))
-        .chosen("heating", TIME, "time under that force", |()| heated.map(|(_, own)| own.time))
+        .chosen("hot", SIGMA, "σ of the force at first", |()| heated.map(|(_, hot)| hot.sigma))
+        .chosen("heating", TIME, "time under that force", |()| heated.map(|(_, hot)| hot.time))
         .done()
 }

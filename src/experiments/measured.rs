@@ -1,8 +1,7 @@
 //! Times that were measured once, on one machine: `benches/measured.json`.
 //!
-//! Times are no results: they differ from run to run, so nothing of the paper's reproduction
-//! depends on them. `make measure` writes them, with date and machine, and they are committed; the
-//! report only reads them, and so keeps its bytes until somebody measures again.
+//! Times differ from run to run, so nothing of the reproduction depends on them. `make measure` writes them, with date
+//! and machine, and they are committed; the report only reads them, and keeps its bytes until somebody measures again.
 
 use crate::experiments::prelude::*;
 use crate::params::Setting;

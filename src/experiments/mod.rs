@@ -1,7 +1,7 @@
 //! What is run: one file for each experiment, and the list of them ([`ALL`]): names, parameters, runs and tables. The
 //! whole program uses this list. [`literate::experiments`] saves them and cuts them into units.
 
-// Parameters and results are what an experiment declares, and a vector is one of them.
+// Functions take parameters and results as the types that an experiment declares, also vectors.
 #![allow(clippy::ptr_arg)]
 
 pub mod accuracy;

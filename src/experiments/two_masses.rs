@@ -1,9 +1,8 @@
 //! Two masses (the remark of Sec. 2): under a low enough force they never hit.
 //!
-//! After a start from rest every gap keeps R1 + R2 < d, and so never closes, as long as the
-//! amplitudes are below a bound in closed form. A chain with fixed directions of the forcing and
-//! growing amplitude must therefore have its first impact at that bound or above, and come close
-//! to it when given time, because ω and Ω are incommensurable.
+//! After a start from rest every gap keeps R1 + R2 < d, and so never closes, while the amplitudes are below a bound in
+//! closed form. With fixed directions of the forcing and growing amplitude the first impact must therefore come at that
+//! bound or above, and close to it in long times, because ω and Ω are incommensurable.
 
 use crate::experiments::prelude::*;
 use crate::params::TwoMassesParams;

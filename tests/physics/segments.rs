@@ -1,10 +1,9 @@
 //! The saved scenarios of Figs. 5 and 6 show their circuits, in the engine and in the reference.
 //!
-//! They were searched for: random motions do not show the impacts of Fig. 6 in order (none in 10^7 impacts).
-//! Once the *times* of the impacts are chosen, though, all else is linear: each impact requires Δ = 0 and
-//! a kick of −(1 + r) Δ', in the unknown amplitudes (four a mass) and kicks. So the search went over
-//! times and lowered how far gaps close where they should not, kicks of the wrong sign, and large
-//! amplitudes; the best numbers were cut to five decimals.
+//! They were searched for, as random motions do not show the impacts of Fig. 6 in order (none in 10^7 impacts). For
+//! given *times* of the impacts all else is linear: each requires Δ = 0 and a kick of −(1 + r) Δ', in the unknown
+//! amplitudes (four for each mass) and kicks. The search went over times and lowered overlaps, kicks of the wrong sign,
+//! and large amplitudes; the best numbers were cut to five decimals.
 
 use crate::reference::{Dd, Hit, Real};
 use crate::trace;

@@ -5,8 +5,7 @@ use crate::Error;
 use crate::distribution::{Law, SampleSpace};
 use impact_numerics::scaled::Scaled;
 
-/// N (N − 1) … (N − count + 1) exactly: ordered choices of `count` of N vertices. Nothing if it
-/// exceeds 128 bits.
+/// N (N − 1) … (N − count + 1) exactly: ordered choices of `count` of N vertices. Nothing beyond 128 bits.
 pub(crate) fn arrangements(big_n: usize, count: usize) -> Option<u128> {
     let factors = (0..count).map(|i| big_n.saturating_sub(i) as u128);
     factors.into_iter().try_fold(1_u128, u128::checked_mul)
@@ -27,8 +26,7 @@ pub fn paths(big_n: usize, k: usize) -> Option<u128> {
 /// **Eq. (7)**
 ///
 /// φ_N(k), the number of distinct simple circuits of length k: N first vertices times
-/// [`paths`], each circuit met k times. Zero outside 1..=N; nothing if N!/(N − k)! exceeds
-/// 128 bits.
+/// [`paths`], each circuit met k times. Zero outside 1..=N; nothing if N!/(N − k)! exceeds 128 bits.
 pub fn phi(big_n: usize, k: usize) -> Option<u128> {
     if k == 0 {
         return Some(0);

@@ -2,8 +2,7 @@
 //! space of five classes.
 //!
 //! The printed formulas count cyclic sequences as length!/length would, which is right only while
-//! no sequence can be a repetition of a shorter one. [`SampleSpace::FiveClasses`] counts the circuits
-//! that are really different.
+//! no sequence can be a repetition of a shorter one. [`SampleSpace::FiveClasses`] counts distinct circuits.
 
 use crate::Fraction;
 use crate::counting::arrangements;
@@ -85,8 +84,7 @@ pub fn four_visits(big_n: usize, k: usize) -> Option<Fraction> {
 /// **Eq. (37)**
 ///
 /// φ_N^2(k) as printed, for k ≥ 3: two vertices visited twice, 1/8 (k − 1)!/(k − 4)!
-/// N!/(N − (k − 2))!. Gives 3 N (N − 1)/4 at k = 4, where there are N (N − 1)/2. Nothing beyond
-/// 128 bits.
+/// N!/(N − (k − 2))!. Gives 3 N (N − 1)/4 at k = 4, where there are N (N − 1)/2. Nothing beyond 128 bits.
 pub fn two_doubled(big_n: usize, k: usize) -> Option<Fraction> {
     printed(big_n, k, 4, k - 2, 8)
 }
@@ -125,8 +123,7 @@ impl Class {
     }
 
     /// [`SHARED`] times its number of circuits with k different vertices, over φ_N(k): by the
-    /// printed formula, or as primitive circuits. A polynomial in k with whole coefficients,
-    /// whatever N.
+    /// printed formula, or as primitive circuits. A polynomial in k with whole coefficients, for any N.
     pub fn per_simple_circuit(&self, space: SampleSpace, k: usize) -> u128 {
         let short = space == SampleSpace::FiveClasses;
         let k = k as u128;

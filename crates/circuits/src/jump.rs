@@ -83,8 +83,7 @@ pub fn step(big_n: usize, k: usize) -> f64 {
 }
 
 /// The first local maximum of Φ over integers as p grows: the k > 1 where f_{N,p}(k) = 0 at the
-/// smallest p, and that p as numerator and denominator. A little above p_crit, unless k+ is an
-/// integer there. Needs N ≥ 3.
+/// smallest p, and that p as a fraction. A little above p_crit, unless k+ is an integer there. Needs N ≥ 3.
 pub fn first_local_maximum(big_n: usize) -> Option<(usize, [usize; 2])> {
     // (k + 1)/(k (N − k)) over k: compare as integers, exactly.
     let parts = |k: usize| [k + 1, k * (big_n - k)];
@@ -110,8 +109,7 @@ pub struct Jump {
 /// bisection over doubles finds the place to the last bit.
 ///
 /// # Errors
-/// [`Error`] if k* = 1 for every p (N ≤ 3 for simple circuits, N = 1 with higher orders),
-/// and for N out of range.
+/// [`Error`] if k* = 1 for every p (N ≤ 3 for simple circuits, N = 1 with higher orders), or N is out of range.
 pub fn p_jump(space: SampleSpace, big_n: usize) -> Result<Jump, Error> {
     check_vertices(big_n)?;
     if !first_is_exceeded(space, big_n, DoubleDouble::ONE) {

@@ -4,12 +4,11 @@
 //! a time far below the rounding of t, and the run of gaps that are shut and slow is *settled*:
 //! their masses take a common velocity (momentum is kept), and the contact forces of the whole
 //! run decide which gaps are pressed. These form rigid clusters; the others open. Contact is
-//! decided for the cluster, not pair by pair: a neighbour's pressure may hold a gap shut that
-//! would open alone.
+//! decided for the whole run, not pair by pair: a gap that would open alone may be held shut by its neighbours.
 //!
 //! In a cluster each contact force is L + C cos Ωt + S sin Ωt exactly, so its first zero is
 //! found by the same certified search as an impact. A hit from outside frees the masses of the
-//! cluster, is carried through it by the impact law, and what is slow is settled again.
+//! cluster, is carried through it by the impact law, and slow gaps are settled again.
 
 use super::complementarity::contact_forces;
 use super::flight::{Motion, Phases};

@@ -4,9 +4,8 @@ use super::random::generator;
 use super::statistics::{Estimate, quantile, standard_deviation};
 use rand::Rng;
 
-/// How often each of `size` members of a sample is drawn in resample `index`: `size` draws with
-/// replacement. The same (seed, index, size) always gives the same weights, so quantities are
-/// resampled jointly by use of the same index.
+/// How often each of `size` members of a sample is drawn in resample `index`: `size` draws with replacement. Equal
+/// (seed, index, size) give equal weights, so quantities are resampled jointly by use of the same index.
 pub fn weights(seed: u64, index: u64, size: usize) -> Vec<u32> {
     let mut random = generator("bootstrap", seed, index);
     let mut weights = vec![0; size];

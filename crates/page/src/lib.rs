@@ -151,8 +151,8 @@ pub extern "C" fn advance(impacts: u32) -> u32 {
     answer(|page| page.advance(impacts.into()))
 }
 
-/// The circuits of N vertices with edge probability p, into the numbers: k*, μ, p_crit, p_jump, k− and k+ (−1 for what
-/// is not there), then P(X = k) for k = 1..N, then f(k).
+/// The circuits of N vertices with edge probability p, into the numbers: k*, μ, p_crit, p_jump, k− and k+ (−1 where one
+/// does not exist), then P(X = k) for k = 1..N, then f(k).
 #[unsafe(no_mangle)]
 pub extern "C" fn law(vertices: usize, p: f64) -> u32 {
     answer(|page| {

@@ -6,8 +6,7 @@ use crate::Engine;
 /// The exact event-driven engine: flight in closed form, the first root of each gap certified.
 ///
 /// - Source: this project, [`crate::Engine`].
-/// - Order: none, it has no step. The error of an impact's time is a few roundings of the gap over
-///   its closing speed.
+/// - Order: none, it has no step. The time of an impact is off by a few roundings of the gap over its speed.
 /// - Fails: nowhere within the model; a run that needs more events than its bound is an error.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Certified;

@@ -1,11 +1,10 @@
 //! The motion of a chain to 106 bits, with which every method is compared.
 //!
-//! The certified engine, started from the state rounded to doubles, finds which gap closes next; the
-//! instant is then refined here, by Newton's iteration on plain amplitudes of 106 bits, and so is
-//! all that follows from it. Chaos enlarges 1e−31 to 1e−3 in about twice the time
-//! in which it enlarges the rounding of doubles, so runs are true far beyond the horizon of any
-//! method. A tie of two gaps within the rounding of doubles could be taken in the wrong order; it
-//! has a probability of about 1e−14 an impact.
+//! The certified engine, started from the state rounded to doubles, finds which gap closes next; the instant, and all that
+//! follows from it, is then computed by Newton's iteration on plain amplitudes of 106 bits. Chaos enlarges 1e−31 to 1e−3
+//! in about twice the time in which it enlarges the rounding of doubles, so runs are right far beyond the horizon of any
+//! method. A tie of two gaps within the rounding of doubles could be taken in the wrong order; it has a probability of
+//! about 1e−14 an impact.
 
 use super::Certified;
 use super::prelude::*;

@@ -87,9 +87,8 @@ pub struct Point<const M: usize> {
     forced: [[f64; 2]; M],
 }
 
-/// Rounding of one evaluation, in units of the sum of the absolute values of its terms: each term
-/// carries at most five roundings of 2^-53 and the sum four more, 9 · 2^-53 < 5e-16 times 2;
-/// doubled, so that the margin may be used at both sides.
+/// Rounding of one evaluation, in units of the sum of the absolute values of its terms: each term carries at most five
+/// roundings of 2^-53 and the sum four more, 9 · 2^-53 < 5e-16 times 2; doubled, as the margin is used at both sides.
 pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl<const M: usize> Frame<M> {

@@ -136,7 +136,7 @@ const PATIENCE: u32 = 64;
 /// The first root after `from`, where f ≥ 0, or the proof that there is none up to `limit`.
 ///
 /// # Why no root is skipped
-/// s only moves over ground that is proven to hold no root, in one of two ways; both bound the
+/// s only advances over intervals that are proven to hold no root, in one of two ways; both bound the
 /// exact function from below, and count the rounding of its values against it. A *leap* goes to a
 /// point chosen by any guess (the end of the search, or just before a guessed root) and is taken
 /// if `stays_open` certifies the interval. Where it does not, `stretch` gives a step that is
