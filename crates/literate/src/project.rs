@@ -81,6 +81,16 @@ impl Project {
         self.top().unwrap_or_else(|| ".".into())
     }
 
+    /// The first file of the source that is not what it was when the program was built.
+    pub fn changed(&self) -> Option<&'static str> {
+        let top = self.top()?;
+        let differs = |path: &str, text: &str| {
+            std::fs::read_to_string(top.join(path)).is_ok_and(|now| now != text)
+        };
+        let file = self.sources.files.iter().find(|(path, text)| differs(path, text));
+        file.map(|(path, _)| *path)
+    }
+
     /// Whether a file or folder of the project is there. Without a checkout nobody can say, and it is believed.
     pub fn exists(&self, path: &str) -> bool {
         self.top().is_none_or(|top| top.join(path).exists())
@@ -133,5 +143,12 @@ mod tests {
         assert_eq!(paths(&project, &["src/a.rs"]), "Cargo.lock src/a.rs");
         let error = project.text("templates/no_such.md").unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::NotFound);
+    }
+
+    #[test]
+    fn a_file_that_was_edited_after_the_build_is_named() {
+        let changed = |files| Project::new(Sources { name: "toy", version: "1", files }).changed();
+        assert_eq!(changed(&[("src/project.rs", include_str!("project.rs"))]), None);
+        assert_eq!(changed(&[("src/project.rs", "before")]), Some("src/project.rs"));
     }
 }

@@ -1,6 +1,6 @@
 //! The whole report, from experiments to files in memory, and what holds in it.
 
-use super::terminal::{Threads, progress};
+use super::terminal::{Threads, progress, warn};
 use crate::claims::{Basis, Check, Kind, Published, Verdict, judge_all, score};
 use crate::experiments::{Profile, Progress, Results, Session, Store};
 use crate::failure::Failure;
@@ -34,6 +34,11 @@ pub(super) struct Sources {
 impl Sources {
     /// The run that is asked for.
     pub fn session<'a>(&self, paper: &'a Paper) -> Result<Session<'a>, Failure> {
+        if let Some(file) = paper.project.changed() {
+            warn(&format!(
+                "{file} has changed since this program was built; build it again to see the change"
+            ));
+        }
         let store = Store::open(&self.results);
         Session::of(paper, self.templates.as_deref(), self.profile, store, progress())
     }
