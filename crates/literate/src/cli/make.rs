@@ -62,7 +62,6 @@ impl<'a> Session<'a> {
             })),
         };
         let mut documents = paper.documents.iter();
-        documents.clone().try_for_each(|own| own.numbered(&templates))?;
         if documents.len() > 0 && documents.all(|own| own.files(&templates).is_empty()) {
             let names: Vec<&str> = paper.documents.iter().map(|document| document.prose).collect();
             let folder = prose.unwrap_or(Path::new(paper.prose)).display();

@@ -22,8 +22,8 @@ pub struct Label {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
     labels: BTreeMap<String, Label>,
-    /// Anchors of each kind so far.
-    anchors: BTreeMap<String, usize>,
+    /// Places of statements so far.
+    places: usize,
 }
 
 impl Labels {
@@ -43,7 +43,6 @@ impl Labels {
     /// Gives numbers to the sections, figures, equations, captioned tables, listings and anchors of a document, in order;
     /// figures and equations that have one keep it.
     pub fn number_all(&mut self, blocks: &mut [Block], of: Document) -> Result<(), Error> {
-        self.anchors.remove("note");
         let mut given: Vec<(&str, String)> = Vec::new();
         visit(blocks, &mut |inline| {
             if let Inline::Display { number, .. } = inline {
@@ -98,10 +97,8 @@ impl Labels {
         rewrite(blocks, &mut |mut inline| {
             match &mut inline {
                 Inline::Anchor { id, number } => {
-                    let kind = id.split(':').next().unwrap_or_default().to_string();
-                    let count = self.anchors.entry(kind).or_default();
-                    *count += 1;
-                    *number = count.to_string();
+                    self.places += 1;
+                    *number = self.places.to_string();
                     self.add(id, number, of, id)?;
                 }
                 Inline::Display { id: Some(id), number, .. } => {
@@ -240,7 +237,7 @@ pub(super) fn names(kind: &str) -> Option<[&'static str; 4]> {
         "claim" => ["claim", "claims", "Claim", "Claims"],
         "lst" => ["Listing", "Listings", "Listing", "Listings"],
         // Signs need no name.
-        "row" | "mark" | "sign" | "note" => [""; 4],
+        "row" | "mark" | "sign" => [""; 4],
         _ => return None,
     })
 }

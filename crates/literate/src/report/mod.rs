@@ -65,7 +65,7 @@ pub enum Error {
     Picture(String),
     #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]
     Label(String),
-    #[error("[@{}]: nothing in the report has this id; correct or remove the reference{}", one_line(.0, 200), several(.0))]
+    #[error("[@{}]: nothing in the report has this id; correct or remove the reference", one_line(.0, 200))]
     Reference(String),
     #[error(
         "no LaTeX is known for the character '{}' (U+{:04X}); write it otherwise, as TeX between $ signs or in words",
@@ -115,14 +115,6 @@ impl Error {
             Error::Several(errors) => errors.iter().all(Error::is_of_rules),
             _ => false,
         }
-    }
-}
-
-/// How several references are written, behind one that may be meant so.
-fn several(reference: &str) -> &'static str {
-    match reference.contains([' ', ',', ';', '@']) {
-        true => "; several are [@eq:1; @eq:2], of one kind and alike in their capitals",
-        false => "",
     }
 }
 

@@ -126,19 +126,4 @@ impl Document {
         let own = |path: &&str| *path == one || path.starts_with(&folder) && path.ends_with(".md");
         templates.iter().map(|(path, _)| path).filter(own).collect()
     }
-
-    /// Holds the files of its folder, if it has one, to the names `NN-name.md`, without a gap or a number twice.
-    pub(crate) fn numbered(&self, templates: &Templates) -> Result<(), Error> {
-        let number = |path: &str| path.rsplit('/').next()?.split_once('-')?.0.parse::<usize>().ok();
-        let files: Vec<_> =
-            self.files(templates).into_iter().filter(|path| path.contains('/')).collect();
-        let first = files.first().and_then(|path| number(path)).unwrap_or(0);
-        match files.iter().zip(first..).find(|(path, at)| number(path) != Some(*at)) {
-            Some((path, at)) => Err(Error::Template(format!(
-                "{}: {at:02}-name.md is expected here: one is missing or twice",
-                templates.place(path)
-            ))),
-            None => Ok(()),
-        }
-    }
 }

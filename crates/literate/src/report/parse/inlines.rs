@@ -6,7 +6,7 @@ use super::super::lint;
 use super::super::mark::{self, Piece, bare, framed, pieces};
 use super::super::print::{Printed, print};
 use super::super::{Error, mathml, tex};
-use super::{ALONE, ELSE, Reader, comment, is_block, markup};
+use super::{ALONE, ELSE, Reader, is_block, markup};
 use pulldown_cmark::{Event, LinkType, Tag};
 use std::ops::Range;
 
@@ -44,11 +44,6 @@ impl Reader<'_> {
                     out.push(self.display(&tex, range.end)?);
                 }
                 Event::SoftBreak => out.push(Inline::Soft),
-                Event::InlineHtml(html) => comment(&html)?,
-                Event::FootnoteReference(label) => {
-                    let note = self.reference(&format!("@note:{label}"), range.start)?;
-                    out.push(Inline::Raised(vec![note]));
-                }
                 Event::Start(tag) => out.push(self.span(tag, range)?),
                 _ => return Err(markup(ELSE)),
             }
@@ -97,19 +92,10 @@ impl Reader<'_> {
     }
 
     fn span(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Inline, Error> {
-        // What stands there is no text but a reference, or the address of a link.
-        if let Tag::Link { link_type, dest_url, .. } = &tag
-            && let LinkType::ShortcutUnknown | LinkType::Autolink | LinkType::Email = link_type
-        {
+        // What stands there is no text but a reference.
+        if let Tag::Link { link_type: LinkType::ShortcutUnknown, dest_url, .. } = &tag {
             while !matches!(self.next(), None | Some((Event::End(_), _))) {}
-            let mail = if *link_type == LinkType::Email { "mailto:" } else { "" };
-            return match link_type {
-                LinkType::ShortcutUnknown => self.reference(dest_url, range.start),
-                _ => Ok(Inline::Link {
-                    to: format!("{mail}{dest_url}"),
-                    shown: vec![Inline::Text(dest_url.to_string())],
-                }),
-            };
+            return self.reference(dest_url, range.start);
         }
         let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
         self.hides += usize::from(hides);

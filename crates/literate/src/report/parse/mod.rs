@@ -25,10 +25,8 @@ pub fn parse<'a>(
     declared: &'a Declared,
     paper: &'a Paper,
 ) -> Result<(Vec<Block>, Places<'a>), Error> {
-    let options = Options::ENABLE_MATH
-        | Options::ENABLE_TABLES
-        | Options::ENABLE_FOOTNOTES
-        | Options::ENABLE_HEADING_ATTRIBUTES;
+    let options =
+        Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_HEADING_ATTRIBUTES;
     let callback = |link: BrokenLink<'_>| {
         let own = link.reference.starts_with('@') || link.reference.starts_with('!');
         own.then(|| (CowStr::from(link.reference.to_string()), CowStr::from("")))
@@ -134,16 +132,16 @@ impl<'a> Reader<'a> {
                 break;
             }
             match self.block() {
-                Ok(Some(block)) if within > 0 && !stands_within(&block) => {
+                Ok(block) if within > 0 && !stands_within(&block) => {
                     self.at = start;
                     let what = "what has a number or a place stands in no list and no quotation";
                     return Err(markup(what));
                 }
-                Ok(Some(Block::Listing { id, item, .. })) if id.is_empty() => {
+                Ok(Block::Listing { id, item, .. }) if id.is_empty() => {
                     let what = "without the paragraph `Listing: caption {#lst:id}` before it";
                     self.find(start, markup(format!("code of `{item}` {what}")));
                 }
-                Ok(block) => blocks.extend(block),
+                Ok(block) => blocks.push(block),
                 Err(error) if within > 0 => return Err(error),
                 Err(error) => {
                     self.find(self.at, error);
@@ -163,16 +161,16 @@ impl<'a> Reader<'a> {
         Ok(blocks)
     }
 
-    /// The next block; none for a comment.
-    fn block(&mut self) -> Result<Option<Block>, Error> {
+    /// The next block.
+    fn block(&mut self) -> Result<Block, Error> {
         let begins = |event: &Event<'_>| matches!(event, Event::Start(tag) if is_block(tag));
-        let Some((event, range)) = self.events.next_if(|(event, _)| begins(event)) else {
+        let begun = self.events.next_if(|(event, _)| begins(event));
+        let Some((Event::Start(tag), range)) = begun else {
             // Text right inside an item of a tight list.
             let range = self.events.peek().map_or(0..0, |(_, range)| range.clone());
             return self.paragraph(range);
         };
         self.at = range.start;
-        let Event::Start(tag) = event else { return Ok(None) };
         let block = match tag {
             Tag::Paragraph => {
                 let block = self.paragraph(range);
@@ -200,21 +198,9 @@ impl<'a> Reader<'a> {
                 }
                 let bare = unnumbered || level == 1 || plain(&text) == "Abstract";
                 let number = (!bare).then(String::new);
-                Some(Block::Heading { level, number, id, text })
+                Block::Heading { level, number, id, text }
             }
-            Tag::BlockQuote(_) => Some(Block::Quote(self.inner()?)),
-            Tag::FootnoteDefinition(label) => {
-                let id = format!("note:{label}");
-                self.id("note", &id, range.start)?;
-                let mut inner = self.inner()?;
-                self.at = range.start;
-                let (Some(Block::Paragraph(text)), None) = (inner.pop(), inner.pop()) else {
-                    return Err(markup("a footnote is one paragraph"));
-                };
-                let anchor = Inline::Anchor { id, number: String::new() };
-                let mark = [Inline::Raised(vec![anchor]), Inline::Text(" ".into())];
-                Some(Block::Paragraph(mark.into_iter().chain(text).collect()))
-            }
+            Tag::BlockQuote(_) => Block::Quote(self.inner()?),
             Tag::List(start) => {
                 let mut items = Vec::new();
                 while let Some(Event::Start(Tag::Item)) = self.peek() {
@@ -222,19 +208,10 @@ impl<'a> Reader<'a> {
                     items.push(self.inner()?);
                     self.next();
                 }
-                Some(Block::List { start, items })
+                Block::List { start, items }
             }
-            Tag::CodeBlock(kind) => Some(self.code(kind, &range)?),
-            Tag::Table(columns) => Some(self.table(columns)?),
-            Tag::HtmlBlock => {
-                let mut html = String::new();
-                while let Some(Event::Html(piece)) = self.peek() {
-                    html.push_str(piece);
-                    self.next();
-                }
-                comment(html.trim())?;
-                None
-            }
+            Tag::CodeBlock(kind) => self.code(kind, &range)?,
+            Tag::Table(columns) => self.table(columns)?,
             _ => return Err(markup(ELSE)),
         };
         self.next();
@@ -242,7 +219,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A paragraph, or what stands alone in it.
-    fn paragraph(&mut self, range: Range<usize>) -> Result<Option<Block>, Error> {
+    fn paragraph(&mut self, range: Range<usize>) -> Result<Block, Error> {
         let source = self.source(&range).trim_end();
         let own = source.strip_suffix('}').and_then(|source| source.rsplit_once("{#"));
         let id_at = own.map_or(0..0, |(words, _)| range.start + words.len()..range.end);
@@ -251,7 +228,7 @@ impl<'a> Reader<'a> {
             let path = dest_url.to_string();
             self.next();
             self.id_at = id_at;
-            return self.figure(&path, range.start, id).map(Some);
+            return self.figure(&path, range.start, id);
         }
         let caption = CAPTIONS.iter().find(|(word, _)| source.starts_with(word));
         self.id_at = if caption.is_some() { id_at } else { 0..0 };
@@ -267,10 +244,10 @@ impl<'a> Reader<'a> {
             *first = first.trim_start_matches(word).to_string();
             let mut block = self.block()?;
             match (&mut block, id) {
-                (Some(Block::Table { id: own, number, caption, .. }), id) if *kind == "tab" => {
+                (Block::Table { id: own, number, caption, .. }, id) if *kind == "tab" => {
                     (*own, *number, *caption) = (id, Some(String::new()), inlines);
                 }
-                (Some(Block::Listing { id: own, caption, .. }), Some(id)) if *kind == "lst" => {
+                (Block::Listing { id: own, caption, .. }, Some(id)) if *kind == "lst" => {
                     (*own, *caption) = (id, inlines);
                 }
                 _ => {
@@ -285,7 +262,7 @@ impl<'a> Reader<'a> {
         if let [Inline::Unresolved(ids)] = inlines.as_slice()
             && ids == &["bibliography"]
         {
-            return Ok(Some(Block::Bibliography(Vec::new())));
+            return Ok(Block::Bibliography(Vec::new()));
         }
         if let Some(Inline::Text(first)) = inlines.first_mut()
             && let Some((lab, words)) =
@@ -293,9 +270,9 @@ impl<'a> Reader<'a> {
         {
             let (lab, words) = (lab.to_string(), words.to_string());
             *first = words;
-            return Ok(Some(Block::Lab { lab, caption: inlines }));
+            return Ok(Block::Lab { lab, caption: inlines });
         }
-        Ok(Some(Block::Paragraph(inlines)))
+        Ok(Block::Paragraph(inlines))
     }
 
     /// A picture, which stands alone in its paragraph, with its id behind it: that of `figures/NAME.svg` is `fig:NAME`
@@ -375,14 +352,6 @@ impl<'a> Reader<'a> {
 const ELSE: &str = "this markup has no place in all formats";
 const ALONE: &str = "a picture stands alone in its paragraph";
 const FENCE: &str = "a block of code stands between two lines ```";
-
-/// Comments are for writers; other HTML has no place in four formats.
-fn comment(html: &str) -> Result<(), Error> {
-    match html.starts_with("<!--") && html.ends_with("-->") && html.len() >= 7 {
-        true => Ok(()),
-        false => Err(markup("no HTML but whole comments, <!-- … --> and nothing behind it")),
-    }
-}
 
 /// Cells of a row of a table, by its bars.
 fn cells_of(row: &str) -> usize {

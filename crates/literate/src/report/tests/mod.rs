@@ -55,10 +55,6 @@ Table: What σ gives {#tab:sigma}
 
 > An aside.
 
-A note[^wait] in passing.
-
-[^wait]: It waits.
-
 Lab toy: You run *them*.
 
 ```rust
@@ -129,7 +125,6 @@ Of [Eq.·(1)](#eq-map),⏎⏎<a id="eq-map"></a>⏎⏎$$⏎x \to f(x)⏎\tag{1}�
 | <a id="claim-jump"></a>2 | a_b \* c | 94.5(8)·% |⏎
 ⏎. and [Claim·2](#claim-jump) of [Table·1](#tab-sigma) and [Fig.·3](#fig-3).⏎
 1. one⏎2. two⏎⏎   more⏎
-⏎A note<sup>[1](#note-wait)</sup> in passing.⏎⏎<sup><a id="note-wait"></a>1</sup> It waits.⏎
 ```rust⏎fn f() -> σ { 1 }⏎```⏎
 ⏎By [Listing·1](#lst-kick), in words.⏎
 <a id="lst-kick"></a>**Listing 1.** What $\delta v$ does.⏎⏎<details>⏎<summary><code>toy::flight::Motion::kick</code></summary>⏎⏎```rust⏎/// 
@@ -159,7 +154,6 @@ at 100 \% of \texttt{a\_\allowbreak{}b}.⏎\begin{equation}⏎p_{
 Of \hyperref[eq:map]{Eq.~(1)},⏎\begin{equation}⏎x \to f(x)⏎\tag{1}\label{eq:map}⏎\end{equation}⏎follows
 \begin{longtable}{llr}⏎\caption{What \ensuremath{\sigma} gives}\label{tab:sigma}\\⏎
 \phantomsection\label{claim:jump}2 & a\_b * c & \origin{kept}{94.5(8)~\%} \\⏎
-A note\textsuperscript{\hyperref[note:wait]{1}} in passing.⏎
 \phantomsection\section*{References}
 ⏎By \hyperref[lst:kick]{Listing~1}, in words.⏎"##,
     );
