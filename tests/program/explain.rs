@@ -1,6 +1,6 @@
 //! `impact-paper explain` as a user meets it, on the report of the quick profile.
 
-use crate::{QUICK, answer, json, outcome, program, put, refused};
+use crate::{QUICK, answer, outcome, program, put, refused};
 
 /// A folder with the report as `r`.
 fn report() -> tempfile::TempDir {
@@ -82,14 +82,13 @@ fn every_origin_is_a_function() {
     let folder = report();
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let paper = folder.path().join("r");
-    let cards =
-        json(root, &format!("explain --json --paper {} {}", paper.display(), ids.join(" ")));
-    for card in cards.as_array().unwrap() {
-        let row = |name: &str| card["rows"].as_array().unwrap().iter().find(|r| r["name"] == name);
-        let by = row("computed by").unwrap_or_else(|| panic!("{card}"));
-        let source = std::fs::read_to_string(by["file"].as_str().unwrap()).unwrap();
-        let name = by["text"].as_str().unwrap().rsplit("::").next().unwrap();
-        assert!(source.contains(&format!("fn {name}")), "{}: {name}", card["id"]);
+    let cards = answer(root, &format!("explain --paper {} {}", paper.display(), ids.join(" ")));
+    for card in cards.split("\n\n") {
+        let by = card.lines().find_map(|line| line.trim_start().strip_prefix("computed by"));
+        let (item, file) = by.and_then(|by| by.trim().split_once(" (")).expect(card);
+        let source = std::fs::read_to_string(file.trim_end_matches(')')).unwrap();
+        let name = item.rsplit("::").next().unwrap();
+        assert!(source.contains(&format!("fn {name}")), "{card}");
     }
     let means = |id: &&&str| id.starts_with("sweep.rows") && id.ends_with(".mean");
     for mean in ids.iter().filter(means) {

@@ -59,11 +59,6 @@ fn answer(folder: &Path, arguments: &str) -> String {
     out
 }
 
-/// The JSON of such a run.
-fn json(folder: &Path, arguments: &str) -> serde_json::Value {
-    serde_json::from_str(&answer(folder, arguments)).unwrap()
-}
-
 /// Holds a run to its refusal: exit code 2, nothing on stdout, and one line on stderr, which has these
 /// words.
 fn refused(folder: &Path, arguments: &str, words: &[&str]) {

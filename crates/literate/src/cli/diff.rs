@@ -10,9 +10,7 @@ use crate::report::print::{Style, print as printed};
 use crate::report::values::{self, Digits, Registry, Value};
 use crate::report::{Error, Files, tex};
 use crate::table::number;
-use serde::Serialize;
-use serde_json::json;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
 
@@ -35,9 +33,6 @@ pub(super) struct Args {
     /// Print the first lines for a comment on a pull request.
     #[arg(long)]
     markdown: bool,
-    /// Print everything as JSON.
-    #[arg(long, conflicts_with = "markdown")]
-    json: bool,
     /// End with exit code 1 if anything differs.
     #[arg(long)]
     exit_code: bool,
@@ -45,21 +40,23 @@ pub(super) struct Args {
 
 pub(super) fn run(args: Args) -> Result<(), Failure> {
     let [before, after] = [parts(&args.old)?, parts(&args.new)?];
-    let diff = diff(&before, &after);
-    let same = diff == Diff::default();
     let [old, new] = [&args.old, &args.new].map(|name| shown(Path::new(name)));
-    let json = || json!({"old": old, "new": new, "same": same, "diff": diff});
-    let text = diff.text(&old, &new);
-    let told = match (args.markdown, args.json) {
-        // Hosts take comments of 65536 characters.
-        (true, _) => {
-            format!("~~~~\n{}\n~~~~\n", text.lines().take(300).collect::<Vec<_>>().join("\n"))
-        }
-        (_, true) => format!("{:#}\n", json()),
-        _ => text,
+    let checks = checks(&before.ledger, &after.ledger);
+    let numbers = numbers(&before.values, &after.values);
+    let counts = [count(checks.len(), "check"), count(numbers.len(), "number")];
+    let all = [checks, numbers, files(&before.files, &after.files)].concat();
+    // A report, and the name of a file, may hold what a terminal obeys.
+    let lines = all.iter().map(|line| line.replace(is_obeyed, " ") + "\n");
+    let text = match all.is_empty() {
+        true => format!("{old} and {new}: nothing differs\n"),
+        false => format!("{} changed\n{}", counts.join(" and "), lines.collect::<String>()),
     };
-    print(&told)?;
-    match same || !args.exit_code {
+    print(&match args.markdown {
+        // Hosts take comments of 65536 characters.
+        true => format!("~~~~\n{}\n~~~~\n", text.lines().take(300).collect::<Vec<_>>().join("\n")),
+        false => text,
+    })?;
+    match all.is_empty() || !args.exit_code {
         true => Ok(()),
         false => Err(Failure::check(format!("{} and {} differ", args.old, args.new))),
     }
@@ -130,118 +127,77 @@ fn committed(name: &str) -> Result<Files, Failure> {
     paths.map(read).collect()
 }
 
-/// A number or a check of which something differs.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-struct Change {
-    /// Its id.
-    id: String,
-    /// The number as it was printed, or the verdict; None for what is new.
-    before: Option<String>,
-    /// The same now; None for what is gone.
-    after: Option<String>,
-    /// After minus before, where both are numbers.
-    difference: Option<f64>,
-    /// The difference over the combined standard error, where there is one. Runs with the same seed
-    /// share their chance, and then it overrates the error.
-    sigmas: Option<f64>,
-    /// What else differs, by its name, before and after.
-    also: BTreeMap<&'static str, [String; 2]>,
-}
-
-/// What differs, part by part; all empty for the same bytes.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-struct Diff {
-    /// Checks with another verdict or another measure, gained and lost.
-    verdicts: Vec<Change>,
-    /// Values with another number or unit, gained and lost, the largest change first.
-    numbers: Vec<Change>,
-    /// Files that only the later report has.
-    gained: Vec<String>,
-    /// Files that only the earlier report has.
-    lost: Vec<String>,
-    /// Files with other bytes.
-    differing: Vec<String>,
-}
-
-/// What differs.
-fn diff(before: &Parts, after: &Parts) -> Diff {
-    let known = |files: &'_ Files| -> BTreeSet<String> {
-        files.keys().filter(|path| *path != SUMS).cloned().collect()
+/// Files that one report lacks, and files with other bytes, a line each.
+fn files(before: &Files, after: &Files) -> Vec<String> {
+    let paths: BTreeSet<&String> = before.keys().chain(after.keys()).collect();
+    let line = |path: &String| {
+        let what = match (before.get(path), after.get(path)) {
+            (None, _) => "new",
+            (_, None) => "gone",
+            (old, new) if old != new => "differs",
+            _ => return None,
+        };
+        Some(format!("  {what:8} {path}"))
     };
-    let (old, new) = (known(&before.files), known(&after.files));
-    let differing = |path: &&String| before.files[*path] != after.files[*path];
-    let by_id = |ledger: &'_ Ledger| -> BTreeMap<String, Check> {
-        ledger.claims.iter().map(|check| (check.id.clone(), check.clone())).collect()
-    };
-    let (checks, were) = (by_id(&after.ledger), by_id(&before.ledger));
-    let ids: BTreeSet<&String> = were.keys().chain(checks.keys()).collect();
-    let verdicts = ids.into_iter().filter_map(|id| verdict(id, were.get(id), checks.get(id)));
-    Diff {
-        verdicts: verdicts.collect(),
-        numbers: numbers(&before.values, &after.values),
-        gained: new.difference(&old).cloned().collect(),
-        lost: old.difference(&new).cloned().collect(),
-        differing: old.intersection(&new).filter(differing).cloned().collect(),
-    }
+    paths.into_iter().filter(|path| *path != SUMS).filter_map(line).collect()
 }
 
-/// How a check changed: its verdict, and what it is held against.
-fn verdict(id: &str, before: Option<&Check>, after: Option<&Check>) -> Option<Change> {
-    let words = |check: &Check| check.words().to_string();
-    let (old, new) = (before.map(words), after.map(words));
-    let moved = old != new;
+/// Checks with another verdict, or held against something else, a line each.
+fn checks(before: &Ledger, after: &Ledger) -> Vec<String> {
+    let ids: BTreeSet<&String> =
+        before.claims.iter().chain(&after.claims).map(|check| &check.id).collect();
     let fields = |check: &Check| {
         let (found, tolerance) = (check.found.to_string(), check.tolerance.to_string());
-        [("found", found), ("expected", check.expected.clone()), ("tolerance", tolerance)]
+        [("expected", check.expected.clone()), ("found", found), ("tolerance", tolerance)]
     };
-    let pairs =
-        before.map(fields).into_iter().flatten().zip(after.map(fields).into_iter().flatten());
-    let also = pairs.filter(|((name, old), (_, new))| old != new && (moved || *name != "found"));
-    let also: BTreeMap<_, _> = also.map(|((name, old), (_, new))| (name, [old, new])).collect();
-    let same = !moved && also.is_empty();
-    (!same).then(|| Change { id: id.into(), before: old, after: new, also, ..Change::default() })
+    let line = |id: &String| {
+        let both = [before, after].map(|own| own.claims.iter().find(|check| check.id == *id));
+        let words = both.map(|check| check.map(Check::words));
+        let [old, new] = both.map(|check| check.map(fields).into_iter().flatten());
+        let moved = words[0] != words[1];
+        let also = old
+            .zip(new)
+            .filter(|((name, old), (_, new))| old != new && (moved || *name != "found"));
+        let also: String =
+            also.map(|((name, old), (_, new))| format!("; {name}: {old} -> {new}")).collect();
+        (moved || !also.is_empty()).then(|| fate(id, words) + &also)
+    };
+    ids.into_iter().filter_map(line).collect()
 }
 
-/// All changes of numbers and units; other fields (notes, sources) do not count. What is a number no more
+/// Changes of numbers and units, a line each; other fields (notes, sources) do not count. What is a number no more
 /// comes first, then the largest differences in standard errors, and last what only one report has.
-fn numbers(before: &Registry, after: &Registry) -> Vec<Change> {
+fn numbers(before: &Registry, after: &Registry) -> Vec<String> {
     let ids: BTreeSet<&str> = before.iter().chain(after.iter()).map(|v| v.id.as_str()).collect();
     let change = |id: &str| {
-        let (old, new) = (before.get(id), after.get(id));
-        let meant = |value: Option<&Value>| value.map(|v| (v.number.clone(), v.unit.clone()));
-        if meant(old) == meant(new) {
+        let both = [before, after].map(|own| own.get(id));
+        let [old, new] = both.map(|value| value.map(|v| (&v.number, &v.unit)));
+        if old == new {
             return None;
         }
         // In full where their digits do not show the difference.
-        let hidden = old.map(Value::plain) == new.map(Value::plain);
-        let style = Style { digits: hidden.then_some(Digits::Full), ..Style::default() };
+        let [old, new] = both.map(|value| value.map(Value::plain));
+        let style = Style { digits: (old == new).then_some(Digits::Full), ..Style::default() };
         let shown = |value: &Value| tex::spelt(&printed(&value.number, style).plain());
-        let both = old.zip(new);
-        let difference = both.and_then(|(old, new)| Some(number(new)? - number(old)?));
-        let difference = difference.filter(|difference| difference.is_finite());
-        let error = both.map(|(old, new)| {
-            let [old, new] = [old, new].map(Value::standard_error);
-            (old * old + new * new).sqrt()
-        });
-        let sigmas = difference.zip(error).map(|(difference, error)| difference / error);
-        Some(Change {
-            id: id.to_string(),
-            before: old.map(shown),
-            after: new.map(shown),
-            difference,
-            sigmas: sigmas.filter(|sigmas| sigmas.is_finite()),
-            ..Change::default()
-        })
+        let [old, new] = both.map(|value| value.map(shown));
+        let mut line = fate(id, [old.as_deref(), new.as_deref()]);
+        let [Some(old), Some(new)] = both else { return Some((-1.0, line)) };
+        let Some((old_number, new_number)) = number(old).zip(number(new)) else {
+            return Some((f64::INFINITY, line));
+        };
+        let difference = new_number - old_number;
+        line += &format!("; Δ {}", signed(difference));
+        // Runs with the same seed share their chance, and then this overrates the error.
+        let [a, b] = [old, new].map(Value::standard_error);
+        let error = (a * a + b * b).sqrt();
+        if error > 0.0 {
+            line += &format!(", {} σ", signed(difference / error));
+        }
+        Some((if error > 0.0 { (difference / error).abs() } else { 0.0 }, line))
     };
-    let mut changes: Vec<Change> = ids.into_iter().filter_map(change).collect();
-    let weight = |change: &Change| match (change.sigmas, change.difference) {
-        _ if change.before.is_none() || change.after.is_none() => -1.0,
-        (Some(sigmas), _) => sigmas.abs(),
-        (None, Some(_)) => 0.0,
-        _ => f64::INFINITY,
-    };
-    changes.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
-    changes
+    let mut changes: Vec<(f64, String)> = ids.into_iter().filter_map(change).collect();
+    changes.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    changes.into_iter().map(|(_, line)| line).collect()
 }
 
 /// A difference with its sign and three digits.
@@ -250,37 +206,13 @@ fn signed(value: f64) -> String {
     format!("{sign}{}", Text::from(significant(value, 3)))
 }
 
-impl Change {
-    /// `x: reproduced -> differs`, `x: new, reproduced`, `x: gone, was reproduced`, and what else is known.
-    fn line(&self) -> String {
-        let fate = match (&self.before, &self.after) {
-            (Some(before), Some(after)) if before == after => before.clone(),
-            (Some(before), Some(after)) => format!("{before} -> {after}"),
-            (None, after) => format!("new, {}", after.as_deref().unwrap_or_default()),
-            (Some(before), None) => format!("gone, was {before}"),
-        };
-        let difference = self.difference.map(|own| format!("; Δ {}", signed(own)));
-        let sigmas = self.sigmas.map(|own| format!(", {} σ", signed(own)));
-        let also = self.also.iter().map(|(name, [old, new])| format!("; {name}: {old} -> {new}"));
-        let more = difference.unwrap_or_default() + &sigmas.unwrap_or_default();
-        format!("  {}: {fate}{more}{}", self.id, also.collect::<String>())
-    }
-}
-
-impl Diff {
-    /// For people: all of it.
-    fn text(&self, old: &str, new: &str) -> String {
-        if *self == Diff::default() {
-            return format!("{old} and {new}: nothing differs\n");
-        }
-        let (verdicts, numbers) = (self.verdicts.len(), self.numbers.len());
-        let (verdicts, numbers) = (count(verdicts, "check"), count(numbers, "number"));
-        let changes = self.verdicts.iter().chain(&self.numbers).map(Change::line);
-        let files = [("new", &self.gained), ("gone", &self.lost), ("differs", &self.differing)];
-        let line = |what| move |path: &String| format!("  {what:8} {path}");
-        let files = files.into_iter().flat_map(|(what, paths)| paths.iter().map(line(what)));
-        // A report, and the name of a file, may hold what a terminal obeys.
-        let lines = changes.chain(files).map(|line| line.replace(is_obeyed, " ") + "\n");
-        format!("{verdicts} and {numbers} changed\n{}", lines.collect::<String>())
-    }
+/// What became of a thing: `x: reproduced -> differs`, `x: new, reproduced`, `x: gone, was reproduced`.
+fn fate(id: &str, sides: [Option<&str>; 2]) -> String {
+    let fate = match sides {
+        [Some(before), Some(after)] if before == after => before.into(),
+        [Some(before), Some(after)] => format!("{before} -> {after}"),
+        [None, after] => format!("new, {}", after.unwrap_or_default()),
+        [Some(before), None] => format!("gone, was {before}"),
+    };
+    format!("  {id}: {fate}")
 }

@@ -4,10 +4,9 @@ use super::terminal::print;
 use crate::failure::Failure;
 use crate::input::{is_obeyed, one_line, regular_text};
 use crate::paper::Paper;
-use crate::report::card::{Card, Cards, Fact};
+use crate::report::card::{Card, Cards};
 use crate::report::document::{Inline, spelt};
 use crate::report::{Error, ledger, values};
-use serde_json::{Value as Json, json};
 use std::path::{Path, PathBuf};
 
 /// Say where a number, a figure, an equation or a statement of the report comes from
@@ -28,9 +27,6 @@ pub(super) struct Args {
     /// Read the report in this folder.
     #[arg(long, value_name = "DIR", default_value = "paper")]
     paper: PathBuf,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
 }
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
@@ -50,11 +46,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     // Of many things that one name means, a line each.
     let in_short = args.ids.len() < 2 && found.len() > 1;
     let found: Vec<Card> = found.iter().filter_map(|id| cards.get(id)).collect();
-    let text = |card: &Card| if in_short { line(card) } else { shown(card, paper) };
-    print(&match args.json {
-        true => format!("{:#}\n", found.iter().map(|card| json(card, paper)).collect::<Json>()),
-        false => found.iter().map(text).collect::<Vec<_>>().join(if in_short { "" } else { "\n" }),
-    })
+    let text = |card: &Card| if in_short { line(card) } else { shown(card) };
+    print(&found.iter().map(text).collect::<Vec<_>>().join(if in_short { "" } else { "\n" }))
 }
 
 fn read(paper: &Path, name: &str) -> Result<String, Failure> {
@@ -67,29 +60,22 @@ fn fault(error: Error) -> Failure {
     Failure::input(format!("--paper: {error}; make the report anew with `paper`"))
 }
 
-/// All that is known of one thing, for programs.
-fn json(card: &Card, paper: &Paper) -> Json {
-    let row = |row: &Fact| {
-        let file = row.item.as_ref().and_then(|item| paper.file(item));
-        json!({"name": row.name, "text": words(&row.text), "file": file})
-    };
-    let rows: Vec<Json> = card.rows.iter().map(row).collect();
-    json!({"id": card.id, "title": words(&card.title), "lead": card.lead, "rows": rows})
-}
-
 /// A thing in a line.
 fn line(card: &Card) -> String {
     format!("{:28} {}\n", clean(&card.id), words(&card.title))
 }
 
 /// All that is known of one thing.
-fn shown(card: &Card, paper: &Paper) -> String {
+fn shown(card: &Card) -> String {
     let mut out = format!("{}: {}\n", clean(&card.id), words(&card.title));
     if !card.lead.is_empty() {
         out += &format!("  {}\n", clean(&card.lead));
     }
-    for Fact { name, text, item } in card.rows.iter().filter(|row| row.name != "id") {
-        let file = item.as_ref().and_then(|item| paper.file(item));
+    for (name, text) in card.rows.iter().filter(|(name, _)| *name != "id") {
+        let file = match text.as_slice() {
+            [Inline::Link { to, .. }] => to.strip_prefix("../"),
+            _ => None,
+        };
         let file = file.map_or(String::new(), |file| format!(" ({file})"));
         out += &format!("  {name:15} {}{file}\n", words(text));
     }

@@ -21,19 +21,8 @@ pub struct Card {
     pub title: Vec<Inline>,
     /// What it is in one plain sentence; may be empty.
     pub lead: String,
-    /// What is known of it.
-    pub rows: Vec<Fact>,
-}
-
-/// One thing that is known.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Fact {
-    /// Its name, as "standard error".
-    pub name: &'static str,
-    /// The thing.
-    pub text: Vec<Inline>,
-    /// Path of the item of the source that it names, if it does.
-    pub item: Option<String>,
+    /// What is known of it: names, as "standard error", and texts.
+    pub rows: Vec<(&'static str, Vec<Inline>)>,
 }
 
 impl Card {
@@ -43,7 +32,7 @@ impl Card {
 
     fn row(&mut self, name: &'static str, text: Vec<Inline>) {
         if !text.is_empty() {
-            self.rows.push(Fact { name, text, item: None });
+            self.rows.push((name, text));
         }
     }
 
@@ -56,15 +45,12 @@ impl Card {
 
     /// A row with an item of the source, which links to its file.
     fn item(&mut self, name: &'static str, item: &str, paper: &Paper) {
-        if item.is_empty() {
-            return;
-        }
         let code = Inline::Code(item.to_string());
-        let text = match paper.file(item) {
-            Some(file) => vec![link(&format!("../{file}"), code)],
-            None => vec![code],
-        };
-        self.rows.push(Fact { name, text, item: Some(item.to_string()) });
+        match paper.file(item) {
+            _ if item.is_empty() => (),
+            Some(file) => self.row(name, vec![link(&format!("../{file}"), code)]),
+            None => self.row(name, vec![code]),
+        }
     }
 
     /// Rows for an experiment: where it is, and its parameters.

@@ -3,7 +3,7 @@
 //! A page lies on a disk with its style sheet, script, fonts and the cards of its numbers in the same folder. It is
 //! well-formed XML, so that tests can read it.
 
-use super::card::{Cards, Fact};
+use super::card::Cards;
 use super::document::{self, Block, Inline, plain, spelt};
 use super::labels::Labels;
 use super::templates::Document;
@@ -92,8 +92,8 @@ pub fn beside(values: &BTreeSet<String>, cards: Cards<'_>, site: Site<'_>) -> Re
         let is_claim = id.starts_with("claim:");
         let shown = "the row of this statement".to_string();
         let ledger = Inline::Reference { to: id.clone(), within: None, shown };
-        let ledger = is_claim.then(|| Fact { name: "ledger", text: vec![ledger], item: None });
-        for row in card.rows.iter().chain(&ledger) {
+        let ledger = is_claim.then(|| ("ledger", vec![ledger]));
+        for (name, text) in card.rows.iter().chain(&ledger) {
             let place = |inline: &Inline| match inline.clone() {
                 Inline::Reference { to, shown, .. } => {
                     let within = site.labels.get(&to).map(|label| label.of);
@@ -101,8 +101,8 @@ pub fn beside(values: &BTreeSet<String>, cards: Cards<'_>, site: Site<'_>) -> Re
                 }
                 other => document::led(other, site.input.top),
             };
-            let words: Vec<Inline> = row.text.iter().flat_map(place).collect();
-            let row = format!("<dt>{}</dt><dd>{}</dd>", row.name, page.inlines(&words)?);
+            let words: Vec<Inline> = text.iter().flat_map(place).collect();
+            let row = format!("<dt>{name}</dt><dd>{}</dd>", page.inlines(&words)?);
             own.push(*places.entry(row.clone()).or_insert_with(|| {
                 rows.push(row);
                 rows.len() - 1
