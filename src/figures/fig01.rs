@@ -36,7 +36,7 @@ pub fn draw() -> Result<Figure, Error> {
          each is bent away from its equilibrium, the first and the second towards each other. Marked are d, the position x1(t), the closing gap \
          Δ1(t) between the first two masses, and the force F2(t) on the second."
     );
-    Ok(sheet.finish("fig01", "The chain of masses between two walls", description))
+    Ok(sheet.finish("The chain of masses between two walls", description))
 }
 
 fn walls(sheet: &Sheet, right: i32) {
@@ -64,7 +64,8 @@ fn draw_mass(sheet: &Sheet, root: i32, name: &str, bend: i32) -> Result<(), Erro
     sheet.free().line(stem, Stroke::solid(INK, 50));
     let centre = (root + bend, HEIGHT);
     sheet.free().disc(centre, RADIUS, WHITE, Stroke::solid(INK, 36));
-    let size = if name.len() > 3 { TINY } else { SMALL };
+    // A long name must stay inside its disc: 6.6 points.
+    let size = if name.len() > 3 { 233 } else { SMALL };
     sheet.text(name, centre, (size, INK, HPos::Center, VPos::Center))
 }
 

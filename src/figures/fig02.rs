@@ -28,5 +28,5 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
          impact. A dotted line stands at the printed σ = {PRINTED}.",
         sweep.ensemble.chain.masses
     );
-    Ok(sheet.finish("fig02", "Most likely number of impacts", description))
+    Ok(sheet.finish("Most likely number of impacts", description))
 }

@@ -54,5 +54,5 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
         fraction.first().map_or("0".into(), |f| short(f.1, 2)),
         fraction.last().map_or("1".into(), |f| short(f.1, 3)),
     );
-    Ok(sheet.finish("fig03", "Expected number of impacts", description))
+    Ok(sheet.finish("Expected number of impacts", description))
 }

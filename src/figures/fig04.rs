@@ -18,5 +18,5 @@ pub fn draw() -> Result<Figure, Error> {
         opposite direction between each of the {pairs} pairs.",
         edges - arrows,
     );
-    Ok(sheet.finish("fig04", "The graph of three masses between walls", description))
+    Ok(sheet.finish("The graph of three masses between walls", description))
 }

@@ -4,6 +4,6 @@ use super::prelude::*;
 use crate::experiments::segments::Segments;
 
 pub fn draw(all: &Segments) -> Result<Figure, Error> {
-    let names = ("fig05", "A simple circuit and its motion", "simple");
+    let names = ("A simple circuit and its motion", "simple");
     super::motion::draw(names, &[0, 1, 3], &all.fig05)
 }

@@ -4,6 +4,6 @@ use super::prelude::*;
 use crate::experiments::segments::Segments;
 
 pub fn draw(all: &Segments) -> Result<Figure, Error> {
-    let names = ("fig06", "A circuit that is not simple, and its motion", "non-simple");
+    let names = ("A circuit that is not simple, and its motion", "non-simple");
     super::motion::draw(names, &[0, 0, 1, 0, 2, 1, 3, 3], &all.fig06)
 }

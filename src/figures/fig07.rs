@@ -33,5 +33,5 @@ pub fn draw() -> Result<Figure, Error> {
         short(top, 3),
         format!("10^{}", logs[0].round()),
     );
-    Ok(sheet.finish("fig07", "Number of simple circuits of each length", description))
+    Ok(sheet.finish("Number of simple circuits of each length", description))
 }

@@ -28,5 +28,5 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
          panel the weight moves from single impacts to the whole system. {}.",
         seen.join("; ")
     );
-    Ok(sheet.finish("fig08", "Distribution of the number of impacts", description))
+    Ok(sheet.finish("Distribution of the number of impacts", description))
 }

@@ -33,7 +33,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
          and levels off towards {N}.",
         short(p_jump, 4),
     );
-    Ok(sheet.finish("fig09", "Most likely and expected number of impacts", description))
+    Ok(sheet.finish("Most likely and expected number of impacts", description))
 }
 
 /// k* as a staircase; its jump from 1 is dotted, because no value lies between.

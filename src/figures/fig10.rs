@@ -49,7 +49,7 @@ pub fn draw() -> Result<Figure, Error> {
          column, and the most likely number jumps from 1 to {}.",
         steps()[1].1
     );
-    Ok(sheet.finish("fig10", "The mechanism of the jump", description))
+    Ok(sheet.finish("The mechanism of the jump", description))
 }
 
 /// The axis of f: around zero, as high as its maximum.

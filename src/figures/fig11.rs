@@ -51,5 +51,5 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         short(jump, 4),
         above.map_or("0".into(), |(rest, _)| short(rest.0, 2)),
     );
-    Ok(sheet.finish("fig11", "Impact probability against forcing", description))
+    Ok(sheet.finish("Impact probability against forcing", description))
 }

@@ -29,7 +29,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         at(&simulated, PRINTED),
         at(&simple, PRINTED),
     );
-    Ok(sheet.finish("fig12", "Simulation against graph theory", description))
+    Ok(sheet.finish("Simulation against graph theory", description))
 }
 
 /// Where both come to half of all gaps, and how much later in σ the theory does, as an arrow with its length.

@@ -96,7 +96,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         share(large)?,
         short(large, 3),
     );
-    Ok(sheet.finish("fig13", "Distributions with higher-order circuits", description))
+    Ok(sheet.finish("Distributions with higher-order circuits", description))
 }
 
 fn series(panel: &Panel, p: f64) -> Result<(), Error> {

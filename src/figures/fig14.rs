@@ -38,5 +38,5 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
          lie apart in (a) and nearly on each other in (b). {}.",
         seen.join("; ")
     );
-    Ok(sheet.finish("fig14", "Simple and higher-order distributions converge", description))
+    Ok(sheet.finish("Simple and higher-order distributions converge", description))
 }

@@ -39,5 +39,5 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         at(&higher, PRINTED),
         short(most, 3),
     );
-    Ok(sheet.finish("fig15", "Simulation against both theories", description))
+    Ok(sheet.finish("Simulation against both theories", description))
 }

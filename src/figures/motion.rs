@@ -10,7 +10,7 @@ const MASSES: [(Colour, Dash); 3] =
 
 /// Draws one of the two figures; `order` are the gaps in the order of their impacts.
 pub fn draw(
-    (id, title, kind): (&str, &str, &str),
+    (title, kind): (&str, &str),
     order: &[usize],
     segment: &Segment,
 ) -> Result<Figure, Error> {
@@ -38,7 +38,7 @@ pub fn draw(
         names.join(", "),
         short(duration, 3),
     );
-    Ok(sheet.finish(id, title, description))
+    Ok(sheet.finish(title, description))
 }
 
 fn time_axis(duration: f64) -> Axis {

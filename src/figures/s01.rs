@@ -36,7 +36,7 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     if let Some((time, gap)) = run.times.first().zip(run.gaps.first()) {
         near.label("closes by itself", (*time, f64::from(*gap)), (2, 4), RED)?;
     }
-    Ok(sheet.finish("s01", "One long run", description(run)))
+    Ok(sheet.finish("One long run", description(run)))
 }
 
 fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {

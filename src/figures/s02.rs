@@ -18,7 +18,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8600);
     chains(&sheet, table("nucleation.chains")?, shares, table("sweep.rows")?)?;
     times(&sheet, missing)?;
-    Ok(sheet.finish("s02", "Gaps that close by themselves", description(missing)))
+    Ok(sheet.finish("Gaps that close by themselves", description(missing)))
 }
 
 fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result<(), Error> {

@@ -22,7 +22,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let advance = table("seeds.advance")?;
     advances(&sheet, advance)?;
     halves(&sheet, table("seeds.rise")?, table("seeds.scores")?)?;
-    Ok(sheet.finish("s03", "From one gap to many: nucleation and growth", description(advance)))
+    Ok(sheet.finish("From one gap to many: nucleation and growth", description(advance)))
 }
 
 fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Result<(), Error> {

@@ -18,7 +18,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8800);
     half_heights(&sheet, results, both)?;
     shares(&sheet, &branches::both(results.of(&crate::experiments::BRANCHES)?))?;
-    Ok(sheet.finish("s04", "Chains from rest and from above", description(both)))
+    Ok(sheet.finish("Chains from rest and from above", description(both)))
 }
 
 fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Error> {

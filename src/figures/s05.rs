@@ -17,7 +17,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
      smaller the jump. (b) Height of the jump against N, with the rule."
     );
-    Ok(sheet.finish("s05", "The theory at large N", description))
+    Ok(sheet.finish("The theory at large N", description))
 }
 
 /// A power of ten as the figures write it.

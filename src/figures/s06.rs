@@ -68,7 +68,7 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
             panel.name(ALIKE, *at, beside, INK)?;
         }
     }
-    Ok(sheet.finish("s06", "Error and misses of the next impact", description(race)))
+    Ok(sheet.finish("Error and misses of the next impact", description(race)))
 }
 
 fn description(race: &Race) -> Seen {

@@ -97,7 +97,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     }
     by_time.name("fixed steps", (150.0, 14.0), (0, -1), INK)?;
     by_error.name("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
-    Ok(sheet.finish("s07", "How long a run is true", description(race)))
+    Ok(sheet.finish("How long a run is true", description(race)))
 }
 
 fn horizon_axis(top: f64) -> Axis {

@@ -69,7 +69,7 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
         }
         rivals::names(&panel, &curves, &NAMES)?;
     }
-    Ok(sheet.finish("s08", "Error of a mean against its time", description(biases, &rows)))
+    Ok(sheet.finish("Error of a mean against its time", description(biases, &rows)))
 }
 
 /// The settings of a method: an error with its standard error, or an arrow down from where it may be at most. Returns where

@@ -45,7 +45,7 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     if let Some(last) = line.last() {
         clock.label("engine", *last, (0, -2), RED)?;
     }
-    Ok(sheet.finish("s09", "Cost of an impact against n", description(scale, &own)))
+    Ok(sheet.finish("Cost of an impact against n", description(scale, &own)))
 }
 
 fn description(scale: &Costs, own: &[&Measurement]) -> Seen {

@@ -263,18 +263,6 @@ fn the_long_run_is_drawn_compactly() {
 }
 
 #[test]
-fn less_than_the_full_profile_is_marked() {
-    let simulated = [
-        "fig02", "fig03", "fig12", "fig15", "s01", "s02", "s03", "s04", "s06", "s07", "s08", "s09",
-    ];
-    for figure in &QUICK.figures {
-        let marked = figure.svg().contains("profile quick: not for citation");
-        assert_eq!(marked, simulated.contains(&figure.id.as_str()), "{}", figure.id);
-    }
-    assert!(QUICK.full.iter().all(|figure| !figure.svg().contains("not for citation")));
-}
-
-#[test]
 fn a_figure_needs_exactly_what_it_declares() {
     let (paper, store) = (&QUICK.paper, Store::nowhere());
     let session = Session::of(paper, None, Profile::Quick, store, Progress::silent()).unwrap();

@@ -20,8 +20,6 @@ pub struct Quick {
     pub elsewhere: [Report; 2],
     pub results: Results,
     pub values: Registry,
-    /// The figures that the same results would give if they were of the full profile.
-    pub full: Vec<Figure>,
 }
 
 impl Quick {
@@ -81,15 +79,13 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let store = Store::open(folder.path());
     let session = Session::of(&paper, None, Profile::Quick, store, Progress::silent()).unwrap();
     // Run, then read again as it was saved.
-    let [results, mut full] = [(); 2].map(|()| Results::run(ALL, &session).unwrap());
-    full.profile = Profile::Full;
+    let [_, results] = [(); 2].map(|()| Results::run(ALL, &session).unwrap());
     let published = session.published().unwrap();
     let claims = claims::judge_all(&published, &claims::rules(), &results).unwrap().0;
     let values = paper.registry(&results, &published).unwrap();
     let rows = contents::rows(&results, &claims).unwrap();
-    let [figures, full] = [&results, &full].map(|results| -> Vec<_> {
-        paper.figures.iter().map(|figure| figure.figure(results).unwrap()).collect()
-    });
+    let figures: Vec<_> =
+        paper.figures.iter().map(|figure| figure.figure(&results).unwrap()).collect();
     let made = |top| {
         let input = Input {
             templates: &session.templates,
@@ -107,5 +103,5 @@ pub static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     assert!(report == made(Some("../")), "the same input gives other bytes");
     let elsewhere = [made(Some("../../")), made(None)];
     let templates = session.templates.clone();
-    Quick { paper: program::paper(), templates, figures, report, elsewhere, results, values, full }
+    Quick { paper: program::paper(), templates, figures, report, elsewhere, results, values }
 });

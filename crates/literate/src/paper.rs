@@ -1,7 +1,7 @@
 //! A paper: what it is made of. [`Paper::cli`] gives it a command line.
 
 use crate::claims::{Case, Check, Judged, Published, Rule};
-use crate::experiments::{Need, Profile, Results, Session, Together};
+use crate::experiments::{Need, Results, Session, Together};
 use crate::failure::Failure;
 use crate::figures::{self, Figure};
 use crate::project::{Project, Sources};
@@ -22,20 +22,14 @@ pub struct Illustration {
 }
 
 impl Illustration {
-    /// Draws it. A figure of lesser samples says so in its foot.
+    /// Draws it, and gives it its name.
     pub fn figure(&self, results: &Results) -> Result<Figure, figures::Error> {
-        let sampled = self.needs.iter().any(|need| need.is_saved());
         let mut figure = (self.draw)(results)?;
-        if sampled && results.profile < Profile::Full {
-            let foot = format!("profile {}: not for citation", results.profile.name());
-            figure = figure.with_foot(&foot)?;
-        }
+        figure.data.iter_mut().for_each(|file| file.name.insert_str(0, self.name));
         let experiments = self.needs.iter().map(|need| need.name()).collect();
-        // The item that draws it has its name, unless it says another.
-        if figure.source.is_empty() {
-            figure.source = format!("figures::{}", self.name);
-        }
-        Ok(Figure { experiments, ..figure })
+        // The item that draws it has its name.
+        let source = format!("figures::{}", self.name);
+        Ok(Figure { id: self.name.into(), source, experiments, ..figure })
     }
 
     /// Whether it is asked for by `text`: its name, or `3` for `fig03`.

@@ -1,6 +1,7 @@
 //! The papers of `examples/`, made as their readers would make them.
 
-#[path = "../examples/feigenbaum/paper.rs"]
+#[allow(dead_code)]
+#[path = "../examples/feigenbaum/main.rs"]
 mod feigenbaum;
 #[allow(dead_code)]
 #[path = "../examples/walk/main.rs"]
@@ -32,7 +33,7 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
         "2 of 3 statements are reproduced, 1 differs and is",
         "| 1 | 3.236067977 | none | none |",
         "**Listing 1.** The search for the orbits.",
-        "[convergence.csv](data/convergence.csv). Code: [paper.rs](../examples/feigenbaum/paper.rs)",
+        "[convergence.csv](data/convergence.csv). Code: [main.rs](../examples/feigenbaum/main.rs)",
     ] {
         assert!(markdown.contains(part), "{part}: {markdown}");
     }

@@ -1,7 +1,166 @@
-//! Makes the paper: `cargo run -p literate --example feigenbaum -- paper --out FOLDER`.
+//! A whole second paper: the constants of period doubling, found again from the logistic map.
+//!
+//! It shows what a paper adds to [`literate`]: an experiment, its tables, figures, verdicts on what was printed, and
+//! prose. All of the paper is in this folder.
 
-mod paper;
+use literate::double_double::DoubleDouble;
+use literate::prelude::*;
+
+/// How far the cascade of period doublings is followed.
+#[derive(serde::Serialize)]
+pub struct Depth {
+    /// The last orbit has a period of two to this power.
+    deepest: u32,
+}
+
+/// An orbit that passes through the maximum of the map, x = 1/2.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Orbit {
+    /// The period is two to this power.
+    n: u32,
+    /// The parameter R_n of the map at which it is there.
+    parameter: f64,
+    /// R_n − R_{n−1}; none for n = 0.
+    step: Option<f64>,
+    /// How far the orbit, half a period on, is from x = 1/2; none for n = 0.
+    distance: Option<f64>,
+}
+
+/// The experiment: it is run once, saved, and used again.
+pub const CASCADE: Experiment<Depth, Vec<Orbit>> =
+    Experiment::new("cascade", |_| Depth { deepest: 16 }, cascade, |cascade| tables(cascade));
+
+/// The orbit of x = 1/2 after so many steps of x → r x (1 − x), and its derivative by r.
+fn orbit(r: DoubleDouble, steps: u64) -> [DoubleDouble; 2] {
+    let one = DoubleDouble::from(1.0);
+    (0..steps).fold([DoubleDouble::from(0.5), DoubleDouble::from(0.0)], |[x, slope], _| {
+        let parabola = x * (one - x);
+        [r * parabola, parabola + r * (one - x * 2.0) * slope]
+    })
+}
+
+// listing: cascade
+/// Newton's method for each R_n, with 32 digits; the steps before tell where the next begins.
+fn cascade(depth: &Depth, progress: &Progress) -> Result<Vec<Orbit>, Error> {
+    let half = DoubleDouble::from(0.5);
+    let mut all = vec![Orbit { n: 0, parameter: 2.0, step: None, distance: None }];
+    let (mut before, mut step) = (DoubleDouble::from(2.0), DoubleDouble::from(5.5));
+    for n in 1..=depth.deepest {
+        progress.check()?;
+        let mut r = before + step * (1.0 / 4.67);
+        for _ in 0..20 {
+            let [x, slope] = orbit(r, 1 << n);
+            r = r - (x - half) / slope;
+        }
+        step = r - before;
+        let distance = (orbit(r, 1 << (n - 1))[0] - half).to_f64();
+        let (parameter, distance) = (r.to_f64(), Some(distance));
+        all.push(Orbit { n, parameter, step: Some(step.to_f64()), distance });
+        before = r;
+    }
+    Ok(all)
+}
+// end
+
+/// What follows from the cascade: two numbers for each orbit, and their limits.
+fn tables(cascade: &[Orbit]) -> Vec<Table> {
+    let of = |n: u32| cascade.iter().find(|orbit| orbit.n == n);
+    let before = |orbit: &Orbit| orbit.n.checked_sub(1).and_then(of);
+    let ratio = |a: Option<f64>, b: Option<f64>| a.zip(b).map_or(f64::NAN, |(a, b)| a / b);
+    let delta = |orbit: &Orbit| ratio(before(orbit).and_then(|own| own.step), orbit.step);
+    let alpha = |orbit: &Orbit| -ratio(before(orbit).and_then(|own| own.distance), orbit.distance);
+    let orbits = Table::of("cascade.orbits", cascade, |_| 1)
+        .key("n", "1", |orbit| orbit.n.into())
+        .real("parameter", "1", 10, "The parameter $R_n$.", |orbit| orbit.parameter)
+        .real("delta", "1", 8, "Ratio of neighbouring steps.", delta)
+        .real("alpha", "1", 8, "Ratio of neighbouring distances.", alpha)
+        .done();
+    let last = cascade.last().into_iter().cloned().collect::<Vec<_>>();
+    // The steps that are left are a geometric series.
+    let onset =
+        |orbit: &Orbit| orbit.parameter + orbit.step.unwrap_or(f64::NAN) / (delta(orbit) - 1.0);
+    let limit = Table::of("cascade.limit", &last, |_| 1)
+        .chosen("n", "1", "The last orbit.", |orbit| Some(orbit.n.into()))
+        .real("delta", "1", 8, "Its ratio of steps.", delta)
+        .real("alpha", "1", 9, "Its ratio of distances.", alpha)
+        .real("onset", "1", 8, "Where the periods are infinite.", onset)
+        .done();
+    vec![orbits, limit]
+}
+
+/// Fig. 1: where orbits go, against the parameter.
+fn diagram(results: &Results) -> Result<Figure, FigureError> {
+    let limit = results.table("cascade.limit")?;
+    let sheet = Sheet::new(5150);
+    let panel = sheet.panel(
+        Frame::new(1100, 300, 8100, 4200),
+        Axis::linear(2.8, 4.0, 0.2, 2, "parameter *r*"),
+        Axis::linear(0.0, 1.0, 0.25, 1, "*x*"),
+    )?;
+    let mut points = Vec::new();
+    for i in 0..=200 {
+        let r = 2.8 + 1.2 * f64::from(i) / 200.0;
+        let mut x = 0.5;
+        for step in 0..540 {
+            x = r * x * (1.0 - x);
+            if step >= 500 {
+                points.push((r, x));
+            }
+        }
+    }
+    panel.marks("orbits", &points, (Mark::Disc, 9, Stroke::solid(INK, 4)), Outside::Refuse)?;
+    let onset = limit.number(&[], "onset").unwrap_or(f64::NAN);
+    let line = [(onset, 0.0), (onset, 1.0)];
+    panel.guide("onset", &line, Stroke::solid(BLUE, THIN))?;
+    let words = seen!(
+        "Points of orbits against the parameter r. A single branch splits, its branches split again, and so on; \
+         from r = {onset:.3}, marked by a line, whole ranges of x are covered, with windows between."
+    );
+    Ok(sheet.finish("Period doubling", words))
+}
+
+/// Fig. 2: how fast the two ratios settle.
+fn convergence(results: &Results) -> Result<Figure, FigureError> {
+    let [orbits, limit] = [results.table("cascade.orbits")?, results.table("cascade.limit")?];
+    let last = orbits.values("n").last().copied().unwrap_or(1.0);
+    let mut plot = Plot::new().x("*n*").log_y("distance from the last ratio");
+    for (column, mark) in [("delta", Mark::Disc), ("alpha", Mark::Ring)] {
+        let end = limit.number(&[], column).unwrap_or(f64::NAN);
+        let far = |(n, ratio): (f64, f64)| (n, (ratio - end).abs());
+        let points: Vec<_> = orbits.points(&[], "n", column).into_iter().map(far).collect();
+        plot = plot.line(column, &points).points(column, &points, mark);
+    }
+    let words = seen!(
+        "Distances of the ratios from those of the last orbit, n = {}, against n, on a logarithmic axis. Soon \
+         both fall along one straight line, by the ratio delta from orbit to orbit.",
+        number(last, 0)
+    );
+    plot.finish("Convergence of the ratios", words)
+}
+
+/// The whole paper.
+pub fn paper() -> Paper {
+    let sources = sources!("examples/feigenbaum");
+    let paper = Paper::new("The constants of period doubling, found again", sources)
+        .experiment(&CASCADE)
+        .figure("orbits", &[&CASCADE], diagram)
+        .figure("convergence", &[&CASCADE], convergence)
+        .check("delta", |s| s.cell("cascade.limit.delta"))
+        .check("alpha", |s| s.cell("cascade.limit.alpha"))
+        .check("onset", |s| {
+            // The explanation can fail: ours, rounded to three decimals, must be what is printed.
+            let rounded = (s.number("cascade.limit.onset")? * 1000.0).round() / 1000.0;
+            let why = "printed is the number rounded to three decimals, and a zero";
+            let check = s.cell("cascade.limit.onset");
+            Judged::from(check.explained(why, Some(rounded) == s.statement.value))
+        });
+    Paper {
+        prose: "crates/literate/examples/feigenbaum",
+        crates: vec![("", "examples/feigenbaum")],
+        ..paper
+    }
+}
 
 fn main() -> std::process::ExitCode {
-    paper::paper().cli()
+    paper().cli()
 }

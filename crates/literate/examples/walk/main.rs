@@ -43,7 +43,7 @@ fn spread(results: &Results) -> Result<Figure, FigureError> {
     let reached = results.table("walk.reached")?.estimates(&[], "steps", "square");
     let plot = Plot::new().log_x("steps").log_y("mean square distance");
     let plot = plot.estimates("walks", &reached).curve("one a step", |steps| steps);
-    plot.finish("spread", "Spread of a walk", seen!("Both rise in proportion to the steps."))
+    plot.finish("Spread of a walk", seen!("Both rise in proportion to the steps."))
 }
 
 /// The paper.

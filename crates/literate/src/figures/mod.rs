@@ -35,13 +35,12 @@ pub mod prelude {
 }
 
 use crate::{experiments, report};
-use plotters::style::text_anchor::{HPos, VPos};
 use thiserror::Error;
 
 /// A figure: the picture, what it shows in words, and its data.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
-    /// Its name, which is the picture's file name without its ending.
+    /// Its name in the list of the paper, with which the names of its files begin.
     pub id: String,
     /// A short name.
     pub title: String,
@@ -67,15 +66,6 @@ impl Figure {
     pub fn named<'a>(name: &str, figures: &'a [Figure]) -> Result<&'a Figure, report::Error> {
         let found = figures.iter().find(|figure| figure.id == name);
         found.ok_or_else(|| report::Error::Picture(name.into()))
-    }
-
-    /// With a line at its foot about where it comes from.
-    pub fn with_foot(mut self, words: &str) -> Result<Figure, Error> {
-        self.drawing.height += 330;
-        let at = (style::WIDTH as i32 - 120, self.drawing.height as i32 - 110);
-        let look = (style::TINY, style::GREY, HPos::Right, VPos::Bottom);
-        self.drawing.label(words, at, look, false)?;
-        Ok(self)
     }
 }
 

@@ -255,7 +255,7 @@ mod tests {
         // The last point of the second lies outside; the ends of both are then too near for their names.
         let (low, high) = ([(0.0, 0.0), (1.0, 0.5)], [(0.9, 0.51), (1.0, 1.5)]);
         panel.ends(&[("low".into(), &low, BLUE), ("high".into(), &high, RED)]).unwrap();
-        let drawing = sheet.finish("s01", "", Default::default()).drawing;
+        let drawing = sheet.finish("", Default::default()).drawing;
         let named = |element: &Element| match element {
             Element::Label(Label { words, at, colour, rim: true, .. }) => {
                 Some((words.clone(), *at, *colour))
@@ -278,7 +278,7 @@ mod tests {
         for text in ["one", "two"] {
             panel.name(text, (0.5, 0.5), (1, 0), RED).unwrap();
         }
-        let drawing = sheet.finish("s01", "", Default::default()).drawing;
+        let drawing = sheet.finish("", Default::default()).drawing;
         let places = drawing.elements.iter().filter_map(|element| match element {
             Element::Label(Label { at, rim: true, .. }) => Some(*at),
             _ => None,

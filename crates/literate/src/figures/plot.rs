@@ -2,17 +2,17 @@
 //! is for figures that place these by hand.
 //!
 //! ```
-//! use literate::figures::prelude::*;
+//! use literate::prelude::*;
 //!
 //! let found = [(1.0, 0.26, 0.02), (2.0, 0.98, 0.05), (4.0, 4.1, 0.2)];
+//! let found = found.map(|(k, mean, error)| (k, with_error(mean, error)));
 //! let figure = Plot::new()
 //!     .x("*k*")
 //!     .log_y("mean square distance (1/s)")
-//!     .errorbars("simulated", &found)
+//!     .estimates("simulated", &found)
 //!     .curve("random phases", |k| k * k / 4.0)
-//!     .finish("spread", "Spread of the balls", seen!("Both rise as the square of k."))?;
-//! assert_eq!(figure.data[0].name, "spread.csv");
-//! # Ok::<(), Error>(())
+//!     .finish("Spread of the balls", seen!("Both rise as the square of k."))?;
+//! # Ok::<(), FigureError>(())
 //! ```
 
 use super::prelude::*;
@@ -30,12 +30,11 @@ enum Shown {
 /// A series: its name, how it is shown, and its points with their errors, which are zero where there are none.
 struct Series(String, Shown, Vec<(f64, f64, f64)>);
 
-/// Label, scale and, if it is given, the range of an axis.
+/// Label and scale of an axis.
 #[derive(Default)]
 struct Along {
     label: String,
     is_log: bool,
-    range: Option<[f64; 2]>,
 }
 
 /// A plot in the making. Series of one name have one colour and are named once, at their right end.
@@ -45,9 +44,6 @@ pub struct Plot {
     y: Along,
     series: Vec<Series>,
 }
-
-/// Length of the piece of a line before its name.
-const SAMPLE: i32 = 420;
 
 const COLOURS: [Colour; 6] = [INK, BLUE, RED, GREEN, ORANGE, PURPLE];
 const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Alternate];
@@ -82,18 +78,6 @@ impl Plot {
         self.y(label)
     }
 
-    /// The horizontal range; data outside is cut. Without it the range holds all data.
-    pub fn x_range(mut self, low: f64, high: f64) -> Self {
-        self.x.range = Some([low, high]);
-        self
-    }
-
-    /// The vertical range.
-    pub fn y_range(mut self, low: f64, high: f64) -> Self {
-        self.y.range = Some([low, high]);
-        self
-    }
-
     fn add(mut self, name: &str, shown: Shown, points: Vec<(f64, f64, f64)>) -> Self {
         self.series.push(Series(name.into(), shown, points));
         self
@@ -107,11 +91,6 @@ impl Plot {
     /// Markers at points (x, y).
     pub fn points(self, name: &str, points: &[(f64, f64)], mark: Mark) -> Self {
         self.add(name, Shown::Marks(mark), points.iter().map(|(x, y)| (*x, *y, 0.0)).collect())
-    }
-
-    /// Discs at (x, y) with bars of the given error to both sides, in the unit of y.
-    pub fn errorbars(self, name: &str, points: &[(f64, f64, f64)]) -> Self {
-        self.add(name, Shown::Marks(Mark::Disc), points.to_vec())
     }
 
     /// Discs at estimates with bars of one standard error, as a table gives them.
@@ -132,11 +111,11 @@ impl Plot {
         ends.filter(|p| (p.0 > 0.0 || !self.x.is_log) && (p.1 > 0.0 || !self.y.is_log)).collect()
     }
 
-    /// Draws the figure; `id` is its name, and that of its files.
+    /// Draws the figure.
     ///
     /// # Errors
     /// For a number that is not finite, and for a label with a character that the shipped fonts lack.
-    pub fn finish(mut self, id: &str, title: &str, description: Seen) -> Result<Figure, Error> {
+    pub fn finish(mut self, title: &str, description: Seen) -> Result<Figure, Error> {
         let mut data = self.data();
         let x = self.x.axis(data.iter().map(|point| point.0));
         let (from, to) = x.ends();
@@ -163,7 +142,7 @@ impl Plot {
         let left = labels(&y)?.into_iter().max().unwrap_or(0) + panel::BESIDE + 2 * TEXT;
         let mut right = WIDTH as i32 - 150 - labels(&x)?.last().map_or(0, |width| width / 2);
         for name in names.iter().filter(|_| names.len() > 1) {
-            right = right.min(WIDTH as i32 - wide(name)? - SAMPLE - 300);
+            right = right.min(WIDTH as i32 - wide(name)? - 200);
         }
         let frame = Frame::new(left, 250, right, 4250);
         let sheet = Sheet::new((frame.bottom + panel::BELOW + 2 * TEXT) as u32);
@@ -190,31 +169,16 @@ impl Plot {
                 }
             }
         }
-        if names.len() < 2 {
-            return Ok(sheet.finish(id, title, description));
-        }
-        // Right of the frame, at the height where each series ends, a sample of it and its name.
-        let end = |name: &&str| {
-            let last =
-                self.series.iter().filter(|own| own.0 == **name).find_map(|own| own.2.last());
-            let placed = last.filter(|end| panel.y.at(end.1).is_finite());
-            placed.map_or(frame.bottom, |end| panel.at(end.0.max(panel.x.lo), end.1).1)
+        let named = |name: &&str| {
+            let mut own = self.series.iter().filter(|own| own.0 == **name).map(|own| &own.2);
+            let points = own.find(|points| !points.is_empty()).into_iter().flatten();
+            let points: Vec<_> = points.map(|(x, y, _)| (*x, *y)).collect();
+            (name.to_string(), points, looks(name).0.colour)
         };
-        let ends: Vec<i32> =
-            names.iter().map(|own| end(own).clamp(frame.top, frame.bottom)).collect();
-        for (name, y) in names.iter().zip(panel::apart(&ends, panel::LINE_HEIGHT)) {
-            let (line, marker) = looks(name);
-            for Series(_, shown, _) in self.series.iter().filter(|own| own.0 == **name) {
-                let (x, end) = (right + 100, right + 100 + SAMPLE);
-                match shown {
-                    Shown::Marks(mark) => sheet.free().marks([((x + end) / 2, y)], marker(*mark)),
-                    _ => sheet.free().line(vec![(x, y), (end, y)], line),
-                }
-            }
-            let look = (SMALL, line.colour, HPos::Left, VPos::Center);
-            sheet.text(name, (right + SAMPLE + 200, y), look)?;
+        if names.len() > 1 {
+            panel.ends(&names.iter().map(named).collect::<Vec<_>>())?;
         }
-        Ok(sheet.finish(id, title, description))
+        Ok(sheet.finish(title, description))
     }
 }
 
@@ -223,19 +187,16 @@ impl Along {
     /// of ten.
     fn axis(&self, values: impl Iterator<Item = f64>) -> Axis {
         let ends = axis::range(values.filter(|value| value.is_finite()));
-        let [low, high] = self.range.or(ends).unwrap_or([0.1, 1.0]);
+        let [low, high] = ends.unwrap_or([0.1, 1.0]);
         if self.is_log {
             let [low_power, high_power] = [low, high].map(f_log10);
             let every = (high_power - low_power).ceil() as i32 / 8 + 1;
-            let axis = Axis::around([low, high].into_iter(), every, &self.label);
-            return if self.range.is_some() { axis.from(low, high) } else { axis };
+            return Axis::around([low, high].into_iter(), every, &self.label);
         }
         // What does not vary stands in the middle.
-        let span = if high > low { high - low } else { low.abs().max(1.0) };
-        let margin = match self.range {
-            Some(_) => 0.0,
-            None if high > low => span / 25.0,
-            None => span / 2.0,
+        let (span, margin) = match high > low {
+            true => (high - low, (high - low) / 25.0),
+            false => (low.abs().max(1.0), low.abs().max(1.0) / 2.0),
         };
         let rough = format!("{:e}", span / 5.0);
         let (digits, power) = rough.split_once('e').unwrap_or(("1", "0"));
@@ -253,6 +214,7 @@ impl Along {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use impact_numerics::estimates::with_error;
 
     fn labels(along: &Along, values: &[f64]) -> (f64, f64, Vec<String>) {
         let axis = along.axis(values.iter().copied());
@@ -275,20 +237,16 @@ mod tests {
             ["10^{−2}", "10^{−1}", "10^{0}", "10^{1}", "10^{2}"]
         );
         assert_eq!(labels(&log, &[1e-20, 1.0]).2.len(), 7);
-        let given = Along { range: Some([0.0, 1.0]), ..Along::default() };
-        assert_eq!(
-            labels(&given, &[7.0]),
-            (0.0, 1.0, ["0", "0.2", "0.4", "0.6", "0.8", "1.0"].map(String::from).into())
-        );
     }
 
     #[test]
     fn all_of_a_plot_lies_on_its_sheet() {
         let points = [(1.0, 0.5), (20.0, 3e4), (300.0, 0.0)];
         let plot = Plot::new().log_x("*k*").log_y("*D* (m²)").line("line", &points);
-        let plot = plot.points("line", &points, Mark::Ring).errorbars("found", &[(2.0, 1.0, 1.5)]);
-        let figure =
-            plot.curve("theory", |k| k * k).finish("spread", "Spread", seen!("It rises.")).unwrap();
+        let found = [(2.0, with_error(1.0, 1.5))];
+        let plot = plot.points("line", &points, Mark::Ring).estimates("found", &found);
+        let plot = plot.curve("theory", |k| k * k);
+        let figure = plot.finish("Spread", seen!("It rises.")).unwrap();
         let series: Vec<&str> = figure.data[0].rows.iter().map(|row| row[0].as_str()).collect();
         assert_eq!(
             (series.iter().filter(|own| **own == "line").count(), series.len()),
@@ -300,7 +258,7 @@ mod tests {
             let (x, y) = label.at;
             assert!((1..WIDTH as i32).contains(&x) && (1..high).contains(&y), "{}", label.words);
         }
-        let wrong = Plot::new().line("a", &[(0.0, f64::NAN)]).finish("a", "A", seen!("A"));
+        let wrong = Plot::new().line("a", &[(0.0, f64::NAN)]).finish("A", seen!("A"));
         assert!(matches!(wrong, Err(Error::Outside { .. })));
     }
 }

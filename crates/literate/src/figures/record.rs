@@ -80,8 +80,8 @@ impl Record {
         }
     }
 
-    /// The file of a figure's panel; none if it has no data.
-    pub(super) fn file(&self, id: &str) -> Option<DataFile> {
+    /// The panel's file; none if it has no data.
+    pub(super) fn file(&self) -> Option<DataFile> {
         let rows =
             || self.series.iter().flat_map(|(name, rows)| rows.iter().map(move |r| (name, r)));
         rows().next()?;
@@ -96,7 +96,7 @@ impl Record {
             [name.clone(), shortest(row.x)].into_iter().chain(known).collect()
         };
         let rows = rows().map(cells).collect();
-        Some(DataFile { name: format!("{id}{}.csv", self.suffix), header, rows })
+        Some(DataFile { name: format!("{}.csv", self.suffix), header, rows })
     }
 }
 
@@ -110,7 +110,7 @@ mod tests {
         let y = Axis::linear(0.0, 1.0, 0.5, 1, "*t*, or so (1/*ω*)");
         let mut record = Record::new(&x, &y);
         record.suffix = "a".into();
-        assert_eq!(record.file("s01"), None);
+        assert_eq!(record.file(), None);
         record.add("*σ* = 3", [(0.3, 0.1, 0.9).into()]);
         let twice = [(0.5, 0.5), (0.5, 0.5), (0.5, 0.6), (0.1, 0.2)];
         record.add("other", twice.map(DataPoint::from));
@@ -125,7 +125,7 @@ mod tests {
             "other,0.5,0.6,,,",
             "other,0.1,0.2,,,",
         ];
-        let file = record.file("s01").unwrap();
-        assert_eq!((file.name.as_str(), file.csv()), ("s01a.csv", lines.join("\n") + "\n"));
+        let file = record.file().unwrap();
+        assert_eq!((file.name.as_str(), file.csv()), ("a.csv", lines.join("\n") + "\n"));
     }
 }

@@ -263,7 +263,7 @@ mod tests {
         panel.area("area", &points[..1], GREEN, 50).unwrap();
         panel.quiet().curve("rims", &points, LINE, Outside::Cut).unwrap();
         // In units of the data, and as they were given: the cut is the picture's.
-        let file = &sheet.finish("s01", "", Default::default()).data[0];
+        let file = &sheet.finish("", Default::default()).data[0];
         let rows = [
             "cut,0.1,0.5,",
             "cut,0.3,0.001,",
@@ -271,7 +271,7 @@ mod tests {
             "estimates,0.5,0.1,0.2",
             "estimates,0.7,2,0.1",
         ];
-        assert_eq!(file.name, "s01b.csv");
+        assert_eq!(file.name, "b.csv");
         assert_eq!(file.csv().lines().skip(1).collect::<Vec<_>>(), rows);
     }
 }

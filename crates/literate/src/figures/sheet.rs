@@ -50,14 +50,11 @@ impl Sheet {
         self.free().label(text, at, look, false)
     }
 
-    /// Closes a figure; its `id` is the picture's file name without its ending. Its data is what its panels have
-    /// recorded, a file for each.
-    pub fn finish(self, id: &str, title: &str, description: Seen) -> Figure {
+    /// Closes a figure. Its data is what its panels have recorded, a file for each. The paper gives it its name.
+    pub fn finish(self, title: &str, description: Seen) -> Figure {
         let drawing = self.drawing.take();
         let records = self.records.take();
-        let data = records.iter().filter_map(|record| record.borrow().file(id)).collect();
-        let (id, title) = (id.to_string(), title.to_string());
-        let (source, experiments) = (String::new(), Vec::new());
-        Figure { id, title, description, drawing, data, source, experiments }
+        let data = records.iter().filter_map(|record| record.borrow().file()).collect();
+        Figure { title: title.into(), description, drawing, data, ..Figure::default() }
     }
 }

@@ -13,9 +13,6 @@ pub const TEXT: i32 = 282;
 /// Size of tick labels: 7 points.
 pub const SMALL: i32 = 247;
 
-/// Size of a small note: 6.6 points.
-pub const TINY: i32 = 233;
-
 /// Thickness of axes and ticks.
 pub const HAIR: u32 = 16;
 
