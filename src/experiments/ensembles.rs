@@ -16,7 +16,6 @@ fn cases(all: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
 
 fn rows(all: &Vec<Ensemble>) -> Vec<UnitRow> {
     let row = |(own, sigma): (&Ensemble, f64)| UnitRow {
-        covers: format!("{}, sigma = {sigma}", own.name),
         realisations: own.realisations_at(sigma),
         weight: own.work(sigma),
     };

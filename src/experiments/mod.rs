@@ -191,10 +191,7 @@ pub const HORIZON: Experiment<Runs, horizon::Horizon> = Experiment {
     name: "horizon",
     code: &["src/experiments/horizon.rs"],
     parameters: Runs::horizon,
-    how: Whole {
-        run: horizon::run,
-        weight: |p| 3 * p.realisations as u64 * impact_chain::work(&p.chain, p.sigma, p.until) / 2,
-    },
+    how: Whole(horizon::run),
     tables: horizon::tables,
 };
 
@@ -203,13 +200,7 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, two_masses::TwoMasses> = Exper
     name: "two_masses",
     code: &["src/experiments/two_masses.rs"],
     parameters: TwoMassesParams::new,
-    how: Whole {
-        run: two_masses::run,
-        weight: |p| {
-            p.directions.realisations as u64 * p.times.iter().map(|time| *time as u64).sum::<u64>()
-                / 3
-        },
-    },
+    how: Whole(two_masses::run),
     tables: two_masses::tables,
 };
 
@@ -218,10 +209,7 @@ pub const SPACE_TIME: Experiment<Runs, spacetime::SpaceTime> = Experiment {
     name: "spacetime",
     code: &["src/experiments/spacetime.rs"],
     parameters: Runs::spacetime,
-    how: Whole {
-        run: spacetime::run,
-        weight: |p| 8 * impact_chain::work(&p.chain, p.sigma, p.until),
-    },
+    how: Whole(spacetime::run),
     tables: spacetime::tables,
 };
 
@@ -234,7 +222,7 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
         "src/experiments/horizon.rs",
     ],
     parameters: RaceParams::new,
-    how: Whole { run: race::run, weight: |p| 30_000 * (p.chains * p.settings.len()) as u64 },
+    how: Whole(race::run),
     tables: tables::race,
 };
 
@@ -243,10 +231,7 @@ pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
     name: "bias",
     code: &["src/experiments/accuracy/bias.rs", "src/experiments/accuracy"],
     parameters: BiasParams::new,
-    how: Whole {
-        run: bias::run,
-        weight: |p| 100_000 * p.settings.iter().map(|own| own.1 as u64).sum::<u64>(),
-    },
+    how: Whole(bias::run),
     tables: tables::bias,
 };
 
@@ -255,10 +240,7 @@ pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
     name: "trials",
     code: &["src/experiments/accuracy/trials.rs", "src/experiments/accuracy"],
     parameters: TrialParams::new,
-    how: Whole {
-        run: trials::run,
-        weight: |p| if p.short { 100_000 } else { 1_100_000 } * p.settings.len() as u64,
-    },
+    how: Whole(trials::run),
     tables: |_| Vec::new(),
 };
 
@@ -267,7 +249,7 @@ pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
     name: "scale",
     code: &["src/experiments/accuracy/scale.rs", "src/experiments/accuracy"],
     parameters: ScaleParams::new,
-    how: Whole { run: scale::run, weight: |p| 300_000 + 7 * p.masses.iter().sum::<usize>() as u64 },
+    how: Whole(scale::run),
     tables: tables::scale,
 };
 
@@ -276,11 +258,7 @@ pub const NUCLEATION: Experiment<NucleationParams, nucleation::Nucleation> = Exp
     name: "nucleation",
     code: &["src/experiments/nucleation"],
     parameters: NucleationParams::new,
-    how: Whole {
-        run: nucleation::run,
-        // A search of a gap costs about as much as an impact.
-        weight: |p| 100 * nucleation::count(p),
-    },
+    how: Whole(nucleation::run),
     tables: nucleation::tables::tables,
 };
 
@@ -289,13 +267,7 @@ pub const SEEDS: Experiment<SeedsParams, seeds::Seeds> = Experiment {
     name: "seeds",
     code: &["src/experiments/seeds"],
     parameters: SeedsParams::new,
-    how: Whole {
-        run: seeds::run,
-        weight: |p| {
-            let one = |sigma: &f64| impact_chain::work(&p.chain, *sigma, p.until());
-            p.realisations as u64 * p.sigmas.iter().map(one).sum::<u64>()
-        },
-    },
+    how: Whole(seeds::run),
     tables: seeds::tables::tables,
 };
 
@@ -312,11 +284,6 @@ pub const REPLAY: Experiment<replay::ReplayRuns, replay::Replays> = Experiment {
     name: "replay",
     code: &["src/experiments/replay.rs"],
     parameters: replay::runs,
-    how: Whole {
-        run: replay::run,
-        weight: |runs| {
-            runs.iter().map(|(_, own)| own.until() as u64 * own.chain.masses as u64).sum()
-        },
-    },
+    how: Whole(replay::run),
     tables: replay::tables,
 };

@@ -93,9 +93,9 @@ impl Default for Ensemble {
     }
 }
 
-/// Estimated impacts of a run up to `time`, plus one for the first search of each mass: to share work and to show
+/// Estimated impacts of a run up to `time`, plus one for the first search of each mass: to cut units and to show
 /// progress. No result depends on it.
-pub fn work(chain: &Chain, sigma: f64, time: f64) -> u64 {
+fn work(chain: &Chain, sigma: f64, time: f64) -> u64 {
     // Impacts per unit of time and mass, of the paper's chain, roughly.
     let rate = (1.6 * (sigma - 0.085)).clamp(0.0, 0.3);
     (chain.masses as f64 * (1.0 + time * rate)) as u64
@@ -117,7 +117,7 @@ impl Ensemble {
         self.beyond.filter(|less| sigma > less.above)
     }
 
-    /// [`work`] of one realisation.
+    /// Impacts that one realisation is likely to have.
     pub fn work(&self, sigma: f64) -> u64 {
         let until = self.until(sigma);
         match self.heating {

@@ -38,7 +38,7 @@ mod topology;
 pub use chain::{Boundary, Chain, Start};
 pub use counts::Counts;
 pub use engine::{Engine, Impact};
-pub use ensemble::{Beyond, Ensemble, Heating, Protocol, work};
+pub use ensemble::{Beyond, Ensemble, Heating, Protocol};
 pub use error::Error;
 pub use scenario::{Initial, Overtone, Scenario};
 pub use search::clock::LATEST;

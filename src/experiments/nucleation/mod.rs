@@ -26,7 +26,7 @@ fn ensembles(parameters: &NucleationParams) -> impl Iterator<Item = (usize, usiz
 }
 
 /// Chains of all ensembles.
-pub fn count(parameters: &NucleationParams) -> u64 {
+fn count(parameters: &NucleationParams) -> u64 {
     ensembles(parameters).map(|(_, realisations, _)| realisations as u64).sum()
 }
 

@@ -20,8 +20,6 @@ const MANY: u64 = 2000;
 /// One row of an experiment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitRow {
-    /// What it is about: `sigma = 0.12`.
-    pub covers: String,
     /// Number of realisations.
     pub realisations: usize,
     /// Work of one realisation: three million are about a second of one core.
@@ -44,16 +42,14 @@ pub struct Unit {
     pub row: usize,
     /// Its realisations.
     pub realisations: Range<usize>,
-    /// What its row is about.
-    pub covers: String,
     /// Its work.
     pub weight: u64,
 }
 
 impl Unit {
     /// All of an experiment that is not cut.
-    pub fn whole(weight: u64) -> Unit {
-        Unit { number: 0, row: 0, realisations: 0..0, covers: "all of it".into(), weight }
+    pub fn whole() -> Unit {
+        Unit { number: 0, row: 0, realisations: 0..0, weight: 0 }
     }
 
     /// Runs its realisations, in any order and on any thread, and advances the stage after each.
@@ -134,7 +130,7 @@ fn cut(place: usize, row: &UnitRow, heavy: u64) -> Vec<Unit> {
         .map(|piece| {
             let realisations = at(piece)..at(piece + 1);
             let weight = row.weight.saturating_mul(realisations.len() as u64);
-            Unit { number: 0, row: place, realisations, covers: row.covers.clone(), weight }
+            Unit { number: 0, row: place, realisations, weight }
         })
         .collect()
 }
@@ -148,7 +144,7 @@ mod tests {
         for (realisations, weight) in
             [(1, 1), (1000, 19_000), (7, 400_000), (3, 5_000_000), (10, 0)]
         {
-            let row = UnitRow { covers: "sigma = 0.1".into(), realisations, weight };
+            let row = UnitRow { realisations, weight };
             let units = cut(4, &row, HEAVY);
             let all: Vec<usize> = units.iter().flat_map(|unit| unit.realisations.clone()).collect();
             assert_eq!(all, (0..realisations).collect::<Vec<_>>());
@@ -156,7 +152,7 @@ mod tests {
             let light = |unit: &Unit| unit.realisations.len() == 1 || unit.weight <= HEAVY + weight;
             assert!(units.iter().all(light), "{units:?}");
         }
-        let row = UnitRow { covers: String::new(), realisations: 100, weight: 1 };
+        let row = UnitRow { realisations: 100, weight: 1 };
         assert_eq!(cut(0, &row, HEAVY).len(), 1);
     }
 
@@ -164,11 +160,7 @@ mod tests {
     fn a_billion_realisations_are_thousands_of_units() {
         let cutting: Cutting<u64, (), ()> = Cutting {
             rows: |&realisations| {
-                let row = |weight| UnitRow {
-                    covers: String::new(),
-                    realisations: realisations as usize,
-                    weight,
-                };
+                let row = |weight| UnitRow { realisations: realisations as usize, weight };
                 [100, 7000, 20_000].map(row).to_vec()
             },
             part: |_, _, _, _| Ok(()),

@@ -33,12 +33,7 @@ pub enum How<P, T, U> {
     /// Read from a file that is committed, or known without a run; never saved.
     Read(fn(&Session<'_>) -> Result<T, Error>),
     /// As one unit of work.
-    Whole {
-        /// Runs it.
-        run: fn(&P, &Progress) -> Result<T, Error>,
-        /// Its work, in a unit that all experiments of a paper share: by it they are shared among machines.
-        weight: fn(&P) -> u64,
-    },
+    Whole(fn(&P, &Progress) -> Result<T, Error>),
     /// Cut into units; the name is for people who wait.
     Cut(&'static str, Cutting<P, U, T>),
 }
@@ -51,7 +46,7 @@ impl<P, T> Experiment<P, T> {
         run: fn(&P, &Progress) -> Result<T, Error>,
         tables: fn(&T) -> Vec<Table>,
     ) -> Self {
-        Experiment { name, code: &[], parameters, how: How::Whole { run, weight: |_| 1 }, tables }
+        Experiment { name, code: &[], parameters, how: How::Whole(run), tables }
     }
 }
 
@@ -73,7 +68,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         let (parameters, identity) = self.known_by(session);
         session.saved(&identity, || match &self.how {
             How::Read(read) => read(session),
-            How::Whole { run, .. } => run(&parameters, &session.progress),
+            How::Whole(run) => run(&parameters, &session.progress),
             How::Cut(_, cutting) => {
                 let units = self.units(session.profile);
                 let (parts, _) = self.parts(&units, &parameters, &identity, session)?;
@@ -151,7 +146,7 @@ pub trait Entry: Sync {
 
     /// Its units of work: one if it is not cut.
     fn units(&self, _: Profile) -> Vec<Unit> {
-        vec![Unit::whole(1)]
+        vec![Unit::whole()]
     }
 
     /// Runs those of some of its units that are not in the store, and saves what each gives as soon as it is there; none if
@@ -200,11 +195,10 @@ impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
     }
 
     fn units(&self, profile: Profile) -> Vec<Unit> {
-        let parameters = (self.parameters)(profile);
         match &self.how {
             How::Read(_) => Vec::new(),
-            How::Whole { weight, .. } => vec![Unit::whole(weight(&parameters))],
-            How::Cut(_, cutting) => cutting.units(&parameters),
+            How::Whole(_) => vec![Unit::whole()],
+            How::Cut(_, cutting) => cutting.units(&(self.parameters)(profile)),
         }
     }
 
