@@ -69,9 +69,8 @@ pub(super) struct Held {
     found: f64,
     error: f64,
     printed: Option<f64>,
-    /// Standard errors that are allowed, and half a unit of the last printed digit.
+    /// Standard errors that are allowed.
     quantile: f64,
-    half_unit: f64,
 }
 
 impl Case<'_> {
@@ -107,7 +106,7 @@ impl Case<'_> {
         };
         let half_unit = own.half_unit();
         let quantile = if error > 0.0 { self.level().quantile } else { 0.0 };
-        let held = Held { missing, found: value, error, printed: own.value, quantile, half_unit };
+        let held = Held { missing, found: value, error, printed: own.value, quantile };
         let reason = match error > 0.0 {
             true => "half a unit of the last printed digit, and the statistical error",
             false => "half a unit of the last printed digit",

@@ -1,6 +1,6 @@
 //! The level of the statistical checks, corrected for their number.
 
-use statrs::distribution::{ContinuousCDF, Normal};
+use impact_numerics::statistics::normal_quantile;
 
 /// Probability with which at least one statistical check fails although all of them hold (ours).
 pub const FAMILY_LEVEL: f64 = 0.01;
@@ -14,8 +14,7 @@ pub struct Level {
     pub each: f64,
     /// Two-sided normal quantile of that level, in standard errors.
     ///
-    /// Rounded up to a hundredth: statrs computes it with the platform's logarithm, and a
-    /// tolerance must not differ between machines.
+    /// Rounded up to a hundredth.
     pub quantile: f64,
 }
 
@@ -23,8 +22,8 @@ impl Level {
     /// The level for so many checks (at least one).
     pub fn of(claims: usize) -> Level {
         let each = -pxfm::f_expm1(pxfm::f_log1p(-FAMILY_LEVEL) / claims.max(1) as f64);
-        let quantile = Normal::standard().inverse_cdf(1.0 - each / 2.0);
-        Level { claims, each, quantile: (100.0 * quantile).ceil() / 100.0 }
+        let quantile = (100.0 * normal_quantile(1.0 - each)).ceil() / 100.0;
+        Level { claims, each, quantile }
     }
 
     /// The quantile when one check compares `rows` numbers, which then share its level.

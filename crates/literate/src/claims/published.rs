@@ -28,8 +28,6 @@ pub struct Parameter {
     pub id: String,
     /// Where it stands.
     pub place: String,
-    /// Its letter.
-    pub symbol: String,
     /// The number.
     pub value: f64,
 }
