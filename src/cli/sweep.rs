@@ -17,7 +17,7 @@ use serde::Serialize;
 ///
 /// Examples:
 ///   sweep --sigma 0.08..0.16:0.01
-///   sweep --sigma 0.12,0.13 --masses 1000 --realisations 100 --format json
+///   sweep --sigma 0.12,0.13 --masses 1000 --realisations 100
 ///
 /// Read in a row how many distinct gaps impact in the window (T, T + W]; realisations without any
 /// are not kept. Realisation i has the same standard normals at every σ. Rows come together at the
@@ -55,9 +55,6 @@ pub struct Args {
     seed: u64,
     #[command(flatten)]
     threads: Threads,
-    /// Print the table in this form.
-    #[arg(long, default_value = "csv", value_parser = ["csv", "json"])]
-    format: String,
 }
 
 /// A list of σ, which is one value of the command line.
@@ -119,7 +116,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     let progress = progress();
     let rows = args.threads.run(|| rows(ensemble, &progress))?;
-    print(&table(&rows, args.format == "json")?)
+    let mut csv = csv::Writer::from_writer(Vec::new());
+    rows.iter().try_for_each(|row| csv.serialize(row))?;
+    print(&String::from_utf8(csv.into_inner().map_err(|error| error.into_error())?)?)
 }
 
 fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Printed>, Failure> {
@@ -166,15 +165,6 @@ fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Printed {
         slow: total.slow[SLOW_DECADES.len() - 1],
         contact_phases: total.contact_phases,
     }
-}
-
-fn table(rows: &[Printed], as_json: bool) -> Result<String, Failure> {
-    if as_json {
-        return Ok(serde_json::to_string_pretty(rows)? + "\n");
-    }
-    let mut csv = csv::Writer::from_writer(Vec::new());
-    rows.iter().try_for_each(|row| csv.serialize(row))?;
-    Ok(String::from_utf8(csv.into_inner().map_err(|error| error.into_error())?)?)
 }
 
 /// Refuses what needs more memory than there is, in bytes.

@@ -72,17 +72,13 @@ initial:  "rest" (at equilibrium), "zero" (no free part),
 /// Bytes that are printed at once, in whole lines: a signal that ends the program leaves no half of a number.
 const BLOCK: usize = 16 << 10;
 
-/// Closing speed below which an impact belongs to a chatter, in units of d ω, and how many of them are worth a line.
-const SLOW: (f64, u64) = (1e-6, 10_000);
-
 pub fn run(args: Args) -> Result<(), Failure> {
     let (name, scenario) = read(&args.scenario)?;
     let (method, start) = (args.method.with(setting(&args)?), State::of(&scenario));
-    let slow = SLOW.0 * scenario.spacing * scenario.natural_frequency;
     let (mut out, mut lines) = (io::stdout().lock(), String::new());
     let mut written = Ok(());
     let mut header = "time,gap,closing_speed\n";
-    let [mut all, mut slower] = [0; 2];
+    let mut all = 0;
     let latest = Arc::new(AtomicU64::new(0));
     let _alive = alive({
         let latest = Arc::clone(&latest);
@@ -95,7 +91,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
             // A run that is refused at its start prints nothing.
             lines.push_str(std::mem::take(&mut header));
             lines.push_str(&format!("{time:?},{gap},{closing_speed:?}\n"));
-            (all, slower) = (all + 1, slower + u64::from(closing_speed < slow));
+            all += 1;
             if lines.len() >= BLOCK {
                 written = out.write_all(lines.as_bytes());
                 lines.clear();
@@ -113,12 +109,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
         written.and_then(|()| out.write_all(lines.as_bytes())).and_then(|()| out.flush())
     {
         return printed(Err(error));
-    }
-    if slower > SLOW.1 {
-        warn(&format!(
-            "{slower} of {all} impacts closed more slowly than 1e-6 d w: a chatter, in which bodies come \
-             to rest on one another by ever weaker impacts; the smaller r, the more; --max-impacts bounds them"
-        ));
     }
     if let Ok(cost) = &ran
         && cost.simultaneous > 0

@@ -1,17 +1,15 @@
 //! Progress for the person who waits, and the flag by which that person ends the wait.
 //!
-//! On a terminal a bar with the time left; otherwise plain lines, seconds apart. All of it goes to
-//! stderr, and nothing of it into a result.
+//! Plain lines, seconds apart, with the time left. All of it goes to stderr, and nothing of it into a result.
 
 use super::Error;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
-/// Seconds between plain lines.
+/// Seconds between two lines.
 const LINE_EVERY: u64 = 5;
 
 /// Nobody wants to see progress.
@@ -35,7 +33,7 @@ impl Progress {
         Progress { quiet: true, stop: Arc::default() }
     }
 
-    /// A bar on stderr if that is a terminal, plain lines otherwise; `stop` ends the work.
+    /// Lines on stderr; `stop` ends the work.
     pub fn on_stderr(stop: Arc<AtomicBool>) -> Self {
         Progress { quiet: QUIET.load(Ordering::Relaxed), stop }
     }
@@ -52,22 +50,14 @@ impl Progress {
 
     /// Begins a stage of `total` units of work.
     pub fn stage(&self, name: &str, total: u64) -> Stage {
-        let terminal = std::io::stderr().is_terminal();
-        let shown = !self.quiet && terminal;
-        let target =
-            if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        let bar = ProgressBar::with_draw_target(Some(total), target).with_message(name.to_string());
-        let style = ProgressStyle::with_template("{msg:24} {bar:30} {percent} %, {eta} left");
-        let bar = style.map_or(bar.clone(), |style| bar.with_style(style));
+        let (name, began, done) = (name.to_string(), Instant::now(), Arc::new(AtomicU64::new(0)));
+        let position = Arc::clone(&done);
         // By the clock and not by what is done: the first unit may be a long one.
-        let lines = (!self.quiet && !terminal).then(|| {
-            let (name, bar) = (name.to_string(), bar.clone());
-            alive(move || Some(format!("{name}: {}", told(bar.position(), total, bar.elapsed()))))
+        let lines = (!self.quiet).then(|| {
+            let share = move || told(position.load(Ordering::Relaxed), total, began.elapsed());
+            alive(move || Some(format!("{name}: {}", share())))
         });
-        if shown {
-            bar.enable_steady_tick(Duration::from_secs(1));
-        }
-        Stage { bar, _lines: lines }
+        Stage { done, _lines: lines }
     }
 
     /// Says one plain line, whatever the way of showing, except to nobody.
@@ -109,20 +99,14 @@ pub fn alive(line: impl Fn() -> Option<String> + Send + 'static) -> Alive {
 /// One stage of an experiment. Shared by the threads that work on it.
 #[derive(Debug)]
 pub struct Stage {
-    bar: ProgressBar,
+    done: Arc<AtomicU64>,
     _lines: Option<Alive>,
 }
 
 impl Stage {
     /// Counts `units` more as done.
     pub fn advance(&self, units: u64) {
-        self.bar.inc(units);
-    }
-}
-
-impl Drop for Stage {
-    fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        self.done.fetch_add(units, Ordering::Relaxed);
     }
 }
 
