@@ -90,7 +90,7 @@ const FAULTS: &str = r##"2 front.md +«v.p | nofilter» => :$:
 2 front.md +It is «sweep.rise.half_heigth». => :$:
 2 literals.toml why = "what the model is -> why = " " # => : [
 2 published.toml [[statement]] -> [[statement => :
-2 published.toml printed = "N − 1" -> printed = "N − 2" => :422: the id "sec7_limit": its check judges "N − 1", and not its printed
+2 published.toml printed = "N − 1" -> printed = "N − 2" => :404: the id "sec7_limit": its check judges "N − 1", and not its printed
 2 published.toml "sec2_half_height" -> "sec2_new" => : no statement "sec2_half_height""##;
 
 #[test]
@@ -113,12 +113,4 @@ fn faults_of_the_prose_are_told_with_their_place() {
         let line = note.lines().last().unwrap();
         assert!(code.to_string() == expected && line.contains(&says), "{says}: {told}{note}");
     }
-    // A copy of a section that an editor left, and a section that is lost.
-    let edition = here.join("t/edition");
-    let paper = "check --profile quick --results r --templates t";
-    std::fs::copy(edition.join("12-limits.md"), edition.join("12-limits copy.md")).unwrap();
-    crate::refused(here, paper, &["edition/12-", "13-name.md"]);
-    std::fs::remove_file(edition.join("12-limits copy.md")).unwrap();
-    std::fs::remove_file(edition.join("12-limits.md")).unwrap();
-    crate::refused(here, paper, &["edition/13-", "12-name.md"]);
 }

@@ -76,18 +76,6 @@ pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
     }
 }
 
-/// Of a longer list of names only so many are printed.
-const TOLD: usize = 5;
-
-/// The first few names, and how many more.
-pub fn listed(names: &[impl AsRef<str>]) -> String {
-    let first: Vec<&str> = names.iter().take(TOLD).map(AsRef::as_ref).collect();
-    match names.len().saturating_sub(TOLD) {
-        0 => first.join(", "),
-        more => format!("{} and {more} more", first.join(", ")),
-    }
-}
-
 /// Files and folders that wait until they are complete begin with this.
 pub const STAGING: &str = ".staging-literate-";
 

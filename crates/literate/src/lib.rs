@@ -31,9 +31,6 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
-// The macros of this crate's examples name it.
-extern crate self as literate;
-
 pub mod claims;
 pub mod cli;
 pub mod experiments;

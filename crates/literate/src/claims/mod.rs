@@ -33,9 +33,10 @@ impl Kind {
 }
 
 /// What a verdict rests on; where several things decide, the weakest.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Basis {
     /// Whole numbers, orders and inequalities, which agree or do not.
+    #[default]
     #[serde(rename = "exact")]
     Exact,
     /// Agreement within the rounding of double precision.
@@ -64,7 +65,7 @@ impl Basis {
 }
 
 /// The verdict on a statement or a relation, in the order of a scorecard.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     /// What is found lies within the tolerance.
     #[serde(rename = "reproduced")]
@@ -76,6 +77,7 @@ pub enum Verdict {
     #[serde(rename = "differs")]
     Differs,
     /// The results at hand do not decide.
+    #[default]
     #[serde(rename = "cannot be judged")]
     CannotBeJudged,
 }
@@ -101,7 +103,7 @@ impl Verdict {
 }
 
 /// One thing that is held against what is found, with the verdict; texts are saved as they are printed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Check {
     /// What it is.
     pub kind: Kind,
@@ -136,21 +138,8 @@ pub struct Check {
 impl Check {
     /// A check that is not of a printed statement, with what was found; `None` where the results do not decide.
     pub fn new(kind: Kind, id: &str, statement: &str, found: impl Into<Text>) -> Check {
-        Check {
-            kind,
-            why: String::new(),
-            id: id.into(),
-            place: String::new(),
-            statement: statement.into(),
-            expected: String::new(),
-            found: found.into(),
-            tolerance: Text::default(),
-            reason: String::new(),
-            basis: Basis::Exact,
-            verdict: Verdict::CannotBeJudged,
-            note: Text::default(),
-            held: Default::default(),
-        }
+        let (id, statement, found) = (id.into(), statement.into(), found.into());
+        Check { kind, id, statement, found, ..Check::default() }
     }
 
     /// Judged by whether the finding lies within the tolerance.

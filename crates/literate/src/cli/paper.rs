@@ -9,7 +9,7 @@ use crate::paper::{Illustration, Paper};
 use crate::report::values;
 use crate::report::{Files, Report, files_of, folder};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Run all experiments, draw all figures and write the report
 ///
@@ -80,9 +80,9 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let documents = if whole { format!(": {}", pages.join(", ")) } else { String::new() };
     let number = count(report.committed.len() + report.beside.len(), "file");
     let scores: String = make::scores(&checks).into_iter().map(|line| line + "\n").collect();
-    let time = duration(began.elapsed());
+    let time = began.elapsed().as_secs_f64();
     // It is said also where a check fails.
-    let printed = print(&format!("{}: {number} in {time}{documents}\n{scores}", shown(&out)));
+    let printed = print(&format!("{}: {number} in {time:.1} s{documents}\n{scores}", shown(&out)));
     let more = |failure: Failure| {
         let message = format!("{}; `check` says more", failure.message);
         Failure { message, ..failure }
@@ -117,14 +117,5 @@ fn dry_run(session: &Session<'_>, needs: &[Need]) -> Result<(), Failure> {
     match stale.len() {
         0 => Ok(()),
         stale => Err(Failure::check(format!("{} to be run", count(stale, "experiment")))),
-    }
-}
-
-/// `3 min 20 s` or `4.2 s`.
-fn duration(time: Duration) -> String {
-    match time.as_secs_f64() {
-        seconds if seconds < 0.1 => "less than 0.1 s".into(),
-        seconds if seconds < 60.0 => format!("{seconds:.1} s"),
-        _ => format!("{} min {} s", time.as_secs() / 60, time.as_secs() % 60),
     }
 }

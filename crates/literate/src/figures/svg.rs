@@ -79,7 +79,8 @@ fn shape(path: &[Step], fill: &Fill, stroke: &Option<Stroke>) -> String {
     format!("<path class=\"{}\"{more} d=\"{}\"/>", classes.join(" "), path_data(path))
 }
 
-fn label(label: &Label) -> String {
+/// Words as glyphs; on a page, where groups have no role, without their text.
+fn label(label: &Label, on_page: bool) -> String {
     let scale = f64::from(label.size) / f64::from(font::EM);
     let (ink, (x, y)) = (class("fill", label.colour), label.at);
     let turn = if label.upwards { " rotate(-90)" } else { "" };
@@ -101,36 +102,36 @@ fn label(label: &Label) -> String {
         true => format!("<g class=\"{rim}\" stroke-width=\"{}\" {place}>{glyphs}</g>", font::RIM),
         false => String::new(),
     };
-    format!("{rim}<g class=\"{ink}\" aria-label=\"{}\" {place}>{glyphs}</g>", escape(&label.words))
+    let words = match on_page {
+        true => String::new(),
+        false => format!(" aria-label=\"{}\"", escape(&label.words)),
+    };
+    format!("{rim}<g class=\"{ink}\"{words} {place}>{glyphs}</g>")
 }
 
 impl Drawing {
     /// A file; `id` must be unique on a page that shows several drawings.
     pub fn svg(&self, id: &str, title: &str, description: &str) -> String {
-        let rule = |(name, colour): (&str, String)| {
-            format!(".fill-{name}{{fill:{colour}}}.stroke-{name}{{stroke:{colour}}}\n")
-        };
-        let rules: String = palette().map(rule).collect();
-        let glyphs = outlines(&self.glyphs);
-        let within = format!("<style>\n{rules}</style>\n<defs>\n{glyphs}</defs>\n");
-        let space = " xmlns=\"http://www.w3.org/2000/svg\"";
-        self.written(space, id, title, description, &within) + "\n"
+        self.written(false, id, title, description) + "\n"
     }
 
     /// An element of a page, which holds the rules of the colours and the outlines of the glyphs.
     pub fn on_page(&self, id: &str, title: &str, description: &str) -> String {
-        // Within a page the description is read, and labels of groups have no role.
-        let svg = self.written("", id, title, description.trim(), "");
-        let after =
-            |part: &str| part.split_once('"').map_or(String::new(), |(_, rest)| rest.into());
-        let mut parts = svg.split(" aria-label=\"");
-        let first = parts.next().unwrap_or_default().to_string();
-        parts.fold(first, |all, part| all + &after(part))
+        self.written(true, id, title, description.trim())
     }
 
-    fn written(&self, space: &str, id: &str, title: &str, words: &str, within: &str) -> String {
+    fn written(&self, on_page: bool, id: &str, title: &str, description: &str) -> String {
+        let rule = |(name, colour): (&str, String)| {
+            format!(".fill-{name}{{fill:{colour}}}.stroke-{name}{{stroke:{colour}}}\n")
+        };
+        let (mut space, mut within) = ("", String::new());
+        if !on_page {
+            space = " xmlns=\"http://www.w3.org/2000/svg\"";
+            let (rules, glyphs) = (palette().map(rule).collect::<String>(), outlines(&self.glyphs));
+            within = format!("<style>\n{rules}</style>\n<defs>\n{glyphs}</defs>\n");
+        }
         let [w, h] = [WIDTH, self.height].map(|side| side * PIXELS_PER_HUNDRED / 100);
-        let (title, words, height) = (escape(title), escape(words), self.height);
+        let (title, words, height) = (escape(title), escape(description), self.height);
         let mut out = format!(
             "<svg{space} width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" \
              aria-labelledby=\"{id}-title {id}-desc\">\n<title id=\"{id}-title\">{title}</title>\n\
@@ -150,7 +151,7 @@ impl Drawing {
                 ),
                 Element::Close => "</g>".into(),
                 Element::Shape(path, fill, stroke) => shape(path, fill, stroke),
-                Element::Label(own) => label(own),
+                Element::Label(own) => label(own, on_page),
             };
             out.push('\n');
         }

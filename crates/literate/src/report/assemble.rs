@@ -126,10 +126,9 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     }
     let cards = Cards { values: &values, ledger: &ledger, paper: input.paper };
     let paper = input.paper;
-    let site = html::Site { input, labels: &labels };
     let (mut shown, mut texts) = (BTreeSet::new(), Vec::new());
     let written = parts.par_iter().with_max_len(1).map(|Part { of, blocks, .. }| {
-        Ok((latex::write(blocks, *of)?, html::write(blocks, *of, site)?))
+        Ok((latex::write(blocks, *of)?, html::write(blocks, *of, input)?))
     });
     let written = written.collect::<Vec<Result<_, Error>>>();
     let authors =
@@ -153,7 +152,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         texts.push(serde_json::json!([of.page, of.name, page["texts"]]));
         beside.insert(of.page.into(), filler.fill("report.html")?.into_bytes());
     }
-    beside.extend(html::beside(&shown, cards, site)?);
+    beside.extend(html::beside(&shown, cards, input, &labels)?);
     let texts = format!("TEXTS = {};\n", serde_json::Value::from(texts));
     beside.insert("search.js".into(), texts.into_bytes());
     for name in ["report.css", "report.js"] {

@@ -1,6 +1,6 @@
 //! `references.bib` → labels and entries of the list of references: authors and year, title, where it was published.
 //!
-//! Articles, books, parts of collections, theses and software; entries of other kinds are refused.
+//! Articles, books, doctoral theses and software; entries of other kinds are refused.
 
 use super::Error;
 use super::card::words_and_maths;
@@ -86,20 +86,13 @@ fn shown(entry: &biblatex::Entry) -> Result<Entry, String> {
                 and(" (", "edition", " ed.)").replace("(2 ", "(2nd ").replace("(3 ", "(3rd ");
             vec![slanted(title), words(ending(edition + &and(". ", "publisher", "")))]
         }
-        EntryType::InCollection | EntryType::InProceedings => vec![
-            words(ending(title) + " In "),
-            slanted(either(["booktitle", "maintitle"])?),
-            words(ending(and(" (pp. ", "pages", ")") + &and(". ", "publisher", ""))),
-        ],
-        EntryType::PhdThesis | EntryType::MastersThesis => {
-            let doctor = entry.entry_type == EntryType::PhdThesis;
-            let kind = if doctor { "Doctoral dissertation" } else { "Master’s thesis" };
+        EntryType::PhdThesis => {
             let school = ending(either(["school", "institution"])?);
-            vec![slanted(title), words(format!(" [{kind}]. {school}"))]
+            vec![slanted(title), words(format!(" [Doctoral dissertation]. {school}"))]
         }
         EntryType::Software => vec![slanted(title), words(" [Computer software].".into())],
         ref other => {
-            let kinds = "@article, @book, @incollection, @phdthesis or @software";
+            let kinds = "@article, @book, @phdthesis or @software";
             return Err(format!("has the type @{other}, which is not shown; write {kinds}"));
         }
     });
@@ -167,15 +160,14 @@ mod tests {
               number={3--4}, pages={626--633}, doi={10.1/x(2)}}
             @book{b, author={Rice, Stephen O. and {di Bernardo}, Mario}, title={Noise \\& $x_1$}, edition={2},
               publisher={Dover, New York}, year={1954}}
-            @incollection{c, author={Rice, S.O. and A, Jean-Marc and others}, title={Part}, booktitle={Whole}, year={1955},
-              pages={1--2}, publisher={P}}
+            @book{c, author={Rice, S.O. and A, Jean-Marc and others}, title={Whole}, year={1955}, publisher={P}}
             @phdthesis{d, author={Rice, Stephen O. and {di Bernardo}, Mario}, title={T}, school={U of B}, year={1954}}
             @book{f, author={Rice, Stephen O.}, title={Alone}, year={1960}}
             @software{e, author={{A Group}}, title={Code}, date={2025-03-01}, url={https://x.org/}}";
         let expected = [
             "A Group, 2025: A Group. (2025). *Code* [Computer software]. <https://x.org/>",
             "Rice, 1960: Rice, S. O. (1960). *Alone*.",
-            "Rice et al., 1955: Rice, S. O., A, J.-M., et al. (1955). Part. In *Whole* (pp. 1–2). P.",
+            "Rice et al., 1955: Rice, S. O., A, J.-M., et al. (1955). *Whole*. P.",
             "Rice & di Bernardo, 1954: Rice, S. O., & di Bernardo, M. (1954). *Noise & x_1* (2nd ed.). Dover, New York.",
             "Rice & di Bernardo, 1954: Rice, S. O., & di Bernardo, M. (1954). *T* [Doctoral dissertation]. U of B.",
             "Šidák, 1967: Šidák, Z. (1967). Rectangles. *J. Stat.*, *62*(3–4), 626–633. <https://doi.org/10.1/x(2)>",

@@ -4,7 +4,7 @@
 //! alone. Pages and figures for LaTeX are on no list: they are made anew each time.
 
 use super::assemble::{Files, Report};
-use crate::input::{self, STAGING, WRITING, is_absent, listed, remedy, sha256};
+use crate::input::{self, STAGING, WRITING, is_absent, remedy, sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::Path;
@@ -20,7 +20,7 @@ pub enum Error {
         "{0}: it has files and no {SUMS} of a report; give a new or empty folder, or --force to write among them"
     )]
     NotOurs(String),
-    #[error("{}: not as this program last wrote it: {}; move it away, or write over it with --force", .0, listed(.1))]
+    #[error("{}: not as this program last wrote it: {}; move it away, or write over it with --force", .0, .1.join(", "))]
     Edited(String, Vec<String>),
     #[error("{0}: there is no {SUMS}; give the folder of a report")]
     NoList(String),

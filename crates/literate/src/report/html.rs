@@ -25,21 +25,14 @@ const FONTS: [(&str, &[u8]); 4] = [
     ("LibertinusMath-Regular", include_bytes!("../../fonts/LibertinusMath-Regular.woff2")),
 ];
 
-/// What the pages of a report share: what it is made of, and the places of all documents.
-#[derive(Clone, Copy, Debug)]
-pub struct Site<'a> {
-    pub input: &'a Input<'a>,
-    pub labels: &'a Labels,
-}
-
 /// What the template report.html has places for, and the cards that the page opens.
 pub fn write(
     blocks: &[Block],
     here: Document,
-    site: Site<'_>,
+    input: &Input<'_>,
 ) -> Result<(Json, BTreeSet<String>), Error> {
-    let page = Page { site, values: RefCell::default(), glyphs: RefCell::default() };
-    let (title, paper) = (document::title(blocks)?, site.input.paper);
+    let page = Page { input, values: RefCell::default(), glyphs: RefCell::default() };
+    let (title, paper) = (document::title(blocks)?, input.paper);
     let meta: Vec<_> =
         paper.about().into_iter().map(|(name, words)| (name, text(&words))).collect();
     let (heading, body) = (page.inlines(title)?, page.blocks(blocks)?);
@@ -53,7 +46,7 @@ pub fn write(
             ]),
             // What is shown again has its place elsewhere.
             Block::Figure { id, number, name, .. } if !here.repeats => {
-                let name = text(&Figure::named(name, site.input.figures)?.title);
+                let name = text(&Figure::named(name, input.figures)?.title);
                 figures.push([id_of(Some(id), &[]), number.clone(), name]);
             }
             _ => (),
@@ -82,8 +75,13 @@ pub fn write(
 
 /// What the pages share: fonts, and the cards of all values that they show, as a script, since pages on a disk may
 /// read nothing else. A row that several cards have stands once.
-pub fn beside(values: &BTreeSet<String>, cards: Cards<'_>, site: Site<'_>) -> Result<Files, Error> {
-    let page = Page { site, values: RefCell::default(), glyphs: RefCell::default() };
+pub fn beside(
+    values: &BTreeSet<String>,
+    cards: Cards<'_>,
+    input: &Input<'_>,
+    labels: &Labels,
+) -> Result<Files, Error> {
+    let page = Page { input, values: RefCell::default(), glyphs: RefCell::default() };
     let (mut rows, mut places, mut all) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
     for id in values {
         let unknown = || Error::Template(format!("there is no value {id}"));
@@ -96,10 +94,10 @@ pub fn beside(values: &BTreeSet<String>, cards: Cards<'_>, site: Site<'_>) -> Re
         for (name, text) in card.rows.iter().chain(&ledger) {
             let place = |inline: &Inline| match inline.clone() {
                 Inline::Reference { to, shown, .. } => {
-                    let within = site.labels.get(&to).map(|label| label.of);
+                    let within = labels.get(&to).map(|label| label.of);
                     vec![Inline::Reference { to, within, shown }]
                 }
-                other => document::led(other, site.input.top),
+                other => document::led(other, input.top),
             };
             let words: Vec<Inline> = text.iter().flat_map(place).collect();
             let row = format!("<dt>{name}</dt><dd>{}</dd>", page.inlines(&words)?);
@@ -181,7 +179,7 @@ const CLOSING: [char; 12] = ['.', ',', ';', ':', '!', '?', ')', ']', '”', '’
 
 /// A page in the making.
 pub(super) struct Page<'a> {
-    site: Site<'a>,
+    input: &'a Input<'a>,
     values: RefCell<BTreeSet<String>>,
     glyphs: RefCell<Glyphs>,
 }
@@ -216,7 +214,7 @@ impl Page<'_> {
             }
             Block::Paragraph(text) => self.paragraph(text)?,
             Block::Figure { id, number, name, origin, caption, .. } => {
-                let figure = Figure::named(name, self.site.input.figures)?;
+                let figure = Figure::named(name, self.input.figures)?;
                 self.glyphs.borrow_mut().extend(figure.drawing.glyphs.clone());
                 let svg =
                     figure.drawing.on_page(&figure.id, &figure.title, &figure.description.text);
@@ -229,7 +227,7 @@ impl Page<'_> {
                     self.inlines(origin)?
                 )
             }
-            Block::Lab { .. } if self.site.input.lab.is_none() => String::new(),
+            Block::Lab { .. } if self.input.lab.is_none() => String::new(),
             Block::Lab { lab, caption } => format!(
                 "<figure class=\"lab\" id=\"lab-{lab}\" data-lab=\"{lab}\" hidden=\"\"><div class=\"controls\">\
                  <button type=\"button\">Run it here</button><span role=\"status\"></span></div>\
@@ -449,7 +447,7 @@ impl Page<'_> {
             }
             Inline::Link { to, shown } => {
                 // A document is another file here.
-                let of = self.site.input.paper.documents.iter().find(|of| of.markdown == to);
+                let of = self.input.paper.documents.iter().find(|of| of.markdown == to);
                 let to = of.map_or(to.as_str(), |of| of.page);
                 format!("<a href=\"{}\">{}</a>", text(to), self.inlines(shown)?)
             }
