@@ -92,12 +92,7 @@ pub fn is_no_text(c: char) -> bool {
 /// A fault of TOML with its line, from 1, and a remedy: `12: missing field …; mend …`.
 pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {
     let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
-    // What it takes a word without quotes for depends on how the word begins.
-    let bare = ["string values must be quoted", "invalid boolean", "invalid float, expected `"];
-    let what = match bare.iter().any(|bare| error.message().starts_with(bare)) {
-        true => "this is neither a number nor text in quotes, \"…\"".into(),
-        false => one_line(&plain(error.message()), 300),
-    };
+    let what = one_line(&plain(error.message()), 300);
     format!("{}: {what}; mend this line, or restore the file", line(before))
 }
 

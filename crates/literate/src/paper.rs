@@ -34,14 +34,10 @@ impl Illustration {
 
     /// Whether it is asked for by `text`: its name, or `3` for `fig03`.
     fn is(&self, text: &str) -> bool {
-        let plain = |name: &str| {
-            let name = name.to_lowercase();
-            let name = name.strip_prefix("fig").unwrap_or(&name).to_string();
-            let digits = name.trim_start_matches(|c: char| !c.is_ascii_digit());
-            let letters = &name[..name.len() - digits.len()];
-            format!("{letters}{}", digits.trim_start_matches('0'))
-        };
-        self.name == text || plain(self.name) == plain(text)
+        let lower = text.to_lowercase();
+        let digits = lower.trim_start_matches(char::is_alphabetic);
+        let letters = lower.strip_suffix(digits).filter(|letters| !letters.is_empty());
+        self.name == text || self.name == format!("{}{digits:0>2}", letters.unwrap_or("fig"))
     }
 }
 

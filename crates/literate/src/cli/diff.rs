@@ -18,9 +18,9 @@ use std::process::Command;
 ///
 /// Examples:
 ///   diff paper target/paper          two folders
-///   diff v1.0.0 paper --markdown     a revision of git, whose folder paper/ is meant, and a folder
+///   diff v1.0.0 paper                a revision of git, whose folder paper/ is meant, and a folder
 ///
-/// A difference is no failure: the exit code is 0 unless --exit-code asks for more.
+/// A difference is no failure: the exit code is 0.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
@@ -30,12 +30,6 @@ pub(super) struct Args {
     /// The later one.
     #[arg(value_name = "NEW")]
     new: String,
-    /// Print the first lines for a comment on a pull request.
-    #[arg(long)]
-    markdown: bool,
-    /// End with exit code 1 if anything differs.
-    #[arg(long)]
-    exit_code: bool,
 }
 
 pub(super) fn run(args: Args) -> Result<(), Failure> {
@@ -47,19 +41,10 @@ pub(super) fn run(args: Args) -> Result<(), Failure> {
     let all = [checks, numbers, files(&before.files, &after.files)].concat();
     // A report, and the name of a file, may hold what a terminal obeys.
     let lines = all.iter().map(|line| line.replace(is_obeyed, " ") + "\n");
-    let text = match all.is_empty() {
+    print(&match all.is_empty() {
         true => format!("{old} and {new}: nothing differs\n"),
         false => format!("{} changed\n{}", counts.join(" and "), lines.collect::<String>()),
-    };
-    print(&match args.markdown {
-        // Hosts take comments of 65536 characters.
-        true => format!("~~~~\n{}\n~~~~\n", text.lines().take(300).collect::<Vec<_>>().join("\n")),
-        false => text,
-    })?;
-    match all.is_empty() || !args.exit_code {
-        true => Ok(()),
-        false => Err(Failure::check(format!("{} and {} differ", args.old, args.new))),
-    }
+    })
 }
 
 /// A report, with the parts that are compared as what they mean.

@@ -54,12 +54,6 @@ impl Rows {
             if row.len() != names {
                 return Some(format!("row {at} has {} cells for {names} names", row.len()));
             }
-            let is_negative = |(name, error): &(&String, &Json)| {
-                name.ends_with("_error") && error.as_f64().is_some_and(|error| error < 0.0)
-            };
-            if let Some((name, _)) = self.names().zip(row).find(is_negative) {
-                return Some(format!("row {at} has a negative {name}"));
-            }
             let called = |key: &Json| key.as_f64().map_or(key.to_string(), |x| x.to_string());
             let keys: Vec<String> = row[..self.keys.len()].iter().map(called).collect();
             (!seen.insert(keys)).then(|| format!("row {at} has the keys of one before"))

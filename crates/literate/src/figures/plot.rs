@@ -17,6 +17,7 @@
 
 use super::prelude::*;
 use super::{axis, font, panel, style};
+use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 use pxfm::{f_exp10, f_log10};
 
@@ -27,8 +28,8 @@ enum Shown {
     Curve(Box<dyn Fn(f64) -> f64>),
 }
 
-/// A series: its name, how it is shown, and its points with their errors, which are zero where there are none.
-struct Series(String, Shown, Vec<(f64, f64, f64)>);
+/// A series: its name, how it is shown, and its points, with an error of zero where there is none.
+struct Series(String, Shown, Vec<(f64, Estimate)>);
 
 /// Label and scale of an axis.
 #[derive(Default)]
@@ -78,36 +79,38 @@ impl Plot {
         self.y(label)
     }
 
-    fn add(mut self, name: &str, shown: Shown, points: Vec<(f64, f64, f64)>) -> Self {
+    fn add(mut self, name: &str, shown: Shown, points: &[(f64, f64)]) -> Self {
+        let points = points.iter().map(|(x, y)| (*x, with_error(*y, 0.0))).collect();
         self.series.push(Series(name.into(), shown, points));
         self
     }
 
     /// A line through points (x, y).
     pub fn line(self, name: &str, points: &[(f64, f64)]) -> Self {
-        self.add(name, Shown::Line, points.iter().map(|(x, y)| (*x, *y, 0.0)).collect())
+        self.add(name, Shown::Line, points)
     }
 
     /// Markers at points (x, y).
     pub fn points(self, name: &str, points: &[(f64, f64)], mark: Mark) -> Self {
-        self.add(name, Shown::Marks(mark), points.iter().map(|(x, y)| (*x, *y, 0.0)).collect())
+        self.add(name, Shown::Marks(mark), points)
     }
 
     /// Discs at estimates with bars of one standard error, as a table gives them.
-    pub fn estimates(self, name: &str, estimates: &[(f64, Estimate)]) -> Self {
-        let of = |(x, own): &(f64, Estimate)| (*x, own.value, own.error);
-        self.add(name, Shown::Marks(Mark::Disc), estimates.iter().map(of).collect())
+    pub fn estimates(mut self, name: &str, estimates: &[(f64, Estimate)]) -> Self {
+        self.series.push(Series(name.into(), Shown::Marks(Mark::Disc), estimates.to_vec()));
+        self
     }
 
     /// A function of x across the plot; the range of y follows from it only where there is no other data.
     pub fn curve(self, name: &str, of: impl Fn(f64) -> f64 + 'static) -> Self {
-        self.add(name, Shown::Curve(Box::new(of)), Vec::new())
+        self.add(name, Shown::Curve(Box::new(of)), &[])
     }
 
     /// All points that have a place, with the ends of bars.
     fn data(&self) -> Vec<(f64, f64)> {
         let points = self.series.iter().flat_map(|series| &series.2);
-        let ends = points.flat_map(|(x, y, error)| [0.0, -error, *error].map(|by| (*x, y + by)));
+        let ends =
+            points.flat_map(|(x, own)| [0.0, -own.error, own.error].map(|by| (*x, own.value + by)));
         ends.filter(|p| (p.0 > 0.0 || !self.x.is_log) && (p.1 > 0.0 || !self.y.is_log)).collect()
     }
 
@@ -123,8 +126,8 @@ impl Plot {
         let value = |at: f64| if self.x.is_log { f_exp10(at) } else { at };
         for Series(_, shown, points) in &mut self.series {
             if let Shown::Curve(of) = shown {
-                let grid = (0..=400).map(|i| value(place(i))).map(|x| (x, of(x), 0.0));
-                *points = grid.filter(|point| point.1.is_finite()).collect();
+                let grid = (0..=400).map(|i| value(place(i))).map(|x| (x, with_error(of(x), 0.0)));
+                *points = grid.filter(|(_, own)| own.value.is_finite()).collect();
             }
         }
         if data.is_empty() {
@@ -155,24 +158,19 @@ impl Plot {
         };
         for Series(name, shown, points) in &self.series {
             let (line, marker) = looks(name);
-            let places: Vec<_> = points.iter().map(|(x, y, _)| (*x, *y)).collect();
+            let places = places(points);
             match shown {
                 Shown::Line | Shown::Curve(_) => panel.curve(name, &places, line, Outside::Cut)?,
-                Shown::Marks(mark) if points.iter().all(|point| point.2 == 0.0) => {
+                Shown::Marks(mark) if points.iter().all(|(_, own)| own.error == 0.0) => {
                     panel.marks(name, &places, marker(*mark), Outside::Cut)?;
                 }
-                Shown::Marks(mark) => {
-                    let of =
-                        |&(x, value, error)| (x, Estimate { value, error, interval: [value; 2] });
-                    let own: Vec<_> = points.iter().map(of).collect();
-                    panel.estimates(name, &own, marker(*mark))?;
-                }
+                Shown::Marks(mark) => panel.estimates(name, points, marker(*mark))?,
             }
         }
         let named = |name: &&str| {
             let mut own = self.series.iter().filter(|own| own.0 == **name).map(|own| &own.2);
-            let points = own.find(|points| !points.is_empty()).into_iter().flatten();
-            let points: Vec<_> = points.map(|(x, y, _)| (*x, *y)).collect();
+            let points =
+                own.find(|points| !points.is_empty()).map_or(Vec::new(), |own| places(own));
             (name.to_string(), points, looks(name).0.colour)
         };
         if names.len() > 1 {
@@ -180,6 +178,11 @@ impl Plot {
         }
         Ok(sheet.finish(title, description))
     }
+}
+
+/// Points without their errors.
+fn places(points: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
+    points.iter().map(|(x, own)| (*x, own.value)).collect()
 }
 
 impl Along {
@@ -214,7 +217,6 @@ impl Along {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use impact_numerics::estimates::with_error;
 
     fn labels(along: &Along, values: &[f64]) -> (f64, f64, Vec<String>) {
         let axis = along.axis(values.iter().copied());

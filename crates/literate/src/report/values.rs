@@ -99,14 +99,13 @@ impl Registry {
     }
 }
 
-/// Reads a values.json. A number of a form that only another version of the program knows is left out.
+/// Reads a values.json.
 pub fn read(text: &str) -> Result<Registry, Error> {
     let fault = |what: String| Error::Template(format!("values.json: {what}"));
-    let values: BTreeMap<String, serde_json::Value> =
+    let values: BTreeMap<String, Value> =
         serde_json::from_str(text).map_err(|e| fault(e.to_string()))?;
-    let known = values.into_values().filter_map(|value| serde_json::from_value(value).ok());
     let mut registry = Registry::new();
-    registry.extend(known).map_err(|e| fault(e.to_string()))?;
+    registry.extend(values.into_values()).map_err(|e| fault(e.to_string()))?;
     Ok(registry)
 }
 
