@@ -165,7 +165,6 @@ impl Paper {
         })
     }
 
-    /// The authors with their affiliations and the date, in a line.
     pub(crate) fn byline(&self) -> String {
         let author = |(name, affiliation): &(&str, &str)| match affiliation.is_empty() {
             true => name.to_string(),
@@ -272,7 +271,6 @@ fn collect(name: &str, value: &Json, into: &mut Vec<(String, Vec<String>)>) {
     }
 }
 
-/// A paper for tests.
 #[cfg(test)]
 pub(crate) fn toy() -> Paper {
     const FLIGHT: &str = "//! Free flight.\n\nimpl Motion {\n    // listing: kick\n    /// A jump of the velocity by ω \

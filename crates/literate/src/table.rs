@@ -36,11 +36,9 @@ struct Column {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{address}: {what}; run a fuller profile, or mend the address in {place}")]
 pub struct Missing {
-    /// What was asked for.
     address: String,
     /// What is missing, and the nearest names that there are.
     what: String,
-    /// File and line that ask.
     place: String,
 }
 
@@ -73,7 +71,6 @@ pub fn number_at(tables: &Tables, address: &str) -> Result<f64, Missing> {
     number(cell(tables, address)?).ok_or_else(|| Missing::new(address, NO_NUMBER))
 }
 
-/// What is said of a cell of words or of *none*.
 const NO_NUMBER: &str = "this cell has no number";
 
 /// The three names that are most like one: with the most characters alike at their beginnings and ends.
@@ -317,7 +314,6 @@ fn as_chosen(value: f64) -> Value {
     Value { number, ..Value::real("", value, 1) }
 }
 
-/// The cell of a row that has no number.
 fn none() -> Value {
     Value::text("", "none")
 }

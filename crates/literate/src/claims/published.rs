@@ -15,7 +15,6 @@ pub struct Published {
     /// Statements that it makes.
     #[serde(rename = "statement")]
     pub statements: Vec<Statement>,
-    /// The file.
     #[serde(skip)]
     text: String,
 }

@@ -35,7 +35,6 @@ pub(super) struct Args {
     sources: Sources,
 }
 
-/// Forms for people and machines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
     Text,

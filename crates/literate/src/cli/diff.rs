@@ -68,7 +68,6 @@ fn parts(name: &str) -> Result<Parts, Failure> {
     Ok(Parts { files, values, ledger })
 }
 
-/// The files in a folder.
 fn standing(name: &str) -> Result<Files, Failure> {
     let root = Path::new(name);
     let paths = folder::walk(root)?;
@@ -80,7 +79,6 @@ fn standing(name: &str) -> Result<Files, Failure> {
     paths.into_iter().filter(|path| !folder::is_beside(path)).map(read).collect()
 }
 
-/// What git prints, or why it does not.
 fn git(arguments: &[&str]) -> Result<Vec<u8>, String> {
     let output = Command::new("git").arg("--no-pager").args(arguments).output();
     let output = output.map_err(|error| format!("git: {error}"))?;
@@ -185,7 +183,6 @@ fn numbers(before: &Registry, after: &Registry) -> Vec<String> {
     changes.into_iter().map(|(_, line)| line).collect()
 }
 
-/// A difference with its sign and three digits.
 fn signed(value: f64) -> String {
     let sign = if value > 0.0 { "+" } else { "" };
     format!("{sign}{}", Text::from(significant(value, 3)))

@@ -60,12 +60,10 @@ fn fault(error: Error) -> Failure {
     Failure::input(format!("--paper: {error}; make the report anew with `paper`"))
 }
 
-/// A thing in a line.
 fn line(card: &Card) -> String {
     format!("{:28} {}\n", clean(&card.id), words(&card.title))
 }
 
-/// All that is known of one thing.
 fn shown(card: &Card) -> String {
     let mut out = format!("{}: {}\n", clean(&card.id), words(&card.title));
     if !card.lead.is_empty() {

@@ -153,7 +153,6 @@ pub(super) fn drawn(drawing: &Illustration, results: &Results) -> Result<Figure,
     drawing.figure(results).map_err(named)
 }
 
-/// The checks of one kind.
 pub(super) fn of(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> + Clone {
     checks.iter().filter(move |check| check.kind == kind)
 }

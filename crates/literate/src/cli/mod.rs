@@ -18,7 +18,6 @@ use std::process::ExitCode;
 
 pub use make::whole;
 
-/// The contract of exit codes.
 const EXIT_CODES: &str = "Exit codes:
   0    fine
   1    a statement, relation or comparison failed, and what was asked for is written all
@@ -70,7 +69,6 @@ impl Paper {
         joined.ok().and_then(Result::ok).unwrap_or(ExitCode::FAILURE)
     }
 
-    /// Parses the command line and runs its verb.
     fn obey<V: Subcommand>(&self, more: impl FnOnce(V) -> Result<(), Failure>) -> ExitCode {
         let crate::project::Sources { name, version, .. } = self.project.sources;
         let command: Command = Cli::<V>::command().name(name).bin_name(name).version(version);

@@ -109,7 +109,6 @@ pub(super) fn profile_in(root: &Path) -> Option<Profile> {
     values::read(&text).ok()?.profile()
 }
 
-/// One line for each experiment that would be run.
 fn dry_run(session: &Session<'_>, needs: &[Need]) -> Result<(), Failure> {
     let stale: Vec<String> =
         needs.iter().filter_map(|need| Some(need.stale(session)? + "\n")).collect();

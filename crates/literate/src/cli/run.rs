@@ -27,7 +27,6 @@ pub(super) struct Args {
     sources: Sources,
 }
 
-/// "2/3".
 fn share(text: &str) -> Result<(usize, usize), String> {
     let read = |text: &str| text.parse::<usize>().ok().filter(|number| (1..=MOST).contains(number));
     match text.split_once('/').map(|(i, n)| (read(i), read(n))) {

@@ -14,7 +14,6 @@ pub(super) const STACK: usize = 8 << 20;
 /// More threads than any machine of today has cores.
 const MOST: usize = 1024;
 
-/// Whether the work is to end.
 static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 
 /// Says one line on standard error, behind the name of the program.

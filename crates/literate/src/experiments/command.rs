@@ -46,7 +46,6 @@ impl Rows {
         self.keys.iter().chain(&self.columns)
     }
 
-    /// What is wrong with them.
     fn fault(&self) -> Option<String> {
         let names = self.names().count();
         let mut seen = BTreeSet::new();
@@ -197,7 +196,6 @@ echo '{"throws": {"keys": ["needles"], "columns": ["pi", "pi_error", "by", "seed
 echo "[[$n, 3.125, 0.04, \"sh\", 7], [2, null, 0.1, \"sh\", null]]}}"
 "#;
 
-    /// Runs a command on a script with this text.
     fn with<T>(
         script: &str,
         look: impl Fn(&dyn Fn(&str) -> Result<Results, Error>, &Path) -> T,

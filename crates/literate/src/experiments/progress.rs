@@ -12,7 +12,6 @@ use std::time::{Duration, Instant};
 /// Seconds between two lines.
 const LINE_EVERY: u64 = 5;
 
-/// Nobody wants to see progress.
 static QUIET: AtomicBool = AtomicBool::new(false);
 
 /// From now on work says nothing of how far it is.

@@ -19,7 +19,6 @@ pub struct Results {
     made_by: (Vec<Need>, Vec<Together>),
     /// Of each experiment that was run, by its name.
     found: BTreeMap<&'static str, Found>,
-    /// Tables of the results, made when first looked at.
     tables: OnceLock<Tables>,
 }
 
@@ -48,7 +47,6 @@ impl Results {
         }
     }
 
-    /// Results of which only tables are known.
     #[cfg(test)]
     pub(crate) fn made_up(tables: Vec<Table>) -> Self {
         let tables: Tables =

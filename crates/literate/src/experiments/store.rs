@@ -16,7 +16,6 @@ use std::path::{Path, PathBuf};
 /// The form of saved files; a change of it makes all of them unknown.
 const SCHEMA: u32 = 3;
 
-/// What is said of a file of another form.
 const FORM: &str = "saved in another form";
 
 /// Everything that a result depends on.
@@ -24,9 +23,7 @@ const FORM: &str = "saved in another form";
 pub struct Identity {
     /// Name of the experiment.
     pub experiment: String,
-    /// Its sample sizes by name.
     profile: Profile,
-    /// The form of the saved file.
     schema: u32,
     /// The parameters, seed included.
     pub parameters: serde_json::Value,
@@ -111,7 +108,6 @@ impl Store {
         Store { folder: None }
     }
 
-    /// Where a result is saved.
     fn path(&self, identity: &Identity) -> Option<PathBuf> {
         let name = format!("{}.json", identity.file_stem());
         self.folder.as_ref().map(|folder| folder.join(name))
@@ -208,7 +204,6 @@ fn save(path: &Path, text: &str) -> std::io::Result<()> {
     saved.inspect_err(|_| drop(std::fs::remove_file(&waiting)))
 }
 
-/// SHA-256 of lines, in hexadecimal.
 fn digest(lines: &[&str]) -> String {
     sha256(lines.iter().flat_map(|line| [*line, "\n"]).collect::<String>())
 }

@@ -169,7 +169,6 @@ impl Axis {
     }
 }
 
-/// The smallest and the largest of some values.
 pub(super) fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     values.map(|own| [own; 2]).reduce(|[low, high], [own, _]| [low.min(own), high.max(own)])
 }

@@ -21,7 +21,6 @@ pub enum Step {
     Line(Point),
     /// A cubic curve: two controls and its end.
     Curve([Point; 3]),
-    /// Back to where the path began.
     Close,
 }
 
@@ -56,11 +55,9 @@ pub type Glyphs = BTreeMap<String, Vec<Step>>;
 pub enum Element {
     /// The series of this name begins, in this frame.
     Open(String, Frame),
-    /// It ends.
     Close,
     /// A path, filled and along its edge; corners of one that encloses nothing are round.
     Shape(Vec<Step>, Fill, Option<Stroke>),
-    /// Words.
     Label(Label),
 }
 
@@ -75,14 +72,12 @@ pub struct Drawing {
     pub glyphs: Glyphs,
 }
 
-/// A path through points.
 fn through(points: impl IntoIterator<Item = Point>) -> Vec<Step> {
     let mut points = points.into_iter();
     let first = points.next().map(Step::Move);
     first.into_iter().chain(points.map(Step::Line)).collect()
 }
 
-/// A closed path through points.
 fn polygon(points: impl IntoIterator<Item = Point>) -> Vec<Step> {
     let mut path = through(points);
     path.push(Step::Close);

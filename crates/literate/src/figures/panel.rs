@@ -43,7 +43,6 @@ pub struct Panel {
     /// Vertical axis.
     pub y: Axis,
     pub(super) record: Rc<RefCell<Record>>,
-    /// Whether series are recorded.
     pub(super) recorded: bool,
 }
 
@@ -108,7 +107,6 @@ impl Panel {
         Panel { recorded: false, ..self.clone() }
     }
 
-    /// Words in ink on the sheet.
     pub(super) fn text(
         &self,
         text: &str,

@@ -49,12 +49,10 @@ impl Drawing {
     }
 }
 
-/// The name of an opacity.
 fn state(hundredths: u8) -> String {
     format!("o{hundredths}")
 }
 
-/// Red, green and blue.
 fn shares(Colour(r, g, b): Colour) -> [f32; 3] {
     [r, g, b].map(|part| f32::from(part) / 255.0)
 }
@@ -67,7 +65,6 @@ struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// Fills and strokes a shape.
     fn shape(&mut self, path: &[Step], fill: Fill, stroke: Option<Stroke>) {
         let content = &mut self.content;
         content.save_state();

@@ -21,7 +21,6 @@ use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 use pxfm::{f_exp10, f_log10};
 
-/// How a series is shown.
 enum Shown {
     Line,
     Marks(Mark),
@@ -31,7 +30,6 @@ enum Shown {
 /// A series: its name, how it is shown, and its points, with an error of zero where there is none.
 struct Series(String, Shown, Vec<(f64, Estimate)>);
 
-/// Label and scale of an axis.
 #[derive(Default)]
 struct Along {
     label: String,
@@ -180,7 +178,6 @@ impl Plot {
     }
 }
 
-/// Points without their errors.
 fn places(points: &[(f64, Estimate)]) -> Vec<(f64, f64)> {
     points.iter().map(|(x, own)| (*x, own.value)).collect()
 }

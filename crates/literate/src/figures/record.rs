@@ -59,7 +59,6 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// Nothing yet, under the names of the axes.
     pub(super) fn new(x: &Axis, y: &Axis) -> Self {
         Record { suffix: String::new(), x: x.named(), y: y.named(), series: Vec::new() }
     }

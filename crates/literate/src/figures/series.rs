@@ -74,7 +74,6 @@ impl Panel {
         self.record(name, points.iter().filter(shown).copied());
     }
 
-    /// Draws the shapes of a series.
     fn draw(&self, name: &str, shapes: impl FnOnce(&mut Drawing)) -> Drawn {
         let mut drawing = self.drawing.borrow_mut();
         drawing.elements.push(Element::Open(name.into(), self.frame));

@@ -14,7 +14,6 @@ use super::{Error, Figure, Seen};
 /// A figure in the making.
 pub struct Sheet {
     drawing: Rc<RefCell<Drawing>>,
-    /// What each panel has recorded.
     records: RefCell<Vec<Rc<RefCell<Record>>>>,
 }
 

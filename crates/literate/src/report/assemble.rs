@@ -56,7 +56,6 @@ pub struct Report {
     pub beside: Files,
 }
 
-/// A document in the making.
 struct Part<'a> {
     of: Document,
     blocks: Vec<Block>,

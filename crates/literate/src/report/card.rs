@@ -43,7 +43,6 @@ impl Card {
         }
     }
 
-    /// A row with an item of the source, which links to its file.
     fn item(&mut self, name: &'static str, item: &str, paper: &Paper) {
         let code = Inline::Code(item.to_string());
         match paper.file(item) {
@@ -53,7 +52,6 @@ impl Card {
         }
     }
 
-    /// Rows for an experiment: where it is, and its parameters.
     fn experiment(&mut self, name: &str, cards: &Cards<'_>) {
         let mut all = cards.paper.experiments.iter();
         let Some(experiment) = all.find(|own| own.name() == name) else { return };
@@ -224,7 +222,6 @@ fn link(to: &str, shown: Inline) -> Inline {
     Inline::Link { to: to.into(), shown: vec![shown] }
 }
 
-/// A list of links with commas.
 pub(super) fn links<'a>(paths: impl IntoIterator<Item = &'a String>) -> Vec<Inline> {
     let mut out = Vec::new();
     for path in paths {

@@ -29,7 +29,6 @@ pub fn row(check: &Check) -> serde_json::Value {
     })
 }
 
-/// A text of a check as Markdown.
 fn sentence(text: &Text) -> String {
     let piece = |piece: &Number| match piece {
         Number::Text(words) => markdown::escaped(&symbols(words)),

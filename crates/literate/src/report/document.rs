@@ -178,7 +178,6 @@ pub fn visit(blocks: &[Block], visit: &mut impl FnMut(&Inline)) {
     let Ok(()) = rewrite(&mut blocks.to_vec(), &mut each);
 }
 
-/// What stands within a piece of running text.
 fn inner(inline: &Inline) -> &[Inline] {
     match inline {
         Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => inner,

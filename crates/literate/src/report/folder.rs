@@ -31,7 +31,6 @@ pub enum Error {
     Io { place: String, source: io::Error },
 }
 
-/// Digests by path.
 type Digests = BTreeMap<String, String>;
 
 fn failed(place: &Path) -> impl Fn(io::Error) -> Error {
@@ -39,7 +38,6 @@ fn failed(place: &Path) -> impl Fn(io::Error) -> Error {
     move |source| Error::Io { place: place.clone(), source }
 }
 
-/// The digest of each file.
 fn digests<'a>(files: impl Iterator<Item = (&'a String, &'a Vec<u8>)>) -> Digests {
     files.map(|(path, bytes)| (path.clone(), sha256(bytes))).collect()
 }
@@ -229,14 +227,12 @@ mod tests {
         pairs.iter().map(|(path, text)| (path.to_string(), text.as_bytes().to_vec())).collect()
     }
 
-    /// A whole report with a page.
     fn report(pairs: &[(&str, &str)]) -> Report {
         let mut committed = files(pairs);
         committed.insert(SUMS.into(), sums(&committed).into_bytes());
         Report { committed, beside: files(&[("report.html", "page")]) }
     }
 
-    /// All that stands in a folder.
     fn standing(folder: &Path) -> Files {
         let one = |path: String| (path.clone(), read(folder, &path).unwrap());
         walk(folder).unwrap().into_iter().map(one).collect()

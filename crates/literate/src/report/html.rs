@@ -17,7 +17,6 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-/// The faces of the pages.
 const FONTS: [(&str, &[u8]); 4] = [
     ("LibertinusSerif-Regular", include_bytes!("../../fonts/LibertinusSerif-Regular.woff2")),
     ("LibertinusSerif-Italic", include_bytes!("../../fonts/LibertinusSerif-Italic.woff2")),
@@ -177,7 +176,6 @@ const FEW: usize = 3;
 const OPENING: [char; 4] = ['(', '[', '“', '‘'];
 const CLOSING: [char; 12] = ['.', ',', ';', ':', '!', '?', ')', ']', '”', '’', '%', '-'];
 
-/// A page in the making.
 pub(super) struct Page<'a> {
     input: &'a Input<'a>,
     values: RefCell<BTreeSet<String>>,

@@ -68,7 +68,6 @@ fn listings(blocks: &[Block]) -> Result<String, Error> {
     Ok(out)
 }
 
-/// Their head.
 const LISTINGS: &str = "\\clearpage\n\\phantomsection\\section*{Listings}\n\
                         \\addcontentsline{toc}{section}{Listings}\n";
 
@@ -218,7 +217,6 @@ fn breakable(code: &str) -> String {
         .replace(']', r"]\allowbreak{}")
 }
 
-/// An address inside `\href`.
 fn address(to: &str) -> String {
     to.replace('\\', "").replace('%', r"\%").replace('#', r"\#").replace('&', r"\&")
 }

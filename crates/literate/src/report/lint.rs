@@ -112,7 +112,6 @@ const BETWEEN: &str = r"= < > ≈ ≤ ≥ , ; & \\ \approx \simeq \sim \equiv \p
 /// What may stand about a number without making a formula of it.
 const AROUND: &str = r"\, \; \: \! ~ ± \times \cdot \pm \thinspace \mathbf \mathit \boldsymbol";
 
-/// Digits of a number, and what groups them.
 const DIGITS: &str = "0123456789 .,+-−^{}%\\()";
 
 /// The sides of the relations in a formula, without what stands about them.

@@ -22,11 +22,8 @@ const BRACKETS: [(&str, &str); 2] = [("[", "\u{e003}"), ("]", "\u{e004}")];
 /// A piece of text with marks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Piece<'a> {
-    /// Text between marks.
     Text(&'a str),
-    /// A value.
     Value {
-        /// Its id.
         id: String,
         /// Its digits as TeX, or in filled prose the words of its filters.
         shown: &'a str,
@@ -116,7 +113,6 @@ pub fn marked(text: &str) -> String {
 pub struct Filled {
     /// The text; values are marks in it.
     pub text: String,
-    /// Path and text of each template.
     templates: Vec<(String, String)>,
     origins: Vec<Origin>,
 }
@@ -128,7 +124,6 @@ struct Origin {
     /// Which template it comes from, and the offset there.
     template: usize,
     offset: usize,
-    /// Whether a tag wrote it.
     tag: bool,
 }
 

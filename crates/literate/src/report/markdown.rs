@@ -20,7 +20,6 @@ pub fn inlines(inlines: &[Inline]) -> String {
     Writer { in_table: false }.all(inlines)
 }
 
-/// The lines of a text with something before each.
 fn lines(text: &str, before: &str) -> String {
     let line = |line: &str| format!("{before}{line}").trim_end().to_string();
     text.lines().map(line).collect::<Vec<_>>().join("\n")

@@ -90,7 +90,6 @@ pub enum Error {
 }
 
 impl Error {
-    /// The error with its place, unless it has one.
     pub(crate) fn at(self, place: String) -> Error {
         match self {
             Error::At { .. } => self,
@@ -98,7 +97,6 @@ impl Error {
         }
     }
 
-    /// Nothing wrong, or all that is.
     pub(crate) fn all(mut errors: Vec<Error>) -> Result<(), Error> {
         match errors.len() {
             0 => Ok(()),

@@ -25,7 +25,6 @@ pub struct Printed {
     mantissa: String,
     /// What stands in brackets behind the mantissa.
     error: Option<String>,
-    /// Power of ten, if one is shown.
     exponent: Option<i32>,
     percent: bool,
     words: bool,
@@ -109,7 +108,6 @@ fn bare(x: f64, mantissa: String) -> Printed {
     Printed { negative, mantissa, ..Printed::default() }
 }
 
-/// The shortest decimal that reads back to the same double.
 fn shortest(x: f64) -> Printed {
     let exponent = leading(x, 17);
     if x != 0.0 && shows_power(exponent) {
@@ -119,7 +117,6 @@ fn shortest(x: f64) -> Printed {
     bare(x, format!("{}", x.abs()))
 }
 
-/// So many significant digits.
 fn significant(x: f64, digits: usize) -> Printed {
     if x == 0.0 {
         return bare(x, "0".into());

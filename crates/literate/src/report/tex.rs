@@ -101,7 +101,6 @@ fn in_text(c: char) -> Option<&'static str> {
     })
 }
 
-/// Characters of mathematics, each with its TeX.
 const MATHS: &str = r"
     α \alpha  β \beta  γ \gamma  δ \delta  ε \varepsilon  ζ \zeta  η \eta  θ \theta  κ \kappa
     λ \lambda  μ \mu  µ \mu  ν \nu  ξ \xi  π \pi  ρ \rho  σ \sigma  τ \tau  φ \phi  χ \chi  ψ \psi
@@ -123,7 +122,6 @@ fn in_maths(c: char) -> Option<&'static str> {
     TEX.get(&*c.encode_utf8(&mut [0; 4])).copied()
 }
 
-/// Macros, by kind.
 const ALLOWED: &str = "
     alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa lambda mu nu xi pi rho
     varrho sigma varsigma tau upsilon phi varphi chi psi omega
@@ -141,7 +139,6 @@ const ALLOWED: &str = "
     mathrm mathbf mathbb mathcal mathit mathsf boldsymbol text textrm
     quad qquad thinspace negthinspace limits nolimits displaystyle textstyle tag begin end";
 
-/// Environments of displayed equations.
 const ENVIRONMENTS: [&str; 5] = ["aligned", "cases", "matrix", "pmatrix", "bmatrix"];
 
 /// What is wrong with a formula: its first macro or environment that not every format shows, or a value that stands

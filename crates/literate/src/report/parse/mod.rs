@@ -64,7 +64,6 @@ pub fn parse<'a>(
     Error::all(reader.found).map(|()| (blocks, reader.places))
 }
 
-/// An error of the markup.
 fn markup(what: impl Into<String>) -> Error {
     Error::Markup(what.into())
 }
@@ -87,7 +86,6 @@ struct Reader<'a> {
     hides: usize,
     titled: bool,
     places: Places<'a>,
-    /// What is wrong so far.
     found: Vec<Error>,
 }
 
@@ -108,12 +106,10 @@ impl<'a> Reader<'a> {
         Some(found)
     }
 
-    /// The source of a part of the filled text.
     fn source(&self, range: &Range<usize>) -> &'a str {
         &self.filled.text[range.clone()]
     }
 
-    /// Notes what is wrong at an offset.
     fn find(&mut self, at: usize, error: Error) {
         self.found.push(error.at(self.filled.place(at)));
     }
@@ -153,7 +149,6 @@ impl<'a> Reader<'a> {
         Ok(blocks)
     }
 
-    /// Blocks of an item of a list, or of a quotation.
     fn inner(&mut self) -> Result<Vec<Block>, Error> {
         self.within += 1;
         let blocks = self.blocks()?;
@@ -161,7 +156,6 @@ impl<'a> Reader<'a> {
         Ok(blocks)
     }
 
-    /// The next block.
     fn block(&mut self) -> Result<Block, Error> {
         let begins = |event: &Event<'_>| matches!(event, Event::Start(tag) if is_block(tag));
         let begun = self.events.next_if(|(event, _)| begins(event));

@@ -8,7 +8,6 @@ use crate::figures::prelude::{HPos, INK, VPos};
 use crate::figures::{DataFile, Drawing, Figure};
 use crate::paper::{Paper, toy};
 
-/// One document with everything that the prose may use.
 const SAMPLE: &str = r#"# A title
 
 ## Introduction {#sec:introduction}
