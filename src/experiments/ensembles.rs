@@ -11,13 +11,13 @@ pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> = Cutting { rows
 
 /// Each ensemble with each of its σ.
 fn cases(all: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
-    all.iter().flat_map(|own| own.sigmas.iter().map(move |&sigma| (own, sigma)))
+    all.iter().flat_map(|one| one.sigmas.iter().map(move |&sigma| (one, sigma)))
 }
 
 fn rows(all: &Vec<Ensemble>) -> Vec<UnitRow> {
-    let row = |(own, sigma): (&Ensemble, f64)| UnitRow {
-        realisations: own.realisations_at(sigma),
-        weight: own.work(sigma),
+    let row = |(one, sigma): (&Ensemble, f64)| UnitRow {
+        realisations: one.realisations_at(sigma),
+        weight: one.work(sigma),
     };
     cases(all).map(row).collect()
 }
@@ -28,10 +28,10 @@ fn part(
     stage: &Stage,
     progress: &Progress,
 ) -> Result<Counts, Error> {
-    let Some((own, sigma)) = cases(all).nth(unit.row) else { return Ok(Counts::default()) };
+    let Some((one, sigma)) = cases(all).nth(unit.row) else { return Ok(Counts::default()) };
     let one = |index| {
         progress.check()?;
-        let counts = own.realisation(sigma, index, || progress.stopped());
+        let counts = one.realisation(sigma, index, || progress.stopped());
         progress.check()?;
         counts.map_err(|source| Error::failed("an ensemble", source))
     };
@@ -44,15 +44,15 @@ fn join(
     progress: &Progress,
 ) -> Result<Vec<Counted>, Error> {
     let mut parts = parts.into_iter();
-    let counted = |own: &Ensemble| {
-        let at_each = parts.by_ref().take(own.sigmas.len());
+    let counted = |one: &Ensemble| {
+        let at_each = parts.by_ref().take(one.sigmas.len());
         let counts: Vec<Counts> = at_each.map(|parts| parts.into_iter().collect()).collect();
         let curve = |window| {
             progress.check()?;
-            Ok(Curve::new(own, &counts, window))
+            Ok(Curve::new(one, &counts, window))
         };
-        let windows = (0..own.protocols.len()).into_par_iter().with_max_len(1);
-        Ok(Counted::new(own.clone(), &counts, windows.map(curve).collect::<Result<_, Error>>()?))
+        let windows = (0..one.protocols.len()).into_par_iter().with_max_len(1);
+        Ok(Counted::new(one.clone(), &counts, windows.map(curve).collect::<Result<_, Error>>()?))
     };
     all.iter().map(counted).collect()
 }
@@ -76,5 +76,5 @@ pub fn each<A: Send, R: Send>(
 
 /// The ensemble of a name.
 pub fn named<'a>(all: &'a [Counted], name: &str) -> Option<&'a Counted> {
-    all.iter().find(|own| own.ensemble.name == name)
+    all.iter().find(|one| one.ensemble.name == name)
 }

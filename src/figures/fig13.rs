@@ -76,7 +76,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     for (class, side) in [(0, (0, 3)), (1, (0, 4)), (2, (-1, -1)), (3, (1, -1)), (4, (0, -2))] {
         let values = &contributions(large)[class];
         let top = largest(values);
-        let peak = values.iter().position(|own| *own == top).unwrap_or(0) as f64 + 1.0;
+        let peak = values.iter().position(|value| *value == top).unwrap_or(0) as f64 + 1.0;
         let (name, symbol, colour, _) = CLASSES[class];
         let short = name.trim_start_matches("one vertex ").to_string();
         let text = if matches!(class, 2 | 3) { short } else { format!("{name}, {symbol}") };

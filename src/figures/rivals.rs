@@ -47,8 +47,8 @@ pub fn draw(
 /// Writes the names of methods next to their marks.
 pub fn names(panel: &Panel, curves: &Curves, places: &[Place]) -> Result<(), Error> {
     for (method, setting, offset) in places {
-        let own = curves.iter().find(|own| own.0 == *method).map(|own| &own.1);
-        if let Some(at) = own.and_then(|own| own.get(*setting).or(own.last())) {
+        let curve = curves.iter().find(|curve| curve.0 == *method).map(|curve| &curve.1);
+        if let Some(at) = curve.and_then(|curve| curve.get(*setting).or(curve.last())) {
             let inside = (at.0, at.1.clamp(panel.y.lo, panel.y.hi));
             let colour = if *method == MethodName::Certified { RED } else { INK };
             panel.label(name(*method), inside, *offset, colour)?;
@@ -63,8 +63,8 @@ pub fn by_method<T, P>(
     point: impl Fn(&T) -> Option<(MethodName, P)>,
 ) -> Vec<(MethodName, Vec<P>)> {
     let of = |method: MethodName| {
-        let own = rows.iter().filter_map(&point).filter(|own| own.0 == method);
-        (method, own.map(|own| own.1).collect::<Vec<_>>())
+        let at = rows.iter().filter_map(&point).filter(|at| at.0 == method);
+        (method, at.map(|at| at.1).collect::<Vec<_>>())
     };
     MethodName::ALL.into_iter().map(of).filter(|(_, points)| !points.is_empty()).collect()
 }
@@ -75,10 +75,10 @@ pub fn programs(measured: &Measured, masses: usize) -> Vec<(&str, Vec<(f64, f64)
     let mut found: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
     for row in measured.of(What::Peer).filter(|row| row.n == masses as u64) {
         let time = row.microseconds_per_impact.zip(measured.engine(row));
-        let Some(time) = time.map(|(own, engine)| own / engine) else { continue };
+        let Some(time) = time.map(|(time, engine)| time / engine) else { continue };
         let point = (time, row.horizon_time.unwrap_or(row.until));
-        match found.last_mut().filter(|own| own.0 == row.name) {
-            Some(own) => own.1.push(point),
+        match found.last_mut().filter(|last| last.0 == row.name) {
+            Some(last) => last.1.push(point),
             None => found.push((&row.name, vec![point])),
         }
     }

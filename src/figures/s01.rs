@@ -59,10 +59,10 @@ fn window(panel: &Panel, until: f64) -> Result<(), Error> {
 /// A disc at the first impact of each gap at which impacts start.
 fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
     let firsts = run.firsts();
-    let own = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
-    let own: Vec<_> = own.filter(|(time, _)| *time <= until).collect();
-    panel.quiet().marks("starts", &own, START, Outside::Refuse)?;
-    panel.record("starts", own.iter().map(|(time, gap)| (thousandths(*time), *gap)));
+    let starts = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
+    let starts: Vec<_> = starts.filter(|(time, _)| *time <= until).collect();
+    panel.quiet().marks("starts", &starts, START, Outside::Refuse)?;
+    panel.record("starts", starts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     Ok(())
 }
 

@@ -35,9 +35,9 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result
         let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
         let curve = shares.points(&keys[..1], "sigma", "clumps");
         panel.curve(&name, &curve, Stroke::solid(colour, LINE), Outside::Refuse)?;
-        let own = found.estimates(&keys, "sigma", "found");
-        panel.record(&format!("{name}, simulation"), own.iter().copied());
-        panel.quiet().estimates(&name, &own, (Mark::Disc, LARGE, Stroke::solid(colour, THIN)))?;
+        let marks = found.estimates(&keys, "sigma", "found");
+        panel.record(&format!("{name}, simulation"), marks.iter().copied());
+        panel.quiet().estimates(&name, &marks, (Mark::Disc, LARGE, Stroke::solid(colour, THIN)))?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, share)| (share, sigma)).collect();
         let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-2, 0)) };
         panel.label(&name, (at(&rising, height).unwrap_or(SIGMAS.0), height), side, colour)?;

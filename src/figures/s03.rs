@@ -44,8 +44,8 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Resu
     }
     let grown = means.estimates(&transient, "sigma", "grown");
     panel.joined(GROWN.0, &grown, GROWN.1)?;
-    if let Some((sigma, own)) = grown.iter().find(|(_, own)| own.value > 85.0) {
-        panel.label(GROWN.0, (*sigma, own.value), (-1, -1), INK)?;
+    if let Some((sigma, mean)) = grown.iter().find(|(_, mean)| mean.value > 85.0) {
+        panel.label(GROWN.0, (*sigma, mean.value), (-1, -1), INK)?;
     }
     let inside =
         sweep.first().rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
@@ -103,7 +103,7 @@ fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
 
 fn description(advance: &Table) -> Seen {
     let sigmas = advance.values("sigma");
-    let [low, high] = [sigmas.first(), sigmas.last()].map(|own| own.copied().unwrap_or_default());
+    let [low, high] = [sigmas.first(), sigmas.last()].map(|end| end.copied().unwrap_or_default());
     seen!(
         "(a) Mean count of all against σ: simulated points along the prediction from seeds; circuits steeper. (b) Advance \
          against time at σ from {low} to {high}: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.",

@@ -36,10 +36,10 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
     panel.name("from rest, *n* = 100", start, (1, 2), GREY)?;
     for (column, name, colour) in BRANCHES {
         let look = (Mark::Disc, MEDIUM, Stroke::solid(colour, THIN));
-        let own = both.estimates(&[], "transient", column);
-        panel.joined(name, &own, look)?;
-        if let Some((time, own)) = own.last() {
-            panel.label(name, (*time, own.value), (2, 0), colour)?;
+        let halves = both.estimates(&[], "transient", column);
+        panel.joined(name, &halves, look)?;
+        if let Some((time, half)) = halves.last() {
+            panel.label(name, (*time, half.value), (2, 0), colour)?;
         }
     }
     Ok(())
@@ -51,13 +51,13 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps");
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
     let early = (both.first(), Dash::Short, Mark::Ring);
-    for (own, dash, mark) in [early, (both.last(), Dash::Solid, Mark::Disc)] {
-        let Some(own) = own else { continue };
+    for (pair, dash, mark) in [early, (both.last(), Dash::Solid, Mark::Disc)] {
+        let Some(pair) = pair else { continue };
         // Early curves are named at the side that the others do not reach; the late ones have their time.
         let places = [((0.145, 0.07), (-1, 0)), ((0.03, 0.95), (1, 0))];
-        let branches = BRANCHES.into_iter().zip([own.rest, own.above]).zip(places);
+        let branches = BRANCHES.into_iter().zip([pair.rest, pair.above]).zip(places);
         for (((start, name, colour), branch), (corner, side)) in branches {
-            let digits = own.transient().to_string();
+            let digits = pair.transient().to_string();
             let time = match digits.strip_prefix('1').filter(|rest| rest.len() > 4) {
                 Some(zeros) if zeros.trim_matches('0').is_empty() => {
                     format!("*T* = 10^{{{}}}", zeros.len())
@@ -68,14 +68,14 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
             let at = |&sigma: &f64| Some((sigma, share(branch, sigma)?));
             let points: Vec<_> = branch.0.ensemble.sigmas.iter().filter_map(at).collect();
             panel.joined(&name, &points, (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)))?;
-            let late = points.iter().find(|own| own.1.value >= 0.1 && own.0 > 0.06);
+            let late = points.iter().find(|point| point.1.value >= 0.1 && point.0 > 0.06);
             if mark == Mark::Ring {
                 panel.label(&name, corner, side, colour)?;
             } else if start == "from_rest" {
-                let last = points.last().map_or(corner, |own| (own.0, own.1.value));
+                let last = points.last().map_or(corner, |point| (point.0, point.1.value));
                 panel.name(&name, last, (2, -1), colour)?;
-            } else if let Some((sigma, own)) = late {
-                panel.label(&name, (*sigma, own.value), (-4, 0), colour)?;
+            } else if let Some((sigma, at)) = late {
+                panel.label(&name, (*sigma, at.value), (-4, 0), colour)?;
             }
         }
     }

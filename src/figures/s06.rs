@@ -63,8 +63,8 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
         [(&errors, &medians, &NAMES, (1, (1, 6))), (&misses, &missed, &MISSED, (2, (-2, 0)))]
     {
         rivals::draw(panel, curves, places, Outside::Edge)?;
-        let verlet = curves.iter().find(|own| own.0 == Verlet).map(|own| &own.1);
-        if let Some(at) = verlet.and_then(|own| own.get(setting).or(own.last())) {
+        let verlet = curves.iter().find(|curve| curve.0 == Verlet).map(|curve| &curve.1);
+        if let Some(at) = verlet.and_then(|curve| curve.get(setting).or(curve.last())) {
             panel.name(ALIKE, *at, beside, INK)?;
         }
     }

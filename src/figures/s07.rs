@@ -56,7 +56,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let by_error = sheet.lettered(LETTERS[1], by_error, x, horizon_axis(top))?;
 
     chaos(&by_error, race)?;
-    if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|own| own[1] < top) {
+    if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|t| t[1] < top) {
         let line = Stroke::dashed(GREY, LINE, Dash::Short);
         by_time.level("what chaos allows in double precision", ceiling, line)?;
         let end = (by_time.x.hi, ceiling);
@@ -90,9 +90,9 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         rivals::draw(panel, &curves.collect(), places, Outside::Edge)?;
     }
     for (program, points) in others {
-        let Some(own) = PROGRAMS.iter().find(|own| own.0 == program) else { continue };
-        if let Some(at) = points.get(own.2).or(points.last()) {
-            by_time.name(own.1, (at.0, at.1.min(top)), own.3, GREY)?;
+        let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };
+        if let Some(at) = points.get(place.2).or(points.last()) {
+            by_time.name(place.1, (at.0, at.1.min(top)), place.3, GREY)?;
         }
     }
     by_time.name("fixed steps", (150.0, 14.0), (0, -1), INK)?;

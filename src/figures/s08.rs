@@ -55,10 +55,10 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
             panel.guide("engine", &[(at, panel.y.lo), (at, panel.y.hi)], look(Certified).2)?;
             panel.name("engine", (at, panel.y.hi), (1, 1), RED)?;
         }
-        let own = rows.iter().filter(|row| row.sigma == chains.sigma);
-        let own: Vec<&Compared> = own.collect();
+        let all = rows.iter().filter(|row| row.sigma == chains.sigma);
+        let all: Vec<&Compared> = all.collect();
         let found =
-            by_method(&own, |row| Some((row.setting.method, (time(row.setting)?, row.share?))));
+            by_method(&all, |row| Some((row.setting.method, (time(row.setting)?, row.share?))));
         let mut curves = Vec::new();
         for (method, found) in found {
             curves.push((method, shown(&sheet, &panel, method, &found)?));
@@ -82,18 +82,18 @@ fn shown(
 ) -> Result<Vec<(f64, f64)>, Error> {
     let (mark, size, grey) = look(method);
     let title = name(method);
-    let percent = |own: &Estimate| with_error(100.0 * own.value, 100.0 * own.error);
-    let found: Vec<_> = found.iter().map(|(x, own)| (*x, percent(own))).collect();
+    let percent = |bias: &Estimate| with_error(100.0 * bias.value, 100.0 * bias.error);
+    let found: Vec<_> = found.iter().map(|(x, bias)| (*x, percent(bias))).collect();
     panel.record(title, found.iter().copied());
     let panel = panel.quiet();
-    let clear = |own: &Estimate| own.value.abs() > CLEAR * own.error;
+    let clear = |bias: &Estimate| bias.value.abs() > CLEAR * bias.error;
     let height =
-        |own: &Estimate| own.value.abs() + if clear(own) { 0.0 } else { BOUND * own.error };
-    let places: Vec<_> = found.iter().map(|(x, own)| (*x, height(own))).collect();
-    for ((x, y), (_, own)) in places.iter().zip(&found) {
-        let stroke = if clear(own) { Stroke { colour: INK, ..grey } } else { grey };
-        if clear(own) {
-            let bar = [(*x, y - own.error, y + own.error)];
+        |bias: &Estimate| bias.value.abs() + if clear(bias) { 0.0 } else { BOUND * bias.error };
+    let places: Vec<_> = found.iter().map(|(x, bias)| (*x, height(bias))).collect();
+    for ((x, y), (_, bias)) in places.iter().zip(&found) {
+        let stroke = if clear(bias) { Stroke { colour: INK, ..grey } } else { grey };
+        if clear(bias) {
+            let bar = [(*x, y - bias.error, y + bias.error)];
             panel.bars(title, &bar, 0, stroke, Outside::Edge)?;
         } else {
             sheet.free().arrow([*y, 0.5 * y].map(|y| panel.at(*x, y)).into(), stroke);
@@ -104,7 +104,7 @@ fn shown(
 }
 
 fn description(biases: &Biases, rows: &[Compared]) -> Seen {
-    let clear = |row: &&Compared| row.share.is_some_and(|own| own.value.abs() > CLEAR * own.error);
+    let clear = |row: &&Compared| row.share.is_some_and(|off| off.value.abs() > CLEAR * off.error);
     seen!(
         "Error of the mean number of impacting gaps against time, a panel for each of {} σ, the engine as a line at the left: {} of \
          {} points are clear errors, the others upper bounds.",

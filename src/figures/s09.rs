@@ -29,30 +29,30 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     let all = by_method(scale, |row| Some((row.0.method, (row.1 as f64, row.2))));
     rivals::draw(&counted, &all, &NAMES, Outside::Refuse)?;
     // Their marks coincide.
-    if let Some(at) = all.iter().find(|own| own.0 == Verlet).and_then(|own| own.1.last()) {
+    if let Some(at) = all.iter().find(|curve| curve.0 == Verlet).and_then(|curve| curve.1.last()) {
         counted.name("Verlet, time stepping", *at, (2, 0), INK)?;
     }
 
-    let own = of_engine(measured);
-    let times = own.iter().filter_map(|row| row.microseconds_per_impact);
+    let rows = of_engine(measured);
+    let times = rows.iter().filter_map(|row| row.microseconds_per_impact);
     let (x, y) =
         (masses(), Axis::around(times, 1, "µs per impact").finely().column("time per impact (us)"));
     let clock = sheet.lettered(LETTERS[1], Frame::new(1200, 4050, 8250, 5750), x, y)?;
     let red = look(Certified);
     let line: Vec<_> =
-        own.iter().filter_map(|row| Some((row.n as f64, row.microseconds_per_impact?))).collect();
+        rows.iter().filter_map(|row| Some((row.n as f64, row.microseconds_per_impact?))).collect();
     clock.marked("engine", &line, (red.2, red), Outside::Refuse)?;
     if let Some(last) = line.last() {
         clock.label("engine", *last, (0, -2), RED)?;
     }
-    Ok(sheet.finish("Cost of an impact against n", description(scale, &own)))
+    Ok(sheet.finish("Cost of an impact against n", description(scale, &rows)))
 }
 
-fn description(scale: &Costs, own: &[&Measurement]) -> Seen {
+fn description(scale: &Costs, rows: &[&Measurement]) -> Seen {
     let most = scale.iter().rfind(|row| row.0.method == Certified);
     let counted =
         most.map_or("none".into(), |(_, n, work)| format!("{} at n = {n}", short(*work, 2)));
-    let last = own.last().and_then(|row| Some((row.n, row.microseconds_per_impact?)));
+    let last = rows.last().and_then(|row| Some((row.n, row.microseconds_per_impact?)));
     let timed = last.map_or("none".into(), |(n, time)| format!("{} at n = {n}", short(time, 2)));
     seen!(
         "Cost against the number of masses n, all axes logarithmic. (a) Evaluations per impact: this engine lowest and nearly level, \

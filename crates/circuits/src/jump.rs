@@ -109,7 +109,7 @@ pub struct Jump {
 /// bisection over doubles finds the place to the last bit.
 ///
 /// # Errors
-/// [`Error`] if k* = 1 for every p (N ≤ 3 for simple circuits, N = 1 with higher orders), or N is out of range.
+/// [`Error`] if k* = 1 for every p (N ≤ 3, or N = 1 with higher orders), or N is out of range.
 pub fn p_jump(space: SampleSpace, big_n: usize) -> Result<Jump, Error> {
     check_vertices(big_n)?;
     if !first_is_exceeded(space, big_n, DoubleDouble::ONE) {

@@ -50,7 +50,7 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
         limit
     };
     let h = certified(first.min(limit));
-    // A trial was bad if f or f' with the term of M₄ alone allow a far longer stretch; only then try others.
+    // A trial was bad if f or f' with the term of M₄ alone allow far more; only then try others.
     let cube = bound * (h * h * h);
     let far_larger = (FAR_LARGER * FAR_LARGER) * (FAR_LARGER * FAR_LARGER);
     let barely = BARELY * BARELY * BARELY;
