@@ -18,7 +18,7 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// An empty sheet of column width.
+    /// An empty sheet of column width, `height` grid units high.
     pub fn new(height: u32) -> Self {
         let drawing = Rc::new(RefCell::new(Drawing::new(height)));
         Sheet { drawing, records: RefCell::default() }

@@ -1,8 +1,8 @@
 //! One look for all figures: sizes, colours, dashes and markers.
 //!
-//! Lengths are hundredths of a millimetre on the printed column. The hues are those of Okabe and
-//! Ito (2008), which colour-blind readers tell apart, orange darker for its contrast with paper; where a caption of the paper names a
-//! colour, that colour, and always a marker or a dash beside it.
+//! Lengths are in grid units: hundredths of a millimetre on the printed column. The hues are those of Okabe and Ito (2008),
+//! which colour-blind readers distinguish, orange darker for its contrast with paper; where a caption of the paper names a
+//! colour, that colour, and always with a marker or a dash.
 
 /// Width of every figure: one column.
 pub const WIDTH: u32 = 8400;
