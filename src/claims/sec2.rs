@@ -137,7 +137,9 @@ fn repeated(e: &Evidence, s: &Statement) -> Judged {
     );
     Ok(s.found(found, each >= 10.0)
         .within(Text::of("at least {}", [integer(10)]), "ours: a measure of “many repeated”")
-        .note("In the window of our protocol; a longer one has more."))
+        .note(
+            "In the window of our protocol. Impacts go on: a longer window has more, and a short one cannot have many.",
+        ))
 }
 
 const LAST_DIGIT: &str =
@@ -155,9 +157,9 @@ fn undecided(
     let printed = map.curves.iter().filter_map(|curve| place(&curve.rise));
     let printed = printed.filter(|at| (from..to).contains(&at.value)).count();
     let mut text = Text::of(
-        "The protocol, which is not printed, decides. Of {} pairs of transient T and window W {} give the printed digits. \
+        "The protocol, which is not printed, decides. The printed digits come from {} of {} pairs of transient T and window W. \
          From the narrowest W to the widest that has such a place:",
-        [integer(map.curves.len()), integer(printed)],
+        [integer(printed), integer(map.curves.len())],
     );
     for of_one in map.curves.chunk_by(|a, b| a.protocol.transient == b.protocol.transient) {
         let places: Vec<Estimate> = of_one.iter().filter_map(|curve| place(&curve.rise)).collect();
@@ -228,12 +230,12 @@ fn three_way(e: &Evidence, s: &Statement) -> Judged {
         "{} of {} impacts within {} of one next to it",
         [integer(seen as usize), significant(impacts, 2), significant(NEAR_SIMULTANEOUS, 1)],
     );
-    let reason = "ours: one in a thousand; and the count must be what chance lets expect, but for hits \
+    let reason = "ours: one in a thousand; and the count must be what one expects by chance, but for hits \
                   that masses in contact pass on to one another at once, one for each contact phase";
     Ok(s.found(found, share <= NEGLIGIBLE && (-room..=room + passed_on).contains(&excess))
         .within(Text::of("a share of {}", [significant(NEGLIGIBLE, 1)]), reason)
         .note(Text::of(
-            "The share within δ falls in proportion to δ; chance lets expect {} such impacts, and none at δ = 0.",
+            "The share within δ falls in proportion to δ; by chance one expects {} such impacts, and none at δ = 0.",
             [significant(expected, 2)],
         )))
 }

@@ -69,13 +69,13 @@ pub(super) fn rises([low, high]: [f64; 2]) -> bool {
     low < 0.25 && high > 0.9
 }
 
-/// The first and the last mean of the simulation, over all gaps, and of the theory, over N.
+/// The least and the largest mean of the simulation that have an error, over all gaps, and those of the theory, over N.
 pub(super) fn ends(e: &Evidence) -> Result<[[f64; 2]; 2], Error> {
-    let means = e.sweep()?.first().rows.iter().filter_map(|row| row.mean);
-    let mut means = means.map(|mean| mean.value);
+    let means = e.sweep()?.first().rows.iter().filter_map(|row| row.mean?.estimate());
+    let means: Vec<f64> = means.map(|mean| mean.value).collect();
     let gaps = e.gaps()?;
-    let first = some(means.next())? / gaps;
-    let last = means.next_back().map_or(first, |last| last / gaps);
+    let first = some(means.iter().copied().reduce(f64::min))? / gaps;
+    let last = means.iter().copied().fold(0.0, f64::max) / gaps;
     let theory = e.numbers("theory.mean", ["at_zero", "at_one"])?;
     Ok([[first, last], theory.map(|mean| mean / VERTICES as f64)])
 }

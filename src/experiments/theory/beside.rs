@@ -15,7 +15,7 @@ pub(crate) fn at(curve: &[(f64, f64)], sigma: f64) -> Option<f64> {
 }
 
 /// Where theory and simulated means lie farthest apart at large σ: their distance in gaps, σ, and both.
-fn largest_distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<[f64; 4]> {
+pub(crate) fn largest_distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<[f64; 4]> {
     let large = means.iter().filter(|(sigma, _)| *sigma >= LARGE_SIGMA);
     let distances = large.filter_map(|&(sigma, mean)| {
         let theory = at(curve, sigma)?;
@@ -33,7 +33,7 @@ fn increases(means: &[(f64, f64)], finest: f64) -> Option<[f64; 2]> {
 }
 
 /// Root mean square distance of a theory curve from the simulated means, up to where σ is large.
-fn distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64> {
+pub(crate) fn distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64> {
     let small = means.iter().filter(|(sigma, _)| *sigma < LARGE_SIGMA);
     let differences: Vec<f64> =
         small.filter_map(|(sigma, mean)| Some(mean - at(curve, *sigma)?)).collect();
