@@ -14,7 +14,6 @@ use std::collections::btree_map::Entry;
 /// A place on the grid, y downwards.
 pub type Point = (i32, i32);
 
-/// A step of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     Move(Point),
@@ -50,7 +49,6 @@ pub struct Label {
 /// Outlines of glyphs by their names, in units of the em, y upwards.
 pub type Glyphs = BTreeMap<String, Vec<Step>>;
 
-/// An element of a drawing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Element {
     /// The series of this name begins, in this frame.

@@ -10,7 +10,6 @@ pub enum Face {
     Italic,
 }
 
-/// Height of a piece of a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     Base,
@@ -26,7 +25,6 @@ pub struct Piece {
     pub text: String,
 }
 
-/// Cuts a label into pieces.
 pub fn parse(label: &str) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
     let (mut face, mut level) = (Face::Regular, Level::Base);

@@ -66,11 +66,9 @@ impl Card {
 /// Everything that has a card.
 #[derive(Clone, Copy, Debug)]
 pub struct Cards<'a> {
-    /// The values.
     pub values: &'a Registry,
     /// Claims, figures, equations.
     pub ledger: &'a Ledger,
-    /// The paper that they lead to.
     pub paper: &'a Paper,
 }
 

@@ -77,11 +77,9 @@ pub struct Entry {
     pub key: String,
     /// Label as "Rice, 1945".
     pub label: String,
-    /// The reference in words.
     pub text: Vec<Inline>,
 }
 
-/// A piece of running text.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Inline {
     /// Words; no markup inside.

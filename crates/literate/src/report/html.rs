@@ -7,7 +7,7 @@ use super::card::Cards;
 use super::document::{self, Block, Inline, plain, spelt};
 use super::labels::Labels;
 use super::templates::Document;
-use super::{Error, Files, Input, latex, mathml};
+use super::{Error, Files, Input, latex, mathml, search};
 use crate::claims::Verdict;
 use crate::figures::{Figure, Glyphs, escape as text, outlines};
 use math_core::MathDisplay;
@@ -65,7 +65,7 @@ pub fn write(
         "byline": if here.is_signed(paper) { text(&paper.byline()) } else { String::new() },
         "sections": sections,
         "figures": figures,
-        "texts": texts(&body, here.name),
+        "texts": search::texts(&body, here.name),
         "body": body,
         "glyphs": outlines(&page.glyphs.borrow()),
     });
@@ -112,46 +112,6 @@ pub fn beside(
     let font = |(name, bytes): (&str, &[u8])| (format!("fonts/{name}.woff2"), bytes.to_vec());
     files.extend(FONTS.map(font));
     Ok(files)
-}
-
-/// What a search reads of a page: place and name of the section, and text, for each paragraph, figure and item.
-fn texts(body: &str, name: &str) -> Vec<[String; 3]> {
-    let mut section = ["text".to_string(), name.to_string()];
-    let ends = ["</p>", "</figure>", "</li>", "</h2>", "</h3>"];
-    let pieces = ends.iter().fold(vec![body], |pieces, end| {
-        pieces.into_iter().flat_map(|piece| piece.split(end)).collect()
-    });
-    let mut out = Vec::new();
-    for piece in pieces {
-        let text = words(piece);
-        let heading = piece.split_once("<h2 id=\"").or_else(|| piece.split_once("<h3 id=\""));
-        if let Some((id, _)) = heading.and_then(|(_, heading)| heading.split_once('"')) {
-            section = [id.to_string(), text.clone()];
-        }
-        if !text.is_empty() {
-            let [id, name] = section.clone();
-            out.push([id, name, text]);
-        }
-    }
-    out
-}
-
-/// The words of a piece of a page; pictures have none.
-fn words(html: &str) -> String {
-    let pieces = html.split("<svg").enumerate().map(|(i, piece)| match i {
-        0 => piece,
-        _ => piece.split_once("</svg>").map_or("", |(_, rest)| rest),
-    });
-    let text: String = pieces
-        .flat_map(|piece| piece.split('<'))
-        .map(|piece| piece.split_once('>').map_or(piece, |(_, text)| text))
-        .collect();
-    let text = text
-        .replace("&lt;", "<")
-        .replace("&gt;", ">")
-        .replace("&quot;", "\"")
-        .replace("&amp;", "&");
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// The id of a place on a page: `fig:3` → `fig-3`; for a section without one its words, as `references`.

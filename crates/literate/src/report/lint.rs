@@ -24,7 +24,6 @@ struct Group {
 }
 
 impl Declared {
-    /// Reads `literals.toml`.
     pub fn read(text: &str) -> Result<Self, Error> {
         let syntax = |error| Error::Template(format!("literals.toml:{}", toml_fault(text, &error)));
         let declared: Declared = toml::from_str(text).map_err(syntax)?;

@@ -19,7 +19,6 @@ pub(super) const CLOSE: char = '\u{e002}';
 /// Brackets of an address, into which Markdown would read a link.
 const BRACKETS: [(&str, &str); 2] = [("[", "\u{e003}"), ("]", "\u{e004}")];
 
-/// A piece of text with marks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Piece<'a> {
     Text(&'a str),
@@ -36,7 +35,6 @@ pub fn framed(id: &str, shown: &str) -> String {
     format!("{OPEN}{id}{NEXT}{shown}{CLOSE}")
 }
 
-/// Cuts text at its marks.
 pub fn pieces(text: &str) -> Vec<Piece<'_>> {
     let mut out = Vec::new();
     let mut rest = text;
@@ -60,7 +58,6 @@ pub fn bare(text: &str) -> String {
     pieces(text).into_iter().map(shown).collect()
 }
 
-/// Ids of the values in a text.
 pub fn ids(text: &str) -> impl Iterator<Item = String> + '_ {
     pieces(text).into_iter().filter_map(|piece| match piece {
         Piece::Value { id, .. } => Some(id),
@@ -181,12 +178,10 @@ pub struct Places<'a> {
 }
 
 impl<'a> Places<'a> {
-    /// None yet.
     pub fn of(filled: &'a Filled) -> Self {
         Places { filled, found: Vec::new() }
     }
 
-    /// Adds a thing at an offset of the filled text.
     pub fn add(&mut self, thing: String, offset: usize) {
         self.found.push((thing, offset));
     }

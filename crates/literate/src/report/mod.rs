@@ -22,6 +22,7 @@ pub mod markdown;
 mod mathml;
 pub mod parse;
 pub(crate) mod print;
+mod search;
 pub(crate) mod templates;
 pub(crate) mod tex;
 pub mod values;
