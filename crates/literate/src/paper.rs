@@ -55,7 +55,7 @@ pub type Lab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
 
 /// A paper: its description, its experiments, figures and checks, and the documents that are written.
 pub struct Paper {
-    /// What it is, in a line: the help says it.
+    /// What it is, in a line of the help.
     pub title: &'static str,
     /// Name and affiliation of each author.
     pub authors: Vec<(&'static str, &'static str)>,
@@ -174,7 +174,7 @@ impl Paper {
         self.authors.iter().map(author).chain(date).collect::<Vec<_>>().join(", ")
     }
 
-    /// What the head of each page says: names of `<meta>` and their content.
+    /// Metadata in the head of each page: names of `<meta>` and their content.
     pub(crate) fn about(&self) -> Vec<(&'static str, String)> {
         let Sources { name, version, .. } = self.project.sources;
         let authors: Vec<&str> = self.authors.iter().map(|author| author.0).collect();

@@ -91,7 +91,7 @@ impl Project {
         file.map(|(path, _)| *path)
     }
 
-    /// Whether a file or folder of the project is there. Without a checkout nobody can say, and it is believed.
+    /// Whether a file or folder of the project is there. Without a checkout it counts as there.
     pub fn exists(&self, path: &str) -> bool {
         self.top().is_none_or(|top| top.join(path).exists())
     }

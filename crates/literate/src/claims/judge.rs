@@ -74,7 +74,7 @@ pub(super) struct Held {
 }
 
 impl Case<'_> {
-    /// The level of the statistical checks; who asks for it is one of them.
+    /// The level of the statistical checks; a rule that reads it is one of them.
     pub fn level(&self) -> Level {
         self.statistical.set(true);
         self.level
@@ -153,11 +153,11 @@ impl Check {
 /// How a statement is judged.
 pub type Rule<'a> = dyn Fn(&Case<'_>) -> Judged + Send + Sync + 'a;
 
-/// Judges all statements, in their order, each by the rule with its id, and says at which level the statistical ones
-/// were judged. A statement without a rule stays open, without a reason, so that it [fails](Check::fails).
+/// Judges all statements, in their order, each by the rule with its id; the statistical ones at the level that is
+/// returned. A statement without a rule stays open, without a reason, so that it [fails](Check::fails).
 ///
 /// # Errors
-/// If there is no statement for a rule, or if a rule asks for a number that there is not.
+/// If there is no statement for a rule, or if a rule needs a number that is missing.
 pub fn judge_all(
     published: &Published,
     rules: &[(&str, Box<Rule<'_>>)],

@@ -19,7 +19,7 @@ pub enum Kind {
     /// A statement that was printed.
     #[default]
     Statement,
-    /// What was printed to say what words and symbols mean: it is judged, and no score counts it.
+    /// A definition of words or symbols that was printed: it is judged, and no score counts it.
     Definition,
     /// A relation between numbers that must hold.
     Relation,
@@ -48,7 +48,7 @@ pub enum Basis {
     /// Standard errors at the level of the table.
     #[serde(rename = "statistics")]
     Statistics,
-    /// A measure of our own, for a statement in words.
+    /// A measure that we chose, for a statement in words.
     #[serde(rename = "our measure")]
     OurMeasure,
 }

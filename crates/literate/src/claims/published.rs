@@ -37,7 +37,7 @@ pub struct Parameter {
 pub struct Statement {
     /// Its id: the check with this id judges it.
     pub id: String,
-    /// `definition` for what only says what words and symbols mean: no score counts it.
+    /// `definition` for a definition of words or symbols: no score counts it.
     #[serde(default)]
     pub kind: Kind,
     /// A word for the difference, if it differs: `misprint` or another; scores count each word.
@@ -45,7 +45,7 @@ pub struct Statement {
     pub why: String,
     /// Where it stands.
     pub place: String,
-    /// What it says, in our words.
+    /// What it states, in our words.
     pub statement: String,
     /// What can be read there, in its shortest form.
     pub printed: String,

@@ -104,7 +104,7 @@ impl Threads {
         self.asked.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
     }
 
-    /// Runs `work` on them: all cores, or as many as RAYON_NUM_THREADS says, if none were asked for.
+    /// Runs `work` on them: all cores, or as many as RAYON_NUM_THREADS sets, if none were asked for.
     pub fn run<T: Send>(
         &self,
         work: impl FnOnce() -> Result<T, Failure> + Send,

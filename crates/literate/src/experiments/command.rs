@@ -1,6 +1,6 @@
 //! An experiment that is a command in another language.
 //!
-//! It is started in the folder of the project. The manual ([`crate::manual`]) says what it reads and prints.
+//! It is started in the folder of the project. The manual ([`crate::manual`]) has the form of what it reads and prints.
 
 use super::store::Identity;
 use super::{Entry, Error, Found, Profile, Session};

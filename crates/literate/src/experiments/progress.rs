@@ -14,12 +14,12 @@ const LINE_EVERY: u64 = 5;
 
 static QUIET: AtomicBool = AtomicBool::new(false);
 
-/// From now on work says nothing of how far it is.
+/// From now on no progress is shown.
 pub fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// Handed to every experiment: shows how far it is, and says whether to go on.
+/// Handed to every experiment: shows its progress, and has the flag that ends it.
 #[derive(Clone, Debug)]
 pub struct Progress {
     quiet: bool,

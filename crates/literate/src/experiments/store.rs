@@ -183,7 +183,7 @@ fn parsed(text: &str) -> Result<(Identity, &str), &'static str> {
 ///
 /// # Errors
 /// [`Error::NotFinite`]: JSON has no NaN and no infinity, and serde_json writes null. Reading back
-/// tells all such losses.
+/// finds all such losses.
 fn written<T>(identity: &Identity, result: &T) -> Result<String, Error>
 where
     T: Serialize + DeserializeOwned + PartialEq,

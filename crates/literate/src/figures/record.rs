@@ -36,7 +36,7 @@ impl From<(f64, Estimate)> for DataPoint {
 }
 
 impl DataPoint {
-    /// Whether another row says more about the same place, and then takes that over.
+    /// Joins another row of the same place if no number of both differs; whether it did.
     fn joins(&mut self, new: &DataPoint) -> bool {
         let mut both = self.known.iter().zip(&new.known);
         let same = self.x == new.x && both.all(|(a, b)| a.is_none() || b.is_none() || a == b);

@@ -1,5 +1,5 @@
 //! Filling the templates by Tera: values become marks (`mark`), which the writers turn into digits. The
-//! manual ([`crate::manual`]) says what a template may write.
+//! manual ([`crate::manual`]) has what a template may write.
 
 use super::lint::Declared;
 use super::mark::{self, Filled, Piece, marked, pieces};
@@ -149,7 +149,7 @@ impl Filler {
             let key = if row { quoted.filter(|key| !key.contains('"')) } else { Some(key) };
             match key.map_or(names.values().next(), |key| names.get(key)) {
                 Some(next) => (here, rest) = (next, after),
-                // What Tera alone knows, as a variable of a loop.
+                // A name of Tera, as a variable of a loop.
                 None if rest.len() == expression.len() => return None,
                 None => {
                     let key = key.filter(|key| !key.is_empty())?;
@@ -165,7 +165,7 @@ impl Filler {
         }
     }
 
-    /// One line of what Tera says: file, line, column, what is wrong.
+    /// An error of Tera in one line: file, line, column, what is wrong.
     fn failure(&self, error: &tera::Error) -> Error {
         let (ErrorKind::RenderingError(report) | ErrorKind::SyntaxError(report)) = error.kind()
         else {

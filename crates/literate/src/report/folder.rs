@@ -112,7 +112,7 @@ pub fn is_beside(path: &str) -> bool {
     }
 }
 
-/// What the list says that was written into a folder. None if the folder has other files and no list.
+/// The digests in the list of a folder. None if the folder has other files and no list.
 fn ours(folder: &Path) -> Result<Option<Digests>, Error> {
     let list = || read_sums(&String::from_utf8(read(folder, SUMS).ok()?).ok()?);
     let is_empty = names(folder)?.iter().all(|name| name.starts_with(STAGING));

@@ -45,7 +45,7 @@ pub struct EquationEntry {
     pub number: u32,
     /// The section where it stands.
     pub section: u32,
-    /// What it says, in a few words.
+    /// What it states, in a few words.
     pub what: String,
     /// The item that is its home.
     pub home: String,

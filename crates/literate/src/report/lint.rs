@@ -1,5 +1,5 @@
 //! No naked numerals: a number in prose is a value, part of mathematics, a reference, or declared. The manual
-//! ([`crate::manual`]) says what is exempt.
+//! ([`crate::manual`]) lists what is exempt.
 
 use super::Error;
 use super::mark::{CLOSE, OPEN};

@@ -1,9 +1,9 @@
 //! Marks: where a value stands in text, in private-use characters, into which neither Tera nor Markdown reads anything.
 //!
-//! In filled prose a mark holds the id of a value and what filters ask of its digits; in the mathematics of a
+//! In filled prose a mark holds the id of a value and the filters of its digits; in the mathematics of a
 //! [`document`](super::document) it holds id and digits, so that a page can make a button of them. Place marks have no id.
 //!
-//! They say where in the templates each piece of filled text stands, so that what is wrong with it can be mended: they are put
+//! They record where in the templates each piece of filled text stands, so that what is wrong with it can be mended: they are put
 //! about what Tera fills ([`marked`]) and taken out again when the filled text is read ([`Filled::add`]). Between two tags the
 //! text is that of the template; what a tag wrote stands where the tag does.
 

@@ -1,6 +1,6 @@
 //! How a value is printed: as many digits as it deserves, the same in every format.
 //!
-//! [`print()`] decides the digits and knows no markup; the methods of [`Printed`] write them down.
+//! [`print()`] chooses the digits; the methods of [`Printed`] write them in a markup.
 //! Only Rust's own decimal conversion is used, which rounds exactly and alike on every platform.
 
 use super::values::{Digits, Number, Value};
@@ -8,7 +8,7 @@ use super::values::{Digits, Number, Value};
 /// No number has more digits to show: a double ends at its 1074th decimal.
 pub const MOST_DIGITS: usize = 1100;
 
-/// What a template asks of a value, through filters.
+/// What filters of a template change of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Style {
     /// Times one hundred, with a percent sign.

@@ -58,7 +58,7 @@ pub fn maths(tex: &str) -> Result<String, Error> {
     Ok(out)
 }
 
-/// A value that leads to its card: the template says how.
+/// A value that leads to its card by the macro `\origin` of the template.
 pub fn value(id: &str, shown: &str) -> String {
     let plain = |c: u8| c.is_ascii_alphanumeric() || b"._:=,-".contains(&c);
     let one = |c: u8| if plain(c) { char::from(c).into() } else { format!("\\%{c:02X}") };

@@ -1,6 +1,6 @@
 //! Filled Markdown → the tree of `document`, in one pass, which looks for naked numerals too.
 //!
-//! The manual ([`crate::manual`]) says which markup there is. Whatever else Markdown reads is refused, and so is markup that
+//! The manual ([`crate::manual`]) lists all markup. Whatever else Markdown reads is refused, and so is markup that
 //! was left over as text, since its other end is missing.
 
 mod inlines;
