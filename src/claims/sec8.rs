@@ -53,7 +53,7 @@ fn expected_jump(e: &Evidence, s: &Statement) -> Judged {
     let ratio = two / one;
     let found = Text::of(
         "largest step of the simulated mean, between σ that are {} apart: {} gaps; in the theory dμ/dp = {} at p_jump",
-        [significant(step, 1), significant(one, 2), significant(slope, 4)],
+        [chosen(step), significant(one, 2), significant(slope, 4)],
     );
     Ok(s.found(found, one >= half && !slope.is_finite())
         .within(

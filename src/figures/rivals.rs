@@ -51,7 +51,7 @@ pub fn names(panel: &Panel, curves: &Curves, places: &[Place]) -> Result<(), Err
         if let Some(at) = curve.and_then(|curve| curve.get(*setting).or(curve.last())) {
             let inside = (at.0, at.1.clamp(panel.y.lo, panel.y.hi));
             let colour = if *method == MethodName::Certified { RED } else { INK };
-            panel.label(name(*method), inside, *offset, colour)?;
+            panel.name(name(*method), inside, *offset, colour)?;
         }
     }
     Ok(())

@@ -39,7 +39,7 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result
         panel.record(&format!("{name}, simulation"), marks.iter().copied());
         panel.quiet().estimates(&name, &marks, (Mark::Disc, LARGE, Stroke::solid(colour, THIN)))?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, share)| (share, sigma)).collect();
-        let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-2, 0)) };
+        let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-3, 0)) };
         panel.label(&name, (at(&rising, height).unwrap_or(SIGMAS.0), height), side, colour)?;
     }
     let ring = kept.iter().copied().rfind(|(_, share)| *share < 0.9);

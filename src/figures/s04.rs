@@ -75,7 +75,7 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
                 let last = points.last().map_or(corner, |point| (point.0, point.1.value));
                 panel.name(&name, last, (2, -1), colour)?;
             } else if let Some((sigma, at)) = late {
-                panel.label(&name, (*sigma, at.value), (-4, 0), colour)?;
+                panel.name(&name, (*sigma, at.value), (-4, 0), colour)?;
             }
         }
     }

@@ -20,7 +20,7 @@ const MISSED: [Place; 5] = [
     (Certified, FINEST, (2, -2)),
     (Sampled, 0, (0, -2)),
     (Advancement, 0, (2, 0)),
-    (RungeKutta, FINEST, (0, -2)),
+    (RungeKutta, FINEST, (1, -2)),
     (MoreauJean, 2, (2, 0)),
 ];
 
