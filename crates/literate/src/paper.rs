@@ -54,6 +54,7 @@ pub type Rows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, F
 pub type Lab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
 
 /// A paper: its description, its experiments, figures and checks, and the documents that are written.
+#[expect(missing_docs, reason = "the names tell")]
 pub struct Paper {
     /// What it is, in a line of the help.
     pub title: &'static str,
@@ -63,7 +64,6 @@ pub struct Paper {
     pub date: &'static str,
     /// Its licence in words; may be empty.
     pub license: &'static str,
-    /// Its files.
     pub project: Project,
     /// Folder of the prose, from the top of the project.
     pub prose: &'static str,
@@ -73,7 +73,6 @@ pub struct Paper {
     pub experiments: Vec<Need>,
     /// Tables that need several experiments.
     pub together: Vec<Together>,
-    /// All figures.
     pub figures: Vec<Illustration>,
     /// How each statement of `published.toml` is judged, by its id.
     pub rules: Vec<(&'static str, Box<Rule<'static>>)>,
@@ -81,15 +80,12 @@ pub struct Paper {
     pub relations: Vec<Judge>,
     /// Path of the item that judges the statement with this id, for its card.
     pub judged_by: fn(&str) -> String,
-    /// More values.
     pub values: Vec<Values>,
-    /// More rows.
     pub rows: Vec<Rows>,
     /// Equations that must have their place in the documents.
     pub equations: Vec<EquationEntry>,
     /// What pages load to compute.
     pub lab: Option<Lab>,
-    /// What is written.
     pub documents: Vec<Document>,
 }
 

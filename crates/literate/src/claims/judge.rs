@@ -50,12 +50,10 @@ impl From<Check> for Judged {
 
 /// A statement with what its check may look at.
 #[derive(Debug)]
+#[expect(missing_docs, reason = "the names tell")]
 pub struct Case<'a> {
-    /// The statement.
     pub statement: &'a Statement,
-    /// All results.
     pub results: &'a Results,
-    /// All that was printed.
     pub published: &'a Published,
     level: Level,
     /// Whether the level was asked for.

@@ -97,7 +97,7 @@ impl Paper {
 
     /// All values that the prose may name.
     pub fn registry(&self, results: &Results, published: &Published) -> Result<Registry, Failure> {
-        let mut registry = Registry::new();
+        let mut registry = Registry::default();
         registry.extend(printed(published))?;
         let profile = Value::text("profile", results.profile.name());
         registry.add(profile.source(crate::value::origin(Paper::registry), "").data_only())?;

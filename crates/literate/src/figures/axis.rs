@@ -26,12 +26,10 @@ pub struct Tick {
 
 /// One axis of a panel.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the names tell")]
 pub struct Axis {
-    /// Lowest value.
     pub lo: f64,
-    /// Highest value.
     pub hi: f64,
-    /// How values lie between.
     pub scale: Scale,
     /// Label, with mark-up; empty for none.
     pub label: String,

@@ -39,16 +39,14 @@ use thiserror::Error;
 
 /// A figure: the picture, what it shows in words, and its data.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[expect(missing_docs, reason = "the names tell")]
 pub struct Figure {
     /// Its name in the list of the paper, with which the names of its files begin.
     pub id: String,
-    /// A short name.
     pub title: String,
     /// What is seen, for those who do not see it.
     pub description: Seen,
-    /// The picture.
     pub drawing: Drawing,
-    /// Its data.
     pub data: Vec<DataFile>,
     /// Path of the item that draws it.
     pub source: String,

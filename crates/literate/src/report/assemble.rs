@@ -28,22 +28,19 @@ pub const LAB: &str = "lab.js";
 
 /// What a report is made of.
 #[derive(Clone, Copy, Debug)]
+#[expect(missing_docs, reason = "the names tell")]
 pub struct Input<'a> {
-    /// The prose.
     pub templates: &'a Templates,
     /// The numbers that it may name.
     pub values: &'a Registry,
     /// Rows of tables that are not values or claims, by the name that templates use.
     pub rows: &'a BTreeMap<&'static str, serde_json::Value>,
-    /// The judged statements.
     pub claims: &'a [Check],
-    /// The figures.
     pub figures: &'a [Figure],
     /// What a page loads when a reader asks it to compute: lab.js.
     pub lab: Option<&'a str>,
     /// The way from where it is written to the files of the project, as `../`; none if it is written elsewhere.
     pub top: Option<&'a str>,
-    /// The paper.
     pub paper: &'a Paper,
 }
 

@@ -7,14 +7,10 @@ use serde::{Deserialize, Serialize};
 
 /// All entries.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "the names tell")]
 pub struct Ledger {
-    /// The judged statements.
     pub claims: Vec<Check>,
-    /// The figures.
-    #[serde(default)]
     pub figures: Vec<FigureEntry>,
-    /// The numbered equations of the paper.
-    #[serde(default)]
     pub equations: Vec<EquationEntry>,
 }
 
@@ -40,10 +36,9 @@ pub struct FigureEntry {
 
 /// A numbered equation of the paper.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "the names tell")]
 pub struct EquationEntry {
-    /// Its number.
     pub number: u32,
-    /// The section where it stands.
     pub section: u32,
     /// What it states, in a few words.
     pub what: String,

@@ -20,11 +20,6 @@ pub struct Registry {
 }
 
 impl Registry {
-    /// An empty registry.
-    pub fn new() -> Self {
-        Registry::default()
-    }
-
     /// Adds a value.
     pub fn add(&mut self, value: Value) -> Result<(), Error> {
         if !value.is_finite() {
@@ -104,7 +99,7 @@ pub fn read(text: &str) -> Result<Registry, Error> {
     let fault = |what: String| Error::Template(format!("values.json: {what}"));
     let values: BTreeMap<String, Value> =
         serde_json::from_str(text).map_err(|e| fault(e.to_string()))?;
-    let mut registry = Registry::new();
+    let mut registry = Registry::default();
     registry.extend(values.into_values()).map_err(|e| fault(e.to_string()))?;
     Ok(registry)
 }
@@ -115,7 +110,7 @@ mod tests {
 
     #[test]
     fn an_id_has_one_owner_and_a_number_is_finite() {
-        let mut registry = Registry::new();
+        let mut registry = Registry::default();
         registry.add(Value::integer("edges", 16)).unwrap();
         assert!(matches!(registry.add(Value::integer("edges", 17)), Err(Error::DuplicateId(_))));
         assert!(registry.add(Value::real("x", f64::NAN, 2)).is_err());

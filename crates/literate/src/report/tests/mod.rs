@@ -72,7 +72,7 @@ Listing: What $\delta v$ does. {#lst:kick}
 "#;
 
 fn values() -> Registry {
-    let mut values = Registry::new();
+    let mut values = Registry::default();
     let half = Value::ensemble("half_height", 0.11652, 0.0004, 1000);
     let tiny = Value::real("tiny", 8.87e-4, 3);
     let kept = Value::ensemble("kept", 0.945, 0.008, 400);
@@ -215,7 +215,7 @@ fn made(
     figure: Figure,
     claim: Check,
 ) -> Result<Report, Error> {
-    let mut values = Registry::new();
+    let mut values = Registry::default();
     values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000))?;
     values.add(Value::integer("spare", 3).data_only())?;
     let (templates, rows) = (&Templates::of(files.iter().copied()), &Default::default());
