@@ -31,7 +31,7 @@ const PROGRAMS: [(&str, &str, usize, (i32, i32)); 5] = [
 /// The same for (b).
 const BY_ERROR: [Place; 4] = [
     (Certified, FINEST, (-2, 0)),
-    (Sampled, 0, (-1, 0)),
+    (Sampled, 0, (-2, 0)),
     (Advancement, 2, (0, 3)),
     (RungeKutta, 0, (-2, -1)),
 ];
@@ -51,7 +51,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         .column("measured time over the engine's (1)");
     let by_time = Frame::new(1100, 430, 8250, 4330);
     let by_time = sheet.lettered(LETTERS[0], by_time, x, horizon_axis(top))?;
-    let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").from(1e-19, 0.5);
+    let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").from(1e-20, 0.5);
     let by_error = Frame::new(1100, 5500, 8250, 7700);
     let by_error = sheet.lettered(LETTERS[1], by_error, x, horizon_axis(top))?;
 
