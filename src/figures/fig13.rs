@@ -6,8 +6,11 @@ use crate::experiments::Results;
 use crate::experiments::theory::higher::{contributions, five};
 use crate::params::{HIGHER_P, VERTICES as N};
 
+/// Largest k of (e).
+const FEW: f64 = 20.0;
+
 /// Largest k of the detail in (b).
-const DETAIL: usize = 20;
+const DETAIL: usize = 12;
 
 /// Name, symbol, colour and dash of a class.
 type Class = (&'static str, &'static str, Colour, Dash);
@@ -47,25 +50,33 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         heading(&panel, LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
         series(&panel, p)?;
         let (corner, side) = if i == 3 { (0.0, 1) } else { (panel.x.hi, -1) };
-        if i != 1 {
-            panel.label("all five classes", (corner, panel.y.hi), (side, 4), GREY)?;
-        }
         let (name, _, colour, _) = CLASSES[SHOWN[i]];
-        panel.label(name, (corner, panel.y.hi), (side, 8), colour)?;
+        if i == 1 {
+            // In two lines above its peak: the other curve is near.
+            let peak = (0.0, largest(&contributions(p)[1]));
+            for (words, down) in [("one vertex", -4), ("twice", -1)] {
+                panel.label(words, peak, (1, down), colour)?;
+            }
+        } else {
+            panel.label("all five classes", (corner, panel.y.hi), (side, 4), GREY)?;
+            panel.label(name, (corner, panel.y.hi), (side, 8), colour)?;
+        }
     }
     let y = |lowest| Axis::decades(lowest, 0, 2, "*P*(*X* = *k*)");
-    let x = Axis::linear(0.0, DETAIL as f64, 5.0, 5, "*k*");
-    let few = sheet.panel(Frame::new(1200, 5850, 5350, 8450), x, y(-14))?;
+    let x = Axis::linear(0.0, FEW, 5.0, 5, "*k*");
+    let few = sheet.panel(Frame::new(1200, 5850, 4900, 8450), x, y(-12))?;
     heading(&few, "(e)", &format!("*p* = {}", short(small, 3)))?;
     series(&few, small)?;
-    let mut names = vec![("all five classes".to_string(), over_k(&five(small)), GREY)];
-    names.extend(
-        CLASSES
-            .iter()
-            .zip(contributions(small))
-            .map(|(class, values)| (format!("{}, {}", class.0, class.1), over_k(&values), class.2)),
-    );
-    few.ends(&names)?;
+    let names = CLASSES.map(|(name, symbol, colour, dash)| {
+        (format!("{name}, {symbol}"), colour, Stroke::dashed(colour, LINE, dash))
+    });
+    let all = ("all five classes".to_string(), GREY, SUM);
+    for (place, (name, colour, stroke)) in [all].into_iter().chain(names).enumerate() {
+        let y = few.frame.top + 450 + 340 * place as i32;
+        sheet.free().line(vec![(few.frame.right + 100, y), (few.frame.right + 500, y)], stroke);
+        let look = (SMALL, colour, HPos::Left, VPos::Center);
+        sheet.text(&name, (few.frame.right + 580, y), look)?;
+    }
 
     let x = Axis::linear(50.0, whole, 10.0, 2, "*k*");
     let many = sheet.panel(Frame::new(1200, 9450, 8150, 12_050), x, y(-8))?;

@@ -54,7 +54,7 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
     for (pair, dash, mark) in [early, (both.last(), Dash::Solid, Mark::Disc)] {
         let Some(pair) = pair else { continue };
         // Early curves are named at the side that the others do not reach; the late ones have their time.
-        let places = [((0.145, 0.07), (-1, 0)), ((0.03, 0.95), (1, 0))];
+        let places = [((0.145, 0.07), (-1, 0)), ((0.03, 0.53), (1, 0))];
         let branches = BRANCHES.into_iter().zip([pair.rest, pair.above]).zip(places);
         for (((start, name, colour), branch), (corner, side)) in branches {
             let digits = pair.transient().to_string();
@@ -64,16 +64,17 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
                 }
                 _ => format!("*T* = {digits}"),
             };
-            let name = format!("{name}, {time}");
+            let (start_name, name) = (name, format!("{name}, {time}"));
             let at = |&sigma: &f64| Some((sigma, share(branch, sigma)?));
             let points: Vec<_> = branch.0.ensemble.sigmas.iter().filter_map(at).collect();
             panel.joined(&name, &points, (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)))?;
             let late = points.iter().find(|point| point.1.value >= 0.1 && point.0 > 0.06);
             if mark == Mark::Ring {
-                panel.label(&name, corner, side, colour)?;
+                panel.name(&name, corner, side, colour)?;
             } else if start == "from_rest" {
                 let last = points.last().map_or(corner, |point| (point.0, point.1.value));
-                panel.name(&name, last, (2, -1), colour)?;
+                panel.name(start_name, last, (2, -1), colour)?;
+                panel.name(&time, last, (2, 1), colour)?;
             } else if let Some((sigma, at)) = late {
                 panel.name(&name, (*sigma, at.value), (-4, 0), colour)?;
             }

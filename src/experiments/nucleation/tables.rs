@@ -53,9 +53,9 @@ pub fn tables(found: &Nucleation) -> Vec<Table> {
     // Between the σ that were run, for curves.
     let last = within.last().zip(fewer.last());
     let between: Vec<(f64, Chances)> = last.map_or(Vec::new(), |(all, few)| {
-        (22..=66_u32)
+        (55..=165_u32)
             .into_par_iter()
-            .map(|step| f64::from(step) / 400.0)
+            .map(|step| f64::from(step) / 1000.0)
             .map(|sigma| (sigma, Chances::new(chain, all, few, sigma)))
             .collect()
     });
