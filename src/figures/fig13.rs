@@ -64,7 +64,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     }
     let y = |lowest| Axis::decades(lowest, 0, 2, "*P*(*X* = *k*)");
     let x = Axis::linear(0.0, FEW, 5.0, 5, "*k*");
-    let few = sheet.panel(Frame::new(1200, 5850, 4900, 8450), x, y(-12))?;
+    let few = sheet.panel(Frame::new(1200, 5850, 4700, 8450), x, y(-12))?;
     heading(&few, "(e)", &format!("*p* = {}", short(small, 3)))?;
     series(&few, small)?;
     let names = CLASSES.map(|(name, symbol, colour, dash)| {
@@ -73,9 +73,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let all = ("all five classes".to_string(), GREY, SUM);
     for (place, (name, colour, stroke)) in [all].into_iter().chain(names).enumerate() {
         let y = few.frame.top + 450 + 340 * place as i32;
-        sheet.free().line(vec![(few.frame.right + 100, y), (few.frame.right + 500, y)], stroke);
+        sheet.free().line(vec![(few.frame.right + 300, y), (few.frame.right + 700, y)], stroke);
         let look = (SMALL, colour, HPos::Left, VPos::Center);
-        sheet.text(&name, (few.frame.right + 580, y), look)?;
+        sheet.text(&name, (few.frame.right + 780, y), look)?;
     }
 
     let x = Axis::linear(50.0, whole, 10.0, 2, "*k*");

@@ -59,7 +59,9 @@ fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
         let thin = Stroke::solid(colour, THIN);
         let name = format!("*σ* = {sigma}");
         panel.marked(&name, &points, (thin, (Mark::Disc, LARGE, thin)), Outside::Cut)?;
-        drawn.push((name, points, colour));
+        // The names stand clear of the last discs.
+        let ends = points.into_iter().map(|(time, missing)| (1.1 * time, missing));
+        drawn.push((name, ends.collect::<Vec<_>>(), colour));
     }
     panel.ends(&drawn)?;
     // T^{−2} through (10, 0.1).

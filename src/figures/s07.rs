@@ -15,14 +15,14 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 const NAMES: [Place; 4] = [
     (Certified, FINEST, (2, 0)),
     (Sampled, FINEST, (2, 1)),
-    (Advancement, 2, (-1, 0)),
+    (Advancement, 2, (-2, 0)),
     (RungeKutta, FINEST, (2, 0)),
 ];
 
 /// The same for other programs: name of the row, name here.
 const PROGRAMS: [(&str, &str, usize, (i32, i32)); 5] = [
-    ("heyoka", "heyoka", FINEST, (0, -1)),
-    ("diffsol tsit45", "diffsol", FINEST, (1, -1)),
+    ("heyoka", "heyoka", FINEST, (0, -2)),
+    ("diffsol tsit45", "diffsol", FINEST, (2, -1)),
     ("SUNDIALS CVODE", "CVODE", FINEST, (2, 0)),
     ("SciPy DOP853", "SciPy", FINEST, (-2, 0)),
     ("pymunk", "pymunk", FINEST, (0, -2)),
@@ -66,8 +66,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let others = programs(measured, run.chain.masses);
     for (program, points) in &others {
         let stroke = Stroke::dashed(GREY, HAIR, Dash::Dotted);
-        let look = (Mark::OpenDiamond, MEDIUM, Stroke::solid(GREY, THIN));
-        by_time.marked(program, points, (stroke, look), Outside::Edge)?;
+        by_time.quiet().curve(program, points, stroke, Outside::Edge)?;
     }
     let time = |e: &Entry| match e.setting.method {
         Certified => Some(1.0),
@@ -88,6 +87,11 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         let points = |found: Vec<(f64, Estimate)>| found.into_iter().map(|(x, t)| (x, t.value));
         let curves = methods.into_iter().map(|(method, found)| (method, points(found).collect()));
         rivals::draw(panel, &curves.collect(), places, Outside::Edge)?;
+    }
+    // Their marks lie above those of the methods, and their lines are where no name may be.
+    for (program, points) in &others {
+        let look = (Mark::OpenDiamond, MEDIUM, Stroke::solid(GREY, THIN));
+        by_time.marks(program, points, look, Outside::Edge)?;
     }
     for (program, points) in others {
         let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };

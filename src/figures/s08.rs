@@ -18,7 +18,7 @@ const CLEAR: f64 = 3.0;
 const BOUND: f64 = 2.0;
 
 const NAMES: [Place; 6] = [
-    (Verlet, 0, (-1, 0)),
+    (Verlet, 0, (-2, 0)),
     (Advancement, FINEST, (0, 5)),
     (Sampled, 0, (0, 4)),
     (RungeKutta, 0, (-1, -1)),
@@ -90,7 +90,9 @@ fn shown(
     let height =
         |bias: &Estimate| bias.value.abs() + if clear(bias) { 0.0 } else { BOUND * bias.error };
     let places: Vec<_> = found.iter().map(|(x, bias)| (*x, height(bias))).collect();
-    for ((x, y), (_, bias)) in places.iter().zip(&found) {
+    for (setting, ((x, y), (_, bias))) in places.iter().zip(&found).enumerate() {
+        // The first is the coarse one.
+        let size = size + if setting == 0 { 22 } else { -8 };
         let stroke = if clear(bias) { Stroke { colour: INK, ..grey } } else { grey };
         if clear(bias) {
             let bar = [(*x, y - bias.error, y + bias.error)];
