@@ -130,7 +130,7 @@ fn p_small(e: &Evidence, s: &Statement) -> Judged {
 /// A shorter transient counts the first impacts of a chain that has just been released (ours).
 pub(super) const RELEASED: f64 = 100.0;
 
-/// The simulated means against σ in each window of the map of protocols, but right after the release.
+/// The simulated means against σ in each window of the map of protocols that does not begin right after the release.
 pub(super) fn windows(e: &Evidence) -> Result<Vec<Vec<(f64, f64)>>, Error> {
     let curves = e.results.of(&PROTOCOL)?[0].curves.iter();
     let late = curves.filter(|curve| curve.protocol.transient >= RELEASED);

@@ -32,8 +32,8 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
     let map = results.table("protocol.cells")?;
     let map = map.points(&[("window", WINDOW)], "transient", "half_height_all");
     panel.curve("from rest, n = 100", &map, Stroke::solid(GREY, LINE), Outside::Cut)?;
-    let start = map.first().copied().unwrap_or((10.0, bound));
-    panel.name("from rest, *n* = 100", start, (1, 2), GREY)?;
+    let start = map.get(3).copied().unwrap_or((10.0, bound));
+    panel.name("from rest, *n* = 100", start, (1, -1), GREY)?;
     for (column, name, colour) in BRANCHES {
         let look = (Mark::Disc, MEDIUM, Stroke::solid(colour, THIN));
         let halves = both.estimates(&[], "transient", column);

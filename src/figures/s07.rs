@@ -20,9 +20,8 @@ const NAMES: [Place; 4] = [
 ];
 
 /// The same for other programs: name of the row, name here.
-const PROGRAMS: [(&str, &str, usize, (i32, i32)); 5] = [
+const PROGRAMS: [(&str, &str, usize, (i32, i32)); 4] = [
     ("heyoka", "heyoka", FINEST, (0, -2)),
-    ("diffsol tsit45", "diffsol", FINEST, (2, -1)),
     ("SUNDIALS CVODE", "CVODE", FINEST, (2, 0)),
     ("SciPy DOP853", "SciPy", FINEST, (-2, 0)),
     ("pymunk", "pymunk", FINEST, (0, -2)),
@@ -92,6 +91,14 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     for (program, points) in &others {
         let look = (Mark::OpenDiamond, MEDIUM, Stroke::solid(GREY, THIN));
         by_time.marks(program, points, look, Outside::Edge)?;
+    }
+    let tsit = others.iter().find(|program| program.0 == "diffsol tsit45");
+    let tsit = tsit.filter(|program| program.1.iter().all(|point| point.1 < top));
+    if let Some([first, middle, ..]) = tsit.map(|program| &program.1[..]) {
+        // With a leader, since other curves are as near.
+        by_time.label("diffsol", *first, (3, -3), GREY)?;
+        let (x, y) = by_time.at(middle.0, middle.1);
+        sheet.free().line(vec![(x + 15, y + 65), (x + 60, y + 260)], Stroke::solid(GREY, HAIR));
     }
     for (program, points) in others {
         let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };
