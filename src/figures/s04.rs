@@ -48,7 +48,7 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
 /// Shares after the first transient and after the last.
 fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
     let x = Axis::linear(0.03, 0.145, 0.02, 2, FORCING);
-    let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of the gaps");
+    let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of active gaps");
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
     let early = (both.first(), Dash::Short, Mark::Ring);
     for (pair, dash, mark) in [early, (both.last(), Dash::Solid, Mark::Disc)] {
