@@ -252,7 +252,7 @@ fn sticking(e: &Evidence, s: &Statement) -> Judged {
     Ok(s.found(found, share <= NEGLIGIBLE)
         .within(Text::of("a share of {}", [significant(NEGLIGIBLE, 1)]), "ours: one in a thousand")
         .note(Text::of(
-            "Two masses on their own can stick only if their forces differ by more than d ω². {} impacts were slower \
+            "Two masses alone can stick only if their forces differ by more than d ω². {} impacts were slower \
              than {}.",
             [integer(slow as usize), significant(SLOW, 1)],
         )))

@@ -1,7 +1,6 @@
 //! The verbs that this paper adds: `eval`, `sweep`, `trace`.
 
 mod eval;
-mod sigmas;
 mod sweep;
 mod trace;
 

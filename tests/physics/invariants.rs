@@ -1,7 +1,7 @@
 //! Laws that hold for any arithmetic: conservation, symmetry, and the impact law.
 
-use crate::components::{self, EIGHT};
 use crate::reference::{Big, Dd, Real, Reference};
+use crate::traces::{EIGHT, several};
 use crate::{drawn, given, trace};
 use impact_chain::{Engine, Impact, Initial, Scenario};
 use impact_paper::params::Chain;
@@ -124,7 +124,7 @@ fn phases_keep_their_digits_at_any_time() {
         Scenario { natural_frequency: w, forcing_frequency: big_w, ..draw(6, 0.05, 4) }
     });
     // And with eight components.
-    let eight = components::drawn(&Chain { masses: 4, ..Chain::default() }, 0.03, &EIGHT, 0);
+    let eight = several(&Chain { masses: 4, ..Chain::default() }, 0.03, &EIGHT, 0);
     for scenario in plain.into_iter().chain([eight]) {
         let mut engine = Engine::new(&scenario).unwrap();
         for t in [1.0, 12345.678, 1e8 + 0.1, 1e10 / 3.0, 1e12 - 0.7] {

@@ -2,15 +2,10 @@
 //! arithmetic, and in scenes whose outcome is known beforehand.
 
 mod certified;
-mod components;
 mod contact;
-mod ensemble;
-mod hard_cases;
 mod invariants;
 mod methods;
 mod reference;
-mod segments;
-mod simultaneous;
 mod traces;
 
 use impact_chain::{Engine, Impact, Initial, Scenario};

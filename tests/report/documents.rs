@@ -2,7 +2,7 @@
 //! makes of the text must be what the document means. And they are bounded: a reader of five minutes, half an hour or a day
 //! must not find that one has grown beyond its time. (The browser test bounds the pages, and `.ci/latex` those in print.)
 
-use crate::quick::QUICK;
+use crate::QUICK;
 use literate::report::{Document, Report};
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
@@ -89,7 +89,7 @@ fn every_link_lands_wherever_the_report_is_written() {
         };
         QUICK.paper.documents.iter().map(text).collect()
     };
-    crate::quick::links_land(texts, 200, 150);
+    crate::links_land(texts, 200, 150);
 }
 
 /// Mathematics comes through Markdown as it was written, escapes, stars and lows included: between

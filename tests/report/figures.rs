@@ -1,7 +1,7 @@
 //! Every figure: well-formed, inside its frame, labelled, described, with its data, and the same
 //! bytes each time.
 
-use crate::quick::QUICK;
+use crate::QUICK;
 use impact_paper::experiments::{Progress, Results, SEGMENTS, SPACE_TIME, Session, Store};
 use impact_paper::figures;
 use impact_paper::params::{Profile, VERTICES};

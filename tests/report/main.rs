@@ -9,5 +9,109 @@ mod html;
 #[allow(dead_code)]
 mod program;
 mod prose;
-mod quick;
 mod structure;
+
+use impact_paper::experiments::{ALL, Progress, Results, Session, Store};
+use impact_paper::params::Profile;
+use impact_paper::{claims, contents};
+use literate::Paper;
+use literate::figures::Figure;
+use literate::report::{Document, Input, Registry, Report, Templates, assemble};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::LazyLock;
+
+struct Quick {
+    paper: Paper,
+    templates: Templates,
+    figures: Vec<Figure>,
+    report: Report,
+    /// The same as it is written into a folder of target/, and where no checkout is.
+    elsewhere: [Report; 2],
+    results: Results,
+    values: Registry,
+}
+
+impl Quick {
+    /// A document as hosts show it.
+    fn markdown(&self, document: &Document) -> &str {
+        std::str::from_utf8(&self.report.committed[document.markdown]).unwrap()
+    }
+
+    /// The prose of a document before it is filled.
+    fn prose(&self, document: &Document) -> String {
+        let texts =
+            document.files(&self.templates).into_iter().map(|path| self.templates.text(path));
+        texts.map(Result::unwrap).collect::<Vec<_>>().join("\n\n")
+    }
+}
+
+/// Links and places of each file.
+type Links = BTreeMap<String, (Vec<String>, Vec<String>)>;
+
+/// Follows the links of files in a report that is written into paper/, into a folder of target/, and elsewhere; so many at
+/// least lead within a file, and from one to another.
+fn links_land(files: impl Fn(&Report) -> Links, least: usize, across: usize) {
+    for (report, top) in [&QUICK.report, &QUICK.elsewhere[0], &QUICK.elsewhere[1]]
+        .into_iter()
+        .zip(["../", "../../", "none"])
+    {
+        let files = files(report);
+        let (mut inside, mut outside, mut up) = (0, 0, 0);
+        for (name, (links, places)) in &files {
+            let distinct: BTreeSet<_> = places.iter().collect();
+            assert_eq!(distinct.len(), places.len(), "{name}: a place stands twice");
+            for link in links.iter().filter(|link| !link.contains("://")) {
+                let (file, id) = link.split_once('#').unwrap_or((link, ""));
+                if let Some(path) = file.strip_prefix(top).filter(|path| !path.starts_with('.')) {
+                    up += 1;
+                    assert!(Path::new(path).exists(), "{name}: no {link}");
+                    continue;
+                }
+                let to = if file.is_empty() { name } else { file };
+                let own = || report.committed.contains_key(to) || report.beside.contains_key(to);
+                assert!(own() || to == "data", "{name}: no {link}");
+                if !id.is_empty() {
+                    inside += usize::from(to == name);
+                    outside += usize::from(to != name);
+                    assert!(files[to].1.iter().any(|place| place == id), "{name}: no {link}");
+                }
+            }
+        }
+        assert!(inside > least && outside > across, "{inside} {outside}");
+        assert!((up > 30) == (top != "none"), "{up} links to files of the project");
+    }
+}
+
+static QUICK: LazyLock<Quick> = LazyLock::new(|| {
+    let paper = program::paper();
+    let folder = tempfile::tempdir().unwrap();
+    let store = Store::open(folder.path());
+    let session = Session::of(&paper, None, Profile::Quick, store, Progress::silent()).unwrap();
+    // Run, then read again as it was saved.
+    let [_, results] = [(); 2].map(|()| Results::run(ALL, &session).unwrap());
+    let published = session.published().unwrap();
+    let claims = claims::judge_all(&published, &claims::rules(), &results).unwrap().0;
+    let values = paper.registry(&results, &published).unwrap();
+    let rows = contents::rows(&results, &claims).unwrap();
+    let figures: Vec<_> =
+        paper.figures.iter().map(|figure| figure.figure(&results).unwrap()).collect();
+    let made = |top| {
+        let input = Input {
+            templates: &session.templates,
+            values: &values,
+            rows: &rows,
+            claims: &claims,
+            figures: &figures,
+            lab: Some(""),
+            top,
+            paper: &paper,
+        };
+        assemble(&input).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let report = made(Some("../"));
+    assert!(report == made(Some("../")), "the same input gives other bytes");
+    let elsewhere = [made(Some("../../")), made(None)];
+    let templates = session.templates.clone();
+    Quick { paper: program::paper(), templates, figures, report, elsewhere, results, values }
+});

@@ -2,7 +2,7 @@
 //! none unused (the assembly refuses both, and naked numerals), it has every equation and figure of
 //! the paper, and every claim has its place in it.
 
-use crate::quick::QUICK;
+use crate::QUICK;
 use impact_chain::rise::Mean;
 use impact_paper::claims::{self, Verdict};
 use impact_paper::experiments::{PROTOCOL, SWEEP};

@@ -1,6 +1,6 @@
 //! Rules about the source that no compiler checks: who imports whom, and a README that is current.
 
-use crate::quick::QUICK;
+use crate::QUICK;
 use literate::report::ledger::EquationEntry;
 use std::fs;
 use std::path::{Path, PathBuf};

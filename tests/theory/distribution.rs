@@ -1,6 +1,6 @@
 //! Eqs. (9), (10) and (38), k* and μ, against direct sums in high precision.
 
-use crate::high_precision::{Big, big, int, near, relative_error};
+use crate::{Big, big, int, near, relative_error};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
 use impact_circuits::distribution::{Law, SampleSpace};
 

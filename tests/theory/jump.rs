@@ -1,7 +1,7 @@
 //! Eqs. (11) to (18) and the actual jump, against exact and 67-digit arithmetic.
 
 use crate::distribution::weights;
-use crate::high_precision::{Big, big, exp, int, near, relative_error};
+use crate::{Big, big, exp, int, near, relative_error};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
 use dashu::integer::UBig;
 use impact_circuits::distribution::{Law, SampleSpace};
@@ -24,7 +24,7 @@ fn p_jump_by_roots(big_n: usize) -> (Big, usize) {
     for k in 2..=big_n {
         falling *= UBig::from(big_n + 1 - k);
         let quotient = int(k) / Big::from(dashu::integer::IBig::from(falling.clone()));
-        let log = quotient.with_precision(crate::high_precision::BITS).value().ln() / int(k - 1);
+        let log = quotient.with_precision(crate::BITS).value().ln() / int(k - 1);
         // Of equal roots the larger k wins just after the jump.
         if best.as_ref().is_none_or(|(least, _)| near(&(log.clone() - least)) < 1e-50) {
             best = Some((log, k));

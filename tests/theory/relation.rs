@@ -1,6 +1,6 @@
 //! Eqs. (20) to (25) against quadrature in 67-digit arithmetic.
 
-use crate::high_precision::{Big, Gauss, big, exp, int, relative_error, root_two};
+use crate::{Big, Gauss, big, exp, int, relative_error, root_two};
 use impact_circuits::Error;
 use impact_circuits::impact_probability::ImpactProbability;
 use std::f64::consts::SQRT_2;

@@ -2,20 +2,16 @@
 //!
 //! Nothing here is taken from the engine but the description of a scenario. It works in absolute time
 //! with the plain amplitudes of Eq. (19), searches by certified subdivision of intervals instead
-//! of forward stretches, and is generic over its numbers: [`dd::Dd`] (106 bits,
-//! fast) and [`big::Big`] (256 bits, dashu's sine and cosine) check each other.
+//! of forward stretches, and is generic over its numbers: [`Dd`] (106 bits,
+//! fast) and [`Big`] (256 bits, dashu's sine and cosine) check each other.
 
 // benches/reference.rs uses a part of this module.
 #![allow(dead_code, unused_imports)]
 
-pub mod big;
 pub mod chain;
-pub mod dd;
 pub mod gap;
 pub mod real;
 
-pub use big::Big;
 pub use chain::{Hit, Reference};
-pub use dd::Dd;
 pub use gap::Gap;
-pub use real::Real;
+pub use real::{Big, Dd, Real};

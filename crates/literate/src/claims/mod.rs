@@ -1,12 +1,10 @@
 //! Statements of a paper, and relations between its numbers, each held against what is found: [`Check`].
 
 mod judge;
-mod level;
 mod published;
 mod text;
 
-pub use judge::{Case, Error, Judged, Rule, judge_all};
-pub use level::{FAMILY_LEVEL, Level};
+pub use judge::{Case, Error, FAMILY_LEVEL, Judged, Level, Rule, judge_all};
 pub use published::{Parameter, Published, PublishedError, Statement};
 pub use text::{Text, chosen, decimals, integer, significant, with_error};
 

@@ -1,9 +1,6 @@
 //! Figures: frames, axes, curves and labels as one list of shapes, written as SVG, into a page and as PDF.
 
 mod axis;
-mod chart;
-mod clip;
-mod data;
 mod drawing;
 mod font;
 mod markup;
@@ -12,29 +9,33 @@ mod pdf;
 mod plot;
 mod record;
 mod series;
-mod sheet;
 mod style;
 mod svg;
 
-pub use data::DataFile;
 pub use drawing::{Drawing, Glyphs};
+pub use record::DataFile;
 pub use svg::{escape, outlines};
 
 /// What a figure is drawn with, for one line of imports.
 pub mod prelude {
     pub use super::axis::{Axis, Scale, Tick, number};
-    pub use super::chart::*;
-    pub use super::panel::{Frame, Panel};
+    pub use super::panel::{Frame, Panel, Sheet};
     pub use super::plot::Plot;
     pub use super::series::{Marker, Outside};
-    pub use super::sheet::Sheet;
     pub use super::style::*;
-    pub use super::{DataFile, Error, Figure, Seen};
+    pub use super::{
+        DataFile, Error, FOUR, Figure, LETTERS, Seen, heading, largest, over_k, short,
+        upwards_from_zero,
+    };
     pub use crate::seen;
     pub use plotters::style::text_anchor::{HPos, VPos};
 }
 
 use crate::{experiments, report};
+use axis::{Axis, number};
+use panel::{Frame, Panel};
+use plotters::style::text_anchor::{HPos, VPos};
+use style::SMALL;
 use thiserror::Error;
 
 /// A figure: the picture, what it shows in words, and its data.
@@ -102,4 +103,78 @@ pub enum Error {
 pub(crate) fn palette() -> impl Iterator<Item = (&'static str, String)> {
     let shown = |style::Colour(r, g, b)| format!("#{r:02x}{g:02x}{b:02x}");
     style::PALETTE.into_iter().map(move |(name, colour)| (name, shown(colour)))
+}
+
+// What several figures share: columns over integers, round axis ends, corner notes, numbers.
+
+/// Points (k, value) of a series whose first value belongs to k = 1.
+pub fn over_k(values: &[f64]) -> Vec<(f64, f64)> {
+    values.iter().enumerate().map(|(i, &v)| ((i + 1) as f64, v)).collect()
+}
+
+/// An axis from zero to a round number at or above `largest`, with about four labelled steps.
+pub fn upwards_from_zero(largest: f64, label: &str) -> Axis {
+    let mut unit = 1.0;
+    while unit > largest {
+        unit /= 10.0;
+    }
+    while unit * 10.0 <= largest {
+        unit *= 10.0;
+    }
+    for step in [0.2, 0.25, 0.5, 1.0, 2.0, 2.5] {
+        let step = step * unit;
+        let steps = (largest / step - 1e-9).ceil();
+        if steps <= 5.0 {
+            return Axis::linear(0.0, steps * step, step, 1, label);
+        }
+    }
+    Axis::linear(0.0, 10.0 * unit, 5.0 * unit, 1, label)
+}
+
+/// Largest of a series, zero if it is empty.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}
+
+/// Four panels, two by two, on a sheet 6750 high.
+pub const FOUR: [Frame; 4] = [
+    Frame::new(1080, 480, 4050, 2580),
+    Frame::new(5230, 480, 8200, 2580),
+    Frame::new(1080, 3780, 4050, 5880),
+    Frame::new(5230, 3780, 8200, 5880),
+];
+
+/// The letters of panels.
+pub const LETTERS: [&str; 4] = ["(a)", "(b)", "(c)", "(d)"];
+
+/// The letter of a panel and the parameter it is drawn for, above its frame.
+pub fn heading(panel: &Panel, letter: &str, parameter: &str) -> Result<(), Error> {
+    panel.letter(letter)?;
+    let corner = (panel.frame.right, panel.frame.top - 80);
+    panel.text(parameter, corner, SMALL, HPos::Right, VPos::Bottom)
+}
+
+/// A number with about `digits` significant decimals, for notes and descriptions; a tiny one as a
+/// multiple of a power of ten.
+pub fn short(value: f64, digits: usize) -> String {
+    if value != 0.0 && value.abs() < 1e-3 {
+        let shown = format!("{:.*e}", digits.saturating_sub(1), value);
+        return shown.replace('-', "−").replace('e', "·10^");
+    }
+    let mut decimals = digits.saturating_sub(1);
+    let mut size = value.abs();
+    while size >= 10.0 && decimals > 0 {
+        size /= 10.0;
+        decimals -= 1;
+    }
+    while size > 0.0 && size < 1.0 && decimals < 12 {
+        size *= 10.0;
+        decimals += 1;
+    }
+    let shown = number(value, decimals);
+    if shown.contains('.') {
+        shown.trim_end_matches('0').trim_end_matches('.').to_string()
+    } else {
+        shown
+    }
 }

@@ -1,18 +1,17 @@
-//! A panel: a frame on the sheet with its two axes; [`super::series`] draws data in it and records it.
+//! The sheet that a figure is drawn on, and its panels: frames with two axes; [`super::series`] draws data in it and records it.
 //! Both fail if a label has a character that the shipped fonts lack.
 
+use super::axis::{Axis, Tick};
+use super::drawing::{Drawing, Look, Point};
+use super::record::Record;
+use super::style::{Colour, HAIR, INK, SMALL, Stroke, TEXT, WIDTH};
+use super::{Error, Figure, Seen, font};
 use plotters::coord::CoordTranslate;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::types::RangedCoordf64;
 use plotters::style::text_anchor::{HPos, VPos};
-use std::cell::RefCell;
+use std::cell::{RefCell, RefMut};
 use std::rc::Rc;
-
-use super::axis::{Axis, Tick};
-use super::drawing::{Drawing, Point};
-use super::record::Record;
-use super::style::{Colour, HAIR, INK, SMALL, Stroke, TEXT, WIDTH};
-use super::{Error, font};
 
 /// A rectangle of the sheet in grid units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -237,10 +236,56 @@ impl Panel {
     }
 }
 
+/// A figure in the making.
+pub struct Sheet {
+    drawing: Rc<RefCell<Drawing>>,
+    records: RefCell<Vec<Rc<RefCell<Record>>>>,
+}
+
+impl Sheet {
+    /// An empty sheet of column width, `height` grid units high.
+    pub fn new(height: u32) -> Self {
+        let drawing = Rc::new(RefCell::new(Drawing::new(height)));
+        Sheet { drawing, records: RefCell::default() }
+    }
+
+    /// A panel with its axes drawn.
+    pub fn panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+        let panel = Panel::new(&self.drawing, frame, x, y);
+        self.records.borrow_mut().push(panel.record.clone());
+        panel.axes()?;
+        Ok(panel)
+    }
+
+    /// A panel with its axes and its letter.
+    pub fn lettered(&self, letter: &str, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+        let panel = self.panel(frame, x, y)?;
+        panel.letter(letter)?;
+        Ok(panel)
+    }
+
+    /// For free drawing.
+    pub fn free(&self) -> RefMut<'_, Drawing> {
+        self.drawing.borrow_mut()
+    }
+
+    /// Words on the sheet.
+    pub fn text(&self, text: &str, at: Point, look: Look) -> Result<(), Error> {
+        self.free().label(text, at, look, false)
+    }
+
+    /// Closes a figure. Its data is what its panels have recorded, a file for each. The paper gives it its name.
+    pub fn finish(self, title: &str, description: Seen) -> Figure {
+        let drawing = self.drawing.take();
+        let records = self.records.take();
+        let data = records.iter().filter_map(|record| record.borrow().file()).collect();
+        Figure { title: title.into(), description, drawing, data, ..Figure::default() }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::drawing::{Element, Label};
-    use super::super::sheet::Sheet;
     use super::super::style::{BLUE, RED};
     use super::*;
 

@@ -1,4 +1,4 @@
-//! A plot of one panel whose ranges, ticks, frame and names at the ends of curves follow from its data; [`super::sheet`]
+//! A plot of one panel whose ranges, ticks, frame and names at the ends of curves follow from its data; [`super::panel`]
 //! is for figures that place these by hand.
 //!
 //! ```
