@@ -40,7 +40,7 @@ archive: ## the last commit and the source of all crates in target/impact-paper.
 	.ci/archive
 
 bench: ## how fast the parts are, on this machine
-	cargo bench --locked --bench engine
+	cargo bench --locked -p impact-bench
 
 measure: ## speed of the engine, of its rivals and of other projects, into benches/measured.json (Python 3)
 	python3 benches/peers/measure.py

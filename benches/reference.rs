@@ -1,7 +1,7 @@
 //! The true impacts of a scenario, for `benches/peers`: computed with 106 bits by the simulator of
 //! the tests, which shares no code with the engine.
 //!
-//! `cargo bench --bench reference -- SCENARIO.json UNTIL` prints
+//! `cargo run --release -p impact-bench --bin reference -- SCENARIO.json UNTIL` prints
 //! {"impacts": [[t, gap], …], "segments": [{"t", "u", "v", "next_t", "next_gap"}, …]}.
 //! A segment starts right after an impact: displacements u from equilibrium and velocities v of all masses, rounded to
 //! doubles, and the impact that follows. There are at most a thousand, evenly spaced.
@@ -17,11 +17,9 @@ use serde_json::json;
 const SEGMENTS: usize = 1000;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // Cargo adds --bench.
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [file, until] = &arguments[..] else {
-        eprintln!("reference: needs SCENARIO.json and UNTIL; nothing was done");
-        return Ok(());
+        return Err("usage: reference SCENARIO.json UNTIL".into());
     };
     let scenario = Scenario::from_json(&std::fs::read_to_string(file)?)?;
     let until = Dd::of(until.parse()?);

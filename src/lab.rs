@@ -27,7 +27,10 @@ pub fn lab(session: &Session<'_>, results: &Results) -> Result<Option<String>, F
 }
 
 /// The file, from the module in WebAssembly and the script.
-fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Failure> {
+///
+/// # Errors
+/// If a result was not run.
+pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Failure> {
     let (replays, sweep) = (results.of(&REPLAY)?, sweep::main(results)?);
     let runs = replays.parameters.iter().zip(&replays.found);
     let runs: Vec<_> = runs
@@ -68,27 +71,4 @@ fn base64(bytes: &[u8]) -> String {
         }
     }
     out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::experiments::{REPLAY, SWEEP, quick};
-
-    #[test]
-    fn the_page_has_each_run_with_its_digest_and_the_module() {
-        let results = quick(&[&SWEEP, &REPLAY]);
-        let text = script(b"foobar", &results, "end();").unwrap();
-        let data = text.split("const LAB = ").nth(1).unwrap().strip_suffix(";\nend();").unwrap();
-        let data: serde_json::Value = serde_json::from_str(data).unwrap();
-        assert_eq!(data["module"], "Zm9vYmFy");
-        let replays = results.of(&REPLAY).unwrap();
-        assert_eq!(data["runs"].as_array().unwrap().len(), replays.found.len());
-        for (i, found) in replays.found.iter().enumerate() {
-            assert_eq!(data["runs"][i]["found"]["digest"], found.digest.as_str());
-            let asked = serde_json::from_value(data["runs"][i]["asked"].clone());
-            let asked: impact_chain::replay::Asked = asked.unwrap();
-            assert_eq!(asked, replays.parameters[i].1);
-        }
-    }
 }

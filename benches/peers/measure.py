@@ -23,7 +23,7 @@ HERE = Path(__file__).resolve().parent
 TOP = HERE.parent.parent
 WORK = TOP / "target" / "peers"
 OURS = TOP / "target" / "release" / "impact-paper"
-MEASURE = TOP / "target" / "release" / "examples" / "measure"
+MEASURE = TOP / "target" / "release" / "measure"
 FILE = TOP / "benches" / "measured.json"
 # At n = 20 chain 0 comes to rest on a regular orbit, where no error grows; chain 1 is chaotic.
 SIGMA, UNTIL, CHAIN = 0.3, 200.0, 1
@@ -102,8 +102,8 @@ def inputs(n):
     scenario.write_text(text)
     if fresh or not reference.is_file():
         say(f"  true impacts of n = {n}")
-        bench = ["cargo", "bench", "--quiet", "--locked", "--bench", "reference", "--"]
-        text, _, _ = call([*bench, str(scenario), str(UNTIL)], 900)
+        run = ["cargo", "run", "--release", "--quiet", "--locked", "-p", "impact-bench", "--bin", "reference", "--"]
+        text, _, _ = call([*run, str(scenario), str(UNTIL)], 900)
         json.loads(text)
         reference.write_text(text)
     return scenario, reference
@@ -288,7 +288,7 @@ def main():
     WORK.mkdir(parents=True, exist_ok=True)
     say("build")
     build = ["cargo", "build", "--release", "--locked", "--quiet"]
-    call([*build, "--bins", "--example", "measure"], 1800)
+    call([*build, "-p", "impact-paper", "-p", "impact-bench", "--bins"], 1800)
     rows = {part: [row for row in kept if of_part(row) == part] for part in PARTS}
     for part in wanted:
         say(part)

@@ -217,36 +217,3 @@ fn engine_as_promised(e: &Evidence) -> Departures {
     let waiting = entry.and_then(|entry| entry.units).map(|units| units / WAITING);
     Ok(counted.chain(work).chain(waiting).collect())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::experiments::accuracy::case::Verdict::Missed;
-    use crate::experiments::quick;
-
-    /// Each part of the promise can fail: make one result worse and it does.
-    #[test]
-    fn the_promise_of_the_engine_follows_the_numbers() {
-        let published = Published::default();
-        let kept = |results: &Results| {
-            let e = Evidence { results, published: &published, level: level() };
-            engine_as_promised(&e).unwrap().iter().all(|departure| *departure <= 1.0)
-        };
-        let worse: [fn(&mut Results); 4] = [
-            |results| results.of_mut(&RACE).unwrap().entries[0].misses += 1,
-            |results| results.of_mut(&RACE).unwrap().entries[0].units = Some(9.0),
-            |results| results.of_mut(&TRIALS).unwrap().scenes[0].1[0][0] = Missed,
-            |results| {
-                let ours = |m: MethodName| m == MethodName::Certified;
-                let scale = results.of_mut(&SCALE).unwrap();
-                scale.iter_mut().filter(|row| ours(row.0.method)).last().unwrap().2 *= 3.0;
-            },
-        ];
-        for worse in worse {
-            let mut results = quick(&[&RACE, &SCALE, &TRIALS]);
-            assert!(kept(&results));
-            worse(&mut results);
-            assert!(!kept(&results));
-        }
-    }
-}

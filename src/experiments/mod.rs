@@ -118,17 +118,6 @@ pub fn bare() -> Paper {
     }
 }
 
-/// Results of the quick profile, of runs that are not saved, for tests.
-///
-/// # Panics
-/// If one fails.
-#[cfg(test)]
-pub(crate) fn quick(needs: &[Need]) -> Results {
-    let (paper, store) = (bare(), Store::nowhere());
-    let session = Session::of(&paper, None, Profile::Quick, store, Progress::silent()).unwrap();
-    Results::run(needs, &session).unwrap()
-}
-
 /// The graph theory, which costs nothing and is never saved.
 pub const THEORY: Experiment<serde_json::Value, ()> = Experiment {
     name: "theory",

@@ -99,10 +99,10 @@ fn line<T>(read: Result<T, impl std::fmt::Display>) -> Result<(), String> {
 
 #[test]
 fn no_reader_panics_or_hangs() {
-    survives("prose", PROSE.into(), 500, |text| line(prose(text)));
+    survives("prose", PROSE.into(), 200, |text| line(prose(text)));
     let file = |path: &str| fs::read_to_string(path).unwrap();
     let of = |path: &str, count, read: Reader| survives(path, file(path), count, read);
-    of("templates/published.toml", 500, |text| line(Published::parse(text)));
+    of("templates/published.toml", 100, |text| line(Published::parse(text)));
     of("templates/references.bib", 50, |text| line(Library::read(text)));
     of("paper/values.json", 100, |text| line(values::read(text)));
     of("paper/ledger.json", 100, |text| line(ledger::read(text)));

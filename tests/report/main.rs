@@ -20,6 +20,7 @@ use literate::report::{Document, Input, Registry, Report, Templates, assemble};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
+use tempfile::TempDir;
 
 struct Quick {
     paper: Paper,
@@ -30,9 +31,19 @@ struct Quick {
     elsewhere: [Report; 2],
     results: Results,
     values: Registry,
+    /// Where the results are saved.
+    saved: TempDir,
 }
 
 impl Quick {
+    /// The results once more, to be changed.
+    fn results_again(&self) -> Results {
+        let store = Store::open(self.saved.path());
+        let (paper, quiet) = (&self.paper, Progress::silent());
+        let session = Session::of(paper, None, Profile::Quick, store, quiet).unwrap();
+        Results::run(ALL, &session).unwrap()
+    }
+
     /// A document as hosts show it.
     fn markdown(&self, document: &Document) -> &str {
         std::str::from_utf8(&self.report.committed[document.markdown]).unwrap()
@@ -85,8 +96,8 @@ fn links_land(files: impl Fn(&Report) -> Links, least: usize, across: usize) {
 
 static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let paper = program::paper();
-    let folder = tempfile::tempdir().unwrap();
-    let store = Store::open(folder.path());
+    let saved = tempfile::tempdir().unwrap();
+    let store = Store::open(saved.path());
     let session = Session::of(&paper, None, Profile::Quick, store, Progress::silent()).unwrap();
     // Run, then read again as it was saved.
     let [_, results] = [(); 2].map(|()| Results::run(ALL, &session).unwrap());
@@ -113,5 +124,5 @@ static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     assert!(report == made(Some("../")), "the same input gives other bytes");
     let elsewhere = [made(Some("../../")), made(None)];
     let templates = session.templates.clone();
-    Quick { paper: program::paper(), templates, figures, report, elsewhere, results, values }
+    Quick { paper: program::paper(), templates, figures, report, elsewhere, results, values, saved }
 });

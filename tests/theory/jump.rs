@@ -3,7 +3,7 @@
 use crate::distribution::weights;
 use crate::{Big, big, exp, int, near, relative_error};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
-use dashu::integer::UBig;
+use dashu_int::UBig;
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::jump;
 
@@ -23,7 +23,7 @@ fn p_jump_by_roots(big_n: usize) -> (Big, usize) {
     let mut best: Option<(Big, usize)> = None;
     for k in 2..=big_n {
         falling *= UBig::from(big_n + 1 - k);
-        let quotient = int(k) / Big::from(dashu::integer::IBig::from(falling.clone()));
+        let quotient = int(k) / Big::from(dashu_int::IBig::from(falling.clone()));
         let log = quotient.with_precision(crate::BITS).value().ln() / int(k - 1);
         // Of equal roots the larger k wins just after the jump.
         if best.as_ref().is_none_or(|(least, _)| near(&(log.clone() - least)) < 1e-50) {

@@ -1,4 +1,4 @@
-//! The theory of Secs. 3 to 9 against second routes: exact and 67-digit arithmetic, enumeration,
+//! The theory of Secs. 3 to 9 against second routes: exact and 57-digit arithmetic, enumeration,
 //! quadrature.
 
 mod distribution;
@@ -6,15 +6,15 @@ mod jump;
 mod relation;
 mod tables;
 
-use dashu::float::FBig;
-use dashu::float::round::mode::HalfEven;
-use dashu::integer::IBig;
+use dashu_float::FBig;
+use dashu_float::round::mode::HalfEven;
+use dashu_int::IBig;
 
 /// A float of [`BITS`] bits.
 pub type Big = FBig<HalfEven, 2>;
 
 /// Precision of everything here.
-pub const BITS: usize = 224;
+pub const BITS: usize = 192;
 
 /// The exact value of a double.
 pub fn big(x: f64) -> Big {

@@ -217,7 +217,11 @@ pub fn origin<F>(_: F) -> Origin {
 
 /// The same for a function that is known by its type.
 pub fn origin_of<F>() -> Origin {
-    let path = std::any::type_name::<F>();
+    origin_from(std::any::type_name::<F>())
+}
+
+/// The origin from the name of a function's type.
+fn origin_from(path: &str) -> Origin {
     // What a closure computes, the function computes in which it stands.
     let path = path.replace("::{{closure}}", "");
     let (Some(from), Some(to)) = (path.find('<'), path.rfind('>')) else { return Origin(path) };

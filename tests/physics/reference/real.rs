@@ -1,7 +1,7 @@
 //! The numbers of the reference: double-doubles of 106 bits, which `traces.rs` compares with floats of 256 bits from dashu.
 
-use dashu::float::FBig;
-use dashu::float::round::mode::HalfEven;
+use dashu_float::FBig;
+use dashu_float::round::mode::HalfEven;
 use impact_numerics::double_double::{DoubleDouble, sin_cos};
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};

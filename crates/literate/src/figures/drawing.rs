@@ -99,6 +99,39 @@ fn circle((x, y): Point, r: i32) -> Vec<Step> {
     path
 }
 
+/// Whether a path enters a frame. Curves count as their chords; a chord is looked at in 200 places.
+fn crosses(path: &[Step], frame: Frame) -> bool {
+    let mut from = None;
+    for step in path {
+        let (to, drawn) = match step {
+            Step::Move(to) => (*to, false),
+            Step::Line(to) | Step::Curve([_, _, to]) => (*to, true),
+            Step::Close => continue,
+        };
+        let enters = match from {
+            Some(from) if drawn => chord_enters(from, to, frame),
+            _ => frame.contains(to),
+        };
+        if enters {
+            return true;
+        }
+        from = Some(to);
+    }
+    false
+}
+
+/// Whether a straight line enters a frame, as far as 200 places on it tell.
+fn chord_enters(from: Point, to: Point, frame: Frame) -> bool {
+    // Most lines of a drawing lie on one side of the frame.
+    let beside = from.0.max(to.0) < frame.left || from.0.min(to.0) > frame.right;
+    let above_or_below = from.1.max(to.1) < frame.top || from.1.min(to.1) > frame.bottom;
+    if beside || above_or_below {
+        return false;
+    }
+    let between = |a: i32, b: i32, i: i32| a + (b - a) * i / 200;
+    (0..=200).any(|i| frame.contains((between(from.0, to.0, i), between(from.1, to.1, i))))
+}
+
 impl Drawing {
     /// An empty drawing.
     pub fn new(height: u32) -> Self {
@@ -212,25 +245,8 @@ impl Drawing {
 
     /// Whether no line, no mark and no words that are read from left to right stand in a rectangle.
     pub fn is_free(&self, frame: Frame) -> bool {
-        let holds = |(x, y): (i32, i32)| {
-            (frame.left..=frame.right).contains(&x) && (frame.top..=frame.bottom).contains(&y)
-        };
-        let crosses = |path: &[Step]| {
-            let ends = path.iter().filter_map(|step| match step {
-                Step::Move(at) => Some((*at, true)),
-                Step::Line(at) | Step::Curve([_, _, at]) => Some((*at, false)),
-                Step::Close => None,
-            });
-            let ends: Vec<_> = ends.collect();
-            let between = |a: i32, b: i32, i: i32| a + (b - a) * i / 200;
-            ends.iter().any(|own| holds(own.0))
-                || ends.windows(2).filter(|pair| !pair[1].1).any(|pair| {
-                    let [(a, _), (b, _)] = [pair[0], pair[1]];
-                    (1..200).any(|i| holds((between(a.0, b.0, i), between(a.1, b.1, i))))
-                })
-        };
         self.elements.iter().all(|element| match element {
-            Element::Shape(path, _, Some(_)) => !crosses(path),
+            Element::Shape(path, _, Some(_)) => !crosses(path, frame),
             Element::Label(label) if !label.upwards => {
                 let of = |own: i32| own * label.size / font::EM;
                 let place = |own: &Placed| (label.at.0 + of(own.x), label.at.1 - of(own.y));

@@ -28,6 +28,11 @@ impl Frame {
     pub const fn new(left: i32, top: i32, right: i32, bottom: i32) -> Self {
         Frame { left, top, right, bottom }
     }
+
+    /// Whether a place lies in it, edges included.
+    pub fn contains(&self, (x, y): Point) -> bool {
+        (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
+    }
 }
 
 /// Axes in a frame; data is given in its own units, whatever the scales.

@@ -52,6 +52,14 @@ fn none() -> Value {
     Value::text("", "none")
 }
 
+/// Adds a column of cells, each finished in the same way.
+fn add(table: &mut Table, column: Column, cells: Vec<Value>, finish: &dyn Fn(Value) -> Value) {
+    table.columns.push(column);
+    for (cell, (_, row)) in cells.into_iter().zip(&mut table.rows) {
+        row.push(finish(cell));
+    }
+}
+
 impl<'a, R> Building<'a, R> {
     fn put(
         mut self,
@@ -60,12 +68,11 @@ impl<'a, R> Building<'a, R> {
         item: Origin,
         cell: impl Fn(&R) -> Value,
     ) -> Self {
-        self.table.columns.push(Column { name, unit });
-        for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
-            let cell = cell(row).unit(markdown(unit)).note(meaning);
-            let item = self.origin.as_ref().unwrap_or(&item);
-            cells.push(cell.source(item.clone(), self.experiment));
-        }
+        let cells = self.rows.iter().map(cell).collect();
+        let item = self.origin.as_ref().unwrap_or(&item);
+        add(&mut self.table, Column { name, unit }, cells, &|cell: Value| {
+            cell.unit(markdown(unit)).note(meaning).source(item.clone(), self.experiment)
+        });
         self
     }
 
