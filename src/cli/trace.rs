@@ -152,7 +152,7 @@ fn in_file(name: &str, error: Error) -> Failure {
         Error::Input { ref field, .. } if ["step", "tolerance"].contains(&field.as_str()) => {
             Failure::input(format!("--{error}"))
         }
-        error => Failure::input(format!("{name}: {error}")),
+        error => Failure::input(format!("{name}: {}", input::plain(&error.to_string()))),
     }
 }
 

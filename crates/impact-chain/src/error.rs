@@ -1,7 +1,5 @@
 //! What can go wrong in a simulation, with the numbers that explain it.
 
-use impact_numerics::text::one_line;
-
 /// An error of the dynamics.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
@@ -45,12 +43,6 @@ impl Error {
         problem: impl Into<String>,
         remedy: impl Into<String>,
     ) -> Self {
-        // Both may quote a file, at any length.
-        let field = match one_line(&field.into(), 80) {
-            empty if empty.is_empty() => "a field of no name".into(),
-            field => field,
-        };
-        let problem = one_line(&problem.into(), 300);
-        Error::Input { field, problem, remedy: remedy.into() }
+        Error::Input { field: field.into(), problem: problem.into(), remedy: remedy.into() }
     }
 }

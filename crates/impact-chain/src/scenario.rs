@@ -3,7 +3,6 @@
 use crate::methods::State;
 use crate::{Boundary, Chain, Engine, Error, Start, rounding};
 use impact_numerics::random::NormalPairs;
-use impact_numerics::text::plain;
 use serde::Deserialize;
 
 /// The start of one scenario.
@@ -79,7 +78,7 @@ impl Form {
             // A part of the path that has no name is "?".
             let path = error.path().to_string().replace(".?", "");
             let field = if [".", "?"].contains(&path.as_str()) { "scenario" } else { &path };
-            Error::input(field, plain(&error.inner().to_string()), FORM)
+            Error::input(field, error.inner().to_string(), FORM)
         })?;
         reader.end().map_err(|error| Error::input("scenario", error.to_string(), FORM))?;
         Ok(form)

@@ -1,6 +1,6 @@
 //! Files: they are read up to a bound, what is wrong with them is one line, and they appear whole.
 
-pub use impact_numerics::text::{count, is_obeyed, one_line, plain};
+pub use crate::text::{count, is_control, one_line, plain};
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};

@@ -56,6 +56,7 @@ pub mod prelude {
 pub mod project;
 pub mod report;
 pub mod table;
+mod text;
 pub mod value;
 
 pub use failure::{Failure, INTERRUPTED};

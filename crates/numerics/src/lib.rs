@@ -5,7 +5,6 @@
 //! - [`roots`] and integrals ([`quadrature`]).
 //! - Samples: [`random`] streams that depend on their names only, [`statistics`], the [`bootstrap`], and [`estimates`]
 //!   with errors by the jackknife.
-//! - [`text`]: words and numbers in messages.
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
@@ -17,4 +16,3 @@ pub mod random;
 pub mod roots;
 pub mod scaled;
 pub mod statistics;
-pub mod text;

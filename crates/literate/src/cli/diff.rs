@@ -3,7 +3,7 @@
 use super::terminal::{print, shown};
 use crate::claims::{Check, Text, significant};
 use crate::failure::Failure;
-use crate::input::{count, is_obeyed, one_line};
+use crate::input::{count, is_control, one_line};
 use crate::report::folder::{self, SUMS};
 use crate::report::ledger::{self, Ledger};
 use crate::report::print::{Style, print as printed};
@@ -40,7 +40,7 @@ pub(super) fn run(args: Args) -> Result<(), Failure> {
     let counts = [count(checks.len(), "check"), count(numbers.len(), "number")];
     let all = [checks, numbers, files(&before.files, &after.files)].concat();
     // A report, and the name of a file, may hold what a terminal obeys.
-    let lines = all.iter().map(|line| line.replace(is_obeyed, " ") + "\n");
+    let lines = all.iter().map(|line| line.replace(is_control, " ") + "\n");
     print(&match all.is_empty() {
         true => format!("{old} and {new}: nothing differs\n"),
         false => format!("{} changed\n{}", counts.join(" and "), lines.collect::<String>()),

@@ -2,7 +2,7 @@
 
 use super::terminal::print;
 use crate::failure::Failure;
-use crate::input::{is_obeyed, one_line, regular_text};
+use crate::input::{is_control, one_line, regular_text};
 use crate::paper::Paper;
 use crate::report::card::{Card, Cards};
 use crate::report::document::{Inline, spelt};
@@ -86,5 +86,5 @@ fn words(text: &[Inline]) -> String {
 }
 
 fn clean(text: &str) -> String {
-    text.replace(is_obeyed, " ")
+    text.replace(is_control, " ")
 }

@@ -1,10 +1,9 @@
-//! Words and numbers in messages; texts of parsers and users made fit for them.
+//! Prepares text for messages: one short line without control characters, in plain words.
 
-/// A message in one line of at most `most` characters, since parsers repeat their input. A longer
-/// one keeps its beginning and its end.
+/// Returns a message in one line of at most `most` characters; a longer one keeps its beginning
+/// and its end. Parsers repeat their input, which may be of any length.
 pub fn one_line(text: &str, most: usize) -> String {
-    let visible = |c: char| if is_obeyed(c) { ' ' } else { c };
-    let line: String = text.chars().map(visible).collect();
+    let line = text.replace(is_control, " ");
     let line = line.trim();
     let length = line.chars().count();
     if length <= most {
@@ -15,7 +14,7 @@ pub fn one_line(text: &str, most: usize) -> String {
     head.chain(['…']).chain(line.chars().skip(length - tail)).collect()
 }
 
-/// `3 numbers`, `1 number`, `no number`.
+/// Counts things in words: `3 numbers`, `1 number`, `no number`.
 pub fn count(number: usize, noun: &str) -> String {
     match number {
         0 => format!("no {noun}"),
@@ -25,10 +24,10 @@ pub fn count(number: usize, noun: &str) -> String {
     }
 }
 
-const NUMBER: &str = "it is no number; write one such as 0.12";
-const WHOLE: &str = "it is no whole number of 0 or more; write one such as 1000";
+const NUMBER: &str = "not a number; write one such as 0.12";
+const WHOLE: &str = "not a whole number of 0 or more; write one such as 1000";
 
-/// Words of parsers for programmers, and words for everybody.
+/// What parsers say to programmers, and what users of the program read instead.
 const PLAIN: [(&str, &str); 11] = [
     (" as i128", ""),
     ("`usize`", "a whole number"),
@@ -36,21 +35,23 @@ const PLAIN: [(&str, &str); 11] = [
     ("expected u64", "expected a whole number"),
     ("expected usize", "expected a whole number"),
     ("an array of length 2", "a pair [a, b]"),
-    ("expected value", "no value that it can have"),
+    ("expected value", "unexpected value"),
     ("invalid float literal", NUMBER),
     ("cannot parse float from empty string", NUMBER),
     ("invalid digit found in string", WHOLE),
     ("cannot parse integer from empty string", WHOLE),
 ];
 
-/// A message of a parser without types of Rust.
+/// Replaces the types of Rust in a message of a parser by plain words.
 pub fn plain(message: &str) -> String {
-    PLAIN.iter().fold(message.into(), |line: String, (theirs, ours)| line.replace(theirs, ours))
+    PLAIN
+        .iter()
+        .fold(message.into(), |line: String, (technical, plain)| line.replace(technical, plain))
 }
 
-/// Whether a terminal or an editor obeys the character as a command, or hides it.
-pub fn is_obeyed(c: char) -> bool {
-    let unseen = [
+/// Whether a terminal or an editor treats a character as a command, or hides it.
+pub fn is_control(c: char) -> bool {
+    let invisible = [
         '\u{200b}'..='\u{200f}',
         '\u{2028}'..='\u{202e}',
         '\u{2060}'..='\u{206f}',
@@ -60,7 +61,7 @@ pub fn is_obeyed(c: char) -> bool {
     ];
     c.is_control()
         || matches!(c, '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{feff}')
-        || unseen.iter().any(|range| range.contains(&c))
+        || invisible.iter().any(|range| range.contains(&c))
 }
 
 #[cfg(test)]
