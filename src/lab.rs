@@ -14,7 +14,7 @@ const MODULE: &str = "target/page.wasm";
 /// # Errors
 /// If a result was not run, or the prose has no script.
 pub fn lab(session: &Session<'_>, results: &Results) -> Result<Option<String>, Failure> {
-    let found = session.paper.project.find(MODULE).and_then(|path| input::regular(&path).ok());
+    let found = session.project.find(MODULE).and_then(|path| input::regular(&path).ok());
     match found.filter(|module| module.starts_with(b"\0asm")) {
         Some(module) => Ok(Some(script(&module, results, session.templates.text("lab.js")?)?)),
         None => {

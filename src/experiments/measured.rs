@@ -91,7 +91,7 @@ impl Measured {
     /// The committed file.
     pub fn committed(session: &Session<'_>) -> Result<Self, Error> {
         let again = "run make measure again, or restore the file";
-        let project = &session.paper.project;
+        let project = session.project;
         let text = project
             .text(FILE)
             .map_err(|error| Error::input("measured.json", error.to_string(), again))?;

@@ -43,7 +43,7 @@ pub(crate) mod prelude {
 
 pub use impact_chain::rise;
 pub use literate::experiments::{
-    Entry, Error, Experiment, Need, Progress, Results, Session, Store, Together, alive, say,
+    AnyExperiment, DerivedTables, Error, Experiment, Progress, Results, Session, Store, alive, say,
 };
 pub use measured::Measured;
 
@@ -60,7 +60,7 @@ use literate::table::Table;
 use literate::{Paper, Project};
 
 /// All experiments, in the order in which they run.
-pub const ALL: &[Need] = &[
+pub const ALL: &[&'static dyn AnyExperiment] = &[
     &THEORY,
     &SEGMENTS,
     &MEASURED,
@@ -83,7 +83,7 @@ pub const ALL: &[Need] = &[
 ];
 
 /// Tables that need several experiments.
-pub const TOGETHER: [Together; 3] =
+pub const DERIVED: [DerivedTables; 3] =
     [theory::beside::tables, seeds::compared::tables, starts::beside_theory];
 
 /// What every result depends on.
@@ -113,7 +113,7 @@ pub fn bare() -> Paper {
         prose: "templates",
         documents: Vec::new(),
         experiments: ALL.to_vec(),
-        together: TOGETHER.to_vec(),
+        derived: DERIVED.to_vec(),
         ..Paper::new(title, sources)
     }
 }

@@ -32,26 +32,26 @@ mod simulated;
 pub use literate::figures::*;
 
 use crate::experiments::sweep;
+use crate::experiments::{AnyExperiment, Results};
 use crate::experiments::{
     BIAS, BRANCHES, MEASURED, NUCLEATION, PROTOCOL, RACE, SCALE, SEEDS, SEGMENTS, SPACE_TIME,
     SWEEP, THEORY,
 };
-use crate::experiments::{Need, Results};
-use literate::Illustration;
+use literate::FigureSpec;
 
 /// The label of an axis of σ.
 const FORCING: &str = "*σ* (*d ω*^{2})";
 
 const fn drawing(
     name: &'static str,
-    needs: &'static [Need],
+    needs: &'static [&'static dyn AnyExperiment],
     draw: fn(&Results) -> Result<Figure, Error>,
-) -> Illustration {
-    Illustration { name, needs, draw }
+) -> FigureSpec {
+    FigureSpec { name, needs, draw }
 }
 
 /// All figures: first the paper's, then those of this edition.
-pub const ALL: [Illustration; 24] = [
+pub const ALL: [FigureSpec; 24] = [
     drawing("fig01", &[], |_| fig01::draw()),
     drawing("fig02", &[&SWEEP], |all| fig02::draw(sweep::main(all)?)),
     drawing("fig03", &[&SWEEP], |all| fig03::draw(sweep::main(all)?)),

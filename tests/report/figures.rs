@@ -2,7 +2,7 @@
 //! bytes each time.
 
 use crate::QUICK;
-use impact_paper::experiments::{Progress, Results, SEGMENTS, SPACE_TIME, Session, Store};
+use impact_paper::experiments::{Progress, SEGMENTS, SPACE_TIME, Store};
 use impact_paper::figures;
 use impact_paper::params::{Profile, VERTICES};
 use roxmltree::{Document, Node};
@@ -265,8 +265,8 @@ fn the_long_run_is_drawn_compactly() {
 #[test]
 fn a_figure_needs_exactly_what_it_declares() {
     let (paper, store) = (&QUICK.paper, Store::nowhere());
-    let session = Session::of(paper, None, Profile::Quick, store, Progress::silent()).unwrap();
-    let nothing = Results::run(&[], &session).unwrap();
+    let session = paper.session(None, Profile::Quick, store, Progress::silent()).unwrap();
+    let nothing = paper.results(&[], &session).unwrap();
     for figure in &figures::ALL {
         match figure.figure(&nothing) {
             Ok(_) => assert!(!figure.needs.iter().any(|need| need.is_saved()), "{}", figure.name),

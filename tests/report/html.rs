@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 static PAGES: LazyLock<BTreeMap<&str, String>> = LazyLock::new(|| {
-    let text = |page: &str| String::from_utf8(QUICK.report.beside[page].clone()).unwrap();
+    let text = |page: &str| String::from_utf8(QUICK.report.generated[page].clone()).unwrap();
     QUICK.paper.documents.iter().map(|document| (document.page, text(document.page))).collect()
 });
 
@@ -26,7 +26,7 @@ type Card = (String, String, Vec<usize>);
 
 /// Rows and cards in cards.js.
 fn cards(report: &Report) -> (Vec<String>, BTreeMap<String, Card>) {
-    let text = std::str::from_utf8(&report.beside["cards.js"]).unwrap();
+    let text = std::str::from_utf8(&report.generated["cards.js"]).unwrap();
     let json = text.strip_prefix("CARDS = ").and_then(|text| text.strip_suffix(";\n"));
     serde_json::from_str(json.unwrap()).unwrap()
 }
@@ -55,7 +55,7 @@ fn every_link_lands_wherever_the_report_is_written() {
     crate::links_land(
         |report| {
             let page = |of: &literate::report::Document| {
-                let text = std::str::from_utf8(&report.beside[of.page]).unwrap();
+                let text = std::str::from_utf8(&report.generated[of.page]).unwrap();
                 (of.page.to_string(), links(&text.replace("href=\"data:,\"", "")))
             };
             let cards = format!("<p>{}</p>", cards(report).0.concat());

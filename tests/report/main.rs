@@ -11,7 +11,7 @@ mod program;
 mod prose;
 mod structure;
 
-use impact_paper::experiments::{ALL, Progress, Results, Session, Store};
+use impact_paper::experiments::{ALL, Progress, Results, Store};
 use impact_paper::params::Profile;
 use impact_paper::{claims, contents};
 use literate::Paper;
@@ -40,8 +40,8 @@ impl Quick {
     fn results_again(&self) -> Results {
         let store = Store::open(self.saved.path());
         let (paper, quiet) = (&self.paper, Progress::silent());
-        let session = Session::of(paper, None, Profile::Quick, store, quiet).unwrap();
-        Results::run(ALL, &session).unwrap()
+        let session = paper.session(None, Profile::Quick, store, quiet).unwrap();
+        paper.results(ALL, &session).unwrap()
     }
 
     /// A document as hosts show it.
@@ -80,7 +80,7 @@ fn links_land(files: impl Fn(&Report) -> Links, least: usize, across: usize) {
                     continue;
                 }
                 let to = if file.is_empty() { name } else { file };
-                let own = || report.committed.contains_key(to) || report.beside.contains_key(to);
+                let own = || report.committed.contains_key(to) || report.generated.contains_key(to);
                 assert!(own() || to == "data", "{name}: no {link}");
                 if !id.is_empty() {
                     inside += usize::from(to == name);
@@ -98,10 +98,10 @@ static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let paper = program::paper();
     let saved = tempfile::tempdir().unwrap();
     let store = Store::open(saved.path());
-    let session = Session::of(&paper, None, Profile::Quick, store, Progress::silent()).unwrap();
+    let session = paper.session(None, Profile::Quick, store, Progress::silent()).unwrap();
     // Run, then read again as it was saved.
-    let [_, results] = [(); 2].map(|()| Results::run(ALL, &session).unwrap());
-    let published = session.published().unwrap();
+    let [_, results] = [(); 2].map(|()| paper.results(ALL, &session).unwrap());
+    let published = paper.published(&session).unwrap();
     let claims = claims::judge_all(&published, &claims::rules(), &results).unwrap().0;
     let values = paper.registry(&results, &published).unwrap();
     let rows = contents::rows(&results, &claims).unwrap();

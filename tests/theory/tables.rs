@@ -3,14 +3,14 @@
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_paper::experiments::theory::{large, law};
-use impact_paper::experiments::{Progress, Results, Session, Store, THEORY, bare};
+use impact_paper::experiments::{Progress, Results, Store, THEORY, bare};
 use impact_paper::params::{Profile, VERTICES};
 use std::sync::LazyLock;
 
 static RESULTS: LazyLock<Results> = LazyLock::new(|| {
     let (paper, store) = (bare(), Store::nowhere());
-    let session = Session::of(&paper, None, Profile::Quick, store, Progress::silent()).unwrap();
-    Results::run(&[&THEORY], &session).unwrap()
+    let session = paper.session(None, Profile::Quick, store, Progress::silent()).unwrap();
+    paper.results(&[&THEORY], &session).unwrap()
 });
 
 fn number(address: &str) -> f64 {

@@ -62,5 +62,5 @@ pub mod value;
 pub use failure::{Failure, INTERRUPTED};
 pub use impact_numerics::{double_double, estimates, random, statistics};
 pub use literate_sources::{sources, texts};
-pub use paper::{Illustration, Judge, Lab, Paper, Rows, Values};
+pub use paper::{FigureSpec, Judge, Lab, Paper, Rows, Values};
 pub use project::{Project, Sources};

@@ -1,7 +1,7 @@
 //! A paper: what it is made of. [`Paper::cli`] gives it a command line.
 
 use crate::claims::{Case, Check, Judged, Published, Rule};
-use crate::experiments::{Need, Results, Session, Together};
+use crate::experiments::{AnyExperiment, DerivedTables, Results, Session};
 use crate::failure::Failure;
 use crate::figures::{self, Figure};
 use crate::project::{Project, Sources};
@@ -12,16 +12,16 @@ use std::collections::BTreeMap;
 
 /// A figure of a paper: its name, the experiments whose results it shows, and how it is drawn.
 #[derive(Clone, Copy)]
-pub struct Illustration {
+pub struct FigureSpec {
     /// Its name; its picture is `figures/NAME.svg`.
     pub name: &'static str,
     /// The experiments that it needs.
-    pub needs: &'static [Need],
+    pub needs: &'static [&'static dyn AnyExperiment],
     /// Draws it.
     pub draw: fn(&Results) -> Result<Figure, figures::Error>,
 }
 
-impl Illustration {
+impl FigureSpec {
     /// Draws it, and gives it its name.
     pub fn figure(&self, results: &Results) -> Result<Figure, figures::Error> {
         let mut figure = (self.draw)(results)?;
@@ -70,10 +70,10 @@ pub struct Paper {
     /// Crates as paths of items name them, and the folders of their source; an empty name for the program.
     pub crates: Vec<(&'static str, &'static str)>,
     /// All experiments, in the order in which they run.
-    pub experiments: Vec<Need>,
+    pub experiments: Vec<&'static dyn AnyExperiment>,
     /// Tables that need several experiments.
-    pub together: Vec<Together>,
-    pub figures: Vec<Illustration>,
+    pub derived: Vec<DerivedTables>,
+    pub figures: Vec<FigureSpec>,
     /// How each statement of `published.toml` is judged, by its id.
     pub rules: Vec<(&'static str, Box<Rule<'static>>)>,
     /// Judge what is no statement: relations between numbers.
@@ -107,7 +107,7 @@ impl Paper {
             prose: "prose",
             crates: vec![("", "src")],
             experiments: Vec::new(),
-            together: Vec::new(),
+            derived: Vec::new(),
             figures: Vec::new(),
             rules: Vec::new(),
             relations: Vec::new(),
@@ -127,7 +127,7 @@ impl Paper {
     }
 
     /// With one experiment more.
-    pub fn experiment(mut self, experiment: Need) -> Self {
+    pub fn experiment(mut self, experiment: &'static dyn AnyExperiment) -> Self {
         self.experiments.push(experiment);
         self
     }
@@ -146,15 +146,15 @@ impl Paper {
     pub fn figure(
         mut self,
         name: &'static str,
-        needs: &'static [Need],
+        needs: &'static [&'static dyn AnyExperiment],
         draw: fn(&Results) -> Result<Figure, figures::Error>,
     ) -> Self {
-        self.figures.push(Illustration { name, needs, draw });
+        self.figures.push(FigureSpec { name, needs, draw });
         self
     }
 
     /// The figure that is asked for by its name or number: `spread`, `3`, `s1`.
-    pub fn find_figure(&self, text: &str) -> Result<&Illustration, Failure> {
+    pub fn find_figure(&self, text: &str) -> Result<&FigureSpec, Failure> {
         self.figures.iter().find(|figure| figure.is(text)).ok_or_else(|| {
             let names: Vec<&str> = self.figures.iter().map(|figure| figure.name).collect();
             Failure::input(format!("there is no figure {text:?}; there are {}", names.join(", ")))
@@ -309,7 +309,7 @@ mod tests {
 
     #[test]
     fn a_figure_is_found_by_its_name_and_its_number() {
-        let named = |name| Illustration {
+        let named = |name| FigureSpec {
             name,
             needs: &[],
             draw: |_| Err(figures::Error::Drawing(String::new())),

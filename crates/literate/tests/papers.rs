@@ -5,7 +5,7 @@
 mod feigenbaum;
 
 use literate::cli::whole;
-use literate::experiments::{Profile, Progress, Session, Store};
+use literate::experiments::{Profile, Progress, Store};
 use std::path::Path;
 
 #[test]
@@ -15,13 +15,13 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
     let paper = feigenbaum::paper();
     let prose = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/feigenbaum"));
     let quiet = Progress::silent();
-    let session = Session::of(&paper, prose.as_deref(), Profile::Full, store, quiet).unwrap();
-    let (report, checks) = whole(&session, Path::new("paper")).unwrap();
+    let session = paper.session(prose.as_deref(), Profile::Full, store, quiet).unwrap();
+    let (report, checks) = whole(&paper, &session, Path::new("paper")).unwrap();
     assert!(checks.iter().all(|check| !check.fails()));
     let saved = folder.path().join("cascade-full.json");
     let written = || std::fs::metadata(&saved).unwrap().modified().unwrap();
     let first = written();
-    assert!(report == whole(&session, Path::new("paper")).unwrap().0);
+    assert!(report == whole(&paper, &session, Path::new("paper")).unwrap().0);
     assert_eq!(written(), first, "it is run once");
 
     let text = |path: &str| String::from_utf8(report.committed[path].clone()).unwrap();
@@ -42,7 +42,7 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
     let ledger = text("ledger.json");
     assert_eq!(ledger.matches("\"reproduced\"").count(), 2, "{ledger}");
     assert_eq!(ledger.matches("\"differs and explained\"").count(), 1, "{ledger}");
-    assert!(report.beside.contains_key("report.html"));
+    assert!(report.generated.contains_key("report.html"));
 
     // The constants to the digits that the literature has: 4.669 201 609 102… and 2.502 907 875 095….
     let cascade = feigenbaum::CASCADE.get(&session).unwrap();

@@ -3,7 +3,6 @@
 use super::make::{Sources, of, scores, verdict};
 use super::terminal::print;
 use crate::claims::{Check, Kind, Published, Verdict, score};
-use crate::experiments::Results;
 use crate::failure::Failure;
 use crate::input::one_line;
 use crate::paper::Paper;
@@ -44,7 +43,7 @@ enum Format {
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let session = args.sources.session(paper)?;
-    let published = session.published()?;
+    let published = paper.published(&session)?;
     for asked in &args.ids {
         let number = asked.parse().is_ok_and(|n| (1..=published.statements.len()).contains(&n));
         if !number && !published.statements.iter().any(|own| own.id == *asked) {
@@ -55,7 +54,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         }
     }
     let mut checks = args.sources.threads.run(|| {
-        let results = Results::run(&paper.experiments, &session)?;
+        let results = paper.results(&paper.experiments, &session)?;
         paper.checks(&results, &published)
     })?;
     let printed = checks.iter().filter(|check| check.kind.is_printed());

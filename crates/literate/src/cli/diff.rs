@@ -76,7 +76,7 @@ fn standing(name: &str) -> Result<Files, Failure> {
         let bytes = folder::read(root, &path).map_err(fault)?;
         Ok((path, bytes))
     };
-    paths.into_iter().filter(|path| !folder::is_beside(path)).map(read).collect()
+    paths.into_iter().filter(|path| !folder::is_generated(path)).map(read).collect()
 }
 
 fn git(arguments: &[&str]) -> Result<Vec<u8>, String> {
@@ -103,7 +103,7 @@ fn committed(name: &str) -> Result<Files, Failure> {
     let list =
         git(&["ls-tree", "-r", "-z", "--full-tree", "--name-only", &format!("{name}:./paper")])?;
     let list = String::from_utf8_lossy(&list).into_owned();
-    let paths = list.split_terminator('\0').filter(|path| !folder::is_beside(path));
+    let paths = list.split_terminator('\0').filter(|path| !folder::is_generated(path));
     let read = |path: &str| {
         Ok((path.to_string(), git(&["cat-file", "blob", &format!("{name}:./paper/{path}")])?))
     };

@@ -2,11 +2,11 @@
 
 use super::terminal::{Threads, progress, warn};
 use crate::claims::{Basis, Check, Kind, Published, Verdict, judge_all, score};
-use crate::experiments::{Profile, Progress, Results, Session, Store};
+use crate::experiments::{AnyExperiment, Error, Profile, Progress, Results, Session, Store};
 use crate::failure::Failure;
 use crate::figures::Figure;
 use crate::input::count;
-use crate::paper::{Illustration, Paper};
+use crate::paper::{FigureSpec, Paper};
 use crate::report::claims::printed;
 use crate::report::filler::Filler;
 use crate::report::{Input, Registry, Report, Templates, Value, assemble};
@@ -40,48 +40,63 @@ impl Sources {
             ));
         }
         let store = Store::open(&self.results);
-        Session::of(paper, self.templates.as_deref(), self.profile, store, progress())
-    }
-}
-
-impl<'a> Session<'a> {
-    /// A run with the prose of a folder, or else that of the project, or the copy inside the program.
-    pub fn of(
-        paper: &'a Paper,
-        prose: Option<&Path>,
-        profile: Profile,
-        store: Store,
-        progress: Progress,
-    ) -> Result<Self, Failure> {
-        let project = &paper.project;
-        let folder = prose.map(Path::to_path_buf).or_else(|| project.find(paper.prose));
-        let templates = match folder {
-            Some(folder) => Templates::read(&folder)?,
-            None => Templates::of(project.copy.iter().filter_map(|(path, text)| {
-                Some((path.strip_prefix(paper.prose)?.strip_prefix('/')?, *text))
-            })),
-        };
-        let mut documents = paper.documents.iter();
-        if documents.len() > 0 && documents.all(|own| own.files(&templates).is_empty()) {
-            let names: Vec<&str> = paper.documents.iter().map(|document| document.prose).collect();
-            let folder = prose.unwrap_or(Path::new(paper.prose)).display();
-            let what = format!("{folder}: no prose is there; give the folder of");
-            return Err(Failure::input(format!("{what} {}", names.join(", "))));
-        }
-        Ok(Session { paper, templates, profile, store, progress })
-    }
-
-    /// What was printed; nothing without a file `published.toml`.
-    pub fn published(&self) -> Result<Published, Failure> {
-        let read = Published::parse(self.templates.text("published.toml")?);
-        read.map_err(|error| {
-            let failure = Failure::from(error);
-            Failure { message: self.templates.place(&failure.message), ..failure }
-        })
+        paper.session(self.templates.as_deref(), self.profile, store, progress())
     }
 }
 
 impl Paper {
+    /// A run with the prose of a folder, or else that of the project, or the copy inside the program.
+    ///
+    /// # Errors
+    /// If there is no prose, or it cannot be read.
+    pub fn session(
+        &self,
+        prose: Option<&Path>,
+        profile: Profile,
+        store: Store,
+        progress: Progress,
+    ) -> Result<Session<'_>, Failure> {
+        let project = &self.project;
+        let folder = prose.map(Path::to_path_buf).or_else(|| project.find(self.prose));
+        let templates = match folder {
+            Some(folder) => Templates::read(&folder)?,
+            None => Templates::of(project.copy.iter().filter_map(|(path, text)| {
+                Some((path.strip_prefix(self.prose)?.strip_prefix('/')?, *text))
+            })),
+        };
+        let mut documents = self.documents.iter();
+        if documents.len() > 0 && documents.all(|one| one.files(&templates).is_empty()) {
+            let names: Vec<&str> = self.documents.iter().map(|document| document.prose).collect();
+            let folder = prose.unwrap_or(Path::new(self.prose)).display();
+            let what = format!("{folder}: no prose is there; give the folder of");
+            return Err(Failure::input(format!("{what} {}", names.join(", "))));
+        }
+        Ok(Session { project, templates, profile, store, progress })
+    }
+
+    /// Runs those of the experiments that are needed, in the order of the paper, and returns their results.
+    ///
+    /// # Errors
+    /// Of the first run that fails or is interrupted.
+    pub fn results(
+        &self,
+        needs: &[&'static dyn AnyExperiment],
+        session: &Session<'_>,
+    ) -> Result<Results, Error> {
+        let mut experiments = self.experiments.clone();
+        experiments.retain(|one| needs.iter().any(|need| need.name() == one.name()));
+        Results::run(&experiments, &self.derived, session)
+    }
+
+    /// What was printed; nothing without a file `published.toml`.
+    pub fn published(&self, session: &Session<'_>) -> Result<Published, Failure> {
+        let read = Published::parse(session.templates.text("published.toml")?);
+        read.map_err(|error| {
+            let failure = Failure::from(error);
+            Failure { message: session.templates.place(&failure.message), ..failure }
+        })
+    }
+
     /// All checks: the statements, those that rest on a measure of the author first, then relations.
     pub fn checks(&self, results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
         let (mut checks, _) = judge_all(published, &self.rules, results)?;
@@ -113,13 +128,17 @@ impl Paper {
 
 /// Runs every experiment that is not in the store, and makes every file of a report in the folder `out`. Returns also what
 /// was judged.
-pub fn whole(session: &Session<'_>, out: &Path) -> Result<(Report, Vec<Check>), Failure> {
-    let Session { paper, templates, progress, .. } = session;
+pub fn whole(
+    paper: &Paper,
+    session: &Session<'_>,
+    out: &Path,
+) -> Result<(Report, Vec<Check>), Failure> {
+    let Session { templates, progress, .. } = session;
     Filler::new(templates)?;
-    let published = session.published()?;
-    let results = Results::run(&paper.experiments, session)?;
+    let published = paper.published(session)?;
+    let results = paper.results(&paper.experiments, session)?;
     results.tables();
-    let figure = |drawing: &Illustration| {
+    let figure = |drawing: &FigureSpec| {
         progress.check()?;
         drawn(drawing, &results)
     };
@@ -148,7 +167,7 @@ pub fn whole(session: &Session<'_>, out: &Path) -> Result<(Report, Vec<Check>), 
 }
 
 /// A figure of the results; a fault names it.
-pub(super) fn drawn(drawing: &Illustration, results: &Results) -> Result<Figure, Failure> {
+pub(super) fn drawn(drawing: &FigureSpec, results: &Results) -> Result<Figure, Failure> {
     let named = |error| Failure::from(error).of(format!("figure {}", drawing.name));
     drawing.figure(results).map_err(named)
 }

@@ -2,10 +2,10 @@
 
 use super::make::{self, Sources};
 use super::terminal::{print, shown};
-use crate::experiments::{Need, Profile, Results, Session};
+use crate::experiments::{AnyExperiment, Profile, Session};
 use crate::failure::Failure;
 use crate::input::count;
-use crate::paper::{Illustration, Paper};
+use crate::paper::{FigureSpec, Paper};
 use crate::report::values;
 use crate::report::{Files, Report, files_of, folder};
 use std::path::{Path, PathBuf};
@@ -50,9 +50,9 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         Profile::Quick => "target/paper-quick".into(),
     });
     let find = |text: &String| paper.find_figure(text).map_err(|error| error.of("--figure"));
-    let chosen = args.figure.iter().map(find).collect::<Result<Vec<&Illustration>, Failure>>()?;
+    let chosen = args.figure.iter().map(find).collect::<Result<Vec<&FigureSpec>, Failure>>()?;
     let whole = chosen.is_empty();
-    let needs: Vec<Need> = match whole {
+    let needs: Vec<&'static dyn AnyExperiment> = match whole {
         true => paper.experiments.clone(),
         false => chosen.iter().flat_map(|figure| figure.needs).copied().collect(),
     };
@@ -66,19 +66,19 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         folder::refuse(&out, &Files::new(), whole).map_err(option)?;
     }
     let (report, checks) = sources.threads.run(|| match whole {
-        true => make::whole(&session, &out),
+        true => make::whole(paper, &session, &out),
         false => {
-            let results = Results::run(&needs, &session)?;
+            let results = paper.results(&needs, &session)?;
             let figures = chosen.iter().map(|figure| Ok(files_of(&make::drawn(figure, &results)?)));
             let files = figures.collect::<Result<Vec<Files>, Failure>>()?;
             let committed = files.into_iter().flatten().collect();
-            Ok((Report { committed, beside: Files::new() }, Vec::new()))
+            Ok((Report { committed, generated: Files::new() }, Vec::new()))
         }
     })?;
     report.write(&out, force).map_err(option)?;
     let pages: Vec<&str> = paper.documents.iter().map(|document| document.page).collect();
     let documents = if whole { format!(": {}", pages.join(", ")) } else { String::new() };
-    let number = count(report.committed.len() + report.beside.len(), "file");
+    let number = count(report.committed.len() + report.generated.len(), "file");
     let scores: String = make::scores(&checks).into_iter().map(|line| line + "\n").collect();
     let time = began.elapsed().as_secs_f64();
     // It is said also where a check fails.
@@ -109,7 +109,7 @@ pub(super) fn profile_in(root: &Path) -> Option<Profile> {
     values::read(&text).ok()?.profile()
 }
 
-fn dry_run(session: &Session<'_>, needs: &[Need]) -> Result<(), Failure> {
+fn dry_run(session: &Session<'_>, needs: &[&'static dyn AnyExperiment]) -> Result<(), Failure> {
     let stale: Vec<String> =
         needs.iter().filter_map(|need| Some(need.stale(session)? + "\n")).collect();
     print(&stale.concat())?;

@@ -3,7 +3,7 @@
 use super::make::Sources;
 use super::terminal::{print, shown};
 use crate::experiments::cutting::Unit;
-use crate::experiments::{Error, Need, Results, Session};
+use crate::experiments::{AnyExperiment, Error, Session};
 use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::Paper;
@@ -38,7 +38,8 @@ fn share(text: &str) -> Result<(usize, usize), String> {
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let Args { shard, sources } = args;
     let session = sources.session(paper)?;
-    let saved: Vec<Need> = paper.experiments.iter().copied().filter(|one| one.is_saved()).collect();
+    let saved: Vec<&'static dyn AnyExperiment> =
+        paper.experiments.iter().copied().filter(|one| one.is_saved()).collect();
     let done = sources.threads.run(|| match shard {
         Some(shard) => {
             let [run, there] = run_shard(&saved, shard, &session)?;
@@ -46,7 +47,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
             Ok(format!("shard {i}/{of}: {} run, {there} there before", count(run, "unit")))
         }
         None => {
-            Results::run(&saved, &session)?;
+            paper.results(&saved, &session)?;
             Ok(format!("results of {}", count(saved.len(), "experiment")))
         }
     })?;
@@ -59,7 +60,7 @@ const MOST: usize = 100_000;
 /// Runs the units of one shard that are not in the store: of all units in their order, each N-th. Returns how many were
 /// run, and how many were there.
 fn run_shard(
-    experiments: &[Need],
+    experiments: &[&'static dyn AnyExperiment],
     (shard, of): (usize, usize),
     session: &Session<'_>,
 ) -> Result<[usize; 2], Error> {

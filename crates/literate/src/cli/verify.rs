@@ -3,7 +3,7 @@
 use super::make;
 use super::paper::profile_in;
 use super::terminal::{Threads, print, progress, shown};
-use crate::experiments::{Session, Store};
+use crate::experiments::Store;
 use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::Paper;
@@ -49,8 +49,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         let none = || Failure::input(format!("{place}: values.json names no profile"));
         let profile = profile_in(&folder).ok_or_else(none)?;
         let store = results.as_deref().map_or(Store::nowhere(), Store::open);
-        let session = Session::of(paper, templates.as_deref(), profile, store, progress())?;
-        let made = threads.run(|| make::whole(&session, &folder))?.0;
+        let session = paper.session(templates.as_deref(), profile, store, progress())?;
+        let made = threads.run(|| make::whole(paper, &session, &folder))?.0;
         let (files, again) = made.compare(&folder)?;
         if again.is_empty() {
             let name = profile.name();

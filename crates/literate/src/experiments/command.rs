@@ -3,7 +3,7 @@
 //! It is started in the folder of the project. The manual ([`crate::manual`]) has the form of what it reads and prints.
 
 use super::store::Identity;
-use super::{Entry, Error, Found, Profile, Session};
+use super::{AnyExperiment, Error, Found, Profile, Session};
 use crate::input::sha256;
 use crate::project::Project;
 use crate::table::Table;
@@ -102,8 +102,8 @@ impl Command {
     }
 
     fn identity(&self, session: &Session<'_>) -> Identity {
-        let code = self.code(&session.paper.project);
-        let parameters = Entry::parameters(self, session.profile);
+        let code = self.code(session.project);
+        let parameters = AnyExperiment::parameters(self, session.profile);
         Identity::new(self.name, session.profile, code, &parameters)
     }
 
@@ -116,7 +116,7 @@ impl Command {
         let _stage = session.progress.stage(self.name, 1);
         let mut words = self.line.split_whitespace();
         let mut command = std::process::Command::new(words.next().unwrap_or_default());
-        command.args(words).current_dir(session.paper.project.folder());
+        command.args(words).current_dir(session.project.folder());
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let missing =
             |error| fail(format!("cannot be started: {error}; install it, or mend the command"));
@@ -146,7 +146,7 @@ impl Command {
     }
 }
 
-impl Entry for Command {
+impl AnyExperiment for Command {
     fn name(&self) -> &'static str {
         self.name
     }
@@ -185,7 +185,6 @@ impl Entry for Command {
 mod tests {
     use super::super::{Progress, Results, Store};
     use super::*;
-    use crate::paper::Paper;
     use crate::project::Sources;
     use crate::report::Templates;
     use std::path::Path;
@@ -206,13 +205,13 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7], [2, null, 0.1, \"sh\", null]]}}"
         let store = Store::open(&folder.path().join("results"));
         let run = |program: &str| {
             let line = leaked(&format!("{program} {}", path.display()));
-            let paper = Paper::new("Toy", Sources { name: "toy", version: "1", files: &[] });
-            let paper = paper.experiment(Box::leak(Box::new(Command::new("toy", line))));
+            let project = Project::new(Sources { name: "toy", version: "1", files: &[] });
+            let command: &'static Command = Box::leak(Box::new(Command::new("toy", line)));
             let (templates, progress) = (Templates::of([]), Progress::silent());
             let (profile, store) = (Profile::Quick, store.clone());
-            let session = Session { paper: &paper, templates, profile, store, progress };
-            let found = Results::run(&paper.experiments, &session);
-            assert_eq!(found.is_ok(), paper.experiments[0].stale(&session).is_none());
+            let session = Session { project: &project, templates, profile, store, progress };
+            let found = Results::run(&[command], &[], &session);
+            assert_eq!(found.is_ok(), command.stale(&session).is_none());
             found
         };
         look(&run, &path)

@@ -80,7 +80,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     /// Its parameters in a profile, and what its result depends on.
     fn known_by(&self, session: &Session<'_>) -> (P, Identity) {
         let parameters = (self.parameters)(session.profile);
-        let code = Entry::code(self, &session.paper.project);
+        let code = AnyExperiment::code(self, session.project);
         let identity = Identity::new(self.name, session.profile, code, &parameters);
         (parameters, identity)
     }
@@ -126,7 +126,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
 }
 
 /// What is known of every experiment, whatever its parameters and result are.
-pub trait Entry: Sync {
+pub trait AnyExperiment: Sync {
     /// Its name, as values and saved files carry it.
     fn name(&self) -> &'static str;
 
@@ -166,13 +166,13 @@ pub trait Entry: Sync {
     fn tables(&self, found: &Found) -> Vec<Table>;
 }
 
-impl std::fmt::Debug for dyn Entry {
+impl std::fmt::Debug for dyn AnyExperiment {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.name())
     }
 }
 
-impl<P: Serialize + Sync, T: Json, U: Json> Entry for Experiment<P, T, U> {
+impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
     fn name(&self) -> &'static str {
         self.name
     }

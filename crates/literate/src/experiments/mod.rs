@@ -9,19 +9,16 @@ mod results;
 mod store;
 
 pub use command::Command;
-pub use experiment::{Entry, Experiment, Found};
+pub use experiment::{AnyExperiment, Experiment, Found};
 pub use progress::{Progress, alive, be_quiet, say};
-pub use results::{Results, Together};
+pub use results::{DerivedTables, Results};
 pub use store::Store;
 
 use crate::input::remedy;
-use crate::paper::Paper;
+use crate::project::Project;
 use crate::report::Templates;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
-
-/// An experiment of any parameters and result.
-pub type Need = &'static dyn Entry;
 
 /// How much is sampled: small to try out, large for the committed report.
 #[derive(
@@ -86,11 +83,11 @@ impl Error {
     }
 }
 
-/// A run: of which paper, with which samples and prose, and where results are kept.
+/// A run: of which project, with which samples and prose, and where results are kept.
 #[derive(Debug)]
 #[expect(missing_docs, reason = "the names tell")]
 pub struct Session<'a> {
-    pub paper: &'a Paper,
+    pub project: &'a Project,
     pub templates: Templates,
     pub profile: Profile,
     pub store: Store,

@@ -1,14 +1,14 @@
-//! All results together.
+//! All results derived.
 
 use super::experiment::Json;
-use super::{Error, Experiment, Found, Need, Profile, Session};
+use super::{AnyExperiment, Error, Experiment, Found, Profile, Session};
 use crate::table::{Table, Tables, number_at};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 /// Makes tables of the results and tables of several experiments; none if one of these was not run.
-pub type Together = fn(&Results, &[Table]) -> Option<Vec<Table>>;
+pub type DerivedTables = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// The results of the experiments that were asked for.
 #[derive(Debug)]
@@ -16,7 +16,7 @@ pub struct Results {
     /// The sample sizes.
     pub profile: Profile,
     /// The experiments, and the tables that need several of them.
-    made_by: (Vec<Need>, Vec<Together>),
+    made_by: (Vec<&'static dyn AnyExperiment>, Vec<DerivedTables>),
     /// Of each experiment that was run, by its name.
     found: BTreeMap<&'static str, Found>,
     tables: OnceLock<Tables>,
@@ -56,14 +56,14 @@ impl Results {
     }
 
     fn made(&self) -> Tables {
-        let (experiments, together) = &self.made_by;
-        let of = |experiment: &Need| {
+        let (experiments, derived) = &self.made_by;
+        let of = |experiment: &&dyn AnyExperiment| {
             self.found
                 .get(experiment.name())
                 .map_or_else(Vec::new, |found| experiment.tables(found))
         };
         let mut all = experiments.par_iter().with_max_len(1).map(of).collect::<Vec<_>>().concat();
-        for tables in together {
+        for tables in derived {
             all.extend(tables(self, &all).into_iter().flatten());
         }
         all.into_iter().map(|table| (table.name(), Arc::new(table))).collect()
@@ -81,20 +81,21 @@ impl Results {
         Ok(number_at(self.tables(), address)?)
     }
 
-    /// The results of the experiments that are needed, in the order of the paper: saved ones where they are fresh, else those
-    /// of runs.
+    /// Runs experiments in this order, and returns their results: saved ones where they are fresh, else those of runs.
     ///
     /// # Errors
     /// Of the first run that fails or is interrupted.
-    pub fn run(needs: &[Need], session: &Session<'_>) -> Result<Self, Error> {
-        let (experiments, together) = (&session.paper.experiments, &session.paper.together);
-        let needed = |one: &&Need| needs.iter().any(|need| need.name() == one.name());
+    pub fn run(
+        experiments: &[&'static dyn AnyExperiment],
+        derived: &[DerivedTables],
+        session: &Session<'_>,
+    ) -> Result<Self, Error> {
         let mut found = BTreeMap::new();
-        for experiment in experiments.iter().filter(needed) {
+        for experiment in experiments {
             found.insert(experiment.name(), experiment.found(session)?);
         }
         session.progress.check()?;
-        let made_by = (experiments.clone(), together.clone());
+        let made_by = (experiments.to_vec(), derived.to_vec());
         Ok(Results { profile: session.profile, made_by, found, tables: OnceLock::new() })
     }
 }

@@ -50,7 +50,7 @@ pub struct Report {
     /// Files that are committed; SHA256SUMS covers them.
     pub committed: Files,
     /// Files that are not committed: pages, figures/*.pdf for LaTeX.
-    pub beside: Files,
+    pub generated: Files,
 }
 
 struct Part<'a> {
@@ -113,7 +113,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         }
     }
 
-    let (mut committed, mut beside) = (Files::new(), Files::new());
+    let (mut committed, mut generated) = (Files::new(), Files::new());
     let [values_json, ledger_json] =
         [serde_json::to_string_pretty(&values), serde_json::to_string_pretty(&ledger)];
     for (name, json) in [("values.json", values_json), ("ledger.json", ledger_json)] {
@@ -146,27 +146,27 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         filler.insert("page", &page);
         shown.extend(values);
         texts.push(serde_json::json!([of.page, of.name, page["texts"]]));
-        beside.insert(of.page.into(), filler.fill("report.html")?.into_bytes());
+        generated.insert(of.page.into(), filler.fill("report.html")?.into_bytes());
     }
-    beside.extend(html::beside(&shown, cards, input, &labels)?);
+    generated.extend(html::beside(&shown, cards, input, &labels)?);
     let texts = format!("TEXTS = {};\n", serde_json::Value::from(texts));
-    beside.insert("search.js".into(), texts.into_bytes());
+    generated.insert("search.js".into(), texts.into_bytes());
     for name in ["report.css", "report.js"] {
-        beside.insert(name.into(), input.templates.text(name)?.as_bytes().to_vec());
+        generated.insert(name.into(), input.templates.text(name)?.as_bytes().to_vec());
     }
-    beside.extend(input.lab.map(|lab| (LAB.to_string(), lab.as_bytes().to_vec())));
+    generated.extend(input.lab.map(|lab| (LAB.to_string(), lab.as_bytes().to_vec())));
     for figure in input.figures {
         committed.extend(files_of(figure));
     }
     committed.extend(values.tables().map(|table| data(&DataFile::of(table))));
     let pdf =
         |figure: &Figure| (format!("figures/{}.pdf", figure.id), figure.drawing.pdf(&figure.title));
-    beside.extend(input.figures.par_iter().map(pdf).collect::<Vec<_>>());
+    generated.extend(input.figures.par_iter().map(pdf).collect::<Vec<_>>());
     committed.insert(SUMS.into(), folder::sums(&committed).into_bytes());
     for Part { of, blocks, places } in &parts {
         check_links(blocks, *of, &labels, &committed, input.paper).map_err(|e| places.tell(e))?;
     }
-    Ok(Report { committed, beside })
+    Ok(Report { committed, generated })
 }
 
 /// All documents as trees, with their figures, numbers and references.

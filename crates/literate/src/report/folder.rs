@@ -102,7 +102,7 @@ pub fn walk(folder: &Path) -> Result<Vec<String>, Error> {
 }
 
 /// Whether a file is built with a report and never committed: .gitignore names the same.
-pub fn is_beside(path: &str) -> bool {
+pub fn is_generated(path: &str) -> bool {
     match path.split_once('/') {
         Some((folder, name)) => match folder {
             "figures" => name.ends_with(".pdf"),
@@ -136,8 +136,8 @@ pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
 
 /// Writes files: first all into a temporary folder, then each is renamed into its place, the list last. With a list among
 /// them they are a whole report, and what only the list before has is removed; without one their lines are put into the
-/// list that is there. `beside` are pages and figures for LaTeX, which are on no list. Unless forced, it refuses first.
-pub fn write(folder: &Path, files: &Files, beside: &Files, force: bool) -> Result<(), Error> {
+/// list that is there. `generated` are pages and figures for LaTeX, which are on no list. Unless forced, it refuses first.
+pub fn write(folder: &Path, files: &Files, generated: &Files, force: bool) -> Result<(), Error> {
     let whole = files.contains_key(SUMS);
     if !force {
         refuse(folder, files, whole)?;
@@ -160,7 +160,7 @@ pub fn write(folder: &Path, files: &Files, beside: &Files, force: bool) -> Resul
         above.and_then(|()| how(&place)).map_err(failed(&folder.join(path)))
     };
     let (name, list) = (SUMS.to_string(), lines(&list).into_bytes());
-    let mut all: Vec<_> = files.iter().filter(|(path, _)| *path != SUMS).chain(beside).collect();
+    let mut all: Vec<_> = files.iter().filter(|(path, _)| *path != SUMS).chain(generated).collect();
     all.push((&name, &list));
     for (path, bytes) in &all {
         put(staged.path(), path, &|place| std::fs::write(place, bytes))?;
@@ -197,7 +197,7 @@ pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
     let text = input::regular_text(&place).map_err(failed(&place))?;
     let list = read_sums(&text).ok_or_else(|| Error::NoList(folder.display().to_string()))?;
     let passed = |fault: &String| {
-        fault.strip_prefix("unlisted ").is_some_and(|path| path == SUMS || is_beside(path))
+        fault.strip_prefix("unlisted ").is_some_and(|path| path == SUMS || is_generated(path))
     };
     let faults = faults(folder, &list)?.into_iter().filter(|fault| !passed(fault)).collect();
     Ok((list.len(), faults))
@@ -206,13 +206,13 @@ pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
 impl Report {
     /// Writes all of it into a folder.
     pub fn write(&self, folder: &Path, force: bool) -> Result<(), Error> {
-        write(folder, &self.committed, &self.beside, force)
+        write(folder, &self.committed, &self.generated, force)
     }
 
     /// Compares a folder with all of it, byte by byte: how many files were compared, and what is wrong, one line each. What
     /// is built beside may be missing, but not be another.
     pub fn compare(&self, folder: &Path) -> Result<(usize, Vec<String>), Error> {
-        let beside = self.beside.iter().filter(|(path, _)| folder.join(path).exists());
+        let beside = self.generated.iter().filter(|(path, _)| folder.join(path).exists());
         let all = digests(self.committed.iter().chain(beside));
         Ok((all.len(), faults(folder, &all)?))
     }
@@ -230,7 +230,7 @@ mod tests {
     fn report(pairs: &[(&str, &str)]) -> Report {
         let mut committed = files(pairs);
         committed.insert(SUMS.into(), sums(&committed).into_bytes());
-        Report { committed, beside: files(&[("report.html", "page")]) }
+        Report { committed, generated: files(&[("report.html", "page")]) }
     }
 
     fn standing(folder: &Path) -> Files {
@@ -239,7 +239,7 @@ mod tests {
     }
 
     fn whole(report: &Report) -> Files {
-        report.committed.clone().into_iter().chain(report.beside.clone()).collect()
+        report.committed.clone().into_iter().chain(report.generated.clone()).collect()
     }
 
     #[test]

@@ -232,11 +232,12 @@ fn what_readers_run_is_offered_where_it_can_be_run() {
     let prose = PROSE.replace("[@bibliography]", "Lab toy: You run *them*.\n\n[@bibliography]");
     let [without, with] =
         [None, Some("end();")].map(|lab| made_of(&prose, lab, figure(), claim()).unwrap());
-    let page = |report: &Report| String::from_utf8(report.beside["report.html"].clone()).unwrap();
+    let page =
+        |report: &Report| String::from_utf8(report.generated["report.html"].clone()).unwrap();
     let figure = "<figure class=\"lab\" id=\"lab-toy\" data-lab=\"toy\" hidden=\"\">";
     assert!(page(&with).contains(figure) && page(&with).contains("You run <em>them</em>."));
-    assert_eq!(with.beside[LAB], b"end();");
-    assert!(!page(&without).contains("You run") && !without.beside.contains_key(LAB));
+    assert_eq!(with.generated[LAB], b"end();");
+    assert!(!page(&without).contains("You run") && !without.generated.contains_key(LAB));
     assert!(with.committed == without.committed, "what is committed depends on the machine");
 }
 
@@ -269,7 +270,7 @@ fn a_report_is_all_its_files() {
     assert_eq!(text("SHA256SUMS").lines().count(), paths.len() - 1);
     let sum = "5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv\n";
     assert!(text("SHA256SUMS").contains(sum), "{}", text("SHA256SUMS"));
-    let beside = report.beside.keys().filter(|path| !path.starts_with("fonts/"));
+    let beside = report.generated.keys().filter(|path| !path.starts_with("fonts/"));
     let expected =
         ["cards.js", "figures/fig03.pdf", "report.css", "report.html", "report.js", "search.js"];
     assert_eq!(beside.collect::<Vec<_>>(), expected);
@@ -281,7 +282,7 @@ fn a_report_is_all_its_files() {
 fn titles_are_clean() {
     let title = r"# Impact\_dynamics & large % systems: R&D $\sigma_{1/2}$";
     let report = assembled(&PROSE.replace("# Title", title)).unwrap();
-    let page = String::from_utf8(report.beside["report.html"].clone()).unwrap();
+    let page = String::from_utf8(report.generated["report.html"].clone()).unwrap();
     let tex = String::from_utf8(report.committed["report.tex"].clone()).unwrap();
     for (text, part) in [
         (&page, "<title>Impact_dynamics &amp; large % systems: R&amp;D σ_1/2</title>"),
@@ -338,7 +339,7 @@ fn documents_refer_to_each_other() {
     let right: Vec<_> = right.iter().map(|(path, text)| (*path, text.as_str())).collect();
     let report = made(&right).unwrap();
     let text = |path: &str| {
-        let bytes = report.committed.get(path).or(report.beside.get(path)).unwrap();
+        let bytes = report.committed.get(path).or(report.generated.get(path)).unwrap();
         String::from_utf8(bytes.clone()).unwrap()
     };
     let parts = r##"
