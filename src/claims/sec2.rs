@@ -3,7 +3,7 @@
 use super::judge::*;
 use crate::experiments::branches::from_rest;
 use crate::experiments::ensembles::named;
-use crate::experiments::starts::half_height_all;
+use crate::experiments::half_height::half_height_all;
 use crate::experiments::sweep::{expected, mode_half, total};
 use crate::experiments::{BRANCHES, PROTOCOL, STARTS, TWO_MASSES, two_masses};
 use crate::params::{NEAR_SIMULTANEOUS, Protocol, SLOW};

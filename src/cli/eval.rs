@@ -1,6 +1,6 @@
 //! `impact-paper eval`: one quantity of the theory as JSON.
 
-use super::within;
+use super::range::within;
 use clap::builder::PossibleValuesParser;
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;

@@ -1,6 +1,6 @@
 //! The verb `sweep`.
 
-use super::within;
+use super::range::within;
 use impact_chain::LATEST;
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
 use impact_chain::rise;

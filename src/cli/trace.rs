@@ -1,6 +1,6 @@
 //! The verb `trace`.
 
-use super::within;
+use super::range::within;
 use impact_chain::LATEST;
 use impact_chain::methods::State;
 use impact_chain::{Error, Impact, Scenario, rounding};

@@ -1,9 +1,14 @@
 //! Whether the threshold depends on the history: chains from rest, and chains from above, where all forces were lowered
 //! from well beyond the rise; of several lengths, after several transients.
 
-use super::starts::HALF_HEIGHT;
+use super::ensembles::{Ensembles, ensembles};
+use super::half_height::HALF_HEIGHT;
 use crate::experiments::prelude::*;
+use crate::params;
 use impact_chain::{Protocol, Start};
+
+/// Chains from rest and from above, of several lengths, after several transients.
+pub const BRANCHES: Ensembles = ensembles("branches", "branches", params::branches, tables);
 
 const WIDTH: &str = "from a quarter to three quarters of all gaps";
 

@@ -1,10 +1,28 @@
 //! Experiments that are ensembles of chains: cut into units by σ and realisation, joined to curves.
 
-use crate::experiments::prelude::*;
+use crate::params::Profile;
+use impact_chain::rise::{Counted, Curve};
 use impact_chain::{Counts, Ensemble};
 use literate::experiments::cutting::{Cutting, Unit, UnitRow};
+use literate::experiments::experiment::How::Cut;
 use literate::experiments::progress::Stage;
+use literate::experiments::{Error, Experiment, Progress};
+use literate::table::Table;
 use rayon::prelude::*;
+
+/// An experiment that is ensembles of chains.
+pub type Ensembles = Experiment<Vec<Ensemble>, Vec<Counted>, Counts>;
+
+/// Returns an experiment with these ensembles and tables; people who wait see its title.
+pub const fn ensembles(
+    name: &'static str,
+    title: &'static str,
+    parameters: fn(Profile) -> Vec<Ensemble>,
+    tables: fn(&Vec<Counted>) -> Vec<Table>,
+) -> Ensembles {
+    let code = &["src/experiments/ensembles.rs"];
+    Experiment { name, code, parameters, how: Cut(title, CUTTING), tables }
+}
 
 /// How ensembles are cut into units, and joined.
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> = Cutting { rows, part, join };

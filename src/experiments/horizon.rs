@@ -6,6 +6,17 @@
 use crate::experiments::prelude::*;
 use crate::params::Runs;
 use impact_numerics::statistics::slope;
+use literate::experiments::Experiment;
+use literate::experiments::experiment::How::Whole;
+
+/// Chaos and its horizon.
+pub const HORIZON: Experiment<Runs, Horizon> = Experiment {
+    name: "horizon",
+    code: &["src/experiments/horizon.rs"],
+    parameters: Runs::horizon,
+    how: Whole(run),
+    tables,
+};
 
 /// The twins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,7 +5,18 @@
 
 use crate::experiments::prelude::*;
 use crate::params::Setting;
+use literate::experiments::Experiment;
+use literate::experiments::experiment::How::Read;
 use literate::input::one_line;
+
+/// Times that were measured once.
+pub const MEASURED: Experiment<(), Measured> = Experiment {
+    name: "measured",
+    code: &["src/experiments/measured.rs", FILE],
+    parameters: |_| (),
+    how: Read(Measured::committed),
+    tables,
+};
 
 /// Path of the file from the top of the project.
 pub const FILE: &str = "benches/measured.json";

@@ -1,10 +1,14 @@
 //! The influence of the counting protocol: half height against transient T and window W.
 
-use super::starts::HALF_HEIGHT;
-use super::sweep::{ANY_IMPACT, OF_ACTIVE};
+use super::ensembles::{Ensembles, ensembles};
+use super::half_height::{ANY_IMPACT, HALF_HEIGHT, OF_ACTIVE};
 use crate::experiments::prelude::*;
+use crate::params;
 use crate::params::{PRINTED_THRESHOLD, PRINTED_THRESHOLD_UNIT};
 use impact_chain::Protocol;
+
+/// Half height against transient and window.
+pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::protocol, tables);
 
 /// All tables.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {

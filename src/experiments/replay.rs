@@ -3,6 +3,17 @@
 use crate::experiments::prelude::*;
 use crate::params::{Boundary, Profile, Protocol, SEED, Start};
 use impact_chain::replay::{Asked, Forces, Replay};
+use literate::experiments::Experiment;
+use literate::experiments::experiment::How::Whole;
+
+/// Runs that a page repeats.
+pub const REPLAY: Experiment<ReplayRuns, Replays> = Experiment {
+    name: "replay",
+    code: &["src/experiments/replay.rs"],
+    parameters: runs,
+    how: Whole(run),
+    tables,
+};
 
 /// What is run: each run with a name.
 pub type ReplayRuns = Vec<(String, Asked)>;

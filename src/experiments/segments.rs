@@ -1,8 +1,19 @@
 //! The motions of Figs. 5(b) and 6(b): saved scenarios, replayed by the engine.
 
 use crate::experiments::prelude::*;
+use literate::experiments::Experiment;
+use literate::experiments::experiment::How::Read;
 use literate::input::one_line;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// The motions of Figs. 5(b) and 6(b).
+pub const SEGMENTS: Experiment<(), Segments> = Experiment {
+    name: "segments",
+    code: &["src/experiments/segments.rs"],
+    parameters: |_| (),
+    how: Read(read),
+    tables,
+};
 
 /// The two segments.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,6 +5,17 @@
 
 use crate::experiments::prelude::*;
 use crate::params::Runs;
+use literate::experiments::Experiment;
+use literate::experiments::experiment::How::Whole;
+
+/// One long run.
+pub const SPACE_TIME: Experiment<Runs, SpaceTime> = Experiment {
+    name: "spacetime",
+    code: &["src/experiments/spacetime.rs"],
+    parameters: Runs::spacetime,
+    how: Whole(run),
+    tables,
+};
 
 /// The run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,14 +1,12 @@
-//! Half heights of chains that differ from the paper's: in the start, walls or ring, in Ω and r.
+//! Half heights of chains that differ from the paper's in the start, in Ω, or by a ring in place of walls.
 
-use super::STARTS;
+use super::ensembles::{Ensembles, ensembles};
+use super::half_height::{HALF_HEIGHT, half_height_all};
 use crate::experiments::prelude::*;
+use crate::params;
 
-/// The half height of the mean of all, in the first window.
-pub fn half_height_all(of: &Counted) -> Option<Estimate> {
-    of.first().rise.half_height_all
-}
-
-pub(super) const HALF_HEIGHT: &str = "σ where the mean of all passes half of all gaps";
+/// Chains with other starts, boundaries and frequencies.
+pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, tables);
 
 /// Half heights of variants of the paper's chain.
 pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
@@ -24,15 +22,6 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
         })
         .done();
     vec![table]
-}
-
-/// Half heights of chains of several restitutions.
-pub fn of_restitutions(found: &Vec<Counted>) -> Vec<Table> {
-    let table = Table::of("restitution.curves", found, |one| one.ensemble.realisations)
-        .key("r", "1", |one| one.ensemble.chain.restitution)
-        .computed_by(origin(Curve::new))
-        .estimate("half_height", SIGMA, HALF_HEIGHT, half_height_all);
-    vec![table.done()]
 }
 
 /// The part of the distance to the theory that the start explains.

@@ -1,12 +1,20 @@
 //! The numerical simulations of Sec. 2 (Figs. 2, 3, 12 and 15): means and shares at each σ, where the rise is, and rare
 //! events.
 
-use super::SWEEP;
-use super::starts::HALF_HEIGHT;
+use super::ensembles::{Ensembles, ensembles};
+use super::half_height::{ANY_IMPACT, HALF_HEIGHT, OF_ACTIVE};
 use crate::experiments::prelude::*;
+use crate::params;
 use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
 use impact_chain::rise::{Mean, Rise, RisePoint, RunTotals};
+
+/// The main sweep of Sec. 2.
+pub const SWEEP: Ensembles = ensembles("sweep", "main sweep", params::sweep, tables);
+
+/// The rise again, with another seed.
+pub const SECOND_SEED: Ensembles =
+    ensembles("second_seed", "second seed", params::second_seed, of_second_seed);
 
 /// A σ above the rise.
 const ABOVE: f64 = 0.2;
@@ -40,9 +48,6 @@ pub fn of_second_seed(found: &Vec<Counted>) -> Vec<Table> {
     vec![table.done()]
 }
 
-pub(super) const OF_ACTIVE: &str =
-    "σ where the mean of realisations with an impact passes half of all gaps";
-pub(super) const ANY_IMPACT: &str = "σ where half of the realisations have an impact";
 const WIDTH_OF_ACTIVE: &str =
     "from a quarter to three quarters of all gaps, of the mean of realisations with an impact";
 

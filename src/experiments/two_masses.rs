@@ -6,6 +6,17 @@
 
 use crate::experiments::prelude::*;
 use crate::params::TwoMassesParams;
+use literate::experiments::Experiment;
+use literate::experiments::experiment::How::Whole;
+
+/// Two masses under a low force.
+pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
+    name: "two_masses",
+    code: &["src/experiments/two_masses.rs"],
+    parameters: TwoMassesParams::new,
+    how: Whole(run),
+    tables,
+};
 
 /// The smallest forces that lead to an impact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,7 +1,8 @@
 //! Fig. 10: how the jump of the most likely number of impacts comes about.
 
 use super::prelude::*;
-use crate::experiments::theory::law::{f, k_star, simple, stages, steps, zeros};
+use crate::experiments::theory::jump::{f, stages, zeros};
+use crate::experiments::theory::law::{k_star, simple, steps};
 use crate::params::VERTICES as N;
 
 pub fn draw() -> Result<Figure, Error> {

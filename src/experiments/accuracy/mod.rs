@@ -15,3 +15,47 @@ pub mod scale;
 pub mod scenes;
 pub mod tables;
 pub mod trials;
+
+use crate::params::{BiasParams, RaceParams, ScaleParams, TrialParams};
+use literate::experiments::Experiment;
+use literate::experiments::experiment::How::Whole;
+
+/// Every method against the true motion.
+pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
+    name: "race",
+    code: &[
+        "src/experiments/accuracy/race.rs",
+        "src/experiments/accuracy",
+        "src/experiments/horizon.rs",
+    ],
+    parameters: RaceParams::new,
+    how: Whole(race::run),
+    tables: tables::race,
+};
+
+/// The errors of methods in the mean count.
+pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
+    name: "bias",
+    code: &["src/experiments/accuracy/bias.rs", "src/experiments/accuracy"],
+    parameters: BiasParams::new,
+    how: Whole(bias::run),
+    tables: tables::bias,
+};
+
+/// Every method in the scenes where methods fail.
+pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
+    name: "trials",
+    code: &["src/experiments/accuracy/trials.rs", "src/experiments/accuracy"],
+    parameters: TrialParams::new,
+    how: Whole(trials::run),
+    tables: |_| Vec::new(),
+};
+
+/// Counted work against the number of masses.
+pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
+    name: "scale",
+    code: &["src/experiments/accuracy/scale.rs", "src/experiments/accuracy"],
+    parameters: ScaleParams::new,
+    how: Whole(scale::run),
+    tables: tables::scale,
+};

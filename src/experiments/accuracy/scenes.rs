@@ -227,3 +227,44 @@ fn elastic(impacts: usize) -> Vec<Case> {
         Expected::Speed { impacts, speed: 0.75, within: STEADY },
     )]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiments::accuracy::case::Verdict;
+    use impact_chain::methods::{Cost, Sink, Task};
+
+    /// The engine with another time and closing speed of each impact, or without any.
+    struct False(f64);
+
+    impl Method for False {
+        fn name(&self) -> &'static str {
+            "false"
+        }
+
+        fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
+            if self.0 == 0.0 {
+                return Ok(Cost::default());
+            }
+            Certified.run((scenario, start, until), &mut |impact| {
+                let (time, speed) = (impact.time + self.0, impact.closing_speed * (1.0 + self.0));
+                sink(Impact { time, closing_speed: speed, ..impact })
+            })
+        }
+    }
+
+    #[test]
+    fn a_method_that_errs_is_not_right() {
+        for scene in all(true).unwrap() {
+            for case in &scene.cases {
+                let [late, blind] = [0.05, 0.0].map(|by| case.judge(&False(by)));
+                let expected = match scene.id {
+                    "elastic" | "square-root" => (Verdict::WrongSpeed, Verdict::Missed),
+                    _ if case.expected == Expected::nothing() => (Verdict::Right, Verdict::Right),
+                    _ => (Verdict::Displaced, Verdict::Missed),
+                };
+                assert_eq!((late, blind), expected, "{}", scene.id);
+            }
+        }
+    }
+}

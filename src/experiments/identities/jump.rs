@@ -1,11 +1,12 @@
 //! The distribution and its jump, Secs. 6 and 7: identities, signs, zeros and slopes.
 
-use super::{Cases, cases, largest};
-use crate::experiments::theory::{known, law};
+use super::cases::{Cases, cases};
+use crate::experiments::theory::basics::{known, largest};
+use crate::experiments::theory::jump::top;
+use crate::experiments::theory::law::law;
 use crate::params::VERTICES;
 use impact_circuits::distribution::{Law, SampleSpace::Simple};
 use impact_circuits::jump;
-use impact_numerics::roots;
 use impact_numerics::scaled::Scaled;
 
 /// The p of Figs. 8 to 14, and some beyond.
@@ -15,7 +16,7 @@ const GRID: [f64; 10] = [0.001, 0.005, 0.01, 0.012, 0.015, 0.02, 0.04, 0.1, 0.5,
 const N: f64 = VERTICES as f64;
 
 fn simple(p: f64) -> Law {
-    law::law(Simple, p)
+    law(Simple, p)
 }
 
 /// Φ(k)/p for k = 1..=N.
@@ -30,11 +31,6 @@ fn f(p: f64, k: f64) -> f64 {
 /// The largest of the three terms of f at k.
 fn size(p: f64, k: f64) -> f64 {
     largest([p * k * k, ((N * p - 1.0) * k).abs(), 1.0])
-}
-
-/// Where f is largest.
-pub(crate) fn top(p: f64) -> f64 {
-    (N * p - 1.0) / (2.0 * p)
 }
 
 /// μ at neighbouring p of a grid of [0, 1].
@@ -64,11 +60,6 @@ pub(super) fn slopes() -> Cases {
         let positive = slope > 0.0 && (slope / (k * (N - k)) - 1.0).abs() < 1e-14;
         [none < 0.0 && none == -(k + 1.0), positive]
     }))
-}
-
-/// Eq. (18): the p at which f gets real zeros for k > 0, since its largest value is not negative.
-pub(crate) fn touching() -> f64 {
-    roots::bracket(1e-6, 1.0, |p| top(p) > 0.0 && f(p, top(p)) >= 0.0)[1]
 }
 
 /// k* at neighbouring p of a grid from just beyond the jump to one.
@@ -121,13 +112,6 @@ pub(super) fn inflexion() -> f64 {
     largest((1..=VERTICES).map(|k| off(k as f64)))
 }
 
-/// The p and the real k at which Φ, with Γ functions for its factorials, has a stationary inflexion: ln Φ has the
-/// derivative ln p − 1/k + ψ(N + 1 − k), which is zero twice in k where 1/k² = ψ′(N + 1 − k).
-pub(crate) fn flat() -> [f64; 2] {
-    let k = roots::bracket(1.0, N / 2.0, |k| 1.0 / (k * k) <= pxfm::f_trigamma(N + 1.0 - k))[1];
-    [pxfm::f_exp(1.0 / k - pxfm::f_digamma(N + 1.0 - k)), k]
-}
-
 /// Eq. (17): f at some p ≤ 1 is positive, for each k between the ends.
 pub(super) fn through_zero() -> Cases {
     cases((1..VERTICES).map(|k| f(1.0, k as f64) > 0.0))
@@ -138,13 +122,4 @@ pub(super) fn falling() -> Cases {
     let crit = known(jump::p_crit(VERTICES));
     let steps = (1..=100).flat_map(|i| (1..VERTICES).map(move |k| (f64::from(i), k as f64)));
     cases(steps.map(|(i, k)| f(crit * i / 100.0, k) < 0.0))
-}
-
-/// dμ/dp: Var(X)/p for weights in proportion to p^k, and by a central difference.
-pub(crate) fn mean_slopes(p: f64) -> [f64; 2] {
-    let mean = simple(p).mean();
-    let squares = (1..).map(f64::from).map(|k: f64| (k - mean) * (k - mean));
-    let variance: f64 = squares.zip(simple(p).probabilities()).map(|(square, q)| q * square).sum();
-    let step = 1e-5 * p;
-    [variance / p, (simple(p + step).mean() - simple(p - step).mean()) / (2.0 * step)]
 }

@@ -4,33 +4,22 @@
 //!
 //! Cheap, as the theory is, and not saved.
 
-pub(crate) mod census;
+pub(crate) mod cases;
+pub(crate) mod circuits;
 pub(crate) mod jump;
 pub(crate) mod relation;
 
 use crate::experiments::prelude::*;
-use census::census;
-
-/// Whole cases: how many were compared, and how many of these failed.
-pub(crate) type Cases = [u64; 2];
-
-/// Counts the cases, and those that do not agree.
-fn cases(agree: impl IntoIterator<Item = bool>) -> Cases {
-    agree.into_iter().fold([0, 0], |[all, failed], agrees| [all + 1, failed + u64::from(!agrees)])
-}
-
-/// The largest of some numbers, zero at least.
-fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
-    numbers.into_iter().fold(0.0, f64::max)
-}
+use crate::experiments::theory::census::census;
+use cases::Cases;
 
 /// The comparisons as tables, for the paper's N.
 pub fn tables() -> Vec<Table> {
     let census = census();
     let rows: [(&str, Cases); 15] = [
-        ("sec3_impact_types", census::impact_types()),
-        ("sec5_eq6", census::eq6(&census)),
-        ("sec5_eq7", census::eq7(&census)),
+        ("sec3_impact_types", circuits::impact_types()),
+        ("sec5_eq6", circuits::eq6(&census)),
+        ("sec5_eq7", circuits::eq7(&census)),
         ("sec6_like_simulation", jump::mean_rises()),
         ("sec7_eq11", jump::eq11()),
         ("sec7_eq16_17", jump::slopes()),
@@ -39,10 +28,10 @@ pub fn tables() -> Vec<Table> {
         ("sec7_inflexion", jump::falling()),
         ("sec7_extrema", jump::extrema()),
         ("sec7_monotone", jump::monotone()),
-        ("sec9_eq29", census::eq29()),
-        ("sec9_eq30", census::eq30_times_n(&census)),
-        ("sec9_eq32", census::eq32()),
-        ("sec9_eq38", census::eq38(&census)),
+        ("sec9_eq29", circuits::eq29()),
+        ("sec9_eq30", circuits::eq30_times_n(&census)),
+        ("sec9_eq32", circuits::eq32()),
+        ("sec9_eq38", circuits::eq38(&census)),
     ];
     let cases = Table::of("theory.cases", &rows, |_| 0)
         .computed_by(origin(tables))
@@ -62,8 +51,8 @@ pub fn tables() -> Vec<Table> {
         .text_key("statement", |(id, _)| (*id).into())
         .real("largest", "1", 1, "largest difference", |(_, largest)| *largest)
         .done();
-    let ranges = Table::of("theory.class_ranges", &census::class_ranges(&census), |_| 0)
-        .computed_by(origin(census::class_ranges))
+    let ranges = Table::of("theory.class_ranges", &circuits::class_ranges(&census), |_| 0)
+        .computed_by(origin(circuits::class_ranges))
         .key("equation", "1", |row| row.0)
         .count("right_from", "the length from which on it is right", |row| row.1 as u64)
         .count("compared", "cases from that length on", |row| row.2[0])

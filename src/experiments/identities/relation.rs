@@ -1,8 +1,7 @@
 //! The relation of p and σ, Sec. 8.
 
-use super::largest;
-use crate::experiments::theory::known;
-use impact_circuits::impact_probability::{ImpactProbability, density_forced, density_free};
+use crate::experiments::theory::basics::largest;
+use impact_circuits::impact_probability::{density_forced, density_free};
 use impact_numerics::quadrature::GaussLegendre;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
@@ -54,14 +53,5 @@ pub(super) fn distributions() -> f64 {
             up_to(&|x| density_forced(x, sigma, detuning)) - disc(x, sigma / detuning)
         };
         [free, forced(1.0), forced(0.5)].map(f64::abs)
-    }))
-}
-
-/// Eq. (25): largest relative difference between closed form and double integral, at σ where the latter has some digits
-/// of p left.
-pub(crate) fn eq25() -> f64 {
-    largest([0.15, 0.2, 0.3, 0.5, 1.0].map(|sigma| {
-        let gap = known(ImpactProbability::of_paper(sigma));
-        (gap.p_by_double_integral(8) / known(gap.p()) - 1.0).abs()
     }))
 }

@@ -1,6 +1,6 @@
 //! Tables of first impacts, found and expected from the reach of single gaps.
 
-use super::{First, Nucleation, ensembles};
+use super::run::{First, Nucleation, ensembles};
 use crate::experiments::prelude::*;
 use crate::params::NucleationParams;
 use impact_circuits::nucleation::{Chances, Reach, half};

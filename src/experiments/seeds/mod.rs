@@ -15,16 +15,17 @@ pub mod run;
 pub mod tables;
 
 pub use counting::ByDistance;
-pub use run::{Part, Trace, run};
+pub use run::{Part, Seeds, Trace, run};
 
-use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
+use literate::experiments::Experiment;
+use literate::experiments::experiment::How::Whole;
 
-/// Chains with one gap that closes by itself.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Seeds {
-    /// What was run.
-    pub parameters: SeedsParams,
-    /// For each σ its runs.
-    pub rows: Vec<Part>,
-}
+/// How impacts spread from one gap that closes by itself.
+pub const SEEDS: Experiment<SeedsParams, Seeds> = Experiment {
+    name: "seeds",
+    code: &["src/experiments/seeds"],
+    parameters: SeedsParams::new,
+    how: Whole(run),
+    tables: tables::tables,
+};

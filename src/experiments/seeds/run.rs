@@ -1,11 +1,19 @@
 //! Runs of chains in which exactly one gap closes by itself.
 
-use super::Seeds;
 use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
 use impact_chain::{self, Initial};
 use impact_circuits::nucleation::closes_by_itself;
 use std::ops::Range;
+
+/// Chains with one gap that closes by itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Seeds {
+    /// What was run.
+    pub parameters: SeedsParams,
+    /// For each σ its runs.
+    pub rows: Vec<Part>,
+}
 
 /// One run, in time since its first impact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

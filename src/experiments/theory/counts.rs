@@ -1,6 +1,6 @@
 //! How many circuits there are: Secs. 3 and 5, Fig. 7.
 
-use super::{known, one, sum};
+use super::basics::{known, one, sum};
 use crate::experiments::prelude::*;
 use crate::params::VERTICES;
 use impact_circuits::distribution::SampleSpace;

@@ -1,8 +1,8 @@
 //! Circuits that repeat vertices: Sec. 9, Figs. 13 and 14.
 
+use super::basics::{known, one, sum};
+use super::census::{census, counted};
 use super::law::{law, means, simple};
-use super::{known, one, sum};
-use crate::experiments::identities::census::{census, counted};
 use crate::experiments::prelude::*;
 use crate::params::{HIGHER_P, REMARK_P, VERTICES};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};

@@ -1,6 +1,6 @@
 //! The theory for many vertices, with p N held fixed as N grows: Fig. S5.
 
-use super::known;
+use super::basics::known;
 use crate::experiments::prelude::*;
 use crate::params::{Grid, LARGE_VERTICES};
 use impact_circuits::distribution::SampleSpace::Simple;

@@ -1,6 +1,7 @@
 //! Counts of circuits, against the enumeration of small graphs: Secs. 3, 5 and 9.
 
-use super::{Cases, cases};
+use super::cases::{Cases, cases};
+use crate::experiments::theory::census::{Census, LONGEST, counted, enumerated};
 use impact_circuits::Fraction;
 use impact_circuits::counting::{paths, phi};
 use impact_circuits::graph::{Circuit, Graph};
@@ -9,31 +10,6 @@ use impact_circuits::higher_order::{
     three_visits, two_doubled,
 };
 use std::collections::BTreeMap;
-
-/// Number of primitive circuits by (N, length, class), found by enumeration.
-pub(crate) type Census = BTreeMap<(usize, usize, Vec<usize>), u128>;
-
-/// Longest circuits that are enumerated on N = 1, 2, … vertices.
-const LONGEST: [usize; 6] = [6, 10, 8, 7, 6, 6];
-
-pub(crate) fn census() -> Census {
-    let mut census = Census::new();
-    for (n, longest) in (1..).zip(LONGEST) {
-        for circuit in Graph::of_chain(n - 1).circuits(longest) {
-            *census.entry((n, circuit.length(), circuit.repeats())).or_insert(0) += 1;
-        }
-    }
-    census
-}
-
-/// All (N, length) that were enumerated.
-fn enumerated() -> impl Iterator<Item = (usize, usize)> {
-    (1..).zip(LONGEST).flat_map(|(n, longest)| (1..=longest).map(move |k| (n, k)))
-}
-
-pub(crate) fn counted(census: &Census, n: usize, k: usize, repeats: &[usize]) -> u128 {
-    census.get(&(n, k, repeats.to_vec())).copied().unwrap_or(0)
-}
 
 /// n + 1 impacts of a chain, two of them at walls, by the names of the vertices.
 pub(super) fn impact_types() -> Cases {

@@ -1,0 +1,19 @@
+//! Half heights of chains of several restitutions r.
+
+use super::ensembles::{Ensembles, ensembles};
+use super::half_height::{HALF_HEIGHT, half_height_all};
+use crate::experiments::prelude::*;
+use crate::params;
+
+/// Chains of several restitutions.
+pub const RESTITUTION: Ensembles =
+    ensembles("restitution", "restitution", params::restitution, tables);
+
+/// Half heights of chains of several restitutions.
+pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
+    let table = Table::of("restitution.curves", found, |one| one.ensemble.realisations)
+        .key("r", "1", |one| one.ensemble.chain.restitution)
+        .computed_by(origin(Curve::new))
+        .estimate("half_height", SIGMA, HALF_HEIGHT, half_height_all);
+    vec![table.done()]
+}

@@ -1,0 +1,25 @@
+//! Computes what several tables of the theory need.
+
+use impact_circuits::Error;
+use literate::table::{Building, Table};
+use literate::value::Origin;
+
+/// Returns the value of a formula that exists for the numbers of the paper.
+pub(crate) fn known<T>(found: Result<T, Error>) -> T {
+    found.expect("the theory exists for the paper's N and p")
+}
+
+/// Begins a table of one row.
+pub(crate) fn one(name: &'static str, item: Origin) -> Building<'static, ()> {
+    Table::of(name, &[()], |()| 0).computed_by(item)
+}
+
+/// Adds numbers from first to last, so that the sum has the same bits on every machine.
+pub(crate) fn sum(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |sum, value| sum + value)
+}
+
+/// Returns the largest of some numbers; zero if none is above zero.
+pub(crate) fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
+    numbers.into_iter().fold(0.0, f64::max)
+}

@@ -1,0 +1,110 @@
+//! Computes the jump of the most likely number of impacts: Sec. 7, Fig. 10.
+
+use super::basics::{known, one};
+use super::law::{k_star, law};
+use crate::experiments::prelude::*;
+use crate::params::VERTICES;
+use impact_circuits::distribution::Law;
+use impact_circuits::distribution::SampleSpace::Simple;
+use impact_circuits::{Fraction, jump};
+use impact_numerics::roots;
+
+/// N as a real number.
+const N: f64 = VERTICES as f64;
+
+pub(super) fn tables() -> Vec<Table> {
+    vec![numbers(), first_maximum()]
+}
+
+/// Sec. 7.
+fn numbers() -> Table {
+    let p_crit = |vertices| known(jump::p_crit(vertices));
+    let (crit, leap) = (p_crit(VERTICES), known(jump::p_jump(Simple, VERTICES)));
+    let (at_one, between) = (law(Simple, 1.0), 0.5 * (crit + leap.bracket[0]));
+    let [before, last] = [VERTICES - 1, VERTICES].map(|k| known(at_one.weight(k)));
+    let [by_variance, by_difference] = mean_slopes(leap.p);
+    one("theory.jump", origin(jump::p_crit))
+        .real("p_crit", "1", 5, "Eq. (18)", |()| crit)
+        .real("p_crit_walls", "1", 5, "the same for N + 1", |()| p_crit(VERTICES + 1))
+        .real("k_touch", "1", 4, "double zero of f at p_crit", |()| top(crit))
+        .computed_by(origin(touching))
+        .real("p_crit_found", "1", 5, "where zeros of f appear, by bisection", |()| touching())
+        .computed_by(origin(flat))
+        .real("p_flat", "1", 6, "where Φ of real k has a stationary inflexion", |()| flat()[0])
+        .real("k_flat", "1", 3, "its k", |()| flat()[1])
+        .computed_by(origin(jump::p_jump))
+        .real("p_jump", "1", 5, "p at which k* leaves 1", |()| leap.p)
+        .count("k_after", "k* after it", |()| leap.k_after as u64)
+        .real("after_crit", "1", 2, "p_jump/p_crit − 1", |()| leap.p / crit - 1.0)
+        .computed_by(origin(Law::k_star))
+        .count("k_at_zero", "k* for p → 0", |()| k_star(0.0) as u64)
+        .count("k_at_crit", "k* at p_crit", |()| k_star(crit) as u64)
+        .count("k_before", "k* half way from p_crit to p_jump", |()| k_star(between) as u64)
+        .count("k_at_one", "k* at p = 1", |()| at_one.k_star() as u64)
+        .computed_by(origin(Law::weight))
+        .real("last_ratio", "1", 2, "Φ(N)/Φ(N − 1) at p = 1", |()| (last / before).to_f64())
+        .computed_by(origin(mean_slopes))
+        .real("slope", "1", 4, "dμ/dp at p_jump, by a difference", |()| by_difference)
+        .real("variance_over_p", "1", 4, "Var(X)/p at p_jump", |()| by_variance)
+        .done()
+}
+
+fn first_maximum() -> Table {
+    let (k, [above, below]) =
+        jump::first_local_maximum(VERTICES).expect("N = 100 has a local maximum");
+    let p = Fraction::new(above as u128, below as u128);
+    one("theory.first_maximum", origin(jump::first_local_maximum))
+        .count("numerator", "of p", |()| p.numerator as u64)
+        .count("denominator", "of p", |()| p.denominator as u64)
+        .real("p", "1", 5, "where Φ first has a local maximum beyond k = 1", |()| p.to_f64())
+        .count("k", "where it is", |()| k as u64)
+        .count("k_next", "where it is as well", |()| k as u64 + 1)
+        .done()
+}
+
+/// Fig. 10: p → 0, p_crit, half way from p_crit to the jump, and the jump itself.
+pub fn stages() -> [f64; 4] {
+    let (crit, leap) = (known(jump::p_crit(VERTICES)), known(jump::p_jump(Simple, VERTICES)).p);
+    [0.0, crit, 0.5 * (crit + leap), leap]
+}
+
+/// f_{N,p}(k) on [0, N], four points to a unit of k.
+pub fn f(p: f64) -> Vec<(f64, f64)> {
+    let ks = (0..=VERTICES * 4).map(|i| i as f64 / 4.0);
+    ks.map(|k| (k, jump::f(VERTICES, p, k))).collect()
+}
+
+/// The zeros of f_{N,p}. The double nearest to p_crit may lie on either side of it; there both are 1/√p.
+pub fn zeros(p: f64) -> Option<[f64; 2]> {
+    if p == known(jump::p_crit(VERTICES)) {
+        return Some([1.0 / p.sqrt(); 2]);
+    }
+    jump::zeros(VERTICES, p)
+}
+
+/// Where f is largest.
+pub(crate) fn top(p: f64) -> f64 {
+    (N * p - 1.0) / (2.0 * p)
+}
+
+/// Eq. (18): the p at which f gets real zeros for k > 0, since its largest value is not negative.
+pub(crate) fn touching() -> f64 {
+    roots::bracket(1e-6, 1.0, |p| top(p) > 0.0 && jump::f(VERTICES, p, top(p)) >= 0.0)[1]
+}
+
+/// The p and the real k at which Φ, with Γ functions for its factorials, has a stationary inflexion: ln Φ has the
+/// derivative ln p − 1/k + ψ(N + 1 − k), which is zero twice in k where 1/k² = ψ′(N + 1 − k).
+pub(crate) fn flat() -> [f64; 2] {
+    let k = roots::bracket(1.0, N / 2.0, |k| 1.0 / (k * k) <= pxfm::f_trigamma(N + 1.0 - k))[1];
+    [pxfm::f_exp(1.0 / k - pxfm::f_digamma(N + 1.0 - k)), k]
+}
+
+/// dμ/dp: Var(X)/p for weights in proportion to p^k, and by a central difference.
+pub(crate) fn mean_slopes(p: f64) -> [f64; 2] {
+    let mean = law(Simple, p).mean();
+    let squares = (1..).map(f64::from).map(|k: f64| (k - mean) * (k - mean));
+    let variance: f64 =
+        squares.zip(law(Simple, p).probabilities()).map(|(square, q)| q * square).sum();
+    let step = 1e-5 * p;
+    [variance / p, (law(Simple, p + step).mean() - law(Simple, p - step).mean()) / (2.0 * step)]
+}
