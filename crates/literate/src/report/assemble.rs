@@ -131,8 +131,8 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         paper.authors.iter().map(|(name, place)| Ok([tex::text(name)?, tex::text(place)?]));
     filler.insert("authors", &authors.collect::<Result<Vec<_>, Error>>()?);
     filler.insert("date", &paper.date);
-    for (Part { of, blocks, .. }, written) in parts.iter().zip(written) {
-        let (print, (page, values)) = written?;
+    for (Part { of, blocks, places }, written) in parts.iter().zip(written) {
+        let (print, (page, values)) = written.map_err(|error| places.locate(error))?;
         let mut text = markdown::write(blocks);
         if of.is_signed(paper) {
             let byline = format!("\n\n*{}*\n\n", markdown::escaped(&paper.byline()));
@@ -164,7 +164,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     generated.extend(input.figures.par_iter().map(pdf).collect::<Vec<_>>());
     committed.insert(SUMS.into(), folder::sums(&committed).into_bytes());
     for Part { of, blocks, places } in &parts {
-        check_links(blocks, *of, &labels, &committed, input.paper).map_err(|e| places.tell(e))?;
+        check_links(blocks, *of, &labels, &committed, input.paper).map_err(|e| places.locate(e))?;
     }
     Ok(Report { committed, generated })
 }
@@ -189,7 +189,7 @@ fn parts<'a>(
         document::title(&blocks).map_err(|error| error.at(filled.place(0)))?;
         let own = illustrate(&mut blocks, input)
             .and_then(|own| labels.number_all(&mut blocks, *of).map(|()| own))
-            .map_err(|error| places.tell(error))?;
+            .map_err(|error| places.locate(error))?;
         shown.extend(own.into_iter().filter(|_| !of.repeats));
         parts.push(Part { of: *of, blocks, places });
     }
@@ -200,10 +200,10 @@ fn parts<'a>(
     if let Some(entry) = input.paper.equations.iter().find(missing) {
         return Err(Error::NoEquation(entry.number.to_string()));
     }
-    let tell = |error| parts.iter().fold(error, |error, part: &Part<'_>| part.places.tell(error));
+    let tell = |error| parts.iter().fold(error, |error, part: &Part<'_>| part.places.locate(error));
     labels.judge(input.claims).map_err(tell)?;
     for Part { of, blocks, places } in &mut parts {
-        labels.resolve(blocks, *of, &library).map_err(|error| places.tell(error))?;
+        labels.resolve(blocks, *of, &library).map_err(|error| places.locate(error))?;
     }
     Ok((parts, labels))
 }

@@ -3,8 +3,7 @@
 //! Articles, books, doctoral theses and software; entries of other kinds are refused.
 
 use super::Error;
-use super::card::words_and_maths;
-use super::document::{Entry, Inline, plain};
+use super::document::{Entry, Inline, plain, words_and_maths};
 use crate::input::line_and_column;
 use biblatex::{Bibliography, ChunksExt, EntryType, Person};
 use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};

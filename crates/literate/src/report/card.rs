@@ -3,7 +3,7 @@
 //! Cards are made of values.json and ledger.json alone, with the parameters of the profile, so that
 //! no run is needed.
 
-use super::document::Inline;
+use super::document::{Inline, printed, words_and_maths};
 use super::ledger::Ledger;
 use super::print::{Style, print};
 use super::values::{Digits, Kind, Number, Registry, Value};
@@ -119,7 +119,7 @@ impl Cards<'_> {
 
     fn value(&self, id: &str) -> Option<Card> {
         let value = self.values.get(id)?;
-        let mut title = words_and_maths(&print(&value.number, Style::default()).markdown());
+        let mut title = printed(&print(&value.number, Style::default()));
         if !value.unit.is_empty() {
             title.push(Inline::Text("\u{a0}".into()));
             title.extend(words_and_maths(&value.unit));
@@ -205,15 +205,6 @@ impl Cards<'_> {
         card.item("judged by", &(self.paper.judged_by)(&claim.id), self.paper);
         Some(card)
     }
-}
-
-/// Markdown of printed values, "3 $\times$ 4", as words and mathematics.
-pub fn words_and_maths(text: &str) -> Vec<Inline> {
-    let piece = |(i, piece): (usize, &str)| match i % 2 {
-        0 => Inline::Text(piece.to_string()),
-        _ => Inline::Maths(piece.to_string()),
-    };
-    text.split('$').enumerate().filter(|(_, piece)| !piece.is_empty()).map(piece).collect()
 }
 
 fn link(to: &str, shown: Inline) -> Inline {

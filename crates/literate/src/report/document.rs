@@ -4,7 +4,7 @@
 //! to and resolves references, and each format has one writer that walks it. Writers decide on
 //! markup only: numbers, words of references and digits of values are in the tree already.
 
-use super::mark::bare;
+use super::print::Shown;
 use super::templates::Document;
 use super::{Error, tex};
 use pulldown_cmark::Alignment;
@@ -91,18 +91,16 @@ pub enum Inline {
     Strong(Vec<Inline>),
     /// Small and raised, as the number of a note: verdicts behind a statement.
     Raised(Vec<Inline>),
-    /// Mathematics in the line, as TeX; values in it are framed (see [`super::mark`]).
-    Maths(String),
-    /// A displayed equation, as TeX without its tag; one without an id has no number.
+    Maths(Formula),
+    /// A displayed equation without its tag; one without an id has no number.
     Display {
-        tex: String,
+        formula: Formula,
         id: Option<String>,
         number: String,
     },
-    /// A value: the words and mathematics that show it.
     Value {
         id: String,
-        shown: Vec<Inline>,
+        shown: Shown,
     },
     /// A link out of the report, or to a file next to it.
     Link {
@@ -122,6 +120,69 @@ pub enum Inline {
         id: String,
         number: String,
     },
+}
+
+/// A formula: TeX, and the values between it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Formula(pub Vec<Part>);
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Part {
+    Tex(String),
+    Value { id: String, shown: Shown },
+}
+
+impl Formula {
+    /// Returns the whole formula as TeX, in which `value` writes the values.
+    pub fn tex(&self, value: impl Fn(&str, &Shown) -> String) -> String {
+        let mut out = String::new();
+        for part in &self.0 {
+            match part {
+                Part::Tex(tex) => out += tex,
+                Part::Value { id, shown } => out += &value(id, shown),
+            }
+        }
+        out
+    }
+
+    /// Returns the whole formula as TeX, with the digits of its values.
+    pub fn digits(&self) -> String {
+        self.tex(|_, shown| shown.tex())
+    }
+}
+
+impl From<&str> for Formula {
+    fn from(tex: &str) -> Formula {
+        Formula(vec![Part::Tex(tex.into())])
+    }
+}
+
+/// Returns a printed value as text, or as a formula where it has a power of ten. Words may have
+/// formulas between dollar signs.
+pub fn printed(shown: &Shown) -> Vec<Inline> {
+    let numeral = match shown {
+        Shown::Words(words) => return words_and_maths(words),
+        Shown::Number(numeral) => numeral,
+    };
+    let Some(power) = numeral.tex_power() else { return vec![Inline::Text(shown.markdown())] };
+    let mut out = vec![Inline::Maths(power.as_str().into())];
+    if numeral.percent {
+        out.push(Inline::Text("\u{a0}%".into()));
+    }
+    out
+}
+
+/// Splits a text at its dollar signs, `3 $\times$ 4`, into words and formulas.
+pub fn words_and_maths(text: &str) -> Vec<Inline> {
+    let mut out = Vec::new();
+    for (i, piece) in text.split('$').enumerate() {
+        match piece {
+            "" => (),
+            tex if i % 2 == 1 => out.push(Inline::Maths(tex.into())),
+            words => out.push(Inline::Text(words.into())),
+        }
+    }
+    out
 }
 
 /// The words of the title, the first heading of level 1.
@@ -150,7 +211,7 @@ pub fn continues(block: &Block) -> bool {
 }
 
 /// All running texts of a block, in reading order, nested ones too.
-fn texts(block: &mut Block) -> Vec<&mut Vec<Inline>> {
+fn texts(block: &Block) -> Vec<&Vec<Inline>> {
     match block {
         Block::Heading { text, .. } | Block::Paragraph(text) => vec![text],
         Block::Lab { caption, .. } => vec![caption],
@@ -158,28 +219,49 @@ fn texts(block: &mut Block) -> Vec<&mut Vec<Inline>> {
             vec![caption, origin]
         }
         Block::Table { caption, head, rows, .. } => {
-            let cells = head.iter_mut().chain(rows.iter_mut().flatten());
-            [caption].into_iter().chain(cells).collect()
+            [caption].into_iter().chain(head).chain(rows.iter().flatten()).collect()
         }
-        Block::List { items, .. } => items.iter_mut().flatten().flat_map(texts).collect(),
-        Block::Quote(inner) => inner.iter_mut().flat_map(texts).collect(),
+        Block::List { items, .. } => items.iter().flatten().flat_map(texts).collect(),
+        Block::Quote(blocks) => blocks.iter().flat_map(texts).collect(),
+        Block::Code { .. } | Block::Bibliography(_) => Vec::new(),
+    }
+}
+
+/// The same texts, to be changed.
+fn texts_mut(block: &mut Block) -> Vec<&mut Vec<Inline>> {
+    match block {
+        Block::Heading { text, .. } | Block::Paragraph(text) => vec![text],
+        Block::Lab { caption, .. } => vec![caption],
+        Block::Figure { caption, origin, .. } | Block::Listing { caption, origin, .. } => {
+            vec![caption, origin]
+        }
+        Block::Table { caption, head, rows, .. } => {
+            [caption].into_iter().chain(head).chain(rows.iter_mut().flatten()).collect()
+        }
+        Block::List { items, .. } => items.iter_mut().flatten().flat_map(texts_mut).collect(),
+        Block::Quote(blocks) => blocks.iter_mut().flat_map(texts_mut).collect(),
         Block::Code { .. } | Block::Bibliography(_) => Vec::new(),
     }
 }
 
 /// Calls `visit` on each piece of running text of the blocks, nested ones too.
-pub fn visit(blocks: &[Block], visit: &mut impl FnMut(&Inline)) {
-    let mut each = |inline: Inline| {
-        visit(&inline);
-        Ok::<_, std::convert::Infallible>(vec![inline])
-    };
-    let Ok(()) = rewrite(&mut blocks.to_vec(), &mut each);
+pub fn visit<'a>(blocks: &'a [Block], visit: &mut impl FnMut(&'a Inline)) {
+    for text in blocks.iter().flat_map(texts) {
+        visit_inlines(text, visit);
+    }
+}
+
+fn visit_inlines<'a>(inlines: &'a [Inline], visit: &mut impl FnMut(&'a Inline)) {
+    for inline in inlines {
+        visit_inlines(inner(inline), visit);
+        visit(inline);
+    }
 }
 
 fn inner(inline: &Inline) -> &[Inline] {
     match inline {
         Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => inner,
-        Inline::Link { shown, .. } | Inline::Value { shown, .. } => shown,
+        Inline::Link { shown, .. } => shown,
         _ => &[],
     }
 }
@@ -189,8 +271,10 @@ pub fn rewrite<E>(
     blocks: &mut [Block],
     change: &mut impl FnMut(Inline) -> Result<Vec<Inline>, E>,
 ) -> Result<(), E> {
-    let mut texts = blocks.iter_mut().flat_map(texts);
-    texts.try_for_each(|text| rewrite_inlines(text, change))
+    for text in blocks.iter_mut().flat_map(texts_mut) {
+        rewrite_inlines(text, change)?;
+    }
+    Ok(())
 }
 
 fn rewrite_inlines<E>(
@@ -203,9 +287,7 @@ fn rewrite_inlines<E>(
             Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => {
                 rewrite_inlines(inner, change)?;
             }
-            Inline::Link { shown, .. } | Inline::Value { shown, .. } => {
-                rewrite_inlines(shown, change)?;
-            }
+            Inline::Link { shown, .. } => rewrite_inlines(shown, change)?,
             _ => {}
         }
         out.extend(change(inline)?);
@@ -228,21 +310,26 @@ pub fn led(inline: Inline, top: Option<&str>) -> Vec<Inline> {
 
 /// The words alone, for alternative text and widths of columns.
 pub fn plain(inlines: &[Inline]) -> String {
-    words(inlines, &bare)
+    words(inlines, &|tex| tex.into())
 }
 
 /// The words for a terminal, mathematics among them.
 pub fn spelt(inlines: &[Inline]) -> String {
-    words(inlines, &|tex| tex::spell(&bare(tex)))
+    words(inlines, &tex::spell)
 }
 
 fn words(inlines: &[Inline], maths: &dyn Fn(&str) -> String) -> String {
-    let word = |inline: &Inline| match inline {
-        Inline::Text(text) | Inline::Code(text) => text.clone(),
-        Inline::Maths(tex) | Inline::Display { tex, .. } => maths(tex),
-        Inline::Soft => " ".into(),
-        Inline::Reference { shown: text, .. } | Inline::Anchor { number: text, .. } => text.clone(),
-        other => words(inner(other), maths),
-    };
-    inlines.iter().map(word).collect()
+    let mut out = String::new();
+    for inline in inlines {
+        out += &match inline {
+            Inline::Text(text) | Inline::Code(text) => text.clone(),
+            Inline::Maths(formula) | Inline::Display { formula, .. } => maths(&formula.digits()),
+            Inline::Soft => " ".into(),
+            Inline::Reference { shown, .. } => shown.clone(),
+            Inline::Anchor { number, .. } => number.clone(),
+            Inline::Value { shown, .. } => words(&printed(shown), maths),
+            other => words(inner(other), maths),
+        };
+    }
+    out
 }

@@ -3,7 +3,7 @@
 
 use super::lint::Declared;
 use super::mark::{self, Filled, Piece, marked, pieces};
-use super::print::MOST_DIGITS;
+use super::print::MAX_DIGITS;
 use super::templates::Document;
 use super::values::{Number, Registry, Value};
 use super::{Error, Templates};
@@ -242,7 +242,7 @@ fn register(tera: &mut Tera) {
     tera.register_filter("percent", move |text: &str, _: Kwargs, _: &State| with(text, "percent"));
     tera.register_filter("significant", move |text: &str, arguments: Kwargs, _: &State| {
         match arguments.must_get("digits") {
-            Ok(digits @ 0..=MOST_DIGITS) => with(text, &format!("significant{digits}")),
+            Ok(digits @ 0..=MAX_DIGITS) => with(text, &format!("significant{digits}")),
             _ => Err(tera::Error::message("it takes how many digits, as in (digits=2)")),
         }
     });

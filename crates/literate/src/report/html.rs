@@ -4,8 +4,9 @@
 //! well-formed XML, so that tests can read it.
 
 use super::card::Cards;
-use super::document::{self, Block, Inline, plain, spelt};
+use super::document::{self, Block, Formula, Inline, plain, printed, spelt};
 use super::labels::Labels;
+use super::print::{Numeral, Shown};
 use super::templates::Document;
 use super::{Error, Files, Input, latex, mathml, search};
 use crate::claims::Verdict;
@@ -144,7 +145,7 @@ pub(super) struct Page<'a> {
 
 impl Page<'_> {
     fn blocks(&self, blocks: &[Block]) -> Result<String, Error> {
-        let (mut out, mut end) = (String::new(), "");
+        let (mut out, mut end, mut errors) = (String::new(), "", Vec::new());
         for block in blocks {
             if matches!(block, Block::Heading { .. }) {
                 out += std::mem::take(&mut end);
@@ -152,8 +153,12 @@ impl Page<'_> {
             if document::is_abstract(block) {
                 (out, end) = (out + "<section class=\"abstract\">\n", "</section>\n");
             }
-            out += &self.block(block)?;
+            match self.block(block) {
+                Ok(text) => out += &text,
+                Err(error) => errors.push(error),
+            }
         }
+        Error::all(errors)?;
         Ok(out + end)
     }
 
@@ -347,7 +352,7 @@ impl Page<'_> {
                 continue;
             };
             // `$x =$ 3`.
-            if words == " " && matches!(before, Some(Inline::Maths(tex)) if relates(tex)) {
+            if words == " " && matches!(before, Some(Inline::Maths(formula)) if relates(formula)) {
                 pieces.push(("\u{a0}".into(), true));
                 continue;
             }
@@ -381,9 +386,9 @@ impl Page<'_> {
             Inline::Emphasis(inner) => format!("<em>{}</em>", self.inlines(inner)?),
             Inline::Raised(inner) => format!("<sup>{}</sup>", self.inlines(inner)?),
             Inline::Strong(inner) => format!("<strong>{}</strong>", self.inlines(inner)?),
-            Inline::Maths(tex) => mathml::write(self, tex, MathDisplay::Inline)?,
-            Inline::Display { tex, id, number } => {
-                let formula = mathml::write(self, tex, MathDisplay::Block)?;
+            Inline::Maths(formula) => self.formula(formula, MathDisplay::Inline)?,
+            Inline::Display { formula, id, number } => {
+                let formula = self.formula(formula, MathDisplay::Block)?;
                 let name = if id.is_some() { number } else { "without number" };
                 let name = format!("Equation {name}");
                 let (id, number) = match id.as_deref().map(|id| id_of(Some(id), &[])) {
@@ -396,13 +401,10 @@ impl Page<'_> {
                 let formula = scroll(&name, &formula);
                 format!("<div class=\"equation\"{id}>{formula}{number}</div>\n")
             }
-            Inline::Value { id, shown } => {
-                let part = |inline: &Inline| match inline {
-                    Inline::Maths(tex) => mathml::digits(tex),
-                    other => self.inline(other),
-                };
-                self.value(id, &shown.iter().map(part).collect::<Result<String, Error>>()?)
+            Inline::Value { id, shown: Shown::Number(numeral) } => {
+                self.value(id, &number(numeral, "\u{a0}%"))
             }
+            Inline::Value { id, shown } => self.value(id, &self.inlines(&printed(shown))?),
             Inline::Link { to, shown } => {
                 // A document is another file here.
                 let of = self.input.paper.documents.iter().find(|of| of.markdown == to);
@@ -434,14 +436,40 @@ impl Page<'_> {
         })
     }
 
+    fn formula(&self, formula: &Formula, display: MathDisplay) -> Result<String, Error> {
+        let value = |id: &str, shown: &Shown| match shown {
+            Shown::Words(words) => self.value(id, &text(words)),
+            Shown::Number(numeral) => self.value(id, &number(numeral, "\u{202f}%")),
+        };
+        mathml::write(formula, display, value).map_err(|error| match error {
+            // The error names the whole formula, by which its place is found.
+            Error::Maths { what, .. } => Error::Maths { tex: formula.digits(), what },
+            other => other,
+        })
+    }
+
     /// A value, which opens its card. (Browsers break lines about a `<button>`, and not about words.)
-    pub(super) fn value(&self, id: &str, shown: &str) -> String {
+    fn value(&self, id: &str, shown: &str) -> String {
         self.values.borrow_mut().insert(id.to_string());
         let id = text(id);
         format!(
             "<span role=\"button\" tabindex=\"0\" class=\"value\" data-card=\"{id}\">{shown}</span>"
         )
     }
+}
+
+/// A printed number as text, its power raised; `percent` is the sign and the space before it.
+fn number(numeral: &Numeral, percent: &str) -> String {
+    let mut out = String::new();
+    if !numeral.is_power_alone() {
+        out += &numeral.signed("−");
+    }
+    if let Some(exponent) = numeral.exponent {
+        let times = if out.is_empty() { "" } else { "\u{202f}×\u{202f}" };
+        let minus = if exponent < 0 { "−" } else { "" };
+        let _ = write!(out, "{times}10<sup>{minus}{}</sup>", exponent.unsigned_abs());
+    }
+    out + if numeral.percent { percent } else { "" }
 }
 
 /// What scrolls by itself where it is too wide.
@@ -455,8 +483,31 @@ fn code(words: &str) -> String {
     format!("<pre tabindex=\"0\"><code>{}</code></pre>\n", text(words.trim_end()))
 }
 
-/// Formulas that end before their right side.
-fn relates(tex: &str) -> bool {
+/// Whether a formula ends before its right side.
+fn relates(formula: &Formula) -> bool {
     let ends = ["=", "<", ">", r"\approx", r"\le", r"\ge", r"\lt", r"\gt", r"\pm"];
+    let tex = formula.digits();
     ends.iter().any(|end| tex.trim_end().ends_with(end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::print::{Style, print};
+    use super::super::values::Value;
+    use super::*;
+
+    #[test]
+    fn digits_are_text() {
+        let shown = |value: f64, digits, percent| {
+            let style = Style { percent, ..Style::default() };
+            match print(&Value::real("x", value, digits).number, style) {
+                Shown::Number(numeral) => number(&numeral, "\u{202f}%"),
+                Shown::Words(words) => words,
+            }
+        };
+        assert_eq!(shown(-3.25, 3, false), "−3.25");
+        assert_eq!(shown(8.87e-4, 3, false), "8.87\u{202f}×\u{202f}10<sup>−4</sup>");
+        assert_eq!(shown(1e-9, 1, false), "10<sup>−9</sup>");
+        assert_eq!(shown(0.945, 3, true), "94.5\u{202f}%");
+    }
 }

@@ -1,8 +1,8 @@
 //! The tree → a document for LaTeX; what stands around it is the template report.tex.
 
 use super::Error;
-use super::document::{self, Block, Inline};
-use super::document::{continues, is_abstract, is_equation, plain, spelt};
+use super::document::{self, Block, Formula, Inline};
+use super::document::{continues, is_abstract, is_equation, plain, printed, spelt};
 use super::templates::Document;
 use super::tex;
 use pulldown_cmark::Alignment;
@@ -22,7 +22,7 @@ pub fn write(blocks: &[Block], of: Document) -> Result<Json, Error> {
 }
 
 fn body(blocks: &[Block]) -> Result<String, Error> {
-    let mut out = String::new();
+    let (mut out, mut errors) = (String::new(), Vec::new());
     let (mut before, mut end): (Option<&Block>, _) = (None, "");
     for block in blocks {
         if matches!(block, Block::Heading { .. }) {
@@ -40,11 +40,14 @@ fn body(blocks: &[Block]) -> Result<String, Error> {
                 || is_equation(before) && continues(block)
         });
         out.push_str(if out.is_empty() || goes_on { "" } else { "\n" });
-        let text = write_block(block)?;
-        out.push_str(text.trim_matches('\n'));
-        out.push_str(if text.is_empty() { "" } else { "\n" });
+        match write_block(block) {
+            Ok(text) if text.is_empty() => (),
+            Ok(text) => out = out + text.trim_matches('\n') + "\n",
+            Err(error) => errors.push(error),
+        }
         before = Some(block);
     }
+    Error::all(errors)?;
     Ok(out + end)
 }
 
@@ -178,9 +181,9 @@ fn inline(inline: &Inline) -> Result<String, Error> {
         Inline::Emphasis(inner) => format!("\\emph{{{}}}", inlines(inner)?),
         Inline::Raised(inner) => format!("\\textsuperscript{{{}}}", inlines(inner)?),
         Inline::Strong(inner) => format!("\\textbf{{{}}}", inlines(inner)?),
-        Inline::Maths(maths) => format!("${}$", tex::maths(maths)?),
-        Inline::Display { tex: maths, id, number } => {
-            let maths = tex::maths(maths)?;
+        Inline::Maths(formula) => format!("${}$", maths(formula)?),
+        Inline::Display { formula, id, number } => {
+            let maths = maths(formula)?;
             match id {
                 Some(id) => format!(
                     "\n\\begin{{equation}}\n{maths}\n\\tag{{{number}}}\\label{{{id}}}\n\\end{{equation}}\n"
@@ -188,7 +191,7 @@ fn inline(inline: &Inline) -> Result<String, Error> {
                 None => format!("\n\\begin{{equation*}}\n{maths}\n\\end{{equation*}}\n"),
             }
         }
-        Inline::Value { id, shown } => tex::value(id, &inlines(shown)?),
+        Inline::Value { id, shown } => tex::value(id, &inlines(&printed(shown))?),
         Inline::Link { to, shown } if to.contains("://") => {
             let shown = inlines(shown)?;
             let bare = shown.starts_with("http");
@@ -205,6 +208,10 @@ fn inline(inline: &Inline) -> Result<String, Error> {
         Inline::Anchor { id, number } => format!("{}{number}", label(id)),
         Inline::Unresolved(ids) => return Err(Error::Reference(ids.join("; "))),
     })
+}
+
+fn maths(formula: &Formula) -> Result<String, Error> {
+    tex::maths(&formula.tex(|id, shown| tex::value(id, &shown.tex())))
 }
 
 /// Long paths and addresses in code may break after `::`, `/`, `\_`, `,` and `]`, and before `[`.

@@ -16,6 +16,11 @@ pub(super) const OPEN: char = '\u{e000}';
 const NEXT: char = '\u{e001}';
 pub(super) const CLOSE: char = '\u{e002}';
 
+/// Whether a character is one of those that make a mark.
+pub(super) fn is_sign(c: char) -> bool {
+    (OPEN..='\u{e004}').contains(&c)
+}
+
 /// Brackets of an address, into which Markdown would read a link.
 const BRACKETS: [(&str, &str); 2] = [("[", "\u{e003}"), ("]", "\u{e004}")];
 
@@ -48,14 +53,6 @@ pub fn pieces(text: &str) -> Vec<Piece<'_>> {
     }
     out.extend((!rest.is_empty()).then_some(Piece::Text(rest)));
     out
-}
-
-/// Text with what its marks show, and without them.
-pub fn bare(text: &str) -> String {
-    let shown = |piece| match piece {
-        Piece::Text(text) | Piece::Value { shown: text, .. } => text,
-    };
-    pieces(text).into_iter().map(shown).collect()
 }
 
 pub fn ids(text: &str) -> impl Iterator<Item = String> + '_ {
@@ -186,16 +183,28 @@ impl<'a> Places<'a> {
         self.found.push((thing, offset));
     }
 
-    /// The error with the place of what it names. Of two things with one id the second is meant.
-    pub fn tell(&self, error: Error) -> Error {
-        let thing = match &error {
-            Error::Label(id) => format!("#{id}"),
-            Error::Reference(id) => format!("@{id}"),
-            Error::Claim(id) => format!("#claim:{id}"),
-            Error::NoFile(path) | Error::Picture(path) => format!("({path}"),
+    /// Adds to an error the place of what it names. Of two things with one id the second is meant.
+    pub fn locate(&self, error: Error) -> Error {
+        let thing = match error {
+            Error::Several(errors) => {
+                return Error::Several(
+                    errors.into_iter().map(|error| self.locate(error)).collect(),
+                );
+            }
+            Error::Label(ref id) => format!("#{id}"),
+            Error::Reference(ref id) => format!("@{id}"),
+            Error::Claim(ref id) => format!("#claim:{id}"),
+            Error::NoFile(ref path) | Error::Picture(ref path) => format!("({path}"),
+            Error::Maths { ref tex, .. } => format!("${tex}"),
+            Error::NoLatex(c) => {
+                return match self.filled.text.find(c) {
+                    Some(offset) => error.at(self.filled.place(offset)),
+                    None => error,
+                };
+            }
             _ => return error,
         };
-        match self.found.iter().rev().find(|(own, _)| *own == thing) {
+        match self.found.iter().rev().find(|(noted, _)| *noted == thing) {
             Some((_, offset)) => error.at(self.filled.place(*offset)),
             None => error,
         }

@@ -5,9 +5,9 @@
 //! `\\` `\cr`, `*` `\ast`, `<` `\lt`; a `_` that could open emphasis gets a space behind it; and what
 //! follows a closing `$` without a space (`$n$-th`) moves inside.
 
-use super::document::{Block, Inline};
-use super::mark::bare;
+use super::document::{self, Block, Inline};
 use pulldown_cmark::Alignment;
+use std::borrow::Cow;
 
 /// Writes report.md.
 pub fn write(blocks: &[Block]) -> String {
@@ -138,24 +138,23 @@ struct Writer {
 impl Writer {
     fn all(&self, inlines: &[Inline]) -> String {
         let mut out = String::new();
-        let mut flat = Vec::new();
-        flatten(inlines, &mut flat);
+        let flat = flat(inlines);
         let mut i = 0;
         while i < flat.len() {
-            if let Inline::Maths(tex) = flat[i] {
+            if let Inline::Maths(formula) = &*flat[i] {
                 // Words that touch the closing dollar move inside.
-                let mut formula = maths(tex).to_string();
+                let mut formula = maths(&formula.digits());
                 let mut rest = "";
-                while let Some(Inline::Text(text)) = flat.get(i + 1) {
+                while let Some(Inline::Text(text)) = flat.get(i + 1).map(Cow::as_ref) {
                     let (glued, after) = text.split_at(glued(text));
                     (i, rest) = (i + 1, after);
                     if !glued.is_empty() {
                         formula.push_str(&format!(r"\text{{{glued}}}"));
                     }
                     // And so does a formula behind them.
-                    match flat.get(i + 1) {
-                        Some(Inline::Maths(tex)) if rest.is_empty() => {
-                            formula.push_str(&maths(tex))
+                    match flat.get(i + 1).map(Cow::as_ref) {
+                        Some(Inline::Maths(next)) if rest.is_empty() => {
+                            formula.push_str(&maths(&next.digits()))
                         }
                         _ => break,
                     }
@@ -164,7 +163,7 @@ impl Writer {
                 out.push_str(&format!("${formula}$"));
                 self.text(rest, &mut out);
             } else {
-                self.one(flat[i], &mut out);
+                self.one(&flat[i], &mut out);
             }
             i += 1;
         }
@@ -185,7 +184,7 @@ impl Writer {
             Inline::Emphasis(inner) => out.push_str(&format!("*{}*", self.all(inner))),
             Inline::Raised(inner) => out.push_str(&format!("<sup>{}</sup>", self.all(inner))),
             Inline::Strong(inner) => out.push_str(&format!("**{}**", self.all(inner))),
-            Inline::Display { tex, id, number } => {
+            Inline::Display { formula, id, number } => {
                 while out.ends_with([' ', '\n']) {
                     out.pop();
                 }
@@ -197,7 +196,7 @@ impl Writer {
                     out.push_str(&format!("{}\n\n", anchor(id)));
                     tag = format!("\n\\tag{{{number}}}");
                 }
-                out.push_str(&format!("$$\n{}{tag}\n$$\n\n", maths(tex)));
+                out.push_str(&format!("$$\n{}{tag}\n$$\n\n", maths(&formula.digits())));
             }
             // Formulas are written above, and values are flat.
             Inline::Maths(_) | Inline::Value { .. } => (),
@@ -242,14 +241,18 @@ impl Writer {
     }
 }
 
-/// Values are shown by their content: flat, so that neighbours of mathematics are seen.
-fn flatten<'a>(inlines: &'a [Inline], into: &mut Vec<&'a Inline>) {
+/// The pieces with values as text and formulas, so that neighbours of mathematics are seen.
+fn flat(inlines: &[Inline]) -> Vec<Cow<'_, Inline>> {
+    let mut out = Vec::with_capacity(inlines.len());
     for inline in inlines {
         match inline {
-            Inline::Value { shown, .. } => flatten(shown, into),
-            other => into.push(other),
+            Inline::Value { shown, .. } => {
+                out.extend(document::printed(shown).into_iter().map(Cow::Owned));
+            }
+            other => out.push(Cow::Borrowed(other)),
         }
     }
+    out
 }
 
 /// Where a backslash stops words at the start of a line from becoming a list, a heading, a quote.
@@ -272,7 +275,6 @@ fn glued(text: &str) -> usize {
 
 /// TeX that survives Markdown.
 fn maths(tex: &str) -> String {
-    let tex = bare(tex);
     let chars: Vec<char> = tex.chars().collect();
     let mut out = String::with_capacity(tex.len());
     let mut i = 0;

@@ -1,12 +1,12 @@
-//! How a value is printed: as many digits as it deserves, the same in every format.
+//! Chooses how many digits of a value are printed, the same in every format.
 //!
-//! [`print()`] chooses the digits; the methods of [`Printed`] write them in a markup.
-//! Only Rust's own decimal conversion is used, which rounds exactly and alike on every platform.
+//! [`print()`] returns the digits as data, [`Shown`]; each format writes them in its markup. Only
+//! the decimal conversion of Rust is used, which rounds exactly and alike on every platform.
 
 use super::values::{Digits, Number, Value};
 
-/// No number has more digits to show: a double ends at its 1074th decimal.
-pub const MOST_DIGITS: usize = 1100;
+/// The largest number of digits that can be asked for: a double ends at its 1074th decimal.
+pub const MAX_DIGITS: usize = 1100;
 
 /// What filters of a template change of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,81 +17,109 @@ pub struct Style {
     pub digits: Option<Digits>,
 }
 
-/// A number or words, ready to be written in any markup.
+/// A value as readers see it, before any markup.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shown {
+    Words(String),
+    Number(Numeral),
+}
+
+/// The pieces of a printed number.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Printed {
-    negative: bool,
-    /// Digits with at most one point, or the words.
-    mantissa: String,
-    /// What stands in brackets behind the mantissa.
-    error: Option<String>,
-    exponent: Option<i32>,
-    percent: bool,
-    words: bool,
+pub struct Numeral {
+    pub negative: bool,
+    /// Digits with at most one decimal point; long integers have narrow spaces between groups.
+    pub digits: String,
+    /// The standard error in units of the last digit, which is printed in brackets.
+    pub error: Option<String>,
+    /// The power of ten that multiplies it.
+    pub exponent: Option<i32>,
+    pub percent: bool,
 }
 
 /// Chooses the digits of a number.
-pub fn print(number: &Number, style: Style) -> Printed {
-    let (value, own) = match *number {
-        Number::Text(ref words) => {
-            return Printed { mantissa: words.clone(), words: true, ..Printed::default() };
-        }
+pub fn print(number: &Number, style: Style) -> Shown {
+    let (value, declared) = match *number {
+        Number::Text(ref words) => return Shown::Words(words.clone()),
         Number::Integer(n) if style == Style::default() => {
-            return Printed { negative: n < 0, ..bare(1.0, grouped(n)) };
+            return Shown::Number(Numeral { negative: n < 0, ..bare(1.0, grouped(n)) });
         }
         Number::Integer(n) => (n as f64, Digits::Decimals(0)),
         Number::Real { value, digits } => (value, digits),
     };
     let percent = if style.percent { 2 } else { 0 };
     let x = times_ten(value, percent);
-    let printed = match style.digits.unwrap_or(own) {
+    let numeral = match style.digits.unwrap_or(declared) {
         Digits::Error(error) => with_error(x, times_ten(error, percent)),
-        Digits::Significant(n) => significant(x, n.min(MOST_DIGITS)),
-        Digits::Decimals(n) => bare(x, rounded(x, (n.min(MOST_DIGITS) as i32 - percent).max(0))),
+        Digits::Significant(n) => significant(x, n.min(MAX_DIGITS)),
+        Digits::Decimals(n) => bare(x, rounded(x, (n.min(MAX_DIGITS) as i32 - percent).max(0))),
         Digits::Full => shortest(x),
     };
-    Printed { percent: style.percent, ..printed }
+    Shown::Number(Numeral { percent: style.percent, ..numeral })
 }
 
-impl Printed {
-    /// For Markdown prose: `0.1165(4)`, `$1.2\times10^{-5}$`, `−3`, `94.5 %`.
+impl Shown {
+    /// Writes it as Markdown: `0.1165(4)`, `$1.2\times10^{-5}$`, `−3`, `94.5 %`.
     pub fn markdown(&self) -> String {
-        let percent = if self.percent { "\u{a0}%" } else { "" };
-        match self.exponent {
-            Some(_) => format!("${}${percent}", self.maths_digits()),
-            None => format!("{}{percent}", self.digits("−")),
+        let numeral = match self {
+            Shown::Words(words) => return words.clone(),
+            Shown::Number(numeral) => numeral,
+        };
+        let percent = if numeral.percent { "\u{a0}%" } else { "" };
+        match numeral.tex_power() {
+            Some(power) => format!("${power}${percent}"),
+            None => format!("{}{percent}", numeral.signed("−")),
         }
     }
 
-    /// Inside mathematics (Markdown's and LaTeX's): `0.1165(4)`, `1.2\times10^{-5}`.
-    pub fn maths(&self) -> String {
-        let percent = if self.percent { r"\,\%" } else { "" };
-        match self.words {
-            true => format!(r"\text{{{}}}", self.mantissa),
-            false => format!("{}{percent}", self.maths_digits()),
+    /// Writes it as TeX inside a formula: `0.1165(4)`, `1.2\times10^{-5}`.
+    pub fn tex(&self) -> String {
+        match self {
+            Shown::Words(words) => format!(r"\text{{{words}}}"),
+            Shown::Number(numeral) => {
+                let percent = if numeral.percent { r"\,\%" } else { "" };
+                let power = numeral.tex_power();
+                format!("{}{percent}", power.unwrap_or_else(|| numeral.tex_digits()))
+            }
         }
     }
 
-    /// For terminals and data files: `0.1165(4)`, `1.2e-5`, `94.5 %`.
+    /// Writes it for terminals and data files: `0.1165(4)`, `1.2e-5`, `94.5 %`.
     pub fn plain(&self) -> String {
-        let power = self.exponent.map(|e| format!("e{e}")).unwrap_or_default();
-        let percent = if self.percent { " %" } else { "" };
-        format!("{}{power}{percent}", self.digits("-")).replace(NARROW_SPACE, "")
+        let numeral = match self {
+            Shown::Words(words) => return words.replace(NARROW_SPACE, ""),
+            Shown::Number(numeral) => numeral,
+        };
+        let power = numeral.exponent.map(|e| format!("e{e}")).unwrap_or_default();
+        let percent = if numeral.percent { " %" } else { "" };
+        format!("{}{power}{percent}", numeral.signed("-")).replace(NARROW_SPACE, "")
     }
+}
 
-    fn digits(&self, minus: &str) -> String {
+impl Numeral {
+    /// Returns sign, digits and error, without power and percent sign.
+    pub fn signed(&self, minus: &str) -> String {
         let minus = if self.negative { minus } else { "" };
         let error = self.error.as_ref().map(|e| format!("({e})")).unwrap_or_default();
-        format!("{minus}{}{error}", self.mantissa)
+        format!("{minus}{}{error}", self.digits)
     }
 
-    fn maths_digits(&self) -> String {
-        let digits = self.digits("-").replace(NARROW_SPACE, r"\,");
-        match self.exponent {
-            Some(e) if digits == "1" => format!("10^{{{e}}}"),
-            Some(e) => format!(r"{digits}\times10^{{{e}}}"),
-            None => digits,
+    /// Whether only the power of ten is written: 10^−9 and not 1 × 10^−9.
+    pub fn is_power_alone(&self) -> bool {
+        self.exponent.is_some() && self.digits == "1" && !self.negative && self.error.is_none()
+    }
+
+    /// The number as TeX if it has a power of ten.
+    pub fn tex_power(&self) -> Option<String> {
+        let exponent = self.exponent?;
+        if self.is_power_alone() {
+            return Some(format!("10^{{{exponent}}}"));
         }
+        Some(format!(r"{}\times10^{{{exponent}}}", self.tex_digits()))
+    }
+
+    fn tex_digits(&self) -> String {
+        self.signed("-").replace(NARROW_SPACE, r"\,")
     }
 }
 
@@ -103,21 +131,21 @@ fn shows_power(exponent: i32) -> bool {
 }
 
 /// A number with these digits and nothing else; one that rounds to zero has no sign.
-fn bare(x: f64, mantissa: String) -> Printed {
-    let negative = x < 0.0 && mantissa.contains(|c: char| ('1'..='9').contains(&c));
-    Printed { negative, mantissa, ..Printed::default() }
+fn bare(x: f64, digits: String) -> Numeral {
+    let negative = x < 0.0 && digits.contains(|c: char| ('1'..='9').contains(&c));
+    Numeral { negative, digits, ..Numeral::default() }
 }
 
-fn shortest(x: f64) -> Printed {
+fn shortest(x: f64) -> Numeral {
     let exponent = leading(x, 17);
     if x != 0.0 && shows_power(exponent) {
         let (mantissa, exponent) = scientific(&format!("{:e}", x.abs()));
-        return Printed { exponent: Some(exponent), ..bare(x, mantissa) };
+        return Numeral { exponent: Some(exponent), ..bare(x, mantissa) };
     }
     bare(x, format!("{}", x.abs()))
 }
 
-fn significant(x: f64, digits: usize) -> Printed {
+fn significant(x: f64, digits: usize) -> Numeral {
     if x == 0.0 {
         return bare(x, "0".into());
     }
@@ -125,7 +153,7 @@ fn significant(x: f64, digits: usize) -> Printed {
 }
 
 /// The number with its error in brackets: one digit of it, or two after a leading 1.
-fn with_error(x: f64, error: f64) -> Printed {
+fn with_error(x: f64, error: f64) -> Numeral {
     if error <= 0.0 {
         return shortest(x);
     }
@@ -140,17 +168,17 @@ fn with_error(x: f64, error: f64) -> Printed {
         Some(after) => after.trim_start_matches('0').to_string(),
         None => error,
     };
-    Printed { error: Some(error), ..decimal }
+    Numeral { error: Some(error), ..decimal }
 }
 
 /// Rounded to a decimal place (negative: tens, hundreds), with a power of ten where one is due.
-fn to_place(x: f64, places: i32) -> Printed {
+fn to_place(x: f64, places: i32) -> Numeral {
     // The leading digit after rounding; that of the last place for what rounds to nothing.
     let digits = if x == 0.0 { 0 } else { leading(x, 17) + places + 1 };
     let exponent = if digits < 1 { -places } else { leading(x, digits as usize) };
     if shows_power(exponent) {
         let mantissa = rounded(times_ten(x, -exponent), places + exponent);
-        return Printed { exponent: Some(exponent), ..bare(x, mantissa) };
+        return Numeral { exponent: Some(exponent), ..bare(x, mantissa) };
     }
     bare(x, rounded(x, places))
 }
@@ -213,11 +241,11 @@ impl Value {
 mod tests {
     use super::*;
 
-    fn error(value: f64, error: f64) -> Printed {
+    fn error(value: f64, error: f64) -> Shown {
         print(&Value::ensemble("x", value, error, 9).number, Style::default())
     }
 
-    fn real(value: f64, digits: usize) -> Printed {
+    fn real(value: f64, digits: usize) -> Shown {
         print(&Value::real("x", value, digits).number, Style::default())
     }
 
@@ -260,13 +288,13 @@ mod tests {
     #[test]
     fn each_markup_has_its_minus_and_power() {
         assert_eq!(real(-3.25, 3).markdown(), "−3.25");
-        assert_eq!(real(-3.25, 3).maths(), "-3.25");
+        assert_eq!(real(-3.25, 3).tex(), "-3.25");
         assert_eq!(real(1.2e-5, 2).markdown(), r"$1.2\times10^{-5}$");
-        assert_eq!(real(1e-9, 1).maths(), "10^{-9}");
-        assert_eq!(real(-2e-9, 1).maths(), r"-2\times10^{-9}");
-        let big = bare(1.0, grouped(1_234_567));
+        assert_eq!(real(1e-9, 1).tex(), "10^{-9}");
+        assert_eq!(real(-2e-9, 1).tex(), r"-2\times10^{-9}");
+        let big = print(&Number::Integer(1_234_567), Style::default());
         assert_eq!(big.markdown(), "1\u{202f}234\u{202f}567");
-        assert_eq!(big.maths(), r"1\,234\,567");
+        assert_eq!(big.tex(), r"1\,234\,567");
         assert_eq!(big.plain(), "1234567");
     }
 
@@ -275,7 +303,7 @@ mod tests {
         let number = Value::ensemble("x", 0.9453, 0.0081, 400).number;
         let percent = Style { percent: true, ..Style::default() };
         assert_eq!(print(&number, percent).plain(), "94.5(8) %");
-        assert_eq!(print(&number, percent).maths(), r"94.5(8)\,\%");
+        assert_eq!(print(&number, percent).tex(), r"94.5(8)\,\%");
         let full = Style { digits: Some(Digits::Full), ..Style::default() };
         assert_eq!(print(&number, full).plain(), "0.9453");
         assert_eq!(

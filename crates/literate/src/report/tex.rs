@@ -7,8 +7,6 @@
 //! mathematics is held against a list of what is known there, to LaTeX with amsmath, and to math-core.
 
 use super::Error;
-use super::mark::{Piece, pieces};
-use crate::input::is_no_text;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -40,13 +38,9 @@ pub fn text(text: &str) -> Result<String, Error> {
     Ok(out)
 }
 
-/// Mathematics: TeX already, but for characters beyond ASCII, which are written so that they may stand in `\text{…}` too.
+/// Mathematics: TeX already, but for characters beyond ASCII, which are written so that they may
+/// stand in `\text{…}` too.
 pub fn maths(tex: &str) -> Result<String, Error> {
-    let piece = |piece| match piece {
-        Piece::Text(tex) => tex.to_string(),
-        Piece::Value { id, shown } => value(&id, shown),
-    };
-    let tex: String = pieces(tex).into_iter().map(piece).collect();
     let mut out = String::with_capacity(tex.len());
     for c in tex.chars() {
         match in_text(c) {
@@ -60,9 +54,15 @@ pub fn maths(tex: &str) -> Result<String, Error> {
 
 /// A value that leads to its card by the macro `\origin` of the template.
 pub fn value(id: &str, shown: &str) -> String {
-    let plain = |c: u8| c.is_ascii_alphanumeric() || b"._:=,-".contains(&c);
-    let one = |c: u8| if plain(c) { char::from(c).into() } else { format!("\\%{c:02X}") };
-    format!("\\origin{{{}}}{{{shown}}}", id.bytes().map(one).collect::<String>())
+    let is_plain = |c: u8| c.is_ascii_alphanumeric() || b"._:=,-".contains(&c);
+    let mut address = String::new();
+    for c in id.bytes() {
+        match is_plain(c) {
+            true => address.push(char::from(c)),
+            false => address += &format!("\\%{c:02X}"),
+        }
+    }
+    format!("\\origin{{{address}}}{{{shown}}}")
 }
 
 /// A block of code inside `alltt`, where only `\`, `{` and `}` are special.
@@ -141,13 +141,8 @@ const ALLOWED: &str = "
 
 const ENVIRONMENTS: [&str; 5] = ["aligned", "cases", "matrix", "pmatrix", "bmatrix"];
 
-/// What is wrong with a formula: its first macro or environment that not every format shows, or a value that stands
-/// where TeX takes one sign.
+/// What is wrong with a formula: its first macro or environment that not every format shows.
 pub fn refused(tex: &str) -> Option<String> {
-    let mark = |sign: char| tex.split(sign).skip(1).any(|rest| rest.starts_with(is_no_text));
-    if mark('^') || mark('_') {
-        return Some("a value is an index here; put it into {…}".into());
-    }
     let mut rest = tex;
     while let Some((before, after)) = rest.split_once('\\') {
         if let Some(what) = bare(before) {

@@ -1,11 +1,10 @@
 //! Running text: words, formulas, code, references and values.
 
-use super::super::card::words_and_maths;
-use super::super::document::Inline;
+use super::super::document::{Formula, Inline, Part};
 use super::super::lint;
-use super::super::mark::{self, Piece, bare, framed, pieces};
-use super::super::print::{Printed, print};
-use super::super::{Error, mathml, tex};
+use super::super::mark::{self, Piece, pieces};
+use super::super::print::{Shown, print};
+use super::super::{Error, tex};
 use super::{ALONE, ELSE, Reader, is_block, markup};
 use pulldown_cmark::{Event, LinkType, Tag};
 use std::ops::Range;
@@ -36,12 +35,12 @@ impl Reader<'_> {
                 }
                 Event::InlineMath(tex) => {
                     self.stands_free(range.start)?;
-                    self.formula(&range);
-                    out.push(Inline::Maths(self.maths(&tex)?));
+                    self.check_numbers(&range);
+                    out.push(Inline::Maths(self.formula(&tex, range.start)?));
                 }
                 Event::DisplayMath(tex) => {
-                    self.formula(&range);
-                    out.push(self.display(&tex, range.end)?);
+                    self.check_numbers(&range);
+                    out.push(self.display(&tex, range)?);
                 }
                 Event::SoftBreak => out.push(Inline::Soft),
                 Event::Start(tag) => out.push(self.span(tag, range)?),
@@ -70,7 +69,7 @@ impl Reader<'_> {
     }
 
     /// Notes a naked number in a formula; what tags wrote is a letter there.
-    fn formula(&mut self, range: &Range<usize>) {
+    fn check_numbers(&mut self, range: &Range<usize>) {
         let source = self.source(range);
         let tex = source.trim_start_matches('$');
         let begin = range.end - tex.len();
@@ -158,16 +157,15 @@ impl Reader<'_> {
         self.naked(lint::words(source, range.clone(), self.declared));
         for piece in pieces(text) {
             match piece {
-                Piece::Text(words) => {
-                    // A character that LaTeX does not know is an error here, where its place is known.
-                    tex::text(words)?;
-                    match out.last_mut() {
-                        Some(Inline::Text(before)) => before.push_str(words),
-                        _ => out.push(Inline::Text(words.to_string())),
-                    }
+                Piece::Text(words) if words.contains(mark::is_sign) => {
+                    return Err(markup("a part of the name of a value was cut off; name it whole"));
                 }
+                Piece::Text(words) => match out.last_mut() {
+                    Some(Inline::Text(before)) => before.push_str(words),
+                    _ => out.push(Inline::Text(words.to_string())),
+                },
                 Piece::Value { id, shown } => {
-                    let shown = words_and_maths(&self.printed(&id, shown)?.markdown());
+                    let shown = self.printed(&id, shown)?;
                     out.push(Inline::Value { id, shown });
                 }
             }
@@ -175,30 +173,41 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// TeX that every format can show.
-    fn maths(&self, tex: &str) -> Result<String, Error> {
-        let one = |piece| match piece {
-            Piece::Value { id, shown } => Ok(framed(&id, &self.printed(&id, shown)?.maths())),
-            Piece::Text(text) => Ok(text.to_string()),
-        };
-        let tex: String = pieces(tex).into_iter().map(one).collect::<Result<_, Error>>()?;
-        let bare = bare(&tex);
-        if bare.contains(['«', '»', '`']) {
+    /// A formula with macros that every format can show.
+    fn formula(&mut self, tex: &str, at: usize) -> Result<Formula, Error> {
+        let mut formula = Formula::default();
+        for piece in pieces(tex) {
+            formula.0.push(match piece {
+                Piece::Value { id, shown } => {
+                    let shown = self.printed(&id, shown)?;
+                    Part::Value { id, shown }
+                }
+                Piece::Text(text) => Part::Tex(text.to_string()),
+            });
+        }
+        let tex = formula.digits();
+        if tex.contains(['«', '»', '`']) {
             return Err(markup(LEFTOVER));
         }
-        match tex::refused(&tex) {
-            Some(what) => Err(Error::Maths { tex: bare, what }),
-            None => tex::maths(&bare).and_then(|_| mathml::reads(&bare)).map(|()| tex),
+        let is_index = |pair: &[Part]| matches!(pair, [Part::Tex(tex), Part::Value { .. }] if tex.ends_with(['^', '_']));
+        let what = match formula.0.windows(2).any(is_index) {
+            true => Some("a value is an index here; put it into {…}".into()),
+            false => tex::refused(&tex),
+        };
+        if let Some(what) = what {
+            return Err(Error::Maths { tex, what });
         }
+        self.places.add(format!("${tex}"), at);
+        Ok(formula)
     }
 
-    /// An equation that ends at an offset: cuts `\tag{18}` out of it, or takes the id `{#eq:name}` behind it.
-    fn display(&mut self, tex: &str, end: usize) -> Result<Inline, Error> {
-        let behind = &self.filled.text[end..];
+    /// A displayed equation: cuts `\tag{18}` out of it, or takes the id `{#eq:name}` behind it.
+    fn display(&mut self, tex: &str, range: Range<usize>) -> Result<Inline, Error> {
+        let behind = &self.filled.text[range.end..];
         let id =
             behind.trim_start_matches(' ').strip_prefix("{#").and_then(|id| id.split_once('}'));
         if let Some((id, rest)) = id {
-            self.id_at = end..self.filled.text.len() - rest.len();
+            self.id_at = range.end..self.filled.text.len() - rest.len();
             self.id("eq", id, self.at)?;
         }
         let mut id = id.map(|(id, _)| id.to_string());
@@ -210,7 +219,8 @@ impl Reader<'_> {
             self.id("eq", &own, self.at)?;
             (id, number, tex) = (Some(own), tag.into(), format!("{}{}", before.trim(), after));
         }
-        Ok(Inline::Display { tex: self.maths(tex.trim())?, id, number })
+        let formula = self.formula(tex.trim(), range.start)?;
+        Ok(Inline::Display { formula, id, number })
     }
 
     /// Text in which values are digits alone: code, targets of links.
@@ -222,7 +232,7 @@ impl Reader<'_> {
         pieces(text).into_iter().map(one).collect()
     }
 
-    fn printed(&self, id: &str, filters: &str) -> Result<Printed, Error> {
+    fn printed(&self, id: &str, filters: &str) -> Result<Shown, Error> {
         let unknown = || Error::Template(format!("there is no value {id}"));
         let value = self.values.get(id).ok_or_else(unknown)?;
         Ok(print(&value.number, mark::style(filters)))

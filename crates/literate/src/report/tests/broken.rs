@@ -73,8 +73,8 @@ a[^1] => 14:2 => markup without its other end
 # Another title => 14:1 => one title
 - ![Words.](figures/fig03.svg) => 14:3 => stands in no list
 words ![Words.](figures/fig03.svg) => 14:7 => a picture stands alone
-at «v.half_height[1:]» => 14:1 => U+E001
-see 漢 => 14:1 => '漢'"##;
+at «v.half_height[1:]» => 14:1 => name it whole
+see 漢 => 14:5 => '漢'"##;
 
 #[test]
 fn broken_prose_is_told_with_its_place() {
@@ -103,4 +103,13 @@ fn good_prose_passes() {
         «literal(text=\"2007\", why=\"the year\")», two-sided, `f64`, $k = 3$, $x_{12} = «v.half_height»$\n\n```\n12\n```\n\n\
         $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>";
     assembled(&format!("{PROSE}\n\n{good}\n")).unwrap();
+}
+
+/// Faults that only a writer can see have places too, those of several blocks at once.
+#[test]
+fn writers_name_the_places_of_their_faults() {
+    let several =
+        assembled(&format!("{PROSE}\n\n漢\n\nat é and $\\left( x$\n\nand 字\n")).unwrap_err();
+    let places: Vec<String> = several.to_string().lines().map(|line| line[..15].into()).collect();
+    assert_eq!(places, ["report.md:14:1:", "report.md:18:5:"]);
 }
