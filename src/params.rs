@@ -1,19 +1,23 @@
-//! Every number that the paper or this edition chose: meaning, unit, default, section.
+//! Holds the parameters of the experiments in each profile, and numbers that the paper or this edition chose.
 //!
-//! A default is the paper's value wherever the paper gives one. A [`Profile`] is a set of values
-//! of the sample sizes, and of nothing else: it never changes the model.
+//! A parameter has the paper's value wherever the paper gives one. A [`Profile`] decides the sizes of samples and
+//! nothing else: it never changes the model.
 
 mod accuracy;
 mod chosen;
 mod ensembles;
+mod grid;
+mod methods;
 mod nucleation;
-mod sizes;
+mod runs;
 
-pub use accuracy::{BENCH, BiasParams, MethodName, RaceParams, ScaleParams, Setting, TrialParams};
+pub use accuracy::{BENCH, BiasParams, RaceParams, ScaleParams, TrialParams};
 pub use chosen::*;
 pub use ensembles::*;
+pub use grid::Grid;
 pub use impact_chain::{Boundary, Chain, Protocol, Start};
 pub use impact_numerics::estimates::LEVEL;
 pub use literate::experiments::Profile;
+pub use methods::{MethodName, Setting};
 pub use nucleation::{NucleationParams, SeedsParams};
-pub use sizes::{Grid, Runs, TwoMassesParams};
+pub use runs::{Runs, TwoMassesParams};

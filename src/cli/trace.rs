@@ -1,13 +1,15 @@
 //! The verb `trace`.
 
 use super::range::within;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use impact_chain::LATEST;
 use impact_chain::methods::State;
 use impact_chain::{Error, Impact, Scenario, rounding};
 use impact_paper::experiments::alive;
 use impact_paper::params::MethodName;
+use literate::Failure;
 use literate::cli::terminal::{warn, written as printed};
-use literate::{Failure, input};
+use literate::input::{self, one_line, plain};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -47,7 +49,8 @@ pub struct Args {
     #[arg(long, value_name = "M")]
     max_impacts: Option<u64>,
     /// Simulate by this method; all but the first are there to be compared with it.
-    #[arg(long, value_name = "NAME", value_enum, default_value_t = MethodName::Certified, hide_default_value = true)]
+    #[arg(long, value_name = "NAME", value_parser = method_names(), default_value = MethodName::Certified.id(),
+        hide_default_value = true)]
     method: MethodName,
     /// Take this step in time, of the methods that have one.
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
@@ -55,6 +58,63 @@ pub struct Args {
     /// Allow this error in a step, of runge-kutta, or this width of a gap that is hit, of advancement.
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     tolerance: Option<f64>,
+}
+
+/// A method, its option with the usual value if it has one, and its line of `trace --help`, where `{}` is the option.
+type MethodLine = (MethodName, Option<(&'static str, f64)>, &'static str);
+
+const METHODS: [MethodLine; 8] = [
+    (
+        MethodName::Certified,
+        None,
+        "Flight in closed form, the first root of each gap certified: misses nothing",
+    ),
+    (
+        MethodName::Sampled,
+        Some(("--step", 0.01)),
+        "Flight in closed form, gaps sampled every {}, sign changes bisected: misses grazes",
+    ),
+    (
+        MethodName::Advancement,
+        Some(("--tolerance", 1e-12)),
+        "Flight in closed form, gaps advanced by parabolas below them to {}: reports near misses as impacts",
+    ),
+    (
+        MethodName::RungeKutta,
+        Some(("--tolerance", 1e-9)),
+        "Dormand–Prince 5(4) with events, {}: misses pairs of roots within a step",
+    ),
+    (
+        MethodName::MoreauJean,
+        Some(("--step", 1e-3)),
+        "Time stepping on velocities, {}: first order, reports near misses as impacts, but can rest",
+    ),
+    (
+        MethodName::Verlet,
+        Some(("--step", 1e-3)),
+        "Velocity Verlet, reflected at the ends of steps, {}: first order, impacts late",
+    ),
+    (
+        MethodName::Penalty,
+        Some(("--step", 1e-4)),
+        "A stiff damped spring at each contact, {}: order 1/2, wrong restitution in clusters",
+    ),
+    (
+        MethodName::Truth,
+        None,
+        "Every time to 106 bits, slowly: supports walls, one frequency, no contact; takes the next gap from the engine",
+    ),
+];
+
+/// Returns a parser of the names of methods, which lists them with their lines in the help.
+fn method_names() -> impl TypedValueParser<Value = MethodName> {
+    let name = |(method, option, line): &MethodLine| {
+        let option =
+            option.map_or_else(String::new, |(option, usual)| format!("{option} [{usual:?}]"));
+        PossibleValue::new(method.id()).help(line.replace("{}", &option))
+    };
+    let names: Vec<PossibleValue> = METHODS.iter().map(name).collect();
+    PossibleValuesParser::new(names).try_map(MethodName::try_from)
 }
 
 const FORM: &str = r#"The scenario, with the defaults of everything but "forcing":
@@ -152,7 +212,7 @@ fn in_file(name: &str, error: Error) -> Failure {
         Error::Input { ref field, .. } if ["step", "tolerance"].contains(&field.as_str()) => {
             Failure::input(format!("--{error}"))
         }
-        error => Failure::input(format!("{name}: {}", input::plain(&error.to_string()))),
+        error => Failure::input(format!("{name}: {}", one_line(&plain(&error.to_string()), 1000))),
     }
 }
 
@@ -161,14 +221,9 @@ fn in_file(name: &str, error: Error) -> Failure {
 /// # Errors
 /// Exit code 2 for an option that the method does not have.
 fn setting(args: &Args) -> Result<f64, Failure> {
-    let (takes, usual) = match args.method {
-        MethodName::Certified | MethodName::Truth => ("neither", 0.0),
-        MethodName::Sampled => ("--step", 0.01),
-        MethodName::Advancement => ("--tolerance", 1e-12),
-        MethodName::RungeKutta => ("--tolerance", 1e-9),
-        MethodName::MoreauJean | MethodName::Verlet => ("--step", 1e-3),
-        MethodName::Penalty => ("--step", 1e-4),
-    };
+    let (_, option, _) =
+        METHODS.into_iter().find(|(method, ..)| *method == args.method).unwrap_or(METHODS[0]);
+    let (takes, usual) = option.unwrap_or(("neither", 0.0));
     for (option, value) in [("--step", args.step), ("--tolerance", args.tolerance)] {
         if value.is_some() && option != takes {
             let name = args.method.id();

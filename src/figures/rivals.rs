@@ -3,7 +3,6 @@
 
 use super::prelude::*;
 use crate::experiments::Measured;
-use crate::experiments::accuracy::tables::name;
 use crate::experiments::measured::What;
 use crate::params::MethodName;
 
@@ -39,7 +38,7 @@ pub fn draw(
 ) -> Result<(), Error> {
     for (method, points) in curves {
         let look = look(*method);
-        panel.marked(name(*method), points, (Stroke { width: THIN, ..look.2 }, look), outside)?;
+        panel.marked(method.title(), points, (Stroke { width: THIN, ..look.2 }, look), outside)?;
     }
     names(panel, curves, places)
 }
@@ -51,7 +50,7 @@ pub fn names(panel: &Panel, curves: &Curves, places: &[Place]) -> Result<(), Err
         if let Some(at) = curve.and_then(|curve| curve.get(*setting).or(curve.last())) {
             let inside = (at.0, at.1.clamp(panel.y.lo, panel.y.hi));
             let colour = if *method == MethodName::Certified { RED } else { INK };
-            panel.name(name(*method), inside, *offset, colour)?;
+            panel.name(method.title(), inside, *offset, colour)?;
         }
     }
     Ok(())

@@ -3,7 +3,6 @@
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look};
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
-use crate::experiments::accuracy::tables::name;
 use crate::params::MethodName::{self, *};
 
 /// Where the names stand in the upper panel.
@@ -53,7 +52,7 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     let spreads = by_method(&race.entries, spread);
     for (method, bars) in &spreads {
         let thin = Stroke { width: HAIR, ..look(*method).2 };
-        errors.bars(name(*method), bars, 0, thin, Outside::Edge)?;
+        errors.bars(method.title(), bars, 0, thin, Outside::Edge)?;
     }
     let median = |(method, bars): (MethodName, Vec<(f64, f64, f64)>)| {
         (method, bars.iter().map(|bar| (bar.0, bar.1)).collect())

@@ -4,7 +4,6 @@ use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look, programs};
 use crate::experiments::Measured;
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
-use crate::experiments::accuracy::tables::name;
 use crate::params::MethodName::*;
 use impact_numerics::statistics::Estimate;
 
@@ -81,7 +80,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         for (method, found) in &methods {
             let bars = found.iter().map(|(x, t)| (*x, t.value - t.error, t.value + t.error));
             let stroke = Stroke { width: HAIR, ..look(*method).2 };
-            panel.bars(name(*method), &bars.collect::<Vec<_>>(), 0, stroke, Outside::Edge)?;
+            panel.bars(method.title(), &bars.collect::<Vec<_>>(), 0, stroke, Outside::Edge)?;
         }
         let points = |found: Vec<(f64, Estimate)>| found.into_iter().map(|(x, t)| (x, t.value));
         let curves = methods.into_iter().map(|(method, found)| (method, points(found).collect()));

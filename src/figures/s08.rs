@@ -4,7 +4,7 @@ use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look};
 use crate::experiments::Measured;
 use crate::experiments::accuracy::bias::Biases;
-use crate::experiments::accuracy::tables::{Compared, compared, name};
+use crate::experiments::accuracy::tables::{Compared, compared};
 use crate::params::MethodName::{self, *};
 use crate::params::Setting;
 use impact_numerics::estimates::with_error;
@@ -81,7 +81,7 @@ fn shown(
     found: &[(f64, Estimate)],
 ) -> Result<Vec<(f64, f64)>, Error> {
     let (mark, size, grey) = look(method);
-    let title = name(method);
+    let title = method.title();
     let percent = |bias: &Estimate| with_error(100.0 * bias.value, 100.0 * bias.error);
     let found: Vec<_> = found.iter().map(|(x, bias)| (*x, percent(bias))).collect();
     panel.record(title, found.iter().copied());

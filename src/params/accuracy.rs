@@ -1,80 +1,12 @@
-//! Methods of simulation by name, and the sizes of the experiments on their speed and accuracy.
+//! Sizes of the experiments on the speed and accuracy of methods.
 
-use super::{Chain, Profile, Protocol, Runs, SEED};
-use impact_chain::methods::{
-    Advancement, Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Truth, Verlet,
-};
+use super::chosen::SEED;
+use super::methods::{MethodName, Setting};
+use super::runs::Runs;
+use impact_chain::{Chain, Protocol};
+use literate::experiments::Profile;
 use serde::{Deserialize, Serialize};
 use std::slice;
-
-/// A method of simulation by its name in results, in measurements and on the command line. The texts are the lines of
-/// `trace --help`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
-#[serde(rename_all = "kebab-case")]
-pub enum MethodName {
-    /// Flight in closed form, the first root of each gap certified: nothing is missed.
-    Certified,
-    /// Flight in closed form, gaps sampled every --step [0.01], sign changes bisected: misses grazes.
-    Sampled,
-    /// Flight in closed form, gaps advanced by parabolas below them to --tolerance [1e-12]: hits near misses.
-    Advancement,
-    /// Dormand–Prince 5(4) with events, --tolerance [1e-9]: misses pairs of roots within a step.
-    RungeKutta,
-    /// Time stepping on velocities, --step [0.001]: first order, hits near misses, but can rest.
-    MoreauJean,
-    /// Velocity Verlet with flips at the ends of steps, --step [0.001]: first order, impacts late.
-    Verlet,
-    /// A stiff damped spring for each contact, --step [0.0001]: order 1/2, restitution off in clusters.
-    Penalty,
-    /// Every time to 106 bits, slowly: walls, one frequency, no contact; takes the next gap from the engine.
-    Truth,
-}
-
-impl MethodName {
-    /// The engine and its rivals.
-    pub const ALL: [MethodName; 7] = [
-        MethodName::Certified,
-        MethodName::Sampled,
-        MethodName::Advancement,
-        MethodName::RungeKutta,
-        MethodName::MoreauJean,
-        MethodName::Verlet,
-        MethodName::Penalty,
-    ];
-
-    /// The method with a step in units of 1/ω or a tolerance, if it has one.
-    pub fn with(self, value: f64) -> Box<dyn Method> {
-        match self {
-            MethodName::Certified => Box::new(Certified),
-            MethodName::Sampled => Box::new(Sampled { step: value }),
-            MethodName::Advancement => Box::new(Advancement { tolerance: value }),
-            MethodName::RungeKutta => Box::new(RungeKutta { tolerance: value }),
-            MethodName::MoreauJean => Box::new(MoreauJean { step: value }),
-            MethodName::Verlet => Box::new(Verlet { step: value }),
-            MethodName::Penalty => Box::new(Penalty { step: value }),
-            MethodName::Truth => Box::new(Truth),
-        }
-    }
-
-    /// Its name.
-    pub fn id(self) -> &'static str {
-        self.with(0.0).name()
-    }
-
-    /// Whether its setting is a tolerance and no step.
-    pub fn has_tolerance(self) -> bool {
-        matches!(self, MethodName::Advancement | MethodName::RungeKutta)
-    }
-}
-
-/// A method with its step or tolerance; 0 for the engine, which has none.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Setting {
-    /// The method.
-    pub method: MethodName,
-    /// Step h in units of 1/ω, or tolerance.
-    pub value: f64,
-}
 
 const STEPS: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
 
@@ -243,18 +175,5 @@ impl BiasParams {
         };
         let chains = sigmas.into_iter().map(chains).collect();
         BiasParams { chains, transient: protocol.transient, settings }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_method_has_one_name_everywhere() {
-        for name in MethodName::ALL.into_iter().chain([MethodName::Truth]) {
-            assert_eq!(serde_json::json!(name), name.id());
-            assert_eq!(clap::ValueEnum::to_possible_value(&name).unwrap().get_name(), name.id());
-        }
     }
 }

@@ -1,7 +1,9 @@
 //! Ensembles of chains: which, at which σ, and how many.
 
-use super::{Boundary, Chain, Grid, Profile, Protocol, SECOND_SEED, Start};
-use impact_chain::{Beyond, Ensemble, Heating};
+use super::chosen::SECOND_SEED;
+use super::grid::Grid;
+use impact_chain::{Beyond, Boundary, Chain, Ensemble, Heating, Protocol, Start};
+use literate::experiments::Profile;
 
 /// Windows (T, T + W] for all of these T and W, transients outer.
 fn windows(transients: &[f64], windows: &[f64]) -> Vec<Protocol> {

@@ -1,6 +1,9 @@
 //! Sizes of the experiments on gaps that close by themselves and on the spreading of impacts from one of them.
 
-use super::{Chain, Grid, Profile, SEED};
+use super::chosen::SEED;
+use super::grid::Grid;
+use impact_chain::Chain;
+use literate::experiments::Profile;
 use serde::{Deserialize, Serialize};
 
 /// Chains from rest, run until their first impact.

@@ -5,6 +5,7 @@ use crate::QUICK;
 use impact_chain::Scenario;
 use impact_numerics::random::generator;
 use impact_paper::claims::Published;
+use literate::input::one_line;
 use literate::report::bibliography::Library;
 use literate::report::filler::Filler;
 use literate::report::labels::Labels;
@@ -94,7 +95,7 @@ fn prose(text: &str) -> Result<(), Error> {
 }
 
 fn line<T>(read: Result<T, impl std::fmt::Display>) -> Result<(), String> {
-    read.map(drop).map_err(|error| error.to_string())
+    read.map(drop).map_err(|error| one_line(&error.to_string(), 1000))
 }
 
 #[test]
@@ -107,6 +108,6 @@ fn no_reader_panics_or_hangs() {
     of("paper/values.json", 100, |text| line(values::read(text)));
     of("paper/ledger.json", 100, |text| line(ledger::read(text)));
     of("paper/SHA256SUMS", 1000, |text| folder::read_sums(text).map(drop).ok_or_else(String::new));
-    let scenario = |text: &str| line(Scenario::from_json(text).and_then(|own| own.validate()));
+    let scenario = |text: &str| line(Scenario::from_json(text).and_then(|read| read.validate()));
     survives("scenario", SCENARIO.into(), 2000, scenario);
 }

@@ -7,28 +7,14 @@ use crate::experiments::prelude::*;
 use crate::params::{MethodName, Setting};
 use impact_numerics::statistics::{mean, standard_error};
 
-/// The name of a method in figures and tables.
-pub fn name(method: MethodName) -> &'static str {
-    match method {
-        MethodName::Certified => "engine",
-        MethodName::Sampled => "sampling",
-        MethodName::Advancement => "advancement",
-        MethodName::RungeKutta => "Runge–Kutta",
-        MethodName::MoreauJean => "time stepping",
-        MethodName::Verlet => "Verlet",
-        MethodName::Penalty => "penalty springs",
-        MethodName::Truth => "true motion",
-    }
-}
-
 /// A method with its steps or tolerances, as Markdown.
 pub fn titled(settings: &[Setting]) -> String {
     let method = settings[0].method;
     let letter = if method.has_tolerance() { r"\mathrm{tol}" } else { "h" };
     let values: Vec<String> = settings.iter().map(|setting| power(setting.value)).collect();
     match method {
-        MethodName::Certified => name(method).to_string(),
-        _ => format!("{}, ${letter} = {}$", name(method), values.join(r";\ ")),
+        MethodName::Certified => method.title().to_string(),
+        _ => format!("{}, ${letter} = {}$", method.title(), values.join(r";\ ")),
     }
 }
 

@@ -1,28 +1,10 @@
-//! Sample sizes and grids of each profile, in one place.
+//! Runs of equal chains at one σ, and the sizes of the experiments that consist of them.
 
-use super::{Chain, PRINTED_THRESHOLD, Profile, SEED};
-use impact_chain::Scenario;
+use super::chosen::{PRINTED_THRESHOLD, SEED};
+use impact_chain::{Chain, Scenario};
 use impact_numerics::random::NormalPairs;
+use literate::experiments::Profile;
 use serde::{Deserialize, Serialize};
-
-/// A σ axis made of stretches of equal steps; values are exact quotients, so 0.12 is the double
-/// nearest to 0.12.
-#[derive(Clone, Debug, Default)]
-pub struct Grid(Vec<f64>);
-
-impl Grid {
-    /// Appends i / `denominator` for i = `from`, `from` + `step`, … up to `to`, included.
-    pub fn and(mut self, from: u32, to: u32, step: usize, denominator: u32) -> Self {
-        self.0.extend((from..=to).step_by(step).map(|i| f64::from(i) / f64::from(denominator)));
-        self
-    }
-
-    /// The values, rising.
-    pub fn values(self) -> Vec<f64> {
-        debug_assert!(self.0.windows(2).all(|w| w[0] < w[1]));
-        self.0
-    }
-}
 
 /// Chains of one kind at one σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,0 +1,20 @@
+//! Makes axes of σ from stretches of equal steps.
+
+/// A σ axis made of stretches of equal steps; values are exact quotients, so 0.12 is the double
+/// nearest to 0.12.
+#[derive(Clone, Debug, Default)]
+pub struct Grid(Vec<f64>);
+
+impl Grid {
+    /// Appends i / `denominator` for i = `from`, `from` + `step`, … up to `to`, included.
+    pub fn and(mut self, from: u32, to: u32, step: usize, denominator: u32) -> Self {
+        self.0.extend((from..=to).step_by(step).map(|i| f64::from(i) / f64::from(denominator)));
+        self
+    }
+
+    /// The values, rising.
+    pub fn values(self) -> Vec<f64> {
+        debug_assert!(self.0.windows(2).all(|w| w[0] < w[1]));
+        self.0
+    }
+}

@@ -1,0 +1,95 @@
+//! Names the methods of simulation: in results, on the command line, and in figures and tables.
+
+use impact_chain::methods::{
+    Advancement, Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Truth, Verlet,
+};
+use serde::{Deserialize, Serialize};
+
+/// A method of simulation. In results it has the name of [`Method::name`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(into = "&'static str", try_from = "String")]
+pub enum MethodName {
+    Certified,
+    Sampled,
+    Advancement,
+    RungeKutta,
+    MoreauJean,
+    Verlet,
+    Penalty,
+    Truth,
+}
+
+impl MethodName {
+    /// The engine and its rivals.
+    pub const ALL: [MethodName; 7] = [
+        MethodName::Certified,
+        MethodName::Sampled,
+        MethodName::Advancement,
+        MethodName::RungeKutta,
+        MethodName::MoreauJean,
+        MethodName::Verlet,
+        MethodName::Penalty,
+    ];
+
+    /// Returns the method with a step in units of 1/ω or a tolerance, if it has one.
+    pub fn with(self, value: f64) -> Box<dyn Method> {
+        match self {
+            MethodName::Certified => Box::new(Certified),
+            MethodName::Sampled => Box::new(Sampled { step: value }),
+            MethodName::Advancement => Box::new(Advancement { tolerance: value }),
+            MethodName::RungeKutta => Box::new(RungeKutta { tolerance: value }),
+            MethodName::MoreauJean => Box::new(MoreauJean { step: value }),
+            MethodName::Verlet => Box::new(Verlet { step: value }),
+            MethodName::Penalty => Box::new(Penalty { step: value }),
+            MethodName::Truth => Box::new(Truth),
+        }
+    }
+
+    /// Returns its name in results and on the command line: `runge-kutta`.
+    pub fn id(self) -> &'static str {
+        self.with(0.0).name()
+    }
+
+    /// Returns its name in figures and tables: `Runge–Kutta`.
+    pub fn title(self) -> &'static str {
+        match self {
+            MethodName::Certified => "engine",
+            MethodName::Sampled => "sampling",
+            MethodName::Advancement => "advancement",
+            MethodName::RungeKutta => "Runge–Kutta",
+            MethodName::MoreauJean => "time stepping",
+            MethodName::Verlet => "Verlet",
+            MethodName::Penalty => "penalty springs",
+            MethodName::Truth => "true motion",
+        }
+    }
+
+    /// Whether its setting is a tolerance rather than a step.
+    pub fn has_tolerance(self) -> bool {
+        matches!(self, MethodName::Advancement | MethodName::RungeKutta)
+    }
+}
+
+impl From<MethodName> for &'static str {
+    fn from(method: MethodName) -> Self {
+        method.id()
+    }
+}
+
+impl TryFrom<String> for MethodName {
+    type Error = String;
+
+    fn try_from(id: String) -> Result<Self, String> {
+        let all = MethodName::ALL.into_iter().chain([MethodName::Truth]);
+        let mut named = all.filter(|method| method.id() == id);
+        named.next().ok_or_else(|| format!("there is no method {id:?}"))
+    }
+}
+
+/// A method with its step or tolerance; 0 for the engine, which has none.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Setting {
+    pub method: MethodName,
+    /// Step h in units of 1/ω, or tolerance.
+    pub value: f64,
+}
