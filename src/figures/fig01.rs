@@ -31,7 +31,7 @@ pub fn draw() -> Result<Figure, Error> {
     floor_labels(&sheet, right)?;
     distances(&sheet)?;
 
-    let description = seen!(
+    let description = describe!(
         "A row of n equal masses on elastic stems, rooted a distance d apart between walls at 0 and (n + 1)d; \
          each is bent away from its equilibrium, the first and the second towards each other. Marked are d, the position x1(t), the closing gap \
          Δ1(t) between the first two masses, and the force F2(t) on the second."

@@ -8,8 +8,8 @@ use crate::experiments::theory::beside;
 pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let sheet = Sheet::new(7550);
     let n = sweep.ensemble.chain.gaps();
-    let (x, y) = (sigma_axis().bare(), count_axis(n, "expected number of impacts"));
-    let panel = sheet.lettered(LETTERS[0], MAIN, x, y)?;
+    let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
+    let panel = sheet.lettered_panel(LETTERS[0], MAIN, x, y)?;
     let all: Vec<_> =
         sweep.comparable().filter_map(|row| Some((row.sigma, row.mean_all?.value))).collect();
     let intervals = sweep
@@ -20,7 +20,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     printed(&panel, beside::at(&means(sweep), PRINTED).unwrap_or(0.0))?;
     let broken = Stroke::dashed(GREY, LINE, Dash::Short);
     panel.curve("mean of all", &all, broken, Outside::Cut)?;
-    panel.marks("mean of those with an impact", &means(sweep), CROSSES, Outside::Cut)?;
+    panel.markers("mean of those with an impact", &means(sweep), CROSSES, Outside::Cut)?;
     let end = (panel.x.hi, n as f64);
     panel.label("mean of those with an impact", end, (-1, 3), RED)?;
     panel.label("mean of all", reaches(&all, 7.0), (3, 0), GREY)?;
@@ -33,16 +33,16 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     }
 
     let (x, y) = (sigma_axis(), Axis::linear(0.0, 1.0, 0.5, 5, "share"));
-    let share = sheet.lettered(LETTERS[1], Frame::new(1200, 5200, 8150, 6650), x, y)?;
+    let share = sheet.lettered_panel(LETTERS[1], Frame::new(1200, 5200, 8150, 6650), x, y)?;
     let ran = sweep.comparable().filter(|row| row.ran > 0);
     let fraction: Vec<_> = ran.map(|row| (row.sigma, row.kept as f64 / row.ran as f64)).collect();
     let line = Stroke::solid(RED, THIN);
-    let dot = (Mark::Disc, 38, Stroke::solid(RED, HAIR));
-    share.marked("share with an impact", &fraction, (line, dot), Outside::Cut)?;
+    let dot = (Symbol::Disc, 38, Stroke::solid(RED, HAIR));
+    share.curve_with_markers("share with an impact", &fraction, (line, dot), Outside::Cut)?;
     let at = reaches(&fraction, 0.5);
     share.label("share of the realisations with an impact", at, (5, 0), RED)?;
 
-    let description = seen!(
+    let description = describe!(
         "(a) Mean number of different gaps that impact against σ, simulated with {} masses: of the realisations with an impact \
          (crosses, pale 95 % intervals) it {}; of all realisations (broken line) it starts near zero. (b) The share with an \
          impact rises from {} to {}.",

@@ -11,7 +11,7 @@ pub fn draw() -> Result<Figure, Error> {
 
     // Of the four vertices each leads to each.
     let (edges, arrows, pairs) = (4 * 4, 4 * 3, 4 * 3 / 2);
-    let description = seen!(
+    let description = describe!(
         "A directed graph with the four vertices L-1, 1-2, 2-3 and 3-R at the corners \
         of a square: the impacts of three masses with the left wall, among each other and with the \
         right wall. Its {edges} edges join every vertex to every vertex: {} loops and {arrows} arrows, two of \

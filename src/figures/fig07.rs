@@ -13,20 +13,21 @@ pub fn draw() -> Result<Figure, Error> {
     let top = largest(&share);
     let x = Axis::linear(SHOWN - 0.5, N as f64 + 0.5, 2.0, 2, "length *k*");
     let y = upwards_from_zero(top, "*ϕ*_{*N*}(*k*) / *ϕ*_{*N*}^{tot}");
-    let columns = sheet.lettered(LETTERS[0], Frame::new(1150, 480, 4050, 3380), x, y)?;
-    let columns = columns.file("");
+    let columns = sheet.lettered_panel(LETTERS[0], Frame::new(1150, 480, 4050, 3380), x, y)?;
+    let columns = columns.with_suffix("");
     columns.columns("share of circuits", &share, Stroke::solid(GREEN, THIN))?;
     let lowest = (logs.iter().copied().fold(0.0, f64::min) / 40.0).floor() as i32 * 40;
     let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "length *k*");
     let frame = Frame::new(5250, 480, 8200, 3380);
-    let curve = sheet.lettered(LETTERS[1], frame, x, Axis::decades(lowest, 0, 40, ""))?.quiet();
+    let curve =
+        sheet.lettered_panel(LETTERS[1], frame, x, Axis::decades(lowest, 0, 40, ""))?.unrecorded();
     let line = Stroke::solid(GREEN, LINE);
     curve.curve("share of circuits", &over_k(&share), line, Outside::Refuse)?;
     let first = format!("10^{{−{}}}", -logs[0].round());
     curve.label(&format!("*k* = 1: {first}"), (8.0, share[0]), (1, -1), INK)?;
 
     let peak = share.iter().position(|&s| s == top).unwrap_or(0) + 1;
-    let description = seen!(
+    let description = describe!(
         "The share of all simple circuits of a fully connected graph of N = {N} vertices that have length k. (a) Columns over \
          the last few k, which hold nearly all; the highest, {}, stands at k = {peak}. (b) All k on a logarithmic axis: the share \
          falls to about {} at k = 1.",

@@ -16,14 +16,14 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let panel = sheet.panel(FOUR[i], x, upwards_from_zero(top, "*P*(*X* = *k*)"))?;
         let (p, mean) = (short(at, 3), short(of("mean")?, 3));
         panel.record(&format!("probability at p = {p}"), over_k(&probability));
-        panel.quiet().columns("probability", &probability, Stroke::solid(GREEN, THIN))?;
+        panel.unrecorded().columns("probability", &probability, Stroke::solid(GREEN, THIN))?;
         heading(&panel, LETTERS[i], &format!("*p* = {p}, *μ* = {mean}"))?;
         let side = if k_star == 1.0 { (2, 0) } else { (0, -1) };
         let peak = (k_star, largest(&probability));
         panel.label(&format!("*k*^{{∗}} = {k_star}"), peak, side, INK)?;
         seen.push(format!("{} p = {p}: mean {mean}", LETTERS[i]));
     }
-    let description = seen!(
+    let description = describe!(
         "Columns over k = 1 … {N}, on one scale: the probability of k different impacts for simple circuits, N = {N}. From panel to \
          panel the weight moves from single impacts to the whole system. {}.",
         seen.join("; ")

@@ -14,9 +14,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let y = |label: &str| Axis::linear(-4.0, top, 20.0, 2, label);
     let p = || Axis::decades(-3, 0, 1, "*p*");
     let frame = Frame::new(1150, 430, 8150, 3430);
-    let mode = sheet.lettered(LETTERS[0], frame, p().bare(), y("*k*^{∗}"))?;
+    let mode = sheet.lettered_panel(LETTERS[0], frame, p().without_numbers(), y("*k*^{∗}"))?;
     let frame = Frame::new(1150, 4130, 8150, 7130);
-    let expected = sheet.lettered(LETTERS[1], frame, p(), y("*μ*"))?;
+    let expected = sheet.lettered_panel(LETTERS[1], frame, p(), y("*μ*"))?;
 
     let p_jump = results.number("theory.jump.p_jump")?;
     let jump = results.number("theory.jump.k_after")?;
@@ -27,7 +27,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     expected.curve("mean", &mean, CURVE, Outside::Cut)?;
     expected.label("*μ* → 1 as *p* → 0", (expected.x.lo, 1.0), (3, -2), INK)?;
 
-    let description = seen!(
+    let description = describe!(
         "Against the edge probability p on a logarithmic axis, for N = {N}: (a) the most likely number of impacts is 1 up \
          to p = {}, jumps there to {jump} and climbs on in steps of one; (b) the expected number rises from 1 without a jump \
          and levels off towards {N}.",
@@ -54,6 +54,6 @@ fn most_likely([p_jump, jump]: [f64; 2], panel: &Panel) -> Result<(), Error> {
     let dotted = Stroke::dashed(GREEN, THIN, Dash::Dotted);
     panel.guide("jump", &[(p_jump, 1.0), (p_jump, jump)], dotted)?;
     let look = |mark| (mark, 50, Stroke::solid(GREEN, THIN));
-    panel.marks("before the jump", &[(p_jump, 1.0)], look(Mark::Disc), Outside::Refuse)?;
-    panel.marks("after the jump", &[(p_jump, jump)], look(Mark::Ring), Outside::Refuse)
+    panel.markers("before the jump", &[(p_jump, 1.0)], look(Symbol::Disc), Outside::Refuse)?;
+    panel.markers("after the jump", &[(p_jump, jump)], look(Symbol::Ring), Outside::Refuse)
 }

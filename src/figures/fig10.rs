@@ -16,11 +16,11 @@ pub fn draw() -> Result<Figure, Error> {
         let last = i + 1 == rows.len();
         let k = || {
             let axis = Axis::linear(0.0, shown, 10.0, 2, "*k*");
-            if last { axis } else { axis.bare() }
+            if last { axis } else { axis.without_numbers() }
         };
         let letter = LETTERS[i].trim_matches(['(', ')']);
         let left = sheet.panel(Frame::new(1000, edge, 4000, edge + 1700), k(), signs(at))?;
-        let left = left.file(&format!("{letter}-f"));
+        let left = left.with_suffix(&format!("{letter}-f"));
         let p = match i {
             0 => "*p* → 0".to_string(),
             1 => format!("*p* = *p*_{{crit}} = {}", short(at, 4)),
@@ -34,7 +34,7 @@ pub fn draw() -> Result<Figure, Error> {
         let room = if i == 0 { 1.0 } else { 1.02 };
         let y = upwards_from_zero(room * largest(&columns), "Φ_{*N*,*p*}(*k*) / Γ_{*N*,*p*}");
         let right = sheet.panel(Frame::new(5250, edge, 8250, edge + 1700), k(), y)?;
-        let right = right.file(&format!("{letter}-phi"));
+        let right = right.with_suffix(&format!("{letter}-phi"));
         // At the jump two columns are the highest.
         let (jump, after) = steps()[1];
         let highest = if at == jump { vec![1, after] } else { vec![k_star(at)] };
@@ -44,7 +44,7 @@ pub fn draw() -> Result<Figure, Error> {
             right.label("height at *k* = 1", (right.x.hi, height), (-1, 1), INK)?;
         }
     }
-    let description = seen!(
+    let description = describe!(
         "Four rows for rising p, N = {N}, over k. Left f, whose sign tells whether the weight Φ grows from k to \
          k + 1; right, Φ divided by its sum. Where f turns positive a second maximum grows; in the last row it equals the first \
          column, and the most likely number jumps from 1 to {}.",
@@ -66,8 +66,8 @@ fn sign(panel: &Panel, p: f64) -> Result<(), Error> {
     panel.curve("f", &f(p), Stroke::solid(BLUE, LINE), Outside::Cut)?;
     if let Some(zeros) = zeros(p) {
         let at = zeros.map(|k| (k, 0.0));
-        let disc = (Mark::Disc, 60, Stroke::solid(BLUE, HAIR));
-        panel.marks("zeros of f", &at, disc, Outside::Cut)?;
+        let disc = (Symbol::Disc, 60, Stroke::solid(BLUE, HAIR));
+        panel.markers("zeros of f", &at, disc, Outside::Cut)?;
         if zeros[0] < zeros[1] {
             // Where the curve is not: below the line inside the arch, above it outside.
             panel.label("*k*_{−}", at[0], (1, 1), INK)?;
@@ -84,8 +84,8 @@ fn weight(panel: &Panel, highest: &[usize], shown: &[f64]) -> Result<(), Error> 
     panel.guide("height at k = 1", &[(0.5, first), (panel.x.hi, first)], level)?;
     for &k in highest {
         let at = (k as f64, shown[k - 1]);
-        let disc = (Mark::Disc, 75, Stroke::solid(RED, HAIR));
-        panel.marks("most likely", &[at], disc, Outside::Refuse)?;
+        let disc = (Symbol::Disc, 75, Stroke::solid(RED, HAIR));
+        panel.markers("most likely", &[at], disc, Outside::Refuse)?;
         // Next to the first column, under the broken line; above the other columns.
         match (k, highest.len()) {
             (1, 1) => panel.label("*k*^{∗} = 1", at, (2, 1), RED)?,

@@ -14,7 +14,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let simple = curve(results.table("theory.curve")?, sweep, "simple");
     panel.curve("theory", &simple, Stroke::solid(GREEN, LINE), Outside::Cut)?;
     let simulated = means(sweep);
-    panel.marks("simulation", &simulated, CROSSES, Outside::Cut)?;
+    panel.markers("simulation", &simulated, CROSSES, Outside::Cut)?;
     panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
     panel.label("graph theory", reaches(&simple, 0.7 * n as f64), (2, 0), GREEN)?;
     if let Some(half) = sweep.first().rise.half_height {
@@ -22,7 +22,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         lag(&sheet, &panel, [half.value, theory], n as f64 / 2.0)?;
     }
 
-    let description = seen!(
+    let description = describe!(
         "Expected number of impacts against σ: crosses for the simulation, {} at σ = {PRINTED}; a line for the graph theory with N = \
          {VERTICES}, {} there. The simulation rises earlier than the theory; an arrow shows by how much at half height. For large \
          σ the two come together.",

@@ -97,7 +97,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let share = results.number(&format!("theory.classes[p={p}].simple"));
         share.map(|share| short(share, 2))
     };
-    let description = seen!(
+    let description = describe!(
         "Probability of k different impacts, N = {N}, for five classes of circuits: a wide grey line for the sum, broken ones for the \
          classes. (b) enlarges (a); (e), (f) are (a), (d) on a logarithmic axis. Simple circuits hold {} of the whole at p = {}, {} at p = {} and {} at p = {}.",
         share(small)?,

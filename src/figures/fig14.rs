@@ -33,7 +33,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let distance = short(distance, 3);
         seen.push(format!("{} p = {p}: total variation distance {distance}", LETTERS[i]));
     }
-    let description = seen!(
+    let description = describe!(
         "Probability of k different impacts, N = {N}, of simple circuits and with higher orders (broken line). The two curves \
          lie apart in (a) and nearly on each other in (b). {}.",
         seen.join("; ")

@@ -8,15 +8,15 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (sweep, theory) = (sweep::main(results)?, results.table("theory.curve")?);
     let sheet = Sheet::new(7550);
     let n = sweep.ensemble.chain.gaps();
-    let (x, y) = (sigma_axis().bare(), count_axis(n, "expected number of impacts"));
-    let panel = sheet.lettered(LETTERS[0], MAIN, x, y)?;
+    let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
+    let panel = sheet.lettered_panel(LETTERS[0], MAIN, x, y)?;
     let [simple, higher] = ["simple", "higher"].map(|column| curve(theory, sweep, column));
     panel.curve("simple circuits", &simple, Stroke::solid(GREEN, LINE), Outside::Cut)?;
     let blue = Stroke::dashed(BLUE, LINE, Dash::Long);
     panel.curve("five classes", &higher, blue, Outside::Cut)?;
     let simulated = means(sweep);
     printed(&panel, 0.6 * n as f64)?;
-    panel.marks("simulation", &simulated, CROSSES, Outside::Cut)?;
+    panel.markers("simulation", &simulated, CROSSES, Outside::Cut)?;
     panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
     panel.label("simple circuits only", reaches(&simple, 0.5 * n as f64), (2, 0), GREEN)?;
     panel.label("with higher orders", reaches(&higher, 0.08 * n as f64), (-2, 0), BLUE)?;
@@ -25,12 +25,13 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);
     let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "added");
-    let added = sheet.lettered(LETTERS[1], Frame::new(1200, 5200, 8150, 6650), sigma_axis(), y)?;
+    let added =
+        sheet.lettered_panel(LETTERS[1], Frame::new(1200, 5200, 8150, 6650), sigma_axis(), y)?;
     added.curve("difference of the theories", &change, Stroke::solid(BLUE, LINE), Outside::Cut)?;
     let peak = (reaches(&change, most).0, 0.7 * most);
     added.label("what the higher orders add", peak, (5, 0), BLUE)?;
 
-    let description = seen!(
+    let description = describe!(
         "(a) Expected number of impacts against σ: crosses for the simulation, {} at σ = {PRINTED}; lines for the theory with simple \
          circuits only, {} there, and with higher orders, {}. (b) The higher orders add at most {} gaps, far less than the \
          simulation is ahead; beyond the rise the lines cannot be told apart.",

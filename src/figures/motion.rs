@@ -27,11 +27,11 @@ pub fn draw(
     let x = time_axis(duration);
     let y = Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*");
     let panel = sheet.panel(Frame::new(1200, 4900, 8000, 8500), x, y)?;
-    let panel = panel.file("b");
+    let panel = panel.with_suffix("b");
     sheet.text(LETTERS[1], (260, 4690), look)?;
     motion(&panel, segment, order.len())?;
     let names: Vec<&str> = order.iter().map(|&gap| NAMES[gap]).collect();
-    let description = seen!(
+    let description = describe!(
         "(a) The graph of three masses with a {kind} circuit in red: {}. (b) Positions of the three masses against time, \
          over {} time units of a simulated motion, a segment and not a periodic orbit; each impact has \
          the number of the edge that leaves its vertex.",
@@ -69,14 +69,14 @@ fn motion(panel: &Panel, segment: &Segment, length: usize) -> Result<(), Error> 
     }
     let ends = (1..).zip(&paths).zip(MASSES);
     let ends = ends.map(|((j, path), look)| (format!("*x*_{{{j}}}"), path, look.0));
-    panel.ends(&ends.collect::<Vec<_>>())?;
+    panel.label_ends(&ends.collect::<Vec<_>>())?;
     let hits: Vec<_> =
         segment.impacts.iter().map(|hit| (hit.time - from, hit.position / d)).collect();
-    let ring = (Mark::Ring, 70, Stroke::solid(RED, 24));
-    panel.quiet().marks("impacts", &hits, ring, Outside::Refuse)?;
+    let ring = (Symbol::Ring, 70, Stroke::solid(RED, 24));
+    panel.unrecorded().markers("impacts", &hits, ring, Outside::Refuse)?;
     for (i, (hit, at)) in segment.impacts.iter().zip(&hits).enumerate() {
         panel.record(&format!("impact {}", name(hit.gap)), [*at]);
-        panel.name(&(i % length + 1).to_string(), *at, (0, -1), RED)?;
+        panel.label_nearby(&(i % length + 1).to_string(), *at, (0, -1), RED)?;
     }
     Ok(())
 }

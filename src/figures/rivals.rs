@@ -9,13 +9,13 @@ use crate::params::MethodName;
 /// The look of a method; its line joins the settings of the method.
 pub fn look(method: MethodName) -> Marker {
     let (mark, size) = match method {
-        MethodName::Certified => return (Mark::Disc, LARGE + 12, Stroke::solid(RED, LINE)),
-        MethodName::Sampled => (Mark::Ring, MEDIUM + 4),
-        MethodName::Advancement => (Mark::OpenSquare, MEDIUM),
-        MethodName::RungeKutta => (Mark::Disc, MEDIUM),
-        MethodName::MoreauJean => (Mark::Plus, MEDIUM + 14),
-        MethodName::Penalty => (Mark::OpenTriangle, MEDIUM),
-        MethodName::Verlet | MethodName::Truth => (Mark::Cross, MEDIUM),
+        MethodName::Certified => return (Symbol::Disc, LARGE + 12, Stroke::solid(RED, LINE)),
+        MethodName::Sampled => (Symbol::Ring, MEDIUM + 4),
+        MethodName::Advancement => (Symbol::OpenSquare, MEDIUM),
+        MethodName::RungeKutta => (Symbol::Disc, MEDIUM),
+        MethodName::MoreauJean => (Symbol::Plus, MEDIUM + 14),
+        MethodName::Penalty => (Symbol::OpenTriangle, MEDIUM),
+        MethodName::Verlet | MethodName::Truth => (Symbol::Cross, MEDIUM),
     };
     (mark, size, Stroke::solid(GREY, THIN))
 }
@@ -38,7 +38,12 @@ pub fn draw(
 ) -> Result<(), Error> {
     for (method, points) in curves {
         let look = look(*method);
-        panel.marked(method.title(), points, (Stroke { width: THIN, ..look.2 }, look), outside)?;
+        panel.curve_with_markers(
+            method.title(),
+            points,
+            (Stroke { width: THIN, ..look.2 }, look),
+            outside,
+        )?;
     }
     names(panel, curves, places)
 }
@@ -50,7 +55,7 @@ pub fn names(panel: &Panel, curves: &Curves, places: &[Place]) -> Result<(), Err
         if let Some(at) = curve.and_then(|curve| curve.get(*setting).or(curve.last())) {
             let inside = (at.0, at.1.clamp(panel.y.lo, panel.y.hi));
             let colour = if *method == MethodName::Certified { RED } else { INK };
-            panel.name(method.title(), inside, *offset, colour)?;
+            panel.label_nearby(method.title(), inside, *offset, colour)?;
         }
     }
     Ok(())

@@ -8,7 +8,7 @@ use crate::params::Protocol;
 const DETAIL: f64 = 400.0;
 
 /// A gap at which impacts start.
-const START: Marker = (Mark::Disc, 62, Stroke::solid(RED, HAIR));
+const START: Marker = (Symbol::Disc, 62, Stroke::solid(RED, HAIR));
 
 pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let sheet = Sheet::new(9350);
@@ -18,11 +18,12 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
 
     // Thousandths are finer than the picture, and a file of all digits would be twice as long.
     let whole = time(0.0, until, until / 4.0).column("time_to_thousandths (1/omega)");
-    let whole = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
+    let whole =
+        sheet.lettered_panel(LETTERS[0], Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
     let impacts = points(run, 0.0, until);
     window(&whole, until)?;
     let row = (whole.frame.bottom - whole.frame.top) / (run.width() as i32 + 1);
-    whole.quiet().ticks("impacts", &impacts, 12, Stroke::solid(INK, row as u32))?;
+    whole.unrecorded().ticks("impacts", &impacts, 12, Stroke::solid(INK, row as u32))?;
     whole.record("impacts", impacts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     starts(&whole, run, until)?;
 
@@ -30,7 +31,8 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let from = (run.times.first().unwrap_or(&0.0) / 10.0).floor() * 10.0;
     let to = from + DETAIL;
     let near = Frame::new(1200, 5250, 8150, 8550);
-    let near = sheet.lettered(LETTERS[1], near, time(from, to, DETAIL / 4.0), gaps())?.quiet();
+    let near =
+        sheet.lettered_panel(LETTERS[1], near, time(from, to, DETAIL / 4.0), gaps())?.unrecorded();
     near.ticks("first impacts", &points(run, from, to), 14, Stroke::solid(INK, 30))?;
     starts(&near, run, to)?;
     if let Some((time, gap)) = run.times.first().zip(run.gaps.first()) {
@@ -52,7 +54,7 @@ fn window(panel: &Panel, until: f64) -> Result<(), Error> {
         return Ok(());
     }
     let (low, high) = (panel.y.lo, panel.y.hi);
-    panel.area("window", &[(from, low), (to, low), (to, high), (from, high)], ORANGE, 30)?;
+    panel.filled_area("window", &[(from, low), (to, low), (to, high), (from, high)], ORANGE, 30)?;
     panel.label("counting window", (from, high), (1, -1), ORANGE)
 }
 
@@ -61,13 +63,13 @@ fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
     let firsts = run.firsts();
     let starts = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
     let starts: Vec<_> = starts.filter(|(time, _)| *time <= until).collect();
-    panel.quiet().marks("starts", &starts, START, Outside::Refuse)?;
+    panel.unrecorded().markers("starts", &starts, START, Outside::Refuse)?;
     panel.record("starts", starts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     Ok(())
 }
 
-fn description(run: &SpaceTime) -> Seen {
-    seen!(
+fn description(run: &SpaceTime) -> Description {
+    describe!(
         "Gap against time, a tick for each of {} impacts of one run of {} masses at σ = {}. Impacts form horizontal bands that \
          begin at {} red discs and widen in bursts; {} of {} gaps are reached by the end. (b) A part of it, finer.",
         run.times.len(),

@@ -24,10 +24,15 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result<(), Error> {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
+    let panel = sheet.lettered_panel(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let mut kept = sweep.points(&[], "sigma", "kept");
     kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
-    panel.marks("kept", &kept, (Mark::Ring, LARGE, Stroke::solid(INK, THIN)), Outside::Refuse)?;
+    panel.markers(
+        "kept",
+        &kept,
+        (Symbol::Ring, LARGE, Stroke::solid(INK, THIN)),
+        Outside::Refuse,
+    )?;
     let last = found.values("time").last().copied().unwrap_or_default();
     let lengths = found.values("masses");
     for (place, &masses) in lengths.iter().enumerate() {
@@ -37,7 +42,11 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result
         panel.curve(&name, &curve, Stroke::solid(colour, LINE), Outside::Refuse)?;
         let marks = found.estimates(&keys, "sigma", "found");
         panel.record(&format!("{name}, simulation"), marks.iter().copied());
-        panel.quiet().estimates(&name, &marks, (Mark::Disc, LARGE, Stroke::solid(colour, THIN)))?;
+        panel.unrecorded().estimates(
+            &name,
+            &marks,
+            (Symbol::Disc, LARGE, Stroke::solid(colour, THIN)),
+        )?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, share)| (share, sigma)).collect();
         let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-3, 0)) };
         panel.label(&name, (at(&rising, height).unwrap_or(SIGMAS.0), height), side, colour)?;
@@ -47,9 +56,9 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result
 }
 
 fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
-    let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").from(8.0, 9e3);
+    let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").between(8.0, 9e3);
     let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*_{rest}");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
+    let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
     let sigmas = found.values("sigma");
     let three = [sigmas.first().copied(), Some(PAPER.1), sigmas.last().copied()];
     let mut drawn = Vec::new();
@@ -58,20 +67,25 @@ fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
         let points = found.points(&[("sigma", sigma)], "time", "missing");
         let thin = Stroke::solid(colour, THIN);
         let name = format!("*σ* = {sigma}");
-        panel.marked(&name, &points, (thin, (Mark::Disc, LARGE, thin)), Outside::Cut)?;
+        panel.curve_with_markers(
+            &name,
+            &points,
+            (thin, (Symbol::Disc, LARGE, thin)),
+            Outside::Cut,
+        )?;
         // The names stand clear of the last discs.
         let ends = points.into_iter().map(|(time, missing)| (1.1 * time, missing));
         drawn.push((name, ends.collect::<Vec<_>>(), colour));
     }
-    panel.ends(&drawn)?;
+    panel.label_ends(&drawn)?;
     // T^{−2} through (10, 0.1).
     panel.guide("power", &[(10.0, 0.1), (1e4, 1e-7)], Stroke::dashed(INK, THIN, Dash::Short))?;
     panel.label("∝ *T*^{ −2}", (60.0, 2.8e-3), (-1, 1), INK)
 }
 
-fn description(missing: &Table) -> Seen {
+fn description(missing: &Table) -> Description {
     let sigmas = missing.values("sigma");
-    seen!(
+    describe!(
         "(a) Share of chains with an impact against σ: measured points on steep curves, farther left for longer chains. (b) What is \
          missing of p after T, for σ from {} to {}: lines like 1/T².",
         sigmas.first().copied().unwrap_or_default(),

@@ -13,7 +13,7 @@ use literate::table::Table;
 const SIGMAS: (f64, f64) = (0.075, 0.165);
 
 /// Nucleation and growth, which is computed at some places only.
-const GROWN: (&str, Marker) = ("from seeds", (Mark::OpenSquare, 44, Stroke::solid(INK, HAIR)));
+const GROWN: (&str, Marker) = ("from seeds", (Symbol::OpenSquare, 44, Stroke::solid(INK, HAIR)));
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
@@ -28,7 +28,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Result<(), Error> {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
     let y = count_axis(sweep.ensemble.chain.gaps(), "mean number of gaps");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
+    let panel = sheet.lettered_panel(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.first().protocol.transient)];
     let lines = [
         ("circuits, Eq. (25)", "simple", Stroke::dashed(BLUE, LINE, Dash::Short), 50.0),
@@ -43,7 +43,7 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Resu
         panel.label(name, place, (-2, 0), stroke.colour)?;
     }
     let grown = means.estimates(&transient, "sigma", "grown");
-    panel.joined(GROWN.0, &grown, GROWN.1)?;
+    panel.joined_estimates(GROWN.0, &grown, GROWN.1)?;
     if let Some((sigma, mean)) = grown.iter().find(|(_, mean)| mean.value > 85.0) {
         panel.label(GROWN.0, (*sigma, mean.value), (-1, -1), INK)?;
     }
@@ -52,11 +52,11 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Resu
     let bars: Vec<_> = inside
         .filter_map(|row| Some((row.sigma, row.mean_all?.value, row.mean_all?.interval?)))
         .collect();
-    let look = (Mark::Disc, 42, Stroke::solid(RED, THIN));
+    let look = (Symbol::Disc, 42, Stroke::solid(RED, THIN));
     let ends: Vec<_> = bars.iter().map(|(x, _, [low, high])| (*x, *low, *high)).collect();
     panel.bars("simulation", &ends, 35, look.2, Outside::Refuse)?;
     let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
-    panel.marks("simulation", &points, look, Outside::Refuse)?;
+    panel.markers("simulation", &points, look, Outside::Refuse)?;
     let low = points.iter().copied().rfind(|(_, mean)| *mean < 40.0);
     low.map_or(Ok(()), |low| panel.label("simulation", low, (2, 1), RED))
 }
@@ -70,9 +70,9 @@ fn spread<T: Copy>(all: &[T]) -> Vec<T> {
 }
 
 fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "time since first impact (1/*ω*)").from(20.0, 7000.0);
-    let y = Axis::decades(-1, 2, 1, "advance (gaps)").from(0.3, 80.0);
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4100, 7650), x, y)?;
+    let x = Axis::decades(1, 4, 1, "time since first impact (1/*ω*)").between(20.0, 7000.0);
+    let y = Axis::decades(-1, 2, 1, "advance (gaps)").between(0.3, 80.0);
+    let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 4100, 7650), x, y)?;
     let sigmas = spread(&advance.values("sigma"));
     let mut drawn = Vec::new();
     for (place, sigma) in sigmas.iter().enumerate() {
@@ -81,30 +81,30 @@ fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
         panel.curve(&name, &points, Stroke::solid(colour, LINE), Outside::Cut)?;
         drawn.push((name, points, colour));
     }
-    panel.ends(&drawn)?;
+    panel.label_ends(&drawn)?;
     let straight = Stroke::dashed(INK, THIN, Dash::Short);
     panel.guide("constant speed", &[(10.0, 1.0), (1e3, 100.0)], straight)?;
     panel.label("∝ *t*", (200.0, 20.0), (-1, -1), INK)
 }
 
 fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
-    let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").from(20.0, 2000.0);
+    let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").between(20.0, 2000.0);
     let y = Axis::linear(0.1, 0.14, 0.01, 2, "half height (*d ω*^{2})")
         .column("half_height (d omega^2)");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
+    let panel = sheet.lettered_panel(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
     let grown = rise.points(&[], "transient", "half_height");
-    panel.marked(GROWN.0, &grown, (GROWN.1.2, GROWN.1), Outside::Edge)?;
-    let look = (Mark::Disc, LARGE, Stroke::solid(RED, THIN));
+    panel.curve_with_markers(GROWN.0, &grown, (GROWN.1.2, GROWN.1), Outside::Edge)?;
+    let look = (Symbol::Disc, LARGE, Stroke::solid(RED, THIN));
     let found = scores.estimates(&[], "transient", "half_height");
     panel.estimates("simulation", &found, look)?;
     panel.label("simulation", (150.0, 0.1355), (1, 0), RED)?;
     panel.label("from seeds", (300.0, 0.109), (-1, 0), INK)
 }
 
-fn description(advance: &Table) -> Seen {
+fn description(advance: &Table) -> Description {
     let sigmas = advance.values("sigma");
     let [low, high] = [sigmas.first(), sigmas.last()].map(|end| end.copied().unwrap_or_default());
-    seen!(
+    describe!(
         "(a) Mean count of all against σ: simulated points along the prediction from seeds; circuits steeper. (b) Advance \
          against time at σ from {low} to {high}: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.",
     )

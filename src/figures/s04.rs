@@ -22,10 +22,10 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 }
 
 fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Error> {
-    let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").from(10.0, 7e5);
+    let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 7e5);
     let y = Axis::linear(0.06, 0.14, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
         .column("half_height (d omega^2)");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3930), x, y)?;
+    let panel = sheet.lettered_panel(LETTERS[0], Frame::new(1150, 430, 8150, 3930), x, y)?;
     let bound = results.number("theory.relation.sigma_kept_half")?;
     panel.level("bound by seeds", bound, Stroke::dashed(INK, THIN, Dash::Dotted))?;
     panel.label("bound from rest, *n* = 100", (10.0, bound), (1, 1), INK)?;
@@ -33,11 +33,11 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
     let map = map.points(&[("window", WINDOW)], "transient", "half_height_all");
     panel.curve("from rest, n = 100", &map, Stroke::solid(GREY, LINE), Outside::Cut)?;
     let start = map.get(3).copied().unwrap_or((10.0, bound));
-    panel.name("from rest, *n* = 100", start, (1, -1), GREY)?;
+    panel.label_nearby("from rest, *n* = 100", start, (1, -1), GREY)?;
     for (column, name, colour) in BRANCHES {
-        let look = (Mark::Disc, MEDIUM, Stroke::solid(colour, THIN));
+        let look = (Symbol::Disc, MEDIUM, Stroke::solid(colour, THIN));
         let halves = both.estimates(&[], "transient", column);
-        panel.joined(name, &halves, look)?;
+        panel.joined_estimates(name, &halves, look)?;
         if let Some((time, half)) = halves.last() {
             panel.label(name, (*time, half.value), (2, 0), colour)?;
         }
@@ -49,9 +49,9 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
 fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
     let x = Axis::linear(0.03, 0.145, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of active gaps");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
-    let early = (both.first(), Dash::Short, Mark::Ring);
-    for (pair, dash, mark) in [early, (both.last(), Dash::Solid, Mark::Disc)] {
+    let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
+    let early = (both.first(), Dash::Short, Symbol::Ring);
+    for (pair, dash, mark) in [early, (both.last(), Dash::Solid, Symbol::Disc)] {
         let Some(pair) = pair else { continue };
         // Early curves are named at the side that the others do not reach; the late ones have their time.
         let places = [((0.145, 0.07), (-1, 0)), ((0.03, 0.53), (1, 0))];
@@ -67,23 +67,27 @@ fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
             let (start_name, name) = (name, format!("{name}, {time}"));
             let at = |&sigma: &f64| Some((sigma, share(branch, sigma)?));
             let points: Vec<_> = branch.0.ensemble.sigmas.iter().filter_map(at).collect();
-            panel.joined(&name, &points, (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)))?;
+            panel.joined_estimates(
+                &name,
+                &points,
+                (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)),
+            )?;
             let late = points.iter().find(|point| point.1.value >= 0.1 && point.0 > 0.06);
-            if mark == Mark::Ring {
-                panel.name(&name, corner, side, colour)?;
+            if mark == Symbol::Ring {
+                panel.label_nearby(&name, corner, side, colour)?;
             } else if start == "from_rest" {
                 let last = points.last().map_or(corner, |point| (point.0, point.1.value));
-                panel.name(start_name, last, (2, -1), colour)?;
-                panel.name(&time, last, (2, 1), colour)?;
+                panel.label_nearby(start_name, last, (2, -1), colour)?;
+                panel.label_nearby(&time, last, (2, 1), colour)?;
             } else if let Some((sigma, at)) = late {
-                panel.name(&name, (*sigma, at.value), (-4, 0), colour)?;
+                panel.label_nearby(&name, (*sigma, at.value), (-4, 0), colour)?;
             }
         }
     }
     Ok(())
 }
 
-fn description(both: &Table) -> Seen {
+fn description(both: &Table) -> Description {
     let ends = |column| {
         let places = both.points(&[], "transient", column);
         let ends = places.first().zip(places.last());
@@ -91,7 +95,7 @@ fn description(both: &Table) -> Seen {
             format!("from {} to {}", short(first.1, 3), short(last.1, 3))
         })
     };
-    seen!(
+    describe!(
         "(a) Half height against T: from rest it falls, {}; from above it rises, {}. (b) Share of gaps with an impact against σ, \
          early and late: two curves far apart that approach.",
         ends("from_rest"),

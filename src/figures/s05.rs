@@ -13,7 +13,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8450);
     shares(&sheet)?;
     jumps(&sheet, results.table("theory.large")?)?;
-    let description = seen!(
+    let description = describe!(
         "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
      smaller the jump. (b) Height of the jump against N, with the rule."
     );
@@ -27,8 +27,8 @@ fn power(vertices: usize) -> String {
 
 fn shares(sheet: &Sheet) -> Result<(), Error> {
     let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
-    let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").from(4e-7, 1.0);
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
+    let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
+    let panel = sheet.lettered_panel(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
         let colour = ordered(place, DRAWN_VERTICES.len());
         let stroke = Stroke::solid(colour, LINE);
@@ -51,14 +51,14 @@ fn shares(sheet: &Sheet) -> Result<(), Error> {
 fn jumps(sheet: &Sheet, table: &Table) -> Result<(), Error> {
     let x = Axis::decades(1, 6, 1, "*N*");
     let y = Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7550), x, y)?;
+    let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 8150, 7550), x, y)?;
     let rule = table.points(&[], "n", "rule");
     let rule: Vec<_> = rule.into_iter().map(|(n, k)| (n, k / n)).collect();
     let line = Stroke::solid(INK, THIN);
     panel.curve("rule", &rule, line, Outside::Refuse)?;
     let exact = table.points(&[], "n", "share");
-    let disc = (Mark::Disc, 55, Stroke::solid(RED, THIN));
-    panel.marks("exact", &exact, disc, Outside::Refuse)?;
+    let disc = (Symbol::Disc, 55, Stroke::solid(RED, THIN));
+    panel.markers("exact", &exact, disc, Outside::Refuse)?;
     if let Some(place) = exact.get(4) {
         panel.label("exact", *place, (2, -1), RED)?;
     }

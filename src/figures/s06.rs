@@ -28,10 +28,11 @@ const ALIKE: &str = "Verlet, penalty springs";
 
 pub fn draw(race: &Race) -> Result<Figure, Error> {
     let sheet = Sheet::new(8300);
-    let cost_axis = || Axis::decades(0, 6, 1, "evaluations per impact").from(0.7, 9e5);
+    let cost_axis = || Axis::decades(0, 6, 1, "evaluations per impact").between(0.7, 9e5);
     let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
-    let (x, y) = (cost_axis().bare(), error.column("error of the next impact's time (1/omega)"));
-    let errors = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8250, 4330), x, y)?;
+    let (x, y) =
+        (cost_axis().without_numbers(), error.column("error of the next impact's time (1/omega)"));
+    let errors = sheet.lettered_panel(LETTERS[0], Frame::new(1300, 430, 8250, 4330), x, y)?;
     errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, Dash::Short))?;
     errors.label("missed above", (errors.x.hi, DISPLACED), (-1, -1), INK)?;
 
@@ -44,7 +45,7 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
         first.label = Some("none".into());
     }
     let misses = Frame::new(1300, 4950, 8250, 7250);
-    let misses = sheet.lettered(LETTERS[1], misses, cost_axis(), axis)?;
+    let misses = sheet.lettered_panel(LETTERS[1], misses, cost_axis(), axis)?;
 
     let spread = |e: &Entry| Some((e.setting.method, (e.work?, e.errors?[0], e.errors?[1])));
     let share = |e: &Entry| e.misses as f64 / e.tried.max(1) as f64;
@@ -64,16 +65,16 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
         rivals::draw(panel, curves, places, Outside::Edge)?;
         let verlet = curves.iter().find(|curve| curve.0 == Verlet).map(|curve| &curve.1);
         if let Some(at) = verlet.and_then(|curve| curve.get(setting).or(curve.last())) {
-            panel.name(ALIKE, *at, beside, INK)?;
+            panel.label_nearby(ALIKE, *at, beside, INK)?;
         }
     }
     Ok(sheet.finish("Error and misses of the next impact", description(race)))
 }
 
-fn description(race: &Race) -> Seen {
+fn description(race: &Race) -> Description {
     let certified = race.entries.iter().find(|e| e.setting.method == Certified);
     let largest = certified.and_then(|entry| Some(entry.errors?[1]));
-    seen!(
+    describe!(
         "Against counted work, a mark for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
          impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
          next impact is missed.",

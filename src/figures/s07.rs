@@ -45,13 +45,13 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let sheet = Sheet::new(8700);
     let top = (race.parameters.until / 50.0).ceil() * 50.0;
     let x = Axis::decades(0, 4, 1, "measured time of an impact over the engine’s")
-        .from(0.2, 8e3)
+        .between(0.2, 8e3)
         .column("measured time over the engine's (1)");
     let by_time = Frame::new(1100, 430, 8250, 4330);
-    let by_time = sheet.lettered(LETTERS[0], by_time, x, horizon_axis(top))?;
-    let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").from(1e-20, 0.5);
+    let by_time = sheet.lettered_panel(LETTERS[0], by_time, x, horizon_axis(top))?;
+    let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").between(1e-20, 0.5);
     let by_error = Frame::new(1100, 5500, 8250, 7700);
-    let by_error = sheet.lettered(LETTERS[1], by_error, x, horizon_axis(top))?;
+    let by_error = sheet.lettered_panel(LETTERS[1], by_error, x, horizon_axis(top))?;
 
     chaos(&by_error, race)?;
     if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|t| t[1] < top) {
@@ -64,7 +64,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let others = programs(measured, run.chain.masses);
     for (program, points) in &others {
         let stroke = Stroke::dashed(GREY, HAIR, Dash::Dotted);
-        by_time.quiet().curve(program, points, stroke, Outside::Edge)?;
+        by_time.unrecorded().curve(program, points, stroke, Outside::Edge)?;
     }
     let time = |e: &Entry| match e.setting.method {
         Certified => Some(1.0),
@@ -88,8 +88,8 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     }
     // Their marks lie above those of the methods, and their lines are where no name may be.
     for (program, points) in &others {
-        let look = (Mark::OpenDiamond, MEDIUM, Stroke::solid(GREY, THIN));
-        by_time.marks(program, points, look, Outside::Edge)?;
+        let look = (Symbol::OpenDiamond, MEDIUM, Stroke::solid(GREY, THIN));
+        by_time.markers(program, points, look, Outside::Edge)?;
     }
     let tsit = others.iter().find(|program| program.0 == "diffsol tsit45");
     let tsit = tsit.filter(|program| program.1.iter().all(|point| point.1 < top));
@@ -102,11 +102,11 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     for (program, points) in others {
         let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };
         if let Some(at) = points.get(place.2).or(points.last()) {
-            by_time.name(place.1, (at.0, at.1.min(top)), place.3, GREY)?;
+            by_time.label_nearby(place.1, (at.0, at.1.min(top)), place.3, GREY)?;
         }
     }
-    by_time.name("fixed steps", (150.0, 14.0), (0, -1), INK)?;
-    by_error.name("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
+    by_time.label_nearby("fixed steps", (150.0, 14.0), (0, -1), INK)?;
+    by_error.label_nearby("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
     Ok(sheet.finish("How long a run is true", description(race)))
 }
 
@@ -119,19 +119,24 @@ fn horizon_axis(top: f64) -> Axis {
 fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
     let at = |error: f64| allowed(race, error).map(|t| (error, t));
     let errors = (0..=72).map(|i| pxfm::f_exp10(-18.0 + 0.25 * f64::from(i)));
-    let grid: Vec<_> = errors.filter(|error| panel.x.holds(*error)).filter_map(at).collect();
+    let grid: Vec<_> = errors.filter(|error| panel.x.contains(*error)).filter_map(at).collect();
     let cut = |t: f64| t.min(panel.y.hi);
     let below = grid.iter().map(|(x, t)| (*x, cut(t[0])));
     let above = grid.iter().rev().map(|(x, t)| (*x, cut(t[2])));
-    panel.area("interval of the growth", &below.chain(above).collect::<Vec<_>>(), PALE, 100)?;
+    panel.filled_area(
+        "interval of the growth",
+        &below.chain(above).collect::<Vec<_>>(),
+        PALE,
+        100,
+    )?;
     let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
     let stroke = Stroke::dashed(GREY, LINE, Dash::Short);
     panel.curve("what chaos allows", &line, stroke, Outside::Cut)
 }
 
-fn description(race: &Race) -> Seen {
+fn description(race: &Race) -> Description {
     let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
-    seen!(
+    describe!(
         "Time up to which a run has every impact right, mean of {} chains, n = {}, σ = {}: (a) against measured time over the \
          engine's, the engine at the top left; (b) against the median error of one impact, with the line that the growth λ = \
          {growth} allows.",

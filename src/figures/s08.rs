@@ -34,26 +34,26 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
     for (i, chains) in biases.parameters.chains.iter().enumerate() {
         let top = 430 + i as i32 * (HEIGHT + 420);
         let x = Axis::decades(0, 2, 1, "seconds of one core for a thousand chains")
-            .from(0.8, 200.0)
+            .between(0.8, 200.0)
             .column("time of one core for a thousand chains (s)");
-        let x = if i == last { x } else { x.bare() };
-        let y = Axis::decades(-1, 2, 1, "error of the mean (%)").from(0.2, 400.0);
+        let x = if i == last { x } else { x.without_numbers() };
+        let y = Axis::decades(-1, 2, 1, "error of the mean (%)").between(0.2, 400.0);
         let y = if i == last / 2 {
             y
         } else {
             Axis { label: String::new(), ..y.column("error of the mean (%)") }
         };
         let frame = Frame::new(1150, top, 8250, top + HEIGHT);
-        let panel = sheet.lettered(LETTERS[i], frame, x, y)?;
+        let panel = sheet.lettered_panel(LETTERS[i], frame, x, y)?;
         let corner = (panel.x.hi, panel.y.hi);
         panel.label(&format!("*σ* = {}", chains.sigma), corner, (-1, -1), INK)?;
         let time = |setting: Setting| {
             measured.method(setting, chains.chain.masses, chains.sigma)?.thousand()
         };
         let engine = Setting { method: Certified, value: 0.0 };
-        if let Some(at) = time(engine).filter(|at| panel.x.holds(*at)) {
+        if let Some(at) = time(engine).filter(|at| panel.x.contains(*at)) {
             panel.guide("engine", &[(at, panel.y.lo), (at, panel.y.hi)], look(Certified).2)?;
-            panel.name("engine", (at, panel.y.hi), (1, 1), RED)?;
+            panel.label_nearby("engine", (at, panel.y.hi), (1, 1), RED)?;
         }
         let all = rows.iter().filter(|row| row.sigma == chains.sigma);
         let all: Vec<&Compared> = all.collect();
@@ -65,7 +65,7 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
         }
         if i == 0 {
             panel.label("black: clear errors", (panel.x.hi, panel.y.lo), (-1, -6), INK)?;
-            panel.name("grey: upper bounds", (panel.x.hi, panel.y.lo), (-1, -1), GREY)?;
+            panel.label_nearby("grey: upper bounds", (panel.x.hi, panel.y.lo), (-1, -1), GREY)?;
         }
         rivals::names(&panel, &curves, &NAMES)?;
     }
@@ -85,7 +85,7 @@ fn shown(
     let percent = |bias: &Estimate| with_error(100.0 * bias.value, 100.0 * bias.error);
     let found: Vec<_> = found.iter().map(|(x, bias)| (*x, percent(bias))).collect();
     panel.record(title, found.iter().copied());
-    let panel = panel.quiet();
+    let panel = panel.unrecorded();
     let clear = |bias: &Estimate| bias.value.abs() > CLEAR * bias.error;
     let height =
         |bias: &Estimate| bias.value.abs() + if clear(bias) { 0.0 } else { BOUND * bias.error };
@@ -100,14 +100,14 @@ fn shown(
         } else {
             sheet.free().arrow([*y, 0.5 * y].map(|y| panel.at(*x, y)).into(), stroke);
         }
-        panel.marks(title, &[(*x, *y)], (mark, size, stroke), Outside::Edge)?;
+        panel.markers(title, &[(*x, *y)], (mark, size, stroke), Outside::Edge)?;
     }
     Ok(places)
 }
 
-fn description(biases: &Biases, rows: &[Compared]) -> Seen {
+fn description(biases: &Biases, rows: &[Compared]) -> Description {
     let clear = |row: &&Compared| row.share.is_some_and(|off| off.value.abs() > CLEAR * off.error);
-    seen!(
+    describe!(
         "Error of the mean number of impacting gaps against time, a panel for each of {} σ, the engine as a line at the left: {} of \
          {} points are clear errors, the others upper bounds.",
         biases.parameters.chains.len(),

@@ -22,39 +22,44 @@ fn of_engine(measured: &Measured) -> Vec<&Measurement> {
 pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     let sheet = Sheet::new(6650);
     // Somewhat wider than the sizes, which would stand on the other axis.
-    let masses = || Axis::decades(0, 5, 1, "number of masses *n*").from(7.0, 1.4e4);
+    let masses = || Axis::decades(0, 5, 1, "number of masses *n*").between(7.0, 1.4e4);
     let work = scale.iter().map(|row| row.2);
-    let (x, y) = (masses().bare(), Axis::around(work, 1, "evaluations per impact"));
-    let counted = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8250, 3330), x, y)?;
+    let (x, y) =
+        (masses().without_numbers(), Axis::decades_around(work, 1, "evaluations per impact"));
+    let counted = sheet.lettered_panel(LETTERS[0], Frame::new(1200, 430, 8250, 3330), x, y)?;
     let all = by_method(scale, |row| Some((row.0.method, (row.1 as f64, row.2))));
     rivals::draw(&counted, &all, &NAMES, Outside::Refuse)?;
     // Their marks coincide.
     if let Some(at) = all.iter().find(|curve| curve.0 == Verlet).and_then(|curve| curve.1.last()) {
-        counted.name("Verlet, time stepping", *at, (2, 0), INK)?;
+        counted.label_nearby("Verlet, time stepping", *at, (2, 0), INK)?;
     }
 
     let rows = of_engine(measured);
     let times = rows.iter().filter_map(|row| row.microseconds_per_impact);
-    let (x, y) =
-        (masses(), Axis::around(times, 1, "µs per impact").finely().column("time per impact (us)"));
-    let clock = sheet.lettered(LETTERS[1], Frame::new(1200, 4050, 8250, 5750), x, y)?;
+    let (x, y) = (
+        masses(),
+        Axis::decades_around(times, 1, "µs per impact")
+            .label_1_2_5()
+            .column("time per impact (us)"),
+    );
+    let clock = sheet.lettered_panel(LETTERS[1], Frame::new(1200, 4050, 8250, 5750), x, y)?;
     let red = look(Certified);
     let line: Vec<_> =
         rows.iter().filter_map(|row| Some((row.n as f64, row.microseconds_per_impact?))).collect();
-    clock.marked("engine", &line, (red.2, red), Outside::Refuse)?;
+    clock.curve_with_markers("engine", &line, (red.2, red), Outside::Refuse)?;
     if let Some(last) = line.last() {
         clock.label("engine", *last, (0, -2), RED)?;
     }
     Ok(sheet.finish("Cost of an impact against n", description(scale, &rows)))
 }
 
-fn description(scale: &Costs, rows: &[&Measurement]) -> Seen {
+fn description(scale: &Costs, rows: &[&Measurement]) -> Description {
     let most = scale.iter().rfind(|row| row.0.method == Certified);
     let counted =
         most.map_or("none".into(), |(_, n, work)| format!("{} at n = {n}", short(*work, 2)));
     let last = rows.last().and_then(|row| Some((row.n, row.microseconds_per_impact?)));
     let timed = last.map_or("none".into(), |(n, time)| format!("{} at n = {n}", short(time, 2)));
-    seen!(
+    describe!(
         "Cost against the number of masses n, all axes logarithmic. (a) Evaluations per impact: this engine lowest and nearly level, \
          {counted}; Runge–Kutta grows with n. (b) Microseconds per impact of this engine, {timed}."
     )

@@ -11,7 +11,7 @@ use literate::table::Table;
 pub const CROSS: Stroke = Stroke::solid(RED, THIN);
 
 /// The simulation's marks.
-pub const CROSSES: Marker = (Mark::Cross, 56, CROSS);
+pub const CROSSES: Marker = (Symbol::Cross, 56, CROSS);
 
 /// Bars of intervals, which stay behind the marks.
 pub const INTERVAL: Stroke = Stroke::solid(PALE, 70);

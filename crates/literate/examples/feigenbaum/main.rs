@@ -108,11 +108,11 @@ fn diagram(results: &Results) -> Result<Figure, FigureError> {
             }
         }
     }
-    panel.marks("orbits", &points, (Mark::Disc, 9, Stroke::solid(INK, 4)), Outside::Refuse)?;
+    panel.markers("orbits", &points, (Symbol::Disc, 9, Stroke::solid(INK, 4)), Outside::Refuse)?;
     let onset = limit.number(&[], "onset").unwrap_or(f64::NAN);
     let line = [(onset, 0.0), (onset, 1.0)];
     panel.guide("onset", &line, Stroke::solid(BLUE, THIN))?;
-    let words = seen!(
+    let words = describe!(
         "Points of orbits against the parameter r. A single branch splits, its branches split again, and so on; \
          from r = {onset:.3}, marked by a line, whole ranges of x are covered, with windows between."
     );
@@ -124,13 +124,13 @@ fn convergence(results: &Results) -> Result<Figure, FigureError> {
     let [orbits, limit] = [results.table("cascade.orbits")?, results.table("cascade.limit")?];
     let last = orbits.values("n").last().copied().unwrap_or(1.0);
     let mut plot = Plot::new().x("*n*").log_y("distance from the last ratio");
-    for (column, mark) in [("delta", Mark::Disc), ("alpha", Mark::Ring)] {
+    for (column, mark) in [("delta", Symbol::Disc), ("alpha", Symbol::Ring)] {
         let end = limit.number(&[], column).unwrap_or(f64::NAN);
         let far = |(n, ratio): (f64, f64)| (n, (ratio - end).abs());
         let points: Vec<_> = orbits.points(&[], "n", column).into_iter().map(far).collect();
         plot = plot.line(column, &points).points(column, &points, mark);
     }
-    let words = seen!(
+    let words = describe!(
         "Distances of the ratios from those of the last orbit, n = {}, against n, on a logarithmic axis. Soon \
          both fall along one straight line, by the ratio delta from orbit to orbit.",
         number(last, 0)

@@ -3,24 +3,34 @@
 //! The grid is a hundredth of a millimetre at column width, so whole numbers are fine enough for smooth curves.
 //! Labels become outlines (see [`super::font`]); nothing in the list depends on the machine.
 
-use super::font::Placed;
-use super::panel::Frame;
-use super::style::{Colour, Mark, Stroke, WHITE};
-use super::{Error, font, markup};
+use super::error::Error;
+use super::font::{self, Placed};
+use super::markup;
+use super::path::{Point, Step, circle, polygon, polyline};
+use super::style::{Colour, Stroke, Symbol, WHITE};
 use plotters::style::text_anchor::{HPos, VPos};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
-/// A place on the grid, y downwards.
-pub type Point = (i32, i32);
-
+/// A rectangle of the sheet in grid units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
-    Move(Point),
-    Line(Point),
-    /// A cubic curve: two controls and its end.
-    Curve([Point; 3]),
-    Close,
+pub struct Frame {
+    pub left: i32,
+    pub top: i32,
+    pub right: i32,
+    pub bottom: i32,
+}
+
+impl Frame {
+    /// A frame from its edges.
+    pub const fn new(left: i32, top: i32, right: i32, bottom: i32) -> Self {
+        Frame { left, top, right, bottom }
+    }
+
+    /// Whether a place lies in it, edges included.
+    pub fn contains(&self, (x, y): Point) -> bool {
+        (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
+    }
 }
 
 /// What is inside a shape: a colour, and its opacity in hundredths.
@@ -70,35 +80,6 @@ pub struct Drawing {
     pub glyphs: Glyphs,
 }
 
-fn through(points: impl IntoIterator<Item = Point>) -> Vec<Step> {
-    let mut points = points.into_iter();
-    let first = points.next().map(Step::Move);
-    first.into_iter().chain(points.map(Step::Line)).collect()
-}
-
-fn polygon(points: impl IntoIterator<Item = Point>) -> Vec<Step> {
-    let mut path = through(points);
-    path.push(Step::Close);
-    path
-}
-
-/// A circle as four cubic curves (off by 0.03 % of its radius at most).
-fn circle((x, y): Point, r: i32) -> Vec<Step> {
-    let k = (0.552_284_749_831 * f64::from(r)).round() as i32;
-    let quarter =
-        |[a, b, c]: [Point; 3]| Step::Curve([a, b, c].map(|(dx, dy): Point| (x + dx, y + dy)));
-    let quarters = [
-        [(-r, k), (-k, r), (0, r)],
-        [(k, r), (r, k), (r, 0)],
-        [(r, -k), (k, -r), (0, -r)],
-        [(-k, -r), (-r, -k), (-r, 0)],
-    ];
-    let mut path = vec![Step::Move((x - r, y))];
-    path.extend(quarters.map(quarter));
-    path.push(Step::Close);
-    path
-}
-
 /// Whether a path enters a frame. Curves count as their chords; a chord is looked at in 200 places.
 fn crosses(path: &[Step], frame: Frame) -> bool {
     let mut from = None;
@@ -145,13 +126,13 @@ impl Drawing {
     /// A line through points; repetitions are left out.
     pub fn line(&mut self, mut points: Vec<Point>, stroke: Stroke) {
         points.dedup();
-        self.shape(through(points), None, Some(stroke));
+        self.shape(polyline(points), None, Some(stroke));
     }
 
     /// A straight stroke from each first point to the second.
     pub fn strokes(&mut self, ends: &[Point], stroke: Stroke) {
         let pairs = ends.chunks_exact(2);
-        let path = pairs.flat_map(|pair| through([pair[0], pair[1]])).collect();
+        let path = pairs.flat_map(|pair| polyline([pair[0], pair[1]])).collect();
         self.shape(path, None, Some(stroke));
     }
 
@@ -212,30 +193,30 @@ impl Drawing {
     }
 
     /// Equal markers: shape, half their width, line of open shapes and colour of filled ones.
-    pub fn marks(
+    pub fn markers(
         &mut self,
         points: impl IntoIterator<Item = Point>,
-        (mark, r, stroke): (Mark, i32, Stroke),
+        (mark, r, stroke): (Symbol, i32, Stroke),
     ) {
         let one = |(x, y): Point| match mark {
-            Mark::Cross => [
-                through([(x - r, y - r), (x + r, y + r)]),
-                through([(x + r, y - r), (x - r, y + r)]),
+            Symbol::Cross => [
+                polyline([(x - r, y - r), (x + r, y + r)]),
+                polyline([(x + r, y - r), (x - r, y + r)]),
             ]
             .concat(),
-            Mark::Plus => {
-                [through([(x - r, y), (x + r, y)]), through([(x, y - r), (x, y + r)])].concat()
+            Symbol::Plus => {
+                [polyline([(x - r, y), (x + r, y)]), polyline([(x, y - r), (x, y + r)])].concat()
             }
-            Mark::Disc | Mark::Ring => circle((x, y), r),
-            Mark::OpenSquare => {
+            Symbol::Disc | Symbol::Ring => circle((x, y), r),
+            Symbol::OpenSquare => {
                 polygon([(x - r, y - r), (x + r, y - r), (x + r, y + r), (x - r, y + r)])
             }
-            Mark::OpenTriangle => polygon([(x - r, y + r), (x, y - r), (x + r, y + r)]),
-            Mark::OpenDiamond => polygon([(x, y - r), (x + r, y), (x, y + r), (x - r, y)]),
+            Symbol::OpenTriangle => polygon([(x - r, y + r), (x, y - r), (x + r, y + r)]),
+            Symbol::OpenDiamond => polygon([(x, y - r), (x + r, y), (x, y + r), (x - r, y)]),
         };
         let inside = match mark {
-            Mark::Disc => Some(stroke.colour),
-            Mark::Cross | Mark::Plus => None,
+            Symbol::Disc => Some(stroke.colour),
+            Symbol::Cross | Symbol::Plus => None,
             _ => Some(WHITE),
         };
         let path = points.into_iter().flat_map(one).collect();

@@ -1,12 +1,13 @@
-//! Labels as glyph outlines of the two shipped faces, so that a figure looks the same anywhere.
+//! Sets labels in type, as glyph outlines of the two shipped faces: a figure looks the same
+//! everywhere.
 
 use std::sync::OnceLock;
 
 use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
 
-use super::Error;
-use super::drawing::Step;
+use super::error::Error;
 use super::markup::{self, Face, Level};
+use super::path::Step;
 
 /// Units of an em in both faces; the outlines and the layout below are in these units.
 pub const EM: i32 = 1000;
@@ -17,19 +18,19 @@ pub const CAP_HEIGHT: i32 = 645;
 /// Size of a lowered or raised piece, in thousandths.
 pub const SCRIPT: i32 = 700;
 
-/// Thickness of the line that makes a rim, half of which is seen.
+/// Width of the stroke that makes a rim, half of which is visible.
 pub const RIM: u32 = 260;
 
 const SUB_SHIFT: i32 = -200;
 const SUP_SHIFT: i32 = 380;
 /// How far two stacked scripts are pushed apart.
 const STACK_SHIFT: i32 = 45;
-/// Clear space behind a script before the base line goes on.
+/// Space between a script and the text that follows on the base line.
 const SCRIPT_SPACE: i32 = 30;
-/// Clear space between a slanted letter and an upright one (the italic correction's place).
+/// Space between a slanted letter and an upright one, in place of an italic correction.
 const SLANT_SPACE: i32 = 40;
 
-/// One glyph of a label, its origin in em units with y upwards.
+/// One glyph of a label; its origin is in em units, y upwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placed {
     pub face: Face,
@@ -37,14 +38,14 @@ pub struct Placed {
     pub glyph: u16,
     pub x: i32,
     pub y: i32,
-    /// Whether it is set at [`SCRIPT`] size.
+    /// Set at [`SCRIPT`] size.
     pub small: bool,
 }
 
-/// A label set in type: glyphs and the advance of the whole, in em units.
+/// A label set in type: its glyphs and its width, in em units.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Line {
-    /// The glyphs in reading order, blanks left out.
+    /// In reading order, without blanks.
     pub glyphs: Vec<Placed>,
     pub width: i32,
 }
@@ -77,7 +78,9 @@ pub fn set(label: &str) -> Result<Line, Error> {
             (Level::Sub, Level::Sup) => {
                 if let Some(start) = below.take() {
                     let lowered = line.glyphs.iter_mut().rev().take_while(|g| g.y < 0);
-                    lowered.for_each(|g| g.y -= STACK_SHIFT);
+                    for glyph in lowered {
+                        glyph.y -= STACK_SHIFT;
+                    }
                     (x, lift) = (start, STACK_SHIFT);
                 }
             }
@@ -117,7 +120,7 @@ pub fn set(label: &str) -> Result<Line, Error> {
     Ok(line)
 }
 
-/// Name of a glyph inside a drawing.
+/// Returns the name of a glyph inside a drawing.
 pub fn id(placed: &Placed) -> String {
     match placed.face {
         Face::Regular => format!("r{}", placed.glyph),
@@ -125,7 +128,7 @@ pub fn id(placed: &Placed) -> String {
     }
 }
 
-/// The outline of a glyph in em units, y upwards.
+/// Returns the outline of a glyph in em units, y upwards.
 pub fn outline(placed: &Placed) -> Result<Vec<Step>, Error> {
     let mut steps = Vec::new();
     let mut at: Option<Point> = None;

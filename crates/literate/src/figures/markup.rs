@@ -1,7 +1,8 @@
-//! A tiny mark-up for labels: `*k*^{∗}`, `*ϕ*_{*N*}(*k*)`, `10^{−3}`.
+//! Parses the mark-up of labels: `*k*^{∗}`, `*ϕ*_{*N*}(*k*)`, `10^{−3}`.
 //!
-//! A star turns italics on and off, `_{…}` lowers, `^{…}` raises, a backslash takes the next
-//! character as it is. A raised part right behind a lowered one stands above it.
+//! A star turns italics on and off, `_{…}` lowers, `^{…}` raises, and a character behind a backslash
+//! stands for itself. A raised part that directly follows a
+//! lowered one stands above it.
 
 /// Which of the two shipped faces a character is set in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -25,6 +26,7 @@ pub struct Piece {
     pub text: String,
 }
 
+/// Splits a label into pieces of one face and one height.
 pub fn parse(label: &str) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
     let (mut face, mut level) = (Face::Regular, Level::Base);
@@ -55,7 +57,7 @@ pub fn parse(label: &str) -> Vec<Piece> {
     pieces
 }
 
-/// The label as a plain string, for screen readers and tests: scripts keep `_` and `^`.
+/// Returns a label as plain text, for screen readers and tests: scripts keep `_` and `^`.
 pub fn plain(label: &str) -> String {
     let mut out = String::new();
     let mut before = Level::Base;
@@ -71,7 +73,7 @@ pub fn plain(label: &str) -> String {
     out
 }
 
-/// What data files write in ASCII, and how.
+/// How data files spell characters that ASCII lacks.
 const SPELLED: [(char, &str); 14] = [
     ('σ', "sigma"),
     ('ω', "omega"),
@@ -89,10 +91,13 @@ const SPELLED: [(char, &str); 14] = [
     ('’', "'"),
 ];
 
-/// The label as data files write it: plain, with Greek letters spelled out.
+/// Returns a label in ASCII, for data files: plain, with Greek letters spelled out.
 pub fn spelled(label: &str) -> String {
-    let word = |c: char| SPELLED.iter().find(|(own, _)| *own == c).map(|(_, word)| *word);
-    plain(label).chars().map(|c| word(c).map_or(c.to_string(), String::from)).collect()
+    let mut text = plain(label);
+    for (character, word) in SPELLED {
+        text = text.replace(character, word);
+    }
+    text
 }
 
 #[cfg(test)]

@@ -2,38 +2,19 @@
 //! Both fail if a label has a character that the shipped fonts lack.
 
 use super::axis::{Axis, Tick};
-use super::drawing::{Drawing, Look, Point};
+use super::drawing::{Drawing, Frame, Look};
+use super::error::Error;
+use super::figure::{Description, Figure};
+use super::font;
+use super::path::Point;
 use super::record::Record;
 use super::style::{Colour, HAIR, INK, SMALL, Stroke, TEXT, WIDTH};
-use super::{Error, Figure, Seen, font};
 use plotters::coord::CoordTranslate;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::types::RangedCoordf64;
 use plotters::style::text_anchor::{HPos, VPos};
 use std::cell::{RefCell, RefMut};
 use std::rc::Rc;
-
-/// A rectangle of the sheet in grid units.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names tell")]
-pub struct Frame {
-    pub left: i32,
-    pub top: i32,
-    pub right: i32,
-    pub bottom: i32,
-}
-
-impl Frame {
-    /// A frame from its edges.
-    pub const fn new(left: i32, top: i32, right: i32, bottom: i32) -> Self {
-        Frame { left, top, right, bottom }
-    }
-
-    /// Whether a place lies in it, edges included.
-    pub fn contains(&self, (x, y): Point) -> bool {
-        (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
-    }
-}
 
 /// Axes in a frame; data is given in its own units, whatever the scales.
 #[derive(Clone)]
@@ -92,7 +73,7 @@ impl Panel {
 
     /// Where a value stands on the sheet.
     pub fn at(&self, x: f64, y: f64) -> Point {
-        self.place((self.x.at(x), self.y.at(y)))
+        self.place((self.x.position(x), self.y.position(y)))
     }
 
     /// Where a place on the axes stands on the sheet.
@@ -101,13 +82,13 @@ impl Panel {
     }
 
     /// The same panel, which records into a file of its own: its name is the figure's id with these letters behind.
-    pub fn file(self, suffix: &str) -> Self {
+    pub fn with_suffix(self, suffix: &str) -> Self {
         self.record.borrow_mut().suffix = suffix.into();
         Panel { recorded: true, ..self }
     }
 
     /// The same panel for what is no data of its own: repeated outlines, rims, details.
-    pub fn quiet(&self) -> Self {
+    pub fn unrecorded(&self) -> Self {
         Panel { recorded: false, ..self.clone() }
     }
 
@@ -191,7 +172,7 @@ impl Panel {
 
     /// Names something as [`Panel::label`] does, there or as near as no line and no words are in the way of what is drawn so
     /// far. A name for which there is no room is left out.
-    pub fn name(
+    pub fn label_nearby(
         &self,
         text: &str,
         at: (f64, f64),
@@ -221,12 +202,12 @@ impl Panel {
 
     /// Names curves, each given by name, points and colour, at their right ends in this panel; names that would touch move
     /// apart.
-    pub fn ends<P: AsRef<[(f64, f64)]>>(
+    pub fn label_ends<P: AsRef<[(f64, f64)]>>(
         &self,
         curves: &[(String, P, Colour)],
     ) -> Result<(), Error> {
         let end = |points: &[(f64, f64)]| {
-            let inside = |p: &&(f64, f64)| self.x.holds(p.0) && self.y.holds(p.1);
+            let inside = |p: &&(f64, f64)| self.x.contains(p.0) && self.y.contains(p.1);
             points.iter().rfind(inside).map(|p| self.at(p.0, p.1))
         };
         let named = || {
@@ -263,7 +244,13 @@ impl Sheet {
     }
 
     /// A panel with its axes and its letter.
-    pub fn lettered(&self, letter: &str, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+    pub fn lettered_panel(
+        &self,
+        letter: &str,
+        frame: Frame,
+        x: Axis,
+        y: Axis,
+    ) -> Result<Panel, Error> {
         let panel = self.panel(frame, x, y)?;
         panel.letter(letter)?;
         Ok(panel)
@@ -280,7 +267,7 @@ impl Sheet {
     }
 
     /// Closes a figure. Its data is what its panels have recorded, a file for each. The paper gives it its name.
-    pub fn finish(self, title: &str, description: Seen) -> Figure {
+    pub fn finish(self, title: &str, description: Description) -> Figure {
         let drawing = self.drawing.take();
         let records = self.records.take();
         let data = records.iter().filter_map(|record| record.borrow().file()).collect();
@@ -302,7 +289,7 @@ mod tests {
         panel.label("mark", (0.5, 0.5), (-1, 2), RED).unwrap();
         // The last point of the second lies outside; the ends of both are then too near for their names.
         let (low, high) = ([(0.0, 0.0), (1.0, 0.5)], [(0.9, 0.51), (1.0, 1.5)]);
-        panel.ends(&[("low".into(), &low, BLUE), ("high".into(), &high, RED)]).unwrap();
+        panel.label_ends(&[("low".into(), &low, BLUE), ("high".into(), &high, RED)]).unwrap();
         let drawing = sheet.finish("", Default::default()).drawing;
         let named = |element: &Element| match element {
             Element::Label(Label { words, at, colour, rim: true, .. }) => {
@@ -324,7 +311,7 @@ mod tests {
         let panel = sheet.panel(Frame::new(1000, 100, 4000, 3000), axis(), axis()).unwrap();
         panel.guide("line", &[(0.0, 0.5), (1.0, 0.5)], Stroke::solid(BLUE, 20)).unwrap();
         for text in ["one", "two"] {
-            panel.name(text, (0.5, 0.5), (1, 0), RED).unwrap();
+            panel.label_nearby(text, (0.5, 0.5), (1, 0), RED).unwrap();
         }
         let drawing = sheet.finish("", Default::default()).drawing;
         let places = drawing.elements.iter().filter_map(|element| match element {

@@ -1,8 +1,8 @@
-//! A drawing as a one-page PDF, for LaTeX: the same bytes everywhere.
+//! Writes a drawing as a one-page PDF, for LaTeX: the same bytes everywhere.
 
-use super::drawing::{Drawing, Element, Fill, Label, Point, Step};
+use super::drawing::{Drawing, Element, Fill, Label};
 use super::font;
-use super::panel::Frame;
+use super::path::{Point, Step, polygon};
 use super::style::{Colour, Stroke, WHITE, WIDTH};
 use super::svg::PIXELS_PER_HUNDRED;
 use pdf_writer::types::LineJoinStyle;
@@ -10,21 +10,22 @@ use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, TextStr};
 use std::collections::BTreeSet;
 
 impl Drawing {
-    /// A file.
+    /// Writes a PDF file.
     pub fn pdf(&self, title: &str) -> Vec<u8> {
         // A pixel is 3/4 of a point.
         let width = 0.75 * (WIDTH * PIXELS_PER_HUNDRED / 100) as f32;
         let scale = width / WIDTH as f32;
         let height = scale * self.height as f32;
-        let mut page = Page { drawing: self, content: Content::new(), opacities: BTreeSet::new() };
-        page.content.transform([scale, 0.0, 0.0, -scale, 0.0, height]);
-        let mut ground = Drawing::default();
-        ground.rectangle(Frame::new(0, 0, WIDTH as i32, self.height as i32), WHITE);
-        for element in ground.elements.iter().chain(&self.elements) {
+        let mut writer = Writer { drawing: self, content: Content::new(), opacities: [].into() };
+        writer.content.transform([scale, 0.0, 0.0, -scale, 0.0, height]);
+        let (right, bottom) = (WIDTH as i32, self.height as i32);
+        let page = polygon([(0, 0), (right, 0), (right, bottom), (0, bottom)]);
+        writer.shape(&page, Some((WHITE, 100)), None);
+        for element in &self.elements {
             match element {
                 Element::Open(..) | Element::Close => (),
-                Element::Shape(path, fill, stroke) => page.shape(path, *fill, *stroke),
-                Element::Label(label) => page.label(label),
+                Element::Shape(path, fill, stroke) => writer.shape(path, *fill, *stroke),
+                Element::Label(label) => writer.label(label),
             }
         }
         let [catalog, tree, leaf, content, info] = [1, 2, 3, 4, 5].map(Ref::new);
@@ -32,39 +33,41 @@ impl Drawing {
         pdf.set_version(1, 5);
         pdf.catalog(catalog).pages(tree);
         pdf.pages(tree).kids([leaf]).count(1);
-        let mut own = pdf.page(leaf);
-        own.parent(tree).media_box(Rect::new(0.0, 0.0, width, height)).contents(content);
-        let mut resources = own.resources();
+        let mut page = pdf.page(leaf);
+        page.parent(tree).media_box(Rect::new(0.0, 0.0, width, height)).contents(content);
+        let mut resources = page.resources();
         let mut states = resources.ext_g_states();
-        for hundredths in &page.opacities {
+        for hundredths in &writer.opacities {
             let mut state = states.insert(Name(state(*hundredths).as_bytes())).dict();
             state.pair(Name(b"ca"), f32::from(*hundredths) / 100.0);
         }
         states.finish();
         resources.finish();
-        own.finish();
-        pdf.stream(content, &page.content.finish());
+        page.finish();
+        pdf.stream(content, &writer.content.finish());
         pdf.document_info(info).title(TextStr(title));
         pdf.finish()
     }
 }
 
+/// Returns the name of the graphics state of an opacity.
 fn state(hundredths: u8) -> String {
     format!("o{hundredths}")
 }
 
+/// Returns red, green and blue as parts of one.
 fn shares(Colour(r, g, b): Colour) -> [f32; 3] {
     [r, g, b].map(|part| f32::from(part) / 255.0)
 }
 
-struct Page<'a> {
+struct Writer<'a> {
     drawing: &'a Drawing,
     content: Content,
     /// Opacities in use, in hundredths.
     opacities: BTreeSet<u8>,
 }
 
-impl Page<'_> {
+impl Writer<'_> {
     fn shape(&mut self, path: &[Step], fill: Fill, stroke: Option<Stroke>) {
         let content = &mut self.content;
         content.save_state();
@@ -108,9 +111,10 @@ impl Page<'_> {
     fn label(&mut self, label: &Label) {
         let scale = label.size as f32 / font::EM as f32;
         let (x, y) = (label.at.0 as f32, label.at.1 as f32);
-        let turned = match label.upwards {
-            true => [0.0, -scale, -scale, 0.0, x, y],
-            false => [scale, 0.0, 0.0, -scale, x, y],
+        let turned = if label.upwards {
+            [0.0, -scale, -scale, 0.0, x, y]
+        } else {
+            [scale, 0.0, 0.0, -scale, x, y]
         };
         self.content.save_state().transform(turned);
         let rim = label.rim.then_some((WHITE, Some(Stroke::solid(WHITE, font::RIM))));

@@ -11,19 +11,25 @@
 //!     .log_y("mean square distance (1/s)")
 //!     .estimates("simulated", &found)
 //!     .curve("random phases", |k| k * k / 4.0)
-//!     .finish("Spread of the balls", seen!("Both rise as the square of k."))?;
+//!     .finish("Spread of the balls", describe!("Both rise as the square of k."))?;
 //! # Ok::<(), FigureError>(())
 //! ```
 
-use super::prelude::*;
-use super::{axis, font, panel, style};
+use super::axis::{self, Axis};
+use super::drawing::Frame;
+use super::error::Error;
+use super::figure::{Description, Figure};
+use super::font;
+use super::panel::{self, Sheet};
+use super::series::Outside;
+use super::style::*;
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 use pxfm::{f_exp10, f_log10};
 
 enum Shown {
     Line,
-    Marks(Mark),
+    Marks(Symbol),
     Curve(Box<dyn Fn(f64) -> f64>),
 }
 
@@ -89,13 +95,13 @@ impl Plot {
     }
 
     /// Markers at points (x, y).
-    pub fn points(self, name: &str, points: &[(f64, f64)], mark: Mark) -> Self {
+    pub fn points(self, name: &str, points: &[(f64, f64)], mark: Symbol) -> Self {
         self.add(name, Shown::Marks(mark), points)
     }
 
     /// Discs at estimates with bars of one standard error, as a table gives them.
     pub fn estimates(mut self, name: &str, estimates: &[(f64, Estimate)]) -> Self {
-        self.series.push(Series(name.into(), Shown::Marks(Mark::Disc), estimates.to_vec()));
+        self.series.push(Series(name.into(), Shown::Marks(Symbol::Disc), estimates.to_vec()));
         self
     }
 
@@ -116,7 +122,7 @@ impl Plot {
     ///
     /// # Errors
     /// For a number that is not finite, and for a label with a character that the shipped fonts lack.
-    pub fn finish(mut self, title: &str, description: Seen) -> Result<Figure, Error> {
+    pub fn finish(mut self, title: &str, description: Description) -> Result<Figure, Error> {
         let mut data = self.data();
         let x = self.x.axis(data.iter().map(|point| point.0));
         let (from, to) = x.ends();
@@ -152,7 +158,7 @@ impl Plot {
             let i = names.iter().position(|own| *own == name).unwrap_or_default();
             let colour = COLOURS[i % COLOURS.len()];
             let line = Stroke::dashed(colour, LINE, DASHES[i % DASHES.len()]);
-            (line, move |mark| (mark, style::MEDIUM, Stroke::solid(colour, THIN)))
+            (line, move |mark| (mark, MEDIUM, Stroke::solid(colour, THIN)))
         };
         for Series(name, shown, points) in &self.series {
             let (line, marker) = looks(name);
@@ -160,7 +166,7 @@ impl Plot {
             match shown {
                 Shown::Line | Shown::Curve(_) => panel.curve(name, &places, line, Outside::Cut)?,
                 Shown::Marks(mark) if points.iter().all(|(_, own)| own.error == 0.0) => {
-                    panel.marks(name, &places, marker(*mark), Outside::Cut)?;
+                    panel.markers(name, &places, marker(*mark), Outside::Cut)?;
                 }
                 Shown::Marks(mark) => panel.estimates(name, points, marker(*mark))?,
             }
@@ -172,7 +178,7 @@ impl Plot {
             (name.to_string(), points, looks(name).0.colour)
         };
         if names.len() > 1 {
-            panel.ends(&names.iter().map(named).collect::<Vec<_>>())?;
+            panel.label_ends(&names.iter().map(named).collect::<Vec<_>>())?;
         }
         Ok(sheet.finish(title, description))
     }
@@ -191,7 +197,7 @@ impl Along {
         if self.is_log {
             let [low_power, high_power] = [low, high].map(f_log10);
             let every = (high_power - low_power).ceil() as i32 / 8 + 1;
-            return Axis::around([low, high].into_iter(), every, &self.label);
+            return Axis::decades_around([low, high].into_iter(), every, &self.label);
         }
         // What does not vary stands in the middle.
         let (span, margin) = match high > low {
@@ -214,6 +220,7 @@ impl Along {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::describe;
 
     fn labels(along: &Along, values: &[f64]) -> (f64, f64, Vec<String>) {
         let axis = along.axis(values.iter().copied());
@@ -243,9 +250,9 @@ mod tests {
         let points = [(1.0, 0.5), (20.0, 3e4), (300.0, 0.0)];
         let plot = Plot::new().log_x("*k*").log_y("*D* (m²)").line("line", &points);
         let found = [(2.0, with_error(1.0, 1.5))];
-        let plot = plot.points("line", &points, Mark::Ring).estimates("found", &found);
+        let plot = plot.points("line", &points, Symbol::Ring).estimates("found", &found);
         let plot = plot.curve("theory", |k| k * k);
-        let figure = plot.finish("Spread", seen!("It rises.")).unwrap();
+        let figure = plot.finish("Spread", describe!("It rises.")).unwrap();
         let series: Vec<&str> = figure.data[0].rows.iter().map(|row| row[0].as_str()).collect();
         assert_eq!(
             (series.iter().filter(|own| **own == "line").count(), series.len()),
@@ -257,7 +264,7 @@ mod tests {
             let (x, y) = label.at;
             assert!((1..WIDTH as i32).contains(&x) && (1..high).contains(&y), "{}", label.words);
         }
-        let wrong = Plot::new().line("a", &[(0.0, f64::NAN)]).finish("A", seen!("A"));
+        let wrong = Plot::new().line("a", &[(0.0, f64::NAN)]).finish("A", describe!("A"));
         assert!(matches!(wrong, Err(Error::Outside { .. })));
     }
 }

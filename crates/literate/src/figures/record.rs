@@ -1,18 +1,19 @@
-//! What a panel draws, kept as rows of its data file: a figure's author writes no data.
+//! Records what a panel draws as the rows of its data file, so that authors write no data files.
 
 use super::axis::Axis;
 use super::markup::spelled;
 use crate::table::Table;
 use impact_numerics::statistics::Estimate;
+use std::borrow::Cow;
 
-/// A place of a series, and what is known there: value, standard error, and both ends of a bar.
+/// A point of a series: x, and those known of value, standard error and both ends of a bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DataPoint {
     x: f64,
     known: [Option<f64>; 4],
 }
 
-/// What data files call these, but for the value.
+/// The columns of these in data files; the value has the name of the axis.
 const KNOWN: [&str; 4] = ["", "standard_error", "low", "high"];
 
 impl From<(f64, f64)> for DataPoint {
@@ -29,28 +30,30 @@ impl From<(f64, f64, f64)> for DataPoint {
 }
 
 impl From<(f64, Estimate)> for DataPoint {
-    fn from((x, own): (f64, Estimate)) -> Self {
-        DataPoint { x, known: [Some(own.value), Some(own.error), None, None] }
+    fn from((x, y): (f64, Estimate)) -> Self {
+        DataPoint { x, known: [Some(y.value), Some(y.error), None, None] }
     }
 }
 
 impl DataPoint {
-    /// Joins another row of the same place if no number of both differs; whether it did.
-    fn joins(&mut self, new: &DataPoint) -> bool {
-        let mut both = self.known.iter().zip(&new.known);
-        let same = self.x == new.x && both.all(|(a, b)| a.is_none() || b.is_none() || a == b);
-        if same {
-            let join = |i: usize| self.known[i].or(new.known[i]);
-            self.known = [0, 1, 2, 3].map(join);
+    /// Merges a row of the same x unless a number that both know differs; returns whether it did.
+    fn merge(&mut self, new: &DataPoint) -> bool {
+        let mut pairs = self.known.iter().zip(&new.known);
+        let agree = pairs.all(|(a, b)| a.is_none() || b.is_none() || a == b);
+        if self.x != new.x || !agree {
+            return false;
         }
-        same
+        for (known, new) in self.known.iter_mut().zip(new.known) {
+            *known = known.or(new);
+        }
+        true
     }
 }
 
 /// The series of a panel, each with its rows.
 #[derive(Clone, Debug)]
 pub(super) struct Record {
-    /// Behind the figure's id in the file's name: the panel's letter, or nothing.
+    /// The end of the file's name, after the figure's id: the panel's letter, or nothing.
     pub(super) suffix: String,
     x: (String, String),
     y: (String, String),
@@ -59,41 +62,51 @@ pub(super) struct Record {
 
 impl Record {
     pub(super) fn new(x: &Axis, y: &Axis) -> Self {
-        Record { suffix: String::new(), x: x.named(), y: y.named(), series: Vec::new() }
+        Record {
+            suffix: String::new(),
+            x: x.name_and_unit(),
+            y: y.name_and_unit(),
+            series: Vec::new(),
+        }
     }
 
-    /// Adds rows to a series: bars, marks and curves of one name are one set of rows, by rising x.
+    /// Adds rows to a series: bars, symbols and curves of one name are one set of rows, by rising x.
     pub(super) fn add(&mut self, name: &str, rows: impl IntoIterator<Item = DataPoint>) {
         let name = spelled(name);
-        let Some((_, known)) = self.series.iter_mut().find(|(own, _)| *own == name) else {
+        let Some((_, known)) = self.series.iter_mut().find(|series| series.0 == name) else {
             let mut rows: Vec<DataPoint> = rows.into_iter().collect();
             rows.dedup();
             return self.series.push((name, rows));
         };
         for row in rows {
-            if !known.iter_mut().any(|own| own.joins(&row)) {
+            if !known.iter_mut().any(|known| known.merge(&row)) {
                 known.push(row);
                 known.sort_by(|a, b| a.x.total_cmp(&b.x));
             }
         }
     }
 
-    /// The panel's file; none if it has no data.
+    /// Returns the panel's data file; none if it has no data.
     pub(super) fn file(&self) -> Option<DataFile> {
-        let rows =
-            || self.series.iter().flat_map(|(name, rows)| rows.iter().map(move |r| (name, r)));
-        rows().next()?;
-        let has = |i: &usize| *i == 0 || rows().any(|(_, row)| row.known[*i].is_some());
-        let columns: Vec<usize> = (0..KNOWN.len()).filter(has).collect();
+        let mut points = Vec::new();
+        for (name, rows) in &self.series {
+            points.extend(rows.iter().map(|row| (name, row)));
+        }
+        if points.is_empty() {
+            return None;
+        }
+        let is_known = |i: usize| points.iter().any(|(_, row)| row.known[i].is_some());
+        let columns: Vec<usize> = (0..KNOWN.len()).filter(|&i| i == 0 || is_known(i)).collect();
         let unit = &self.y.1;
         let mut header = vec!["series (text)".to_string()];
         header.extend([&self.x, &self.y].map(|(name, unit)| format!("{name} ({unit})")));
-        header.extend(columns.iter().skip(1).map(|i| format!("{} ({unit})", KNOWN[*i])));
-        let cells = |(name, row): (&String, &DataPoint)| {
-            let known = columns.iter().map(|i| row.known[*i].map_or(String::new(), shortest));
-            [name.clone(), shortest(row.x)].into_iter().chain(known).collect()
-        };
-        let rows = rows().map(cells).collect();
+        header.extend(columns.iter().skip(1).map(|&i| format!("{} ({unit})", KNOWN[i])));
+        let mut rows = Vec::new();
+        for (name, point) in points {
+            let mut cells = vec![name.clone(), shortest(point.x)];
+            cells.extend(columns.iter().map(|&i| point.known[i].map_or(String::new(), shortest)));
+            rows.push(cells);
+        }
         Some(DataFile { name: format!("{}.csv", self.suffix), header, rows })
     }
 }
@@ -110,32 +123,37 @@ pub struct DataFile {
 }
 
 impl DataFile {
-    /// A table of an experiment, whole.
+    /// Makes the file of a whole table of an experiment.
     pub fn of(table: &Table) -> Self {
         let (header, rows) = table.data();
         DataFile { name: Self::name_of(table.name()), header, rows }
     }
 
-    /// What the file of a table `experiment.table` is called.
+    /// Returns the name of the file of a table `experiment.table`.
     pub fn name_of(table: &str) -> String {
         format!("{}.csv", table.replace('.', "-"))
     }
 
-    /// The file's content: comma separated, one line a row, line feed at the end of each.
+    /// Writes the file: comma separated, one line a row, each ended by a line feed.
     pub fn csv(&self) -> String {
         let mut out = String::new();
         for line in std::iter::once(&self.header).chain(&self.rows) {
-            let quoted = |cell: &String| match cell.contains([',', '"', '\n']) {
-                true => format!("\"{}\"", cell.replace('"', "\"\"")),
-                false => cell.clone(),
-            };
-            out += &(line.iter().map(quoted).collect::<Vec<_>>().join(",") + "\n");
+            out += &(line.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n");
         }
         out
     }
 }
 
-/// A number as files have it: the shortest decimal that reads back to the same double.
+/// Quotes a cell of a CSV file if it has to be.
+fn quoted(cell: &str) -> Cow<'_, str> {
+    if cell.contains([',', '"', '\n']) {
+        format!("\"{}\"", cell.replace('"', "\"\"")).into()
+    } else {
+        cell.into()
+    }
+}
+
+/// Formats a number for files: the shortest decimal that reads back to the same double.
 pub fn shortest(value: f64) -> String {
     let shown = format!("{value:?}");
     shown.strip_suffix(".0").map_or(shown.clone(), String::from)

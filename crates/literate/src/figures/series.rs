@@ -5,11 +5,12 @@
 //!
 //! All return [`Error::Outside`] for a number that is not finite, and for a point outside the frame where that is refused.
 
-use super::Error;
-use super::drawing::{Drawing, Element, Point};
+use super::drawing::{Drawing, Element};
+use super::error::Error;
 use super::panel::Panel;
+use super::path::Point;
 use super::record::DataPoint;
-use super::style::{Colour, Dash, Mark, Stroke};
+use super::style::{Colour, Dash, Stroke, Symbol};
 use impact_numerics::statistics::Estimate;
 
 /// Points in units of the data.
@@ -30,7 +31,7 @@ pub enum Outside {
 }
 
 /// Shape, half width, and line or colour of markers.
-pub type Marker = (Mark, i32, Stroke);
+pub type Marker = (Symbol, i32, Stroke);
 
 impl Panel {
     /// Where points lie on the axes. Numbers that are not finite are always an error.
@@ -41,13 +42,13 @@ impl Panel {
         outside: Outside,
     ) -> Result<Vec<(f64, f64)>, Error> {
         let finite = |p: &(f64, f64)| p.0.is_finite() && p.1.is_finite();
-        let holds = |p: &(f64, f64)| self.x.holds(p.0) && self.y.holds(p.1);
+        let holds = |p: &(f64, f64)| self.x.contains(p.0) && self.y.contains(p.1);
         let fault = |p: &&(f64, f64)| !finite(p) || outside == Outside::Refuse && !holds(p);
         if let Some(&(x, y)) = points.iter().find(fault) {
             return Err(Error::Outside { series: name.into(), x, y });
         }
         let (x, y) = (self.x.ends(), self.y.ends());
-        let places = points.iter().map(|p| (self.x.at(p.0), self.y.at(p.1)));
+        let places = points.iter().map(|p| (self.x.position(p.0), self.y.position(p.1)));
         // Of what is refused elsewhere, at most a rounding error is cut off here.
         let edge = |p: (f64, f64)| (p.0.clamp(x.0, x.1), p.1.clamp(y.0, y.1));
         Ok(match outside {
@@ -65,7 +66,7 @@ impl Panel {
 
     /// Whether the axes have a place for a point.
     fn has(&self, (x, y): (f64, f64)) -> bool {
-        self.x.at(x).is_finite() && self.y.at(y).is_finite()
+        self.x.position(x).is_finite() && self.y.position(y).is_finite()
     }
 
     fn record_points(&self, name: &str, points: Points, outside: Outside) {
@@ -97,7 +98,7 @@ impl Panel {
 
     /// A line that is no data: zero, a level, an outline, a printed value; cut at the frame.
     pub fn guide(&self, name: &str, points: Points, stroke: Stroke) -> Drawn {
-        self.quiet().curve(name, points, stroke, Outside::Cut)
+        self.unrecorded().curve(name, points, stroke, Outside::Cut)
     }
 
     /// A guide across the panel at one height.
@@ -106,15 +107,15 @@ impl Panel {
     }
 
     /// Markers; points outside the frame are left out if `outside` cuts.
-    pub fn marks(&self, name: &str, points: Points, marker: Marker, outside: Outside) -> Drawn {
+    pub fn markers(&self, name: &str, points: Points, marker: Marker, outside: Outside) -> Drawn {
         let mut placed = self.placed(name, points, outside)?;
-        placed.retain(|p| self.x.reaches(p.0) && self.y.reaches(p.1));
+        placed.retain(|p| self.x.contains_position(p.0) && self.y.contains_position(p.1));
         self.record_points(name, points, outside);
-        self.draw(name, |drawing| drawing.marks(self.seen(placed), marker))
+        self.draw(name, |drawing| drawing.markers(self.seen(placed), marker))
     }
 
     /// A curve with markers at its points.
-    pub fn marked(
+    pub fn curve_with_markers(
         &self,
         name: &str,
         points: Points,
@@ -122,7 +123,7 @@ impl Panel {
         outside: Outside,
     ) -> Drawn {
         self.curve(name, points, stroke, outside)?;
-        self.marks(name, points, marker, outside)
+        self.markers(name, points, marker, outside)
     }
 
     /// Upright ticks of the given width at many points, all inside the frame; the thickness of the
@@ -134,7 +135,7 @@ impl Panel {
     }
 
     /// A filled polygon, all of it inside the frame; it is a ground, and no data.
-    pub fn area(&self, name: &str, points: Points, fill: Colour, opacity: u8) -> Drawn {
+    pub fn filled_area(&self, name: &str, points: Points, fill: Colour, opacity: u8) -> Drawn {
         let placed = self.placed(name, points, Outside::Refuse)?;
         self.draw(name, |drawing| drawing.area(self.seen(placed), fill, opacity))
     }
@@ -146,7 +147,7 @@ impl Panel {
         self.record(name, heights());
         let inside = |k: f64| k.clamp(self.x.lo, self.x.hi);
         let tops: Vec<_> = heights()
-            .filter(|(k, _)| self.x.holds(*k))
+            .filter(|(k, _)| self.x.contains(*k))
             .flat_map(|(k, own)| [(inside(k - 0.5), own), (inside(k + 0.5), own)])
             .collect();
         let foot = |top: Option<&(f64, f64)>| top.map(|(k, _)| (*k, 0.0));
@@ -155,8 +156,8 @@ impl Panel {
             .chain(tops.iter().copied())
             .chain(foot(tops.last()))
             .collect();
-        self.area(name, &outline, stroke.colour, 45)?;
-        self.quiet().curve(name, &outline, stroke, Outside::Refuse)
+        self.filled_area(name, &outline, stroke.colour, 45)?;
+        self.unrecorded().curve(name, &outline, stroke, Outside::Refuse)
     }
 
     /// Bars from `low` to `high` at each x, with caps of the given half width; cut at the frame, and left out outside it,
@@ -171,7 +172,7 @@ impl Panel {
     ) -> Drawn {
         let cuts = outside == Outside::Cut;
         let outside = if cuts { Outside::Edge } else { outside };
-        let shown = bars.iter().filter(|bar| !cuts || self.x.holds(bar.0));
+        let shown = bars.iter().filter(|bar| !cuts || self.x.contains(bar.0));
         let ends: Vec<_> = shown.flat_map(|&(x, a, b)| [(x, a), (x, b)]).collect();
         let ends = self.placed(name, &ends, outside)?;
         self.record(name, bars.iter().copied());
@@ -194,18 +195,23 @@ impl Panel {
     pub fn estimates(&self, name: &str, estimates: &[(f64, Estimate)], look: Marker) -> Drawn {
         let shown = |(x, own): &&(f64, Estimate)| self.has((*x, own.value));
         self.record(name, estimates.iter().filter(shown).copied());
-        let holds = |(x, own): &&(f64, Estimate)| self.x.holds(*x) && self.y.holds(own.value);
+        let holds = |(x, own): &&(f64, Estimate)| self.x.contains(*x) && self.y.contains(own.value);
         let inside = || estimates.iter().filter(holds);
         let bars = inside().map(|(x, own)| (*x, own.value - own.error, own.value + own.error));
         let points: Vec<_> = inside().map(|(x, own)| (*x, own.value)).collect();
-        self.quiet().bars(name, &bars.collect::<Vec<_>>(), 35, look.2, Outside::Edge)?;
-        self.quiet().marks(name, &points, look, Outside::Refuse)
+        self.unrecorded().bars(name, &bars.collect::<Vec<_>>(), 35, look.2, Outside::Edge)?;
+        self.unrecorded().markers(name, &points, look, Outside::Refuse)
     }
 
     /// Estimates with a line through them, cut at the frame.
-    pub fn joined(&self, name: &str, estimates: &[(f64, Estimate)], look: Marker) -> Drawn {
+    pub fn joined_estimates(
+        &self,
+        name: &str,
+        estimates: &[(f64, Estimate)],
+        look: Marker,
+    ) -> Drawn {
         let points: Vec<_> = estimates.iter().map(|(x, own)| (*x, own.value)).collect();
-        self.quiet().curve(name, &points, look.2, Outside::Cut)?;
+        self.unrecorded().curve(name, &points, look.2, Outside::Cut)?;
         let (mark, size, line) = look;
         self.estimates(name, estimates, (mark, size, Stroke { dash: Dash::Solid, ..line }))
     }
@@ -252,7 +258,7 @@ fn inside(a: (f64, f64), b: (f64, f64), x: (f64, f64), y: (f64, f64)) -> Option<
 mod tests {
     use super::*;
     use crate::figures::axis::Axis;
-    use crate::figures::panel::Frame;
+    use crate::figures::drawing::Frame;
     use crate::figures::panel::Sheet;
     use crate::figures::style::GREEN;
 
@@ -271,9 +277,9 @@ mod tests {
         let drawn = panel.curve("curve", &beyond, LINE, Outside::Refuse);
         assert!(matches!(drawn, Err(Error::Outside { y: 1.1, .. })));
         panel.curve("curve", &beyond, LINE, Outside::Cut).unwrap();
-        let marks = panel.marks("marks", &beyond, (Mark::Disc, 30, LINE), Outside::Refuse);
+        let marks = panel.markers("marks", &beyond, (Symbol::Disc, 30, LINE), Outside::Refuse);
         assert!(matches!(marks, Err(Error::Outside { .. })));
-        assert!(panel.area("area", &beyond, GREEN, 50).is_err());
+        assert!(panel.filled_area("area", &beyond, GREEN, 50).is_err());
         assert!(panel.columns("columns", &[1.1], LINE).is_err());
         assert!(panel.curve("nan", &[(0.1, f64::NAN)], LINE, Outside::Cut).is_err());
         // A wall that is touched within rounding is inside.
@@ -283,20 +289,21 @@ mod tests {
     #[test]
     fn on_a_logarithmic_axis_what_is_not_positive_is_outside_below() {
         let sheet = Sheet::new(3000);
-        let panel = sheet.lettered("(b)", FRAME, axis(), Axis::decades(-2, 0, 1, "y")).unwrap();
+        let panel =
+            sheet.lettered_panel("(b)", FRAME, axis(), Axis::decades(-2, 0, 1, "y")).unwrap();
         assert_eq!(panel.at(0.5, 0.1), (1500, 600));
         let points = [(0.1, 0.5), (0.2, 0.0), (0.3, 1e-3), (0.4, -1.0)];
         let refused = panel.curve("refused", &points, LINE, Outside::Refuse);
         assert!(matches!(refused, Err(Error::Outside { x: 0.2, y: 0.0, .. })));
         panel.curve("cut", &points, LINE, Outside::Cut).unwrap();
-        panel.marks("edge", &points[1..2], (Mark::Disc, 30, LINE), Outside::Edge).unwrap();
+        panel.markers("edge", &points[1..2], (Symbol::Disc, 30, LINE), Outside::Edge).unwrap();
         let of = |value, error| Estimate { value, error, interval: [value; 2] };
         let estimates = [(0.5, of(0.1, 0.2)), (0.6, of(0.0, 0.1)), (0.7, of(2.0, 0.1))];
-        panel.estimates("estimates", &estimates, (Mark::Disc, 30, LINE)).unwrap();
+        panel.estimates("estimates", &estimates, (Symbol::Disc, 30, LINE)).unwrap();
         // Guides, grounds and what is quiet are no data.
         panel.level("level", 0.5, LINE).unwrap();
-        panel.area("area", &points[..1], GREEN, 50).unwrap();
-        panel.quiet().curve("rims", &points, LINE, Outside::Cut).unwrap();
+        panel.filled_area("area", &points[..1], GREEN, 50).unwrap();
+        panel.unrecorded().curve("rims", &points, LINE, Outside::Cut).unwrap();
         // In units of the data, and as they were given: the cut is the picture's.
         let file = &sheet.finish("", Default::default()).data[0];
         let rows = [

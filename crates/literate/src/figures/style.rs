@@ -1,8 +1,8 @@
-//! One look for all figures: sizes, colours, dashes and markers.
+//! Fixes the style of all figures: sizes, colours, dashes and symbols.
 //!
-//! Lengths are in grid units: hundredths of a millimetre on the printed column. The hues are those of Okabe and Ito (2008),
-//! which colour-blind readers distinguish, orange darker for its contrast with paper; where a caption of the paper names a
-//! colour, that colour, and always with a marker or a dash.
+//! Lengths are in grid units: hundredths of a millimetre on the printed column. The hues are those of
+//! Okabe and Ito (2008), which colour-blind readers distinguish, the orange darker for its contrast
+//! with paper. A colour never stands alone: a symbol, a dash or a name says the same.
 
 /// Width of every figure: one column.
 pub const WIDTH: u32 = 8400;
@@ -22,13 +22,13 @@ pub const THIN: u32 = 22;
 /// Thickness of a curve.
 pub const LINE: u32 = 36;
 
-/// Half the width of marks that stand close.
+/// Half the width of symbols that stand close together.
 pub const MEDIUM: i32 = 52;
 
-/// Half the width of marks.
+/// Half the width of symbols.
 pub const LARGE: i32 = 58;
 
-/// An opaque colour.
+/// An opaque colour: its red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Colour(pub u8, pub u8, pub u8);
 
@@ -38,15 +38,10 @@ pub const INK: Colour = Colour(0x22, 0x22, 0x22);
 pub const GREY: Colour = Colour(0x6b, 0x6b, 0x6b);
 /// Light fills and guides.
 pub const PALE: Colour = Colour(0xbd, 0xbd, 0xbd);
-/// Simulation (the captions of Figs. 12, 13 and 15 say red).
 pub const RED: Colour = Colour(0xc8, 0x1e, 0x1e);
-/// Simple circuits (the captions of Figs. 12 and 15 say green).
 pub const GREEN: Colour = Colour(0x00, 0x80, 0x5d);
-/// Higher-order circuits (the caption of Fig. 15 says blue).
 pub const BLUE: Colour = Colour(0x00, 0x72, 0xb2);
-/// A further class.
 pub const ORANGE: Colour = Colour(0x9a, 0x66, 0x00);
-/// A further class.
 pub const PURPLE: Colour = Colour(0xa5, 0x50, 0x8c);
 /// Four shades of blue from light to dark, for an ordered parameter; grey keeps their order.
 const SHADES: [Colour; 4] = [
@@ -59,7 +54,7 @@ const SHADES: [Colour; 4] = [
 pub const WHITE: Colour = Colour(0xff, 0xff, 0xff);
 
 /// All colours by the names that style sheets use.
-pub const PALETTE: [(&str, Colour); 13] = [
+pub(super) const PALETTE: [(&str, Colour); 13] = [
     ("ink", INK),
     ("grey", GREY),
     ("pale", PALE),
@@ -75,8 +70,14 @@ pub const PALETTE: [(&str, Colour); 13] = [
     ("page", WHITE),
 ];
 
-/// The colour of one of up to four values of an ordered parameter, counted from zero: the darker, the larger the value.
-/// The value that matters most may be [`RED`] instead.
+/// Yields the name of each colour in style sheets, and the colour as `#rrggbb`.
+pub(super) fn palette() -> impl Iterator<Item = (&'static str, String)> {
+    let shown = |Colour(r, g, b)| format!("#{r:02x}{g:02x}{b:02x}");
+    PALETTE.into_iter().map(move |(name, colour)| (name, shown(colour)))
+}
+
+/// Returns the colour of one of up to four values of an ordered parameter, counted from zero: the
+/// larger the value, the darker. The value that matters most may be [`RED`] instead.
 pub fn ordered(place: usize, count: usize) -> Colour {
     let last = count.max(2) - 1;
     SHADES[(3 * place.min(last) + last / 2) / last]
@@ -84,7 +85,6 @@ pub fn ordered(place: usize, count: usize) -> Colour {
 
 /// How a line is broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names tell")]
 pub enum Dash {
     Solid,
     Long,
@@ -96,7 +96,6 @@ pub enum Dash {
 
 /// Colour, thickness and dash of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names tell")]
 pub struct Stroke {
     pub colour: Colour,
     pub width: u32,
@@ -104,17 +103,15 @@ pub struct Stroke {
 }
 
 impl Stroke {
-    /// An unbroken line.
     pub const fn solid(colour: Colour, width: u32) -> Self {
         Stroke { colour, width, dash: Dash::Solid }
     }
 
-    /// A broken line.
     pub const fn dashed(colour: Colour, width: u32, dash: Dash) -> Self {
         Stroke { colour, width, dash }
     }
 
-    /// Lengths of strokes and of what is clear between them; none for an unbroken line.
+    /// Returns the lengths of strokes and of the gaps between them; none for an unbroken line.
     pub fn dashes(&self) -> &'static [u32] {
         match self.dash {
             Dash::Solid => &[],
@@ -127,10 +124,9 @@ impl Stroke {
     }
 }
 
-/// Shape of a data point.
+/// The symbol at a data point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names tell")]
-pub enum Mark {
+pub enum Symbol {
     Cross,
     Plus,
     Disc,

@@ -1,23 +1,24 @@
-//! A drawing as SVG: a file, or an element of a page.
+//! Writes a drawing as SVG: as a file, or as an element of a page.
 //!
-//! `viewBox` scales the grid. The document has a title, a description and a role. Colours are classes, for which a
-//! file has the rules itself, and a page in its style sheet, for light and dark; glyphs are shared by all drawings of a
-//! page.
+//! `viewBox` scales the grid. The document has a title, a description and a role. Colours are
+//! classes: a file holds their rules, a page has them in its style sheet, for light and dark. All
+//! drawings of a page share the outlines of glyphs.
 
-use super::drawing::{Drawing, Element, Fill, Glyphs, Label, Point, Step};
-use super::style::{Colour, Stroke, WHITE, WIDTH};
-use super::{font, palette};
+use super::drawing::{Drawing, Element, Fill, Glyphs, Label};
+use super::font;
+use super::path::{Point, Step};
+use super::style::{self, Colour, Stroke, WHITE, WIDTH, palette};
 use std::fmt::Write as _;
 
-/// Screen pixels of the drawing's own size, per hundred grid units.
+/// Screen pixels per hundred grid units, at the natural size of a drawing.
 pub(super) const PIXELS_PER_HUNDRED: u32 = 8;
 
-/// Text as it may stand inside an element or an attribute.
+/// Escapes text for an element or an attribute.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Path data, each step as seen from where the last one ended.
+/// Writes the data of a path, each step relative to the end of the last one.
 pub fn path_data(steps: &[Step]) -> String {
     let (mut d, mut at) = (String::new(), (0, 0));
     for step in steps {
@@ -42,18 +43,19 @@ pub fn path_data(steps: &[Step]) -> String {
     d
 }
 
-/// The outlines of glyphs, for use by their names.
+/// Writes the outlines of glyphs, for use by their names.
 pub fn outlines(glyphs: &Glyphs) -> String {
-    let one = |(id, steps): (&String, &Vec<Step>)| {
-        format!("<path id=\"glyph-{id}\" d=\"{}\"/>\n", path_data(steps))
-    };
-    glyphs.iter().map(one).collect()
+    let mut out = String::new();
+    for (id, steps) in glyphs {
+        let _ = writeln!(out, "<path id=\"glyph-{id}\" d=\"{}\"/>", path_data(steps));
+    }
+    out
 }
 
-/// The class of a colour inside or along the edge.
-fn class(what: &str, colour: Colour) -> String {
-    let name = super::style::PALETTE.iter().find(|(_, own)| *own == colour).map(|(name, _)| name);
-    format!("{what}-{}", name.unwrap_or(&"ink"))
+/// Returns the class that paints a colour as the `fill` or the `stroke` of a shape.
+fn class(paint: &str, colour: Colour) -> String {
+    let named = style::PALETTE.iter().find(|named| named.1 == colour);
+    format!("{paint}-{}", named.map_or("ink", |named| named.0))
 }
 
 fn shape(path: &[Step], fill: &Fill, stroke: &Option<Stroke>) -> String {
@@ -79,7 +81,7 @@ fn shape(path: &[Step], fill: &Fill, stroke: &Option<Stroke>) -> String {
     format!("<path class=\"{}\"{more} d=\"{}\"/>", classes.join(" "), path_data(path))
 }
 
-/// Words as glyphs; on a page, where groups have no role, without their text.
+/// Writes words as glyphs; on a page, where groups have no role, without their text.
 fn label(label: &Label, on_page: bool) -> String {
     let scale = f64::from(label.size) / f64::from(font::EM);
     let (ink, (x, y)) = (class("fill", label.colour), label.at);
@@ -88,54 +90,55 @@ fn label(label: &Label, on_page: bool) -> String {
     let mut glyphs = String::new();
     for placed in &label.glyphs {
         let (id, x, y) = (font::id(placed), placed.x, placed.y);
-        let place = match placed.small {
-            true => {
-                let script = f64::from(font::SCRIPT) / f64::from(font::EM);
-                format!("transform=\"translate({x} {y}) scale({script})\"")
-            }
-            false => format!("x=\"{x}\" y=\"{y}\""),
+        let place = if placed.small {
+            let script = f64::from(font::SCRIPT) / f64::from(font::EM);
+            format!("transform=\"translate({x} {y}) scale({script})\"")
+        } else {
+            format!("x=\"{x}\" y=\"{y}\"")
         };
         let _ = write!(glyphs, "<use href=\"#glyph-{id}\" {place}/>");
     }
-    let rim = class("stroke", WHITE);
-    let rim = match label.rim {
-        true => format!("<g class=\"{rim}\" stroke-width=\"{}\" {place}>{glyphs}</g>", font::RIM),
-        false => String::new(),
-    };
-    let words = match on_page {
-        true => String::new(),
-        false => format!(" aria-label=\"{}\"", escape(&label.words)),
-    };
-    format!("{rim}<g class=\"{ink}\"{words} {place}>{glyphs}</g>")
+    let mut out = String::new();
+    if label.rim {
+        let (page, width) = (class("stroke", WHITE), font::RIM);
+        out = format!("<g class=\"{page}\" stroke-width=\"{width}\" {place}>{glyphs}</g>");
+    }
+    out += &format!("<g class=\"{ink}\"");
+    if !on_page {
+        out += &format!(" aria-label=\"{}\"", escape(&label.words));
+    }
+    out + &format!(" {place}>{glyphs}</g>")
 }
 
 impl Drawing {
-    /// A file; `id` must be unique on a page that shows several drawings.
+    /// Writes a file; `id` must be unique on a page that shows several drawings.
     pub fn svg(&self, id: &str, title: &str, description: &str) -> String {
-        self.written(false, id, title, description) + "\n"
+        self.write(false, id, title, description) + "\n"
     }
 
-    /// An element of a page, which holds the rules of the colours and the outlines of the glyphs.
+    /// Writes an element of a page, which holds the rules of colours and the outlines of glyphs.
     pub fn on_page(&self, id: &str, title: &str, description: &str) -> String {
-        self.written(true, id, title, description.trim())
+        self.write(true, id, title, description.trim())
     }
 
-    fn written(&self, on_page: bool, id: &str, title: &str, description: &str) -> String {
-        let rule = |(name, colour): (&str, String)| {
-            format!(".fill-{name}{{fill:{colour}}}.stroke-{name}{{stroke:{colour}}}\n")
-        };
-        let (mut space, mut within) = ("", String::new());
+    fn write(&self, on_page: bool, id: &str, title: &str, description: &str) -> String {
+        let (mut namespace, mut head) = ("", String::new());
         if !on_page {
-            space = " xmlns=\"http://www.w3.org/2000/svg\"";
-            let (rules, glyphs) = (palette().map(rule).collect::<String>(), outlines(&self.glyphs));
-            within = format!("<style>\n{rules}</style>\n<defs>\n{glyphs}</defs>\n");
+            namespace = " xmlns=\"http://www.w3.org/2000/svg\"";
+            let mut rules = String::new();
+            for (name, colour) in palette() {
+                let _ = write!(rules, ".fill-{name}{{fill:{colour}}}");
+                let _ = writeln!(rules, ".stroke-{name}{{stroke:{colour}}}");
+            }
+            let glyphs = outlines(&self.glyphs);
+            head = format!("<style>\n{rules}</style>\n<defs>\n{glyphs}</defs>\n");
         }
         let [w, h] = [WIDTH, self.height].map(|side| side * PIXELS_PER_HUNDRED / 100);
         let (title, words, height) = (escape(title), escape(description), self.height);
         let mut out = format!(
-            "<svg{space} width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" \
+            "<svg{namespace} width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" \
              aria-labelledby=\"{id}-title {id}-desc\">\n<title id=\"{id}-title\">{title}</title>\n\
-             <desc id=\"{id}-desc\">{words}</desc>\n{within}\
+             <desc id=\"{id}-desc\">{words}</desc>\n{head}\
              <rect width=\"{WIDTH}\" height=\"{height}\" class=\"{}\"/>\n",
             class("fill", WHITE)
         );
@@ -151,7 +154,7 @@ impl Drawing {
                 ),
                 Element::Close => "</g>".into(),
                 Element::Shape(path, fill, stroke) => shape(path, fill, stroke),
-                Element::Label(own) => label(own, on_page),
+                Element::Label(words) => label(words, on_page),
             };
             out.push('\n');
         }

@@ -44,6 +44,14 @@ pub struct Input<'a> {
     pub paper: &'a Paper,
 }
 
+impl<'a> Input<'a> {
+    /// Returns the figure of this name.
+    pub(super) fn figure(&self, name: &str) -> Result<&'a Figure, Error> {
+        let found = self.figures.iter().find(|figure| figure.id == name);
+        found.ok_or_else(|| Error::Picture(name.into()))
+    }
+}
+
 /// A report in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
@@ -255,7 +263,7 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Result<Vec<String>, Er
     let mut shown = Vec::new();
     for block in blocks.iter_mut() {
         if let Block::Figure { name, alt, origin, .. } = block {
-            let figure = Figure::named(name, input.figures)?;
+            let figure = input.figure(name)?;
             *alt = figure.description.text.clone();
             let words = |words: &str| Inline::Text(words.into());
             let data: Vec<String> =

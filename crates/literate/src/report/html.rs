@@ -10,7 +10,7 @@ use super::print::{Numeral, Shown};
 use super::templates::Document;
 use super::{Error, Files, Input, latex, mathml, search};
 use crate::claims::Verdict;
-use crate::figures::{Figure, Glyphs, escape as text, outlines};
+use crate::figures::{Glyphs, escape as text, outlines};
 use math_core::MathDisplay;
 use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};
@@ -46,7 +46,7 @@ pub fn write(
             ]),
             // What is shown again has its place elsewhere.
             Block::Figure { id, number, name, .. } if !here.repeats => {
-                let name = text(&Figure::named(name, input.figures)?.title);
+                let name = text(&input.figure(name)?.title);
                 figures.push([id_of(Some(id), &[]), number.clone(), name]);
             }
             _ => (),
@@ -177,7 +177,7 @@ impl Page<'_> {
             }
             Block::Paragraph(text) => self.paragraph(text)?,
             Block::Figure { id, number, name, origin, caption, .. } => {
-                let figure = Figure::named(name, self.input.figures)?;
+                let figure = self.input.figure(name)?;
                 self.glyphs.borrow_mut().extend(figure.drawing.glyphs.clone());
                 let svg =
                     figure.drawing.on_page(&figure.id, &figure.title, &figure.description.text);

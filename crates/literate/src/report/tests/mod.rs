@@ -179,7 +179,7 @@ fn figure() -> Figure {
     Figure {
         id: "fig03".into(),
         title: "The rise".into(),
-        description: crate::seen!("It rises [steeply]."),
+        description: crate::describe!("It rises [steeply]."),
         drawing,
         data: vec![data],
         source: String::new(),
@@ -377,10 +377,13 @@ fn numerals_that_were_typed_outside_the_prose_are_refused() {
     let n = 12;
     let drawn = |description| Figure { description, ..figure() };
     let judged = |reason: &str| claim().within("", reason);
-    let fine = made_of(PROSE, None, drawn(crate::seen!("{n} of {}, k = 1.", n + 1)), claim());
+    let fine = made_of(PROSE, None, drawn(crate::describe!("{n} of {}, k = 1.", n + 1)), claim());
     fine.unwrap();
     for (made, words) in [
-        (made_of(PROSE, None, drawn(crate::seen!("{n} of 12.")), claim()), "what fig03 shows: "),
+        (
+            made_of(PROSE, None, drawn(crate::describe!("{n} of 12.")), claim()),
+            "what fig03 shows: ",
+        ),
         (made_of(PROSE, None, figure(), judged("within 12 of it")), "the reason of rise: "),
     ] {
         let error = made.unwrap_err().to_string();

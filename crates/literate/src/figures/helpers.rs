@@ -1,0 +1,81 @@
+//! Helps figures with what many of them need: columns over integers, round ends of axes, frames,
+//! headings, short numbers.
+
+use super::axis::{Axis, number};
+use super::drawing::Frame;
+use super::error::Error;
+use super::panel::Panel;
+use super::style::SMALL;
+use plotters::style::text_anchor::{HPos, VPos};
+
+/// Points (k, value) of a series whose first value belongs to k = 1.
+pub fn over_k(values: &[f64]) -> Vec<(f64, f64)> {
+    values.iter().enumerate().map(|(i, &v)| ((i + 1) as f64, v)).collect()
+}
+
+/// An axis from zero to a round number at or above `largest`, with about four labelled steps.
+pub fn upwards_from_zero(largest: f64, label: &str) -> Axis {
+    let mut unit = 1.0;
+    while unit > largest {
+        unit /= 10.0;
+    }
+    while unit * 10.0 <= largest {
+        unit *= 10.0;
+    }
+    for step in [0.2, 0.25, 0.5, 1.0, 2.0, 2.5] {
+        let step = step * unit;
+        let steps = (largest / step - 1e-9).ceil();
+        if steps <= 5.0 {
+            return Axis::linear(0.0, steps * step, step, 1, label);
+        }
+    }
+    Axis::linear(0.0, 10.0 * unit, 5.0 * unit, 1, label)
+}
+
+/// Largest of a series, zero if it is empty.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}
+
+/// Four panels, two by two, on a sheet 6750 high.
+pub const FOUR: [Frame; 4] = [
+    Frame::new(1080, 480, 4050, 2580),
+    Frame::new(5230, 480, 8200, 2580),
+    Frame::new(1080, 3780, 4050, 5880),
+    Frame::new(5230, 3780, 8200, 5880),
+];
+
+/// The letters of panels.
+pub const LETTERS: [&str; 4] = ["(a)", "(b)", "(c)", "(d)"];
+
+/// The letter of a panel and the parameter it is drawn for, above its frame.
+pub fn heading(panel: &Panel, letter: &str, parameter: &str) -> Result<(), Error> {
+    panel.letter(letter)?;
+    let corner = (panel.frame.right, panel.frame.top - 80);
+    panel.text(parameter, corner, SMALL, HPos::Right, VPos::Bottom)
+}
+
+/// A number with about `digits` significant decimals, for notes and descriptions; a tiny one as a
+/// multiple of a power of ten.
+pub fn short(value: f64, digits: usize) -> String {
+    if value != 0.0 && value.abs() < 1e-3 {
+        let shown = format!("{:.*e}", digits.saturating_sub(1), value);
+        return shown.replace('-', "−").replace('e', "·10^");
+    }
+    let mut decimals = digits.saturating_sub(1);
+    let mut size = value.abs();
+    while size >= 10.0 && decimals > 0 {
+        size /= 10.0;
+        decimals -= 1;
+    }
+    while size > 0.0 && size < 1.0 && decimals < 12 {
+        size *= 10.0;
+        decimals += 1;
+    }
+    let shown = number(value, decimals);
+    if shown.contains('.') {
+        shown.trim_end_matches('0').trim_end_matches('.').to_string()
+    } else {
+        shown
+    }
+}

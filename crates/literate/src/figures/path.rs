@@ -1,0 +1,44 @@
+//! Describes outlines on the grid as steps of a pen.
+
+/// A place on the grid, y downwards.
+pub type Point = (i32, i32);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    Move(Point),
+    Line(Point),
+    /// A cubic curve: two control points and its end.
+    Curve([Point; 3]),
+    Close,
+}
+
+/// Returns the straight lines from point to point.
+pub fn polyline(points: impl IntoIterator<Item = Point>) -> Vec<Step> {
+    let mut points = points.into_iter();
+    let first = points.next().map(Step::Move);
+    first.into_iter().chain(points.map(Step::Line)).collect()
+}
+
+/// Returns the straight lines from point to point and back to the first.
+pub fn polygon(points: impl IntoIterator<Item = Point>) -> Vec<Step> {
+    let mut path = polyline(points);
+    path.push(Step::Close);
+    path
+}
+
+/// Returns a circle as four cubic curves, off by 0.03 % of its radius at most.
+pub fn circle((x, y): Point, r: i32) -> Vec<Step> {
+    let k = (0.552_284_749_831 * f64::from(r)).round() as i32;
+    let quarters = [
+        [(-r, k), (-k, r), (0, r)],
+        [(k, r), (r, k), (r, 0)],
+        [(r, -k), (k, -r), (0, -r)],
+        [(-k, -r), (-r, -k), (-r, 0)],
+    ];
+    let mut path = vec![Step::Move((x - r, y))];
+    for quarter in quarters {
+        path.push(Step::Curve(quarter.map(|(dx, dy)| (x + dx, y + dy))));
+    }
+    path.push(Step::Close);
+    path
+}
