@@ -13,7 +13,7 @@ use super::lint::Declared;
 use super::mark::{Filled, Places, ids};
 use super::templates::Document;
 use super::values::Registry;
-use super::{Error, html, latex, ledger, lint, markdown, parse, tex};
+use super::{Error, html, latex, ledger, lint, markdown, parse, search, tex};
 use crate::claims::Check;
 use crate::figures::{DataFile, Figure};
 use crate::paper::Paper;
@@ -153,7 +153,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         }
         filler.insert("page", &page);
         shown.extend(values);
-        texts.push(serde_json::json!([of.page, of.name, page["texts"]]));
+        texts.push(serde_json::json!([of.page, of.name, search::passages(blocks, of.name)]));
         generated.insert(of.page.into(), filler.fill("report.html")?.into_bytes());
     }
     generated.extend(html::beside(&shown, cards, input, &labels)?);

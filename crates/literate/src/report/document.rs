@@ -204,6 +204,17 @@ pub fn is_abstract(block: &Block) -> bool {
     matches!(block, Block::Heading { text, .. } if plain(text) == "Abstract")
 }
 
+/// Returns the id of a place on a page: `fig-3` for `fig:3`; for a section without an id its words,
+/// as `references`.
+pub fn place_on_page(id: Option<&str>, words: &[Inline]) -> String {
+    let Some(id) = id else {
+        let words = plain(words).to_lowercase();
+        let words = words.split(|c: char| !c.is_ascii_alphanumeric());
+        return words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-");
+    };
+    id.replace([':', '.', '[', ']', '=', ','], "-")
+}
+
 /// Does this paragraph go on with the sentence before it?
 pub fn continues(block: &Block) -> bool {
     let Block::Paragraph(inlines) = block else { return false };

@@ -4,11 +4,11 @@
 //! well-formed XML, so that tests can read it.
 
 use super::card::Cards;
-use super::document::{self, Block, Formula, Inline, plain, printed, spelt};
+use super::document::{self, Block, Formula, Inline, place_on_page, plain, printed, spelt};
 use super::labels::Labels;
 use super::print::{Numeral, Shown};
 use super::templates::Document;
-use super::{Error, Files, Input, latex, mathml, search};
+use super::{Error, Files, Input, latex, mathml};
 use crate::claims::Verdict;
 use crate::figures::{Glyphs, escape as text, outlines};
 use math_core::MathDisplay;
@@ -40,14 +40,14 @@ pub fn write(
     for block in blocks {
         match block {
             Block::Heading { level: 2, number, id, text } => sections.push([
-                id_of(id.as_deref(), text),
+                place_on_page(id.as_deref(), text),
                 number.clone().unwrap_or_default(),
                 page.inlines(text)?,
             ]),
             // What is shown again has its place elsewhere.
             Block::Figure { id, number, name, .. } if !here.repeats => {
                 let name = text(&input.figure(name)?.title);
-                figures.push([id_of(Some(id), &[]), number.clone(), name]);
+                figures.push([place_on_page(Some(id), &[]), number.clone(), name]);
             }
             _ => (),
         }
@@ -66,7 +66,6 @@ pub fn write(
         "byline": if here.is_signed(paper) { text(&paper.byline()) } else { String::new() },
         "sections": sections,
         "figures": figures,
-        "texts": search::texts(&body, here.name),
         "body": body,
         "glyphs": outlines(&page.glyphs.borrow()),
     });
@@ -113,16 +112,6 @@ pub fn beside(
     let font = |(name, bytes): (&str, &[u8])| (format!("fonts/{name}.woff2"), bytes.to_vec());
     files.extend(FONTS.map(font));
     Ok(files)
-}
-
-/// The id of a place on a page: `fig:3` → `fig-3`; for a section without one its words, as `references`.
-fn id_of(id: Option<&str>, words: &[Inline]) -> String {
-    let Some(id) = id else {
-        let words = plain(words).to_lowercase();
-        let words = words.split(|c: char| !c.is_ascii_alphanumeric());
-        return words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-");
-    };
-    id.replace([':', '.', '[', ']', '=', ','], "-")
 }
 
 /// Characters of a cell that is text.
@@ -172,7 +161,7 @@ impl Page<'_> {
                 if *level > 2 && id.is_none() {
                     return Ok(format!("<h{level}>{words}</h{level}>\n"));
                 }
-                let id = id_of(id.as_deref(), text);
+                let id = place_on_page(id.as_deref(), text);
                 format!("<h{level} id=\"{id}\"><a href=\"#{id}\">{words}</a></h{level}>\n")
             }
             Block::Paragraph(text) => self.paragraph(text)?,
@@ -184,7 +173,7 @@ impl Page<'_> {
                 format!(
                     "<figure id=\"{}\">{}<figcaption><strong>Figure {number}.</strong> {} <span class=\"origin\">\
                      Picture: <a href=\"figures/{name}.svg\">{name}.svg</a>. {}</span></figcaption></figure>\n",
-                    id_of(Some(id), &[]),
+                    place_on_page(Some(id), &[]),
                     scroll(&format!("Figure {number}"), &svg),
                     self.inlines(caption)?,
                     self.inlines(origin)?
@@ -198,7 +187,7 @@ impl Page<'_> {
                 self.inlines(caption)?
             ),
             Block::Table { id, number, caption, columns, head, rows } => {
-                let id = id.as_ref().map(|id| format!(" id=\"{}\"", id_of(Some(id), &[])));
+                let id = id.as_ref().map(|id| format!(" id=\"{}\"", place_on_page(Some(id), &[])));
                 let name = format!("Table {}", number.as_deref().unwrap_or_default());
                 let mut out = format!("<figure class=\"table\"{}>", id.unwrap_or_default());
                 if number.is_some() {
@@ -230,7 +219,7 @@ impl Page<'_> {
             Block::Listing { id, number, caption, item, origin, text, .. } => format!(
                 "<div class=\"listing\" id=\"{}\"><p><strong>Listing {number}.</strong> {}</p>\n<details><summary>{}\
                  </summary>\n{}<p class=\"origin\">{}</p></details></div>\n",
-                id_of(Some(id), &[]),
+                place_on_page(Some(id), &[]),
                 self.inlines(caption)?,
                 self.inline(&Inline::Code(item.clone()))?,
                 code(text),
@@ -239,7 +228,7 @@ impl Page<'_> {
             Block::Bibliography(entries) => {
                 let mut out = String::from("<ul class=\"references\">\n");
                 for entry in entries {
-                    let id = id_of(Some(&format!("ref:{}", entry.key)), &[]);
+                    let id = place_on_page(Some(&format!("ref:{}", entry.key)), &[]);
                     let _ = writeln!(out, "<li id=\"{id}\">{}</li>", self.inlines(&entry.text)?);
                 }
                 out + "</ul>\n"
@@ -391,7 +380,7 @@ impl Page<'_> {
                 let formula = self.formula(formula, MathDisplay::Block)?;
                 let name = if id.is_some() { number } else { "without number" };
                 let name = format!("Equation {name}");
-                let (id, number) = match id.as_deref().map(|id| id_of(Some(id), &[])) {
+                let (id, number) = match id.as_deref().map(|id| place_on_page(Some(id), &[])) {
                     Some(id) => (
                         format!(" id=\"{id}\""),
                         format!("<a class=\"number\" href=\"#{id}\">({number})</a>"),
@@ -427,10 +416,14 @@ impl Page<'_> {
                     let card = card.unwrap_or_default();
                     format!(" class=\"verdict {name}\" title=\"{words}\"{card}")
                 });
-                format!("<a href=\"{file}#{}\"{class}>{}</a>", id_of(Some(to), &[]), text(shown))
+                format!(
+                    "<a href=\"{file}#{}\"{class}>{}</a>",
+                    place_on_page(Some(to), &[]),
+                    text(shown)
+                )
             }
             Inline::Anchor { id, number } => {
-                format!("<span id=\"{}\">{number}</span>", id_of(Some(id), &[]))
+                format!("<span id=\"{}\">{number}</span>", place_on_page(Some(id), &[]))
             }
             Inline::Unresolved(ids) => return Err(Error::Reference(ids.join("; "))),
         })

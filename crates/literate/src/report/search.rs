@@ -1,41 +1,85 @@
-//! The index of the search: search.js has the words of all pages.
+//! Makes the index of the search: the words of a document, with the section in which each stands.
 
-/// What a search reads of a page: place and name of the section, and text, for each paragraph, figure and item.
-pub fn texts(body: &str, name: &str) -> Vec<[String; 3]> {
-    let mut section = ["text".to_string(), name.to_string()];
-    let ends = ["</p>", "</figure>", "</li>", "</h2>", "</h3>"];
-    let pieces = ends.iter().fold(vec![body], |pieces, end| {
-        pieces.into_iter().flat_map(|piece| piece.split(end)).collect()
-    });
-    let mut out = Vec::new();
-    for piece in pieces {
-        let text = words(piece);
-        let heading = piece.split_once("<h2 id=\"").or_else(|| piece.split_once("<h3 id=\""));
-        if let Some((id, _)) = heading.and_then(|(_, heading)| heading.split_once('"')) {
-            section = [id.to_string(), text.clone()];
-        }
-        if !text.is_empty() {
-            let [id, name] = section.clone();
-            out.push([id, name, text]);
-        }
-    }
-    out
+use super::document::{Block, Inline, place_on_page, spelt};
+
+/// A place that the search can find: id and name of its section, and its text.
+type Passage = [String; 3];
+
+/// Returns a passage for each heading, paragraph, caption, item of a list, row of a table and
+/// reference of a document.
+pub fn passages(blocks: &[Block], document: &str) -> Vec<Passage> {
+    let mut index = Index { section: ["text".into(), document.into()], passages: Vec::new() };
+    index.blocks(blocks);
+    index.passages
 }
 
-/// The words of a piece of a page; pictures have none.
-fn words(html: &str) -> String {
-    let pieces = html.split("<svg").enumerate().map(|(i, piece)| match i {
-        0 => piece,
-        _ => piece.split_once("</svg>").map_or("", |(_, rest)| rest),
-    });
-    let text: String = pieces
-        .flat_map(|piece| piece.split('<'))
-        .map(|piece| piece.split_once('>').map_or(piece, |(_, text)| text))
-        .collect();
-    let text = text
-        .replace("&lt;", "<")
-        .replace("&gt;", ">")
-        .replace("&quot;", "\"")
-        .replace("&amp;", "&");
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+struct Index {
+    section: [String; 2],
+    passages: Vec<Passage>,
+}
+
+impl Index {
+    fn add(&mut self, text: &str) {
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        if !text.is_empty() {
+            let [id, name] = self.section.clone();
+            self.passages.push([id, name, text]);
+        }
+    }
+
+    fn blocks(&mut self, blocks: &[Block]) {
+        for block in blocks {
+            self.block(block);
+        }
+    }
+
+    fn block(&mut self, block: &Block) {
+        match block {
+            // The title is the name of the document.
+            Block::Heading { level: 1, .. } => (),
+            Block::Heading { level, number, id, text } => {
+                let words = format!("{} {}", number.as_deref().unwrap_or_default(), spelt(text));
+                if *level == 2 || id.is_some() {
+                    self.section = [place_on_page(id.as_deref(), text), words.trim().into()];
+                }
+                self.add(&words);
+            }
+            Block::Paragraph(text) => self.add(&spelt(text)),
+            Block::Figure { number, caption, .. } => {
+                self.add(&format!("Figure {number}. {}", spelt(caption)));
+            }
+            Block::Table { number, caption, head, rows, .. } => {
+                if let Some(number) = number {
+                    self.add(&format!("Table {number}. {}", spelt(caption)));
+                }
+                self.row(head);
+                for row in rows {
+                    self.row(row);
+                }
+            }
+            Block::List { items, .. } => {
+                for item in items {
+                    self.blocks(item);
+                }
+            }
+            Block::Quote(blocks) => self.blocks(blocks),
+            Block::Code { text, .. } => self.add(text),
+            Block::Listing { number, caption, text, .. } => {
+                self.add(&format!("Listing {number}. {}", spelt(caption)));
+                self.add(text);
+            }
+            // A page hides what cannot run on it.
+            Block::Lab { .. } => (),
+            Block::Bibliography(entries) => {
+                for entry in entries {
+                    self.add(&spelt(&entry.text));
+                }
+            }
+        }
+    }
+
+    fn row(&mut self, cells: &[Vec<Inline>]) {
+        let cells: Vec<String> = cells.iter().map(|cell| spelt(cell)).collect();
+        self.add(&cells.join(" "));
+    }
 }

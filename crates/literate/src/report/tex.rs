@@ -183,7 +183,8 @@ pub fn spelt(text: &str) -> String {
     text.split('$').enumerate().map(piece).collect()
 }
 
-/// `p_{\mathrm{crit}}` as `p_crit`, `\sigma^{-3}` as `σ^-3`. A name that is not known stands without its backslash.
+/// Spells a formula in characters: `p_{\mathrm{crit}}` as `p_crit`, `\sigma^{-3}` as `σ^-3`,
+/// `\frac{1}{2}` as `1/2`. A name that is not known stands without its backslash.
 pub fn spell(tex: &str) -> String {
     let mut out = String::new();
     let mut rest = tex;
@@ -191,13 +192,17 @@ pub fn spell(tex: &str) -> String {
         rest = &rest[c.len_utf8()..];
         match c {
             '\\' => {
-                let end = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
-                let end = if end > 0 { end } else { rest.chars().next().map_or(0, char::len_utf8) };
-                let (name, after) = rest.split_at(end);
+                let letters = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+                let sign = rest.chars().next().map_or(0, char::len_utf8);
+                let (name, after) = rest.split_at(if letters > 0 { letters } else { sign });
                 rest = after;
+                if matches!(name, "begin" | "end") {
+                    rest = rest.split_once('}').map_or("", |(_, after)| after);
+                }
                 out.push_str(named(name));
             }
-            '{' | '}' => (),
+            '}' if rest.starts_with('{') => out.push('/'),
+            '{' | '}' | '&' => (),
             '~' => out.push(' '),
             c => out.push(c),
         }
@@ -216,8 +221,10 @@ fn named(name: &str) -> &str {
         "vert" => "|",
         "sqrt" => "√",
         "dots" | "ldots" => "…",
-        "mathrm" | "mathit" | "mathbf" | "text" | "left" | "right" | "operatorname" | "!" => "",
-        "," | ";" | ":" | " " | "quad" | "thinspace" => " ",
+        "mathrm" | "mathit" | "mathbf" | "mathbb" | "mathcal" | "mathsf" | "boldsymbol"
+        | "text" | "left" | "right" | "operatorname" | "frac" | "dfrac" | "tfrac" | "bar"
+        | "hat" | "tilde" | "vec" | "dot" | "ddot" | "overline" | "begin" | "end" | "!" => "",
+        "," | ";" | ":" | " " | "quad" | "qquad" | "thinspace" | "\\" => " ",
         other => {
             let is = |tex: &str| tex.strip_prefix('\\') == Some(other);
             TEX.iter().find(|(_, tex)| is(tex)).map_or(other, |(character, _)| character)
@@ -228,6 +235,17 @@ fn named(name: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn formulas_are_spelt_in_characters() {
+        for (tex, words) in [
+            (r"p_{\mathrm{crit}} \ge \sigma^{-3}", "p_crit ≥ σ^-3"),
+            (r"\frac{1}{2}\,\dot x \in \mathbb{R}", "1/2  x ∈ R"),
+            (r"\begin{aligned} a &= b \\ c &= d \end{aligned}", " a = b   c = d "),
+        ] {
+            assert_eq!(spell(tex), words);
+        }
+    }
 
     #[test]
     fn nothing_that_stops_pdflatex_is_left() {
