@@ -9,7 +9,7 @@ mod cli;
 
 use impact_paper::{claims, contents, equations, experiments, figures, lab};
 use literate::Paper;
-use literate::report::Document;
+use literate::report::{Document, Edition};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -18,27 +18,24 @@ fn main() -> ExitCode {
 
 /// The paper.
 pub fn paper() -> Paper {
+    let paper = experiments::bare();
     Paper {
-        authors: vec![("The impact-paper authors", "")],
-        date: "2026-11-27",
-        license: "text and figures CC BY 4.0, code MIT OR Apache-2.0",
-        crates: vec![
-            ("impact_numerics", "crates/numerics/src"),
-            ("impact_chain", "crates/impact-chain/src"),
-            ("impact_circuits", "crates/circuits/src"),
-            ("literate", "crates/literate/src"),
-            ("", "src"),
-        ],
+        edition: Edition {
+            authors: vec![("The impact-paper authors", "")],
+            date: "2026-11-27",
+            license: "text and figures CC BY 4.0, code MIT OR Apache-2.0",
+            documents: DOCUMENTS.to_vec(),
+            equations: equations::equations(),
+            judged_by: |claim| format!("claims::{}", claim.split('_').next().unwrap_or_default()),
+            ..paper.edition
+        },
         figures: figures::ALL.to_vec(),
         rules: claims::rules(),
         relations: vec![claims::relations::relations],
-        judged_by: |claim| format!("claims::{}", claim.split('_').next().unwrap_or_default()),
         values: vec![contents::values],
         rows: vec![contents::rows],
-        equations: equations::equations(),
         lab: Some(lab::lab),
-        documents: DOCUMENTS.to_vec(),
-        ..experiments::bare()
+        ..paper
     }
 }
 

@@ -1,7 +1,7 @@
 //! Makes the paper with its experiments alone, and names what all saved results depend on.
 
 use super::list::{ALL, DERIVED};
-use literate::{Paper, Project};
+use literate::{Paper, Project, Sources};
 
 /// What every result depends on.
 const SHARED: &[&str] = &[
@@ -15,9 +15,18 @@ const SHARED: &[&str] = &[
     "src/experiments/ensembles.rs",
 ];
 
+/// The crates as paths of items name them, and the folders of their source.
+const CRATES: &[(&str, &str)] = &[
+    ("impact_numerics", "crates/numerics/src"),
+    ("impact_chain", "crates/impact-chain/src"),
+    ("impact_circuits", "crates/circuits/src"),
+    ("literate", "crates/literate/src"),
+    ("", "src"),
+];
+
 /// The paper with its experiments, without figures, claims and documents.
 pub fn bare() -> Paper {
-    let sources = literate::sources!("src", "crates");
+    let sources = Sources { crates: CRATES, ..literate::sources!("src", "crates") };
     let project = Project::new(sources);
     let title = "A literate, reproducible edition of Homer & Hogan (2007), Impact Dynamics of Large Dimensional Systems";
     // Tables are computed from saved results each time, so their code makes no result stale.
@@ -28,7 +37,6 @@ pub fn bare() -> Paper {
     Paper {
         project,
         prose: "templates",
-        documents: Vec::new(),
         experiments: ALL.to_vec(),
         derived: DERIVED.to_vec(),
         ..Paper::new(title, sources)

@@ -6,10 +6,11 @@ use impact_chain::Scenario;
 use impact_numerics::random::generator;
 use impact_paper::claims::Published;
 use literate::input::one_line;
+use literate::prose::Templates;
 use literate::report::bibliography::Library;
 use literate::report::filler::Filler;
 use literate::report::labels::Labels;
-use literate::report::{Document, Error, Templates};
+use literate::report::{Document, Error};
 use literate::report::{folder, latex, ledger, markdown, parse, values};
 use rand::RngExt;
 use std::{fs, sync::LazyLock, sync::mpsc::channel, time::Duration};
@@ -86,7 +87,8 @@ fn prose(text: &str) -> Result<(), Error> {
     let (values, templates) = (&QUICK.values, Templates::of([("report.md", text)]));
     let filler = Filler::new(&templates)?.with(values);
     let filled = filler.prose(&Document::REPORT)?;
-    let (mut blocks, _) = parse::parse(&filled, values, &filler.declared, &QUICK.paper)?;
+    let (mut blocks, _) =
+        parse::parse(&filled, values, &filler.declared, &QUICK.paper.project.sources)?;
     let (here, mut labels) = (Document::REPORT, Labels::default());
     labels.number_all(&mut blocks, here)?;
     labels.resolve(&mut blocks, here, &LIBRARY)?;

@@ -60,7 +60,7 @@ fn no_document_outgrows_its_reader() {
 }
 
 fn texts() -> impl Iterator<Item = (&'static Document, &'static str)> {
-    QUICK.paper.documents.iter().map(|document| (document, QUICK.markdown(document)))
+    QUICK.paper.edition.documents.iter().map(|document| (document, QUICK.markdown(document)))
 }
 
 fn events(text: &str) -> Vec<Event<'_>> {
@@ -87,7 +87,7 @@ fn every_link_lands_wherever_the_report_is_written() {
             let text = std::str::from_utf8(&report.committed[of.markdown]).unwrap();
             (of.markdown.to_string(), links(text))
         };
-        QUICK.paper.documents.iter().map(text).collect()
+        QUICK.paper.edition.documents.iter().map(text).collect()
     };
     crate::links_land(texts, 200, 150);
 }

@@ -9,7 +9,13 @@ use std::sync::LazyLock;
 
 static PAGES: LazyLock<BTreeMap<&str, String>> = LazyLock::new(|| {
     let text = |page: &str| String::from_utf8(QUICK.report.generated[page].clone()).unwrap();
-    QUICK.paper.documents.iter().map(|document| (document.page, text(document.page))).collect()
+    QUICK
+        .paper
+        .edition
+        .documents
+        .iter()
+        .map(|document| (document.page, text(document.page)))
+        .collect()
 });
 
 fn page(name: &str) -> Document<'static> {
@@ -60,7 +66,7 @@ fn every_link_lands_wherever_the_report_is_written() {
             };
             let cards = format!("<p>{}</p>", cards(report).0.concat());
             let cards = ("cards.js".to_string(), links(&cards));
-            QUICK.paper.documents.iter().map(page).chain([cards]).collect()
+            QUICK.paper.edition.documents.iter().map(page).chain([cards]).collect()
         },
         500,
         150,

@@ -16,7 +16,8 @@ use impact_paper::params::Profile;
 use impact_paper::{claims, contents};
 use literate::Paper;
 use literate::figures::Figure;
-use literate::report::{Document, Input, Registry, Report, Templates, assemble};
+use literate::prose::Templates;
+use literate::report::{Document, Input, Registry, Report, assemble};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
@@ -116,7 +117,9 @@ static QUICK: LazyLock<Quick> = LazyLock::new(|| {
             figures: &figures,
             lab: Some(""),
             top,
-            paper: &paper,
+            edition: &paper.edition,
+            project: &paper.project,
+            experiments: &paper.experiments,
         };
         assemble(&input).unwrap_or_else(|error| panic!("{error}"))
     };

@@ -12,7 +12,7 @@ use impact_paper::params::MethodName;
 
 #[test]
 fn the_report_has_every_equation_and_figure() {
-    let own = QUICK.paper.documents.iter().filter(|document| !document.repeats);
+    let own = QUICK.paper.edition.documents.iter().filter(|document| !document.repeats);
     let text: String = own.map(|document| QUICK.markdown(document)).collect();
     for number in 1..=38 {
         assert_eq!(text.matches(&format!("\\tag{{{number}}}")).count(), 1, "Eq. ({number})");
@@ -27,7 +27,7 @@ fn the_report_has_every_equation_and_figure() {
 /// A reader meets our figures in the order of their numbers.
 #[test]
 fn own_figures_are_numbered_by_first_mention() {
-    let template = QUICK.paper.documents.iter().map(|document| QUICK.prose(document));
+    let template = QUICK.paper.edition.documents.iter().map(|document| QUICK.prose(document));
     let template = template.collect::<Vec<_>>().join("\n");
     let own = figures::ALL.iter().filter_map(|figure| figure.name.strip_prefix('s'));
     let first = own.map(|n| {
@@ -43,7 +43,7 @@ fn own_figures_are_numbered_by_first_mention() {
 #[test]
 fn every_claim_is_spoken_of_once_in_the_text() {
     let template: String =
-        QUICK.paper.documents.iter().map(|document| QUICK.prose(document)).collect();
+        QUICK.paper.edition.documents.iter().map(|document| QUICK.prose(document)).collect();
     for row in claims::rows() {
         let tag = format!("@row:{}", row.id);
         let ends = [format!("{tag}]"), format!("{tag};")];

@@ -106,13 +106,13 @@ fn links_of_the_readme_land() {
 #[test]
 fn each_equation_has_one_home() {
     let paper = &QUICK.paper;
-    for EquationEntry { number, home, step_towards, .. } in &paper.equations {
+    for EquationEntry { number, home, step_towards, .. } in &paper.edition.equations {
         let step = step_towards.as_ref().map(|next| format!(" (step towards {next}):"));
         let mark = format!("**Eq. ({number})**{}", step.unwrap_or_default());
         let found = paper.project.sources.files.iter().filter(|(_, text)| text.contains(&mark));
         let found: Vec<_> = found.collect();
         let [(path, text)] = found.as_slice() else { panic!("{mark}: {} homes", found.len()) };
-        assert_eq!(Some(*path), paper.file(home), "{mark}");
+        assert_eq!(Some(*path), paper.project.sources.file(home), "{mark}");
         let (_, rest) = text.split_once(&mark).unwrap();
         assert!(!rest.contains(&mark), "{mark} stands twice in {path}");
         let is_code = |line: &&str| !line.trim_start().starts_with(['/', '#']);
@@ -133,7 +133,7 @@ fn each_experiment_depends_on_files_that_are_there() {
     for experiment in paper.experiments.iter().filter(|own| own.is_saved()) {
         let code = experiment.code(&paper.project);
         assert!(code.contains_key("crates/impact-chain/src/engine.rs"));
-        let path = paper.file(&experiment.item()).unwrap();
+        let path = paper.project.sources.file(&experiment.item()).unwrap();
         assert!(code.contains_key(path), "{path}");
         assert!(code.keys().all(|path| !path.ends_with("/tables.rs") && !path.contains("claims/")));
     }

@@ -3,6 +3,7 @@
 use crate::claims::{self, PublishedError};
 use crate::experiments::Error;
 use crate::input::{one_line, remedy};
+use crate::prose;
 use crate::report::{self, folder};
 use std::fmt::Display;
 use std::io;
@@ -54,7 +55,12 @@ impl<E: std::error::Error + 'static> From<E> for Failure {
         let code = match run {
             Some(Error::Interrupted) => INTERRUPTED,
             Some(Error::Store { .. } | Error::Input { .. }) => 2,
-            _ if any.is::<folder::Error>() || any.is::<PublishedError>() => 2,
+            _ if any.is::<folder::Error>()
+                || any.is::<prose::Error>()
+                || any.is::<PublishedError>() =>
+            {
+                2
+            }
             _ if matches!(any.downcast_ref(), Some(claims::Error::Published(_))) => 2,
             _ if any.downcast_ref().is_some_and(|error: &report::Error| !error.is_of_rules()) => 2,
             _ => 1,

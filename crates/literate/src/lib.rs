@@ -53,8 +53,11 @@ pub mod prelude {
     pub use impact_numerics::random::{NormalPairs, generator};
     pub use impact_numerics::statistics::Estimate;
 }
+mod print;
 pub mod project;
+pub mod prose;
 pub mod report;
+mod source;
 pub mod table;
 mod text;
 pub mod value;
@@ -63,4 +66,5 @@ pub use failure::{Failure, INTERRUPTED};
 pub use impact_numerics::{double_double, estimates, random, statistics};
 pub use literate_sources::{sources, texts};
 pub use paper::{FigureSpec, Judge, Lab, Paper, Rows, Values};
-pub use project::{Project, Sources};
+pub use project::Project;
+pub use source::Sources;

@@ -5,21 +5,11 @@
 //! checkout in which it was built. A program that is to travel alone has a copy inside instead.
 
 use crate::input::{self, sha256};
+use crate::source::Sources;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
-
-/// The source of a program, as the macro [`sources!`](crate::sources) gives it.
-#[derive(Clone, Copy, Debug)]
-pub struct Sources {
-    /// Name of the crate.
-    pub name: &'static str,
-    /// Its version.
-    pub version: &'static str,
-    /// Path of each file from the folder of its Cargo.toml, and its text.
-    pub files: &'static [(&'static str, &'static str)],
-}
 
 /// A project.
 #[derive(Debug)]
@@ -124,6 +114,7 @@ impl Project {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::source::toy;
 
     #[test]
     fn a_result_depends_on_what_is_shared_and_what_is_named() {
@@ -133,7 +124,7 @@ mod tests {
             ("src/b/c.rs", "2"),
             ("src/b/tables.rs", "3"),
         ];
-        let mut project = Project::new(Sources { name: "toy", version: "1", files });
+        let mut project = Project::new(Sources { files, ..toy() });
         let paths = |project: &Project, own: &[&str]| {
             project.code(own).into_keys().collect::<Vec<String>>().join(" ")
         };
@@ -147,7 +138,7 @@ mod tests {
 
     #[test]
     fn a_file_that_was_edited_after_the_build_is_named() {
-        let changed = |files| Project::new(Sources { name: "toy", version: "1", files }).changed();
+        let changed = |files| Project::new(Sources { files, ..toy() }).changed();
         assert_eq!(changed(&[("src/project.rs", include_str!("project.rs"))]), None);
         assert_eq!(changed(&[("src/project.rs", "before")]), Some("src/project.rs"));
     }

@@ -5,16 +5,19 @@ use proc_macro::{TokenStream, TokenTree};
 use std::path::{Path, PathBuf};
 
 /// The source of a program, as `literate::Sources`: `sources!("src")` has Cargo.lock and every Rust file below `src`.
-/// Folders are given from that of the crate's Cargo.toml.
+/// Folders are given from that of the crate's Cargo.toml; the first has the program.
 #[proc_macro]
 pub fn sources(folders: TokenStream) -> TokenStream {
+    let folders: Vec<String> = names(folders);
+    let program = folders.first().cloned().unwrap_or_default();
     let mut files = found(folders, &["rs"]);
     if let Ok(files) = &mut files {
         files.extend(Path::new(&top()).join("Cargo.lock").is_file().then(|| "Cargo.lock".into()));
     }
     code(files, |list| {
         format!(
-            "::literate::Sources {{ name: env!(\"CARGO_PKG_NAME\"), version: env!(\"CARGO_PKG_VERSION\"), files: &[{list}] }}"
+            "::literate::Sources {{ name: env!(\"CARGO_PKG_NAME\"), version: env!(\"CARGO_PKG_VERSION\"), files: &[{list}], \
+             crates: &[(\"\", {program:?})] }}"
         )
     })
 }
@@ -23,7 +26,7 @@ pub fn sources(folders: TokenStream) -> TokenStream {
 #[proc_macro]
 pub fn texts(places: TokenStream) -> TokenStream {
     let endings = ["md", "tex", "bib", "toml", "html", "css", "js", "json"];
-    code(found(places, &endings), |list| format!("&[{list}]"))
+    code(found(names(places), &endings), |list| format!("&[{list}]"))
 }
 
 /// The folder of the crate's Cargo.toml.
@@ -42,14 +45,18 @@ fn code(files: Result<Vec<String>, String>, whole: impl Fn(&str) -> String) -> T
     text.parse().unwrap_or_default()
 }
 
-/// Paths of all files with one of these endings below the places that were given, sorted.
-fn found(places: TokenStream, endings: &[&str]) -> Result<Vec<String>, String> {
+/// The words in quotation marks.
+fn names(tokens: TokenStream) -> Vec<String> {
     let name = |token: TokenTree| match &token {
         TokenTree::Literal(literal) => Some(literal.to_string().trim_matches('"').to_string()),
         _ => None,
     };
-    let (mut files, mut open) =
-        (Vec::new(), places.into_iter().filter_map(name).collect::<Vec<_>>());
+    tokens.into_iter().filter_map(name).collect()
+}
+
+/// Paths of all files with one of these endings below the places that were given, sorted.
+fn found(places: Vec<String>, endings: &[&str]) -> Result<Vec<String>, String> {
+    let (mut files, mut open) = (Vec::new(), places);
     while let Some(place) = open.pop() {
         let path: PathBuf = Path::new(&top()).join(&place);
         if path.is_file() {

@@ -154,11 +154,7 @@ pub fn paper() -> Paper {
             let check = s.cell("cascade.limit.onset");
             Judged::from(check.explained(why, Some(rounded) == s.statement.value))
         });
-    Paper {
-        prose: "crates/literate/examples/feigenbaum",
-        crates: vec![("", "examples/feigenbaum")],
-        ..paper
-    }
+    Paper { prose: "crates/literate/examples/feigenbaum", ..paper }
 }
 
 fn main() -> std::process::ExitCode {

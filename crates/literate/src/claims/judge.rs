@@ -51,7 +51,6 @@ impl From<Check> for Judged {
 
 /// A statement with what its check may look at.
 #[derive(Debug)]
-#[expect(missing_docs, reason = "the names tell")]
 pub struct Case<'a> {
     pub statement: &'a Statement,
     pub results: &'a Results,

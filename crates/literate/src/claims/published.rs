@@ -58,7 +58,6 @@ pub struct Statement {
 
 /// What is wrong with a file of published statements.
 #[derive(Debug, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages tell")]
 pub enum PublishedError {
     #[error("published.toml:{0}")]
     Line(String),

@@ -1,6 +1,6 @@
 //! Sentences of a check: words, and numbers that the report prints with the digits they deserve.
 
-use crate::report::print::{Style, print};
+use crate::print::{Style, print};
 use crate::value::{Digits, Number};
 use serde::{Deserialize, Serialize};
 use std::fmt;

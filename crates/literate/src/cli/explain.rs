@@ -32,7 +32,8 @@ pub(super) struct Args {
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let values = values::read(&read(&args.paper, "values.json")?).map_err(fault)?;
     let ledger = ledger::read(&read(&args.paper, "ledger.json")?).map_err(fault)?;
-    let cards = Cards { values: &values, ledger: &ledger, paper };
+    let Paper { edition, project, experiments, .. } = paper;
+    let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
     let mut found = if args.ids.is_empty() { cards.ids() } else { Vec::new() };
     for asked in &args.ids {
         let ids = cards.find(asked);

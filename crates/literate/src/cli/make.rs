@@ -7,9 +7,10 @@ use crate::failure::Failure;
 use crate::figures::Figure;
 use crate::input::count;
 use crate::paper::{FigureSpec, Paper};
+use crate::prose::Templates;
 use crate::report::claims::printed;
 use crate::report::filler::Filler;
-use crate::report::{Input, Registry, Report, Templates, Value, assemble};
+use crate::report::{Input, Registry, Report, Value, assemble};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -64,9 +65,10 @@ impl Paper {
                 Some((path.strip_prefix(self.prose)?.strip_prefix('/')?, *text))
             })),
         };
-        let mut documents = self.documents.iter();
+        let mut documents = self.edition.documents.iter();
         if documents.len() > 0 && documents.all(|one| one.files(&templates).is_empty()) {
-            let names: Vec<&str> = self.documents.iter().map(|document| document.prose).collect();
+            let names: Vec<&str> =
+                self.edition.documents.iter().map(|document| document.prose).collect();
             let folder = prose.unwrap_or(Path::new(self.prose)).display();
             let what = format!("{folder}: no prose is there; give the folder of");
             return Err(Failure::input(format!("{what} {}", names.join(", "))));
@@ -161,7 +163,9 @@ pub fn whole(
         figures: &figures,
         lab: lab.as_deref(),
         top: paper.project.way_up(out).as_deref(),
-        paper,
+        edition: &paper.edition,
+        project: &paper.project,
+        experiments: &paper.experiments,
     })?;
     Ok((report, checks))
 }

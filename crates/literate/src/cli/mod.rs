@@ -70,9 +70,9 @@ impl Paper {
     }
 
     fn obey<V: Subcommand>(&self, more: impl FnOnce(V) -> Result<(), Failure>) -> ExitCode {
-        let crate::project::Sources { name, version, .. } = self.project.sources;
+        let crate::Sources { name, version, .. } = self.project.sources;
         let command: Command = Cli::<V>::command().name(name).bin_name(name).version(version);
-        let command = command.about(self.title).after_help(EXIT_CODES);
+        let command = command.about(self.edition.title).after_help(EXIT_CODES);
         let parsed = command.try_get_matches().and_then(|all| Cli::<V>::from_arg_matches(&all));
         let Cli { verb, quiet } = match parsed {
             Ok(cli) => cli,

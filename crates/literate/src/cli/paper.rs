@@ -76,7 +76,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         }
     })?;
     report.write(&out, force).map_err(option)?;
-    let pages: Vec<&str> = paper.documents.iter().map(|document| document.page).collect();
+    let pages: Vec<&str> = paper.edition.documents.iter().map(|document| document.page).collect();
     let documents = if whole { format!(": {}", pages.join(", ")) } else { String::new() };
     let number = count(report.committed.len() + report.generated.len(), "file");
     let scores: String = make::scores(&checks).into_iter().map(|line| line + "\n").collect();

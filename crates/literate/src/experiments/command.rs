@@ -185,8 +185,8 @@ impl AnyExperiment for Command {
 mod tests {
     use super::super::{Progress, Results, Store};
     use super::*;
-    use crate::project::Sources;
-    use crate::report::Templates;
+    use crate::prose::Templates;
+    use crate::source::toy;
     use std::path::Path;
 
     const SCRIPT: &str = r#"read given
@@ -205,7 +205,7 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7], [2, null, 0.1, \"sh\", null]]}}"
         let store = Store::open(&folder.path().join("results"));
         let run = |program: &str| {
             let line = leaked(&format!("{program} {}", path.display()));
-            let project = Project::new(Sources { name: "toy", version: "1", files: &[] });
+            let project = Project::new(toy());
             let command: &'static Command = Box::leak(Box::new(Command::new("toy", line)));
             let (templates, progress) = (Templates::of([]), Progress::silent());
             let (profile, store) = (Profile::Quick, store.clone());

@@ -16,7 +16,7 @@ pub use store::Store;
 
 use crate::input::remedy;
 use crate::project::Project;
-use crate::report::Templates;
+use crate::prose::Templates;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -42,9 +42,18 @@ impl Profile {
     }
 }
 
+impl std::str::FromStr for Profile {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let mut all = [Profile::Quick, Profile::Full].into_iter();
+        all.find(|profile| profile.name() == name)
+            .ok_or_else(|| format!("no profile {name:?}; give quick or full"))
+    }
+}
+
 /// An error of an experiment.
 #[derive(Debug, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages tell")]
 pub enum Error {
     #[error("interrupted; nothing was left half-written")]
     Interrupted,
@@ -85,7 +94,6 @@ impl Error {
 
 /// A run: of which project, with which samples and prose, and where results are kept.
 #[derive(Debug)]
-#[expect(missing_docs, reason = "the names tell")]
 pub struct Session<'a> {
     pub project: &'a Project,
     pub templates: Templates,

@@ -5,7 +5,6 @@ use thiserror::Error;
 
 /// Why a figure cannot be drawn.
 #[derive(Debug, Error)]
-#[expect(missing_docs, reason = "the messages explain the variants")]
 pub enum Error {
     #[error("a figure lacks its data: {0}")]
     Data(#[from] experiments::Error),

@@ -1,34 +1,31 @@
 //! Results and prose → every file of paper/, as bytes. Nothing is written here.
 
-use super::Templates;
 use super::bibliography::Library;
 use super::card::{Cards, links};
 use super::claims::{row, scorecard};
 use super::document::{self, Block, Inline};
+use super::edition::{Document, Edition};
 use super::filler::Filler;
-use super::folder::{self, SUMS};
+use super::folder::{self, Files, Report, SUMS};
 use super::labels::Labels;
 use super::ledger::{EquationEntry, Ledger};
 use super::lint::Declared;
 use super::mark::{Filled, Places, ids};
-use super::templates::Document;
 use super::values::Registry;
 use super::{Error, html, latex, ledger, lint, markdown, parse, search, tex};
 use crate::claims::Check;
+use crate::experiments::AnyExperiment;
 use crate::figures::{DataFile, Figure};
-use crate::paper::Paper;
+use crate::project::Project;
+use crate::prose::Templates;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Paths relative to the report's folder, and their bytes.
-pub type Files = BTreeMap<String, Vec<u8>>;
 
 /// What a page loads when a reader asks it to compute.
 pub const LAB: &str = "lab.js";
 
 /// What a report is made of.
 #[derive(Clone, Copy, Debug)]
-#[expect(missing_docs, reason = "the names tell")]
 pub struct Input<'a> {
     pub templates: &'a Templates,
     /// The numbers that it may name.
@@ -41,7 +38,9 @@ pub struct Input<'a> {
     pub lab: Option<&'a str>,
     /// The way from where it is written to the files of the project, as `../`; none if it is written elsewhere.
     pub top: Option<&'a str>,
-    pub paper: &'a Paper,
+    pub edition: &'a Edition,
+    pub project: &'a Project,
+    pub experiments: &'a [&'static dyn AnyExperiment],
 }
 
 impl<'a> Input<'a> {
@@ -50,15 +49,6 @@ impl<'a> Input<'a> {
         let found = self.figures.iter().find(|figure| figure.id == name);
         found.ok_or_else(|| Error::Picture(name.into()))
     }
-}
-
-/// A report in memory.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Report {
-    /// Files that are committed; SHA256SUMS covers them.
-    pub committed: Files,
-    /// Files that are not committed: pages, figures/*.pdf for LaTeX.
-    pub generated: Files,
 }
 
 struct Part<'a> {
@@ -85,11 +75,11 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     Error::all(reasons.chain(shown).filter_map(lint).collect())?;
     filler.insert("claims", &input.claims.iter().map(row).collect::<Vec<_>>());
     filler.insert("figures", &ledger::figures(input.figures));
-    filler.insert("equations", &input.paper.equations);
+    filler.insert("equations", &input.edition.equations);
     for (name, rows) in input.rows {
         filler.insert(name, rows);
     }
-    let filled = input.paper.documents.iter().map(|of| filler.prose(of));
+    let filled = input.edition.documents.iter().map(|of| filler.prose(of));
     let filled = filled.collect::<Result<_, _>>()?;
     Ok((values, filler, filled))
 }
@@ -104,14 +94,14 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         return Err(Error::Unused(unused.join(", ")));
     }
     values.keep_cells(used.iter().map(String::as_str));
-    values.shorten(input.paper);
+    values.shorten(&input.project.sources);
 
     let declared = filler.declared.clone();
     let (parts, labels) = parts(input, &filled, &values, &declared)?;
     let mut ledger = Ledger {
         claims: input.claims.to_vec(),
         figures: ledger::figures(input.figures),
-        equations: input.paper.equations.clone(),
+        equations: input.edition.equations.clone(),
     };
     for block in parts.iter().filter(|part| !part.of.repeats).flat_map(|part| &part.blocks) {
         let Block::Figure { id, number, name, .. } = block else { continue };
@@ -128,22 +118,22 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
         let json = json.map_err(|error| Error::Template(format!("{name}: {error}")))? + "\n";
         committed.insert(name.into(), json.into_bytes());
     }
-    let cards = Cards { values: &values, ledger: &ledger, paper: input.paper };
-    let paper = input.paper;
+    let Input { edition, project, experiments, .. } = *input;
+    let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
     let (mut shown, mut texts) = (BTreeSet::new(), Vec::new());
     let written = parts.par_iter().with_max_len(1).map(|Part { of, blocks, .. }| {
         Ok((latex::write(blocks, *of)?, html::write(blocks, *of, input)?))
     });
     let written = written.collect::<Vec<Result<_, Error>>>();
     let authors =
-        paper.authors.iter().map(|(name, place)| Ok([tex::text(name)?, tex::text(place)?]));
+        edition.authors.iter().map(|(name, place)| Ok([tex::text(name)?, tex::text(place)?]));
     filler.insert("authors", &authors.collect::<Result<Vec<_>, Error>>()?);
-    filler.insert("date", &paper.date);
+    filler.insert("date", &edition.date);
     for (Part { of, blocks, places }, written) in parts.iter().zip(written) {
         let (print, (page, values)) = written.map_err(|error| places.locate(error))?;
         let mut text = markdown::write(blocks);
-        if of.is_signed(paper) {
-            let byline = format!("\n\n*{}*\n\n", markdown::escaped(&paper.byline()));
+        if of.is_signed(edition) {
+            let byline = format!("\n\n*{}*\n\n", markdown::escaped(&edition.byline()));
             text = text.replacen("\n\n", &byline, 1);
         }
         committed.insert(of.markdown.into(), text.into_bytes());
@@ -172,7 +162,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     generated.extend(input.figures.par_iter().map(pdf).collect::<Vec<_>>());
     committed.insert(SUMS.into(), folder::sums(&committed).into_bytes());
     for Part { of, blocks, places } in &parts {
-        check_links(blocks, *of, &labels, &committed, input.paper).map_err(|e| places.locate(e))?;
+        check_links(blocks, *of, &labels, &committed, edition).map_err(|e| places.locate(e))?;
     }
     Ok(Report { committed, generated })
 }
@@ -188,11 +178,11 @@ fn parts<'a>(
         .map_err(|error| Error::Template(input.templates.place(&error.to_string())))?;
     let (mut labels, mut shown) = (Labels::default(), BTreeSet::new());
     let mut parts = Vec::new();
-    let read = |filled| parse::parse(filled, values, declared, input.paper);
+    let read = |filled| parse::parse(filled, values, declared, &input.project.sources);
     let read = filled.par_iter().with_max_len(1).map(read).collect::<Vec<_>>();
     let (read, faults): (Vec<_>, Vec<_>) = read.into_iter().partition(Result::is_ok);
     Error::all(faults.into_iter().filter_map(Result::err).collect())?;
-    for ((of, filled), read) in input.paper.documents.iter().zip(filled).zip(read) {
+    for ((of, filled), read) in input.edition.documents.iter().zip(filled).zip(read) {
         let (mut blocks, places) = read?;
         document::title(&blocks).map_err(|error| error.at(filled.place(0)))?;
         let own = illustrate(&mut blocks, input)
@@ -205,7 +195,7 @@ fn parts<'a>(
         return Err(Error::NotShown(figure.id.clone()));
     }
     let missing = |entry: &&EquationEntry| labels.get(&format!("eq:{}", entry.number)).is_none();
-    if let Some(entry) = input.paper.equations.iter().find(missing) {
+    if let Some(entry) = input.edition.equations.iter().find(missing) {
         return Err(Error::NoEquation(entry.number.to_string()));
     }
     let tell = |error| parts.iter().fold(error, |error, part: &Part<'_>| part.places.locate(error));
@@ -232,9 +222,9 @@ fn check_links(
     here: Document,
     labels: &Labels,
     files: &Files,
-    paper: &Paper,
+    edition: &Edition,
 ) -> Result<(), Error> {
-    let is_page = |to: &str| paper.documents.iter().any(|of| of.page == to);
+    let is_page = |to: &str| edition.documents.iter().any(|of| of.page == to);
     let leads = |to: &str| match (to.split_once("://"), to.strip_prefix('#')) {
         (Some((scheme, _)), _) => ["https", "http"].contains(&scheme),
         (_, Some(id)) => {
@@ -268,7 +258,7 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Result<Vec<String>, Er
             let words = |words: &str| Inline::Text(words.into());
             let data: Vec<String> =
                 figure.data.iter().map(|file| format!("data/{}", file.name)).collect();
-            let code = input.paper.file(&figure.source).map(|file| format!("../{file}"));
+            let code = input.project.sources.file(&figure.source).map(|file| format!("../{file}"));
             for (name, files) in [("Data: ", data), ("Code: ", code.into_iter().collect())] {
                 if !files.is_empty() {
                     origin.push(words(if origin.is_empty() { "" } else { " " }));
@@ -282,7 +272,7 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Result<Vec<String>, Er
     }
     document::rewrite(blocks, &mut |inline| match &inline {
         Inline::Link { to, .. } => match to.strip_prefix("../") {
-            Some(path) if !input.paper.project.exists(path) => Err(Error::NoFile(to.clone())),
+            Some(path) if !input.project.exists(path) => Err(Error::NoFile(to.clone())),
             _ => Ok(document::led(inline, input.top)),
         },
         _ => Ok(vec![inline]),

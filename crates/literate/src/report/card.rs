@@ -4,13 +4,15 @@
 //! no run is needed.
 
 use super::document::{Inline, printed, words_and_maths};
+use super::edition::Edition;
 use super::ledger::Ledger;
-use super::print::{Style, print};
 use super::values::{Digits, Kind, Number, Registry, Value};
-use crate::experiments::Profile;
+use crate::experiments::{AnyExperiment, Profile};
 use crate::figures::DataFile;
-use crate::paper::{Paper, settings};
+use crate::print::{Style, print};
+use crate::project::Project;
 use crate::table::table_of;
+use serde_json::Value as Json;
 
 /// A card: a title and rows, for any format.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,9 +45,9 @@ impl Card {
         }
     }
 
-    fn item(&mut self, name: &'static str, item: &str, paper: &Paper) {
+    fn item(&mut self, name: &'static str, item: &str, project: &Project) {
         let code = Inline::Code(item.to_string());
-        match paper.file(item) {
+        match project.sources.file(item) {
             _ if item.is_empty() => (),
             Some(file) => self.row(name, vec![link(&format!("../{file}"), code)]),
             None => self.row(name, vec![code]),
@@ -53,9 +55,9 @@ impl Card {
     }
 
     fn experiment(&mut self, name: &str, cards: &Cards<'_>) {
-        let mut all = cards.paper.experiments.iter();
+        let mut all = cards.experiments.iter();
         let Some(experiment) = all.find(|own| own.name() == name) else { return };
-        self.item("experiment", &experiment.item(), cards.paper);
+        self.item("experiment", &experiment.item(), cards.project);
         let profile = cards.values.profile().unwrap_or(Profile::Full);
         let pairs = settings(&experiment.parameters(profile)).into_iter();
         let pairs = pairs.map(|(name, setting)| format!("{name}: {setting}"));
@@ -69,7 +71,10 @@ pub struct Cards<'a> {
     pub values: &'a Registry,
     /// Claims, figures, equations.
     pub ledger: &'a Ledger,
-    pub paper: &'a Paper,
+    pub edition: &'a Edition,
+    pub project: &'a Project,
+    /// Those whose parameters the cards of their results show.
+    pub experiments: &'a [&'static dyn AnyExperiment],
 }
 
 impl Cards<'_> {
@@ -138,7 +143,7 @@ impl Cards<'_> {
         if let Kind::Printed { place } = &value.kind {
             card.words("place", place.clone());
         }
-        card.item("computed by", &value.source, self.paper);
+        card.item("computed by", &value.source, self.project);
         let home = self.ledger.equations.iter().find(|equation| equation.home == value.source);
         if let Some(number) = home.map(|equation| equation.number) {
             let (to, shown) = (format!("eq:{number}"), format!("Eq.\u{a0}({number})"));
@@ -162,7 +167,7 @@ impl Cards<'_> {
         card.words("shows", figure.description.clone());
         card.row("picture", links([&figure.picture]));
         card.row("data", links(&figure.data));
-        card.item("drawn by", &figure.source, self.paper);
+        card.item("drawn by", &figure.source, self.project);
         for name in &figure.experiments {
             card.experiment(name, self);
         }
@@ -174,7 +179,7 @@ impl Cards<'_> {
         let title = words_and_maths(&equation.what);
         let mut card = Card::of(format!("eq:{number}"), title);
         card.words("stands in", format!("Sec. {}", equation.section));
-        card.item("home", &equation.home, self.paper);
+        card.item("home", &equation.home, self.project);
         if let Some(towards) = &equation.step_towards {
             card.words("is", format!("a step towards {towards}"));
         }
@@ -202,7 +207,7 @@ impl Cards<'_> {
         ] {
             card.row(name, words_and_maths(&words));
         }
-        card.item("judged by", &(self.paper.judged_by)(&claim.id), self.paper);
+        card.item("judged by", &(self.edition.judged_by)(&claim.id), self.project);
         Some(card)
     }
 }
@@ -241,5 +246,54 @@ fn lead(value: &Value) -> String {
         "" => format!("{what}."),
         "theory" => format!("{what}, from the theory."),
         name => format!("{what}, from the experiment “{}”.", name.replace('_', " ")),
+    }
+}
+
+/// Name and setting of each parameter, the seed among them, field by field. Fields of fields get both names; a field with
+/// several values has them all, of many the first and the last.
+fn settings(parameters: &Json) -> Vec<(String, String)> {
+    let mut all = Vec::new();
+    collect("", parameters, &mut all);
+    let listed = |values: &[String]| match values {
+        [first, .., last] if values.len() > 8 => format!("{} from {first} to {last}", values.len()),
+        few => few.join(", "),
+    };
+    all.into_iter().map(|(name, values)| (name, listed(&values))).collect()
+}
+
+/// Adds the values of a field, each once.
+fn collect(name: &str, value: &Json, into: &mut Vec<(String, Vec<String>)>) {
+    let shown = match value {
+        Json::Null => return,
+        Json::Array(list) => return list.iter().for_each(|one| collect(name, one, into)),
+        Json::Object(fields) => {
+            return fields.iter().for_each(|(field, value)| {
+                let whole = format!("{name} {}", field.replace('_', " "));
+                collect(whole.trim_start(), value, into);
+            });
+        }
+        Json::String(text) => text.clone(),
+        Json::Number(number) if number.is_f64() => number.as_f64().unwrap_or(f64::NAN).to_string(),
+        other => other.to_string(),
+    };
+    match into.iter_mut().find(|(own, _)| own == name) {
+        Some((_, values)) if values.contains(&shown) => (),
+        Some((_, values)) => values.push(shown),
+        None => into.push((name.into(), vec![shown])),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parameters_of_parameters_have_both_names() {
+        let parameters = serde_json::json!({"seed": 7, "chain": {"masses": 3}, "r": [0.5, 0.25],
+            "runs": [{"from": 1.0, "to": 2}, {"from": 1.0, "to": 3}], "none": null});
+        let shown: Vec<String> =
+            settings(&parameters).iter().map(|(k, v)| format!("{k}={v}")).collect();
+        let all = ["chain masses=3", "r=0.5, 0.25", "runs from=1", "runs to=2, 3", "seed=7"];
+        assert_eq!(shown, all);
     }
 }

@@ -1,9 +1,9 @@
 //! Checks as rows for templates, and their numbers as values.
 
 use super::markdown;
-use super::print::{Style, print};
 use super::values::{Number, Value, origin};
 use crate::claims::{Basis, Check, Kind, Published, Text, Verdict, score};
+use crate::print::{Style, print};
 use serde_json::json;
 use std::collections::BTreeMap;
 

@@ -4,9 +4,9 @@
 //! to and resolves references, and each format has one writer that walks it. Writers decide on
 //! markup only: numbers, words of references and digits of values are in the tree already.
 
-use super::print::Shown;
-use super::templates::Document;
+use super::edition::Document;
 use super::{Error, tex};
+use crate::print::Shown;
 use pulldown_cmark::Alignment;
 
 /// A block of the report. Ids are written as `sec:protocol`, numbers as "2.1" or "S1"; a number is empty until it is given.

@@ -1,13 +1,14 @@
 //! Filling the templates by Tera: values become marks (`mark`), which the writers turn into digits. The
 //! manual ([`crate::manual`]) has what a template may write.
 
+use super::Error;
+use super::edition::Document;
 use super::lint::Declared;
 use super::mark::{self, Filled, Piece, marked, pieces};
-use super::print::MAX_DIGITS;
-use super::templates::Document;
 use super::values::{Number, Registry, Value};
-use super::{Error, Templates};
 use crate::input::{line_and_column, plain};
+use crate::print::MAX_DIGITS;
+use crate::prose::Templates;
 use crate::table::{Table, nearest};
 use serde_json::Value as Json;
 use std::collections::BTreeMap;

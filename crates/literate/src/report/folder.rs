@@ -3,7 +3,6 @@
 //! SHA256SUMS lists, as `sha256sum` does, every file of a report that is committed, or the figures that were written
 //! alone. Pages and figures for LaTeX are on no list: they are made anew each time.
 
-use super::assemble::{Files, Report};
 use crate::input::{self, STAGING, WRITING, is_absent, remedy, sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -12,9 +11,20 @@ use std::path::Path;
 /// The list, in the folder.
 pub const SUMS: &str = "SHA256SUMS";
 
+/// Paths relative to the report's folder, and their bytes.
+pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// A report in memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Files that are committed; SHA256SUMS covers them.
+    pub committed: Files,
+    /// Files that are not committed: pages, figures/*.pdf for LaTeX.
+    pub generated: Files,
+}
+
 /// Why a folder is not written or compared.
 #[derive(Debug, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages tell")]
 pub enum Error {
     #[error(
         "{0}: it has files and no {SUMS} of a report; give a new or empty folder, or --force to write among them"

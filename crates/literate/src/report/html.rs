@@ -5,12 +5,12 @@
 
 use super::card::Cards;
 use super::document::{self, Block, Formula, Inline, place_on_page, plain, printed, spelt};
+use super::edition::Document;
 use super::labels::Labels;
-use super::print::{Numeral, Shown};
-use super::templates::Document;
 use super::{Error, Files, Input, latex, mathml};
 use crate::claims::Verdict;
 use crate::figures::{Glyphs, escape as text, outlines};
+use crate::print::{Numeral, Shown};
 use math_core::MathDisplay;
 use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};
@@ -32,9 +32,12 @@ pub fn write(
     input: &Input<'_>,
 ) -> Result<(Json, BTreeSet<String>), Error> {
     let page = Page { input, values: RefCell::default(), glyphs: RefCell::default() };
-    let (title, paper) = (document::title(blocks)?, input.paper);
-    let meta: Vec<_> =
-        paper.about().into_iter().map(|(name, words)| (name, text(&words))).collect();
+    let (title, edition) = (document::title(blocks)?, input.edition);
+    let meta: Vec<_> = edition
+        .about(&input.project.sources)
+        .into_iter()
+        .map(|(name, words)| (name, text(&words)))
+        .collect();
     let (heading, body) = (page.inlines(title)?, page.blocks(blocks)?);
     let (mut sections, mut figures) = (Vec::new(), Vec::new());
     for block in blocks {
@@ -52,7 +55,7 @@ pub fn write(
             _ => (),
         }
     }
-    let documents = paper.documents.iter().map(|of| (of.page, text(of.name)));
+    let documents = edition.documents.iter().map(|of| (of.page, text(of.name)));
     let parts = json!({
         "file": here.page,
         "markdown": here.markdown,
@@ -63,7 +66,7 @@ pub fn write(
         "title": text(&spelt(title)),
         "bibtex": text(&latex::inlines(title)?),
         "heading": heading,
-        "byline": if here.is_signed(paper) { text(&paper.byline()) } else { String::new() },
+        "byline": if here.is_signed(edition) { text(&edition.byline()) } else { String::new() },
         "sections": sections,
         "figures": figures,
         "body": body,
@@ -396,7 +399,7 @@ impl Page<'_> {
             Inline::Value { id, shown } => self.value(id, &self.inlines(&printed(shown))?),
             Inline::Link { to, shown } => {
                 // A document is another file here.
-                let of = self.input.paper.documents.iter().find(|of| of.markdown == to);
+                let of = self.input.edition.documents.iter().find(|of| of.markdown == to);
                 let to = of.map_or(to.as_str(), |of| of.page);
                 format!("<a href=\"{}\">{}</a>", text(to), self.inlines(shown)?)
             }
@@ -485,9 +488,9 @@ fn relates(formula: &Formula) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::print::{Style, print};
     use super::super::values::Value;
     use super::*;
+    use crate::print::{Style, print};
 
     #[test]
     fn digits_are_text() {

@@ -3,7 +3,7 @@
 use super::Error;
 use super::bibliography::Library;
 use super::document::{Block, Inline, rewrite, visit};
-use super::templates::Document;
+use super::edition::Document;
 use crate::claims::Check;
 use std::collections::BTreeMap;
 

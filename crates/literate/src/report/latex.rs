@@ -3,7 +3,7 @@
 use super::Error;
 use super::document::{self, Block, Formula, Inline};
 use super::document::{continues, is_abstract, is_equation, plain, printed, spelt};
-use super::templates::Document;
+use super::edition::Document;
 use super::tex;
 use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};

@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 
 /// All entries.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names tell")]
 pub struct Ledger {
     pub claims: Vec<Check>,
     pub figures: Vec<FigureEntry>,
@@ -17,10 +16,6 @@ pub struct Ledger {
 /// A figure.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-#[expect(
-    missing_docs,
-    reason = "the fields are documented at Figure; paths are relative to the report"
-)]
 pub struct FigureEntry {
     pub id: String,
     /// What the prose refers to it by, as `fig:3`.
@@ -36,7 +31,6 @@ pub struct FigureEntry {
 
 /// A numbered equation of the paper.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names tell")]
 pub struct EquationEntry {
     pub number: u32,
     pub section: u32,

@@ -8,9 +8,9 @@
 //! text is that of the template; what a tag wrote stands where the tag does.
 
 use super::Error;
-use super::print::Style;
-use super::values::Digits;
 use crate::input::line_and_column;
+use crate::print::Style;
+use crate::value::Digits;
 
 pub(super) const OPEN: char = '\u{e000}';
 const NEXT: char = '\u{e001}';

@@ -2,7 +2,7 @@
 
 use super::Error;
 use super::document::{Formula, Part};
-use super::print::Shown;
+use crate::print::Shown;
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 use std::sync::LazyLock;
 

@@ -10,6 +10,7 @@ pub mod bibliography;
 pub(crate) mod card;
 pub(crate) mod claims;
 pub(crate) mod document;
+pub(crate) mod edition;
 pub mod filler;
 pub mod folder;
 mod html;
@@ -21,15 +22,14 @@ pub(crate) mod mark;
 pub mod markdown;
 mod mathml;
 pub mod parse;
-pub(crate) mod print;
 mod search;
-pub(crate) mod templates;
 pub(crate) mod tex;
 pub mod values;
 
-pub use assemble::{Files, Input, LAB, Report, assemble, files_of};
+pub use assemble::{Input, LAB, assemble, files_of};
+pub use edition::{Document, Edition};
+pub use folder::{Files, Report};
 pub use mark::framed;
-pub use templates::{Document, Templates};
 pub use values::{Registry, Value};
 
 use crate::input::one_line;
@@ -39,7 +39,6 @@ const LINE: usize = 1000;
 
 /// What is wrong with the report, with the place where it can be mended.
 #[derive(Debug, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages tell")]
 pub enum Error {
     #[error("value {0}: the id is taken; give one of the two values another id")]
     DuplicateId(String),
@@ -49,8 +48,8 @@ pub enum Error {
     NotFinite(String),
     #[error("{}", one_line(.0, LINE))]
     Template(String),
-    #[error("{path}: {source}; {}", crate::input::remedy(source, "check --templates"))]
-    Read { path: String, source: std::io::Error },
+    #[error(transparent)]
+    Prose(#[from] crate::prose::Error),
     #[error("{}; the manual of literate has all markup on its page *Prose*", one_line(.0, 200))]
     Markup(String),
     #[error("{place}: {error}")]

@@ -2,10 +2,9 @@
 
 use super::Error;
 use crate::experiments::Profile;
-use crate::paper::Paper;
+use crate::source::Sources;
 use crate::table::Table;
 pub use crate::value::{Digits, Kind, Number, Origin, Value, origin};
-use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -55,9 +54,9 @@ impl Registry {
     }
 
     /// Shows the paths of items as documents do.
-    pub fn shorten(&mut self, paper: &Paper) {
+    pub fn shorten(&mut self, sources: &Sources) {
         for value in self.values.values_mut() {
-            value.source = paper.short(&value.source).to_string();
+            value.source = sources.short(&value.source).to_string();
         }
     }
 
@@ -83,7 +82,7 @@ impl Registry {
     /// The profile with which they were made.
     pub fn profile(&self) -> Option<Profile> {
         match &self.get("profile")?.number {
-            Number::Text(name) => Profile::from_str(name, false).ok(),
+            Number::Text(name) => name.parse().ok(),
             _ => None,
         }
     }

@@ -3,9 +3,9 @@
 use super::super::document::{Formula, Inline, Part};
 use super::super::lint;
 use super::super::mark::{self, Piece, pieces};
-use super::super::print::{Shown, print};
 use super::super::{Error, tex};
 use super::{ALONE, ELSE, Reader, is_block, markup};
+use crate::print::{Shown, print};
 use pulldown_cmark::{Event, LinkType, Tag};
 use std::ops::Range;
 

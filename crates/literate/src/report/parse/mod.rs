@@ -11,7 +11,7 @@ use super::labels::of_kind;
 use super::lint::Declared;
 use super::mark::{Filled, Places};
 use super::values::Registry;
-use crate::paper::Paper;
+use crate::source::Sources;
 use pulldown_cmark::{
     Alignment, BrokenLink, CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd,
 };
@@ -23,7 +23,7 @@ pub fn parse<'a>(
     filled: &'a Filled,
     values: &'a Registry,
     declared: &'a Declared,
-    paper: &'a Paper,
+    sources: &'a Sources,
 ) -> Result<(Vec<Block>, Places<'a>), Error> {
     let options =
         Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_HEADING_ATTRIBUTES;
@@ -50,7 +50,7 @@ pub fn parse<'a>(
         filled,
         values,
         declared,
-        paper,
+        sources,
         at: 0,
         id_at: 0..0,
         quiet: 0,
@@ -73,7 +73,7 @@ struct Reader<'a> {
     filled: &'a Filled,
     values: &'a Registry,
     declared: &'a Declared,
-    paper: &'a Paper,
+    sources: &'a Sources,
     /// Where in the filled text what is being read begins.
     at: usize,
     /// Where an id begins and ends that is no text: behind a caption, a picture or an equation.
@@ -305,9 +305,9 @@ impl<'a> Reader<'a> {
         match language.split_once(' ') {
             _ if !closed => Err(markup(FENCE)),
             Some((_, item)) => {
-                let found = self.paper.listing(item).map_err(Error::Markup)?;
+                let found = self.sources.listing(item).map_err(Error::Markup)?;
                 let (id, number, caption) = (String::new(), String::new(), Vec::new());
-                let file = self.paper.file(item).unwrap_or_default().to_string();
+                let file = self.sources.file(item).unwrap_or_default().to_string();
                 let (item, text) = (item.to_string(), found);
                 let words = |words: &str| Inline::Text(words.into());
                 let link = Inline::Link { to: format!("../{file}"), shown: vec![words(&file)] };

@@ -6,7 +6,9 @@ use super::*;
 use crate::claims::{Check, Kind, decimals, with_error};
 use crate::figures::prelude::{HPos, INK, VPos};
 use crate::figures::{DataFile, Drawing, Figure};
-use crate::paper::{Paper, toy};
+use crate::project::Project;
+use crate::prose::Templates;
+use crate::source::toy;
 
 const SAMPLE: &str = r#"# A title
 
@@ -205,12 +207,17 @@ fn made_of(prose: &str, lab: Option<&str>, figure: Figure, claim: Check) -> Resu
     let files = [("report.md", prose), ("references.bib", bib)];
     let (what, home) = ("the jump".into(), "toy::flight".into());
     let equation = ledger::EquationEntry { number: 18, section: 7, what, home, step_towards: None };
-    made(&files, &Paper { equations: vec![equation], ..toy() }, lab, figure, claim)
+    made(&files, &Edition { equations: vec![equation], ..edition() }, lab, figure, claim)
+}
+
+fn edition() -> Edition {
+    let authors = vec![("A. Uthor", "R & D"), ("B. Uthor", "")];
+    Edition { authors, date: "2026-11-24", ..Edition::new("toy") }
 }
 
 fn made(
     files: &[(&str, &str)],
-    paper: &Paper,
+    edition: &Edition,
     lab: Option<&str>,
     figure: Figure,
     claim: Check,
@@ -220,7 +227,10 @@ fn made(
     values.add(Value::integer("spare", 3).data_only())?;
     let (templates, rows) = (&Templates::of(files.iter().copied()), &Default::default());
     let (values, claims, figures, top) = (&values, &[claim], &[figure], Some("../"));
-    assemble(&Input { templates, values, rows, claims, figures, lab, top, paper })
+    let (project, experiments) = (&Project::new(toy()), &[][..]);
+    let input =
+        Input { templates, values, rows, claims, figures, lab, top, edition, project, experiments };
+    assemble(&input)
 }
 
 const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945]. $$x = y \\tag{18}$$\n\n[@bibliography]\n\n\
@@ -314,7 +324,7 @@ fn documents_refer_to_each_other() {
         print: Some("more"),
         repeats: false,
     };
-    let paper = Paper { documents: vec![FRONT, Document::REPORT, MORE], ..toy() };
+    let edition = Edition { documents: vec![FRONT, Document::REPORT, MORE], ..edition() };
     let files = [
         (
             "front.md",
@@ -331,7 +341,7 @@ fn documents_refer_to_each_other() {
           Table: T {#tab:t}\n\n| a |\n|---|\n| [!claim:rise] |",
         ),
     ];
-    let made = |files: &[(&str, &str)]| made(files, &paper, None, figure(), claim());
+    let made = |files: &[(&str, &str)]| made(files, &edition, None, figure(), claim());
     // A mistake in the second file of a document has its place there.
     let error = made(&files).unwrap_err().to_string();
     assert!(error.starts_with("report/02-second.md:3:24: [@sec:b.]: nothing"), "{error}");

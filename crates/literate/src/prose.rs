@@ -1,9 +1,6 @@
-//! The templates: people's prose, read at run time; [`super::filler`] fills them. The documents of a paper: each has its
-//! prose and its files; numbers, figures, verdicts and labels are shared.
+//! Reads people's prose, the templates, at run time.
 
-use super::Error;
-use crate::input;
-use crate::paper::Paper;
+use crate::input::{self, remedy};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -15,11 +12,20 @@ const SKIN: [(&str, &str); 7] = [
     ("literals.toml", ""),
     ("published.toml", ""),
     ("references.bib", ""),
-    ("report.css", include_str!("../../skin/report.css")),
-    ("report.html", include_str!("../../skin/report.html")),
-    ("report.js", include_str!("../../skin/report.js")),
-    ("report.tex", include_str!("../../skin/report.tex")),
+    ("report.css", include_str!("../skin/report.css")),
+    ("report.html", include_str!("../skin/report.html")),
+    ("report.js", include_str!("../skin/report.js")),
+    ("report.tex", include_str!("../skin/report.tex")),
 ];
+
+/// Why there is no prose to read.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error("{path}: {source}; {}", remedy(source, "check --templates"))]
+    Read { path: String, source: std::io::Error },
+    #[error("{0}: no such file in the templates; give the folder of all of them")]
+    Missing(String),
+}
 
 /// All template files, by path relative to their folder.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -65,11 +71,7 @@ impl Templates {
 
     /// The text of one file.
     pub fn text(&self, path: &str) -> Result<&str, Error> {
-        let missing = || {
-            Error::Template(format!(
-                "{path}: no such file in the templates; give the folder of all of them"
-            ))
-        };
+        let missing = || Error::Missing(path.to_string());
         self.files.get(path).map(String::as_str).ok_or_else(missing)
     }
 
@@ -81,49 +83,5 @@ impl Templates {
     /// Paths and texts, sorted.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
         self.files.iter().map(|(path, text)| (path.as_str(), text.as_str()))
-    }
-}
-
-/// A document.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Document {
-    /// Its prose: `PROSE.md` of the templates, or else the files of the folder `PROSE`, in the order of their names.
-    pub prose: &'static str,
-    /// What the others call it.
-    pub name: &'static str,
-    /// What the numbers of its sections, tables and listings begin with; nothing in the first.
-    pub letter: &'static str,
-    /// Its file for hosts.
-    pub markdown: &'static str,
-    /// Its file for browsers.
-    pub page: &'static str,
-    /// Its file for LaTeX, without its ending `.tex`, if it is printed.
-    pub print: Option<&'static str>,
-    /// Whether it shows figures that have their place in another: a front page does.
-    pub repeats: bool,
-}
-
-impl Document {
-    /// A report, alone.
-    pub const REPORT: Document = Document {
-        prose: "report",
-        name: "Report",
-        letter: "",
-        markdown: "report.md",
-        page: "report.html",
-        print: Some("report"),
-        repeats: false,
-    };
-
-    /// Whether authors and date stand below its title: where it is printed, and there are any.
-    pub(super) fn is_signed(&self, paper: &Paper) -> bool {
-        self.print.is_some() && !paper.byline().is_empty()
-    }
-
-    /// Paths of its prose in the templates, in its order; none if there is no such file.
-    pub fn files<'a>(&self, templates: &'a Templates) -> Vec<&'a str> {
-        let (one, folder) = (format!("{}.md", self.prose), format!("{}/", self.prose));
-        let own = |path: &&str| *path == one || path.starts_with(&folder) && path.ends_with(".md");
-        templates.iter().map(|(path, _)| path).filter(own).collect()
     }
 }

@@ -3,7 +3,7 @@
 //! [`print()`] returns the digits as data, [`Shown`]; each format writes them in its markup. Only
 //! the decimal conversion of Rust is used, which rounds exactly and alike on every platform.
 
-use super::values::{Digits, Number, Value};
+use crate::value::{Digits, Number, Value};
 
 /// The largest number of digits that can be asked for: a double ends at its 1074th decimal.
 pub const MAX_DIGITS: usize = 1100;

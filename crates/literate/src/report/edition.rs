@@ -1,0 +1,106 @@
+//! Says what an edition is: its title, its authors, its documents and the equations that they show.
+
+use super::ledger::EquationEntry;
+use crate::prose::Templates;
+use crate::source::Sources;
+
+/// What a report says of itself, and the documents of which it is made.
+#[derive(Clone, Debug)]
+pub struct Edition {
+    /// What it is, in a line of the help.
+    pub title: &'static str,
+    /// Name and affiliation of each author.
+    pub authors: Vec<(&'static str, &'static str)>,
+    /// Day of this version, YYYY-MM-DD; may be empty.
+    pub date: &'static str,
+    /// Its licence in words; may be empty.
+    pub license: &'static str,
+    pub documents: Vec<Document>,
+    /// Equations that must have their place in the documents.
+    pub equations: Vec<EquationEntry>,
+    /// Returns the path of the item that judges the statement with this id, for its card.
+    pub judged_by: fn(&str) -> String,
+}
+
+impl Edition {
+    /// An edition with this title and one document, [`Document::REPORT`].
+    pub fn new(title: &'static str) -> Self {
+        Edition {
+            title,
+            authors: Vec::new(),
+            date: "",
+            license: "",
+            documents: vec![Document::REPORT],
+            equations: Vec::new(),
+            judged_by: |_| String::new(),
+        }
+    }
+
+    pub(super) fn byline(&self) -> String {
+        let author = |(name, affiliation): &(&str, &str)| match affiliation.is_empty() {
+            true => name.to_string(),
+            false => format!("{name} ({affiliation})"),
+        };
+        let date = Some(self.date.to_string()).filter(|date| !date.is_empty());
+        self.authors.iter().map(author).chain(date).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Metadata in the head of each page: names of `<meta>` and their content.
+    pub(super) fn about(&self, sources: &Sources) -> Vec<(&'static str, String)> {
+        let Sources { name, version, .. } = sources;
+        let authors: Vec<&str> = self.authors.iter().map(|author| author.0).collect();
+        let about = [
+            ("author", authors.join(", ")),
+            ("citation_author", authors.join("; ")),
+            ("citation_title", name.to_string()),
+            ("citation_publication_date", self.date.into()),
+            ("version", version.to_string()),
+            ("license", self.license.into()),
+        ];
+        about.into_iter().filter(|(_, words)| !words.is_empty()).collect()
+    }
+}
+
+/// A document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Document {
+    /// Its prose: `PROSE.md` of the templates, or else the files of the folder `PROSE`, in the order of their names.
+    pub prose: &'static str,
+    /// What the others call it.
+    pub name: &'static str,
+    /// What the numbers of its sections, tables and listings begin with; nothing in the first.
+    pub letter: &'static str,
+    /// Its file for hosts.
+    pub markdown: &'static str,
+    /// Its file for browsers.
+    pub page: &'static str,
+    /// Its file for LaTeX, without its ending `.tex`, if it is printed.
+    pub print: Option<&'static str>,
+    /// Whether it shows figures that have their place in another: a front page does.
+    pub repeats: bool,
+}
+
+impl Document {
+    /// A report, alone.
+    pub const REPORT: Document = Document {
+        prose: "report",
+        name: "Report",
+        letter: "",
+        markdown: "report.md",
+        page: "report.html",
+        print: Some("report"),
+        repeats: false,
+    };
+
+    /// Whether authors and date stand below its title: where it is printed, and there are any.
+    pub(super) fn is_signed(&self, edition: &Edition) -> bool {
+        self.print.is_some() && !edition.byline().is_empty()
+    }
+
+    /// Paths of its prose in the templates, in its order; none if there is no such file.
+    pub fn files<'a>(&self, templates: &'a Templates) -> Vec<&'a str> {
+        let (one, folder) = (format!("{}.md", self.prose), format!("{}/", self.prose));
+        let own = |path: &&str| *path == one || path.starts_with(&folder) && path.ends_with(".md");
+        templates.iter().map(|(path, _)| path).filter(own).collect()
+    }
+}

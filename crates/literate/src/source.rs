@@ -1,0 +1,101 @@
+//! Finds an item in the source of a program: its file, and the lines that documents quote.
+
+/// The source of a program, as the macro [`sources!`](crate::sources) gives it.
+#[derive(Clone, Copy, Debug)]
+pub struct Sources {
+    /// Name of the crate.
+    pub name: &'static str,
+    /// Its version.
+    pub version: &'static str,
+    /// Path of each file from the folder of its Cargo.toml, and its text.
+    pub files: &'static [(&'static str, &'static str)],
+    /// Crates as paths of items name them, and the folders of their source; an empty name for the program.
+    pub crates: &'static [(&'static str, &'static str)],
+}
+
+impl Sources {
+    /// A path as the documents show it, from that of the compiler.
+    pub(crate) fn short<'a>(&self, path: &'a str) -> &'a str {
+        let (first, rest) = path.split_once("::").unwrap_or(("", path));
+        if first == self.name.replace('-', "_") { rest } else { path }
+    }
+
+    /// The listing of an item: what stands in its file between the lines `// listing: NAME`, with the last name of its path,
+    /// and `// end`, moved to the left edge.
+    pub fn listing(&self, item: &str) -> Result<String, String> {
+        let file = self.file(item);
+        let text = self.files.iter().find(|(path, _)| Some(*path) == file);
+        let name = item.rsplit("::").next().unwrap_or_default();
+        let mark = format!("// listing: {name}");
+        let lines = text.map_or("", |(_, text)| text).lines();
+        let inside = lines.skip_while(|line| line.trim() != mark).skip(1);
+        let lines: Vec<&str> = inside.take_while(|line| line.trim() != "// end").collect();
+        if lines.is_empty() {
+            let marks = format!("the lines `{mark}` and `// end` in its file");
+            return Err(format!("there is no listing `{item}`; it needs {marks}"));
+        }
+        let indent = lines.first().map_or(0, |line| line.len() - line.trim_start().len());
+        let lines = lines.iter().map(|line| line.get(indent..).unwrap_or_default());
+        Ok(lines.collect::<Vec<_>>().join("\n"))
+    }
+
+    /// The file of an item or a module, by its path: `impact_circuits::jump::p_jump` is in
+    /// `crates/circuits/src/jump.rs`. None if the program has no such file.
+    pub fn file(&self, item: &str) -> Option<&'static str> {
+        let inside =
+            |(name, folder): &(&str, &'static str)| Some((*folder, item.strip_prefix(name)?));
+        let (folder, rest) = self.crates.iter().find_map(inside)?;
+        let mut parts: Vec<&str> = rest.split("::").filter(|part| !part.is_empty()).collect();
+        loop {
+            let module = format!("{folder}/{}", parts.join("/"));
+            let is = |path: &str| match path.strip_prefix(&module) {
+                Some(".rs" | "/mod.rs") => true,
+                Some("lib.rs" | "main.rs") => parts.is_empty(),
+                _ => false,
+            };
+            let mut files = self.files.iter();
+            if let Some((path, _)) = files.find(|(path, _)| is(path)) {
+                return Some(path);
+            }
+            parts.pop()?;
+        }
+    }
+}
+
+#[cfg(test)]
+pub(crate) fn toy() -> Sources {
+    const FLIGHT: &str = "//! Free flight.\n\nimpl Motion {\n    // listing: kick\n    /// A jump of the velocity by ω \
+               `kick`.\n    pub fn kick<const M: usize>(&mut self, kick: f64, p: &Phases<M>) {\n        self.a -= kick * \
+               p.sin;\n        self.b += kick * p.cos;\n    }\n    // end\n}\n";
+    let files = &[("src/flight.rs", FLIGHT), ("src/flight/drag/mod.rs", ""), ("src/lib.rs", "")];
+    Sources { name: "toy-paper", version: "1", files, crates: &[("toy", "src")] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_listing_is_what_stands_between_its_marks() {
+        let kick = toy().listing("toy::flight::Motion::kick").unwrap();
+        assert!(kick.starts_with("/// A jump") && kick.ends_with("p.cos;\n}"), "{kick}");
+        let error = toy().listing("toy::flight::kik").unwrap_err();
+        assert!(
+            error.contains("`toy::flight::kik`") && error.contains("// listing: kik"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn an_item_has_the_file_of_its_module() {
+        for (item, file) in [
+            ("toy::flight::Motion::kick", Some("src/flight.rs")),
+            ("toy::flight::drag::of", Some("src/flight/drag/mod.rs")),
+            ("toy::Chain", Some("src/lib.rs")),
+            ("other::kick", None),
+        ] {
+            assert_eq!(toy().file(item), file, "{item}");
+        }
+        assert_eq!(toy().short("toy_paper::claims::sec2"), "claims::sec2");
+    }
+}
