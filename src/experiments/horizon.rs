@@ -7,6 +7,7 @@ use crate::experiments::prelude::*;
 use crate::params::Runs;
 use impact_numerics::statistics::slope;
 use literate::experiments::Experiment;
+use literate::experiments::cutting::SECOND;
 use literate::experiments::experiment::How::Whole;
 
 /// Chaos and its horizon.
@@ -14,7 +15,7 @@ pub const HORIZON: Experiment<Runs, Horizon> = Experiment {
     name: "horizon",
     code: &["src/experiments/horizon.rs"],
     parameters: Runs::horizon,
-    how: Whole(run),
+    how: Whole(run, |parameters| parameters.realisations as u64 * SECOND / 300),
     tables,
 };
 

@@ -4,6 +4,7 @@ use crate::experiments::prelude::*;
 use crate::params::{Boundary, Profile, Protocol, SEED, Start};
 use impact_chain::replay::{Asked, Forces, Replay};
 use literate::experiments::Experiment;
+use literate::experiments::cutting::SECOND;
 use literate::experiments::experiment::How::Whole;
 
 /// Runs that a page repeats.
@@ -11,7 +12,7 @@ pub const REPLAY: Experiment<ReplayRuns, Replays> = Experiment {
     name: "replay",
     code: &["src/experiments/replay.rs"],
     parameters: runs,
-    how: Whole(run),
+    how: Whole(run, |_| SECOND / 10),
     tables,
 };
 

@@ -6,6 +6,7 @@
 use crate::experiments::prelude::*;
 use crate::params::Runs;
 use literate::experiments::Experiment;
+use literate::experiments::cutting::SECOND;
 use literate::experiments::experiment::How::Whole;
 
 /// One long run.
@@ -13,7 +14,7 @@ pub const SPACE_TIME: Experiment<Runs, SpaceTime> = Experiment {
     name: "spacetime",
     code: &["src/experiments/spacetime.rs"],
     parameters: Runs::spacetime,
-    how: Whole(run),
+    how: Whole(run, |parameters| parameters.until as u64 * SECOND / 100_000),
     tables,
 };
 

@@ -7,6 +7,7 @@
 use crate::experiments::prelude::*;
 use crate::params::TwoMassesParams;
 use literate::experiments::Experiment;
+use literate::experiments::cutting::SECOND;
 use literate::experiments::experiment::How::Whole;
 
 /// Two masses under a low force.
@@ -14,7 +15,7 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
     name: "two_masses",
     code: &["src/experiments/two_masses.rs"],
     parameters: TwoMassesParams::new,
-    how: Whole(run),
+    how: Whole(run, |parameters| parameters.directions.realisations as u64 * SECOND / 800),
     tables,
 };
 

@@ -176,4 +176,10 @@ impl BiasParams {
         let chains = sigmas.into_iter().map(chains).collect();
         BiasParams { chains, transient: protocol.transient, settings }
     }
+
+    /// Returns the number of runs, over all chains and methods.
+    pub fn runs(&self) -> u64 {
+        let realisations: usize = self.settings.iter().map(|(_, realisations)| realisations).sum();
+        (self.chains.len() * realisations) as u64
+    }
 }

@@ -18,6 +18,7 @@ pub mod trials;
 
 use crate::params::{BiasParams, RaceParams, ScaleParams, TrialParams};
 use literate::experiments::Experiment;
+use literate::experiments::cutting::SECOND;
 use literate::experiments::experiment::How::Whole;
 
 /// Every method against the true motion.
@@ -29,7 +30,7 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
         "src/experiments/horizon.rs",
     ],
     parameters: RaceParams::new,
-    how: Whole(race::run),
+    how: Whole(race::run, |parameters| parameters.chains as u64 * SECOND / 5),
     tables: tables::race,
 };
 
@@ -38,7 +39,7 @@ pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
     name: "bias",
     code: &["src/experiments/accuracy/bias.rs", "src/experiments/accuracy"],
     parameters: BiasParams::new,
-    how: Whole(bias::run),
+    how: Whole(bias::run, |parameters| parameters.runs() * SECOND / 200),
     tables: tables::bias,
 };
 
@@ -47,7 +48,7 @@ pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
     name: "trials",
     code: &["src/experiments/accuracy/trials.rs", "src/experiments/accuracy"],
     parameters: TrialParams::new,
-    how: Whole(trials::run),
+    how: Whole(trials::run, |parameters| if parameters.short { SECOND } else { 4 * SECOND }),
     tables: |_| Vec::new(),
 };
 
@@ -56,6 +57,6 @@ pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
     name: "scale",
     code: &["src/experiments/accuracy/scale.rs", "src/experiments/accuracy"],
     parameters: ScaleParams::new,
-    how: Whole(scale::run),
+    how: Whole(scale::run, |_| SECOND / 10),
     tables: tables::scale,
 };

@@ -7,6 +7,7 @@ pub use run::{First, Nucleation};
 
 use crate::params::NucleationParams;
 use literate::experiments::Experiment;
+use literate::experiments::cutting::SECOND;
 use literate::experiments::experiment::How::Whole;
 
 /// First impacts of chains from rest.
@@ -14,6 +15,6 @@ pub const NUCLEATION: Experiment<NucleationParams, Nucleation> = Experiment {
     name: "nucleation",
     code: &["src/experiments/nucleation"],
     parameters: NucleationParams::new,
-    how: Whole(run::run),
+    how: Whole(run::run, |parameters| run::count(parameters) * SECOND / 30_000),
     tables: tables::tables,
 };

@@ -26,7 +26,7 @@ pub(super) fn ensembles(
 }
 
 /// Chains of all ensembles.
-fn count(parameters: &NucleationParams) -> u64 {
+pub(super) fn count(parameters: &NucleationParams) -> u64 {
     ensembles(parameters).map(|(_, realisations, _)| realisations as u64).sum()
 }
 

@@ -19,6 +19,7 @@ pub use run::{Part, Seeds, Trace, run};
 
 use crate::params::SeedsParams;
 use literate::experiments::Experiment;
+use literate::experiments::cutting::SECOND;
 use literate::experiments::experiment::How::Whole;
 
 /// How impacts spread from one gap that closes by itself.
@@ -26,6 +27,8 @@ pub const SEEDS: Experiment<SeedsParams, Seeds> = Experiment {
     name: "seeds",
     code: &["src/experiments/seeds"],
     parameters: SeedsParams::new,
-    how: Whole(run),
+    how: Whole(run, |parameters| {
+        (parameters.sigmas.len() * parameters.realisations) as u64 * SECOND / 600
+    }),
     tables: tables::tables,
 };

@@ -11,7 +11,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// No unit is meant to weigh more than this: a third of a second of one core, about ...
+/// Work that a core does in about a second.
+pub const SECOND: u64 = 1_600_000;
+
+/// No unit is meant to weigh more than this: about two thirds of a second of one core ...
 const HEAVY: u64 = 1_000_000;
 
 /// ... unless an experiment had then more units than about this many: each has a file.
@@ -22,7 +25,7 @@ const MANY: u64 = 2000;
 pub struct UnitRow {
     /// Number of realisations.
     pub realisations: usize,
-    /// Work of one realisation: three million are about a second of one core.
+    /// Work of one realisation: a core does [`SECOND`] in about a second.
     pub weight: u64,
 }
 
@@ -47,9 +50,9 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// All of an experiment that is not cut.
-    pub fn whole() -> Unit {
-        Unit { number: 0, row: 0, realisations: 0..0, weight: 0 }
+    /// Returns the only unit of an experiment that is not cut.
+    pub fn whole(weight: u64) -> Unit {
+        Unit { number: 0, row: 0, realisations: 0..0, weight }
     }
 
     /// Runs its realisations, in any order and on any thread, and advances the stage after each.

@@ -28,12 +28,16 @@ pub struct Experiment<P: 'static, T: 'static, U: 'static = ()> {
     pub tables: fn(&T) -> Vec<Table>,
 }
 
+/// Estimates the work of a run with some parameters, so that people know how long they will wait: a core
+/// does [`SECOND`](super::cutting::SECOND) in about a second. No result depends on it.
+pub type Work<P> = fn(&P) -> u64;
+
 /// How an experiment is run.
 pub enum How<P, T, U> {
     /// Read from a file that is committed, or known without a run; never saved.
     Read(fn(&Session<'_>) -> Result<T, Error>),
     /// As one unit of work.
-    Whole(fn(&P, &Progress) -> Result<T, Error>),
+    Whole(fn(&P, &Progress) -> Result<T, Error>, Work<P>),
     /// Cut into units; the name is for people who wait.
     Cut(&'static str, Cutting<P, U, T>),
 }
@@ -46,7 +50,7 @@ impl<P, T> Experiment<P, T> {
         run: fn(&P, &Progress) -> Result<T, Error>,
         tables: fn(&T) -> Vec<Table>,
     ) -> Self {
-        Experiment { name, code: &[], parameters, how: How::Whole(run), tables }
+        Experiment { name, code: &[], parameters, how: How::Whole(run, |_| 0), tables }
     }
 }
 
@@ -68,7 +72,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         let (parameters, identity) = self.known_by(session);
         session.saved(&identity, || match &self.how {
             How::Read(read) => read(session),
-            How::Whole(run) => run(&parameters, &session.progress),
+            How::Whole(run, _) => run(&parameters, &session.progress),
             How::Cut(_, cutting) => {
                 let units = self.units(session.profile);
                 let (parts, _) = self.parts(&units, &parameters, &identity, session)?;
@@ -146,7 +150,7 @@ pub trait AnyExperiment: Sync {
 
     /// Its units of work: one if it is not cut.
     fn units(&self, _: Profile) -> Vec<Unit> {
-        vec![Unit::whole()]
+        vec![Unit::whole(0)]
     }
 
     /// Runs those of some of its units that are not in the store, and saves what each gives as soon as it is there; none if
@@ -197,7 +201,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
     fn units(&self, profile: Profile) -> Vec<Unit> {
         match &self.how {
             How::Read(_) => Vec::new(),
-            How::Whole(_) => vec![Unit::whole()],
+            How::Whole(_, work) => vec![Unit::whole(work(&(self.parameters)(profile)))],
             How::Cut(_, cutting) => cutting.units(&(self.parameters)(profile)),
         }
     }

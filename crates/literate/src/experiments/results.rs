@@ -1,5 +1,6 @@
 //! All results derived.
 
+use super::announce::announce;
 use super::experiment::Json;
 use super::{AnyExperiment, Error, Experiment, Found, Profile, Session};
 use crate::table::{Table, Tables, number_at};
@@ -90,6 +91,7 @@ impl Results {
         derived: &[DerivedTables],
         session: &Session<'_>,
     ) -> Result<Self, Error> {
+        announce(experiments, session);
         let mut found = BTreeMap::new();
         for experiment in experiments {
             found.insert(experiment.name(), experiment.found(session)?);
