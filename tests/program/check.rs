@@ -86,7 +86,7 @@ fn every_form_has_every_statement_at_its_line_and_what_fails() {
 /// What is wrong with a file of the templates, and what is said behind its name: text in the place of other text, or lines
 /// at its end (`+`; $ is the last line).
 const FAULTS: &str = r##"2 front.md +«v.p | nofilter» => :$:
-1 front.md +About 12 of them. => :$:7: the naked numeral 12
+1 front.md +About 12 of them. => :$:7: hard-coded number 12
 2 front.md +It is «sweep.rise.half_heigth». => :$:
 2 literals.toml why = "what the model is -> why = " " # => : [
 2 published.toml [[statement]] -> [[statement => :

@@ -21,7 +21,7 @@ pub use make::whole;
 const EXIT_CODES: &str = "Exit codes:
   0    fine
   1    a statement, relation or comparison failed, and what was asked for is written all
-       the same; a rule of the prose is broken (a naked numeral, an unused value) or a run
+       the same; a rule of the prose is broken (a hard-coded number, an unused value) or a run
        failed, and nothing is; or saved results are stale, says `paper --dry-run`
   2    wrong usage or input, broken prose too, or a place that cannot be read or written
   130  ended by Ctrl-C or SIGTERM";

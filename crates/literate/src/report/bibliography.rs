@@ -92,7 +92,7 @@ fn shown(entry: &biblatex::Entry) -> Result<Entry, String> {
         EntryType::Software => vec![slanted(title), words(" [Computer software].".into())],
         ref other => {
             let kinds = "@article, @book, @phdthesis or @software";
-            return Err(format!("has the type @{other}, which is not shown; write {kinds}"));
+            return Err(format!("has the type @{other}, which is not supported; use {kinds}"));
         }
     });
     text.retain(|piece| !plain(std::slice::from_ref(piece)).is_empty());

@@ -237,14 +237,16 @@ fn put(tree: &mut Json, name: &str, thing: Json) {
 fn register(tera: &mut Tera) {
     let with = |text: &str, word: &str| {
         let what =
-            || tera::Error::message(format!("`{word}` is a filter of values such as v.p_crit"));
+            || tera::Error::message(format!("`{word}` is a filter for values such as v.name"));
         mark::with(text, word).ok_or_else(what)
     };
     tera.register_filter("percent", move |text: &str, _: Kwargs, _: &State| with(text, "percent"));
     tera.register_filter("significant", move |text: &str, arguments: Kwargs, _: &State| {
         match arguments.must_get("digits") {
             Ok(digits @ 0..=MAX_DIGITS) => with(text, &format!("significant{digits}")),
-            _ => Err(tera::Error::message("it takes how many digits, as in (digits=2)")),
+            _ => Err(tera::Error::message(
+                "`significant` needs a number of digits, as in significant(digits=2)",
+            )),
         }
     });
     tera.register_function("literal", |arguments: Kwargs, _: &State| {

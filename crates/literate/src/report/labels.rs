@@ -159,7 +159,9 @@ impl Labels {
         });
         let lists: Vec<_> = lists.collect();
         if let (Some(key), true) = (cited.first(), lists.is_empty()) {
-            let what = format!("it cites {key} and has no list; add a paragraph [@bibliography]");
+            let what = format!(
+                "cites {key} but has no list of references; add a paragraph [@bibliography]"
+            );
             return Err(Error::Template(format!("{}: {what}", here.prose)));
         }
         for entries in lists {
@@ -222,7 +224,7 @@ pub(super) fn of_kind(kind: &str, id: &str) -> Result<(), Error> {
     match name.is_some_and(|name| !name.is_empty() && name.chars().all(plain)) {
         true => Ok(()),
         false => Err(Error::Markup(format!(
-            "the id {id:?}: write {kind}: and behind it letters, digits or any of : - _ ."
+            "the id {id:?} is not valid: write {kind}: followed by letters, digits or any of : - _ ."
         ))),
     }
 }

@@ -1,5 +1,5 @@
-//! No naked numerals: a number in prose is a value, part of mathematics, a reference, or declared. The manual
-//! ([`crate::manual`]) lists what is exempt.
+//! Finds hard-coded numbers: each number in prose has to be a value, part of mathematics, a
+//! reference, or declared. The manual ([`crate::manual`]) lists what is exempt.
 
 use super::Error;
 use super::mark::{CLOSE, OPEN};
@@ -7,7 +7,7 @@ use crate::input::toml_fault;
 use serde::Deserialize;
 use std::ops::Range;
 
-/// Phrases with numbers that are nobody's result, with their reasons: `literals.toml`.
+/// Phrases with numbers that are not results, with their reasons: `literals.toml`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Declared {
@@ -18,7 +18,7 @@ pub struct Declared {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table [[literal]]")]
 struct Group {
-    /// Why the numbers in these phrases are nobody's result.
+    /// Why the numbers in these phrases are not computed.
     why: String,
     phrases: Vec<String>,
 }
@@ -30,12 +30,13 @@ impl Declared {
         match declared.literal.iter().find(|group| group.why.trim().is_empty()) {
             None => Ok(declared),
             Some(Group { phrases, .. }) => Err(Error::Template(format!(
-                "literals.toml: {phrases:?} have no reason; write it in why"
+                "literals.toml: {phrases:?} have no reason; write it in `why`"
             ))),
         }
     }
 
-    /// Does the word at these bytes stand inside a declared phrase? A line may end between its words.
+    /// Whether the word at this offset stands inside a declared phrase, between whose words a line may
+    /// end.
     fn allows(&self, text: &str, start: usize, word: &str) -> bool {
         let stands = |phrase: &str, at: usize| {
             let begin = start.checked_sub(at);
@@ -50,7 +51,7 @@ impl Declared {
     }
 }
 
-/// Words that are numbers and nothing else; with *-fold* behind them too.
+/// Words that are numbers and nothing else, also with the ending *-fold*.
 const WORDS: &str = "two three four five six seven eight nine ten eleven twelve thirteen fourteen \
     fifteen sixteen seventeen eighteen nineteen twenty thirty forty fifty sixty seventy eighty ninety \
     hundred thousand million billion dozen hundreds thousands millions dozens tens twice thrice";
@@ -58,15 +59,16 @@ const WORDS: &str = "two three four five six seven eight nine ten eleven twelve 
 fn is_number_word(word: &str) -> bool {
     let word = word.to_lowercase();
     let word = word.strip_suffix("fold").unwrap_or(&word);
-    WORDS.split_whitespace().any(|own| own == word)
+    WORDS.split_whitespace().any(|number| number == word)
 }
 
-/// Naked numerals among the words of a part of a text, each with its offset. Marks of values are none.
+/// Finds hard-coded numbers in the words of a part of a text, each with its offset. Marks of values
+/// are skipped.
 pub fn words(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize, String)> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut found = Vec::new();
     let mut at = part.start;
-    // What goes on with a word that began before was looked at there.
+    // Skip the rest of a word that began before this part and was checked there.
     let mut inside = text[..at].ends_with(is_word);
     while let Some(c) = text[at..part.end].chars().next() {
         let rest = &text[at..part.end];
@@ -87,7 +89,7 @@ pub fn words(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize,
             at = at.max(start + numeral.len());
             numeral
         } else if c.is_alphabetic() && is_number_word(word) {
-            // Tied by a hyphen to a word that is no number it names a kind.
+            // With a hyphen before a word that is not a number it names a kind: *two-sided*.
             let next = text[at..].strip_prefix('-').unwrap_or_default();
             let next = next.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
             if !next.is_empty() && !is_number_word(next) && next != "one" {
@@ -104,20 +106,20 @@ pub fn words(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize,
     found
 }
 
-/// Signs of a formula between which a side stands.
+/// Signs that end a side of a relation.
 const BETWEEN: &str = r"= < > ≈ ≤ ≥ , ; & \\ \approx \simeq \sim \equiv \propto \le \leq \ge \geq \lt \gt \ne \neq \ll \gg
     \lesssim \gtrsim \leqslant \geqslant \to \quad \qquad";
 
-/// What may stand about a number without making a formula of it.
+/// What may surround a number that is still a number alone.
 const AROUND: &str = r"\, \; \: \! ~ ± \times \cdot \pm \thinspace \mathbf \mathit \boldsymbol";
 
 const DIGITS: &str = "0123456789 .,+-−^{}%\\()";
 
-/// The sides of the relations in a formula, without what stands about them.
+/// Returns the sides of the relations in a formula, without what may surround a number.
 fn sides(tex: &str) -> Vec<String> {
-    let among = |list: &str, sign: &str| list.split_whitespace().any(|own| own == sign);
+    let among = |list: &str, sign: &str| list.split_whitespace().any(|listed| listed == sign);
     let mut tex = tex.replace(r"\begin{aligned}", "").replace(r"\end{aligned}", "");
-    // Units and other words make no formula of a number.
+    // A number with a unit or another word is still a number alone.
     for open in [r"\text{", r"\textrm{", r"\mathrm{"] {
         while let Some((before, after)) = tex.split_once(open) {
             let (word, after) = after.split_once('}').unwrap_or((after, ""));
@@ -147,26 +149,27 @@ fn sides(tex: &str) -> Vec<String> {
     sides.iter().map(whole).filter(|side| !side.is_empty()).collect()
 }
 
-/// A naked number in a formula. `0` and `1` alone pass: they are as much words as numbers.
+/// Finds a hard-coded number in a formula; none if each number is a part of mathematics. `0` and
+/// `1` alone are allowed: they are as much words as numbers.
 pub fn formula(tex: &str) -> Option<String> {
     let sides = sides(tex);
-    let naked = |side: &String| {
+    let is_hard_coded = |side: &String| {
         let digits = side.chars().filter(char::is_ascii_digit).count();
         let long = side.contains('.') || digits > 1;
         let number = digits > 0 && side.chars().all(|c| DIGITS.contains(c));
         let alone = sides.len() == 1 && !matches!(side.as_str(), "0" | "1");
         number && (long || alone) || is_number_word(side)
     };
-    sides.iter().find(|side| naked(side)).cloned()
+    sides.iter().find(|side| is_hard_coded(side)).cloned()
 }
 
-/// Refuses naked numerals in words that stand outside the prose: a reason, an alternative text. They have no formulas, so
-/// `0` and `1` pass as there.
+/// Refuses hard-coded numbers in texts outside the prose, such as a reason or an alternative text.
+/// These have no formulas, so `0` and `1` are allowed as in a formula.
 pub fn check(place: &str, text: &str, declared: &Declared) -> Result<(), Error> {
     let mut found = words(text, 0..text.len(), declared);
     found.retain(|(_, numeral)| !["0", "1"].contains(&numeral.as_str()));
-    let told = |(_, numeral)| Error::Numeral(numeral).at(place.to_string());
-    Error::all(found.into_iter().map(told).collect())
+    let error = |(_, numeral)| Error::HardCoded(numeral).at(place.to_string());
+    Error::all(found.into_iter().map(error).collect())
 }
 
 #[cfg(test)]
@@ -175,7 +178,7 @@ mod tests {
 
     fn found(text: &str) -> Vec<String> {
         let declared =
-            "[[literal]]\nwhy = \"an impact has them\"\nphrases = [\"two masses\", \"at 100 %\"]";
+            "[[literal]]\nwhy = \"a collision has them\"\nphrases = [\"two masses\", \"at 100 %\"]";
         let declared = Declared::read(declared).unwrap();
         words(text, 0..text.len(), &declared).into_iter().map(|(_, numeral)| numeral).collect()
     }
@@ -202,7 +205,7 @@ mod tests {
 
     #[test]
     fn numbers_in_formulas_are_found() {
-        for naked in [
+        for number in [
             "0.12",
             "10^{-9}",
             r"\approx 0.12",
@@ -218,7 +221,7 @@ mod tests {
             r"12 \le n",
             r"\delta < 8.9\times10^{-4}",
         ] {
-            assert!(formula(naked).is_some(), "{naked}");
+            assert!(formula(number).is_some(), "{number}");
         }
         for fine in [
             "= 0",

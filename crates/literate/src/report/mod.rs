@@ -50,16 +50,16 @@ pub enum Error {
     Template(String),
     #[error(transparent)]
     Prose(#[from] crate::prose::Error),
-    #[error("{}; the manual of literate has all markup on its page *Prose*", one_line(.0, 200))]
+    #[error("{}; the page *Prose* of the manual of literate lists all markup", one_line(.0, 200))]
     Markup(String),
     #[error("{place}: {error}")]
     At { place: String, error: Box<Error> },
-    #[error("[!claim:{}]: there is no claim of this id; correct or remove it", one_line(.0, 200))]
+    #[error("[!claim:{}]: there is no claim with this id; correct or remove it", one_line(.0, 200))]
     Claim(String),
     #[error("a link to {}: there is no such file or place; correct or remove it", one_line(.0, 200))]
     NoFile(String),
     #[error(
-        "there is no figure {:?}: a picture is figures/NAME.svg, which the program draws; other files of pictures are not taken",
+        "there is no figure {:?}; use figures/NAME.svg, which the program draws; other image files are not supported",
         one_line(.0, 200)
     )]
     Picture(String),
@@ -68,22 +68,26 @@ pub enum Error {
     #[error("[@{}]: nothing in the report has this id; correct or remove the reference", one_line(.0, 200))]
     Reference(String),
     #[error(
-        "no LaTeX is known for the character '{}' (U+{:04X}); write it otherwise, as TeX between $ signs or in words",
+        "the character '{}' (U+{:04X}) is not known in LaTeX; write it as TeX between $ signs, or in words",
         one_line(&.0.to_string(), 1), u32::from(*.0)
     )]
     NoLatex(char),
-    #[error("no MathML for ${}$: {}; write it otherwise", one_line(tex, 200), one_line(what, 200))]
+    #[error(
+        "the formula ${}$ cannot be shown: {}; write it differently",
+        one_line(tex, 200),
+        one_line(what, 200)
+    )]
     Maths { tex: String, what: String },
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Several(Vec<Error>),
     #[error(
-        "the naked numeral {0}; name a value «v.…», or give the reason of a number that nobody computed, by «literal(text=…, \
-         why=…)» or by the phrase about it in literals.toml"
+        "hard-coded number {0}; use a value «v.…», or give the reason for a number that is not computed, \
+         by «literal(text=…, why=…)» or by its phrase in literals.toml"
     )]
-    Numeral(String),
+    HardCoded(String),
     #[error("{0} is not shown; put ![caption](figures/{0}.svg) into the prose")]
     NotShown(String),
-    #[error("equation ({0}) is not shown; put \\tag{{{0}}} to it in the prose")]
+    #[error("equation ({0}) is not shown; add \\tag{{{0}}} to it in the prose")]
     NoEquation(String),
     #[error("no template and no claim names {0}; use or remove it, or declare it data_only()")]
     Unused(String),
@@ -108,7 +112,7 @@ impl Error {
     /// Whether the prose can be read, and breaks a rule about its numbers and figures.
     pub fn is_of_rules(&self) -> bool {
         match self {
-            Error::Numeral(_) | Error::NotShown(_) | Error::Unused(_) => true,
+            Error::HardCoded(_) | Error::NotShown(_) | Error::Unused(_) => true,
             Error::At { error, .. } => error.is_of_rules(),
             Error::Several(errors) => errors.iter().all(Error::is_of_rules),
             _ => false,

@@ -151,20 +151,20 @@ pub fn refused(tex: &str) -> Option<String> {
         let name = &after[..after.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(after.len())];
         rest = &after[name.len()..];
         if name.is_empty() && after.starts_with('\\') && !tex.contains(r"\begin{") {
-            return Some(r"a break \\ of lines stands in \begin{aligned}".into());
+            return Some(r"a line break \\ must stand in \begin{aligned}".into());
         } else if name.is_empty() {
             // `\,` and its like: one character, which may be a backslash.
             rest = after.get(after.chars().next().map_or(0, char::len_utf8)..).unwrap_or_default();
         } else if name == "operatorname" {
-            return Some(r"\operatorname is refused by hosts; write \mathrm{…}".into());
+            return Some(r"\operatorname is not rendered by GitHub; write \mathrm{…}".into());
         } else if !ALLOWED.split_whitespace().any(|own| own == name) {
             return Some(format!(
-                r"\{name} is not among the macros that every format shows (the manual lists them)"
+                r"\{name} is not supported by every format (the manual lists the macros that are)"
             ));
         } else if name == "begin"
             && !ENVIRONMENTS.iter().any(|own| rest.starts_with(&format!("{{{own}}}")))
         {
-            return Some(format!("an environment is {}", ENVIRONMENTS.join(", ")));
+            return Some(format!("an environment must be one of {}", ENVIRONMENTS.join(", ")));
         }
     }
     bare(rest)
@@ -173,7 +173,7 @@ pub fn refused(tex: &str) -> Option<String> {
 /// The first sign with a special meaning in LaTeX between macros. (Columns of an environment keep their &.)
 fn bare(between: &str) -> Option<String> {
     let sign = between.chars().find(|c| matches!(c, '%' | '#' | '$'))?;
-    Some(format!("a bare {sign} is no sign in LaTeX; write \\{sign}"))
+    Some(format!("{sign} must be escaped in LaTeX; write \\{sign}"))
 }
 
 /// Text in which mathematics stands between dollars, in characters.

@@ -27,11 +27,13 @@ impl Reader<'_> {
                         numeral.starts_with(|c: char| c.is_numeric())
                     };
                     let found = lint::words(&self.filled.text, range, self.declared);
-                    self.naked(found.into_iter().filter(digits));
+                    self.hard_coded(found.into_iter().filter(digits));
                     out.push(Inline::Code(self.plain(&code)?));
                 }
                 Event::InlineMath(_) if self.hides > 0 => {
-                    return Err(markup("hosts see no formula inside emphasis or a link"));
+                    return Err(markup(
+                        "GitHub does not render a formula inside emphasis or a link; move it out",
+                    ));
                 }
                 Event::InlineMath(tex) => {
                     self.stands_free(range.start)?;
@@ -54,37 +56,38 @@ impl Reader<'_> {
     pub(super) fn line(&mut self) -> Result<Vec<Inline>, Error> {
         let inlines = self.inlines()?;
         match inlines.iter().any(|inline| matches!(inline, Inline::Display { .. })) {
-            true => Err(markup("an equation between $$ stands in a paragraph; write $…$ here")),
+            true => Err(markup("an equation between $$ must stand in a paragraph; write $…$ here")),
             false => Ok(inlines),
         }
     }
 
-    /// Notes naked numerals that people typed.
-    fn naked(&mut self, found: impl IntoIterator<Item = (usize, String)>) {
+    /// Notes hard-coded numbers that people typed.
+    fn hard_coded(&mut self, found: impl IntoIterator<Item = (usize, String)>) {
         for (at, numeral) in found {
             if self.filled.is_typed(at) {
-                self.find(at, Error::Numeral(numeral));
+                self.note(at, Error::HardCoded(numeral));
             }
         }
     }
 
-    /// Notes a naked number in a formula; what tags wrote is a letter there.
+    /// Notes a hard-coded number in a formula, in which what tags wrote counts as a letter.
     fn check_numbers(&mut self, range: &Range<usize>) {
         let source = self.source(range);
         let tex = source.trim_start_matches('$');
         let begin = range.end - tex.len();
         let tex = tex.trim_end_matches('$').split(r"\tag").next().unwrap_or_default();
         let typed = |(i, c)| if self.filled.is_typed(begin + i) { c } else { 'x' };
-        let naked = lint::formula(&tex.char_indices().map(typed).collect::<String>());
-        self.naked(naked.map(|numeral| (range.start, numeral)));
+        let found = lint::formula(&tex.char_indices().map(typed).collect::<String>());
+        self.hard_coded(found.map(|numeral| (range.start, numeral)));
     }
 
-    /// Hosts see a formula in the line only behind a blank or an opening bracket.
+    /// Refuses a formula right after a word: GitHub renders one only after a space or an opening
+    /// bracket.
     fn stands_free(&self, at: usize) -> Result<(), Error> {
         let touches = |c: char| c.is_alphanumeric() || ")]$".contains(c) || c == mark::CLOSE;
         match self.filled.text[..at].ends_with(touches) {
             true => Err(markup(
-                "hosts see no formula right behind a word or a number: move it inside, or set it apart",
+                "GitHub does not render a formula right after a word or a number; put a space between them, or move the word into the formula",
             )),
             false => Ok(()),
         }
@@ -154,7 +157,7 @@ impl Reader<'_> {
             (self.at, self.quiet) = (at, at + source[at..].find("\n\n").unwrap_or(source.len()));
             return Err(markup(what));
         }
-        self.naked(lint::words(source, range.clone(), self.declared));
+        self.hard_coded(lint::words(source, range.clone(), self.declared));
         for piece in pieces(text) {
             match piece {
                 Piece::Text(words) if words.contains(mark::is_sign) => {
@@ -191,7 +194,7 @@ impl Reader<'_> {
         }
         let is_index = |pair: &[Part]| matches!(pair, [Part::Tex(tex), Part::Value { .. }] if tex.ends_with(['^', '_']));
         let what = match formula.0.windows(2).any(is_index) {
-            true => Some("a value is an index here; put it into {…}".into()),
+            true => Some("a value used as an index must stand in braces {…}".into()),
             false => tex::refused(&tex),
         };
         if let Some(what) = what {
@@ -214,7 +217,7 @@ impl Reader<'_> {
         let (mut tex, mut number) = (tex.to_string(), String::new());
         if let Some((before, after)) = tex.split_once(r"\tag{") {
             let (tag, after) =
-                after.split_once('}').ok_or_else(|| markup(r"a \tag{ without its end"))?;
+                after.split_once('}').ok_or_else(|| markup(r"a \tag{ that is not closed"))?;
             let own = format!("eq:{tag}");
             self.id("eq", &own, self.at)?;
             (id, number, tex) = (Some(own), tag.into(), format!("{}{}", before.trim(), after));
@@ -239,11 +242,11 @@ impl Reader<'_> {
     }
 }
 
-const LEFTOVER: &str = "markup without its other end, or a row where a cell is meant (table[\"row\"].column); complete it, or write a \
-     backslash before a sign that is meant";
+const LEFTOVER: &str = "unclosed markup, or a row where a cell is meant (table[\"row\"].column); \
+     complete it, or write a backslash before a sign that is meant literally";
 
-const CUT: &str = "a formula without its other end: Markdown ends it at an empty line, and at one that begins with +, -, *, #, \
-     >, = or 1.; end the line before with the sign";
+const CUT: &str = "an unclosed formula: Markdown ends it at an empty line, and at a line that begins \
+     with +, -, *, #, >, = or 1.; move the sign to the end of the line before";
 
 /// The first sign of markup that Markdown took for text, since its other end is missing, and what is wrong there. The text
 /// stands at `start`; behind a backslash a sign is meant as it stands.

@@ -41,9 +41,7 @@ pub fn parse<'a>(
         depth > 40
     });
     if let Some((_, range)) = deep {
-        return Err(
-            markup("lists or emphasis within each other, too deep").at(filled.place(range.start))
-        );
+        return Err(markup("lists or emphasis are nested too deeply").at(filled.place(range.start)));
     }
     let mut reader = Reader {
         events: events.into_iter().peekable(),
@@ -110,7 +108,8 @@ impl<'a> Reader<'a> {
         &self.filled.text[range.clone()]
     }
 
-    fn find(&mut self, at: usize, error: Error) {
+    /// Notes an error at an offset; reading goes on.
+    fn note(&mut self, at: usize, error: Error) {
         self.found.push(error.at(self.filled.place(at)));
     }
 
@@ -130,17 +129,17 @@ impl<'a> Reader<'a> {
             match self.block() {
                 Ok(block) if within > 0 && !stands_within(&block) => {
                     self.at = start;
-                    let what = "what has a number or a place stands in no list and no quotation";
+                    let what = "a heading, figure, listing or captioned table cannot stand in a list or quotation";
                     return Err(markup(what));
                 }
                 Ok(Block::Listing { id, item, .. }) if id.is_empty() => {
-                    let what = "without the paragraph `Listing: caption {#lst:id}` before it";
-                    self.find(start, markup(format!("code of `{item}` {what}")));
+                    let what = "needs a paragraph `Listing: caption {#lst:id}` right before it";
+                    self.note(start, markup(format!("the listing of `{item}` {what}")));
                 }
                 Ok(block) => blocks.push(block),
                 Err(error) if within > 0 => return Err(error),
                 Err(error) => {
-                    self.find(self.at, error);
+                    self.note(self.at, error);
                     (self.within, self.hides) = (0, 0);
                     while self.events.next_if(|(_, range)| range.start < end).is_some() {}
                 }
@@ -176,19 +175,21 @@ impl<'a> Reader<'a> {
                 let level = level as u8;
                 let unnumbered = classes.iter().any(|class| &**class == "unnumbered");
                 if !attrs.is_empty() || classes.len() > usize::from(unnumbered) {
-                    return Err(markup("behind a heading stands {#sec:id .unnumbered} at most"));
+                    return Err(markup("a heading may be followed by {#sec:id .unnumbered} only"));
                 }
                 let id = id.map(|id| id.to_string());
                 id.iter().try_for_each(|id| self.id("sec", id, range.start))?;
                 if level > 3 || level == 1 && std::mem::replace(&mut self.titled, true) {
-                    return Err(markup("a document has one title, and sections of ## and ###"));
+                    return Err(markup(
+                        "a document has one title (#), and sections with ## and ###",
+                    ));
                 }
                 let text = self.line()?;
                 self.at = range.start;
                 let leads =
                     |inline: &Inline| matches!(inline, Inline::Link { .. } | Inline::Unresolved(_));
                 if text.is_empty() || text.iter().any(leads) {
-                    return Err(markup("a heading has words, and leads nowhere else"));
+                    return Err(markup("a heading needs words, and may have no link or reference"));
                 }
                 let bare = unnumbered || level == 1 || plain(&text) == "Abstract";
                 let number = (!bare).then(String::new);
@@ -247,7 +248,7 @@ impl<'a> Reader<'a> {
                 _ => {
                     self.at = range.start;
                     return Err(markup(
-                        "a caption has its table, or an id {#lst:…} and its code, right behind it",
+                        "a caption must be followed by its table, or have an id {#lst:…} and be followed by its code",
                     ));
                 }
             }
@@ -323,10 +324,10 @@ impl<'a> Reader<'a> {
         while let Some(Event::Start(Tag::TableHead | Tag::TableRow)) = self.peek() {
             let Some((_, range)) = self.next() else { break };
             // Markdown cuts and fills rows in silence.
-            let (own, all) = (cells_of(self.source(&range)), columns.len());
-            if own != all {
+            let (count, all) = (cells_of(self.source(&range)), columns.len());
+            if count != all {
                 return Err(markup(format!(
-                    "a row of {own} cells in a table of {all} columns; a bar in a cell is \\|"
+                    "a row has {count} cells in a table of {all} columns; write a bar within a cell as \\|"
                 )));
             }
             let mut cells = Vec::new();
@@ -343,9 +344,9 @@ impl<'a> Reader<'a> {
     }
 }
 
-const ELSE: &str = "this markup has no place in all formats";
-const ALONE: &str = "a picture stands alone in its paragraph";
-const FENCE: &str = "a block of code stands between two lines ```";
+const ELSE: &str = "this markup is not supported by every format";
+const ALONE: &str = "a figure must stand alone in its paragraph";
+const FENCE: &str = "a block of code must stand between two lines ```";
 
 /// Cells of a row of a table, by its bars.
 fn cells_of(row: &str) -> usize {

@@ -12,80 +12,80 @@ at «nothing.at_all» => 14:5 => nothing
 a <% if raw.half_height > 1 %>b => 1 => nexpected end
 «v.half_height | nofilter» => 14: => nofilter
 «literal(text="2007", why=" ")» => 14:2 => `literal` needs a number in `text` and its reason
-A naked numeral.
-at 0.12, so => 14:4 => the naked numeral 0.12;
-a tenfold rise => 14:3 => the naked numeral tenfold;
-at «raw.half_height» => 14:4 => the naked numeral 0.11652;
-at «"3.14"» => 14:4 => the naked numeral 3.14;
-We find $\sigma_{1/2} = 0.1159$ here. => 14:9 => the naked numeral 0.1159;
-by `0.1159` => 14:5 => the naked numeral 0.1159;
-| a |⏎|---|⏎| 12 | => 16:3 => the naked numeral 12;
+A hard-coded number.
+at 0.12, so => 14:4 => hard-coded number 0.12;
+a tenfold rise => 14:3 => hard-coded number tenfold;
+at «raw.half_height» => 14:4 => hard-coded number 0.11652;
+at «"3.14"» => 14:4 => hard-coded number 3.14;
+We find $\sigma_{1/2} = 0.1159$ here. => 14:9 => hard-coded number 0.1159;
+by `0.1159` => 14:5 => hard-coded number 0.1159;
+| a |⏎|---|⏎| 12 | => 16:3 => hard-coded number 12;
 A reference to what there is not.
 see [@fig:9] or => 14:5 => [@fig:9]: nothing
 see [@fig:fig03; @rice1945] => 14:5 => nothing in the report
 Seen [@eq:a, @eq:b] => 14:6 => nothing in the report
 [data](data/no.csv) => 14:1 => a link to data/no.csv
 [place](#sec-no) => 14:1 => a link to #sec-no
-[!claim:rise2] => 14:1 => there is no claim of this id
+[!claim:rise2] => 14:1 => there is no claim with this id
 [mice](javascript://x) => 14:1 => a link to javascript://x
 Seen [@mice1945] => 14:6 => [@mice1945]: nothing
 ![Words.](figures/fig09.svg) => 14:1 => there is no figure "fig09"
-![Words.](photo.png) => 14:1 => other files of pictures are not taken
-![Words.](figures/fig03.svg){#eq:a} => 14:1 => write fig: and behind it
-$$ x $$ {#fig:a} => 14:1 => write eq: and behind it
+![Words.](photo.png) => 14:1 => other image files are not supported
+![Words.](figures/fig03.svg){#eq:a} => 14:1 => write fig: followed by
+$$ x $$ {#fig:a} => 14:1 => write eq: followed by
 ## A {#sec:a}⏎⏎## B {#sec:a} => 16:1 => have this id
-## A {#fig:a} => 14:1 => write sec: and behind it
+## A {#fig:a} => 14:1 => write sec: followed by
 A table or a formula that is broken.
 | a | b |⏎|---|⏎| x | y | => 14:1 => a line of dashes
-| a | b |⏎|---|---|⏎| c | d | «v.half_height» | => 16:1 => a row of 3 cells
-Table: A. {#tab:b}⏎⏎words => 14:1 => a caption has its table
-Table: A. {#tab:&amp;}⏎⏎| a |⏎|---| => 14:1 => write tab: and behind it
-Words.⏎⏎«code(item="toy::flight::Motion::kick")» => 16:1 => without the paragraph `Listing: 
-at $\left( x$ => 14:4 => no MathML
-$$ x \tag{a b} $$ => 14:1 => write eq: and behind it
-$$⏎a = b⏎+ c⏎$$ => 16:1 => a formula without its other end
-| $$x$$ |⏎|---| => 14:3 => stands in a paragraph
-A macro that hosts refuse, and what they see otherwise.
+| a | b |⏎|---|---|⏎| c | d | «v.half_height» | => 16:1 => a row has 3 cells
+Table: A. {#tab:b}⏎⏎words => 14:1 => a caption must be followed by its table
+Table: A. {#tab:&amp;}⏎⏎| a |⏎|---| => 14:1 => write tab: followed by
+Words.⏎⏎«code(item="toy::flight::Motion::kick")» => 16:1 => needs a paragraph `Listing: 
+at $\left( x$ => 14:4 => cannot be shown
+$$ x \tag{a b} $$ => 14:1 => write eq: followed by
+$$⏎a = b⏎+ c⏎$$ => 16:1 => an unclosed formula
+| $$x$$ |⏎|---| => 14:3 => must stand in a paragraph
+A macro that GitHub refuses, and what it renders differently.
 at $\operatorname{erf} x$ => 14:4 => write \mathrm
 at $\newcommand{\a}{b}$ => 14:4 => \newcommand is not
 at $\,\sigmma$ => 14:4 => \sigmma is not
 at $\alpha % x$ => 14:4 => write \%
 at $a \\ b$ => 14:4 => \begin{aligned}
-at $\begin{align} a \end{align}$ => 14:4 => an environment is aligned, 
-at $x^«v.half_height»$ => 14:4 => a value is an index
-at «v.half_height»$x$ => 14:19 => right behind a word or a number
+at $\begin{align} a \end{align}$ => 14:4 => an environment must be one of aligned, 
+at $x^«v.half_height»$ => 14:4 => a value used as an index
+at «v.half_height»$x$ => 14:19 => right after a word or a number
 a *word with $x$* => 14:14 => inside emphasis
-A delimiter that is left over.
-at $\frac{1}{2$ of => 14:4 => markup without its other end
-a *word => 14:3 => markup without its other end
-a «v.half_height»» b => 14:18 => markup without its other end
-- item⏎⏎  - a *b => 16:7 => markup without its other end
-See [it] (data) now => 14:5 => markup without its other end
-words {#sec:b} => 14:7 => markup without its other end
-«v» => 14:1 => markup without its other end
+A delimiter that is not closed.
+at $\frac{1}{2$ of => 14:4 => unclosed markup
+a *word => 14:3 => unclosed markup
+a «v.half_height»» b => 14:18 => unclosed markup
+- item⏎⏎  - a *b => 16:7 => unclosed markup
+See [it] (data) now => 14:5 => unclosed markup
+words {#sec:b} => 14:7 => unclosed markup
+«v» => 14:1 => unclosed markup
 ```⏎code => 14:1 => between two lines ```
-> ## Words => 14:3 => stands in no list
-What no format shows, or not all.
-<b>bold</b> => 14:1 => no place in all formats
---- => 14:1 => no place in all formats
-<!-- a comment --> => 14:1 => no place in all formats
-a[^1] => 14:2 => markup without its other end
+> ## Words => 14:3 => cannot stand in a list
+What not every format supports.
+<b>bold</b> => 14:1 => not supported by every format
+--- => 14:1 => not supported by every format
+<!-- a comment --> => 14:1 => not supported by every format
+a[^1] => 14:2 => unclosed markup
 # Another title => 14:1 => one title
-- ![Words.](figures/fig03.svg) => 14:3 => stands in no list
-words ![Words.](figures/fig03.svg) => 14:7 => a picture stands alone
+- ![Words.](figures/fig03.svg) => 14:3 => cannot stand in a list
+words ![Words.](figures/fig03.svg) => 14:7 => a figure must stand alone
 at «v.half_height[1:]» => 14:1 => name it whole
 see 漢 => 14:5 => '漢'"##;
 
 #[test]
-fn broken_prose_is_told_with_its_place() {
+fn faults_in_prose_are_reported_with_their_places() {
     let mut wrong = Vec::new();
     for line in BROKEN.lines() {
         let parts: Vec<String> = line.split(" => ").map(unmarked).collect();
         let [broken, place, words] = parts.as_slice() else { continue };
         let made = assembled(&format!("{PROSE}\n\n{broken}\n"));
-        let error = made.map_or_else(|error| error.to_string(), |_| "nothing is told".into());
-        let told = error.starts_with(&format!("report.md:{place}"));
-        if !told || !error.contains(words.as_str()) || error.contains('\n') {
+        let error = made.map_or_else(|error| error.to_string(), |_| "no error".into());
+        let placed = error.starts_with(&format!("report.md:{place}"));
+        if !placed || !error.contains(words.as_str()) || error.contains('\n') {
             wrong.push(format!("{broken}: {error}"));
         }
     }
