@@ -199,7 +199,7 @@ fn parts<'a>(
         return Err(Error::NoEquation(entry.number.to_string()));
     }
     let tell = |error| parts.iter().fold(error, |error, part: &Part<'_>| part.places.locate(error));
-    labels.judge(input.claims).map_err(tell)?;
+    labels.add_verdicts(input.claims).map_err(tell)?;
     for Part { of, blocks, places } in &mut parts {
         labels.resolve(blocks, *of, &library).map_err(|error| places.locate(error))?;
     }
@@ -229,7 +229,7 @@ fn check_links(
         (Some((scheme, _)), _) => ["https", "http"].contains(&scheme),
         (_, Some(id)) => {
             let label = labels.get(&id.replacen('-', ":", 1));
-            !id.contains(':') && label.is_some_and(|label| label.of == here)
+            !id.contains(':') && label.is_some_and(|label| label.document == here)
         }
         // Seen before it was led from where the report is written.
         _ if to.starts_with('.') || to.starts_with("mailto:") || is_page(to) => true,

@@ -96,7 +96,7 @@ pub fn beside(
         for (name, text) in card.rows.iter().chain(&ledger) {
             let place = |inline: &Inline| match inline.clone() {
                 Inline::Reference { to, shown, .. } => {
-                    let within = labels.get(&to).map(|label| label.of);
+                    let within = labels.get(&to).map(|label| label.document);
                     vec![Inline::Reference { to, within, shown }]
                 }
                 other => document::led(other, input.top),

@@ -1,4 +1,4 @@
-//! Numbers what can be referred to, and resolves references and citations.
+//! Numbers sections, figures, tables, equations and statements, and resolves references to them.
 
 use super::Error;
 use super::bibliography::Library;
@@ -10,39 +10,39 @@ use std::collections::BTreeMap;
 /// What can be referred to by an id.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
-    /// What references show: a number, in brackets that of an equation, with its letter the part of a figure.
+    /// What references show: a number, which has brackets for an equation.
     pub shown: String,
-    /// The document that has it.
-    pub of: Document,
-    /// Id of the place that references lead to.
+    /// The document in which it stands.
+    pub document: Document,
+    /// Id of the place to which references lead.
     to: String,
 }
 
-/// Everything that can be referred to, of all documents, by its id.
+/// All labels of all documents, by id.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
     labels: BTreeMap<String, Label>,
-    /// Places of statements so far.
-    places: usize,
+    /// Number of statements that have a place so far.
+    statements: usize,
 }
 
 impl Labels {
-    fn add(&mut self, id: &str, shown: &str, of: Document, to: &str) -> Result<(), Error> {
-        let label = Label { shown: shown.into(), of, to: to.into() };
+    fn add(&mut self, id: &str, shown: &str, document: Document, to: &str) -> Result<(), Error> {
+        let label = Label { shown: shown.into(), document, to: to.into() };
         match self.labels.insert(id.to_string(), label) {
             None => Ok(()),
             Some(_) => Err(Error::Label(id.to_string())),
         }
     }
 
-    /// What an id refers to.
+    /// Returns the label with this id.
     pub fn get(&self, id: &str) -> Option<&Label> {
         self.labels.get(id)
     }
 
-    /// Gives numbers to the sections, figures, equations, captioned tables, listings and anchors of a document, in order;
-    /// figures and equations that have one keep it.
-    pub fn number_all(&mut self, blocks: &mut [Block], of: Document) -> Result<(), Error> {
+    /// Numbers the sections, figures, equations, captioned tables, listings and statements of a
+    /// document, in order; figures and equations that have a number keep it.
+    pub fn number_all(&mut self, blocks: &mut [Block], document: Document) -> Result<(), Error> {
         let mut given: Vec<(&str, String)> = Vec::new();
         visit(blocks, &mut |inline| {
             if let Inline::Display { number, .. } = inline {
@@ -57,12 +57,12 @@ impl Labels {
         let mut next = |kind: &'static str| loop {
             let count = counts.entry(kind).or_default();
             *count += 1;
-            let number = format!("{}{count}", of.letter);
+            let number = format!("{}{count}", document.letter);
             if !given.contains(&(kind, number.clone())) {
                 return number;
             }
         };
-        let (mut section, mut subsection) = (format!("{}0", of.letter), 0);
+        let (mut section, mut subsection) = (format!("{}0", document.letter), 0);
         for block in blocks.iter_mut() {
             let (id, number) = match block {
                 Block::Heading { level, number, id, .. } => {
@@ -75,8 +75,8 @@ impl Labels {
                     }
                     (id.clone(), number.clone().unwrap_or_default())
                 }
-                // What is shown again has its place elsewhere.
-                Block::Figure { id, number, .. } if !of.repeats => {
+                // A repeated figure has its label in another document.
+                Block::Figure { id, number, .. } if !document.repeats => {
                     if number.is_empty() {
                         *number = next("fig");
                     }
@@ -92,20 +92,22 @@ impl Labels {
                 }
                 _ => continue,
             };
-            id.map_or(Ok(()), |id| self.add(&id, &number, of, &id))?;
+            if let Some(id) = id {
+                self.add(&id, &number, document, &id)?;
+            }
         }
         rewrite(blocks, &mut |mut inline| {
             match &mut inline {
                 Inline::Anchor { id, number } => {
-                    self.places += 1;
-                    *number = self.places.to_string();
-                    self.add(id, number, of, id)?;
+                    self.statements += 1;
+                    *number = self.statements.to_string();
+                    self.add(id, number, document, id)?;
                 }
                 Inline::Display { id: Some(id), number, .. } => {
                     if number.is_empty() {
                         *number = next("eq");
                     }
-                    self.add(id, &format!("({number})"), of, id)?;
+                    self.add(id, &format!("({number})"), document, id)?;
                 }
                 _ => {}
             }
@@ -113,21 +115,23 @@ impl Labels {
         })
     }
 
-    /// Gives each judged statement that has its row more names: `row:id` and `mark:id`, shown as its verdict and number,
-    /// and `sign:id`, shown as its verdict alone.
-    pub fn judge(&mut self, claims: &[Check]) -> Result<(), Error> {
+    /// Adds labels for the verdict of each statement that has a place: `row:id` and `mark:id` show its
+    /// sign and number, `sign:id` its sign alone.
+    pub fn add_verdicts(&mut self, claims: &[Check]) -> Result<(), Error> {
         let mut placed = self.labels.keys().filter_map(|id| id.strip_prefix("claim:"));
         if let Some(id) = placed.find(|id| !claims.iter().any(|claim| claim.id == *id)) {
             return Err(Error::Claim(id.to_string()));
         }
         for Check { id, verdict, .. } in claims {
             let to = format!("claim:{id}");
-            let Some(Label { shown, of, .. }) = self.labels.get(&to).cloned() else { continue };
+            let Some(Label { shown, document, .. }) = self.labels.get(&to).cloned() else {
+                continue;
+            };
             let sign = verdict.sign();
             for kind in ["row", "mark"] {
-                self.add(&format!("{kind}:{id}"), &format!("{sign}\u{a0}{shown}"), of, &to)?;
+                self.add(&format!("{kind}:{id}"), &format!("{sign}\u{a0}{shown}"), document, &to)?;
             }
-            self.add(&format!("sign:{id}"), &sign.to_string(), of, &to)?;
+            self.add(&format!("sign:{id}"), &sign.to_string(), document, &to)?;
         }
         Ok(())
     }
@@ -140,7 +144,7 @@ impl Labels {
         library: &Library,
     ) -> Result<(), Error> {
         for block in blocks.iter_mut() {
-            // A figure that is shown again has the number of its place.
+            // A repeated figure has the number that another document gives it.
             if let Block::Figure { id, number, .. } = block {
                 let label = self.get(id).ok_or_else(|| Error::Reference(id.clone()))?;
                 *number = label.shown.clone();
@@ -170,7 +174,7 @@ impl Labels {
         Ok(())
     }
 
-    /// Citations `[@rice1945; @toda1989]`, or references of one kind, `[@fig:3; @fig:8a]`.
+    /// Writes citations, `[@rice1945; @toda1989]`, or references of one kind, `[@fig:3; @fig:8a]`.
     fn refer(
         &self,
         ids: &[String],
@@ -193,53 +197,72 @@ impl Labels {
         let kind = |id: &String| id.split(':').next().unwrap_or_default().to_string();
         let (asked, several) = (kind(&ids[0]), ids.len() > 1);
         let lower = asked.to_lowercase();
-        let names = names(&lower).filter(|_| ids.iter().all(|id| kind(id) == asked));
-        let names = names.ok_or_else(|| Error::Reference(ids.join("; ")))?;
-        let name = names[usize::from(several) + if asked == lower { 0 } else { 2 }];
+        let name = Name::of(&lower).filter(|_| ids.iter().all(|id| kind(id) == asked));
+        let name = name.ok_or_else(|| Error::Reference(ids.join("; ")))?;
+        let name = match (asked == lower, several) {
+            (true, false) => name.short,
+            (true, true) => name.plural,
+            (false, false) => name.long,
+            (false, true) => name.long_plural,
+        };
         let is_verdict = name.is_empty();
         if several && !is_verdict {
             out.push(words(&format!("{name}\u{a0}")));
         }
         for (i, id) in ids.iter().enumerate() {
-            let id = format!("{lower}{}", &id[asked.len()..]);
-            let label = self.get(&id).filter(|label| !label.shown.is_empty());
-            let Label { shown, of, to } = label.ok_or_else(|| Error::Reference(ids[i].clone()))?;
+            let lower_id = format!("{lower}{}", &id[asked.len()..]);
+            let label = self.get(&lower_id).filter(|label| !label.shown.is_empty());
+            let Label { shown, document, to } =
+                label.ok_or_else(|| Error::Reference(id.clone()))?;
             if i > 0 {
                 let last = i + 1 == ids.len() && !is_verdict;
                 out.push(words(if last { " and " } else { ", " }));
             }
-            let named = !several && !is_verdict;
-            let shown = if named { format!("{name}\u{a0}{shown}") } else { shown.clone() };
-            let within = (*of != here).then_some(*of);
+            let shown = match several || is_verdict {
+                true => shown.clone(),
+                false => format!("{name}\u{a0}{shown}"),
+            };
+            let within = (*document != here).then_some(*document);
             out.push(Inline::Reference { to: to.clone(), within, shown });
         }
         Ok(if lower == "row" { vec![Inline::Raised(out)] } else { out })
     }
 }
 
-/// Refuses an id that does not tell of which kind it is: a table with one of a figure would be called one.
-pub(super) fn of_kind(kind: &str, id: &str) -> Result<(), Error> {
+/// Refuses an id that does not begin with the kind of what it names: a table with the id of a figure
+/// would be called a figure.
+pub(super) fn check_kind(kind: &str, id: &str) -> Result<(), Error> {
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, ':' | '-' | '_' | '.');
     let name = id.strip_prefix(kind).and_then(|name| name.strip_prefix(':'));
-    match name.is_some_and(|name| !name.is_empty() && name.chars().all(plain)) {
-        true => Ok(()),
-        false => Err(Error::Markup(format!(
-            "the id {id:?} is not valid: write {kind}: followed by letters, digits or any of : - _ ."
-        ))),
+    if name.is_some_and(|name| !name.is_empty() && name.chars().all(plain)) {
+        return Ok(());
     }
+    let what = "followed by letters, digits or any of : - _ .";
+    Err(Error::Markup(format!("the id {id:?} is not valid: write {kind}: {what}")))
 }
 
-/// What a kind of reference is called: short for one and several, and in full.
-pub(super) fn names(kind: &str) -> Option<[&'static str; 4]> {
-    Some(match kind {
-        "eq" => ["Eq.", "Eqs.", "Equation", "Equations"],
-        "fig" => ["Fig.", "Figs.", "Figure", "Figures"],
-        "sec" => ["Sec.", "Secs.", "Section", "Sections"],
-        "tab" => ["Table", "Tables", "Table", "Tables"],
-        "claim" => ["claim", "claims", "Claim", "Claims"],
-        "lst" => ["Listing", "Listings", "Listing", "Listings"],
-        // Signs need no name.
-        "row" | "mark" | "sign" => [""; 4],
-        _ => return None,
-    })
+/// What references call the things of one kind.
+struct Name {
+    short: &'static str,
+    plural: &'static str,
+    long: &'static str,
+    long_plural: &'static str,
+}
+
+impl Name {
+    /// Returns the name of a kind, such as `fig`; none if there is no such kind.
+    fn of(kind: &str) -> Option<Name> {
+        let [short, plural, long, long_plural] = match kind {
+            "eq" => ["Eq.", "Eqs.", "Equation", "Equations"],
+            "fig" => ["Fig.", "Figs.", "Figure", "Figures"],
+            "sec" => ["Sec.", "Secs.", "Section", "Sections"],
+            "tab" => ["Table", "Tables", "Table", "Tables"],
+            "claim" => ["claim", "claims", "Claim", "Claims"],
+            "lst" => ["Listing", "Listings", "Listing", "Listings"],
+            // The sign of a verdict needs no name.
+            "row" | "mark" | "sign" => [""; 4],
+            _ => return None,
+        };
+        Some(Name { short, plural, long, long_plural })
+    }
 }

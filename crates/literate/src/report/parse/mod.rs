@@ -1,4 +1,4 @@
-//! Filled Markdown → the tree of `document`, in one pass, which looks for naked numerals too.
+//! Filled Markdown → the tree of `document`, in one pass, which looks for hard-coded numbers too.
 //!
 //! The manual ([`crate::manual`]) lists all markup. Whatever else Markdown reads is refused, and so is markup that
 //! was left over as text, since its other end is missing.
@@ -7,7 +7,7 @@ mod inlines;
 
 use super::Error;
 use super::document::{Block, Inline, plain};
-use super::labels::of_kind;
+use super::labels::check_kind;
 use super::lint::Declared;
 use super::mark::{Filled, Places};
 use super::values::Registry;
@@ -116,7 +116,7 @@ impl<'a> Reader<'a> {
     /// Notes an id, of what stands at an offset.
     fn id(&mut self, kind: &str, id: &str, at: usize) -> Result<(), Error> {
         self.places.add(format!("#{id}"), at);
-        of_kind(kind, id)
+        check_kind(kind, id)
     }
 
     /// Blocks up to the end of what contains them. Behind a faulty one reading goes on, but in lists and quotations.
