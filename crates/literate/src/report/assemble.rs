@@ -5,51 +5,20 @@ use super::card::{Cards, links};
 use super::claims::{row, scorecard};
 use super::document::{self, Block, Inline};
 use super::edition::{Document, Edition};
+use super::error::Error;
+use super::filled::{Filled, Places};
 use super::filler::Filler;
 use super::folder::{self, Files, Report, SUMS};
+use super::input::{Input, LAB};
 use super::labels::Labels;
 use super::ledger::{EquationEntry, Ledger};
 use super::lint::Declared;
-use super::mark::{Filled, Places, ids};
+use super::mark::ids;
 use super::values::Registry;
-use super::{Error, html, latex, ledger, lint, markdown, parse, search, tex};
-use crate::claims::Check;
-use crate::experiments::AnyExperiment;
+use super::{html, latex, ledger, lint, markdown, parse, search, tex};
 use crate::figures::{DataFile, Figure};
-use crate::project::Project;
-use crate::prose::Templates;
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
-
-/// What a page loads when a reader asks it to compute.
-pub const LAB: &str = "lab.js";
-
-/// What a report is made of.
-#[derive(Clone, Copy, Debug)]
-pub struct Input<'a> {
-    pub templates: &'a Templates,
-    /// The numbers that it may name.
-    pub values: &'a Registry,
-    /// Rows of tables that are not values or claims, by the name that templates use.
-    pub rows: &'a BTreeMap<&'static str, serde_json::Value>,
-    pub claims: &'a [Check],
-    pub figures: &'a [Figure],
-    /// What a page loads when a reader asks it to compute: lab.js.
-    pub lab: Option<&'a str>,
-    /// The way from where it is written to the files of the project, as `../`; none if it is written elsewhere.
-    pub top: Option<&'a str>,
-    pub edition: &'a Edition,
-    pub project: &'a Project,
-    pub experiments: &'a [&'static dyn AnyExperiment],
-}
-
-impl<'a> Input<'a> {
-    /// Returns the figure of this name.
-    pub(super) fn figure(&self, name: &str) -> Result<&'a Figure, Error> {
-        let found = self.figures.iter().find(|figure| figure.id == name);
-        found.ok_or_else(|| Error::Picture(name.into()))
-    }
-}
+use std::collections::BTreeSet;
 
 struct Part<'a> {
     of: Document,

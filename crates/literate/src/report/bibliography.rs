@@ -2,8 +2,8 @@
 //!
 //! Articles, books, doctoral theses and software; entries of other kinds are refused.
 
-use super::Error;
 use super::document::{Entry, Inline, plain, words_and_maths};
+use super::error::Error;
 use crate::input::line_and_column;
 use biblatex::{Bibliography, ChunksExt, EntryType, Person};
 use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};

@@ -5,7 +5,8 @@
 //! markup only: numbers, words of references and digits of values are in the tree already.
 
 use super::edition::Document;
-use super::{Error, tex};
+use super::error::Error;
+use super::tex;
 use crate::print::Shown;
 use pulldown_cmark::Alignment;
 

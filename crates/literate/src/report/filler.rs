@@ -1,10 +1,11 @@
 //! Filling the templates by Tera: values become marks (`mark`), which the writers turn into digits. The
 //! manual ([`crate::manual`]) has what a template may write.
 
-use super::Error;
 use super::edition::Document;
+use super::error::Error;
+use super::filled::Filled;
 use super::lint::Declared;
-use super::mark::{self, Filled, Piece, marked, pieces};
+use super::mark::{self, Piece, marked, pieces};
 use super::values::{Number, Registry, Value};
 use crate::input::{line_and_column, plain};
 use crate::print::MAX_DIGITS;

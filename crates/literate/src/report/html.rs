@@ -6,8 +6,11 @@
 use super::card::Cards;
 use super::document::{self, Block, Formula, Inline, place_on_page, plain, printed, spelt};
 use super::edition::Document;
+use super::error::Error;
+use super::folder::Files;
+use super::input::Input;
 use super::labels::Labels;
-use super::{Error, Files, Input, latex, mathml};
+use super::{latex, mathml};
 use crate::claims::Verdict;
 use crate::figures::{Glyphs, escape as text, outlines};
 use crate::print::{Numeral, Shown};

@@ -1,9 +1,9 @@
 //! Numbers sections, figures, tables, equations and statements, and resolves references to them.
 
-use super::Error;
 use super::bibliography::Library;
 use super::document::{Block, Inline, rewrite, visit};
 use super::edition::Document;
+use super::error::Error;
 use crate::claims::Check;
 use std::collections::BTreeMap;
 

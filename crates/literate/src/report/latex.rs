@@ -1,9 +1,9 @@
 //! The tree → a document for LaTeX; what stands around it is the template report.tex.
 
-use super::Error;
 use super::document::{self, Block, Formula, Inline};
 use super::document::{continues, is_abstract, is_equation, plain, printed, spelt};
 use super::edition::Document;
+use super::error::Error;
 use super::tex;
 use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};

@@ -1,6 +1,6 @@
 //! The ledger: every claim, figure and numbered equation of the paper, and its status.
 
-use super::Error;
+use super::error::Error;
 use crate::claims::Check;
 use crate::figures::Figure;
 use serde::{Deserialize, Serialize};

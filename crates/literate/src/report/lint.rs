@@ -1,7 +1,7 @@
 //! Finds hard-coded numbers: each number in prose has to be a value, part of mathematics, a
 //! reference, or declared. The manual ([`crate::manual`]) lists what is exempt.
 
-use super::Error;
+use super::error::Error;
 use super::mark::{CLOSE, OPEN};
 use crate::input::toml_fault;
 use serde::Deserialize;

@@ -1,7 +1,7 @@
 //! Converts formulas from TeX to MathML Core.
 
-use super::Error;
 use super::document::{Formula, Part};
+use super::error::Error;
 use crate::print::Shown;
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 use std::sync::LazyLock;

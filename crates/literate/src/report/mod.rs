@@ -1,9 +1,12 @@
-//! Values for the templates, and Markdown and LaTeX from them.
+//! Makes a report from prose, values, checks and figures: its documents as Markdown, LaTeX and HTML, and
+//! its data.
 //!
-//! The flow: experiments' results become [`Value`]s in a [`Registry`]; `templates` (people's
-//! prose) name them; [`parse`] makes a tree of the filled Markdown, [`labels`] resolves references
-//! in it, [`markdown`], [`latex`] and `html` write it; [`assemble()`] does all that and adds figures, data,
-//! values, ledger and checksums: every file of paper/ as bytes, written by the command line.
+//! 1. [`values`] collects the numbers, and [`filler`] puts a mark for each into the prose that names it.
+//! 2. [`parse`] reads the filled Markdown into the tree of `document`; `lint` refuses hard-coded numbers.
+//! 3. [`labels`] numbers figures, equations and sections, and resolves references and citations.
+//! 4. [`markdown`], [`latex`] and `html` write the tree, `search` indexes it, `card` says of each number
+//!    where it comes from.
+//! 5. [`assemble()`] does all of this and returns every file as bytes; [`folder`] writes and compares them.
 
 pub(crate) mod assemble;
 pub mod bibliography;
@@ -11,9 +14,12 @@ pub(crate) mod card;
 pub(crate) mod claims;
 pub(crate) mod document;
 pub(crate) mod edition;
+pub(crate) mod error;
+mod filled;
 pub mod filler;
 pub mod folder;
 mod html;
+mod input;
 pub mod labels;
 pub mod latex;
 pub mod ledger;
@@ -26,99 +32,13 @@ mod search;
 pub(crate) mod tex;
 pub mod values;
 
-pub use assemble::{Input, LAB, assemble, files_of};
+pub use assemble::{assemble, files_of};
 pub use edition::{Document, Edition};
+pub use error::Error;
 pub use folder::{Files, Report};
+pub use input::{Input, LAB};
 pub use mark::framed;
 pub use values::{Registry, Value};
-
-use crate::input::one_line;
-
-/// Characters that a message may have.
-const LINE: usize = 1000;
-
-/// What is wrong with the report, with the place where it can be mended.
-#[derive(Debug, thiserror::Error)]
-pub enum Error {
-    #[error("value {0}: the id is taken; give one of the two values another id")]
-    DuplicateId(String),
-    #[error(
-        "value {0}: not a finite number; leave the value out or say why there is none in words"
-    )]
-    NotFinite(String),
-    #[error("{}", one_line(.0, LINE))]
-    Template(String),
-    #[error(transparent)]
-    Prose(#[from] crate::prose::Error),
-    #[error("{}; the page *Prose* of the manual of literate lists all markup", one_line(.0, 200))]
-    Markup(String),
-    #[error("{place}: {error}")]
-    At { place: String, error: Box<Error> },
-    #[error("[!claim:{}]: there is no claim with this id; correct or remove it", one_line(.0, 200))]
-    Claim(String),
-    #[error("a link to {}: there is no such file or place; correct or remove it", one_line(.0, 200))]
-    NoFile(String),
-    #[error(
-        "there is no figure {:?}; use figures/NAME.svg, which the program draws; other image files are not supported",
-        one_line(.0, 200)
-    )]
-    Picture(String),
-    #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]
-    Label(String),
-    #[error("[@{}]: nothing in the report has this id; correct or remove the reference", one_line(.0, 200))]
-    Reference(String),
-    #[error(
-        "the character '{}' (U+{:04X}) is not known in LaTeX; write it as TeX between $ signs, or in words",
-        one_line(&.0.to_string(), 1), u32::from(*.0)
-    )]
-    NoLatex(char),
-    #[error(
-        "the formula ${}$ cannot be shown: {}; write it differently",
-        one_line(tex, 200),
-        one_line(what, 200)
-    )]
-    Maths { tex: String, what: String },
-    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
-    Several(Vec<Error>),
-    #[error(
-        "hard-coded number {0}; use a value «v.…», or give the reason for a number that is not computed, \
-         by «literal(text=…, why=…)» or by its phrase in literals.toml"
-    )]
-    HardCoded(String),
-    #[error("{0} is not shown; put ![caption](figures/{0}.svg) into the prose")]
-    NotShown(String),
-    #[error("equation ({0}) is not shown; add \\tag{{{0}}} to it in the prose")]
-    NoEquation(String),
-    #[error("no template and no claim names {0}; use or remove it, or declare it data_only()")]
-    Unused(String),
-}
-
-impl Error {
-    pub(crate) fn at(self, place: String) -> Error {
-        match self {
-            Error::At { .. } => self,
-            error => Error::At { place, error: Box::new(error) },
-        }
-    }
-
-    pub(crate) fn all(mut errors: Vec<Error>) -> Result<(), Error> {
-        match errors.len() {
-            0 => Ok(()),
-            1 => errors.pop().map_or(Ok(()), Err),
-            _ => Err(Error::Several(errors)),
-        }
-    }
-
-    /// Whether the prose can be read, and breaks a rule about its numbers and figures.
-    pub fn is_of_rules(&self) -> bool {
-        match self {
-            Error::HardCoded(_) | Error::NotShown(_) | Error::Unused(_) => true,
-            Error::At { error, .. } => error.is_of_rules(),
-            Error::Several(errors) => errors.iter().all(Error::is_of_rules),
-            _ => false,
-        }
-    }
-}
 
 #[cfg(test)]
 mod tests;

@@ -6,7 +6,7 @@
 //! macros, `\operatorname` among them; of a macro that is not known it shows the source in red. So
 //! mathematics is held against a list of what is known there, to LaTeX with amsmath, and to math-core.
 
-use super::Error;
+use super::error::Error;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 

@@ -1,6 +1,6 @@
 //! All values of a report: those with a name, and the cells of tables under their addresses.
 
-use super::Error;
+use super::error::Error;
 use crate::experiments::Profile;
 use crate::source::Sources;
 use crate::table::Table;

@@ -1,9 +1,10 @@
 //! Running text: words, formulas, code, references and values.
 
 use super::super::document::{Formula, Inline, Part};
+use super::super::error::Error;
 use super::super::lint;
 use super::super::mark::{self, Piece, pieces};
-use super::super::{Error, tex};
+use super::super::tex;
 use super::{ALONE, ELSE, Reader, is_block, markup};
 use crate::print::{Shown, print};
 use pulldown_cmark::{Event, LinkType, Tag};

@@ -5,11 +5,11 @@
 
 mod inlines;
 
-use super::Error;
 use super::document::{Block, Inline, plain};
+use super::error::Error;
+use super::filled::{Filled, Places};
 use super::labels::check_kind;
 use super::lint::Declared;
-use super::mark::{Filled, Places};
 use super::values::Registry;
 use crate::source::Sources;
 use pulldown_cmark::{

@@ -1,0 +1,114 @@
+//! Keeps for each piece of the filled prose where it stands in the templates, so that errors name a line.
+
+use super::error::Error;
+use super::mark::{Piece, framed, pieces};
+use crate::input::line_and_column;
+
+/// Templates and the text that was made of them, one after the other.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Filled {
+    /// The text; values are marks in it.
+    pub text: String,
+    templates: Vec<(String, String)>,
+    origins: Vec<Origin>,
+}
+
+/// What follows from an offset in the text on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Origin {
+    start: usize,
+    /// Which template it comes from, and the offset there.
+    template: usize,
+    offset: usize,
+    tag: bool,
+}
+
+impl Filled {
+    /// Adds what Tera made of a template after [`marked`], a paragraph apart.
+    pub fn add(&mut self, path: &str, template: &str, filled: &str) {
+        if !self.templates.is_empty() {
+            self.text += "\n\n";
+        }
+        let own = self.templates.len();
+        self.templates.push((path.into(), template.into()));
+        let here = |start, offset, tag| Origin { start, template: own, offset, tag };
+        self.origins.push(here(self.text.len(), 0, false));
+        for piece in pieces(filled) {
+            match piece {
+                Piece::Text(text) => self.text += text,
+                Piece::Value { id, shown } if !id.is_empty() => self.text += &framed(&id, shown),
+                Piece::Value { shown, .. } => {
+                    let offset = shown.trim_end_matches(['t', 'x']).parse().unwrap_or_default();
+                    self.origins.push(here(self.text.len(), offset, shown.ends_with('t')));
+                }
+            }
+        }
+    }
+
+    fn origin(&self, offset: usize) -> Origin {
+        let last = self.origins.partition_point(|origin| origin.start <= offset);
+        self.origins[last.saturating_sub(1)]
+    }
+
+    /// File, line and column in the template, from 1, of an offset in the text.
+    pub fn place(&self, offset: usize) -> String {
+        let origin = self.origin(offset);
+        let (path, text) = &self.templates[origin.template];
+        let beyond = if origin.tag { 0 } else { offset - origin.start };
+        format!("{path}:{}", line_and_column(text, (origin.offset + beyond).min(text.len())))
+    }
+
+    /// Whether people typed what stands there: text of the template, or a tag that writes a plain number or a quotation
+    /// instead of a value, a declared literal or words of the program.
+    pub fn is_typed(&self, offset: usize) -> bool {
+        let Origin { template, offset, tag, .. } = self.origin(offset);
+        let own = self.templates[template].1[offset..].trim_start_matches(['«', '-', ' ']);
+        let number = |c: char| c.is_ascii_digit() || "\"'`(-".contains(c);
+        !tag || own.starts_with(number) || own.starts_with("raw.") || own.starts_with("loop.")
+    }
+}
+
+/// Where the things stand that a report has or names: `#fig:3` what can be referred to, `@fig:3` a
+/// reference, `(path` a link.
+#[derive(Clone, Debug)]
+pub struct Places<'a> {
+    filled: &'a Filled,
+    found: Vec<(String, usize)>,
+}
+
+impl<'a> Places<'a> {
+    pub fn of(filled: &'a Filled) -> Self {
+        Places { filled, found: Vec::new() }
+    }
+
+    pub fn add(&mut self, thing: String, offset: usize) {
+        self.found.push((thing, offset));
+    }
+
+    /// Adds to an error the place of what it names. Of two things with one id the second is meant.
+    pub fn locate(&self, error: Error) -> Error {
+        let thing = match error {
+            Error::Several(errors) => {
+                return Error::Several(
+                    errors.into_iter().map(|error| self.locate(error)).collect(),
+                );
+            }
+            Error::Label(ref id) => format!("#{id}"),
+            Error::Reference(ref id) => format!("@{id}"),
+            Error::Claim(ref id) => format!("#claim:{id}"),
+            Error::NoFile(ref path) | Error::Picture(ref path) => format!("({path}"),
+            Error::Maths { ref tex, .. } => format!("${tex}"),
+            Error::NoLatex(c) => {
+                return match self.filled.text.find(c) {
+                    Some(offset) => error.at(self.filled.place(offset)),
+                    None => error,
+                };
+            }
+            _ => return error,
+        };
+        match self.found.iter().rev().find(|(noted, _)| *noted == thing) {
+            Some((_, offset)) => error.at(self.filled.place(*offset)),
+            None => error,
+        }
+    }
+}

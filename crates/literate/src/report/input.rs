@@ -1,0 +1,41 @@
+//! Holds all that a report is made of.
+
+use super::edition::Edition;
+use super::error::Error;
+use super::values::Registry;
+use crate::claims::Check;
+use crate::experiments::AnyExperiment;
+use crate::figures::Figure;
+use crate::project::Project;
+use crate::prose::Templates;
+use std::collections::BTreeMap;
+
+/// What a page loads when a reader asks it to compute.
+pub const LAB: &str = "lab.js";
+
+/// What a report is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Input<'a> {
+    pub templates: &'a Templates,
+    /// The numbers that it may name.
+    pub values: &'a Registry,
+    /// Rows of tables that are not values or claims, by the name that templates use.
+    pub rows: &'a BTreeMap<&'static str, serde_json::Value>,
+    pub claims: &'a [Check],
+    pub figures: &'a [Figure],
+    /// What a page loads when a reader asks it to compute: lab.js.
+    pub lab: Option<&'a str>,
+    /// The way from where it is written to the files of the project, as `../`; none if it is written elsewhere.
+    pub top: Option<&'a str>,
+    pub edition: &'a Edition,
+    pub project: &'a Project,
+    pub experiments: &'a [&'static dyn AnyExperiment],
+}
+
+impl<'a> Input<'a> {
+    /// Returns the figure of this name.
+    pub(super) fn figure(&self, name: &str) -> Result<&'a Figure, Error> {
+        let found = self.figures.iter().find(|figure| figure.id == name);
+        found.ok_or_else(|| Error::Picture(name.into()))
+    }
+}
