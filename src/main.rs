@@ -31,7 +31,6 @@ pub fn paper() -> Paper {
         },
         figures: figures::ALL.to_vec(),
         rules: claims::rules(),
-        relations: vec![claims::relations::relations],
         values: vec![contents::values],
         rows: vec![contents::rows],
         lab: Some(lab::lab),

@@ -9,6 +9,7 @@ mod ensembles;
 mod grid;
 mod methods;
 mod nucleation;
+mod printed;
 mod runs;
 
 pub use accuracy::{BENCH, BiasParams, RaceParams, ScaleParams, TrialParams};
@@ -20,4 +21,5 @@ pub use impact_numerics::estimates::LEVEL;
 pub use literate::experiments::Profile;
 pub use methods::{MethodName, Setting};
 pub use nucleation::{NucleationParams, SeedsParams};
+pub use printed::{printed_interval, printed_threshold};
 pub use runs::{Runs, TwoMassesParams};

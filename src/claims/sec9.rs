@@ -1,64 +1,67 @@
-//! Sections 9 and 10: circuits that repeat impacts, and the conclusions.
+//! Judges Sections 9 and 10, circuits that repeat impacts and the conclusions.
 
-use super::judge::*;
 use super::sec8::{RELEASED, windows};
+use super::shared::*;
 use crate::experiments::SEGMENTS;
 use crate::experiments::theory::beside::{self, LARGE_SIGMA};
 use crate::params::{CONVERGENCE_P, HIGHER_P, REMARK_P};
 
-pub const ROWS: &[Judge] = &[
-    by("sec9_fig6_repeats", Exact, fig6_repeats),
+pub fn rules() -> Vec<Rule> {
+    vec![
+    Rule::new("sec9_fig6_repeats", fig6_repeats),
     cases(
         "sec9_eq29",
         "Circuits through one vertex twice, by the lengths of their loops, on graphs of one to six vertices.",
     )
-    .of("(N − 1)!/(N − (k − 1))!"),
-    by("sec9_eq30", Exact, eq30).of("γ(k, 2)/2 · (N − 1)!/(N − (k − 1))!"),
-    cases("sec9_eq32", "Every n up to ten, one sum at a time.").of("(n − 1)!/((j − 1)! (n − j)!)"),
-    by("sec9_eq33", Exact, |e, s| class_range(e, s, 33)).of("(k − 1)/2 · N!/(N − (k − 1))!"),
-    by("sec9_eq35", Exact, |e, s| class_range(e, s, 35)).of("valid for k > {}"),
-    by("sec9_eq36", Exact, |e, s| class_range(e, s, 36)).of("valid for k > {}"),
-    by("sec9_eq37", Exact, |e, s| class_range(e, s, 37)).of("valid for k > {}"),
+    .reads("(N − 1)!/(N − (k − 1))!"),
+    Rule::new("sec9_eq30", eq30).reads("γ(k, 2)/2 · (N − 1)!/(N − (k − 1))!"),
+    cases("sec9_eq32", "Every n up to ten, one sum at a time.").reads("(n − 1)!/((j − 1)! (n − j)!)"),
+    Rule::new("sec9_eq33", class_range).reads("(k − 1)/2 · N!/(N − (k − 1))!"),
+    Rule::new("sec9_eq35", class_range).reads("valid for k > {}"),
+    Rule::new("sec9_eq36", class_range).reads("valid for k > {}"),
+    Rule::new("sec9_eq37", class_range).reads("valid for k > {}"),
     cases(
         "sec9_eq38",
         "From k = 3 on, where each formula is used in the range that is printed with it. For k = 1 and \
          2, which the distribution needs too, it is not.",
     )
-    .of("Eq. (38)"),
-    by("sec9_even_small_p", OurMeasure, even_small_p).of("significant at p = {}"),
-    by("sec9_even_small_p_by_k", OurMeasure, even_small_p_by_k).of("significant at p = {}"),
-    by("sec9_dominate", OurMeasure, dominate),
-    by("sec9_convergence", OurMeasure, convergence),
-    by("sec9_mean_large_p", OurMeasure, mean_large_p),
-    by("sec9_mean_small_p", OurMeasure, mean_small_p),
-    by("sec9_higher_jump", OurMeasure, higher_jump),
-    by("sec9_higher_jump_by_k", OurMeasure, higher_jump_by_k),
-    by("sec9_fig15_modest", OurMeasure, fig15_modest),
-    by("sec9_relation_matters", Exact, relation_matters),
-    by("sec10_improves", OurMeasure, improves),
-];
+    .reads("Eq. (38)"),
+    Rule::new("sec9_even_small_p", even_small_p).on(OurMeasure).reads("significant at p = {}"),
+    Rule::new("sec9_even_small_p_by_k", even_small_p_by_k).on(OurMeasure).reads("significant at p = {}"),
+    Rule::new("sec9_dominate", dominate).on(OurMeasure),
+    Rule::new("sec9_convergence", convergence).on(OurMeasure),
+    Rule::new("sec9_mean_large_p", mean_large_p).on(OurMeasure),
+    Rule::new("sec9_mean_small_p", mean_small_p).on(OurMeasure),
+    Rule::new("sec9_higher_jump", higher_jump).on(OurMeasure),
+    Rule::new("sec9_higher_jump_by_k", higher_jump_by_k).on(OurMeasure),
+    Rule::new("sec9_fig15_modest", fig15_modest).on(OurMeasure),
+    Rule::new("sec9_relation_matters", relation_matters),
+    Rule::new("sec10_improves", improves).on(OurMeasure),
+]
+}
 
 const INTEGER: &str = "integers are exact";
 
-fn fig6_repeats(e: &Evidence, s: &Statement) -> Judged {
+fn fig6_repeats(e: &Evidence<'_>) -> Judged {
     let found = e.results.of(&SEGMENTS)?.fig06.repeats();
     let each: Vec<String> = found.iter().map(|(name, times)| format!("{name}: {times}")).collect();
     let times: Vec<String> = found.iter().map(|(_, times)| times.to_string()).collect();
-    let reads = s.printed == format!("{} impacts; {} times", found.len(), times.join(", "));
+    let reads =
+        e.statement.printed == format!("{} impacts; {} times", found.len(), times.join(", "));
     let first = found.first().is_some_and(|(name, _)| name == "L-1");
-    Ok(s.found(each.join(", "), found.len() as f64 == s.number()? && reads && first)
+    Ok(e.found(each.join(", "), found.len() as f64 == e.statement.number()? && reads && first)
         .within("none", INTEGER)
         .note("This class, δ₂ = 1 and δ₁ = 2, is none of the five of Eq. (38)."))
 }
 
-fn eq30(e: &Evidence, s: &Statement) -> Judged {
+fn eq30(e: &Evidence<'_>) -> Judged {
     let [printed, counted] = e.numbers("theory.higher", ["eq30_printed", "eq30_counted"])?;
-    let [compared, failed] = e.cases(s)?;
+    let [compared, failed] = compared(e)?;
     let found = Text::of(
         "Eq. (30) gives {}, enumeration {}",
         [significant(printed, 1), integer(counted as usize)],
     );
-    Ok(s.found(found, printed == counted)
+    Ok(e.found(found, printed == counted)
         .within("none", INTEGER)
         .explained(Text::of(
             "A factor N is missing, the choice of the vertex that is visited twice; Eq. (33) has it. With it the formula \
@@ -67,12 +70,14 @@ fn eq30(e: &Evidence, s: &Statement) -> Judged {
         ), failed == 0 && compared > 0))
 }
 
-fn class_range(e: &Evidence, s: &Statement, equation: u32) -> Judged {
+/// Of Eqs. (33) to (37), by the number in the id.
+fn class_range(e: &Evidence<'_>) -> Judged {
+    let equation = e.statement.id.trim_start_matches("sec9_eq");
     let row = format!("theory.class_ranges[equation={equation}]");
     let columns = ["right_from", "counted_below", "formula_below", "failed", "compared"];
     let [right_from, counted, formula, failed, compared] = e.numbers(&row, columns)?;
     // A printed "k > 3" means from 4 on; without a printed range every length is meant.
-    let printed_from = s.value.map_or(1.0, |k| k + 1.0);
+    let printed_from = e.statement.value.map_or(1.0, |k| k + 1.0);
     let agrees = right_from == printed_from && failed == 0.0 && compared > 3.0;
     let why = Text::of(
         "One length below, on three vertices, the formula gives {} and enumeration finds {}: sequences that repeat a \
@@ -80,26 +85,26 @@ fn class_range(e: &Evidence, s: &Statement, equation: u32) -> Judged {
         [chosen(formula), integer(counted as usize)],
     );
     let found = Text::of("right from k = {} on", [integer(right_from as usize)]);
-    let check = s.found(found, agrees).within("none", INTEGER);
-    Ok(match s.value {
+    let check = e.found(found, agrees).within("none", INTEGER);
+    Ok(match e.statement.value {
         Some(_) => check.note(why),
         // Without a range: wrong only where both loops are alike and so counted as half.
         None => check.explained(why, compared > 3.0 && right_from == 3.0 && counted == 0.0),
     })
 }
 
-/// A number of the distribution with five classes at one p.
-fn of_five(e: &Evidence, p: f64, column: &str) -> Result<f64, Error> {
+/// Returns a number of the distribution with five classes at one p.
+fn of_five(e: &Evidence<'_>, p: f64, column: &str) -> Result<f64, Error> {
     e.number(&format!("theory.classes[p={p}].{column}"))
 }
 
-fn even_small_p(e: &Evidence, s: &Statement) -> Judged {
-    let p = s.number()?;
+fn even_small_p(e: &Evidence<'_>) -> Judged {
+    let p = e.statement.number()?;
     let (share, first_order) = (of_five(e, p, "simple")?, of_five(e, p, "first_order")?);
     let higher = (1.0 - share) / share;
     let found = Text::of("higher orders hold {} %", [significant(100.0 * (1.0 - share), 2)]);
     let predicted = 100.0 * first_order / (1.0 + first_order);
-    Ok(s.found(found, 1.0 - share >= 0.05)
+    Ok(e.found(found, 1.0 - share >= 0.05)
         .within("at least 5 %", "ours: the least that can be seen in a figure")
         .explained(Text::of(
             "A doubled vertex has relative weight p k²/2, which is below one for the small k that hold nearly \
@@ -109,29 +114,29 @@ fn even_small_p(e: &Evidence, s: &Statement) -> Judged {
         ), higher > first_order && higher < 2.0 * first_order))
 }
 
-fn even_small_p_by_k(e: &Evidence, s: &Statement) -> Judged {
+fn even_small_p_by_k(e: &Evidence<'_>) -> Judged {
     let more = 1.0 - e.number("theory.higher.simple_by_different")?;
     let found = Text::of("higher orders hold {} %", [significant(100.0 * more, 2)]);
-    let read = HIGHER_P[0] == s.number()?;
-    Ok(s.found(found, more >= 0.05 && read)
+    let read = HIGHER_P[0] == e.statement.number()?;
+    Ok(e.found(found, more >= 0.05 && read)
         .within("at least 5 %", "ours: the least that can be seen in a figure")
         .note("Eq. (38) counts by different impacts, so the paper may mean this weight, although its Section 4 gives each edge a p."))
 }
 
-fn dominate(e: &Evidence, s: &Statement) -> Judged {
+fn dominate(e: &Evidence<'_>) -> Judged {
     let shares = REMARK_P.into_iter().map(|p| of_five(e, p, "simple"));
     let shares = shares.collect::<Result<Vec<_>, _>>()?;
     let falls = shares.windows(2).all(|w| w[1] < w[0]);
     let p = HIGHER_P[2];
     let share = of_five(e, p, "simple")?;
     let found = Text::of("simple circuits hold {} at p = {}", [significant(share, 2), chosen(p)]);
-    Ok(s.found(found, share <= 0.01 && falls).within(
+    Ok(e.found(found, share <= 0.01 && falls).within(
         Text::of("at most {}", [significant(0.01, 1)]),
         "ours: “insignificant” as at most one in a hundred, and falling with p",
     ))
 }
 
-fn convergence(e: &Evidence, s: &Statement) -> Judged {
+fn convergence(e: &Evidence<'_>) -> Judged {
     let (distance, [p_a, p_b]) = (|p| of_five(e, p, "variation"), CONVERGENCE_P);
     let (a, b) = (distance(p_a)?, distance(p_b)?);
     let later = REMARK_P.into_iter().filter(|p| *p >= p_a);
@@ -142,7 +147,7 @@ fn convergence(e: &Evidence, s: &Statement) -> Judged {
         "total variation distance {} at p = {}, {} at {}",
         [significant(a, 3), chosen(p_a), significant(b, 3), chosen(p_b)],
     );
-    Ok(s.found(found, falls && later.len() > 2 && b < 0.5 * a)
+    Ok(e.found(found, falls && later.len() > 2 && b < 0.5 * a)
         .within(
             "falling, and at most half from panel (a) to (b)",
             "ours: convergence asks for a decrease at every p that was computed",
@@ -154,29 +159,29 @@ fn convergence(e: &Evidence, s: &Statement) -> Judged {
         )))
 }
 
-fn mean_large_p(e: &Evidence, s: &Statement) -> Judged {
+fn mean_large_p(e: &Evidence<'_>) -> Judged {
     let p = HIGHER_P[2];
     let mean = e.number(&format!("theory.distribution[p={p}].mean"))?;
     let difference = of_five(e, p, "mean_difference")? / mean;
     let found =
         Text::of("relative difference {} at p = {}", [significant(difference, 2), chosen(p)]);
-    Ok(s.found(found, difference.abs() <= 0.05).within(
+    Ok(e.found(found, difference.abs() <= 0.05).within(
         Text::of("at most {}", [significant(0.05, 1)]),
         "ours: “very good” as within one in twenty",
     ))
 }
 
-fn mean_small_p(e: &Evidence, s: &Statement) -> Judged {
+fn mean_small_p(e: &Evidence<'_>) -> Judged {
     let [difference, at] = e.numbers("theory.higher", ["means_ratio", "means_apart_at"])?;
     let found = Text::of(
         "relative difference up to {}, at p = {}",
         [significant(difference, 2), chosen(at)],
     );
-    Ok(s.found(found, difference >= 0.1)
+    Ok(e.found(found, difference >= 0.1)
         .within(Text::of("at least {}", [significant(0.1, 1)]), "ours: “measurable” as one in ten"))
 }
 
-fn higher_jump(e: &Evidence, s: &Statement) -> Judged {
+fn higher_jump(e: &Evidence<'_>) -> Judged {
     let [higher, k_after] = e.numbers("theory.higher", ["p_jump", "k_after"])?;
     let simple = e.number("theory.jump.p_jump")?;
     let shift = higher / simple - 1.0;
@@ -184,7 +189,7 @@ fn higher_jump(e: &Evidence, s: &Statement) -> Judged {
         "p_jump = {}, to k* = {}; for simple circuits {}",
         [significant(higher, 6), integer(k_after as usize), significant(simple, 6)],
     );
-    Ok(s.found(found, shift.abs() > 1e-9 && k_after >= 10.0)
+    Ok(e.found(found, shift.abs() > 1e-9 && k_after >= 10.0)
         .within(
             "another p, and a step of ten or more",
             "both are known to the last bit; “jump” as in Section 7",
@@ -193,10 +198,10 @@ fn higher_jump(e: &Evidence, s: &Statement) -> Judged {
 }
 
 /// Circuits of k different vertices are k² to k⁴ times as many as simple ones, which fills the valley between one and k₊.
-fn higher_jump_by_k(e: &Evidence, s: &Statement) -> Judged {
+fn higher_jump_by_k(e: &Evidence<'_>) -> Judged {
     let step = e.number("theory.higher.step_by_different")?;
     let found = Text::of("k* rises in steps of at most {}", [integer(step as usize)]);
-    Ok(s.found(found, step >= 10.0)
+    Ok(e.found(found, step >= 10.0)
         .within("a step of ten or more", "ours: “jump” as in Section 7")
         .explained(
             "This way the classes multiply the weight of k by a polynomial of degree four in k and by no power of p. That \
@@ -205,14 +210,14 @@ fn higher_jump_by_k(e: &Evidence, s: &Statement) -> Judged {
         ))
 }
 
-fn fig15_modest(e: &Evidence, s: &Statement) -> Judged {
+fn fig15_modest(e: &Evidence<'_>) -> Judged {
     let [change, at, shift] = e.numbers("theory.higher", ["change", "change_at", "half_shift"])?;
-    let allowed = e.half_unit()?;
+    let allowed = half_unit(e)?;
     let found = Text::of(
         "largest change {} at σ = {}; the half height moves by {}",
         [significant(change, 3), chosen(at), significant(shift, 2)],
     );
-    Ok(s.found(found, at < LARGE_SIGMA && shift.abs() <= allowed).within(
+    Ok(e.found(found, at < LARGE_SIGMA && shift.abs() <= allowed).within(
         Text::of(
             "below σ = {}; by at most {}",
             [significant(LARGE_SIGMA, 1), significant(allowed, 1)],
@@ -222,7 +227,7 @@ fn fig15_modest(e: &Evidence, s: &Statement) -> Judged {
     ))
 }
 
-fn relation_matters(e: &Evidence, s: &Statement) -> Judged {
+fn relation_matters(e: &Evidence<'_>) -> Judged {
     let columns = ["sigma_jump", "sigma_jump_rest", "sigma_jump_higher"];
     let [simple, rest, higher] = e.numbers("theory.relation", columns)?;
     let (relation, higher) = ((rest - simple).abs(), (higher - simple).abs());
@@ -230,14 +235,13 @@ fn relation_matters(e: &Evidence, s: &Statement) -> Judged {
         "another relation moves the jump by {} in σ, higher orders by {}",
         [significant(relation, 3), significant(higher, 2)],
     );
-    Ok(s.found(found, relation > higher)
+    Ok(e.found(found, relation > higher)
         .within("the first is larger", "a comparison of two computed numbers")
         .note("The other relation is that of a start from rest."))
 }
 
-fn improves(e: &Evidence, s: &Statement) -> Judged {
-    let both = e.numbers("sweep.beside_theory", ["simple", "higher"]);
-    let [simple, higher] = some(both.ok())?;
+fn improves(e: &Evidence<'_>) -> Judged {
+    let [simple, higher] = e.numbers("sweep.beside_theory", ["simple", "higher"])?;
     let found = Text::of(
         "distance to the simulated means below σ = {}: {} gaps without, {} with higher orders",
         [significant(LARGE_SIGMA, 1), significant(simple, 3), significant(higher, 3)],
@@ -246,12 +250,12 @@ fn improves(e: &Evidence, s: &Statement) -> Judged {
     let table = e.results.table("theory.curve")?;
     let curves = ["simple", "higher"].map(|column| table.points(&[], "sigma", column));
     let windows = windows(e)?;
-    let of = |means: &Vec<(f64, f64)>| {
-        let [simple, higher] = &curves;
-        Some([beside::distance(means, simple)?, beside::distance(means, higher)?])
-    };
-    let better = windows.iter().filter_map(of).filter(|both| improved(*both)).count();
-    Ok(s.found(found, improved([simple, higher]) && better == windows.len())
+    let mut better = 0;
+    for means in &windows {
+        let [simple, higher] = curves.each_ref().map(|curve| beside::distance(means, curve));
+        better += usize::from(simple.zip(higher).is_some_and(|(a, b)| improved([a, b])));
+    }
+    Ok(e.found(found, improved([simple, higher]) && better == windows.len())
         .within(
             "a decrease by at most a fifth",
             "ours: “slightly”; the distance is the root of the mean square over all rows",

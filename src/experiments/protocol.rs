@@ -3,9 +3,9 @@
 use super::ensembles::{Ensembles, ensembles};
 use super::half_height::{ANY_IMPACT, HALF_HEIGHT, OF_ACTIVE};
 use crate::experiments::prelude::*;
-use crate::params;
-use crate::params::{PRINTED_THRESHOLD, PRINTED_THRESHOLD_UNIT};
+use crate::params::{self, printed_interval};
 use impact_chain::Protocol;
+use impact_chain::rise::Rise;
 
 /// Half height against transient and window.
 pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::protocol, tables);
@@ -23,7 +23,7 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
         .count("sigmas", "values of σ", |map| map.ensemble.sigmas.len() as u64)
         .count("combinations", "transients times windows", |map| map.curves.len() as u64)
         .count("as_printed", "of these, half heights that round to the printed one", |_| {
-            halves().filter(|(half, _)| prints_as_published(half.value)).count() as u64
+            round_to_printed(map, printed_interval(), |rise| rise.half_height) as u64
         })
         .estimate("largest", SIGMA, "largest half height", |_| half(most))
         .same("largest", |_| same(most))
@@ -33,10 +33,14 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     vec![cells(map), all]
 }
 
-/// Whether a number rounds to the printed threshold with the printed digits.
-fn prints_as_published(sigma: f64) -> bool {
-    let half = 0.5 * PRINTED_THRESHOLD_UNIT;
-    (PRINTED_THRESHOLD - half..PRINTED_THRESHOLD + half).contains(&sigma)
+/// Counts the windows of the map in which a place of the rise rounds to the printed number: lies between these ends.
+pub fn round_to_printed(
+    map: &Counted,
+    [from, to]: [f64; 2],
+    place: fn(&Rise) -> Option<Estimate>,
+) -> usize {
+    let places = map.curves.iter().filter_map(|curve| place(&curve.rise));
+    places.filter(|at| (from..to).contains(&at.value)).count()
 }
 
 /// From the least of some places to the largest.

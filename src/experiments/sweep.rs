@@ -4,8 +4,7 @@
 use super::ensembles::{Ensembles, ensembles};
 use super::half_height::{ANY_IMPACT, HALF_HEIGHT, OF_ACTIVE};
 use crate::experiments::prelude::*;
-use crate::params;
-use crate::params::{LEVEL, NEAR_SIMULTANEOUS, PRINTED_THRESHOLD, SLOW};
+use crate::params::{self, LEVEL, NEAR_SIMULTANEOUS, SLOW, printed_threshold};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
 use impact_chain::rise::{Mean, Rise, RisePoint, RunTotals};
 
@@ -178,7 +177,7 @@ fn can_stick(sigma: &f64) -> f64 {
 }
 
 fn sticking() -> Table {
-    Table::of("sweep.sticking", &[PRINTED_THRESHOLD, STICKING], |_| 0)
+    Table::of("sweep.sticking", &[printed_threshold(), STICKING], |_| 0)
         .key("sigma", SIGMA, |sigma| *sigma)
         .real("chance", "1", 1, "that the forces on a pair can press it together", can_stick)
         .done()

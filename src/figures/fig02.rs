@@ -7,6 +7,7 @@ use crate::experiments::rise::Counted;
 pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let sheet = Sheet::new(5450);
     let n = sweep.ensemble.chain.gaps();
+    let threshold = printed_threshold();
     let panel = sheet.panel(MAIN, sigma_axis(), count_axis(n, "most likely number of impacts"))?;
     let intervals = sweep.comparable().filter_map(|row| {
         let [low, high] = row.mode_interval?;
@@ -19,13 +20,13 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     printed(&panel, 0.0)?;
     panel.markers("mode", &modes, CROSSES, Outside::Cut)?;
     panel.label("most likely number", (panel.x.hi, n as f64), (-1, 3), RED)?;
-    let last = intervals.last().map_or(PRINTED, |bar| bar.0);
+    let last = intervals.last().map_or(threshold, |bar| bar.0);
     panel.label("its 95 % interval", (last, 0.7 * n as f64), (2, 0), GREY)?;
 
     let description = describe!(
         "Most likely number of different gaps that impact against σ, simulated with {} masses; pale bars are 95 % \
          bootstrap intervals. Below the rise the mode is small and badly determined, beyond it nearly all {n} gaps \
-         impact. A dotted line stands at the printed σ = {PRINTED}.",
+         impact. A dotted line stands at the printed σ = {threshold}.",
         sweep.ensemble.chain.masses
     );
     Ok(sheet.finish("Most likely number of impacts", description))

@@ -17,7 +17,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
         .filter_map(|row| row.mean?.interval.map(|[low, high]| (row.sigma, low, high)));
     let intervals: Vec<_> = intervals.collect();
     panel.bars("mean of those with an impact", &intervals, 0, INTERVAL, Outside::Cut)?;
-    printed(&panel, beside::at(&means(sweep), PRINTED).unwrap_or(0.0))?;
+    printed(&panel, beside::at(&means(sweep), printed_threshold()).unwrap_or(0.0))?;
     let broken = Stroke::dashed(GREY, LINE, Dash::Short);
     panel.curve("mean of all", &all, broken, Outside::Cut)?;
     panel.markers("mean of those with an impact", &means(sweep), CROSSES, Outside::Cut)?;

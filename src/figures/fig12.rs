@@ -9,6 +9,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sweep = sweep::main(results)?;
     let sheet = Sheet::new(5450);
     let n = sweep.ensemble.chain.gaps();
+    let threshold = printed_threshold();
     let panel = sheet.panel(MAIN, sigma_axis(), count_axis(n, "expected number of impacts"))?;
     printed(&panel, 0.0)?;
     let simple = curve(results.table("theory.curve")?, sweep, "simple");
@@ -23,11 +24,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     }
 
     let description = describe!(
-        "Expected number of impacts against σ: crosses for the simulation, {} at σ = {PRINTED}; a line for the graph theory with N = \
+        "Expected number of impacts against σ: crosses for the simulation, {} at σ = {threshold}; a line for the graph theory with N = \
          {VERTICES}, {} there. The simulation rises earlier than the theory; an arrow shows by how much at half height. For large \
          σ the two come together.",
-        at(&simulated, PRINTED),
-        at(&simple, PRINTED),
+        at(&simulated, threshold),
+        at(&simple, threshold),
     );
     Ok(sheet.finish("Simulation against graph theory", description))
 }
@@ -35,7 +36,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 /// Where both come to half of all gaps, and how much later in σ the theory does, as an arrow with its length.
 fn lag(sheet: &Sheet, panel: &Panel, [from, to]: [f64; 2], level: f64) -> Result<(), Error> {
     sheet.free().arrow(vec![panel.at(from, level), panel.at(to, level)], Stroke::solid(INK, THIN));
-    let middle = (PRINTED + to) / 2.0;
+    let middle = (printed_threshold() + to) / 2.0;
     panel.label(&format!("+{}", short(to - from, 2)), (middle, level), (0, -1), INK)?;
     panel.label(&short(from, 4), (from, level), (-2, 0), INK)?;
     panel.label(&short(to, 4), (to, level), (1, 0), INK)

@@ -8,6 +8,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (sweep, theory) = (sweep::main(results)?, results.table("theory.curve")?);
     let sheet = Sheet::new(7550);
     let n = sweep.ensemble.chain.gaps();
+    let threshold = printed_threshold();
     let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
     let panel = sheet.lettered_panel(LETTERS[0], MAIN, x, y)?;
     let [simple, higher] = ["simple", "higher"].map(|column| curve(theory, sweep, column));
@@ -32,12 +33,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     added.label("what the higher orders add", peak, (5, 0), BLUE)?;
 
     let description = describe!(
-        "(a) Expected number of impacts against σ: crosses for the simulation, {} at σ = {PRINTED}; lines for the theory with simple \
+        "(a) Expected number of impacts against σ: crosses for the simulation, {} at σ = {threshold}; lines for the theory with simple \
          circuits only, {} there, and with higher orders, {}. (b) The higher orders add at most {} gaps, far less than the \
          simulation is ahead; beyond the rise the lines cannot be told apart.",
-        at(&simulated, PRINTED),
-        at(&simple, PRINTED),
-        at(&higher, PRINTED),
+        at(&simulated, threshold),
+        at(&simple, threshold),
+        at(&higher, threshold),
         short(most, 3),
     );
     Ok(sheet.finish("Simulation against both theories", description))

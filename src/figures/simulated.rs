@@ -4,7 +4,7 @@ use super::FORCING;
 use super::prelude::*;
 use crate::experiments::rise::Counted;
 use crate::experiments::theory::beside;
-pub use crate::params::PRINTED_THRESHOLD as PRINTED;
+pub use crate::params::printed_threshold;
 use literate::table::Table;
 
 /// Line of the simulation's marks.
@@ -31,9 +31,10 @@ pub const MAIN: Frame = Frame::new(1200, 430, 8150, 4430);
 
 /// A dotted line at the σ that the paper prints for the rise, from a height to the top.
 pub fn printed(panel: &Panel, from: f64) -> Result<(), Error> {
-    let line = [(PRINTED, from), (PRINTED, panel.y.hi)];
+    let printed = printed_threshold();
+    let line = [(printed, from), (printed, panel.y.hi)];
     panel.guide("printed", &line, Stroke::dashed(INK, THIN, Dash::Dotted))?;
-    panel.label(&format!("paper: {PRINTED}"), line[1], (0, -1), INK)
+    panel.label(&format!("paper: {printed}"), line[1], (0, -1), INK)
 }
 
 /// Mean over the realisations with an impact against σ.
@@ -51,7 +52,7 @@ pub fn curve(table: &Table, sweep: &Counted, column: &str) -> Vec<(f64, f64)> {
 
 /// The first point of a curve at or above some height, for its name.
 pub fn reaches(points: &[(f64, f64)], height: f64) -> (f64, f64) {
-    points.iter().find(|point| point.1 >= height).copied().unwrap_or((PRINTED, height))
+    points.iter().find(|point| point.1 >= height).copied().unwrap_or((printed_threshold(), height))
 }
 
 /// The value of a curve at some σ in words.

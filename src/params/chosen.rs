@@ -33,9 +33,3 @@ pub const NEAR_SIMULTANEOUS: f64 = 1e-9;
 
 /// An impact with a closing speed below this counts as slow (ours, d ω).
 pub const SLOW: f64 = 1e-8;
-
-/// Length of the steps in which the paper prints its threshold, σ ≈ 0.12 (Sec. 2).
-pub const PRINTED_THRESHOLD_UNIT: f64 = 0.01;
-
-/// The threshold as the paper prints it (Sec. 2).
-pub const PRINTED_THRESHOLD: f64 = 0.12;

@@ -1,6 +1,7 @@
 //! Runs of equal chains at one σ, and the sizes of the experiments that consist of them.
 
-use super::chosen::{PRINTED_THRESHOLD, SEED};
+use super::chosen::SEED;
+use super::printed::printed_threshold;
 use impact_chain::{Chain, Scenario};
 use impact_numerics::random::NormalPairs;
 use literate::experiments::Profile;
@@ -35,7 +36,7 @@ impl Runs {
     pub fn spacetime(profile: Profile) -> Self {
         let until = if profile == Profile::Quick { 400.0 } else { 4000.0 };
         let (chain, stream) = (Chain::default(), "space-time".into());
-        Runs { chain, sigma: PRINTED_THRESHOLD, until, realisations: 1000, stream, seed: SEED }
+        Runs { chain, sigma: printed_threshold(), until, realisations: 1000, stream, seed: SEED }
     }
 
     /// A realisation.

@@ -42,7 +42,7 @@ pub mod manual {}
 mod paper;
 /// What a paper needs, for one line of imports.
 pub mod prelude {
-    pub use crate::claims::{Basis, Case, Check, Judged, Text};
+    pub use crate::claims::{Basis, Check, Evidence, Judged, Rule, Text};
     pub use crate::experiments::{Command, Error, Experiment, Profile, Progress, Results};
     pub use crate::figures::prelude::{Error as FigureError, *};
     pub use crate::table::Table;
@@ -65,6 +65,6 @@ pub mod value;
 pub use failure::{Failure, INTERRUPTED};
 pub use impact_numerics::{double_double, estimates, random, statistics};
 pub use literate_sources::{sources, texts};
-pub use paper::{FigureSpec, Judge, Lab, Paper, Rows, Values};
+pub use paper::{FigureSpec, Lab, Paper, Rows, Values};
 pub use project::Project;
 pub use source::Sources;

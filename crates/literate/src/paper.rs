@@ -1,6 +1,6 @@
 //! A paper: what it is made of. [`Paper::cli`] gives it a command line.
 
-use crate::claims::{Case, Check, Judged, Published, Rule};
+use crate::claims::{Check, Evidence, Judged, Published, Rule};
 use crate::experiments::{AnyExperiment, DerivedTables, Results, Session};
 use crate::failure::Failure;
 use crate::figures::{self, Figure};
@@ -41,9 +41,6 @@ impl FigureSpec {
     }
 }
 
-/// Holds numbers of the paper against one another.
-pub type Judge = fn(&Results, &Published) -> Result<Vec<Check>, Failure>;
-
 /// Values with names, which the prose may use like the cells of tables.
 pub type Values = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
 
@@ -64,10 +61,8 @@ pub struct Paper {
     /// Tables that need several experiments.
     pub derived: Vec<DerivedTables>,
     pub figures: Vec<FigureSpec>,
-    /// How each statement of `published.toml` is judged, by its id.
-    pub rules: Vec<(&'static str, Box<Rule<'static>>)>,
-    /// Judge what is no statement: relations between numbers.
-    pub relations: Vec<Judge>,
+    /// How each statement of `published.toml` is judged, and relations between numbers.
+    pub rules: Vec<Rule>,
     pub values: Vec<Values>,
     pub rows: Vec<Rows>,
     /// What pages load to compute.
@@ -91,7 +86,6 @@ impl Paper {
             derived: Vec::new(),
             figures: Vec::new(),
             rules: Vec::new(),
-            relations: Vec::new(),
             values: Vec::new(),
             rows: Vec::new(),
             lab: None,
@@ -112,11 +106,16 @@ impl Paper {
 
     /// With a rule that judges the statement with this id.
     pub fn check<C: Into<Judged>>(
-        mut self,
+        self,
         id: &'static str,
-        rule: impl Fn(&Case<'_>) -> C + Send + Sync + 'static,
+        judge: impl Fn(&Evidence<'_>) -> C + Send + Sync + 'static,
     ) -> Self {
-        self.rules.push((id, Box::new(move |case| rule(case).into())));
+        self.rule(Rule::new(id, judge))
+    }
+
+    /// With one rule more.
+    pub fn rule(mut self, rule: Rule) -> Self {
+        self.rules.push(rule);
         self
     }
 

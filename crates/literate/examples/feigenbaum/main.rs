@@ -145,14 +145,14 @@ pub fn paper() -> Paper {
         .experiment(&CASCADE)
         .figure("orbits", &[&CASCADE], diagram)
         .figure("convergence", &[&CASCADE], convergence)
-        .check("delta", |s| s.cell("cascade.limit.delta"))
-        .check("alpha", |s| s.cell("cascade.limit.alpha"))
-        .check("onset", |s| {
+        .check("delta", |e| e.cell("cascade.limit.delta"))
+        .check("alpha", |e| e.cell("cascade.limit.alpha"))
+        .check("onset", |e| {
             // The explanation can fail: ours, rounded to three decimals, must be what is printed.
-            let rounded = (s.number("cascade.limit.onset")? * 1000.0).round() / 1000.0;
+            let rounded = (e.number("cascade.limit.onset")? * 1000.0).round() / 1000.0;
             let why = "printed is the number rounded to three decimals, and a zero";
-            let check = s.cell("cascade.limit.onset");
-            Judged::from(check.explained(why, Some(rounded) == s.statement.value))
+            let check = e.cell("cascade.limit.onset");
+            Judged::Ok(check.explained(why, Some(rounded) == e.statement.value))
         });
     Paper { prose: "crates/literate/examples/feigenbaum", ..paper }
 }

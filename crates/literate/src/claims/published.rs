@@ -1,6 +1,6 @@
-//! What the paper printed: `templates/published.toml`.
+//! Reads what the paper printed from `published.toml`.
 
-use super::Kind;
+use super::check::Kind;
 use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -23,11 +23,10 @@ pub struct Published {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table [[parameter]]")]
 pub struct Parameter {
-    /// Its id, `«paper.id»` in the templates.
+    /// Its id, `«paper.id»` in the prose.
     pub id: String,
-    /// Where it stands.
+    /// Where it stands in the paper.
     pub place: String,
-    /// The number.
     pub value: f64,
 }
 
@@ -35,7 +34,7 @@ pub struct Parameter {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table [[statement]]")]
 pub struct Statement {
-    /// Its id: the check with this id judges it.
+    /// Its id: the rule with this id judges it.
     pub id: String,
     /// `definition` for a definition of words or symbols: no score counts it.
     #[serde(default)]
@@ -43,7 +42,7 @@ pub struct Statement {
     /// A word for the difference, if it differs: `misprint` or another; scores count each word.
     #[serde(default)]
     pub why: String,
-    /// Where it stands.
+    /// Where it stands in the paper.
     pub place: String,
     /// What it states, in our words.
     pub statement: String,
@@ -69,79 +68,100 @@ impl Published {
     /// Reads the file.
     ///
     /// # Errors
-    /// What is no such file, and an id that stands twice, with the line.
+    /// If it has another form, or an id stands twice, with the line.
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
         let mut published: Published =
             toml::from_str(text).map_err(|error| PublishedError::Line(toml_fault(text, &error)))?;
         published.text = text.into();
         for at in 0..published.statements.len() {
-            let own = &mut published.statements[at];
-            let Ok(number) = own.printed.parse::<f64>() else { continue };
-            let digits = own.printed.split_once('.').map_or(0, |(_, digits)| digits.len() as u8);
-            if own.value.is_none() && number.is_finite() {
-                (own.value, own.decimals) = (Some(number), digits);
-            } else if own.value != Some(number) || own.decimals != digits {
-                let (id, what) =
-                    (own.id.clone(), "printed and value are not one number; leave value out");
+            let statement = &mut published.statements[at];
+            let Ok(number) = statement.printed.parse::<f64>() else { continue };
+            let decimals = statement.printed.split_once('.').map_or(0, |(_, after)| after.len());
+            let decimals = decimals as u8;
+            if statement.value.is_none() && number.is_finite() {
+                (statement.value, statement.decimals) = (Some(number), decimals);
+            } else if statement.value != Some(number) || statement.decimals != decimals {
+                let what = "printed and value are not one number; leave value out";
+                let id = statement.id.clone();
                 return Err(published.fault(&id, what));
             }
         }
-        let ids = published.parameters.iter().map(|own| &own.id);
         let mut seen = BTreeSet::new();
-        let twice =
-            ids.chain(published.statements.iter().map(|own| &own.id)).find(|id| !seen.insert(*id));
-        if let Some(id) = twice {
-            return Err(published.fault(id, "it stands twice; give each entry its own"));
+        let parameters = published.parameters.iter().map(|parameter| &parameter.id);
+        for id in parameters.chain(published.statements.iter().map(|statement| &statement.id)) {
+            if !seen.insert(id) {
+                return Err(published.fault(id, "it stands twice; give each entry its own"));
+            }
         }
         Ok(published)
     }
 
-    /// What is wrong with the entry of this id, with its line.
+    /// Makes an error of the entry with this id, with its line.
     fn fault(&self, id: &str, what: &str) -> PublishedError {
         let line = self.line(id);
         PublishedError::Line(format!("{line}: the id {:?}: {what}", one_line(id, 80)))
     }
 
-    /// A statement of which other words are printed than those that its check judges.
-    pub fn unread(&self, id: &str, reads: &str) -> PublishedError {
+    /// Makes the error of a statement with other printed words than those that its rule judges.
+    pub fn unread(&self, id: &str, words: &str) -> PublishedError {
         let what = format!(
-            "its check judges {reads:?}, and not its printed; restore the one that is wrong"
+            "its check judges {words:?}, and not its printed; restore the one that is wrong"
         );
         self.fault(id, &what)
     }
 
-    /// The statement with this id.
+    /// Returns the statement with this id.
     pub fn statement(&self, id: &str) -> Result<&Statement, PublishedError> {
-        let found = self.statements.iter().find(|own| own.id == id);
+        let found = self.statements.iter().find(|statement| statement.id == id);
         found.ok_or_else(|| PublishedError::Missing { what: "statement", id: id.into() })
     }
 
-    /// The last line of the file, from 1, where an entry gives itself this id.
+    /// Finds the last line of the file, from 1, that gives an entry this id; 1 if there is none.
     pub fn line(&self, id: &str) -> usize {
-        let own = ['"', '\''].map(|quote| format!("id={quote}{id}{quote}"));
-        let named = |line: &str| own.contains(&line.split_whitespace().collect());
-        self.text.lines().zip(1..).filter(|(line, _)| named(line)).last().map_or(1, |(_, at)| at)
+        let ways = ['"', '\''].map(|quote| format!("id={quote}{id}{quote}"));
+        let mut found = 1;
+        for (number, line) in (1..).zip(self.text.lines()) {
+            if ways.contains(&line.split_whitespace().collect()) {
+                found = number;
+            }
+        }
+        found
     }
 
-    /// The number that the paper chose under this id.
+    /// Returns the number that the paper chose under this id.
     pub fn parameter(&self, id: &str) -> Result<f64, PublishedError> {
-        let found = self.parameters.iter().find(|own| own.id == id).map(|own| own.value);
-        found.ok_or_else(|| PublishedError::Missing { what: "parameter", id: id.into() })
+        let found = self.parameters.iter().find(|parameter| parameter.id == id);
+        let missing = || PublishedError::Missing { what: "parameter", id: id.into() };
+        found.map(|parameter| parameter.value).ok_or_else(missing)
     }
 }
 
 impl Statement {
-    /// The printed number.
+    /// Makes a statement without a place, as of a relation between numbers.
+    pub(super) fn new(kind: Kind, id: &str, statement: &str) -> Statement {
+        Statement {
+            id: id.into(),
+            kind,
+            why: String::new(),
+            place: String::new(),
+            statement: statement.into(),
+            printed: String::new(),
+            value: None,
+            decimals: 0,
+        }
+    }
+
+    /// Returns the printed number.
     pub fn number(&self) -> Result<f64, PublishedError> {
         self.value.ok_or_else(|| PublishedError::Missing { what: "value of", id: self.id.clone() })
     }
 
-    /// Half a unit of the last printed digit.
+    /// Returns half a unit of the last printed digit.
     pub fn half_unit(&self) -> f64 {
         (0..self.decimals).fold(1.0, |unit, _| unit / 10.0) / 2.0
     }
 
-    /// The numbers that round to the printed one: half a unit of its last digit to both sides.
+    /// Returns the ends of the numbers that round to the printed one: half a unit of its last digit to both sides.
     pub fn interval(&self) -> Result<[f64; 2], PublishedError> {
         let value = self.number()?;
         Ok([value - self.half_unit(), value + self.half_unit()])

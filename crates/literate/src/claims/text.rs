@@ -1,60 +1,59 @@
-//! Sentences of a check: words, and numbers that the report prints with the digits they deserve.
+//! Keeps the sentences of a check as words and numbers, which a report prints with the digits they deserve.
 
 use crate::print::{Style, print};
 use crate::value::{Digits, Number};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A short text with numbers in it; its words are numbers of the kind [`Number::Text`].
+/// A short text with numbers in it; its words are [`Number::Text`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(into = "String", from = "String")]
 pub struct Text(pub Vec<Number>);
 
 impl Text {
-    /// A sentence in which each `{}` stands for the next of the numbers.
+    /// Makes a sentence in which each `{}` stands for the next of the numbers.
     pub fn of(sentence: &str, numbers: impl IntoIterator<Item = Number>) -> Text {
-        let (mut out, mut words) = (Text::default(), sentence.split("{}"));
-        out = out.then(words.next().unwrap_or_default());
+        let mut words = sentence.split("{}");
+        let mut text = Text::from(words.next().unwrap_or_default());
         for (number, words) in numbers.into_iter().zip(words) {
-            out.0.push(number);
-            out = out.then(words);
+            text.0.push(number);
+            text = text.then(words);
         }
-        out
+        text
     }
 
-    /// Goes on with another text.
+    /// Appends another text.
     pub fn then(mut self, more: impl Into<Text>) -> Text {
         self.0.extend(more.into().0);
         self
     }
 
-    /// Whether nothing is said.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 }
 
-/// A number with its standard error.
+/// Makes a number with its standard error.
 pub fn with_error(value: f64, error: f64) -> Number {
     Number::Real { value, digits: Digits::Error(error) }
 }
 
-/// A number of so many decimals.
+/// Makes a number of so many decimals.
 pub fn decimals(value: f64, decimals: usize) -> Number {
     Number::Real { value, digits: Digits::Decimals(decimals) }
 }
 
-/// A number of so many significant digits.
+/// Makes a number of so many significant digits.
 pub fn significant(value: f64, digits: usize) -> Number {
     Number::Real { value, digits: Digits::Significant(digits) }
 }
 
-/// A number that was chosen, with all its digits.
+/// Makes a number that was chosen, with all its digits.
 pub fn chosen(value: f64) -> Number {
     Number::Real { value, digits: Digits::of(value) }
 }
 
-/// An integer.
+/// Makes an integer.
 pub fn integer(value: usize) -> Number {
     Number::Integer(value as i64)
 }
@@ -83,9 +82,12 @@ impl From<Text> for String {
     }
 }
 
-/// As for terminals and data.
+/// Writes it as terminals and data have it.
 impl fmt::Display for Text {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.iter().try_for_each(|piece| f.write_str(&print(piece, Style::default()).plain()))
+        for piece in &self.0 {
+            f.write_str(&print(piece, Style::default()).plain())?;
+        }
+        Ok(())
     }
 }

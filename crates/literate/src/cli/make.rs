@@ -101,14 +101,9 @@ impl Paper {
 
     /// All checks: the statements, those that rest on a measure of the author first, then relations.
     pub fn checks(&self, results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
-        let (mut checks, _) = judge_all(published, &self.rules, results)?;
+        let mut checks = judge_all(published, &self.rules, results)?;
         // First what rests on a measure of the author, where a reader may judge otherwise.
-        checks.sort_by_key(|check| {
-            (check.kind == Kind::Definition, check.basis != Basis::OurMeasure)
-        });
-        for judge in &self.relations {
-            checks.extend(judge(results, published)?);
-        }
+        checks.sort_by_key(|check| (check.kind, check.basis != Basis::OurMeasure));
         Ok(checks)
     }
 

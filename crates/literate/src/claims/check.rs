@@ -1,0 +1,249 @@
+//! Defines a check: a statement or relation with what was found, the tolerance and the verdict.
+
+use super::text::{Text, chosen, significant};
+use crate::table::Missing;
+use serde::{Deserialize, Serialize};
+
+/// What a check judges.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// A statement that was printed.
+    #[default]
+    Statement,
+    /// A definition of words or symbols that was printed: it is judged, and no score counts it.
+    Definition,
+    /// A relation between numbers that must hold.
+    Relation,
+}
+
+impl Kind {
+    /// Returns whether it was printed.
+    pub fn is_printed(self) -> bool {
+        matches!(self, Kind::Statement | Kind::Definition)
+    }
+}
+
+/// What a verdict rests on; where several things decide, the weakest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Basis {
+    /// Whole numbers, orders and inequalities, which agree or do not.
+    #[default]
+    #[serde(rename = "exact")]
+    Exact,
+    /// Agreement within the rounding of double precision.
+    #[serde(rename = "rounding")]
+    Rounding,
+    /// Half a unit of the last digit that the paper printed.
+    #[serde(rename = "printed digit")]
+    PrintedDigit,
+    /// Standard errors at the [level](super::Level) of all statistical checks.
+    #[serde(rename = "statistics")]
+    Statistics,
+    /// A measure that we chose, for a statement in words.
+    #[serde(rename = "our measure")]
+    OurMeasure,
+}
+
+impl Basis {
+    /// Every basis of a statement, the strongest first.
+    pub const ALL: [Basis; 5] =
+        [Basis::Exact, Basis::Rounding, Basis::PrintedDigit, Basis::Statistics, Basis::OurMeasure];
+
+    /// Returns the basis in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Basis::Exact => "exact",
+            Basis::Rounding => "rounding",
+            Basis::PrintedDigit => "printed digit",
+            Basis::Statistics => "statistics",
+            Basis::OurMeasure => "our measure",
+        }
+    }
+}
+
+/// The verdict on a statement or a relation, in the order of a scorecard.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Verdict {
+    /// What is found lies within the tolerance.
+    #[serde(rename = "reproduced")]
+    Reproduced,
+    /// It does not, and the difference has the size that our explanation predicts.
+    #[serde(rename = "differs and explained")]
+    DiffersAndExplained,
+    /// It does not, or our explanation of a difference fails.
+    #[serde(rename = "differs")]
+    Differs,
+    /// The results do not decide.
+    #[default]
+    #[serde(rename = "cannot be judged")]
+    CannotBeJudged,
+}
+
+impl Verdict {
+    /// Every verdict, in the order of a scorecard.
+    pub const ALL: [Verdict; 4] = [
+        Verdict::Reproduced,
+        Verdict::DiffersAndExplained,
+        Verdict::Differs,
+        Verdict::CannotBeJudged,
+    ];
+
+    /// Returns the verdict in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Verdict::Reproduced => "reproduced",
+            Verdict::DiffersAndExplained => "differs and explained",
+            Verdict::Differs => "differs",
+            Verdict::CannotBeJudged => "cannot be judged",
+        }
+    }
+
+    /// Returns the verdict as a sign, which needs no colour.
+    pub fn sign(self) -> char {
+        match self {
+            Verdict::Reproduced => '✓',
+            Verdict::DiffersAndExplained => '≠',
+            Verdict::Differs => '✗',
+            Verdict::CannotBeJudged => '?',
+        }
+    }
+}
+
+/// A statement or relation, judged; texts are saved as they are printed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Check {
+    pub kind: Kind,
+    /// The author's word for a difference that is explained, such as `misprint`.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub why: String,
+    /// Its id; that of a statement as in `published.toml`.
+    pub id: String,
+    /// Where it was printed; empty for a relation.
+    pub place: String,
+    /// What it states, in our words.
+    pub statement: String,
+    /// What can be read there, in its shortest form.
+    pub expected: String,
+    /// What we find, with its error.
+    pub found: Text,
+    /// How far from the printed value a finding may lie.
+    pub tolerance: Text,
+    /// Why the tolerance has this size.
+    pub reason: String,
+    pub basis: Basis,
+    pub verdict: Verdict,
+    /// What explains a difference, or what else a reader should know.
+    pub note: Text,
+    #[serde(skip)]
+    pub(super) compared: Option<Compared>,
+}
+
+/// The number of a cell and the one that was printed, by which [`Check::within_errors`] and [`Check::near`] judge again.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Compared {
+    /// Why there is no such cell.
+    pub missing: Option<Missing>,
+    pub value: f64,
+    pub standard_error: f64,
+    pub printed: Option<f64>,
+    /// How many standard errors are allowed; none in a rule that is not statistical.
+    pub quantile: Option<f64>,
+    /// Whether the verdict needs that number and has none.
+    pub lacks_quantile: bool,
+}
+
+impl Check {
+    /// Makes a check that is not judged yet.
+    pub fn new(kind: Kind, id: &str, statement: &str, found: impl Into<Text>) -> Check {
+        let (id, statement, found) = (id.into(), statement.into(), found.into());
+        Check { kind, id, statement, found, ..Check::default() }
+    }
+
+    /// Sets the verdict by whether the finding lies within the tolerance.
+    pub fn judged(self, agrees: bool) -> Check {
+        let verdict = if agrees { Verdict::Reproduced } else { Verdict::Differs };
+        Check { verdict, ..self }
+    }
+
+    /// Judges the number of a cell by its distance from the printed one, which may be `room` and the allowed number of
+    /// standard errors; `shown` is the room that the tolerance names.
+    pub(super) fn allowed(self, room: f64, with_errors: bool, shown: Option<f64>) -> Check {
+        let Some(mut compared) = self.compared.clone() else { return self };
+        let error = if with_errors { compared.standard_error } else { 0.0 };
+        compared.lacks_quantile = error > 0.0 && compared.quantile.is_none();
+        let room = room + compared.quantile.unwrap_or(0.0) * error;
+        let tolerance = Text::of("± {}", [significant(shown.unwrap_or(room), 1)]);
+        // The last bit may be rounded.
+        let agrees = |printed: f64| (compared.value - printed).abs() <= room * (1.0 + 1e-9);
+        let agrees = compared.printed.map(agrees);
+        let check = Check { tolerance, compared: Some(compared), ..self };
+        match agrees {
+            Some(agrees) => check.judged(agrees),
+            None => check,
+        }
+    }
+
+    /// Judges a [cell](super::Evidence::cell) by its standard error alone: it lies within so many of the printed number
+    /// as the level of the statistical checks allows.
+    pub fn within_errors(self) -> Check {
+        let reason = "standard errors at the level of the table".into();
+        Check { reason, basis: Basis::Statistics, ..self.allowed(0.0, true, None) }
+    }
+
+    /// Judges a [cell](super::Evidence::cell) by a measure of ours: it lies no further from the printed number.
+    pub fn near(self, tolerance: f64, reason: &str) -> Check {
+        let shown = Text::of("± {}", [chosen(tolerance)]);
+        let check = self.allowed(tolerance, false, None).within(shown, reason);
+        Check { basis: Basis::OurMeasure, ..check }
+    }
+
+    /// Adds an explanation, which predicts what is found (`holds`) or does not: then the check fails, whatever the
+    /// finding.
+    pub fn explained(self, why: impl Into<Text>, holds: bool) -> Check {
+        let verdict = match (self.verdict, holds) {
+            (_, false) => Verdict::Differs,
+            (Verdict::Differs, true) => Verdict::DiffersAndExplained,
+            (verdict, true) => verdict,
+        };
+        Check { verdict, ..self }.note(why)
+    }
+
+    /// Sets the tolerance, and why it has this size.
+    pub fn within(self, tolerance: impl Into<Text>, reason: &str) -> Check {
+        Check { tolerance: tolerance.into(), reason: reason.into(), ..self }
+    }
+
+    /// Sets what explains a difference, or what else a reader should know.
+    pub fn note(self, note: impl Into<Text>) -> Check {
+        Check { note: note.into(), ..self }
+    }
+
+    /// Returns whether a report is to be refused for it: for a difference without an explanation that holds, and for a
+    /// statement that is open without a reason.
+    pub fn fails(&self) -> bool {
+        let open = self.verdict == Verdict::CannotBeJudged && self.note.is_empty();
+        self.verdict == Verdict::Differs || open && self.kind.is_printed()
+    }
+
+    /// Returns the author's word for the difference, if there is one and it is explained.
+    pub fn difference(&self) -> Option<&str> {
+        let explained = self.verdict == Verdict::DiffersAndExplained;
+        (explained && !self.why.is_empty()).then_some(&self.why)
+    }
+
+    /// Returns the verdict in words.
+    pub fn words(&self) -> &'static str {
+        match (self.kind, self.verdict) {
+            (Kind::Statement | Kind::Definition, verdict) => verdict.words(),
+            (Kind::Relation, Verdict::Reproduced) => "holds",
+            (Kind::Relation, Verdict::CannotBeJudged) => "not measured",
+            (Kind::Relation, _) => "does not hold",
+        }
+    }
+}
+
+/// Counts the checks with each verdict, in the order of [`Verdict::ALL`].
+pub fn score<'a>(checks: impl Iterator<Item = &'a Check> + Clone) -> [usize; 4] {
+    Verdict::ALL.map(|verdict| checks.clone().filter(|check| check.verdict == verdict).count())
+}

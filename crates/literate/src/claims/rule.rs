@@ -1,0 +1,229 @@
+//! Judges every statement and relation by its rule.
+
+use super::check::{Basis, Check, Kind};
+use super::evidence::{Error, Evidence, Judged};
+use super::level::Level;
+use super::published::{Published, Statement};
+use crate::experiments::Results;
+
+/// How one statement or relation is judged.
+pub struct Rule {
+    pub id: &'static str,
+    /// What it says, if it judges a relation between numbers and nothing that was printed.
+    relation: Option<&'static str>,
+    /// The printed words or formula that it judges.
+    reads: Option<&'static str>,
+    basis: Option<Basis>,
+    statistical: bool,
+    judge: Box<dyn Fn(&Evidence<'_>) -> Judged + Send + Sync>,
+}
+
+impl Rule {
+    /// Makes a rule for the statement of `published.toml` with this id.
+    pub fn new<C: Into<Judged>>(
+        id: &'static str,
+        judge: impl Fn(&Evidence<'_>) -> C + Send + Sync + 'static,
+    ) -> Rule {
+        Rule {
+            id,
+            relation: None,
+            reads: None,
+            basis: None,
+            statistical: false,
+            judge: Box::new(move |evidence| judge(evidence).into()),
+        }
+    }
+
+    /// Makes a rule for a relation between numbers that must hold. It may allow for standard errors at the level of
+    /// the statistical checks, and does not count as one of them.
+    pub fn relation<C: Into<Judged>>(
+        id: &'static str,
+        relation: &'static str,
+        judge: impl Fn(&Evidence<'_>) -> C + Send + Sync + 'static,
+    ) -> Rule {
+        Rule { relation: Some(relation), ..Rule::new(id, judge) }
+    }
+
+    /// Counts the rule as statistical: it compares random numbers and allows for their standard errors, so few that all
+    /// statistical checks together rarely fail by chance.
+    pub fn statistical(self) -> Rule {
+        Rule { statistical: true, ..self }
+    }
+
+    /// Sets what the verdict rests on, also where the results do not decide.
+    pub fn on(self, basis: Basis) -> Rule {
+        Rule { basis: Some(basis), ..self }
+    }
+
+    /// Sets the printed words or formula that it judges, where a number alone is not enough: a statement with other
+    /// words is refused. `{}` stands for the number.
+    pub fn reads(self, words: &'static str) -> Rule {
+        Rule { reads: Some(words), ..self }
+    }
+
+    /// Returns whether it judges something that was printed.
+    pub fn is_of_statement(&self) -> bool {
+        self.relation.is_none()
+    }
+
+    /// Computes the check.
+    fn check(&self, evidence: &Evidence<'_>) -> Judged {
+        let Evidence { statement, published, .. } = evidence;
+        if let Some(words) = self.reads {
+            let number =
+                statement.value.map(|x| format!("{x:.*}", usize::from(statement.decimals)));
+            let words = words.replace("{}", &number.unwrap_or_default());
+            if words != statement.printed {
+                return Err(published.unread(self.id, &words).into());
+            }
+        }
+        let mut check = match (self.judge)(evidence) {
+            Err(Error::Undecided) => {
+                evidence.open("–").note("The results at hand do not decide it.")
+            }
+            judged => judged?,
+        };
+        if let Some(compared) = check.compared.take() {
+            if let Some(missing) = compared.missing {
+                return Err(missing.into());
+            }
+            if compared.lacks_quantile {
+                return Err(Error::NotStatistical(self.id.into()));
+            }
+        }
+        check.basis = self.basis.unwrap_or(check.basis);
+        Ok(check)
+    }
+}
+
+impl std::fmt::Debug for Rule {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Rule {:?}", self.id)
+    }
+}
+
+/// Returns the level of each statistical check among these.
+pub fn level_of(rules: &[Rule]) -> Level {
+    Level::of(rules.iter().filter(|rule| rule.statistical).count())
+}
+
+/// Judges all statements, in their order, each by the rule with its id, and then all relations. A statement without a
+/// rule stays open, without a reason, so that it [fails](Check::fails).
+///
+/// # Errors
+/// If there is no statement for a rule, or if a rule needs a number that is missing.
+pub fn judge_all(
+    published: &Published,
+    rules: &[Rule],
+    results: &Results,
+) -> Result<Vec<Check>, Error> {
+    for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
+        published.statement(rule.id)?;
+    }
+    let level = level_of(rules);
+    let mut checks = Vec::new();
+    for statement in &published.statements {
+        let rule = rules.iter().find(|rule| rule.is_of_statement() && rule.id == statement.id);
+        let level = rule.filter(|rule| rule.statistical).map(|_| level);
+        let evidence = Evidence { statement, results, published, level };
+        checks.push(match rule {
+            Some(rule) => rule.check(&evidence)?,
+            None => evidence.open("–"),
+        });
+    }
+    for rule in rules {
+        let Some(relation) = rule.relation else { continue };
+        let statement = &Statement::new(Kind::Relation, rule.id, relation);
+        let evidence = Evidence { statement, results, published, level: Some(level) };
+        checks.push(rule.check(&evidence)?);
+    }
+    Ok(checks)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Verdict, integer};
+    use super::*;
+    use crate::table::Table;
+    use impact_numerics::statistics::Estimate;
+    use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+    const PUBLISHED: &str = "statement = [
+        { id = \"rise\", place = \"a\", statement = \"b\", printed = \"0.12\", value = 0.12, decimals = 2 },
+        { id = \"mean\", place = \"a\", statement = \"b\", printed = \"0.11\", value = 0.11, decimals = 2 },
+        { id = \"words\", place = \"a\", statement = \"b\", printed = \"steep\" },
+        { id = \"without\", place = \"a\", statement = \"b\", printed = \"c\" }]";
+
+    fn judged(rules: &[Rule]) -> Result<Vec<Check>, Error> {
+        let mean = |x: &f64| Some(Estimate { value: *x, error: 0.002, interval: [0.0; 2] });
+        let table = Table::of("toy.all", &[0.1152], |_| 9).real("rise", "1", 6, "A.", |x| *x);
+        let table = table.estimate("mean", "1", "A mean.", mean).done();
+        judge_all(&Published::parse(PUBLISHED).unwrap(), rules, &Results::made_up(vec![table]))
+    }
+
+    #[test]
+    fn a_cell_is_compared_with_what_was_printed() {
+        let judge = |judge: fn(&Evidence<'_>) -> Check| {
+            let rules = ["rise", "mean", "words"].map(|id| Rule::new(id, judge).statistical());
+            let checks = judged(&rules).unwrap();
+            (checks.iter().map(|check| check.verdict).collect::<Vec<_>>(), checks)
+        };
+        use Verdict::{
+            CannotBeJudged as Open, Differs as No, DiffersAndExplained as Why, Reproduced as Yes,
+        };
+        // Printed are 0.12, 0.11 and a word; found is 0.1152, once with an error of 0.002.
+        let (verdicts, checks) = judge(|e| e.cell("toy.all.rise"));
+        assert_eq!(verdicts, [Yes, No, Open, Open]);
+        assert_eq!(checks[0].found.to_string(), "0.1152");
+        assert_eq!(checks[0].tolerance.to_string(), "± 0.005");
+        let (verdicts, checks) = judge(|e| e.cell("toy.all.mean"));
+        assert_eq!(verdicts, [Yes, Yes, Open, Open]);
+        assert_eq!(checks[1].found.to_string(), "0.115(2)");
+        let (verdicts, checks) = judge(|e| e.cell("toy.all.mean").within_errors());
+        assert_eq!(checks[0].tolerance.to_string(), "± 0.006", "2.94 standard errors");
+        assert_eq!(verdicts, [Yes, Yes, Open, Open]);
+        let (verdicts, checks) = judge(|e| e.cell("toy.all.rise").near(1e-3, "ours"));
+        assert_eq!(checks[0].tolerance.to_string(), "± 0.001");
+        assert_eq!(verdicts, [No, No, Open, Open]);
+        let (verdicts, _) = judge(|e| e.cell("toy.all.rise").explained("why", true));
+        assert_eq!(verdicts, [Yes, Why, Open, Open]);
+        let (verdicts, checks) = judge(|e| e.cell("toy.all.rise").explained("why", false));
+        assert_eq!(verdicts, [No, No, No, Open]);
+        assert!(checks.iter().all(Check::fails), "a statement without a rule fails too");
+        assert!(!checks[3].clone().note("It is a likeness in words.").fails());
+    }
+
+    #[test]
+    fn each_rule_runs_once_and_standard_errors_need_a_statistical_one() {
+        static RUNS: AtomicUsize = AtomicUsize::new(0);
+        let counted = |e: &Evidence<'_>| {
+            RUNS.fetch_add(1, Relaxed);
+            e.level().map(|level| e.open(integer(level.claims)))
+        };
+        let rules = [
+            Rule::new("rise", counted).statistical(),
+            Rule::new("mean", |e| e.cell("toy.all.mean").within_errors()).statistical(),
+            Rule::relation("both", "The level is known.", counted),
+        ];
+        let checks = judged(&rules).unwrap();
+        assert_eq!((RUNS.load(Relaxed), checks.len()), (2, 5));
+        assert_eq!(checks[0].found, checks[4].found, "relations do not count");
+        assert_eq!((checks[0].found.to_string(), checks[4].kind), ("2".into(), Kind::Relation));
+        let refused = |judge: fn(&Evidence<'_>) -> Judged| judged(&[Rule::new("mean", judge)]);
+        for judge in [counted, |e: &Evidence<'_>| e.cell("toy.all.mean").into()] {
+            assert!(matches!(refused(judge), Err(Error::NotStatistical(id)) if id == "mean"));
+        }
+        assert!(refused(|e| e.cell("toy.all.mean").near(0.1, "ours").into()).is_ok());
+        assert!(matches!(refused(|e| e.cell("toy.all.lost").into()), Err(Error::Experiment(_))));
+    }
+
+    #[test]
+    fn other_printed_words_are_refused_and_the_basis_stays_without_a_verdict() {
+        let rule = |words| Rule::new("rise", |_| Judged::Err(Error::Undecided)).reads(words);
+        let checks = judged(&[rule("{}").on(Basis::OurMeasure)]).unwrap();
+        let check = &checks[0];
+        assert_eq!((check.verdict, check.basis), (Verdict::CannotBeJudged, Basis::OurMeasure));
+        assert!(!check.fails(), "{}", check.note);
+        assert!(matches!(judged(&[rule("{} or so")]), Err(Error::Published(_))));
+    }
+}
