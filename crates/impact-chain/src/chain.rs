@@ -1,8 +1,8 @@
-//! The chain of Sec. 2: its masses, its ends and its start, without the forcing.
+//! Describes the chain of Sec. 2: its masses, its ends and its start, without the forcing.
 
 use serde::{Deserialize, Serialize};
 
-/// What stands at the two ends of the row.
+/// The two ends of the row of masses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Boundary {
@@ -13,7 +13,7 @@ pub enum Boundary {
 }
 
 impl Boundary {
-    /// Number of gaps of n masses, the N of Sec. 3: n + 1 between walls, n on a ring.
+    /// Returns the number of gaps of n masses, the N of Sec. 3: n + 1 between walls, n on a ring.
     pub fn gaps(self, masses: usize) -> usize {
         match self {
             Boundary::Walls => masses + 1,
@@ -22,13 +22,13 @@ impl Boundary {
     }
 }
 
-/// How a realisation starts (Sec. 2 leaves it open; Sec. 8 assumes [`Start::Random`]).
+/// The start of a realisation (Sec. 2 leaves it open; Sec. 8 assumes [`Start::Random`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Start {
     /// At rest at equilibrium, when the forcing sets in.
     Rest,
-    /// Without a free part, on the forced response alone.
+    /// On the forced response, without a free part.
     Zero,
     /// With a free part whose two amplitudes are normal with standard deviation σ.
     Random,
@@ -70,7 +70,6 @@ impl Default for Chain {
 }
 
 impl Chain {
-    /// Number of gaps.
     pub fn gaps(&self) -> usize {
         self.boundary.gaps(self.masses)
     }

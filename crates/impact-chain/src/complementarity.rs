@@ -1,17 +1,16 @@
-//! The contact forces of a run of shut gaps: a linear complementarity problem.
+//! Solves the linear complementarity problem of the contact forces of a run of shut gaps.
 
 use super::flight::Phases;
 use super::force::Force;
 use crate::search::local_frame::Frequencies;
 
-/// Which gaps of a run stay shut, and with which contact force.
+/// Finds which gaps of a run stay shut; returns for each gap its contact force λ_i, or none if it
+/// opens. Gaps that are not `allowed` stay open.
 ///
-/// Gap i accelerates by g_i + K_i λ_i − λ_{i−1} − λ_{i+1}, where K_i is `inverse_mass` and λ_i ≥ 0 the contact force; a shut gap needs
-/// acceleration ≥ 0, and λ_i = 0 where it is > 0. The matrix is an M-matrix, so starting from no gap
-/// and adding every gap that would be driven shut ends at the solution after at
-/// most as many rounds as there are gaps (Chandrasekaran, 1970, Opsearch 7, 263).
-///
-/// Gaps that are not `allowed` stay open. Returns for each gap λ_i, or `None` if it is open.
+/// Gap i accelerates by g_i + K_i λ_i − λ_{i−1} − λ_{i+1}, where K_i is `inverse_mass` and λ_i ≥ 0
+/// the contact force; a shut gap needs acceleration ≥ 0, and λ_i = 0 where it is > 0. The matrix is
+/// an M-matrix, so starting from no gap and adding every gap that would be driven shut ends at the
+/// solution after at most as many rounds as there are gaps (Chandrasekaran, 1970, Opsearch 7, 263).
 pub fn contact_forces<const M: usize>(
     g: &[Force<M>],
     inverse_mass: &[f64],
@@ -25,7 +24,7 @@ pub fn contact_forces<const M: usize>(
     shut.forces()
 }
 
-/// The gaps found so far to stay shut (`active`).
+/// The gaps that have so far been found to stay shut (`active`).
 struct Shut<'a, const M: usize> {
     g: &'a [Force<M>],
     inverse_mass: &'a [f64],
@@ -36,22 +35,28 @@ struct Shut<'a, const M: usize> {
 }
 
 impl<const M: usize> Shut<'_, M> {
-    /// Adds gaps that are driven shut; true if none is left. A sweep to the right and one to the left make a long run
-    /// grow in few rounds.
+    /// Adds gaps that are driven shut; returns true if none is left. A sweep to the right and one to
+    /// the left let a long run grow in few rounds.
     fn grow(&mut self) -> bool {
         let n = self.g.len();
         self.spread(0..n);
         self.spread((0..n).rev());
         let forces = self.forces();
-        let of = |i: usize| forces.get(i).copied().flatten().unwrap_or(Force::ZERO);
-        let between = |&i: &usize| self.is_driven(i, [of(i.wrapping_sub(1)), of(i + 1)]);
-        let more: Vec<usize> = (0..n).filter(between).collect();
-        more.iter().for_each(|&i| self.active[i] = true);
+        let force = |i: usize| forces.get(i).copied().flatten().unwrap_or(Force::ZERO);
+        let mut more = Vec::new();
+        for i in 0..n {
+            if self.is_driven(i, [force(i.wrapping_sub(1)), force(i + 1)]) {
+                more.push(i);
+            }
+        }
+        for &i in &more {
+            self.active[i] = true;
+        }
         more.is_empty()
     }
 
-    /// Adds, one after the other, every gap that the run before it drives shut. The last force of that run is taken as if
-    /// the next gap were open, which is a lower bound.
+    /// Adds, one after the other, every gap that the run before it drives shut. The last force of
+    /// that run is taken as if the next gap were open, which is a lower bound.
     fn spread(&mut self, order: impl Iterator<Item = usize>) {
         let mut last = None;
         for i in order {
@@ -63,10 +68,11 @@ impl<const M: usize> Shut<'_, M> {
         }
     }
 
-    /// Whether an open gap is driven shut by its acceleration and the forces of its neighbours.
+    /// Decides whether an open gap is driven shut by its acceleration and the forces of its
+    /// neighbours.
     ///
-    /// Its acceleration must be negative beyond rounding: where a symmetry releases several gaps at once, those of the
-    /// others are zero up to rounding, whose sign must not shut them again.
+    /// Its acceleration must be negative beyond rounding: where a symmetry releases several gaps at
+    /// once, those of the others are zero up to rounding, whose sign must not shut them again.
     fn is_driven(&self, i: usize, neighbours: [Force<M>; 2]) -> bool {
         let size = neighbours.iter().fold(self.g[i].size(), |size, force| size + force.size());
         // Elimination adds up the rounding of the gaps of a long run.
@@ -77,30 +83,29 @@ impl<const M: usize> Shut<'_, M> {
         open && total.falls(size, self.p, self.frequencies)
     }
 
-    /// Pivot m and right side r of gap i, after those of the active gap before it: λ_i = (r + λ of the next) / m.
+    /// Returns pivot m and right side r of gap i after those of the active gap before it, with
+    /// λ_i = (r + λ_{i+1})/m.
     fn eliminated(&self, i: usize, last: Option<(f64, Force<M>)>) -> (f64, Force<M>) {
         let (k, g) = (self.inverse_mass[i], self.g[i]);
         let right = g.zip(g, |x, _| -x);
         last.map_or((k, right), |(m, r)| (k - 1.0 / m, right.zip(r, |a, b| a + b / m)))
     }
 
-    /// λ of the active gaps from g + A λ = 0: elimination along each run of adjacent active gaps.
+    /// Solves g + A λ = 0 for the active gaps, by elimination along each run of adjacent ones.
     fn forces(&self) -> Vec<Option<Force<M>>> {
+        let n = self.g.len();
+        let mut pivots = Vec::with_capacity(n);
         let mut last = None;
-        let pivots: Vec<_> = (0..self.g.len())
-            .map(|i| {
-                last = self.active[i].then(|| self.eliminated(i, last));
-                last
-            })
-            .collect();
+        for i in 0..n {
+            last = self.active[i].then(|| self.eliminated(i, last));
+            pivots.push(last);
+        }
+        let mut forces = vec![None; n];
         let mut next = Force::ZERO;
-        let back = pivots.into_iter().rev().map(|pivot| {
-            let force = pivot.map(|(m, r)| r.zip(next, |a, b| (a + b) / m));
+        for (force, pivot) in forces.iter_mut().zip(pivots).rev() {
+            *force = pivot.map(|(m, r)| r.zip(next, |a, b| (a + b) / m));
             next = force.unwrap_or(Force::ZERO);
-            force
-        });
-        let mut forces: Vec<_> = back.collect();
-        forces.reverse();
+        }
         forces
     }
 }

@@ -1,10 +1,11 @@
-//! Contact: chattering that has come to rest, sticking under pressure, release.
+//! Brings chattering gaps to rest, keeps pressed gaps in contact, and releases them.
 //!
 //! When a gap bounces off more slowly than [`CONTACT_SPEED`] d ω, its remaining impacts fall within
 //! a time far below the rounding of t, and the run of gaps that are shut and slow is *settled*:
 //! their masses take a common velocity (momentum is kept), and the contact forces of the whole
 //! run decide which gaps are pressed. These form rigid clusters; the others open. Contact is
-//! decided for the whole run, not pair by pair: a gap that would open alone may be held shut by its neighbours.
+//! decided for the whole run, not pair by pair: a gap that would open alone may be held shut by its
+//! neighbours.
 //!
 //! In a cluster each contact force is L + C cos Ωt + S sin Ωt exactly, so its first zero is
 //! found by the same certified search as an impact. A hit from outside frees the masses of the
@@ -15,8 +16,8 @@ use super::flight::{Motion, Phases};
 use super::force::Force;
 use super::simulation::{Awaits, Simulation};
 use crate::search::clock::Instant;
-use crate::search::first_root::Next;
 use crate::search::local_frame::ROUNDING;
+use crate::search::outcome::Next;
 use crate::search::window::next_window;
 use std::collections::BTreeMap;
 
@@ -33,14 +34,15 @@ type Resting = (usize, [f64; 2]);
 const STILL: [f64; 2] = [0.0; 2];
 
 impl<const M: usize> Simulation<M> {
-    /// Whether the impact of gap k at `speed` is so slow that contact may begin, or hits a cluster.
-    pub(super) fn is_contact_matter(&self, k: usize, speed: f64) -> bool {
+    /// Decides whether the impact of gap k at `speed` is so slow that contact may begin, or hits a
+    /// cluster.
+    pub(super) fn involves_contact(&self, k: usize, speed: f64) -> bool {
         let near = self.topology.adjacent(k);
         self.restitution * speed <= CONTACT_SPEED * self.spacing * self.search.frequencies.omega
             || near.into_iter().flatten().any(|near| self.gaps[near].in_contact)
     }
 
-    /// Carries out such an impact.
+    /// Carries out an impact of gap k at `speed` that involves contact.
     pub(super) fn collide_in_contact(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
         let mut freed = Vec::new();
         for near in self.topology.adjacent(k).into_iter().flatten() {
@@ -63,18 +65,18 @@ impl<const M: usize> Simulation<M> {
         self.settle_runs(resting, phases, None);
     }
 
-    /// Releases gap `k`, whose contact force has come to zero, and settles its cluster without it.
+    /// Releases gap k, whose contact force has come to zero, and settles its cluster without it.
     pub(super) fn release(&mut self, k: usize, phases: &Phases<M>) {
         let freed = self.free_cluster(k, phases);
         self.settle(phases, &freed, Some(k));
     }
 
-    /// Settles gaps that are shut and at rest; `released` is not pressed any more.
+    /// Settles gaps that are shut and at rest; the gap `released` is pressed no longer.
     pub(super) fn settle(&mut self, p: &Phases<M>, shut: &[usize], released: Option<usize>) {
         self.settle_runs(shut.iter().map(|&k| (k, STILL)).collect(), p, released);
     }
 
-    /// Width and rate of gap k now, after a jump of its rate.
+    /// Returns width and rate of gap k now, after a jump of its rate.
     fn resting(&self, k: usize, phases: &Phases<M>, jump: f64) -> [f64; 2] {
         let frame = self.frame_of(k, phases);
         self.carried(k, &frame, jump).unwrap_or([frame.f0, frame.g0])
@@ -86,9 +88,9 @@ impl<const M: usize> Simulation<M> {
     }
 
     /// Takes the gaps whose state has just changed, grows them to whole runs of shut and slow
-    /// gaps, settles each run, and frames all that was touched.
+    /// gaps, settles each run, and takes new frames of all gaps that were touched.
     fn settle_runs(&mut self, changed: Vec<Resting>, p: &Phases<M>, released: Option<usize>) {
-        // Grow: neighbours of settled gaps that are themselves shut and slow, or in contact.
+        // Grow by neighbours of settled gaps that are shut and slow too, or in contact.
         let mut order: Vec<usize> = changed.iter().map(|(k, _)| *k).collect();
         let mut known: BTreeMap<usize, [f64; 2]> = changed.into_iter().collect();
         let mut next = 0;
@@ -118,14 +120,18 @@ impl<const M: usize> Simulation<M> {
             let [first, last] = self.settle_run(&run, &rates, p, released);
             let [before, _] = self.topology.adjacent(run[0]);
             let [_, after] = self.topology.adjacent(run[run.len() - 1]);
-            before.into_iter().for_each(|near| *jumps.entry(near).or_default() += first);
-            after.into_iter().for_each(|near| *jumps.entry(near).or_default() -= last);
+            if let Some(near) = before {
+                *jumps.entry(near).or_default() += first;
+            }
+            if let Some(near) = after {
+                *jumps.entry(near).or_default() -= last;
+            }
             if run.len() > 1 {
                 known.extend(run.into_iter().map(|k| (k, STILL)));
             }
         }
         let jump = |k: usize| jumps.get(&k).copied().unwrap_or(0.0);
-        // The motions are final now: frame everything else that was touched.
+        // The motions are final now: take the frames of all other gaps that were touched.
         for (&k, [width, rate]) in &known {
             if !self.gaps[k].in_contact {
                 self.set_and_search(k, p, *width, rate + jump(k));
@@ -140,8 +146,8 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// The maximal runs of adjacent settled gaps, from left to right. On a ring a run may pass from the last gap to the
-    /// first.
+    /// Lists the maximal runs of adjacent settled gaps, from left to right. On a ring a run may pass
+    /// from the last gap to the first.
     fn runs(&self, known: &BTreeMap<usize, [f64; 2]>) -> Vec<Vec<usize>> {
         let follows = |run: &[usize], k: usize| {
             run.last().is_some_and(|last| self.topology.adjacent(*last)[1] == Some(k))
@@ -160,8 +166,8 @@ impl<const M: usize> Simulation<M> {
         runs
     }
 
-    /// Gives a run a common velocity and finds from the contact forces which of its gaps stay shut. Returns the jumps of
-    /// velocity of its first and last mass.
+    /// Gives a run a common velocity and finds from the contact forces which of its gaps stay shut.
+    /// Returns the jumps of velocity of its first and last mass.
     fn settle_run(
         &mut self,
         gaps: &[usize],
@@ -205,24 +211,25 @@ impl<const M: usize> Simulation<M> {
         jumps
     }
 
-    /// The jumps of velocity of the first and the last mass along `gaps` when all take a common one.
+    /// Returns the jumps of velocity of the first and the last mass along `gaps` when all take a
+    /// common one.
     fn jumps_of_run(&self, gaps: &[usize], rates: &[f64]) -> [f64; 2] {
         let members = self.members(gaps);
         // Each relative to the first.
+        let mut velocities = vec![0.0];
         let mut last = 0.0;
-        let velocities: Vec<f64> = std::iter::once(0.0)
-            .chain(rates.iter().map(|rate| {
-                last += rate;
-                last
-            }))
-            .collect();
-        let wall = members.iter().position(|&m| self.topology.is_wall(m));
-        let mean = || velocities.iter().sum::<f64>() / velocities.len() as f64;
-        let common = wall.map_or_else(mean, |wall| velocities[wall]);
+        for rate in rates {
+            last += rate;
+            velocities.push(last);
+        }
+        let common = match members.iter().position(|&m| self.topology.is_wall(m)) {
+            Some(wall) => velocities[wall],
+            None => velocities.iter().sum::<f64>() / velocities.len() as f64,
+        };
         [common, common - last]
     }
 
-    /// Acceleration of a gap without contact forces, at width zero: ω² d + ΔF_j(t).
+    /// Returns the acceleration of a gap without contact forces, at width zero: ω² d + ΔF_j(t).
     fn acceleration(&self, k: usize) -> Force<M> {
         let w = self.search.frequencies.omega;
         let [left, right] = self.topology.sides(k).map(|m| self.forced[m]);
@@ -263,7 +270,7 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// Gives each mass along `gaps` its separate motion again, at unchanged place and velocity.
+    /// Gives each mass along `gaps` a separate motion again, at unchanged position and velocity.
     fn make_free(&mut self, gaps: &[usize], p: &Phases<M>) {
         for m in self.members(gaps) {
             if self.topology.is_wall(m) {
@@ -271,19 +278,19 @@ impl<const M: usize> Simulation<M> {
             }
             let was = self.motions[m];
             let alone = Motion { forced: self.forced[m], ..Motion::STILL };
-            let (seen, forced) = (was.seen(p), alone.seen(p));
-            let (mut u, mut quadrature) = (was.offset + seen.u, seen.u_quadrature);
-            for (i, (seen, alone)) in seen.forced.iter().zip(forced.forced).enumerate() {
+            let (parts, parts_alone) = (was.parts(p), alone.parts(p));
+            let (mut u, mut quadrature) = (was.offset + parts.u, parts.u_quadrature);
+            for (i, (was, alone)) in parts.forced.iter().zip(parts_alone.forced).enumerate() {
                 let frequencies = &self.search.frequencies;
-                u += seen[0] - alone[0];
-                quadrature += frequencies.big_omegas[i] / frequencies.omega * (seen[1] - alone[1]);
+                u += was[0] - alone[0];
+                quadrature += frequencies.big_omegas[i] / frequencies.omega * (was[1] - alone[1]);
             }
             self.motions[m] = alone;
             self.motions[m].set_free(u, quadrature, p);
         }
     }
 
-    /// The masses (and walls) along adjacent gaps, left to right.
+    /// Lists the masses (and walls) along adjacent gaps, left to right.
     fn members(&self, gaps: &[usize]) -> Vec<usize> {
         let first = self.topology.sides(gaps[0])[0];
         std::iter::once(first).chain(gaps.iter().map(|&k| self.topology.sides(k)[1])).collect()
@@ -305,19 +312,21 @@ impl<const M: usize> Simulation<M> {
         self.make_free(&gaps, phases);
         for &k in &gaps {
             self.gaps[k].in_contact = false;
-            // A mark: if the gap is pressed again at once, its contact phase goes on and is not counted anew.
+            // A mark: if the gap is pressed again at once, its contact phase goes on and is not
+            // counted anew.
             self.gaps[k].awaits = Awaits::Release;
         }
         gaps
     }
 
-    /// Searches the zero of the contact force of gap k.
+    /// Searches for the zero of the contact force of gap k.
     pub(super) fn watch_contact(&mut self, k: usize, p: &Phases<M>) {
         let force = self.forces[k];
         let frequencies = &self.search.frequencies;
         let motion = Motion { forced: force.forced, ..Motion::STILL };
         let mut frame = motion.frame(force.constant, p, frequencies);
-        // Where the force is zero and grows by its curvature alone, rounding must not end the contact.
+        // Where the force is zero and grows by its curvature alone, rounding must not end the
+        // contact.
         let rounding = ROUNDING * force.size();
         if frame.f0.abs() <= rounding {
             frame.f0 = 0.0;
@@ -344,7 +353,7 @@ impl<const M: usize> Simulation<M> {
         let p = Phases::at(&self.rates, Instant::at(time));
         (0..self.gaps.len())
             .filter(|&k| self.gaps[k].in_contact)
-            .map(|k| (self.topology.label(k), self.forces[k].at(&p)))
+            .map(|k| (self.topology.label(k), self.forces[k].value(&p)))
             .collect()
     }
 }

@@ -1,8 +1,11 @@
-//! Counts of an ensemble at one σ: different gaps with an impact in each window, close and slow impacts. All are whole
-//! numbers that add. This code runs at every impact, so it is compiled for speed with the engine.
+//! Counts the impacts of an ensemble at one σ: different gaps with an impact in each window, close
+//! and slow impacts. All counts are whole numbers that add. This code runs at every impact, so it is
+//! compiled for speed with the engine.
 
+use crate::ensemble::{Ensemble, Protocol};
+use crate::search::outcome::Counters;
 use crate::topology::Topology;
-use crate::{Boundary, Counters, Engine, Ensemble, Error, Impact, Protocol};
+use crate::{Boundary, Engine, Error, Impact};
 use serde::{Deserialize, Serialize};
 
 /// The δ below which two impacts of adjacent gaps are counted as close, in units of 1/ω.
@@ -12,14 +15,14 @@ pub const NEAR_DECADES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e
 pub const SLOW_DECADES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 
 /// Impacts after which a run checks again whether to stop.
-const LOOK_EVERY: u64 = 4096;
+const CHECK_EVERY: u64 = 4096;
 
-/// Realisations in their order, for each window of the ensemble. Counts of realisations that follow one another are joined
-/// by collecting them.
+/// The counts of realisations in their order, for each window of the ensemble. Counts of realisations
+/// that follow one another are joined by collecting them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
-    /// Different gaps with an impact in each window, of each piece of each realisation; none if it did not run to the end of
-    /// the window, or the engine ended it early.
+    /// Different gaps with an impact in each window, of each piece of each realisation; none if it
+    /// did not run to the end of the window, or the engine ended it early.
     pub distinct: Vec<Vec<Option<u32>>>,
     /// Impacts in each window, of each realisation.
     pub impacts: Vec<Vec<u64>>,
@@ -29,14 +32,13 @@ pub struct Counts {
     pub rejected: usize,
     /// Realisations that the engine ended early.
     pub failed: usize,
-    /// All impacts, of failed realisations too.
+    /// Impacts of whole runs, failed realisations included.
     pub total: Total,
 }
 
 /// Impacts of whole runs, transients included.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Total {
-    /// Impacts.
     pub impacts: u64,
     /// Impacts that follow one of an adjacent gap within each of [`NEAR_DECADES`].
     pub near: [u64; NEAR_DECADES.len()],
@@ -47,17 +49,21 @@ pub struct Total {
 }
 
 impl Total {
-    /// Adds another.
     pub fn add(&mut self, other: &Total) {
         self.impacts += other.impacts;
         self.contact_phases += other.contact_phases;
-        self.near.iter_mut().zip(other.near).for_each(|(sum, n)| *sum += n);
-        self.slow.iter_mut().zip(other.slow).for_each(|(sum, n)| *sum += n);
+        for (sum, n) in self.near.iter_mut().zip(other.near) {
+            *sum += n;
+        }
+        for (sum, n) in self.slow.iter_mut().zip(other.slow) {
+            *sum += n;
+        }
     }
 }
 
 impl Counts {
-    fn none(ensemble: &Ensemble) -> Counts {
+    /// Returns the counts of a realisation that has none.
+    fn empty(ensemble: &Ensemble) -> Counts {
         let windows = ensemble.protocols.len();
         Counts {
             distinct: vec![vec![None; ensemble.pieces]; windows],
@@ -68,18 +74,22 @@ impl Counts {
     }
 
     pub(crate) fn rejected(ensemble: &Ensemble) -> Counts {
-        Counts { rejected: 1, ..Counts::none(ensemble) }
+        Counts { rejected: 1, ..Counts::empty(ensemble) }
     }
 
     pub(crate) fn failed(ensemble: &Ensemble) -> Counts {
-        Counts { failed: 1, ..Counts::none(ensemble) }
+        Counts { failed: 1, ..Counts::empty(ensemble) }
     }
 }
 
+/// Appends each row of `next` to the row of the same window.
 fn extend<T>(rows: &mut Vec<Vec<T>>, next: Vec<Vec<T>>) {
-    match rows.is_empty() {
-        true => *rows = next,
-        false => rows.iter_mut().zip(next).for_each(|(row, next)| row.extend(next)),
+    if rows.is_empty() {
+        *rows = next;
+        return;
+    }
+    for (row, next) in rows.iter_mut().zip(next) {
+        row.extend(next);
     }
 }
 
@@ -106,17 +116,18 @@ pub(crate) struct Watch {
     last: Vec<f64>,
     /// Transients, rising.
     transients: Vec<f64>,
-    /// `firsts[transient][gap]`: time of the first impact after it, infinite until known. All windows follow from these.
+    /// `firsts[transient][gap]`: time of the first impact of the gap after the transient, infinite
+    /// until known. All windows follow from these.
     firsts: Vec<Vec<f64>>,
     /// For each gap the number of transients whose first impact is known.
     known: Vec<usize>,
-    /// Begins and ends of windows, rising.
+    /// Times at which windows begin or end, rising.
     edges: Vec<f64>,
-    /// The counters of the engine at each of them.
-    at: Vec<Counters>,
+    /// The counters of the engine at each edge so far.
+    at_edges: Vec<Counters>,
 }
 
-/// Times without repetition, rising.
+/// Sorts times and drops repetitions.
 fn rising(times: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut times: Vec<f64> = times.collect();
     times.sort_by(f64::total_cmp);
@@ -135,12 +146,12 @@ impl Watch {
             firsts: vec![vec![f64::INFINITY; gaps]; transients.len()],
             known: vec![0; gaps],
             edges: rising(transients.iter().copied().chain(all.iter().map(Protocol::end))),
-            at: Vec::new(),
+            at_edges: Vec::new(),
             transients,
         }
     }
 
-    fn see(&mut self, impact: Impact) {
+    fn count(&mut self, impact: Impact) {
         let gaps = self.last.len();
         // On a ring gap n lies between masses n and 1: modulo n it is the neighbour of gap 1.
         let gap = impact.gap % gaps;
@@ -175,17 +186,17 @@ impl Watch {
         until: f64,
         stopped: impl Fn() -> bool,
     ) -> Result<(), Error> {
-        while let Some(&edge) = self.edges.get(self.at.len()).filter(|edge| **edge <= until) {
+        while let Some(&edge) = self.edges.get(self.at_edges.len()).filter(|edge| **edge <= until) {
             engine.run(edge, |impact| {
-                self.see(impact);
-                !self.total.impacts.is_multiple_of(LOOK_EVERY) || !stopped()
+                self.count(impact);
+                !self.total.impacts.is_multiple_of(CHECK_EVERY) || !stopped()
             })?;
-            self.at.push(engine.counters());
+            self.at_edges.push(engine.counters());
         }
         Ok(())
     }
 
-    /// The counts of the realisation, given how its run ended.
+    /// Returns the counts of the realisation; `ended` is the outcome of its run.
     pub fn counts(
         mut self,
         ensemble: &Ensemble,
@@ -194,14 +205,14 @@ impl Watch {
     ) -> Result<Counts, Error> {
         self.total.contact_phases = engine.counters().contact_phases;
         let mut counts = match ended {
-            Ok(()) => Counts::none(ensemble),
+            Ok(()) => Counts::empty(ensemble),
             Err(Error::Work { .. }) => {
                 return Ok(Counts { total: self.total, ..Counts::failed(ensemble) });
             }
             Err(error) => return Err(error),
         };
         for (place, protocol) in ensemble.protocols.iter().enumerate() {
-            let edge = |time: f64| self.at.get(self.edges.partition_point(|at| *at < time));
+            let edge = |time: f64| self.at_edges.get(self.edges.partition_point(|at| *at < time));
             let Some((begin, end)) = edge(protocol.transient).zip(edge(protocol.end())) else {
                 continue;
             };
@@ -209,8 +220,8 @@ impl Watch {
             let ring = ensemble.chain.boundary == Boundary::Ring;
             let pieces = ensemble.pieces;
             for (piece, count) in counts.distinct[place].iter_mut().enumerate() {
-                let at = |piece: usize| piece * hit.len() / pieces;
-                let hit = &hit[at(piece)..at(piece + 1)];
+                let (from, to) = (piece * hit.len() / pieces, (piece + 1) * hit.len() / pieces);
+                let hit = &hit[from..to];
                 *count = Some(hit.iter().map(|&hit| u32::from(hit)).sum());
             }
             counts.impacts[place] = vec![end.impacts - begin.impacts];
@@ -220,15 +231,15 @@ impl Watch {
         Ok(counts)
     }
 
-    /// Which gaps impact in a window (T, T + W].
+    /// Finds which gaps have an impact in a window (T, T + W].
     fn hit(&self, protocol: &Protocol) -> Vec<bool> {
         let transient = self.transients.partition_point(|at| *at < protocol.transient);
         self.firsts[transient].iter().map(|&time| time <= protocol.end()).collect()
     }
 }
 
-/// Masses with an impact on one side or both: mass j lies between gaps j − 1 and j, and on a ring the
-/// last one between the last gap and the first.
+/// Counts the masses with an impact on one side or both: mass j lies between gaps j − 1 and j, and on
+/// a ring the last one between the last gap and the first.
 fn masses_hit(hit: &[bool], ring: bool) -> u32 {
     let last = ring && hit.first().zip(hit.last()).is_some_and(|(first, last)| *first || *last);
     let inner = hit.windows(2).map(|sides| u32::from(sides[0] || sides[1])).sum::<u32>();
@@ -264,7 +275,7 @@ mod tests {
         for (time, gap, closing_speed) in
             [(1.0, 0, 1.0), (1.5, 1, 0.05), (1.55, 2, 0.0005), (1.554, 0, 1.0), (1.554, 3, 1e-9)]
         {
-            watch.see(Impact { time, gap, closing_speed });
+            watch.count(Impact { time, gap, closing_speed });
         }
         let seen = watch.total;
         assert_eq!(seen.near, [3, 1, 0, 0, 0, 0, 0, 0, 0]);

@@ -1,10 +1,12 @@
-//! Elastic impacts (r = 1) of neighbours under equal forces, which conserve the energy of their relative motion. Such
-//! orbits may be periodic, and a rounding that is the same in every period would add up.
+//! Reflects neighbours under equal forces in elastic impacts (r = 1), which conserve the energy of
+//! their relative motion. Such orbits may be periodic, and a rounding that is the same in every
+//! period would add up.
 //!
-//! The impact reflects the relative free part X = (a, b) of the two in the direction n = (−sin ωt, cos ωt) of their kick:
-//! X' = X − 2 n (n·X)/(n·n). In double-doubles this keeps |X| to 1e−31, whatever the rounding of n. And n is turned to the
-//! instant at which the motions close the gap, some 1e−16 from the root that was found, so the rounding of the search
-//! moves one impact and none after it.
+//! The impact reflects the relative free part X = (a, b) of the two in the direction
+//! n = (−sin ωt, cos ωt) of their kick: X' = X − 2 n (n·X)/(n·n). In double-doubles this keeps |X|
+//! to 1e−31, whatever the rounding of n. And n is turned to the instant at which the motions close
+//! the gap, some 1e−16 from the root that was found, so the rounding of the search moves one impact
+//! and none after it.
 
 use super::flight::Phases;
 use super::simulation::Simulation;
@@ -14,7 +16,8 @@ use impact_numerics::double_double::DoubleDouble;
 const LEAST_SPEED: f64 = 1e-3;
 
 impl<const M: usize> Simulation<M> {
-    /// Whether the impact of gap k at `speed` conserves the energy of its neighbours' free motion.
+    /// Decides whether the impact of gap k at `speed` conserves the energy of its neighbours' free
+    /// motion.
     #[inline(always)]
     pub(super) fn is_conservative(&self, k: usize, speed: f64) -> bool {
         self.restitution == 1.0 && {
@@ -24,7 +27,7 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// Carries out the impact of gap k at `speed` where it [conserves energy](Self::is_conservative).
+    /// Carries out the impact of gap k at `speed` where it conserves energy.
     #[cold]
     pub(super) fn reflect(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
         let w = self.search.frequencies.omega;
@@ -34,8 +37,8 @@ impl<const M: usize> Simulation<M> {
         let [sin, cos] = [phases.sin, phases.cos].map(DoubleDouble::from);
         // |n|² − 1.
         let excess = (sin * sin + cos * cos - DoubleDouble::ONE).to_f64();
-        let place = a * cos + b * sin;
-        let width = (place + DoubleDouble::from(self.spacing)).to_f64() - 0.5 * excess * place.hi;
+        let free = a * cos + b * sin;
+        let width = (free + DoubleDouble::from(self.spacing)).to_f64() - 0.5 * excess * free.hi;
         let late = width / speed;
         let [sin, cos] = [sin + cos * (w * late), cos - sin * (w * late)];
         let rate = b * cos - a * sin;
@@ -54,7 +57,7 @@ impl<const M: usize> Simulation<M> {
         self.renew_adjacent(k, phases, weights.map(|weight| weight * w * kick.hi));
     }
 
-    /// The free part (a, b) of mass m.
+    /// Returns the free part (a, b) of mass m.
     fn free_part(&self, m: usize) -> [DoubleDouble; 2] {
         let (motion, [a, b]) = (&self.motions[m], self.remainders[m]);
         [DoubleDouble { hi: motion.a, lo: a }, DoubleDouble { hi: motion.b, lo: b }]

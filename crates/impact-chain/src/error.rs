@@ -1,4 +1,4 @@
-//! What can go wrong in a simulation, with the numbers that explain it.
+//! Defines the errors of the dynamics, and the range checks that raise them.
 
 /// An error of the dynamics.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -18,26 +18,26 @@ pub enum Error {
     Overlap {
         /// The first overlapped gap.
         gap: usize,
-        /// How deep, in units of length.
+        /// Depth of the overlap, in units of length.
         depth: f64,
     },
     /// The bound on work was exceeded.
     #[error(
-        "the chain has more than {bound} events within one unit of time, the last at gap {gap}; the run was stopped \
-         at t = {time}; give an earlier end or weaker forces"
+        "the chain has more than {bound} events within one unit of time, the last at gap {gap}; \
+         the run was stopped at t = {time}; give an earlier end or weaker forces"
     )]
     Work {
         /// The gap of the last event.
         gap: usize,
         /// Time of the last event.
         time: f64,
-        /// The bound.
+        /// The largest number of events allowed.
         bound: u64,
     },
 }
 
 impl Error {
-    /// An [`Error::Input`] from its three parts.
+    /// Creates an [`Error::Input`] from its three parts.
     pub fn input(
         field: impl Into<String>,
         problem: impl Into<String>,
@@ -45,4 +45,27 @@ impl Error {
     ) -> Self {
         Error::Input { field: field.into(), problem: problem.into(), remedy: remedy.into() }
     }
+}
+
+/// Refuses a number outside [low, high].
+pub fn within(field: &str, x: f64, low: f64, high: f64) -> Result<(), Error> {
+    if (low..=high).contains(&x) {
+        return Ok(());
+    }
+    let remedy = format!("give a number from {low:?} to {high:?}");
+    Err(Error::input(field, format!("{x:?} is out of range"), remedy))
+}
+
+/// Refuses a list that is not one pair of numbers for each mass.
+pub fn pairs_within(field: &str, pairs: &[[f64; 2]], masses: usize) -> Result<(), Error> {
+    if pairs.len() != masses || masses == 0 {
+        let problem = format!("it has {} pairs for {masses} masses", pairs.len());
+        return Err(Error::input(field, problem, "give one pair for each mass, at least one"));
+    }
+    for (j, pair) in pairs.iter().enumerate() {
+        for &x in pair {
+            within(&format!("{field}[{j}]"), x, -1e9, 1e9)?;
+        }
+    }
+    Ok(())
 }

@@ -1,7 +1,14 @@
-//! Flight: the motion of a mass between its impacts, in closed form.
+//! Computes flight, the motion of a mass between its impacts, in closed form.
 
 use crate::search::clock::{Instant, Rate};
 use crate::search::local_frame::{Frame, Frequencies};
+
+/// Returns the response (c, s) of an undamped oscillator to a component of Eq. (3), with ω² − Ω²
+/// as (ω − Ω)(ω + Ω).
+pub fn response(w: f64, big_w: f64, amplitudes: [f64; 2]) -> [f64; 2] {
+    let factor = (w - big_w) * (w + big_w);
+    amplitudes.map(|amplitude| amplitude / factor)
+}
 
 /// Sine and cosine of the phases ωt and Ωt of each component of the forcing at one instant.
 #[derive(Clone, Copy, Debug)]
@@ -32,9 +39,9 @@ impl<const M: usize> Phases<M> {
         Phases { sin, cos, forced }
     }
 
-    /// Value and quadrature of each c cos Ωt + s sin Ωt.
+    /// Evaluates each c cos Ωt + s sin Ωt: its value and its quadrature.
     #[inline(always)]
-    pub fn seen(&self, forced: &[[f64; 2]; M]) -> [[f64; 2]; M] {
+    pub fn evaluate(&self, forced: &[[f64; 2]; M]) -> [[f64; 2]; M] {
         std::array::from_fn(|m| {
             let ([c, s], [sin, cos]) = (forced[m], self.forced[m]);
             [c * cos + s * sin, s * cos - c * sin]
@@ -52,7 +59,8 @@ pub struct Motion<const M: usize> {
     pub a: f64,
     /// b, free part along sin ωt.
     pub b: f64,
-    /// Forced response of each component: c = α/(ω² − Ω²) along cos Ωt, s = β/(ω² − Ω²) along sin Ωt.
+    /// Forced response of each component: c = α/(ω² − Ω²) along cos Ωt, s = β/(ω² − Ω²) along
+    /// sin Ωt.
     pub forced: [[f64; 2]; M],
     /// Distance of the centre of motion from j d: 0, except in a cluster.
     pub offset: f64,
@@ -60,7 +68,7 @@ pub struct Motion<const M: usize> {
 
 /// The parts of a motion at one instant, each with its quadrature.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen<const M: usize> {
+pub struct Parts<const M: usize> {
     /// Free part u.
     pub u: f64,
     /// Its velocity over ω.
@@ -73,7 +81,7 @@ impl<const M: usize> Motion<M> {
     /// A wall, or a mass without forcing at rest at its centre.
     pub const STILL: Motion<M> = Motion { a: 0.0, b: 0.0, forced: [[0.0; 2]; M], offset: 0.0 };
 
-    /// `self` − `other`: the motion of the gap between two neighbours, without d.
+    /// Returns `self` − `other`: the motion of the gap between two neighbours, without d.
     #[inline(always)]
     pub fn minus(&self, other: &Motion<M>) -> Motion<M> {
         Motion {
@@ -88,14 +96,15 @@ impl<const M: usize> Motion<M> {
     }
 
     #[inline(always)]
-    pub fn seen(&self, p: &Phases<M>) -> Seen<M> {
-        Seen {
+    pub fn parts(&self, p: &Phases<M>) -> Parts<M> {
+        Parts {
             u: self.a * p.cos + self.b * p.sin,
             u_quadrature: self.b * p.cos - self.a * p.sin,
-            forced: p.seen(&self.forced),
+            forced: p.evaluate(&self.forced),
         }
     }
 
+    /// Sets the free part to one that has this value and quadrature now.
     #[inline(always)]
     pub fn set_free(&mut self, u: f64, u_quadrature: f64, p: &Phases<M>) {
         self.a = u * p.cos - u_quadrature * p.sin;
@@ -103,7 +112,7 @@ impl<const M: usize> Motion<M> {
     }
 
     // listing: kick
-    /// A jump of the velocity by ω `kick` at an instant: it only rotates into the free part.
+    /// Lets the velocity jump by ω `kick` at an instant, which only rotates into the free part.
     #[inline(always)]
     pub fn kick(&mut self, kick: f64, p: &Phases<M>) {
         self.a -= kick * p.sin;
@@ -111,11 +120,11 @@ impl<const M: usize> Motion<M> {
     }
     // end
 
-    /// The local frame of a gap at an instant.
+    /// Computes the local frame of a gap at an instant.
     ///
-    /// **Eq. (19)**: Δ(t) = d + A cos ωt + B sin ωt + C cos Ωt + D sin Ωt, where the capitals are the
-    /// differences of the amplitudes of the two neighbours (`self`). The bounds take |u| + |u̇/ω| for the
-    /// amplitude R of a part: at most √2 too much, and no square root.
+    /// **Eq. (19)**: Δ(t) = d + A cos ωt + B sin ωt + C cos Ωt + D sin Ωt, where the capitals are
+    /// the differences of the amplitudes of the two neighbours (`self`). The bounds take
+    /// |u| + |u̇/ω| for the amplitude R of a part: at most √2 too much, and no square root.
     #[inline(always)]
     pub fn frame(
         &self,
@@ -124,23 +133,23 @@ impl<const M: usize> Motion<M> {
         frequencies: &Frequencies<M>,
     ) -> Frame<M> {
         let mean = spacing + self.offset;
-        let seen = self.seen(phases);
+        let parts = self.parts(phases);
         let w2 = frequencies.omega * frequencies.omega;
-        let r1 = seen.u.abs() + seen.u_quadrature.abs();
+        let r1 = parts.u.abs() + parts.u_quadrature.abs();
         let mut bound = w2 * w2 * r1;
         let mut size = mean.abs() + r1;
         for m in 0..M {
-            let [v, v_quadrature] = seen.forced[m];
+            let [v, v_quadrature] = parts.forced[m];
             let r2 = v.abs() + v_quadrature.abs();
             let big_w2 = frequencies.big_omegas[m] * frequencies.big_omegas[m];
             bound += big_w2 * big_w2 * r2;
             size += frequencies.weights[m] * r2;
         }
         Frame {
-            f0: mean + seen.place(),
-            g0: seen.velocity(frequencies),
-            alpha: seen.u,
-            forced: seen.forced,
+            f0: mean + parts.displacement(),
+            g0: parts.velocity(frequencies),
+            alpha: parts.u,
+            forced: parts.forced,
             bound: bound * INFLATION,
             size,
         }
@@ -150,10 +159,10 @@ impl<const M: usize> Motion<M> {
 /// Bounds are rounded outwards by more than the rounding of amplitudes and frames.
 pub const INFLATION: f64 = 1.0 + 1e-12;
 
-impl<const M: usize> Seen<M> {
-    /// Distance from the centre of motion.
+impl<const M: usize> Parts<M> {
+    /// Adds up the distance from the centre of motion.
     #[inline(always)]
-    pub fn place(&self) -> f64 {
+    pub fn displacement(&self) -> f64 {
         self.forced.iter().fold(self.u, |sum, part| sum + part[0])
     }
 

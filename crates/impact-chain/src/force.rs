@@ -1,4 +1,5 @@
-//! A contact force, or an acceleration: a constant plus sinusoids with the frequencies of the forcing.
+//! Describes a contact force, or an acceleration: a constant plus sinusoids with the frequencies of
+//! the forcing.
 
 use super::flight::Phases;
 use crate::search::local_frame::{Frequencies, ROUNDING};
@@ -12,43 +13,47 @@ pub struct Force<const M: usize> {
     pub forced: [[f64; 2]; M],
 }
 
-/// Derivatives that [`Force::falls`] examines, the value included: more than any known symmetry makes zero at once.
+/// Derivatives that [`Force::falls`] examines, the value included: more than any known symmetry
+/// makes zero at once.
 const ORDERS: usize = 6;
 
 impl<const M: usize> Force<M> {
     pub const ZERO: Force<M> = Force { constant: 0.0, forced: [[0.0; 2]; M] };
 
-    /// Two forces combined part by part with `of`.
-    pub fn zip(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
+    /// Combines two forces coefficient by coefficient.
+    pub fn zip(self, other: Self, combine: impl Fn(f64, f64) -> f64) -> Self {
         Force {
-            constant: of(self.constant, other.constant),
+            constant: combine(self.constant, other.constant),
             forced: std::array::from_fn(|m| {
-                [0, 1].map(|i| of(self.forced[m][i], other.forced[m][i]))
+                [0, 1].map(|i| combine(self.forced[m][i], other.forced[m][i]))
             }),
         }
     }
 
-    pub fn at(&self, p: &Phases<M>) -> f64 {
-        p.seen(&self.forced).iter().fold(self.constant, |sum, part| sum + part[0])
+    pub fn value(&self, p: &Phases<M>) -> f64 {
+        p.evaluate(&self.forced).iter().fold(self.constant, |sum, part| sum + part[0])
     }
 
-    /// The sum of the absolute values of its coefficients.
+    /// Returns the sum of the absolute values of the coefficients.
     pub fn size(&self) -> f64 {
         self.forced.iter().fold(self.constant.abs(), |sum, [c, s]| sum + c.abs() + s.abs())
     }
 
-    /// Whether an acceleration is negative at an instant or right after it: the first derivative that exceeds the rounding
-    /// of terms of this `size` decides.
+    /// Decides whether an acceleration is negative at an instant or right after it: by the first
+    /// derivative that exceeds the rounding of terms of this `size`.
     pub fn falls(&self, size: f64, p: &Phases<M>, frequencies: &Frequencies<M>) -> bool {
-        let seen = p.seen(&self.forced);
+        let parts = p.evaluate(&self.forced);
         let (mut powers, mut rounding) = ([1.0; M], ROUNDING * size);
         for order in 0..ORDERS {
-            let part = |m: usize| {
-                let [value, quadrature] = seen[m];
-                powers[m] * [value, quadrature, -value, -quadrature][order % 4]
-            };
-            let constant = if order == 0 { self.constant } else { 0.0 };
-            let derivative = (0..M).fold(constant, |sum, m| sum + part(m));
+            let mut derivative = if order == 0 { self.constant } else { 0.0 };
+            for ([value, quadrature], power) in parts.into_iter().zip(powers) {
+                derivative += match order % 4 {
+                    0 => power * value,
+                    1 => power * quadrature,
+                    2 => power * -value,
+                    _ => power * -quadrature,
+                };
+            }
             if derivative.abs() > rounding {
                 return derivative < 0.0;
             }

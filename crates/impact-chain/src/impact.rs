@@ -1,7 +1,36 @@
-//! The impact law.
+//! Defines an impact, the receivers of impacts, and the impact law.
+
+use crate::Error;
+
+/// One impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// Time t, in the units of the scenario.
+    pub time: f64,
+    /// The gap that closed: 0 lies between the left wall and mass 1, j between masses j and j + 1.
+    pub gap: usize,
+    /// Closing speed −Δ' just before the impact, ≥ 0.
+    pub closing_speed: f64,
+}
+
+/// Receives the impacts of a run in order; returns false to stop it.
+pub type Sink<'a> = &'a mut dyn FnMut(Impact) -> bool;
+
+/// Collects the first `most` impacts of a run, or all if there are fewer.
+pub fn collect<T>(
+    most: usize,
+    run: impl FnOnce(Sink) -> Result<T, Error>,
+) -> Result<Vec<Impact>, Error> {
+    let mut impacts = Vec::new();
+    run(&mut |impact| {
+        impacts.push(impact);
+        impacts.len() < most
+    })?;
+    Ok(impacts)
+}
 
 // listing: jumps
-/// The jumps of velocity (left, right) of two neighbours whose gap closes at `speed` ≥ 0.
+/// Returns the jumps of velocity (left, right) of two neighbours whose gap closes at `speed` ≥ 0.
 ///
 /// Newton's restitution: the gap opens at r `speed` afterwards, and momentum is shared by the
 /// inverse masses: 1 for a mass, 0 for a wall. Equal masses exchange; at a wall v → −r v.

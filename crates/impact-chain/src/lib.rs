@@ -3,15 +3,21 @@
 //! # Contents
 //!
 //! - [`Chain`], [`Scenario`]: the chain of Sec. 2, and a chain with the amplitudes of its forcing and its start.
-//! - [`Engine`], [`Impact`], [`Counters`]: the simulation of a scenario, its impacts, and its counted work.
-//! - [`Ensemble`], [`Counts`], [`rise`]: many random chains, counted in windows of time; means and places of the rise.
+//! - [`Engine`], [`Impact`], [`Counters`]: the simulation of a scenario, its impacts, and its counted
+//!   work.
+//! - [`Ensemble`], [`Counts`], [`rise`]: many random chains, counted in windows of time; means and
+//!   places of the rise.
 //! - [`Error`], [`rounding`]: input that is refused, and a bound of the errors of impacts.
-//! - [`replay`]: runs with a digest of their impacts, to be repeated bit for bit. [`counts`]: close and slow impacts.
-//! - [`methods`]: other ways to simulate a chain, to compare with, and the motion to 106 bits.
+//! - [`replay`]: runs with a digest of their impacts, to be repeated bit for bit. [`counts`]: close and
+//!   slow impacts.
+//! - [`methods`], [`State`]: other ways to simulate a chain, to compare with, and the motion to 106
+//!   bits.
 //!
-//! Equations are those of M. Homer and S. J. Hogan (2007), *Impact Dynamics of Large Dimensional Systems*.
+//! Equations are those of M. Homer and S. J. Hogan (2007), *Impact Dynamics of Large Dimensional
+//! Systems*.
 //!
-//! **Eq. (1)** (step towards (2)): a piecewise smooth system, smooth in flight, with a jump of velocities at impacts.
+//! **Eq. (1)** (step towards (2)): a piecewise smooth system, smooth in flight, with a jump of
+//! velocities at impacts.
 
 #![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
@@ -24,23 +30,32 @@ mod elastic;
 mod engine;
 mod ensemble;
 mod error;
+mod events;
 mod flight;
 mod force;
+mod forcing;
 mod impact;
 pub mod methods;
+mod realisation;
 pub mod replay;
+mod resampling;
 pub mod rise;
 pub mod rounding;
 mod scenario;
+mod scenario_file;
 mod search;
 mod simulation;
+mod state;
 mod topology;
+mod validation;
 
 pub use chain::{Boundary, Chain, Start};
 pub use counts::Counts;
-pub use engine::{Engine, Impact};
+pub use engine::Engine;
 pub use ensemble::{Beyond, Ensemble, Heating, Protocol};
 pub use error::Error;
+pub use impact::{Impact, Sink};
 pub use scenario::{Initial, Overtone, Scenario};
 pub use search::clock::LATEST;
-pub use search::first_root::Counters;
+pub use search::outcome::Counters;
+pub use state::State;

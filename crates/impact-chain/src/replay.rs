@@ -1,16 +1,17 @@
-//! Runs that can be repeated elsewhere: a digest of the impacts shows that they are the same to the last bit.
+//! Runs a chain so that the run can be repeated elsewhere: a digest of the impacts shows that they are
+//! the same to the last bit.
 
-use crate::{Chain, Engine, Error, Impact, Scenario};
+use crate::error::{Error, within};
+use crate::search::clock::LATEST;
+use crate::{Chain, Engine, Impact, Scenario};
 use impact_numerics::random::NormalPairs;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 /// The input of a run: all that determines its bits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Asked {
-    /// The chain.
+pub struct Request {
     pub chain: Chain,
-    /// Its forcing.
     pub forces: Forces,
     /// Transient T after which gaps with an impact are counted.
     pub transient: f64,
@@ -18,7 +19,7 @@ pub struct Asked {
     pub window: f64,
 }
 
-/// Where the amplitudes of the forcing come from.
+/// The source of the amplitudes of the forcing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Forces {
@@ -28,29 +29,28 @@ pub enum Forces {
         sigma: f64,
         /// Name of the random stream.
         stream: String,
-        /// Its seed.
+        /// Seed of the stream.
         seed: u64,
-        /// Which of its realisations.
+        /// Number of the realisation.
         realisation: u64,
     },
     /// Given as (α, β) for each mass; the start is not random.
     Given(Vec<[f64; 2]>),
 }
 
-impl Asked {
-    /// The time at which it ends.
+impl Request {
+    /// Returns the time at which the run ends.
     pub fn until(&self) -> f64 {
         self.transient + self.window
     }
 
-    /// The scenario, checked.
+    /// Returns the scenario.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for times out of range, or amplitudes that are not one pair for each mass.
     pub fn scenario(&self) -> Result<Scenario, Error> {
-        for (field, time) in [("transient", self.transient), ("window", self.window)] {
-            if !(time >= 0.0 && time.is_finite()) {
-                let problem = format!("{time:?} is no length of time");
-                return Err(Error::input(field, problem, "give a finite number ≥ 0"));
-            }
-        }
+        within("transient", self.transient, 0.0, LATEST)?;
+        within("window", self.window, 0.0, LATEST)?;
         match &self.forces {
             Forces::Drawn { sigma, stream, seed, realisation } => {
                 let mut normals = NormalPairs::new(stream, *seed, *realisation);
@@ -67,83 +67,67 @@ pub struct Replay {
     engine: Engine,
     transient: f64,
     until: f64,
+    /// Whether each gap has an impact in the window.
     hit: Vec<bool>,
-    seen: Sha256,
+    hash: Sha256,
 }
 
 impl Replay {
-    /// The run at t = 0.
-    pub fn new(asked: &Asked) -> Result<Replay, Error> {
-        let scenario = asked.scenario()?;
+    /// Sets the run at t = 0.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for values outside the model, [`Error::Overlap`] for an overlapping start.
+    pub fn new(request: &Request) -> Result<Replay, Error> {
+        let scenario = request.scenario()?;
         Ok(Replay {
             engine: Engine::new(&scenario)?,
-            transient: asked.transient,
-            until: asked.until(),
+            transient: request.transient,
+            until: request.until(),
             hit: vec![false; scenario.gaps()],
-            seen: Sha256::new(),
+            hash: Sha256::new(),
         })
     }
 
-    /// Advances by at most `most` impacts and calls `see` with time and gap of each, gaps counted from 0. False at the end.
-    pub fn advance(&mut self, most: u64, mut see: impl FnMut(f64, usize)) -> Result<bool, Error> {
+    /// Advances by at most `most` impacts and calls `visit` with time and gap of each, gaps counted
+    /// from 0. Returns false at the end of the run.
+    ///
+    /// # Errors
+    /// [`Error::Work`] when the bound on work is exceeded.
+    pub fn advance(&mut self, most: u64, mut visit: impl FnMut(f64, usize)) -> Result<bool, Error> {
         let (mut left, gaps) = (most, self.hit.len());
-        let Replay { engine, hit, seen, transient, .. } = self;
+        let Replay { engine, hit, hash, transient, .. } = self;
         engine.run(self.until, |Impact { time, gap, closing_speed }| {
-            let bits = [time.to_bits(), gap as u64, closing_speed.to_bits()];
-            bits.iter().for_each(|bits| seen.update(bits.to_le_bytes()));
+            for bits in [time.to_bits(), gap as u64, closing_speed.to_bits()] {
+                hash.update(bits.to_le_bytes());
+            }
             // Gaps of a ring are numbered from 1.
             let gap = gap % gaps;
             hit[gap] |= time > *transient;
-            see(time, gap);
+            visit(time, gap);
             left = left.saturating_sub(1);
             left > 0
         })?;
         Ok(left == 0)
     }
 
-    /// Gaps of the chain.
     pub fn gaps(&self) -> usize {
         self.hit.len()
     }
 
-    /// Different gaps with an impact in the window (T, T + W] so far.
+    /// Counts the different gaps with an impact in the window (T, T + W] so far.
     pub fn distinct(&self) -> usize {
         self.hit.iter().filter(|hit| **hit).count()
     }
 
-    /// The engine, with its counted work.
+    /// Returns the engine, for its counted work.
     pub fn engine(&self) -> &Engine {
         &self.engine
     }
 
-    /// SHA-256 over the impacts so far, in hexadecimal: of each its time, its gap as the engine numbers it, and its
-    /// closing speed; eight bytes each, the lowest first, with the bits of doubles as they are.
+    /// Returns SHA-256 over the impacts so far, in hexadecimal: of each impact the time, the gap as the
+    /// engine numbers it, and the closing speed; eight bytes each, the lowest first, with the bits of
+    /// doubles as they are.
     pub fn digest(&self) -> String {
-        self.seen.clone().finalize().iter().map(|byte| format!("{byte:02x}")).collect()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Boundary;
-
-    #[test]
-    fn pieces_are_the_whole() {
-        for boundary in [Boundary::Walls, Boundary::Ring] {
-            let chain = Chain { masses: 20, boundary, ..Chain::default() };
-            let stream = "replay".into();
-            let forces = Forces::Drawn { sigma: 0.3, stream, seed: 1, realisation: 0 };
-            let asked = Asked { chain, forces, transient: 50.0, window: 50.0 };
-            let mut whole = Replay::new(&asked).unwrap();
-            assert!(!whole.advance(u64::MAX, |_, _| ()).unwrap());
-            assert!(whole.engine().counters().impacts > 300 && whole.distinct() > 10);
-            let mut pieces = Replay::new(&asked).unwrap();
-            let mut shown = Vec::new();
-            while pieces.advance(7, |_, gap| shown.push(gap)).unwrap() {}
-            assert_eq!(shown.len() as u64, whole.engine().counters().impacts);
-            assert!(shown.iter().all(|gap| *gap < whole.gaps()));
-            assert_eq!((pieces.digest(), pieces.distinct()), (whole.digest(), whole.distinct()));
-        }
+        self.hash.clone().finalize().iter().map(|byte| format!("{byte:02x}")).collect()
     }
 }

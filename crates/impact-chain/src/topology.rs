@@ -1,10 +1,9 @@
-//! Which masses and gaps are neighbours.
+//! Finds the neighbours of masses and gaps.
 
 use crate::Boundary;
 
-/// The neighbourhood of masses and gaps, which are numbered 0..N inside the engine.
-///
-/// Masses are 1..=n; between walls, 0 and n + 1 stand for the walls.
+/// The neighbours of masses and gaps. Inside the engine gaps are numbered 0..N, and masses 1..=n;
+/// between walls, 0 and n + 1 stand for the walls.
 #[derive(Clone, Copy, Debug)]
 pub struct Topology {
     masses: usize,
@@ -20,7 +19,7 @@ impl Topology {
         self.boundary.gaps(self.masses)
     }
 
-    /// The number of gap k in results: 0..=n between walls, 1..=n on a ring.
+    /// Returns the number of gap k in results: 0..=n between walls, 1..=n on a ring.
     #[inline]
     pub fn label(&self, k: usize) -> usize {
         match self.boundary {
@@ -29,7 +28,7 @@ impl Topology {
         }
     }
 
-    /// The neighbours (left, right) of gap k.
+    /// Returns the neighbours (left, right) of gap k.
     #[inline]
     pub fn sides(&self, k: usize) -> [usize; 2] {
         match self.boundary {
@@ -38,7 +37,7 @@ impl Topology {
         }
     }
 
-    /// The gaps (before, after) that share a mass with gap k.
+    /// Returns the gaps (before, after) that share a mass with gap k.
     #[inline]
     pub fn adjacent(&self, k: usize) -> [Option<usize>; 2] {
         let last = self.gaps() - 1;
@@ -61,7 +60,7 @@ impl Topology {
         if self.is_wall(m) { 0.0 } else { 1.0 }
     }
 
-    /// The inverse masses of both neighbours of gap k.
+    /// Returns the inverse masses of both neighbours of gap k.
     #[inline]
     pub fn inverse_masses(&self, k: usize) -> [f64; 2] {
         self.sides(k).map(|m| self.inverse_mass(m))

@@ -1,9 +1,15 @@
-//! The row of masses for integrators: displacements, velocities, forces, impact law.
+//! Holds the row of masses for integrators: displacements, velocities, forces, impact law.
 
-use super::forcing::Component;
-use super::prelude::*;
+use super::method::{Cost, Task};
+use super::steps::{Step, steps};
+use super::tally::{Stop, Tally};
+use crate::forcing::Component;
+use crate::impact::jumps;
+use crate::search::clock::Instant;
+use crate::topology::Topology;
+use crate::{Boundary, Error, Scenario, Sink, State};
 
-/// A state with its forces; bodies are numbered from the left wall (0) to the right one (n + 1).
+/// The bodies of a chain with their state and forces; bodies are numbered from the left wall (0) to the right one (n + 1).
 pub struct Bodies {
     pub topology: Topology,
     is_ring: bool,
@@ -28,7 +34,7 @@ impl Bodies {
             spacing: scenario.spacing,
             restitution: scenario.restitution,
             stiffness: scenario.natural_frequency * scenario.natural_frequency,
-            forcing: Component::of(scenario),
+            forcing: Component::forces(scenario),
             v: vec![0.0; u.len()],
             u,
         };
@@ -53,16 +59,16 @@ impl Bodies {
         self.v[right] - self.v[left]
     }
 
-    /// An impulse P ≥ 0 that opens gap k, for masses 1/`lightness`.
+    /// Applies an impulse P ≥ 0 that opens gap k, for masses 1/`lightness`.
     #[inline]
     pub fn push(&mut self, k: usize, impulse: f64, lightness: f64) {
         let [left, right] = self.topology.sides(k);
-        let [of_left, of_right] = self.topology.inverse_masses(k);
-        self.v[left] -= impulse * of_left * lightness;
-        self.v[right] += impulse * of_right * lightness;
+        let [inverse_left, inverse_right] = self.topology.inverse_masses(k);
+        self.v[left] -= impulse * inverse_left * lightness;
+        self.v[right] += impulse * inverse_right * lightness;
     }
 
-    /// The impact law at gap k.
+    /// Applies the impact law at gap k.
     pub fn hit(&mut self, k: usize, speed: f64) {
         let [left, right] = self.topology.sides(k);
         let jumps = jumps(speed, self.restitution, self.topology.inverse_masses(k));
@@ -81,7 +87,7 @@ impl Bodies {
         }
     }
 
-    /// The accelerations in flight at displacements `u` and an instant. The walls have none.
+    /// Computes the accelerations in flight at displacements `u` and an instant. The walls have none.
     pub fn accelerations(&self, at: Instant, u: &[f64], out: &mut [f64]) {
         self.forces(at, out);
         for (out, u) in out.iter_mut().zip(u) {
@@ -89,7 +95,8 @@ impl Bodies {
         }
     }
 
-    /// Whether any gap would be shut after `ahead` at its present rate: a cheap test, as mostly none is.
+    /// Whether any gap would be shut after a time `ahead` at its present rate. The test is cheap, as
+    /// it mostly fails.
     pub fn any_shut(&self, ahead: f64) -> bool {
         let (u, v) = (&self.u, &self.v);
         let is_shut =
@@ -103,13 +110,13 @@ impl Bodies {
         any
     }
 
-    /// Number of masses, the unit of counted work.
+    /// Returns the number of masses, the unit of counted work.
     pub fn masses(&self) -> u64 {
         self.u.len() as u64 - 2
     }
 }
 
-/// One method with a fixed step.
+/// A method with a fixed step.
 pub trait Stepper {
     /// Advances the row by one step and hands its impacts to the tally.
     fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop>;

@@ -1,7 +1,9 @@
-//! The engine of this project, under the trait of its rivals.
+//! Runs the engine of this project under the trait of its rivals.
 
-use super::prelude::*;
-use crate::Engine;
+use super::method::{Cost, Method, Task};
+use super::steps::check_end;
+use crate::topology::Topology;
+use crate::{Engine, Error, Impact, Scenario, Sink, State};
 
 /// The exact event-driven engine: flight in closed form, the first root of each gap certified.
 ///
@@ -51,21 +53,28 @@ impl Method for Certified {
     }
 }
 
-/// The gaps that are shut and at rest up to rounding: in contact, or hit with r = 0. Rounding may
-/// close them again at once, which is no impact.
+/// Finds the gaps that are shut and at rest up to rounding: in contact, or hit with r = 0. Rounding
+/// may close them again at once, which is no impact.
 fn resting(scenario: &Scenario, start: &State) -> Vec<usize> {
     let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
     let d = scenario.spacing;
-    let place = |m: usize| match topology.is_wall(m) {
-        true => [0.0; 2],
-        false => [start.positions[m - 1] - m as f64 * d, start.velocities[m - 1]],
+    let motion = |m: usize| {
+        if topology.is_wall(m) {
+            return [0.0; 2];
+        }
+        [start.positions[m - 1] - m as f64 * d, start.velocities[m - 1]]
     };
-    let is_resting = |k: &usize| {
-        let [left, right] = topology.sides(*k).map(place);
-        let width = d + (right[0] - left[0]);
-        let beside = |i: usize| left[i].abs().max(right[i].abs());
-        width.abs() <= start.rounding((k + 1) as f64 * d + beside(0), beside(1))
-            && (right[1] - left[1]).abs() <= AT_REST * d * scenario.natural_frequency
-    };
-    (0..topology.gaps()).filter(is_resting).map(|k| topology.label(k)).collect()
+    let mut resting = Vec::new();
+    for k in 0..topology.gaps() {
+        let [left, right] = topology.sides(k).map(motion);
+        let (width, rate) = (d + (right[0] - left[0]), right[1] - left[1]);
+        let place = (k + 1) as f64 * d + left[0].abs().max(right[0].abs());
+        let speed = left[1].abs().max(right[1].abs());
+        if width.abs() <= start.rounding(place, speed)
+            && rate.abs() <= AT_REST * d * scenario.natural_frequency
+        {
+            resting.push(topology.label(k));
+        }
+    }
+    resting
 }

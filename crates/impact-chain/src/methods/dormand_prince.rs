@@ -1,6 +1,7 @@
-//! The pair of Dormand and Prince: its coefficients, one step, its dense output.
+//! Advances by the pair of Dormand and Prince: its coefficients, one step, its dense output.
 
-use super::prelude::*;
+use super::bodies::Bodies;
+use crate::search::clock::Instant;
 
 /// Nodes c_i of the stages 2 to 7.
 const NODES: [f64; 6] = [1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0];
@@ -26,7 +27,7 @@ const ERROR: [f64; 7] = [
     -1.0 / 40.0,
 ];
 
-/// The dense output's last coefficient, of order 4.
+/// The coefficients of the last term of the dense output, of order 4.
 const DENSE: [f64; 7] = [
     -12715105075.0 / 11282082432.0,
     0.0,
@@ -47,7 +48,7 @@ pub struct Stages {
 }
 
 impl Stages {
-    /// Of a state with `row`'s displacements and velocities.
+    /// Starts from the displacements and velocities of `row`.
     pub fn new(row: &Bodies, at: Instant) -> Stages {
         let y: Vec<f64> = row.u.iter().chain(&row.v).copied().collect();
         let zero = vec![0.0; y.len()];
@@ -57,13 +58,13 @@ impl Stages {
         stages
     }
 
-    /// Begins anew at `y`, which an impact has changed.
+    /// Restarts at `y`, which an impact has changed.
     pub fn restart(&mut self, row: &Bodies, at: Instant) {
         derivative(row, at, &self.y, &mut self.k[0]);
     }
 
-    /// Tries a step of length `h`. Returns its error in units of what `tolerance` allows: root mean
-    /// square over all components, absolute and relative.
+    /// Tries a step of length `h`. Returns its error in units of that which `tolerance` allows: root
+    /// mean square over all components, absolute and relative.
     pub fn attempt(&mut self, row: &Bodies, from: Instant, h: f64, tolerance: f64) -> f64 {
         self.h = h;
         for (stage, coefficients) in STAGES.iter().enumerate() {
@@ -81,13 +82,13 @@ impl Stages {
         (sum / self.y.len() as f64).sqrt()
     }
 
-    /// Σ a_j k_j of component i over as many derivatives.
+    /// Returns Σ a_j k_j of component i over the given coefficients.
     #[inline(always)]
     fn weighted(&self, a: &[f64], i: usize) -> f64 {
         a.iter().zip(&self.k).fold(0.0, |sum, (a, k)| sum + a * k[i])
     }
 
-    /// Component i at the fraction θ of the step.
+    /// Interpolates component i at the fraction θ of the step.
     pub fn dense(&self, i: usize, theta: f64) -> f64 {
         let (h, rest) = (self.h, 1.0 - theta);
         let difference = self.next[i] - self.y[i];
@@ -97,13 +98,13 @@ impl Stages {
         self.y[i] + theta * (difference + rest * (bend + theta * (third + rest * fourth)))
     }
 
-    /// Goes on from the end of the step.
+    /// Accepts the step: the next one starts from its end.
     pub fn accept(&mut self) {
         std::mem::swap(&mut self.y, &mut self.next);
         self.k.swap(0, 6);
     }
 
-    /// Goes back to the fraction θ of the step; [`Stages::restart`] must follow.
+    /// Cuts the step at its fraction θ; [`Stages::restart`] must follow.
     pub fn cut(&mut self, theta: f64) {
         for i in 0..self.y.len() {
             self.next[i] = self.dense(i, theta);

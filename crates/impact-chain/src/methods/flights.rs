@@ -1,12 +1,19 @@
-//! Flight in closed form, for methods that evaluate gaps at given times.
+//! Computes flight in closed form, for methods that evaluate gaps at given times.
 
-use super::forcing::{COMPONENTS, Component};
-use super::prelude::*;
+use super::sign_change::is_rounding;
+use super::steps::Step;
 use crate::flight::INFLATION;
+use crate::forcing::Component;
+use crate::impact::jumps;
+use crate::scenario::COMPONENTS;
+use crate::search::clock::{Instant, Rate};
+use crate::search::trig::sin_cos_turn;
+use crate::topology::Topology;
+use crate::{Error, Scenario, State};
 
 /// Width and rate of a gap, `s` after the beginning of a step.
 #[derive(Clone, Copy, Debug)]
-pub struct Look {
+pub struct GapState {
     pub s: f64,
     pub width: f64,
     pub rate: f64,
@@ -25,7 +32,7 @@ pub struct Flights {
 }
 
 /// (sin, cos) of ωt and of each Ωt.
-pub type Phases = ((f64, f64), [(f64, f64); COMPONENTS]);
+pub type FlightPhases = ((f64, f64), [(f64, f64); COMPONENTS]);
 
 impl Flights {
     pub fn new(scenario: &Scenario, start: &State) -> Result<Flights, Error> {
@@ -38,7 +45,7 @@ impl Flights {
             omega: w,
             rate: Rate::new(w),
             free: vec![[0.0; 2]; u.len()],
-            forced: Component::response(scenario),
+            forced: Component::responses(scenario),
         };
         let phases = flights.phases(Instant::at(start.time));
         let (sin, cos) = phases.0;
@@ -50,7 +57,7 @@ impl Flights {
         Ok(flights)
     }
 
-    pub fn phases(&self, at: Instant) -> Phases {
+    pub fn phases(&self, at: Instant) -> FlightPhases {
         let mut forced = [(0.0, 1.0); COMPONENTS];
         for (phase, component) in forced.iter_mut().zip(&self.forced) {
             *phase = component.phase(at);
@@ -58,52 +65,54 @@ impl Flights {
         (sin_cos_turn(self.rate.turn(at)), forced)
     }
 
-    /// The phases `s` after the beginning of a step.
-    pub fn phases_in(&self, step: &Step, s: f64) -> Phases {
+    /// Returns the phases at `s` after the beginning of a step.
+    pub fn phases_in(&self, step: &Step, s: f64) -> FlightPhases {
         self.phases(if s == step.h { step.to } else { step.from.after(s) })
     }
 
-    /// The forced response of the right one of two bodies less that of the left one, and its rate.
-    fn response(&self, [left, right]: [usize; 2], phases: &Phases) -> [f64; 2] {
+    /// Returns the forced response of the right one of two bodies less that of the left one, and its
+    /// rate.
+    fn response(&self, [left, right]: [usize; 2], phases: &FlightPhases) -> [f64; 2] {
         let [mut v, mut rate] = [0.0; 2];
         for (component, (sin, cos)) in self.forced.iter().zip(&phases.1) {
-            let of = |amplitudes: &[f64]| amplitudes[right] - amplitudes[left];
-            let [c, s] = [of(&component.cos), of(&component.sin)];
+            let c = component.cos[right] - component.cos[left];
+            let s = component.sin[right] - component.sin[left];
             v += c * cos + s * sin;
             rate += component.frequency * (s * cos - c * sin);
         }
         [v, rate]
     }
 
-    /// Gap k at a time whose phases are given.
-    pub fn look(&self, k: usize, s: f64, phases: &Phases) -> Look {
+    /// Evaluates gap k at a time whose phases are given.
+    pub fn gap_at(&self, k: usize, s: f64, phases: &FlightPhases) -> GapState {
         let sides = self.topology.sides(k);
-        let [of_left, of_right] = sides.map(|m| self.free[m]);
-        let [a, b] = [of_right[0] - of_left[0], of_right[1] - of_left[1]];
+        let [free_left, free_right] = sides.map(|m| self.free[m]);
+        let [a, b] = [free_right[0] - free_left[0], free_right[1] - free_left[1]];
         let (sin, cos) = phases.0;
         let [v, forced_rate] = self.response(sides, phases);
         let width = self.spacing + (a * cos + b * sin + v);
         let rate = self.omega * (b * cos - a * sin) + forced_rate;
         let width = if is_rounding(width, rate, self.spacing) { 0.0 } else { width };
-        Look { s, width, rate }
+        GapState { s, width, rate }
     }
 
-    /// A bound on the second derivative of gap k: Σ R Ω² over its sinusoids of amplitude R, its free part among them.
-    pub fn bend(&self, k: usize) -> f64 {
+    /// Bounds the second derivative of gap k: Σ R Ω² over its sinusoids of amplitude R, the free part
+    /// among them.
+    pub fn curvature(&self, k: usize) -> f64 {
         let [left, right] = self.topology.sides(k);
         let length = |x: f64, y: f64| (x * x + y * y).sqrt();
-        let [of_left, of_right] = [self.free[left], self.free[right]];
-        let free = length(of_right[0] - of_left[0], of_right[1] - of_left[1]);
-        let forced = self.forced.iter().map(|part| {
-            let [c, s] =
-                [&part.cos, &part.sin].map(|amplitudes| amplitudes[right] - amplitudes[left]);
-            part.frequency * part.frequency * length(c, s)
-        });
-        INFLATION * (self.omega * self.omega * free + forced.sum::<f64>())
+        let [free_left, free_right] = [self.free[left], self.free[right]];
+        let free = length(free_right[0] - free_left[0], free_right[1] - free_left[1]);
+        let mut forced = 0.0;
+        for part in &self.forced {
+            let [c, s] = [&part.cos, &part.sin].map(|all| all[right] - all[left]);
+            forced += part.frequency * part.frequency * length(c, s);
+        }
+        INFLATION * (self.omega * self.omega * free + forced)
     }
 
-    /// The impact law at gap k: a jump of velocity only rotates into the free part.
-    pub fn hit(&mut self, k: usize, speed: f64, phases: &Phases) {
+    /// Applies the impact law at gap k: a jump of velocity only rotates into the free part.
+    pub fn hit(&mut self, k: usize, speed: f64, phases: &FlightPhases) {
         let sides = self.topology.sides(k);
         let inverse = self.topology.inverse_masses(k);
         let (sin, cos) = phases.0;

@@ -1,9 +1,14 @@
-//! Moreau–Jean time stepping.
+//! Simulates by Moreau–Jean time stepping.
 
-use super::prelude::*;
+use super::bodies::{Bodies, Stepper, run_steps};
+use super::method::{Cost, Method, Task};
+use super::steps::Step;
+use super::tally::{Stop, Tally};
+use crate::search::clock::Instant;
+use crate::{Error, Sink};
 
-/// Contacts on the level of velocities and impulses: flight by the implicit midpoint rule (Jean's θ
-/// = 1/2); gaps that the forecast Δ + h Δ'/2 finds shut enter one complementarity problem
+/// Time stepping with contacts on the level of velocities and impulses: flight by the implicit
+/// midpoint rule (Jean's θ = 1/2); gaps that the forecast Δ + h Δ'/2 finds shut enter one complementarity problem
 /// 0 ≤ U⁺ + r U ⊥ P ≥ 0 for the step's impulses P, with U and U⁺ their rates before and after.
 ///
 /// The matrix of that problem is tridiagonal for a row of masses; projected Gauss–Seidel solves it,
@@ -22,7 +27,7 @@ pub struct MoreauJean {
     pub step: f64,
 }
 
-/// Sweeps of Gauss–Seidel in one step, at most. A cluster of m contacts needs some m² of them.
+/// The largest number of sweeps of Gauss–Seidel in one step. A cluster of m contacts needs some m².
 const SWEEPS: usize = 1000;
 
 /// The sweeps end when no impulse changes by more than this part of the largest.
@@ -42,7 +47,7 @@ impl Method for MoreauJean {
 /// A gap that may be shut within the step.
 struct Active {
     k: usize,
-    /// Its rate U before the step.
+    /// Rate U before the step.
     rate: f64,
     impulse: f64,
 }
@@ -54,7 +59,7 @@ struct Impulses {
     /// Velocities at the beginning of a step.
     before: Vec<f64>,
     active: Vec<Active>,
-    /// Those gaps that had an impulse in the last step.
+    /// The gaps that had an impulse in the last step.
     touching: Vec<usize>,
 }
 
@@ -106,7 +111,7 @@ impl Impulses {
         }
     }
 
-    /// Projected Gauss–Seidel over the active gaps.
+    /// Solves for the impulses of the active gaps by projected Gauss–Seidel.
     fn solve(&mut self, row: &mut Bodies, lightness: f64) {
         for _ in 0..SWEEPS {
             let (mut change, mut largest) = (0.0f64, 0.0f64);

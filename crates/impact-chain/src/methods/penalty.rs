@@ -1,14 +1,19 @@
-//! Penalty springs.
+//! Simulates contacts by penalty springs.
 
-use super::prelude::*;
+use super::bodies::{Bodies, Stepper, run_steps};
+use super::method::{Cost, Method, Task};
+use super::steps::Step;
+use super::tally::{Stop, Tally};
+use crate::search::clock::Instant;
+use crate::{Error, Sink};
 use std::f64::consts::PI;
 
-/// A shut gap is a stiff spring with a damper that is tuned to the restitution; velocity Verlet.
+/// Penalty springs: a shut gap is a stiff spring with a damper that is tuned to the restitution; velocity Verlet.
 ///
 /// Alone, an overlapped gap follows Δ'' + 2ζω_c Δ' + ω_c² Δ = 0 and comes back with r times its
 /// speed for ζ = −ln r/√(π² + ln² r). The stiffness follows from the step: half a period of ω_c takes
 /// (0.4 h/ω)^(1/2), which is 20 steps at h = 0.001/ω and 200 at 0.00001/ω. So the errors of the two sides
-/// balance: a contact takes time, and its begin and end, known to a step, change its restitution.
+/// balance: a contact takes time, and its beginning and end, known to a step, change its restitution.
 ///
 /// An impact is an episode of contact, counted once at its beginning; the damper acts until its end,
 /// so it also pulls.
@@ -28,7 +33,7 @@ pub struct Penalty {
 /// The square of half a period of the contact's spring, in units of h/ω.
 const DURATION: f64 = 0.4;
 
-/// The fewest steps that it takes, whatever the step: below, the spring is not integrated at all.
+/// The fewest steps that half a period takes; with fewer the spring would not be integrated at all.
 const STEPS: f64 = 5.0;
 
 impl Method for Penalty {
@@ -43,7 +48,7 @@ impl Method for Penalty {
     }
 }
 
-/// ζ of a spring and damper whose contact ends with the factor r of its first speed.
+/// Returns ζ of a spring and damper whose contact ends with r times the first speed.
 fn damping_ratio(r: f64) -> f64 {
     if r == 0.0 {
         return 1.0;
@@ -53,7 +58,7 @@ fn damping_ratio(r: f64) -> f64 {
 }
 
 struct Springs {
-    /// ω_c², force by overlap and reduced mass.
+    /// ω_c²: force per overlap and reduced mass.
     stiffness: f64,
     /// 2ζω_c.
     damping: f64,
@@ -65,7 +70,7 @@ struct Springs {
 }
 
 impl Springs {
-    /// For steps of length `h`, which is `step` in units of 1/ω.
+    /// Creates the springs for steps of length `h`, which is `step` in units of 1/ω.
     fn begin(row: &Bodies, at: Instant, step: f64, h: f64) -> Springs {
         let steps = (DURATION / step).sqrt().max(STEPS);
         let contact = PI / (steps * h);
@@ -80,7 +85,7 @@ impl Springs {
         springs
     }
 
-    /// The accelerations at the row's displacements and velocities.
+    /// Computes the accelerations at the displacements and velocities of the row.
     fn push(&mut self, row: &Bodies, at: Instant) {
         row.accelerations(at, &row.u, &mut self.accelerations);
         if self.contacts == 0 {
@@ -88,11 +93,11 @@ impl Springs {
         }
         for k in (0..self.touching.len()).filter(|&k| self.touching[k]) {
             let [left, right] = row.topology.sides(k);
-            let [of_left, of_right] = row.topology.inverse_masses(k);
+            let [inverse_left, inverse_right] = row.topology.inverse_masses(k);
             let apart = -(self.stiffness * row.width(k) + self.damping * row.rate(k));
-            let force = apart / (of_left + of_right);
-            self.accelerations[left] -= force * of_left;
-            self.accelerations[right] += force * of_right;
+            let force = apart / (inverse_left + inverse_right);
+            self.accelerations[left] -= force * inverse_left;
+            self.accelerations[right] += force * inverse_right;
         }
     }
 }

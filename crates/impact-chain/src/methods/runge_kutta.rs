@@ -1,10 +1,16 @@
-//! A Runge–Kutta pair of orders 5 and 4 with events.
+//! Integrates by a Runge–Kutta pair of orders 5 and 4 with events.
 
+use super::bodies::Bodies;
 use super::dormand_prince::Stages;
-use super::prelude::*;
+use super::method::{Cost, Method, Task};
+use super::sign_change::{closing_time, is_rounding};
+use super::steps::{check_end, check_tolerance};
+use super::tally::{Stop, Tally};
+use crate::search::clock::Instant;
+use crate::{Error, Sink};
 
 /// The pair of Dormand and Prince with a tolerance; a gap that is negative at the end of a step is
-/// an event, bisected on the dense output; the earliest ends the step, and integration begins anew.
+/// an event, bisected on the dense output; the earliest ends the step, and integration starts again.
 ///
 /// Absolute and relative tolerance are one number. The next step has 0.9 err^(−1/5) times the length
 /// of the last, from 1/5 to 5 times; after an event it is the length tried before.
@@ -70,7 +76,7 @@ impl Run {
             match self.event(h, tally) {
                 Some((k, s)) => self.impact(k, s, h, tally)?,
                 None => {
-                    // A step cut short by the end of the run is no reason against a longer one.
+                    // A step that was cut short by the end of the run must not shorten the next.
                     wanted = if h < wanted { wanted.max(grown) } else { grown };
                     self.now = if h == left { end } else { self.now.after(h) };
                     self.stages.accept();
@@ -80,7 +86,8 @@ impl Run {
         Ok(())
     }
 
-    /// The first gap of those that are negative at the end of the step, and when it closes.
+    /// Returns the gap that closes first, and the time in the step at which it does; none if no gap is
+    /// negative at the end of the step.
     fn event(&self, h: f64, tally: &mut Tally) -> Option<(usize, f64)> {
         let (row, stages) = (&self.row, &self.stages);
         let gaps = row.topology.gaps();
@@ -93,7 +100,7 @@ impl Run {
             if width >= 0.0 || is_rounding(width, v[right] - v[left], row.spacing) {
                 continue;
             }
-            let s = crossing(0.0, h, row.width_at(k, &stages.y), |s| {
+            let s = closing_time(0.0, h, row.width_at(k, &stages.y), |s| {
                 tally.cost.evaluations += 1;
                 let u = |m| stages.dense(m, s / h);
                 row.spacing + (u(right) - u(left))
@@ -105,7 +112,7 @@ impl Run {
         best
     }
 
-    /// Goes to the time s of the step, at which gap k is hit.
+    /// Goes to the time s of the step, and applies the impact of gap k there.
     fn impact(&mut self, k: usize, s: f64, h: f64, tally: &mut Tally) -> Result<(), Stop> {
         if s > 0.0 {
             self.stages.cut(s / h);
@@ -120,7 +127,7 @@ impl Run {
         v.copy_from_slice(&self.row.v);
         self.stages.restart(&self.row, self.now);
         tally.cost.evaluations += self.row.masses();
-        // A gap at rest at zero is no impact, but counts as an event: it may stay so for ever.
+        // A gap at rest at zero is no impact, but counts as an event: it may stay there for ever.
         if speed > 0.0 {
             tally.impact(k, self.now.time(), speed)
         } else {
@@ -129,7 +136,7 @@ impl Run {
     }
 }
 
-/// The factor for the next step after one with this error.
+/// Returns the factor for the next step after one with this error.
 fn growth(error: f64) -> f64 {
     if error == 0.0 {
         return 5.0;

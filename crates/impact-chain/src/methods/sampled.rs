@@ -1,13 +1,20 @@
-//! A gap sampled on a grid of times, and bisection.
+//! Simulates by sampling gaps on a grid of times, and bisection.
 
-use super::prelude::*;
+use super::flights::{Flights, GapState};
+use super::method::{Cost, Method, Task};
+use super::sign_change::closing_time;
+use super::steps::{Step, steps};
+use super::tally::{Stop, Tally};
+use crate::search::clock::Instant;
+use crate::{Error, Sink};
 
 /// Flight in closed form; every gap is sampled with a fixed step, and a change of its sign is
 /// bisected down to neighbouring doubles.
 ///
 /// - Source: the bracketing and bisection of every textbook (Press et al., Numerical Recipes, sec.
 ///   9.1); simulations of impacting oscillators are mostly written so.
-/// - Order: none; an impact that is found is accurate to rounding, and the step decides whether it is found.
+/// - Order: none; an impact that is found is accurate to rounding, and the step decides whether it is
+///   found.
 /// - Fails: two roots within a step leave no change of sign, so grazes and short dips are missed, of
 ///   depth up to |Δ''| h²/8; three are taken for one, often the wrong one. A chatter has infinitely
 ///   many impacts in a finite time: the bound on work ends the run there.
@@ -28,7 +35,7 @@ impl Method for Sampled {
         let mut tally = Tally::new(scenario, sink);
         let gaps = flights.topology.gaps();
         let phases = flights.phases(Instant::at(start.time));
-        let begin = (0..gaps).map(|k| flights.look(k, 0.0, &phases)).collect();
+        let begin = (0..gaps).map(|k| flights.gap_at(k, 0.0, &phases)).collect();
         tally.cost.evaluations += gaps as u64;
         let mut samples = Samples { begin, end: Vec::new(), roots: vec![None; gaps] };
         let ended = steps.try_for_each(|step| {
@@ -41,10 +48,10 @@ impl Method for Sampled {
 
 /// All gaps in one step.
 struct Samples {
-    /// At the beginning of the step, or right after the last impact of the gap or one next to it.
-    begin: Vec<Look>,
-    end: Vec<Look>,
-    /// When the gap closes between.
+    /// Gaps at the beginning of the step, or right after the last impact of the gap or one next to it.
+    begin: Vec<GapState>,
+    end: Vec<GapState>,
+    /// The times between at which gaps close.
     roots: Vec<Option<f64>>,
 }
 
@@ -53,7 +60,7 @@ impl Samples {
         let last = flights.phases_in(step, step.h);
         let gaps = self.begin.len();
         self.end.clear();
-        self.end.extend((0..gaps).map(|k| flights.look(k, step.h, &last)));
+        self.end.extend((0..gaps).map(|k| flights.gap_at(k, step.h, &last)));
         tally.cost.evaluations += gaps as u64;
         for k in 0..gaps {
             self.roots[k] = self.locate(k, flights, step, tally);
@@ -61,21 +68,21 @@ impl Samples {
         while let Some((k, s)) = self.earliest() {
             let phases = flights.phases_in(step, s);
             let time = step.from.after(s).time();
-            let before = flights.look(k, s, &phases);
+            let before = flights.gap_at(k, s, &phases);
             let speed = (-before.rate).max(0.0);
             flights.hit(k, speed, &phases);
-            self.begin[k] = Look { s, width: 0.0, rate: flights.restitution * speed };
+            self.begin[k] = GapState { s, width: 0.0, rate: flights.restitution * speed };
             let [left, right] = flights.topology.adjacent(k);
             let near = [left, right.filter(|right| Some(*right) != left)];
             for j in near.into_iter().flatten() {
-                self.begin[j] = flights.look(j, s, &phases);
+                self.begin[j] = flights.gap_at(j, s, &phases);
             }
             for j in [Some(k)].into_iter().chain(near).flatten() {
-                self.end[j] = flights.look(j, step.h, &last);
+                self.end[j] = flights.gap_at(j, step.h, &last);
                 tally.cost.evaluations += 2;
                 self.roots[j] = self.locate(j, flights, step, tally);
             }
-            // A gap at rest at zero is no impact, but counts as an event: it may stay so for ever.
+            // A gap at rest at zero is no impact, but counts as an event: it may stay there for ever.
             if speed > 0.0 {
                 tally.impact(k, time, speed)?;
             } else {
@@ -83,22 +90,25 @@ impl Samples {
             }
         }
         for (begin, end) in self.begin.iter_mut().zip(&self.end) {
-            *begin = Look { s: 0.0, ..*end };
+            *begin = GapState { s: 0.0, ..*end };
         }
         Ok(())
     }
 
-    /// The time after the beginning of the step at which gap k comes to zero, if its sign changes.
+    /// Returns the time after the beginning of the step at which gap k comes to zero, or none if its
+    /// sign does not change.
     fn locate(&self, k: usize, flights: &Flights, step: &Step, tally: &mut Tally) -> Option<f64> {
         let (from, to) = (self.begin[k], self.end[k]);
-        let at = |s| {
+        if to.width >= 0.0 {
+            return None;
+        }
+        Some(closing_time(from.s, to.s, from.width, |s| {
             tally.cost.evaluations += 1;
-            flights.look(k, s, &flights.phases_in(step, s)).width
-        };
-        (to.width < 0.0).then(|| crossing(from.s, to.s, from.width, at))
+            flights.gap_at(k, s, &flights.phases_in(step, s)).width
+        }))
     }
 
-    /// The gap that closes first, the lowest of equals.
+    /// Returns the gap that closes first, the lowest of several, and the time; none if no gap closes.
     fn earliest(&self) -> Option<(usize, f64)> {
         let found = self.roots.iter().enumerate().filter_map(|(k, s)| Some((k, (*s)?)));
         found.reduce(|best, next| if next.1 < best.1 { next } else { best })

@@ -1,13 +1,14 @@
-//! Equal steps in time, and the ranges of steps, tolerances and end times.
+//! Cuts time into equal steps, and checks the ranges of steps, tolerances and end times.
 
-use super::prelude::*;
-use crate::scenario::within;
+use crate::error::{Error, within};
+use crate::search::clock::{Instant, LATEST};
+use crate::{Scenario, State};
 
-pub const MOST_STEPS: f64 = 1e10;
+pub const MAX_STEPS: f64 = 1e10;
 
 const SHORTEST: f64 = 1e-9;
 
-/// One of equal steps in time; the last one may be shorter.
+/// One of equal steps in time; the last may be shorter.
 #[derive(Clone, Copy)]
 pub struct Step {
     pub from: Instant,
@@ -15,7 +16,7 @@ pub struct Step {
     pub h: f64,
 }
 
-/// The steps of length `h` from `start` to `until`, in order.
+/// Lists the steps of length `h` from `start` to `until`, in order.
 pub fn steps(
     scenario: &Scenario,
     start: &State,
@@ -25,15 +26,16 @@ pub fn steps(
     within("step", h, SHORTEST, 1.0 / scenario.fastest())?;
     check_end(until)?;
     let count = ((until - start.time).max(0.0) / h).ceil();
-    if count > MOST_STEPS {
+    if count > MAX_STEPS {
         return Err(too_many(count, "step"));
     }
     let (begin, end) = (Instant::at(start.time), Instant::at(until));
     let mut from = begin;
     Ok((1..=count as u64).map(move |i| {
-        let step = match i < count as u64 {
-            true => Step { from, to: begin.after(i as f64 * h), h },
-            false => Step { from, to: end, h: end.since(from).max(0.0) },
+        let step = if i < count as u64 {
+            Step { from, to: begin.after(i as f64 * h), h }
+        } else {
+            Step { from, to: end, h: end.since(from).max(0.0) }
         };
         from = step.to;
         step
@@ -41,7 +43,7 @@ pub fn steps(
 }
 
 pub fn too_many(steps: f64, field: &str) -> Error {
-    let remedy = format!("give a larger {field} or an earlier end, for at most {MOST_STEPS:e}");
+    let remedy = format!("give a larger {field} or an earlier end, for at most {MAX_STEPS:e}");
     Error::input(field, format!("{steps:.1e} steps are needed"), remedy)
 }
 

@@ -1,16 +1,19 @@
-//! The count of a rival's work, and its bounds.
+//! Counts the work of a rival, and bounds it.
 
-use super::prelude::*;
-use super::steps::{MOST_STEPS, too_many};
+use super::method::Cost;
+use super::steps::{MAX_STEPS, too_many};
+use crate::topology::Topology;
+use crate::{Error, Impact, Scenario, Sink};
 
-/// Events that one gap may need within one unit of time 1/ω on average before a run is given up. A
-/// rival that cannot rest in contact has infinitely many impacts in a finite time there.
+/// The largest mean number of events per gap within one unit of time 1/ω; beyond it a run is given
+/// up. A rival that cannot rest in contact has infinitely many impacts in a finite time
+/// there.
 const EVENTS_PER_GAP: u64 = 10_000;
 
-/// Why a run ends before its time.
+/// The reason why a run ends early.
 pub enum Stop {
     /// The receiver of the impacts stopped the run.
-    Received,
+    BySink,
     Failed(Error),
 }
 
@@ -20,10 +23,10 @@ impl From<Error> for Stop {
     }
 }
 
-/// The count of a run's work; impacts pass through it.
+/// The counted work of a run; impacts pass through it.
 pub struct Tally<'a> {
     pub cost: Cost,
-    sink: &'a mut dyn FnMut(Impact) -> bool,
+    sink: Sink<'a>,
     topology: Topology,
     unit: f64,
     bound: u64,
@@ -33,7 +36,7 @@ pub struct Tally<'a> {
 }
 
 impl<'a> Tally<'a> {
-    pub fn new(scenario: &Scenario, sink: &'a mut dyn FnMut(Impact) -> bool) -> Self {
+    pub fn new(scenario: &Scenario, sink: Sink<'a>) -> Self {
         let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
         let bound = EVENTS_PER_GAP * topology.gaps() as u64;
         Tally {
@@ -64,26 +67,27 @@ impl<'a> Tally<'a> {
     pub fn impact(&mut self, k: usize, time: f64, closing_speed: f64) -> Result<(), Stop> {
         self.spend(k, time)?;
         self.cost.impacts += 1;
-        match (self.sink)(Impact { time, gap: self.topology.label(k), closing_speed }) {
-            true => Ok(()),
-            false => Err(Stop::Received),
+        if (self.sink)(Impact { time, gap: self.topology.label(k), closing_speed }) {
+            Ok(())
+        } else {
+            Err(Stop::BySink)
         }
     }
 
     /// Counts one more step of an integrator that chooses its steps.
     pub fn step(&mut self) -> Result<(), Stop> {
         self.cost.steps += 1;
-        match self.cost.steps as f64 > MOST_STEPS {
-            true => Err(too_many(self.cost.steps as f64, "tolerance").into()),
-            false => Ok(()),
+        if self.cost.steps as f64 > MAX_STEPS {
+            return Err(too_many(self.cost.steps as f64, "tolerance").into());
         }
+        Ok(())
     }
 
-    /// The cost of a run that ended in this way.
+    /// Returns the cost of a run, or the error that ended it.
     pub fn finish(self, ended: Result<(), Stop>) -> Result<Cost, Error> {
         match ended {
             Err(Stop::Failed(error)) => Err(error),
-            Err(Stop::Received) | Ok(()) => Ok(self.cost),
+            Err(Stop::BySink) | Ok(()) => Ok(self.cost),
         }
     }
 }

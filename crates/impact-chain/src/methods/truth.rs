@@ -1,4 +1,4 @@
-//! The motion of a chain to 106 bits, with which every method is compared.
+//! Computes the motion of a chain to 106 bits, with which every method is compared.
 //!
 //! The certified engine, started from the state rounded to doubles, finds which gap closes next; the instant, and all that
 //! follows from it, is then computed by Newton's iteration on plain amplitudes of 106 bits. Chaos enlarges 1e−31 to 1e−3
@@ -6,18 +6,20 @@
 //! method. A tie of two gaps within the rounding of doubles could be taken in the wrong order; it has a probability of
 //! about 1e−14 an impact.
 
-use super::Certified;
-use super::prelude::*;
-use crate::Engine;
+use super::certified::Certified;
+use super::method::{Cost, Method, Task};
+use super::steps::check_end;
+use super::tally::{Stop, Tally};
 use crate::contact::CONTACT_SPEED;
+use crate::{Boundary, Engine, Error, Impact, Scenario, Sink, State};
 use impact_numerics::double_double::{DoubleDouble, sin_cos};
 
 /// The true motion as a method.
 ///
 /// - Source: this project, [`TrueMotion`].
 /// - Order: none, it has no step. Times are right to some thirty digits as long as the gaps are.
-/// - Fails: it shares the engine's choice of the next gap, so it misses an impact that the engine misses. A ring, several
-///   frequencies and contact are refused.
+/// - Fails: it shares the engine's choice of the next gap, so it misses an impact that the engine
+///   misses. A ring, several frequencies and contact are refused.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Truth;
 
@@ -32,14 +34,14 @@ impl Method for Truth {
         check_end(until)?;
         let refused = |field: &str, problem: &str| Error::input(field, problem, REMEDY);
         if scenario.boundary == Boundary::Ring {
-            return Err(refused("boundary", "the truth knows walls only"));
+            return Err(refused("boundary", "truth supports walls only"));
         }
         if !scenario.overtones.is_empty() {
-            return Err(refused("forcing_frequencies", "the truth knows one frequency only"));
+            return Err(refused("forcing_frequencies", "truth supports one frequency only"));
         }
         let engine = Engine::new(&start.as_scenario(scenario)?)?;
         if !engine.contacts(0.0).is_empty() {
-            return Err(refused("initial", "a gap is in contact, and the truth knows no contact"));
+            return Err(refused("initial", "a gap is in contact, which truth does not support"));
         }
         let slow = CONTACT_SPEED * scenario.spacing * scenario.natural_frequency;
         let mut tally = Tally::new(scenario, sink);
@@ -48,8 +50,9 @@ impl Method for Truth {
             while let Some(hit) = motion.next(until)? {
                 let (gap, time, speed) = (hit.gap, hit.time.to_f64(), hit.closing_speed);
                 if scenario.restitution * speed <= slow {
-                    let rest = format!("gap {gap} comes to rest at t = {time}");
-                    let problem = format!("{rest}, and the truth knows no contact");
+                    let problem = format!(
+                        "gap {gap} comes to rest at t = {time}; truth does not support contact"
+                    );
                     return Err(refused("restitution", &problem).into());
                 }
                 motion.advance(&hit);
@@ -66,7 +69,7 @@ fn dd(x: f64) -> DoubleDouble {
     DoubleDouble::from(x)
 }
 
-/// A chain between walls, in flight. Bodies are numbered from the left wall (0) to the right one (n + 1).
+/// The true motion of a chain between walls. Bodies are numbered from the left wall (0) to the right one (n + 1).
 #[derive(Clone, Debug)]
 pub struct TrueMotion {
     scenario: Scenario,
@@ -74,30 +77,28 @@ pub struct TrueMotion {
     rates: [DoubleDouble; 2],
     /// Free parts (a, b) of the bodies.
     free: Vec<[DoubleDouble; 2]>,
-    /// Their forced responses (c, s).
+    /// Forced responses (c, s) of the bodies.
     forced: Vec<[DoubleDouble; 2]>,
     time: DoubleDouble,
-    /// The gap that is shut right now, after its impact.
+    /// The gap that has just been hit and is shut now.
     shut: Option<usize>,
 }
 
 /// An impact of the true motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
-    /// Time t.
     pub time: DoubleDouble,
-    /// The gap.
     pub gap: usize,
-    /// −Δ' just before.
+    /// −Δ' just before the impact.
     pub closing_speed: f64,
 }
 
 /// Sine and cosine of ωt and Ωt.
-type Phases = [[DoubleDouble; 2]; 2];
+type TruePhases = [[DoubleDouble; 2]; 2];
 
 impl TrueMotion {
-    /// The chain of a scenario from exactly the state that is given: one component of forcing, no
-    /// contact, walls at both ends.
+    /// Starts the chain of a scenario from exactly the state that is given. It must have one component
+    /// of forcing, no contact, and walls at both ends.
     pub fn of(scenario: &Scenario, state: &State) -> TrueMotion {
         let rates = [scenario.natural_frequency, scenario.forcing_frequency].map(dd);
         let factor = rates[0] * rates[0] - rates[1] * rates[1];
@@ -120,36 +121,36 @@ impl TrueMotion {
         truth
     }
 
-    fn phases(&self, t: DoubleDouble) -> Phases {
+    fn phases(&self, t: DoubleDouble) -> TruePhases {
         self.rates.map(|rate| sin_cos(rate * t))
     }
 
-    /// The place m d of body m.
+    /// Returns the place m d of body m.
     fn place(&self, m: usize) -> DoubleDouble {
         dd(self.scenario.spacing) * m as f64
     }
 
-    /// Forced response of body m and its rate.
-    fn forced_motion(&self, m: usize, [_, [sin, cos]]: &Phases) -> [DoubleDouble; 2] {
+    /// Returns the forced response of body m and its rate.
+    fn forced_motion(&self, m: usize, [_, [sin, cos]]: &TruePhases) -> [DoubleDouble; 2] {
         let [c, s] = self.forced[m];
         [c * *cos + s * *sin, self.rates[1] * (s * *cos - c * *sin)]
     }
 
-    /// Displacement and velocity of body m.
-    fn motion(&self, m: usize, phases: &Phases) -> [DoubleDouble; 2] {
+    /// Returns displacement and velocity of body m.
+    fn motion(&self, m: usize, phases: &TruePhases) -> [DoubleDouble; 2] {
         let [v, rate] = self.forced_motion(m, phases);
         let [a, b] = self.free[m];
         let [sin, cos] = phases[0];
         [a * cos + b * sin + v, self.rates[0] * (b * cos - a * sin) + rate]
     }
 
-    /// Width and rate of a gap.
-    fn gap(&self, gap: usize, phases: &Phases) -> [DoubleDouble; 2] {
+    /// Returns width and rate of a gap.
+    fn gap(&self, gap: usize, phases: &TruePhases) -> [DoubleDouble; 2] {
         let [left, right] = [gap, gap + 1].map(|m| self.motion(m, phases));
         [dd(self.scenario.spacing) + (right[0] - left[0]), right[1] - left[1]]
     }
 
-    /// d + R₁ + R₂ of a gap, as long as neither side is hit: the scale of its rounding.
+    /// Returns d + R₁ + R₂ of a gap, as long as neither side is hit: the scale of its rounding.
     pub fn scale(&self, gap: usize) -> f64 {
         let length = |parts: &[[DoubleDouble; 2]]| {
             let [left, right] = [gap, gap + 1].map(|m| parts[m].map(DoubleDouble::to_f64));
@@ -159,7 +160,7 @@ impl TrueMotion {
         self.scenario.spacing + length(&self.free) + length(&self.forced)
     }
 
-    /// The state at this moment, rounded to doubles; the gap just hit is shut to the last bit.
+    /// Returns the present state, rounded to doubles; the gap just hit is shut to the last bit.
     pub fn state(&self) -> State {
         let (n, phases) = (self.scenario.forcing.len(), self.phases(self.time));
         let motions = (1..=n).map(|m| {
@@ -176,29 +177,32 @@ impl TrueMotion {
         State { time: self.time.to_f64(), positions, velocities }
     }
 
-    /// The next impact up to time `until`; the motion stays where it is.
+    /// Finds the next impact up to time `until`, or none if there is no impact; does not advance.
+    ///
+    /// # Errors
+    /// As [`Method::run`] of the engine.
     pub fn next(&self, until: f64) -> Result<Option<Hit>, Error> {
         let found = Certified.first((&self.scenario, &self.state(), until))?;
         Ok(found.map(|impact| self.refined(impact)))
     }
 
-    /// The impact at the zero of its gap nearest to where the engine found it.
-    fn refined(&self, seen: Impact) -> Hit {
-        let mut time = dd(seen.time);
+    /// Returns the impact at the zero of its gap nearest to the time that the engine found.
+    fn refined(&self, found: Impact) -> Hit {
+        let mut time = dd(found.time);
         for _ in 0..8 {
-            let [width, rate] = self.gap(seen.gap, &self.phases(time));
+            let [width, rate] = self.gap(found.gap, &self.phases(time));
             let step = width / rate;
             // At a grazing impact the rate nearly vanishes, and a Newton step would be far too long.
             if step.hi.is_nan() || step.hi.abs() >= 1e-3 {
                 break;
             }
             time = time - step;
-            if step.hi.abs() < 1e-30 * (1.0 + seen.time.abs()) {
+            if step.hi.abs() < 1e-30 * (1.0 + found.time.abs()) {
                 break;
             }
         }
-        let [_, rate] = self.gap(seen.gap, &self.phases(time));
-        Hit { time, gap: seen.gap, closing_speed: -rate.to_f64() }
+        let [_, rate] = self.gap(found.gap, &self.phases(time));
+        Hit { time, gap: found.gap, closing_speed: -rate.to_f64() }
     }
 
     /// Advances to an impact and carries it out.
@@ -218,7 +222,10 @@ impl TrueMotion {
         (self.time, self.shut) = (hit.time, Some(hit.gap));
     }
 
-    /// Runs to time `until` and lists the impacts, with the state right after each.
+    /// Runs to time `until`; returns the impacts, with the state right after each.
+    ///
+    /// # Errors
+    /// As [`TrueMotion::next`].
     pub fn run(&mut self, until: f64) -> Result<Vec<(Hit, State)>, Error> {
         let mut hits = Vec::new();
         while let Some(hit) = self.next(until)? {

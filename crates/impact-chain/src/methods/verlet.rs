@@ -1,6 +1,11 @@
-//! Verlet with a flip of velocities.
+//! Integrates by Verlet with a flip of velocities.
 
-use super::prelude::*;
+use super::bodies::{Bodies, Stepper, run_steps};
+use super::method::{Cost, Method, Task};
+use super::steps::Step;
+use super::tally::{Stop, Tally};
+use crate::search::clock::Instant;
+use crate::{Error, Sink};
 
 /// Velocity Verlet; at the end of a step each gap that is negative and closing, from the left, gets
 /// the impact law.

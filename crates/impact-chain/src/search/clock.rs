@@ -1,4 +1,4 @@
-//! Exact time: instants on a fixed grid, and phases of a frequency without loss at any instant.
+//! Keeps exact time: instants on a fixed grid, and phases of a frequency without loss at any instant.
 
 use super::trig::sin_cos_turn;
 
@@ -20,18 +20,19 @@ pub struct Instant(i128);
 
 impl Instant {
     pub const ZERO: Instant = Instant(0);
-    /// Later than everything else: "never".
+    /// Later than all other instants.
     pub const NEVER: Instant = Instant(i128::MAX);
 
-    /// The instant at time `t`, |t| ≤ [`LATEST`]; exact when `t` has no bits below 2^-80.
+    /// Returns the instant at time `t`, |t| ≤ [`LATEST`]; exact when `t` has no bits below 2^-80.
     pub fn at(t: f64) -> Instant {
         Instant((t * TICKS) as i128)
     }
 
-    /// The instant `s` units of time later, truncated to a tick.
+    /// Returns the instant `s` units of time later, truncated to a tick.
     #[inline(always)]
     pub fn after(self, s: f64) -> Instant {
-        // A number from 2^-28 to 2^36 is its mantissa shifted to the left; a conversion to 128 bits is a long routine.
+        // A number from 2^-28 to 2^36 is its mantissa shifted to the left; a conversion to 128 bits
+        // is a long routine.
         let bits = s.to_bits();
         let shift = (bits >> 52).wrapping_sub(1075 - 80);
         if shift < 64 {
@@ -41,7 +42,7 @@ impl Instant {
         Instant(self.0 + (s * TICKS) as i128)
     }
 
-    /// The time that has passed since `earlier`, rounded once.
+    /// Returns the time that has passed since `earlier`, rounded once.
     #[inline(always)]
     pub fn since(self, earlier: Instant) -> f64 {
         let ticks = self.0 - earlier.0;
@@ -57,15 +58,15 @@ impl Instant {
         sticky as i64 as f64 * f64::from_bits(u64::from(1023 + 65 - 80 - zeros) << 52)
     }
 
-    /// The time since `epoch` in whole units of 2^-58, rounded down: 0 before the epoch, the largest number 64 units of time
-    /// after it and later.
+    /// Returns the time since `epoch` in whole units of 2^-58, rounded down: 0 before the epoch, the
+    /// largest number from 64 units of time after it on.
     #[inline(always)]
     pub fn fine(self, epoch: Instant) -> u64 {
         let units = (self.0 - epoch.0) >> 22;
         u64::try_from(units).unwrap_or(if units < 0 { 0 } else { u64::MAX })
     }
 
-    /// The time since t = 0, rounded once.
+    /// Returns the time since t = 0, rounded once.
     #[inline(always)]
     pub fn time(self) -> f64 {
         self.since(Instant::ZERO)
@@ -77,7 +78,7 @@ impl Instant {
 pub struct Rate([u64; 3]);
 
 impl Rate {
-    /// The rate of an angular frequency `omega`, 0 < `omega` ≤ 1e6, to 2^-128 turns per unit time.
+    /// Computes the rate of an angular frequency `omega`, 0 < `omega` ≤ 1e6, to 2^-128 turns per unit time.
     pub fn new(omega: f64) -> Rate {
         // omega = mantissa · 2^exponent exactly.
         let bits = omega.to_bits();
@@ -103,7 +104,7 @@ impl Rate {
         }))
     }
 
-    /// The phase at an instant ≥ 0 as a fraction of a turn in units of 2^-64.
+    /// Returns the phase at an instant ≥ 0 as a fraction of a turn in units of 2^-64.
     ///
     /// The product of 128 and 192 bits is taken modulo one turn, without what lies below 2^-80
     /// turns, so the error is below 2^-63 turns up to the time [`LATEST`], and does not grow with

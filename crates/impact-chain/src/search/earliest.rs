@@ -1,15 +1,17 @@
-//! The earliest of many keys, each of which may change at any time.
+//! Finds the earliest of many keys, each of which may change at any time.
 
 use super::clock::Instant;
 
 /// Keys 0..len, of which the earliest is found at once; among equal keys the lowest index wins.
 ///
-/// A winner tree over single words: the time from an epoch to the key in units of 2^-58, whose last bits give way to the
-/// index. The lesser word is the earlier key, unless the two agree in all other bits (2^-51 of time for 100 keys, 2^-38 for a
-/// million). Then [`first`](Self::first) is the lower index, [`is_close`](Self::is_close) is true, and
-/// [`first_in_full`](Self::first_in_full) compares the full keys of all words that agree with the root. So there is no branch
-/// on the way up, and only callers that need the exact order pay for it. Words end 64 units of time after the epoch; when no
-/// key is left before that end, the earliest becomes the epoch. The shape is fixed, so the order of changes never matters.
+/// A winner tree over single words: the time from an epoch to the key in units of 2^-58, whose last
+/// bits are replaced by the index. The lesser word is the earlier key, unless the two agree in all
+/// other bits (2^-51 of time for 100 keys, 2^-38 for a million). Then [`first`](Self::first) is the
+/// lower index, [`is_close`](Self::is_close) is true, and [`first_in_full`](Self::first_in_full)
+/// compares the full keys of all words that agree with the root. So there is no branch on the way up,
+/// and only callers that need the exact order pay for it. Words end 64 units of time after the epoch;
+/// when no key is left before that end, the earliest becomes the epoch. The shape is fixed, so the
+/// order of changes never matters.
 #[derive(Clone, Debug)]
 pub struct Earliest {
     /// The keys in full, "never" beyond `len`.
@@ -24,7 +26,7 @@ impl Earliest {
     /// Bytes for each key; the number of keys is rounded up to a power of two.
     pub const BYTES: usize = size_of::<Instant>() + 2 * size_of::<u64>();
 
-    /// `len` ≥ 1 keys, all [`Instant::NEVER`].
+    /// Creates `len` ≥ 1 keys, all [`Instant::NEVER`].
     pub fn new(len: usize) -> Self {
         let width = len.next_power_of_two();
         let mut earliest = Earliest {
@@ -37,7 +39,7 @@ impl Earliest {
         earliest
     }
 
-    /// Makes all words anew, for another epoch.
+    /// Computes all words for another epoch.
     fn rebase(&mut self, epoch: Instant) {
         self.epoch = epoch;
         let width = self.keys.len();
@@ -49,7 +51,7 @@ impl Earliest {
         }
     }
 
-    /// Those bits of a word that are its index.
+    /// Returns the bits of a word that hold its index.
     #[inline(always)]
     fn mask(&self) -> u64 {
         self.keys.len() as u64 - 1
@@ -88,7 +90,7 @@ impl Earliest {
         }
     }
 
-    /// Whether key `index` has an equal next to it, where the last and the first are neighbours too.
+    /// Whether key `index` equals that before or after it; the last and the first are neighbours too.
     #[inline(always)]
     pub fn ties_with_neighbour(&self, index: usize) -> bool {
         let before = if index == 0 { self.last } else { index - 1 };
@@ -102,7 +104,8 @@ impl Earliest {
         self.keys[index]
     }
 
-    /// The index of the least word, and its key: no other is earlier by more than the resolution of words.
+    /// Returns the index of the least word, and its key: no other is earlier by more than the
+    /// resolution of words.
     #[inline(always)]
     pub fn first(&mut self) -> (usize, Instant) {
         let (word, mask) = (self.nodes[1], self.mask());
@@ -113,7 +116,7 @@ impl Earliest {
         (index, self.keys[index])
     }
 
-    /// Whether another word agrees with that of `index`, the first, but for the index.
+    /// Whether another word agrees with that of `index`, the first, except for the index.
     #[inline(always)]
     pub fn is_close(&self, index: usize) -> bool {
         // Such a word, or another that agrees with it, lost to this one on its way up.
@@ -128,14 +131,15 @@ impl Earliest {
         least <= self.mask()
     }
 
-    /// The index of the earliest of the full keys, and that key.
+    /// Returns the index of the earliest of the full keys, and that key.
     #[cold]
     pub fn first_in_full(&self) -> (usize, Instant) {
         let index = self.winner_in_full(1);
         (index, self.keys[index])
     }
 
-    /// The index of the earliest full key below a node whose word agrees with the root's but for the index.
+    /// Returns the index of the earliest full key below a node whose word agrees with that of the
+    /// root except for the index.
     fn winner_in_full(&self, node: usize) -> usize {
         let width = self.keys.len();
         if node >= width {
@@ -147,7 +151,7 @@ impl Earliest {
         left.into_iter().chain(right).min_by_key(|&index| self.keys[index]).unwrap_or(0)
     }
 
-    /// No key is left before the end of the words.
+    /// Moves the epoch, as no key is left before the end of the words.
     #[cold]
     fn next_epoch(&mut self) -> (usize, Instant) {
         let (index, key) = self.first_in_full();
@@ -164,7 +168,8 @@ mod tests {
     use impact_numerics::random::generator;
     use rand::Rng;
 
-    /// Against a scan of all keys, with many exact ties, ties of words alone, and times before and after the epoch.
+    /// Compares with a scan of all keys, with many exact ties, ties of words alone, and times before
+    /// and after the epoch.
     #[test]
     fn agrees_with_a_scan() {
         fn check(earliest: &mut Earliest, keys: &[Instant]) {
@@ -190,8 +195,8 @@ mod tests {
                 keys[index] = key;
                 earliest.set(index, [key]);
                 check(&mut earliest, &keys);
-                let beside = [(index + len - 1) % len, (index + 1) % len];
-                let tied = beside.into_iter().any(|i| keys[i] == keys[index]);
+                let neighbours = [(index + len - 1) % len, (index + 1) % len];
+                let tied = neighbours.into_iter().any(|i| keys[i] == keys[index]);
                 assert_eq!(earliest.ties_with_neighbour(index), tied);
                 if index + 3 <= len {
                     let three = [0, 1, 2].map(|i| moment.after(f64::from(i) * 0.25));

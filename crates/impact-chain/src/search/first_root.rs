@@ -1,41 +1,10 @@
-//! The certified first root of a sum of sinusoids and a constant, in its local frame.
+//! Finds the certified first root of a sum of sinusoids and a constant, in its local frame.
 
 use super::local_frame::{Frame, Frequencies};
 use super::nodes::Nodes;
+use super::outcome::{Counters, Next};
 use super::screen::{Eighths, Piece};
 use super::stepping::first_root_by_steps;
-
-/// What a search found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Next {
-    /// The first root, at `s`, where f falls with `speed` = −f'(s) ≥ 0.
-    Root {
-        /// Time since the frame's instant.
-        s: f64,
-        speed: f64,
-    },
-    /// No root in (0, s].
-    Clear { s: f64 },
-}
-
-/// Counted work of a run, the same on every machine.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counters {
-    /// Impacts.
-    pub impacts: u64,
-    /// Contact phases begun, one per gap.
-    pub contact_phases: u64,
-    /// Searches started.
-    pub searches: u64,
-    /// Pieces screened: one polynomial certificate each, without a sine.
-    pub pieces: u64,
-    /// Evaluations of a gap: by the polynomial of a node, or with its sines (the start costs none).
-    pub evaluations: u64,
-    /// Decisions taken inside the undecidable band of the search.
-    pub undecided: u64,
-    /// Instants at which two or more neighbouring gaps closed together.
-    pub simultaneous: u64,
-}
 
 /// How often the reach is halved: pieces of 1, 1/2, … 2^-LEVELS of it.
 const LEVELS: usize = 2;
@@ -70,7 +39,7 @@ impl<const M: usize> Search<M> {
         }
     }
 
-    /// The first root of the frame's function after s = 0, or the proof that there is none up to
+    /// Finds the first root of the frame's function after s = 0, or proves that there is none up to
     /// the reach.
     ///
     /// f₀ > 0: the first root. f₀ = 0: the first root after s = 0 if f leaves zero upwards, and
@@ -83,10 +52,10 @@ impl<const M: usize> Search<M> {
         }
         work.pieces += 1;
         let whole = self.pieces[0].coefficients(frame);
-        if whole.open() {
+        if whole.are_positive() {
             return Next::Clear { s: self.frequencies.reach };
         }
-        if whole.fall_once()
+        if whole.change_sign_once()
             && let Some((s, speed)) = self.nodes.root(frame, self.eighths.guess(frame), work)
             && s > 0.0
             && s < self.frequencies.reach
@@ -94,40 +63,41 @@ impl<const M: usize> Search<M> {
         {
             return Next::Root { s, speed };
         }
-        let sight = self.look_closer(frame, work);
-        self.refine(frame, sight, work)
+        let location = self.locate(frame, work);
+        self.refine(frame, location, work)
     }
 
-    /// Whether a root at s > 0 where f falls with `speed` is the first, given that the coefficients of the whole
-    /// reach change their sign once.
+    /// Decides whether a root at s > 0 where f falls with `speed` is the first, given that the
+    /// coefficients of the whole reach change their sign once.
     ///
-    /// Their polynomial q lies below f and is above zero before its one root (Descartes). With M₂ ≥ |f''|,
-    /// f ≥ speed h − M₂ h²/2 at s − h, so there is no root within speed/M₂ before s. Where that stretch begins (if it
-    /// is before 0, nothing is left to show) f is at least speed²/2M₂. If that is more than f − q can be, then q
-    /// is above zero there, hence before it, and so is f. Twice as much is required, since s and its speed are rounded.
+    /// Their polynomial q lies below f and is above zero before its one root (Descartes). With
+    /// M₂ ≥ |f''|, f ≥ speed h − M₂ h²/2 at s − h, so there is no root within speed/M₂ before s.
+    /// Where that stretch begins (if it is before 0, nothing is left to show) f is at least
+    /// speed²/2M₂. If that is more than f − q can be, then q is above zero there, hence before it,
+    /// and so is f. Twice as much is required, since s and its speed are rounded.
     #[inline(always)]
     fn is_first(&self, frame: &Frame<M>, speed: f64) -> bool {
         let bound = self.curvature * frame.bound;
-        speed > 0.0 && speed * speed > 4.0 * bound * self.pieces[0].doubt(frame)
+        speed > 0.0 && speed * speed > 4.0 * bound * self.pieces[0].largest_difference(frame)
     }
 
-    /// A closer look: the halves of the reach, and the halves of what they leave open.
+    /// Screens the halves of the reach, and the halves of those that do not decide.
     #[inline(always)]
-    fn look_closer(&self, frame: &Frame<M>, work: &mut Counters) -> Sight {
+    fn locate(&self, frame: &Frame<M>, work: &mut Counters) -> Location {
         let mut first = frame.f0;
         let mut k = 1;
         loop {
             let piece = &self.pieces[k];
             let coefficients = piece.coefficients(frame);
             work.pieces += 1;
-            if coefficients.open() {
+            if coefficients.are_positive() {
                 first = coefficients.last();
                 // On to the next piece, the widest that begins here.
                 while k > 0 && k % 2 == 0 {
                     k = (k - 2) / 2;
                 }
                 if k == 0 {
-                    return Sight::Clear;
+                    return Location::Nowhere;
                 }
                 k += 1;
                 continue;
@@ -136,38 +106,39 @@ impl<const M: usize> Search<M> {
                 && let Some(guess) = piece.only_root(frame, first, &coefficients)
             {
                 let (clear, end) = (piece.start, piece.start + piece.width);
-                return Sight::Root { guess, clear, end };
+                return Location::Between { guess, clear, end };
             }
             if 2 * k + 1 >= self.pieces.len() {
-                return Sight::Blurred { clear: piece.start };
+                return Location::Unknown { clear: piece.start };
             }
             k = 2 * k + 1;
         }
     }
 
-    /// Refines a located root to full accuracy, and takes certified steps where the screen is undecided.
+    /// Refines a located root to full accuracy, and takes certified steps where the screen is
+    /// undecided.
     #[inline(always)]
-    fn refine(&self, frame: &Frame<M>, sight: Sight, work: &mut Counters) -> Next {
+    fn refine(&self, frame: &Frame<M>, location: Location, work: &mut Counters) -> Next {
         let reach = self.frequencies.reach;
-        let clear = match sight {
-            Sight::Clear => return Next::Clear { s: reach },
-            Sight::Root { guess, clear, end } => match self.nodes.root(frame, guess, work) {
+        let clear = match location {
+            Location::Nowhere => return Next::Clear { s: reach },
+            Location::Between { guess, clear, end } => match self.nodes.root(frame, guess, work) {
                 // In the piece there is no other.
                 Some((s, speed)) if s > clear && s <= end => return Next::Root { s, speed },
                 _ => clear,
             },
-            Sight::Blurred { clear } => clear,
+            Location::Unknown { clear } => clear,
         };
         first_root_by_steps(frame, clear, reach, &self.frequencies, work)
     }
 }
 
-/// What the screen finds in a frame where the whole reach does not decide.
-enum Sight {
+/// The place of the first root, as far as the screen can tell.
+enum Location {
     /// No root in the whole reach.
-    Clear,
+    Nowhere,
     /// No root before `clear`, and one from there to `end`, near `guess`: f falls all the way.
-    Root { guess: f64, clear: f64, end: f64 },
+    Between { guess: f64, clear: f64, end: f64 },
     /// No root before `clear`; beyond it the pieces are too coarse.
-    Blurred { clear: f64 },
+    Unknown { clear: f64 },
 }

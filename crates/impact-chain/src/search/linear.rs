@@ -1,5 +1,5 @@
-//! Numbers that are linear in a frame: coefficients of polynomials, values. Their factors depend on the frequencies
-//! alone: a table, made once, replaces every sine.
+//! Evaluates numbers that are linear in a frame (coefficients of polynomials, values). Their factors
+//! depend on the frequencies alone: a table, made once, replaces every sine.
 
 use super::local_frame::{Frame, Frequencies};
 use super::trig::small_sin_cos;
@@ -8,7 +8,7 @@ use wide::f64x2;
 /// Taylor coefficients of a function about one instant, from its value to the ninth order.
 pub type Taylor = [f64; 10];
 
-/// The factors of 2 `N` numbers, besides f₀.
+/// The factors of 2 `N` numbers. Each also contains f₀, which callers add.
 #[derive(Clone, Copy, Debug)]
 pub struct Linear<const M: usize, const N: usize> {
     slope: [f64x2; N],
@@ -16,7 +16,8 @@ pub struct Linear<const M: usize, const N: usize> {
     forced: [[[f64x2; N]; 2]; M],
 }
 
-/// Taylor coefficients about s of 1 − cos νs and of sin νs, the latter with sin νs − νs for its value.
+/// Computes the Taylor coefficients about s of 1 − cos νs and of sin νs, the latter with sin νs − νs
+/// for its value.
 fn waves(nu: f64, s: f64) -> [Taylor; 2] {
     let [rest, versine] = small_sin_cos(nu * s);
     let (sin, cos) = (nu * s + rest, 1.0 - versine);
@@ -24,26 +25,32 @@ fn waves(nu: f64, s: f64) -> [Taylor; 2] {
     let (mut even, mut odd) = ([versine; 10], [rest; 10]);
     for k in 1..10 {
         factor *= nu / k as f64;
-        let turned = [[-cos, sin], [sin, cos], [cos, -sin], [-sin, -cos]][k % 4];
-        [even[k], odd[k]] = turned.map(|x| factor * x);
+        let [even_derivative, odd_derivative] = match k % 4 {
+            0 => [-cos, sin],
+            1 => [sin, cos],
+            2 => [cos, -sin],
+            _ => [-sin, -cos],
+        };
+        (even[k], odd[k]) = (factor * even_derivative, factor * odd_derivative);
     }
     [even, odd]
 }
 
 impl<const M: usize, const N: usize> Linear<M, N> {
-    /// The numbers that `of` computes from a function, given as its Taylor coefficients about any instant.
+    /// Tabulates the numbers that `extract` computes from a function, given by its Taylor
+    /// coefficients about any instant.
     pub fn new(
         frequencies: &Frequencies<M>,
-        of: impl Fn(&dyn Fn(f64) -> Taylor) -> [f64x2; N],
+        extract: impl Fn(&dyn Fn(f64) -> Taylor) -> [f64x2; N],
     ) -> Self {
         let w = frequencies.omega;
         Linear {
-            slope: of(&|s| {
+            slope: extract(&|s| {
                 let [_, mut sine] = waves(w, s);
                 sine[0] += w * s;
                 sine.map(|x| x / w)
             }),
-            alpha: of(&|s| waves(w, s)[0].map(|x| -x)),
+            alpha: extract(&|s| waves(w, s)[0].map(|x| -x)),
             forced: std::array::from_fn(|m| {
                 let nu = frequencies.big_omegas[m];
                 let difference = |s: f64| {
@@ -52,14 +59,14 @@ impl<const M: usize, const N: usize> Linear<M, N> {
                     c[1] = nu * (versine[0] - big_versine[0]);
                     c
                 };
-                [of(&|s| waves(nu, s)[0].map(|x| -x)), of(&difference)]
+                [extract(&|s| waves(nu, s)[0].map(|x| -x)), extract(&difference)]
             }),
         }
     }
 
-    /// The numbers of a frame without f₀.
+    /// Evaluates the numbers of a frame, without f₀.
     #[inline(always)]
-    pub fn of(&self, frame: &Frame<M>) -> [f64x2; N] {
+    pub fn evaluate(&self, frame: &Frame<M>) -> [f64x2; N] {
         std::array::from_fn(|i| {
             let mut sum =
                 f64x2::splat(frame.g0) * self.slope[i] + f64x2::splat(frame.alpha) * self.alpha[i];

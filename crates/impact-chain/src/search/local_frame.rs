@@ -1,4 +1,4 @@
-//! A sum of sinusoids and a constant in the local frame of one instant.
+//! Evaluates a sum of sinusoids and a constant in the local frame of one instant.
 //!
 //! In the *local frame* of an instant, with s the time since then, the function is
 //!
@@ -30,7 +30,7 @@ pub struct Frequencies<const M: usize> {
 }
 
 impl<const M: usize> Frequencies<M> {
-    /// From frequencies > 0.
+    /// Creates the table of frequencies > 0.
     pub fn new(omega: f64, big_omegas: [f64; M]) -> Self {
         let fastest = big_omegas.iter().fold(omega, |a, &b| a.max(b));
         let reach = RANGE / fastest;
@@ -64,7 +64,8 @@ pub struct Frame<const M: usize> {
     pub forced: [[f64; 2]; M],
     /// M₄ ≥ |f''''(s)| for every s: Σ ω⁴ R over the parts, R ≥ the amplitude of the part.
     pub bound: f64,
-    /// Bound of the sum of the absolute terms of f, the scale of its rounding: |mean| + R₁ + Σ (1 + 2 Ω/ω) R₂.
+    /// Bound of the sum of the absolute terms of f, the scale of its rounding:
+    /// |mean| + R₁ + Σ (1 + 2 Ω/ω) R₂.
     pub size: f64,
 }
 
@@ -87,8 +88,9 @@ pub struct Point<const M: usize> {
     forced: [[f64; 2]; M],
 }
 
-/// Rounding of one evaluation, in units of the sum of the absolute values of its terms: each term carries at most five
-/// roundings of 2^-53 and the sum four more, 9 · 2^-53 < 5e-16 times 2; doubled, as the margin is used at both sides.
+/// Rounding of one evaluation, in units of the sum of the absolute values of its terms: each term
+/// carries at most five roundings of 2^-53 and the sum four more, 9 · 2^-53 < 5e-16 times 2; doubled,
+/// as the margin is used at both sides.
 pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl<const M: usize> Frame<M> {
@@ -96,7 +98,7 @@ impl<const M: usize> Frame<M> {
     pub const ZERO: Frame<M> =
         Frame { f0: 0.0, g0: 0.0, alpha: 0.0, forced: [[0.0; 2]; M], bound: 0.0, size: 0.0 };
 
-    /// Amplitude of sin ωs, from the slope at s = 0 less the forced parts.
+    /// Returns the amplitude of sin ωs, from the slope at s = 0 less the forced parts.
     #[inline(always)]
     fn sine(&self, frequencies: &Frequencies<M>) -> f64 {
         let mut slope = self.g0;
@@ -106,9 +108,9 @@ impl<const M: usize> Frame<M> {
         slope * frequencies.inverse_omega
     }
 
-    /// For a function at rest at zero that cannot fall: a curvature that rounding made negative is set to the bound of
-    /// that rounding.
-    pub fn not_falling(&mut self, frequencies: &Frequencies<M>) {
+    /// Prevents the fall of a function at rest at zero that cannot fall: a curvature that rounding made
+    /// negative is set to the bound of that rounding.
+    pub fn prevent_fall(&mut self, frequencies: &Frequencies<M>) {
         let w2 = frequencies.omega * frequencies.omega;
         let (mut forced, mut size) = (0.0, w2 * self.alpha.abs());
         for (big_w, [gamma, _]) in frequencies.big_omegas.iter().zip(self.forced) {
@@ -120,7 +122,7 @@ impl<const M: usize> Frame<M> {
         }
     }
 
-    /// The same function in the frame of the end of the reach.
+    /// Returns the same function in the frame of the end of the reach.
     #[inline(always)]
     pub fn advanced(&self, frequencies: &Frequencies<M>) -> Frame<M> {
         let rotated = |[value, quadrature]: [f64; 2], [sin, cos]: [f64; 2]| {
@@ -130,16 +132,16 @@ impl<const M: usize> Frame<M> {
         let [alpha, sine] = rotated([self.alpha, self.sine(frequencies)], frequencies.turn);
         let (mut f0, mut g0) = (alpha, frequencies.omega * sine);
         let mut forced = [[0.0; 2]; M];
-        for (m, seen) in forced.iter_mut().enumerate() {
+        for (m, part) in forced.iter_mut().enumerate() {
             mean -= self.forced[m][0];
-            *seen = rotated(self.forced[m], frequencies.forced_turns[m]);
-            f0 += seen[0];
-            g0 += frequencies.big_omegas[m] * seen[1];
+            *part = rotated(self.forced[m], frequencies.forced_turns[m]);
+            f0 += part[0];
+            g0 += frequencies.big_omegas[m] * part[1];
         }
         Frame { f0: mean + f0, g0, alpha, forced, bound: self.bound, size: self.size }
     }
 
-    /// Value, derivatives and margin at `s`, 0 ≤ s ≤ reach.
+    /// Computes value, derivatives and margin at `s`, 0 ≤ s ≤ reach.
     #[inline(always)]
     pub fn at(&self, s: f64, frequencies: &Frequencies<M>) -> Point<M> {
         let w = frequencies.omega;
@@ -157,7 +159,7 @@ impl<const M: usize> Frame<M> {
         let mut d2 = -(w * w * free[0]);
         let mut d3 = -(w * w * w * free[1]);
         let mut forced = [[0.0; 2]; M];
-        for (m, seen) in forced.iter_mut().enumerate() {
+        for (m, forced) in forced.iter_mut().enumerate() {
             let (big_w, [gamma, delta]) = (frequencies.big_omegas[m], self.forced[m]);
             let ratio = big_w * frequencies.inverse_omega;
             let y = big_w * s;
@@ -170,12 +172,12 @@ impl<const M: usize> Frame<M> {
             let part = [gamma * big_cos + delta * big_sin, delta * big_cos - gamma * big_sin];
             d2 -= big_w * big_w * part[0];
             d3 -= big_w * big_w * big_w * part[1];
-            *seen = part;
+            *forced = part;
         }
         Point { f, d1, d2, d3, margin: ROUNDING * size, free, forced }
     }
 
-    /// Value and derivatives at s = 0, where no sine is needed and the value is exact.
+    /// Returns value and derivatives at s = 0, where no sine is needed and the value is exact.
     #[inline(always)]
     pub fn start(&self, frequencies: &Frequencies<M>) -> Point<M> {
         let w = frequencies.omega;
@@ -193,7 +195,7 @@ impl<const M: usize> Frame<M> {
 }
 
 impl<const M: usize> Point<M> {
-    /// The derivatives of fourth and fifth order.
+    /// Returns the derivatives of fourth and fifth order.
     pub fn higher(&self, frequencies: &Frequencies<M>) -> [f64; 2] {
         let mut sum = [0.0; 2];
         let parts = frequencies.big_omegas.into_iter().zip(self.forced);

@@ -1,9 +1,12 @@
-//! The first root of a sum of sinusoids and a constant, found with a proof that none before it was missed.
+//! Finds the first root of a sum of sinusoids and a constant, with a proof that none before it was
+//! missed.
 //!
-//! - [`first_root`] searches in frames that lose no digits ([`local_frame`]): polynomials screen a piece of time
-//!   ([`screen`]), Taylor polynomials refine a root (`nodes`), certified steps decide the rest (`stepping`).
+//! - [`first_root`] searches in frames that lose no digits ([`local_frame`]): polynomials screen a
+//!   piece of time ([`screen`]), Taylor polynomials refine a root (`nodes`), certified steps decide
+//!   the rest (`stepping`). All of them return an [`outcome`].
 //! - [`window`]: waits that are longer than a frame. [`earliest`]: the next event of all gaps.
-//! - [`clock`]: instants and phases without drift. [`trig`]: sines with the same bits on every machine.
+//! - [`clock`]: instants and phases without drift. [`trig`]: sines with the same bits on every
+//!   machine.
 
 pub mod clock;
 pub mod earliest;
@@ -11,6 +14,7 @@ pub mod first_root;
 mod linear;
 pub mod local_frame;
 mod nodes;
+pub mod outcome;
 pub mod screen;
 mod stepping;
 pub mod trig;

@@ -1,18 +1,20 @@
-//! A root to full accuracy from a guess, without a sine: by the Taylor polynomial about the nearest of fixed nodes.
+//! Finds a root to full accuracy from a guess, without a sine: by the Taylor polynomial about the
+//! nearest of fixed nodes.
 //!
-//! The Taylor coefficients of f about a node are linear in its frame ([`Linear`]). At the first node, s = 0, they are exact, so a short wait keeps
-//! its relative accuracy.
+//! The Taylor coefficients of f about a node are linear in the frame of f ([`Linear`]). At the first
+//! node, s = 0, they are exact, so a short wait keeps its relative accuracy.
 
-use super::first_root::Counters;
 use super::linear::Linear;
 use super::local_frame::{Frame, Frequencies};
+use super::outcome::Counters;
 use wide::f64x2;
 
 /// Nodes over the reach, both ends included; a power of two.
 const NODES: usize = 32;
 
-/// How far from a node its polynomial is used, over the fastest frequency: the remainder is 0.06¹⁰/10! < 2e-19 of f's
-/// size and 0.06⁹/9! < 3e-17 of its slope's. Nodes are 0.092 apart.
+/// The largest distance from a node at which its polynomial is used, over the fastest frequency: the
+/// remainder is 0.06¹⁰/10! < 2e-19 of the size of f and 0.06⁹/9! < 3e-17 of that of its slope. Nodes
+/// are 0.092 apart.
 const RADIUS: f64 = 0.06;
 
 /// All nodes of given frequencies.
@@ -25,7 +27,7 @@ pub struct Nodes<const M: usize> {
     radius: f64,
 }
 
-/// Most steps; they converge with order four.
+/// The largest number of steps; they converge with order four.
 const STEPS: u32 = 4;
 
 impl<const M: usize> Nodes<M> {
@@ -45,7 +47,8 @@ impl<const M: usize> Nodes<M> {
         }
     }
 
-    /// The root near `guess`, 0 ≤ `guess` ≤ reach, and −f' there; nothing if it is not near.
+    /// Returns the root near `guess`, 0 ≤ `guess` ≤ reach, and −f' there; none if there is no root
+    /// near it.
     #[inline(always)]
     pub fn root(&self, frame: &Frame<M>, guess: f64, work: &mut Counters) -> Option<(f64, f64)> {
         let mut s = guess;
@@ -55,14 +58,14 @@ impl<const M: usize> Nodes<M> {
             let number = s * self.per_time + (1u64 << 52) as f64;
             let index = number.to_bits() as usize % NODES;
             let node = index as f64 * self.spacing;
-            let mut taylor = Taylor(self.nodes[index].of(frame));
+            let mut taylor = Taylor(self.nodes[index].evaluate(frame));
             taylor.0[0] += f64x2::from([frame.f0, 0.0]);
             let mut h = s - node;
             for _ in 0..STEPS {
                 if h.abs() > self.radius {
                     break;
                 }
-                let [value, slope, bend, twist] = taylor.at(h);
+                let [value, slope, bend, twist] = taylor.about(h);
                 // The inverse of the polynomial to fourth order.
                 let inverse = 1.0 / slope;
                 let newton = -value * inverse;
@@ -88,9 +91,9 @@ impl<const M: usize> Nodes<M> {
 struct Taylor([f64x2; 5]);
 
 impl Taylor {
-    /// Its Taylor coefficients about h, up to the third.
+    /// Returns the Taylor coefficients about h, up to the third.
     #[inline(always)]
-    fn at(&self, h: f64) -> [f64; 4] {
+    fn about(&self, h: f64) -> [f64; 4] {
         let c = &self.0;
         let square = f64x2::splat(h * h);
         let fourth = square * square;

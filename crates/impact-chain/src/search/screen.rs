@@ -1,4 +1,5 @@
-//! A quick certificate that a function stays positive over a piece of its frame, or has just one root there.
+//! Certifies quickly that a function stays positive over a piece of its frame, or has just one root
+//! there.
 //!
 //! On a piece [a, a + w] the function f is compared with the polynomial p of degree seven that
 //! shares its value and first three derivatives at both ends (Hermite). The difference is at most
@@ -32,11 +33,11 @@ impl<const M: usize> Eighths<M> {
         Eighths { values, width }
     }
 
-    /// A guess of the root of a function that is not negative at s = 0 and falls below zero once: by the secant
-    /// of the eighth that it lies in.
+    /// Guesses the root of a function that is not negative at s = 0 and falls below zero once, by the
+    /// secant of the eighth in which it lies.
     #[inline(always)]
     pub fn guess(&self, frame: &Frame<M>) -> f64 {
-        let row = self.values.of(frame).map(|x| x + f64x2::splat(frame.f0));
+        let row = self.values.evaluate(frame).map(|x| x + f64x2::splat(frame.f0));
         let below = signs(row.map(|x| x.simd_lt(f64x2::ZERO)));
         let [[a, b], [c, d], [e, f], [g, h]] = row.map(f64x2::to_array);
         let values = [frame.f0, a, b, c, d, e, f, g, h];
@@ -46,13 +47,14 @@ impl<const M: usize> Eighths<M> {
     }
 }
 
-/// A bit for each of eight comparisons.
+/// Packs the results of eight comparisons into one bit each.
 #[inline(always)]
 fn signs(masks: CoefficientPairs) -> u32 {
     let [a, b, c, d] = masks.map(|mask| mask.to_bitmask());
     (a | b << 2) | (c << 4 | d << 6)
 }
 
+/// The table of a piece of the reach.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<const M: usize> {
     /// a, where the piece begins.
@@ -74,7 +76,8 @@ pub struct Coefficients {
     slack: f64,
 }
 
-/// C(i, k) k! (8 − k)!/8! wᵏ: the factor of the k-th Taylor coefficient at an end in the i-th Bernstein coefficient.
+/// Returns C(i, k) k! (8 − k)!/8! wᵏ, the factor of the k-th Taylor coefficient at an end in the i-th
+/// Bernstein coefficient.
 fn weight(i: usize, k: usize, w: f64) -> f64 {
     let mut out = 1.0;
     for m in 0..k {
@@ -83,7 +86,7 @@ fn weight(i: usize, k: usize, w: f64) -> f64 {
     out
 }
 
-/// b₁ … b₈ of the Hermite polynomial with the given value and three derivatives at both ends.
+/// Returns b₁ … b₈ of the Hermite polynomial with the given value and three derivatives at both ends.
 fn hermite(left: Taylor, right: Taylor, w: f64) -> CoefficientPairs {
     let mut b = [0.0; N + 1];
     for i in 0..4 {
@@ -103,7 +106,7 @@ fn row(b: [f64; N]) -> CoefficientPairs {
 }
 
 impl<const M: usize> Piece<M> {
-    /// The piece of `frequencies` that begins at `start` and is `width` wide, within the reach.
+    /// Tabulates the piece that begins at `start` and is `width` wide, within the reach.
     pub fn new(start: f64, width: f64, frequencies: &Frequencies<M>) -> Self {
         let end = start + width;
         let fast2 = frequencies.fastest * frequencies.fastest;
@@ -119,24 +122,24 @@ impl<const M: usize> Piece<M> {
         }
     }
 
-    /// A bound of f − q, rounding included.
+    /// Bounds f − q, rounding included.
     #[inline(always)]
-    pub fn doubt(&self, frame: &Frame<M>) -> f64 {
+    pub fn largest_difference(&self, frame: &Frame<M>) -> f64 {
         // f − q ≤ 2 M₈ (w/2)⁸/8!, which is 140/256 of b₄'s part, so b₄'s part is enough.
         let [_, difference] = self.difference.to_array();
         frame.bound * difference + SLACK * frame.size
     }
 
-    /// The coefficients b₁ … b₈ of q over this piece; b₀ is f(a).
+    /// Computes the coefficients b₁ … b₈ of q over this piece; b₀ is f(a).
     #[inline(always)]
     pub fn coefficients(&self, frame: &Frame<M>) -> Coefficients {
-        let mut row = self.factors.of(frame).map(|x| x + f64x2::splat(frame.f0));
+        let mut row = self.factors.evaluate(frame).map(|x| x + f64x2::splat(frame.f0));
         row[1] -= f64x2::splat(frame.bound) * self.difference;
         Coefficients { row, slack: SLACK * frame.size }
     }
 
-    /// Whether f falls over the whole piece, to below zero at its end; `first` is f(a) > 0. If so,
-    /// a guess of its root, counted from the frame's instant.
+    /// Guesses the root, counted from the frame's instant, if f falls over the whole piece to below
+    /// zero at its end; otherwise returns none. `first` is f(a) > 0.
     #[inline(always)]
     pub fn only_root(&self, frame: &Frame<M>, first: f64, c: &Coefficients) -> Option<f64> {
         let [b1, b2, b3, b4, b5, b6, b7, b8] = c.all();
@@ -146,8 +149,8 @@ impl<const M: usize> Piece<M> {
         if !((falls[0] & falls[1]) & (falls[2] & falls[3])).all() || b8 >= -c.slack {
             return None;
         }
-        // The parabola with value, slope and curvature of p at the end that is nearer to zero. Which one it is
-        // cannot be predicted: a mask, and no branch.
+        // The parabola with value, slope and curvature of p at the end that is nearer to zero. No
+        // processor can predict which one it is, so a mask replaces a branch.
         let at_left = f64x2::splat(first).simd_lt(f64x2::splat(-b8));
         let nearer = |left: [f64; 2], right: [f64; 2]| {
             at_left.select(f64x2::from(left), f64x2::from(right)).to_array()
@@ -169,17 +172,17 @@ impl<const M: usize> Piece<M> {
 const SLACK: f64 = 64.0 * f64::EPSILON;
 
 impl Coefficients {
-    /// f > 0 on (a, a + w], given that f(a) ≥ 0.
+    /// Whether b₁ … b₈ are positive beyond rounding, so that f > 0 on (a, a + w] if f(a) ≥ 0.
     #[inline(always)]
-    pub fn open(&self) -> bool {
+    pub fn are_positive(&self) -> bool {
         let [a, b, c, d] = self.row;
         let least = a.fast_min(b).fast_min(c.fast_min(d));
         least.simd_gt(f64x2::splat(self.slack)).all()
     }
 
-    /// Whether the signs of b₁ … b₈, which are not all plus, change once at most, from plus to minus.
+    /// Whether the signs of b₁ … b₈, which are not all plus, change at most once, from plus to minus.
     #[inline(always)]
-    pub fn fall_once(&self) -> bool {
+    pub fn change_sign_once(&self) -> bool {
         let slack = f64x2::splat(self.slack);
         let plus = signs(self.row.map(|b| b.simd_gt(slack)));
         let minus = signs(self.row.map(|b| b.simd_lt(-slack)));
@@ -187,7 +190,7 @@ impl Coefficients {
         (plus & (plus + 1) == 0) & (plus + minus == (1 << N) - 1)
     }
 
-    /// b₈, the value at the end of the piece.
+    /// Returns b₈, the value at the end of the piece.
     #[inline(always)]
     pub fn last(&self) -> f64 {
         self.row[N / 2 - 1].to_array()[1]

@@ -1,9 +1,10 @@
-//! The first root by certified steps: slower than the screen, but always decisive.
+//! Finds the first root by certified steps: slower than the screen, but always decisive.
 
-use super::first_root::{Counters, Next};
 use super::local_frame::{Frame, Frequencies, Point, ROUNDING};
+use super::outcome::{Counters, Next};
 
-/// The first root h > 0 of the parabola f + g h − ½ K h², f ≥ 0; `far` if there is none before.
+/// Returns the first root h > 0 of the parabola f + g h − ½ K h², f ≥ 0; `far` if there is none
+/// before it.
 #[inline]
 fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
     let discriminant = g * g + 2.0 * k * f;
@@ -20,17 +21,19 @@ fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
     h.min(far)
 }
 
-/// Ratio of stretches from which on the trial by the rate is taken: of a gap that barely opens.
+/// Ratio of stretches above which the trial by the rate is taken: of a gap that barely opens.
 const BARELY: f64 = 1e6;
 
-/// Ratio of stretches from which on the trial by the width is taken: of a gap far narrower than its parts.
+/// Ratio of stretches above which the trial by the width is taken: of a gap far narrower than its
+/// parts.
 const FAR_LARGER: f64 = 1e3;
 
-/// The parts of a gap cancel where its second and third derivative are so many times below the bound of the fourth.
+/// The parts of a gap cancel where its second and third derivatives are this many times below the
+/// bound of the fourth.
 const CANCELS: f64 = 1e4;
 
 // listing: stretch
-/// A certified stretch: f > 0 on (s, s + h) for the returned h ≤ `limit`.
+/// Returns the length h ≤ `limit` of a certified stretch: f > 0 on (s, s + h).
 ///
 /// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f stays
 /// above the parabola f + f' h − ½ K h² there, and has no root before the smaller of L and the
@@ -64,7 +67,8 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
 }
 // end
 
-/// The stretch that the worst term of K alone allows, by the rate and by the width of the gap.
+/// Returns the stretches that the worst term of K alone allows, by the rate and by the width of the
+/// gap.
 #[cold]
 fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
     let (down, third) = ((-p.d2).max(0.0), p.d3.abs());
@@ -74,7 +78,7 @@ fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
     [by_rate.min(pxfm::f_cbrt(4.0 * p.d1 / bound)), by_width.min((4.0 * f / bound).sqrt().sqrt())]
 }
 
-/// Whether f > 0 is certain on (a, a + h), from value, slope and curvature at both ends.
+/// Decides whether f > 0 is certain on (a, a + h), from value, slope and curvature at both ends.
 ///
 /// The quintic through these six numbers differs from f by at most M₆ t³ (h − t)³/720 (Hermite's
 /// remainder), with M₆ ≤ max(ω, Ω)² M₄. Quintic minus remainder is a polynomial of degree six, and
@@ -96,7 +100,8 @@ fn stays_open<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64, s
     coefficients.iter().all(|&c| c > slack)
 }
 
-/// The first of f'', f''' and f'''' that is not zero to so many times their rounding: its order and value.
+/// Returns order and value of the first of f'', f''' and f'''' that exceeds `times` its rounding, or
+/// none.
 fn leading<const M: usize>(
     p: &Point<M>,
     times: f64,
@@ -115,12 +120,12 @@ fn leading<const M: usize>(
     (fourth.abs() > rounding * fast * fast).then_some((4, fourth))
 }
 
-/// How far f''' > 0 alone, or f'''' > 0 where f''' is zero too, lifts f from where it does not fall and f'' is zero, all
-/// to rounding; 0 where that is not so.
+/// Returns the length of a stretch over which f''' > 0 alone, or f'''' > 0 where f''' is zero too,
+/// lifts f from a point where it does not fall and f'' is zero, all to rounding; 0 if there is none.
 ///
 /// With f, f' ≥ 0, f ≥ f'' h²/2 + f''' h³/12 while h ≤ 2 f'''/M₄. That is never below
-/// −(8/3) |f''|³/f'''², far less than the rounding of places, and positive from h = 6 |f''|/f''' on. Likewise with f'''' and
-/// M₅ ≤ max(ω, Ω) M₄.
+/// −(8/3) |f''|³/f'''², far less than the rounding of positions, and positive from h = 6 |f''|/f'''
+/// on. Likewise with f'''' and M₅ ≤ max(ω, Ω) M₄.
 fn lift<const M: usize>(p: &Point<M>, frame: &Frame<M>, frequencies: &Frequencies<M>) -> f64 {
     match leading(p, 1.0, frame, frequencies).filter(|_| p.d1 >= 0.0) {
         Some((3, third)) if third > 0.0 => 2.0 * third / frame.bound,
@@ -129,19 +134,20 @@ fn lift<const M: usize>(p: &Point<M>, frame: &Frame<M>, frequencies: &Frequencie
     }
 }
 
-/// Evaluations after which a search stops with the stretch certified so far; the engine resumes it later.
+/// Evaluations after which a search stops with the stretch certified so far; the engine resumes it
+/// later.
 const PATIENCE: u32 = 64;
 
 // listing: first_root_by_steps
-/// The first root after `from`, where f ≥ 0, or the proof that there is none up to `limit`.
+/// Finds the first root after `from`, where f ≥ 0, or proves that there is none up to `limit`.
 ///
 /// # Why no root is skipped
 /// s only advances over intervals that are proven to hold no root, in one of two ways; both bound the
 /// exact function from below, and count the rounding of its values against it. A *leap* goes to a
 /// point chosen by any guess (the end of the search, or just before a guessed root) and is taken
 /// if `stays_open` certifies the interval. Where it does not, `stretch` gives a step that is
-/// certain from this side alone; if that is far shorter, for the parts of a gap cancel, halves of
-/// the leap are tried first. The search ends when the quadratic f + f' h + ½ f'' h² has its root
+/// certain from this side alone; if that is far shorter, because the parts of a gap cancel, halves
+/// of the leap are tried first. The search ends when the quadratic f + f' h + ½ f'' h² has its root
 /// so close that the rest, |f'''| h³/6 + M₄ h⁴/24, is below the margin.
 ///
 /// # The undecidable band
@@ -165,7 +171,8 @@ pub fn first_root_by_steps<const M: usize>(
         work.evaluations += 1;
         frame.at(s, frequencies)
     };
-    // Shut and at rest, and accelerated towards one another by more than rounding: they touch, and stay.
+    // Shut and at rest, and accelerated towards one another by more than rounding: they touch, and
+    // stay.
     let pressed = |lead| matches!(lead, Some((2, second)) if second < 0.0);
     if s == 0.0 && p.f == 0.0 && p.d1 == 0.0 && pressed(leading(&p, 2.0, frame, frequencies)) {
         return Next::Root { s, speed: 0.0 };
@@ -208,7 +215,7 @@ pub fn first_root_by_steps<const M: usize>(
             leap = h;
         }
         let h = if in_band && p.d2 > 0.0 {
-            // A dip that the quadratic does not reach zero in: on to where it leaves the band.
+            // A dip in which the quadratic does not reach zero: on to where it leaves the band.
             work.undecided += 1;
             let up = (p.d1 * p.d1 + 2.0 * p.d2 * (4.0 * p.margin)).sqrt();
             (up - p.d1) / p.d2
@@ -237,7 +244,8 @@ pub fn first_root_by_steps<const M: usize>(
 }
 // end
 
-/// The longest of the halves, quarters and so on of a leap that failed that is certain, if one goes farther than a step.
+/// Returns the longest certain one of the halves, quarters and so on of a leap that failed, or none
+/// if none goes farther than a step.
 #[cold]
 fn shorter_leap<const M: usize>(
     p: &Point<M>,
@@ -260,7 +268,7 @@ fn shorter_leap<const M: usize>(
     None
 }
 
-/// A guess from `p` of where f has just crossed zero; `left` if no root is near.
+/// Guesses from `p` where f has just crossed zero; returns `left` if no root is near.
 #[inline]
 fn beyond_root<const M: usize>(p: &Point<M>, root: f64, discriminant: f64, left: f64) -> f64 {
     let crosses = discriminant > 0.0 && (p.d1 < 0.0 || p.d2 < 0.0);
@@ -278,8 +286,8 @@ fn beyond_root<const M: usize>(p: &Point<M>, root: f64, discriminant: f64, left:
     if better > 0.0 { (1.0625 * better).min(left) } else { guess }
 }
 
-/// A guess of a point shortly before the first root between `a`, where f > 0, and `b` = a + h,
-/// where f < 0, from the quintic through both ends.
+/// Guesses a point shortly before the first root between `a`, where f > 0, and `b` = a + h,
+/// where f < 0, from the quintic through both ends; returns none if that leads nowhere.
 #[inline]
 fn before_root<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64) -> Option<f64> {
     let (ga, gb) = (h * a.d1, h * b.d1);
@@ -305,8 +313,8 @@ fn before_root<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64) 
     (slope < 0.0 && t > 0.0 && t < 1.0).then_some(t * h)
 }
 
-/// The root s + h of the quadratic about a point, which falls there at `slope`, corrected by the
-/// terms of higher order.
+/// Corrects the root s + h of the quadratic about a point, which falls there at `slope`, by the terms
+/// of higher order; returns the root and the speed at it.
 ///
 /// What the quadratic leaves out is below the margin in f, yet not in f': at h = 1e-5 the slope
 /// f''' h²/2 is 1e-10, and f'''' h³/6, which has one sign, would take energy from a chain.

@@ -1,4 +1,4 @@
-//! Portable sine and cosine: plain + − × only, so the same bits on every machine.
+//! Computes sine and cosine by plain + − × only, so with the same bits on every machine.
 
 use wide::f64x2;
 
@@ -34,7 +34,7 @@ const COS: [f64; TERMS] = adjusted(
     ],
 );
 
-/// Taylor coefficients with the first few moved by some units in their last places.
+/// Returns Taylor coefficients, the first few moved by some units in their last places.
 ///
 /// 1/3!, 1/5! and 1/4! are not doubles. Their rounding errors alone would make the sine too large
 /// and the cosine by 2e-16 at [`RANGE`], always to the same side, and a chain without forcing would
@@ -51,7 +51,7 @@ const fn adjusted(m: usize, by: [f64; 6]) -> [f64; TERMS] {
     out
 }
 
-/// 1/m!, −1/(m+2)!, 1/(m+4)!, …
+/// Returns 1/m!, −1/(m+2)!, 1/(m+4)!, …
 ///
 /// Every factorial up to 18! is exact in a double; the later ones are rounded, which changes the
 /// sums by less than 1e-24.
@@ -84,7 +84,7 @@ const TABLE: [[f64; 2]; TERMS] = {
     table
 };
 
-/// Both polynomials of [`TABLE`] at z, in one register of two.
+/// Evaluates both polynomials of [`TABLE`] at z, in one register of two.
 #[inline(always)]
 fn polynomials(z: f64x2) -> f64x2 {
     let square = z * z;
@@ -98,8 +98,9 @@ fn polynomials(z: f64x2) -> f64x2 {
     even + z * odd
 }
 
-/// The same from the first eight rows, enough for a quarter turn: the first omitted ones are below 1e-19 and 3e-18. The
-/// order is that of least latency, since all work at an event waits for its phases.
+/// Evaluates the first eight rows alone, enough for a quarter turn: the first omitted ones are below
+/// 1e-19 and 3e-18. The order is that of least latency, since all work at an event waits for its
+/// phases.
 #[inline(always)]
 fn quarter_polynomials(z: f64x2) -> f64x2 {
     let square = z * z;
@@ -107,14 +108,14 @@ fn quarter_polynomials(z: f64x2) -> f64x2 {
     (pair(0) + square * pair(2)) + (square * square) * (pair(4) + square * pair(6))
 }
 
-/// sin x − x and 1 − cos x from one of the two.
+/// Returns sin x − x and 1 − cos x, given one of the two functions above.
 #[inline(always)]
 fn remainders(x: f64, polynomials: impl Fn(f64x2) -> f64x2) -> [f64; 2] {
     let z = x * x;
     (polynomials(f64x2::splat(z)) * f64x2::from([z * x, z])).to_array()
 }
 
-/// sin x − x and 1 − cos x for |x| ≤ [`RANGE`], each to a few units in its last place.
+/// Returns sin x − x and 1 − cos x for |x| ≤ [`RANGE`], each to a few units in its last place.
 ///
 /// The omitted terms are below 2.83^31/31! < 2e-20 and 2.83^30/30! < 2e-19.
 #[inline(always)]
@@ -122,7 +123,7 @@ pub fn small_sin_cos(x: f64) -> [f64; 2] {
     remainders(x, polynomials)
 }
 
-/// (sin, cos) of a phase given as a fraction of a turn in units of 2^-64, to 1.2 units of 2^-53.
+/// Returns (sin, cos) of a phase given as a fraction of a turn in units of 2^-64, to 1.2 units of 2^-53.
 ///
 /// The reduction to the nearest quarter turn is exact integer arithmetic.
 #[inline(always)]
@@ -144,7 +145,8 @@ pub fn sin_cos_turn(turn: u64) -> (f64, f64) {
     (f64::from_bits(sin), f64::from_bits(cos))
 }
 
-/// arctan x over x in x², for 0 ≤ x ≤ 1: the polynomial that agrees at Chebyshev's points, off by 1.6e-9.
+/// Coefficients of arctan x over x in x², for 0 ≤ x ≤ 1: the polynomial that agrees at Chebyshev's
+/// points, off by 1.6e-9.
 const ARCTAN: [f64; 10] = [
     0.9999999972,
     -0.3333327629,
@@ -158,7 +160,8 @@ const ARCTAN: [f64; 10] = [
     -0.001701169973,
 ];
 
-/// The angles of two vectors from the axis of x, in [−π, π] and to 2e-9, for windows that are widened by more than that.
+/// Returns the angles of two vectors from the x axis, in [−π, π] and to 2e-9, for windows that are
+/// widened by more than that.
 #[inline(always)]
 pub fn rough_angles(y: f64x2, x: f64x2) -> f64x2 {
     use std::f64::consts::{FRAC_PI_2, PI};

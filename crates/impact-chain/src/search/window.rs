@@ -1,4 +1,5 @@
-//! Long waits: the next time at which all parts of a sum of sinusoids can be low together.
+//! Skips long waits: finds the next time at which all parts of a sum of sinusoids can be low
+//! together.
 
 use super::local_frame::Frequencies;
 use super::trig::rough_angles;
@@ -15,13 +16,15 @@ struct Part {
     half_width: f64,
 }
 
-/// Windows are widened by this much, far more than [`rough_angles`] and rounding can move their edges.
+/// Windows are widened by this much, far more than [`rough_angles`] and rounding can move their
+/// edges.
 const WIDENED: f64 = 1e-7;
 
 /// Windows passed in one call.
 const HOPS: u32 = 64;
 
-/// A time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain; `None` if it always is.
+/// Returns a time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain; none if it is at all
+/// times.
 ///
 /// The part with amplitude R is low enough only while R cos(νs + θ) ≤ −(mean − Σ of the other
 /// amplitudes): in one window a period. Before s no instant lies in the windows of all parts.
@@ -66,7 +69,7 @@ pub fn next_window<const M: usize>(
 }
 
 impl Part {
-    /// How long after `s` the next window opens; 0 in a window.
+    /// Returns the time from `s` to the beginning of the next window; 0 in a window.
     #[inline]
     fn wait(&self, s: f64) -> f64 {
         const TURN: f64 = std::f64::consts::TAU;

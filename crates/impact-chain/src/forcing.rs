@@ -1,12 +1,13 @@
-//! The forcing of a scenario, component by component, for all rivals.
+//! Evaluates the forcing of a scenario and its response, component by component.
 
-use super::prelude::*;
-pub use crate::scenario::COMPONENTS;
+use crate::Scenario;
+use crate::search::clock::{Instant, Rate};
+use crate::search::trig::sin_cos_turn;
 
-/// The forced response of each mass at t = 0: displacement and velocity.
-pub fn response(scenario: &Scenario) -> Vec<[f64; 2]> {
+/// Returns the forced response of each mass at t = 0: displacement and velocity.
+pub fn response_at_zero(scenario: &Scenario) -> Vec<[f64; 2]> {
     let mut response = vec![[0.0; 2]; scenario.forcing.len()];
-    for component in Component::response(scenario) {
+    for component in Component::responses(scenario) {
         for (j, [x, v]) in response.iter_mut().enumerate() {
             *x += component.cos[j + 1];
             *v += component.frequency * component.sin[j + 1];
@@ -16,7 +17,7 @@ pub fn response(scenario: &Scenario) -> Vec<[f64; 2]> {
 }
 
 /// Rotates the phases of the forcing by those at the instant `at`, which becomes t = 0.
-pub fn turn(scenario: &mut Scenario, at: Instant) {
+pub fn rotate_phases(scenario: &mut Scenario, at: Instant) {
     let first = (scenario.forcing_frequency, &mut scenario.forcing);
     let further = scenario.overtones.iter_mut().map(|o| (o.frequency, &mut o.amplitudes));
     for (big_w, amplitudes) in std::iter::once(first).chain(further) {
@@ -38,24 +39,23 @@ pub struct Component {
 }
 
 impl Component {
-    pub fn of(scenario: &Scenario) -> Vec<Component> {
-        let padded = |pairs: &[[f64; 2]], part: usize| -> Vec<f64> {
-            let amplitudes = pairs.iter().map(|pair| pair[part]);
-            std::iter::once(0.0).chain(amplitudes).chain([0.0]).collect()
-        };
-        scenario
-            .components()
-            .map(|(frequency, pairs)| Component {
+    /// Lists the components of the forcing.
+    pub fn forces(scenario: &Scenario) -> Vec<Component> {
+        let mut components = Vec::new();
+        for (frequency, pairs) in scenario.components() {
+            components.push(Component {
                 frequency,
                 rate: Rate::new(frequency),
-                cos: padded(pairs, 0),
-                sin: padded(pairs, 1),
-            })
-            .collect()
+                cos: between_walls(pairs.iter().map(|pair| pair[0])),
+                sin: between_walls(pairs.iter().map(|pair| pair[1])),
+            });
+        }
+        components
     }
 
-    pub fn response(scenario: &Scenario) -> Vec<Component> {
-        let mut components = Component::of(scenario);
+    /// Lists the components of the forced response: the forces over ω² − Ω².
+    pub fn responses(scenario: &Scenario) -> Vec<Component> {
+        let mut components = Component::forces(scenario);
         for component in &mut components {
             let (w, big_w) = (scenario.natural_frequency, component.frequency);
             let factor = (w - big_w) * (w + big_w);
@@ -70,4 +70,9 @@ impl Component {
     pub fn phase(&self, at: Instant) -> (f64, f64) {
         sin_cos_turn(self.rate.turn(at))
     }
+}
+
+/// Puts a zero for each wall around the numbers of the masses.
+fn between_walls(masses: impl Iterator<Item = f64>) -> Vec<f64> {
+    std::iter::once(0.0).chain(masses).chain([0.0]).collect()
 }

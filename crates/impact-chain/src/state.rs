@@ -1,8 +1,10 @@
-//! A state of the masses at any time, and the scenario that starts there.
+//! Describes a state of the masses at any time, and the scenario that starts there.
 
-use super::forcing;
-use super::prelude::*;
-use crate::scenario::within;
+use crate::error::{Error, within};
+use crate::forcing::{response_at_zero, rotate_phases};
+use crate::scenario::{Initial, Scenario};
+use crate::search::clock::{Instant, LATEST};
+use crate::topology::Topology;
 
 /// Positions and velocities of the masses 1..n at a time, from which a method starts.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,7 +13,7 @@ pub struct State {
     pub time: f64,
     /// x_1..x_n, counted from the left wall.
     pub positions: Vec<f64>,
-    /// Their rates.
+    /// The velocities of the masses 1..n.
     pub velocities: Vec<f64>,
 }
 
@@ -20,11 +22,11 @@ pub struct State {
 const UNITS: f64 = 16.0;
 
 impl State {
-    /// The start of a scenario, at t = 0.
+    /// Returns the start of a scenario, at t = 0.
     pub fn of(scenario: &Scenario) -> State {
         let w = scenario.natural_frequency;
         let mut state = State { time: 0.0, positions: Vec::new(), velocities: Vec::new() };
-        for (j, [x, v]) in forcing::response(scenario).into_iter().enumerate() {
+        for (j, [x, v]) in response_at_zero(scenario).into_iter().enumerate() {
             let [u, v] = match &scenario.initial {
                 Initial::Rest => [0.0; 2],
                 Initial::Free(parts) => {
@@ -38,9 +40,13 @@ impl State {
         state
     }
 
-    /// The displacements of all bodies from their places j d, from the left wall (0) to the right
-    /// one (n + 1), with gaps that overlap by no more than rounding shut exactly.
-    pub(super) fn displacements(&self, scenario: &Scenario) -> Result<Vec<f64>, Error> {
+    /// Returns the displacements of all bodies from their places j d, from the left wall (0) to the
+    /// right one (n + 1), with gaps that overlap by no more than rounding shut exactly.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a scenario or a state outside the model, [`Error::Overlap`] for a gap
+    /// that overlaps by more.
+    pub(crate) fn displacements(&self, scenario: &Scenario) -> Result<Vec<f64>, Error> {
         scenario.validate()?;
         self.validate(scenario.forcing.len())?;
         let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
@@ -69,9 +75,9 @@ impl State {
         Ok(u)
     }
 
-    /// How wide a gap from the place `place` on may be by rounding of this state, `speed` being that
-    /// of the faster of its sides.
-    pub(super) fn rounding(&self, place: f64, speed: f64) -> f64 {
+    /// Returns the largest width of a gap at `place` that rounding of this state explains; `speed`
+    /// is that of the faster of its sides.
+    pub(crate) fn rounding(&self, place: f64, speed: f64) -> f64 {
         UNITS * f64::EPSILON * (place.abs() + self.time * speed)
     }
 
@@ -87,41 +93,21 @@ impl State {
         Ok(())
     }
 
-    /// The scenario that starts at t = 0 exactly where this state is: the forcing rotated by Ωt,
-    /// the free parts derived.
+    /// Returns the scenario that starts at t = 0 exactly where this state is: the forcing rotated by
+    /// Ωt, the free parts derived.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a scenario or a state outside the model, [`Error::Overlap`] for an
+    /// overlapping state.
     pub fn as_scenario(&self, scenario: &Scenario) -> Result<Scenario, Error> {
         let u = self.displacements(scenario)?;
         let mut moved = scenario.clone();
-        forcing::turn(&mut moved, Instant::at(self.time));
-        let forced = forcing::response(&moved);
-        let parts = u[1..].iter().zip(&self.velocities).zip(forced);
-        let free = parts.map(|((u, v), [x, y])| [u - x, (v - y) / scenario.natural_frequency]);
-        let free = free.collect();
+        rotate_phases(&mut moved, Instant::at(self.time));
+        let mut free = Vec::with_capacity(self.velocities.len());
+        for (j, [x, y]) in response_at_zero(&moved).into_iter().enumerate() {
+            free.push([u[j + 1] - x, (self.velocities[j] - y) / scenario.natural_frequency]);
+        }
         moved.initial = Initial::Free(free);
         Ok(moved)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Engine;
-    use crate::{Chain, Start};
-    use impact_numerics::random::NormalPairs;
-
-    fn drawn(start: Start) -> Scenario {
-        let chain = Chain { masses: 7, start, ..Chain::default() };
-        Scenario::draw(&chain, 0.1, &mut NormalPairs::new("state", 1, 0))
-    }
-
-    #[test]
-    fn a_start_is_what_the_engine_has() {
-        for start in [Start::Rest, Start::Zero, Start::Random] {
-            let scenario = drawn(start);
-            let (state, engine) = (State::of(&scenario), Engine::new(&scenario).unwrap());
-            let near = |a: &[f64], b: Vec<f64>| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-14);
-            assert!(near(&state.positions, engine.positions(0.0)), "{start:?}");
-            assert!(near(&state.velocities, engine.velocities(0.0)), "{start:?}");
-        }
     }
 }

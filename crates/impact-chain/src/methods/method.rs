@@ -1,0 +1,60 @@
+//! Defines the trait of all ways to simulate a chain.
+
+use crate::impact::{Impact, Sink, collect};
+use crate::{Error, Scenario, State};
+
+/// Counted work of a method: deterministic.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cost {
+    pub impacts: u64,
+    /// Steps in time; for the certified engine, searches.
+    pub steps: u64,
+    /// Evaluations of the acceleration of one mass or of the width of one gap, with its sines.
+    pub evaluations: u64,
+    /// Runs of neighbouring gaps that closed at exactly the same instant, which no rival detects.
+    pub simultaneous: u64,
+}
+
+impl Cost {
+    /// Returns the evaluations per impact, or none without an impact.
+    pub fn evaluations_per_impact(&self) -> Option<f64> {
+        (self.impacts > 0).then(|| self.evaluations as f64 / self.impacts as f64)
+    }
+}
+
+/// The task of a method: a chain, a state from which it starts, and the time until which it runs. The
+/// start of the scenario is ignored.
+pub type Task<'a> = (&'a Scenario, &'a State, f64);
+
+/// A way to simulate a chain.
+pub trait Method: Sync {
+    /// Returns the name, as in `trace --method`, e.g. "verlet".
+    fn name(&self) -> &'static str;
+
+    /// Runs a task and hands each impact to `sink`, which stops the run right after that impact by
+    /// returning false.
+    ///
+    /// A gap of the start that is shut up to rounding counts as shut; it is hit only if it is
+    /// closing.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a scenario, start, step or tolerance outside the model,
+    /// [`Error::Overlap`] for an overlapping start, [`Error::Work`] when a bound on work is exceeded.
+    fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error>;
+
+    /// Returns the first impact, or none if there is no impact.
+    ///
+    /// # Errors
+    /// As [`Method::run`].
+    fn first(&self, task: Task) -> Result<Option<Impact>, Error> {
+        Ok(collect(1, |sink| self.run(task, sink))?.pop())
+    }
+
+    /// Returns all impacts, in order.
+    ///
+    /// # Errors
+    /// As [`Method::run`].
+    fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
+        collect(usize::MAX, |sink| self.run(task, sink))
+    }
+}

@@ -1,0 +1,166 @@
+//! Finds means, modes and places of the rise in a sample of counts, with bootstrap errors.
+//!
+//! The realisations are resampled, not the rows: realisation i has the same standard normals at
+//! every σ, so a resample takes its counts at all σ together.
+
+use impact_numerics::bootstrap;
+use impact_numerics::estimates::LEVEL;
+use impact_numerics::statistics::{Estimate, count_quantile, last_rise, mode};
+
+/// Share of N at which the rise has its onset.
+pub const ONSET: f64 = 0.05;
+
+/// Resamples behind each interval.
+const RESAMPLES: u64 = 1000;
+
+/// Means and modes at each σ, and places of the rise, of a sample or of a resample.
+pub struct Places {
+    /// Mean over those with at least one impact.
+    pub mean: Vec<Option<f64>>,
+    /// Mean over all.
+    pub mean_all: Vec<Option<f64>>,
+    pub mode: Vec<Option<usize>>,
+    /// In the order of the fields of [`Rise`](crate::rise::Rise).
+    rise: [Option<f64>; 7],
+}
+
+/// Counts of one window: `counts[σ][realisation]`. A row may have only the first realisations.
+pub struct Sample<'a> {
+    pub sigmas: &'a [f64],
+    pub counts: Vec<&'a [Option<u32>]>,
+    /// Number of gaps N behind each count, on average where long chains are cut into pieces.
+    pub gaps: f64,
+}
+
+impl Sample<'_> {
+    /// Returns the largest count that is possible.
+    fn largest(&self) -> usize {
+        self.gaps.ceil() as usize
+    }
+
+    /// Computes means, modes and places when realisation i counts `weights[i]` times.
+    fn places(&self, weights: &[u32]) -> Places {
+        let sigmas = self.sigmas;
+        let mut share = Vec::with_capacity(sigmas.len());
+        let mut found = Places {
+            mean: Vec::with_capacity(sigmas.len()),
+            mean_all: Vec::with_capacity(sigmas.len()),
+            mode: Vec::with_capacity(sigmas.len()),
+            rise: [None; 7],
+        };
+        let mut histogram = vec![0; self.largest() + 1];
+        for row in &self.counts {
+            bootstrap::histogram(row, weights, &mut histogram);
+            let [ran, sum] = bootstrap::total(&histogram);
+            let kept = ran - u64::from(histogram[0]);
+            histogram[0] = 0;
+            found.mean.push(ratio(sum, kept));
+            found.mean_all.push(ratio(sum, ran));
+            found.mode.push(mode(&histogram));
+            share.push(ratio(kept, ran));
+        }
+        let all = |share: f64| last_rise(sigmas, &found.mean_all, share * self.gaps);
+        let kept = |share: f64| last_rise(sigmas, &found.mean, share * self.gaps);
+        let between = |low: Option<f64>, high: Option<f64>| Some(high? - low?);
+        found.rise = [
+            kept(0.5),
+            all(0.5),
+            all(ONSET),
+            last_rise(sigmas, &share, 0.5),
+            between(all(0.1), all(0.9)),
+            between(kept(0.25), kept(0.75)),
+            between(all(0.25), all(0.75)),
+        ];
+        found
+    }
+}
+
+/// Divides two whole numbers; returns none for a denominator of zero.
+fn ratio(numerator: u64, denominator: u64) -> Option<f64> {
+    (denominator > 0).then(|| numerator as f64 / denominator as f64)
+}
+
+/// What was found in a sample and in its resamples.
+pub struct Resampled {
+    whole: Places,
+    resamples: Vec<Places>,
+    /// The largest count that is possible.
+    pub largest: usize,
+}
+
+impl Resampled {
+    pub fn new(sample: &Sample<'_>, seed: u64) -> Self {
+        let size = sample.counts.iter().map(|counts| counts.len()).max().unwrap_or(0);
+        let mut resamples = Vec::with_capacity(RESAMPLES as usize);
+        for index in 0..RESAMPLES {
+            resamples.push(sample.places(&bootstrap::weights(seed, index, size)));
+        }
+        let whole = sample.places(&vec![1; size]);
+        Resampled { whole, resamples, largest: sample.largest() }
+    }
+
+    /// Estimates a quantity with its bootstrap error; none if too many resamples have no value.
+    pub fn estimate(&self, pick: impl Fn(&Places) -> Option<f64>) -> Option<Estimate> {
+        let resamples: Vec<_> = self.resamples.iter().map(&pick).collect();
+        bootstrap::estimate(pick(&self.whole), &resamples, LEVEL)
+    }
+
+    /// Estimates the places of the rise, in the order of the fields of
+    /// [`Rise`](crate::rise::Rise).
+    pub fn rise(&self) -> [Option<Estimate>; 7] {
+        std::array::from_fn(|i| self.estimate(|sample| sample.rise[i]))
+    }
+
+    /// Returns the percentile interval of the mode at a σ: whole numbers, at both ends an order
+    /// statistic; none if there is no mode.
+    pub fn mode_interval(&self, row: usize) -> Option<[usize; 2]> {
+        self.whole.mode[row]?;
+        let mut histogram = vec![0; self.largest + 1];
+        for k in self.resamples.iter().filter_map(|places| places.mode[row]) {
+            histogram[k] += 1;
+        }
+        let tail = 0.5 * (1.0 - LEVEL);
+        Some([count_quantile(&histogram, tail)?, count_quantile(&histogram, 1.0 - tail)?])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIGMAS: [f64; 5] = [0.1, 0.2, 0.3, 0.4, 0.5];
+
+    /// Four realisations on five σ, N = 10.
+    fn counts() -> Vec<Vec<Option<u32>>> {
+        [[0, 0, 0, 0], [0, 0, 0, 2], [0, 4, 4, 6], [8, 8, 8, 6], [10, 10, 10, 10]]
+            .map(|row| row.map(Some).to_vec())
+            .to_vec()
+    }
+
+    fn sample<'a>(sigmas: &'a [f64], counts: &'a [Vec<Option<u32>>]) -> Sample<'a> {
+        Sample { sigmas, counts: counts.iter().map(Vec::as_slice).collect(), gaps: 10.0 }
+    }
+
+    #[test]
+    fn places_by_hand() {
+        let found = sample(&SIGMAS, &counts()).places(&[1; 4]);
+        assert_eq!(found.mean_all, [0.0, 0.5, 3.5, 7.5, 10.0].map(Some));
+        let kept = [None, Some(2.0), Some(14.0 / 3.0), Some(7.5), Some(10.0)];
+        assert_eq!(found.mean, kept);
+        assert_eq!(found.mode, [None, Some(2), Some(4), Some(8), Some(10)]);
+        let expected = [
+            0.3 + 0.1 * (5.0 - 14.0 / 3.0) / (7.5 - 14.0 / 3.0),
+            0.3 + 0.1 * 1.5 / 4.0,
+            0.2,  // N/20 is met exactly at the second row
+            0.25, // from 1/4 with an impact to 3/4
+            // From 1, between 0.5 and 3.5, to 9, between 7.5 and 10.
+            (0.4 + 0.1 * 0.6) - (0.2 + 0.1 / 6.0),
+            0.3 + 0.1 - 0.2 - 0.1 * 0.5 / (14.0 / 3.0 - 2.0),
+            // From 2.5, between 0.5 and 3.5, to 7.5.
+            0.4 - (0.2 + 0.1 * 2.0 / 3.0),
+        ];
+        for (place, expected) in found.rise.iter().zip(expected) {
+            assert!((place.unwrap() - expected).abs() < 1e-15, "{place:?} {expected}");
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Checks a scenario against the ranges of the model.
+
+use crate::error::{Error, pairs_within, within};
+use crate::rounding;
+use crate::scenario::{COMPONENTS, Initial, Scenario};
+
+impl Scenario {
+    /// Checks every field against the model.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for the first field that is out of range.
+    pub fn validate(&self) -> Result<(), Error> {
+        within("spacing", self.spacing, 1e-6, 1e6)?;
+        within("natural_frequency", self.natural_frequency, 1e-3, 1e3)?;
+        within("restitution", self.restitution, 0.0, 1.0)?;
+        let masses = self.forcing.len();
+        for (m, (frequency, pairs)) in self.components().enumerate() {
+            let (frequency_field, field) = if self.overtones.is_empty() {
+                ("forcing_frequency".to_string(), "forcing".to_string())
+            } else {
+                (format!("forcing_frequencies[{m}]"), format!("forcing[{m}]"))
+            };
+            within(&frequency_field, frequency, 1e-3, 1e3)?;
+            if frequency == self.natural_frequency {
+                let problem = format!("{frequency:?} equals the natural frequency (resonance)");
+                return Err(Error::input(frequency_field, problem, "choose another"));
+            }
+            if m >= COMPONENTS {
+                let problem = format!("there are more than {COMPONENTS} frequencies");
+                return Err(Error::input(frequency_field, problem, "use fewer"));
+            }
+            pairs_within(&field, pairs, masses)?;
+        }
+        if let Initial::Free(free) = &self.initial {
+            pairs_within("initial.free", free, masses)?;
+        }
+        let (width, largest) = (rounding::width(self), rounding::LARGEST * self.spacing);
+        if width <= largest {
+            return Ok(());
+        }
+        Err(Error::input(
+            "forcing",
+            format!(
+                "the amplitudes of the motion (alpha/(w^2 - W^2) and the free parts) are so large \
+                 that rounding may move a gap by {width:.1e}, which is more than {largest:?}"
+            ),
+            "give frequencies further from the natural one, or smaller amplitudes",
+        ))
+    }
+}
