@@ -4,8 +4,8 @@
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
 use clap::Parser;
-use impact_chain::methods::{Certified, Method, State};
-use impact_chain::{Counters, Engine, Error, Scenario};
+use impact_chain::methods::{Certified, Method};
+use impact_chain::{Counters, Engine, Error, Scenario, State};
 use impact_numerics::random::NormalPairs;
 use impact_paper::params::{BiasParams, Chain, MethodName, Profile, RaceParams, Runs, Setting};
 use rayon::prelude::*;

@@ -3,7 +3,7 @@
 use super::range::within;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use impact_chain::LATEST;
-use impact_chain::methods::State;
+use impact_chain::State;
 use impact_chain::{Error, Impact, Scenario, rounding};
 use impact_paper::experiments::alive;
 use impact_paper::params::MethodName;

@@ -2,7 +2,7 @@
 
 pub use crate::experiments::ensembles::{each, named};
 pub use crate::params::Chain;
-pub use impact_chain::methods::State;
+pub use impact_chain::State;
 pub use impact_chain::rise::{Counted, Curve};
 pub use impact_chain::{Engine, Impact, Scenario};
 pub use impact_numerics::estimates::{average, difference, share, with_error};

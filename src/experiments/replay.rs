@@ -2,7 +2,7 @@
 
 use crate::experiments::prelude::*;
 use crate::params::{Boundary, Profile, Protocol, SEED, Start};
-use impact_chain::replay::{Asked, Forces, Replay};
+use impact_chain::replay::{Forces, Replay, Request};
 use literate::experiments::Experiment;
 use literate::experiments::cutting::SECOND;
 use literate::experiments::experiment::How::Whole;
@@ -17,7 +17,7 @@ pub const REPLAY: Experiment<ReplayRuns, Replays> = Experiment {
 };
 
 /// What is run: each run with a name.
-pub type ReplayRuns = Vec<(String, Asked)>;
+pub type ReplayRuns = Vec<(String, Request)>;
 
 /// The results, run by run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -48,11 +48,11 @@ pub fn runs(_: Profile) -> ReplayRuns {
     let drawn = |sigma: f64, chain: Chain| {
         let forces = Forces::Drawn { sigma, stream: "sweep".into(), seed: SEED, realisation: 0 };
         let Protocol { transient, window } = Protocol::default();
-        Asked { chain, forces, transient, window }
+        Request { chain, forces, transient, window }
     };
     let given = |pairs: Vec<[f64; 2]>, restitution: f64, until: f64| {
         let chain = Chain { masses: pairs.len(), restitution, ..Chain::default() };
-        Asked { chain, forces: Forces::Given(pairs), transient: 0.0, window: until }
+        Request { chain, forces: Forces::Given(pairs), transient: 0.0, window: until }
     };
     let chain = Chain::default;
     let named = [
@@ -86,7 +86,7 @@ fn mirrored() -> Vec<[f64; 2]> {
     let stream = "mirror".into();
     let forces = Forces::Drawn { sigma: 0.3, stream, seed: SEED, realisation: 0 };
     let chain = Chain { masses: 10, ..Chain::default() };
-    let half = Asked { chain, forces, transient: 0.0, window: 0.0 }.scenario();
+    let half = Request { chain, forces, transient: 0.0, window: 0.0 }.scenario();
     let half = half.map_or_else(|_| Vec::new(), |scenario| scenario.forcing);
     let other = half.iter().rev().map(|pair| pair.map(|x| -x));
     half.iter().copied().chain(other).collect()
@@ -95,7 +95,7 @@ fn mirrored() -> Vec<[f64; 2]> {
 /// Runs all.
 pub fn run(parameters: &ReplayRuns, progress: &Progress) -> Result<Replays, Error> {
     let stage = progress.stage("replays", parameters.len() as u64);
-    let one = |(_, asked): &(String, Asked)| {
+    let one = |(_, asked): &(String, Request)| {
         let failed = |source| Error::failed("replay", source);
         let mut replay = Replay::new(asked).map_err(failed)?;
         replay.advance(u64::MAX, |_, _| ()).map_err(failed)?;

@@ -3,9 +3,11 @@
 
 mod certified;
 mod contact;
+mod ensembles;
 mod invariants;
 mod methods;
 mod reference;
+mod starts;
 mod traces;
 
 use impact_chain::{Engine, Impact, Initial, Scenario};

@@ -2,9 +2,9 @@
 
 use crate::{drawn, given, run};
 use impact_chain::methods::{
-    Advancement, Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, State, Verlet,
+    Advancement, Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, Verlet,
 };
-use impact_chain::{Engine, Error, Impact, Scenario};
+use impact_chain::{Engine, Error, Impact, Scenario, State};
 use impact_paper::params::{Boundary, Chain};
 
 fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario {

@@ -7,7 +7,7 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![deny(unsafe_op_in_unsafe_fn)]
 
-use impact_chain::replay::{Asked, Forces, Replay};
+use impact_chain::replay::{Forces, Replay, Request};
 use impact_chain::{Boundary, Chain, Start};
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
@@ -78,7 +78,7 @@ impl Page {
 
 /// A run from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a ring, start 0 rest, 1 zero or 2 random),
 /// then σ, seed and realisation of the stream that the text names; without one, α and β of each mass.
-fn asked(numbers: &[f64], stream: &str) -> Result<Asked, String> {
+fn asked(numbers: &[f64], stream: &str) -> Result<Request, String> {
     let [
         transient,
         window,
@@ -115,7 +115,7 @@ fn asked(numbers: &[f64], stream: &str) -> Result<Asked, String> {
         },
         _ => return Err("a stream has sigma, seed and realisation".into()),
     };
-    Ok(Asked { chain, forces, transient: *transient, window: *window })
+    Ok(Request { chain, forces, transient: *transient, window: *window })
 }
 
 /// Runs `work` on the page: 1 or 0 for its result, or 2 with the refusal as the text.
@@ -240,7 +240,7 @@ mod tests {
         let chain = Chain { masses: 30, forcing_frequency: 1.5, ..Chain::default() };
         let stream = "page".into();
         let forces = Forces::Drawn { sigma: 0.3, stream, seed: 1, realisation: 4 };
-        let asked = Asked { chain, forces, transient: 50.0, window: 20.0 };
+        let asked = Request { chain, forces, transient: 50.0, window: 20.0 };
         let mut run = Replay::new(&asked).unwrap();
         run.advance(u64::MAX, |_, _| ()).unwrap();
         assert_eq!(page.text, run.digest().into_bytes());

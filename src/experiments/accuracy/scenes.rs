@@ -232,7 +232,8 @@ fn elastic(impacts: usize) -> Vec<Case> {
 mod tests {
     use super::*;
     use crate::experiments::accuracy::case::Verdict;
-    use impact_chain::methods::{Cost, Sink, Task};
+    use impact_chain::Sink;
+    use impact_chain::methods::{Cost, Task};
 
     /// The engine with another time and closing speed of each impact, or without any.
     struct False(f64);

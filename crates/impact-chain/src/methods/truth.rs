@@ -235,31 +235,3 @@ impl TrueMotion {
         Ok(hits)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Chain;
-    use impact_numerics::random::NormalPairs;
-
-    fn chain(index: u64) -> Scenario {
-        let chain = Chain { masses: 20, ..Chain::default() };
-        Scenario::draw(&chain, 0.3, &mut NormalPairs::new("truth", 1, index))
-    }
-
-    /// The true motion does not depend on the rounding of the states that the engine gets: with
-    /// amplitudes changed by one part in 10^20, it stays as near as chaos allows.
-    #[test]
-    fn the_truth_has_digits_beyond_doubles() {
-        let scenario = chain(1);
-        let start = State::of(&scenario);
-        let mut moved = TrueMotion::of(&scenario, &start);
-        moved.free[8][0] = moved.free[8][0] + dd(1e-20);
-        let (one, other) =
-            (TrueMotion::of(&scenario, &start).run(50.0).unwrap(), moved.run(50.0).unwrap());
-        assert_eq!(one.len(), other.len());
-        let apart = one.iter().zip(&other).map(|(a, b)| (a.0.time - b.0.time).to_f64().abs());
-        let largest = apart.fold(0.0, f64::max);
-        assert!(largest > 1e-21 && largest < 1e-15, "{largest:e}");
-    }
-}

@@ -1,0 +1,152 @@
+//! Ensembles: counts in windows against a list of impacts, what follows from counts by hand, and runs
+//! in pieces.
+
+use crate::trace;
+use impact_chain::replay::{Forces, Replay, Request};
+use impact_chain::rise::{Curve, Mean, RisePoint};
+use impact_chain::{Beyond, Counts, Ensemble, Scenario};
+use impact_numerics::random::NormalPairs;
+use impact_paper::experiments::{Progress, ensembles::CUTTING};
+use impact_paper::params::{Boundary, Chain, Protocol, Start};
+
+fn small() -> Ensemble {
+    let times = [(20.0, 20.0), (20.0, 50.0), (50.0, 20.0), (100.0, 50.0)];
+    Ensemble {
+        chain: Chain { masses: 20, ..Chain::default() },
+        sigmas: vec![0.16],
+        protocols: times.map(|(transient, window)| Protocol { transient, window }).to_vec(),
+        ..Ensemble::default()
+    }
+}
+
+fn run(ensemble: &Ensemble, sigma: f64, realisations: u64) -> Counts {
+    let one = |index| ensemble.realisation(sigma, index, || false).unwrap();
+    (0..realisations).map(one).collect()
+}
+
+#[test]
+fn windows_by_a_list_of_impacts() {
+    let mut normals = NormalPairs::new("ensemble", 2007, 2);
+    let impacts = trace(&Scenario::draw(&small().chain, 0.16, &mut normals), 150.0);
+    let found = run(&small(), 0.16, 3);
+    for (at, window) in small().protocols.iter().enumerate() {
+        let within = |time| time > window.transient && time <= window.end();
+        let gaps: Vec<usize> =
+            impacts.iter().filter(|hit| within(hit.time)).map(|hit| hit.gap).collect();
+        let distinct = (0..21).filter(|gap| gaps.contains(gap)).count() as u32;
+        assert_eq!(found.distinct[at][2], Some(distinct));
+        assert_eq!(found.impacts[at][2], gaps.len() as u64);
+    }
+}
+
+/// Of 40 masses with random free parts at σ = 0.3 nine chains of ten overlap at the start.
+#[test]
+fn starts_that_overlap_are_counted_as_rejected() {
+    let chain = Chain { masses: 40, start: Start::Random, ..Chain::default() };
+    let found = run(&Ensemble { chain, ..small() }, 0.3, 4);
+    let none = found.distinct[0].iter().filter(|count| count.is_none()).count();
+    assert!(found.rejected > 0 && found.rejected == none && found.failed == 0, "{found:?}");
+}
+
+#[test]
+fn pieces_add_up_to_the_chain() {
+    let whole = run(&small(), 0.16, 4);
+    let pieces = run(&Ensemble { pieces: 2, ..small() }, 0.16, 4);
+    for (whole, pieces) in whole.distinct.iter().zip(&pieces.distinct) {
+        let sums = pieces.chunks(2).map(|pair| Some(pair[0]? + pair[1]?));
+        assert!(sums.eq(whole.iter().copied()));
+    }
+}
+
+#[test]
+fn beyond_the_rise_runs_are_fewer_and_shorter() {
+    let beyond = Beyond { above: 0.15, realisations: Some(2), until: Some(60.0) };
+    let short = Ensemble { beyond: Some(beyond), ..small() };
+    assert_eq!([0.15, 0.16].map(|sigma| short.realisations_at(sigma)), [100, 2]);
+    assert_eq!([0.15, 0.16].map(|sigma| short.until(sigma)), [150.0, 60.0]);
+    let (cut, whole) = (run(&short, 0.16, 2), run(&small(), 0.16, 2));
+    assert_eq!(cut.distinct[0], whole.distinct[0]);
+    assert_eq!(cut.distinct[1..], vec![vec![None; 2]; 3]);
+}
+
+/// The counts of one realisation in one window.
+fn one(distinct: Option<u32>, impacts: u64, masses: u32) -> Counts {
+    Counts {
+        distinct: vec![vec![distinct]],
+        impacts: vec![vec![impacts]],
+        masses: vec![vec![masses]],
+        ..Counts::default()
+    }
+}
+
+#[test]
+fn a_row_by_hand() {
+    let all = [(Some(0), 0, 0), (Some(4), 40, 3), (Some(10), 120, 9), (Some(4), 80, 3)];
+    let all = all.map(|(k, impacts, masses)| one(k, impacts, masses));
+    let rejected = Counts { rejected: 1, ..one(None, 0, 0) };
+    let counts: Counts = all.into_iter().chain([rejected]).collect();
+    let row = RisePoint::new(0.1, &counts, 0, 10, [None; 2]);
+    assert_eq!((row.ran, row.kept, row.mode), (4, 3, Some(4)));
+    let mean = |mean: Option<Mean>| mean.map(|mean| (mean.value, mean.error.unwrap()));
+    assert_eq!(mean(row.mean), Some((6.0, 2.0))); // s = √12, over √3
+    assert_eq!(row.mean_all.unwrap().value, 4.5);
+    assert_eq!(mean(row.masses), Some((5.0, 2.0)));
+    assert_eq!(row.impacts.unwrap().value, 80.0);
+    assert_eq!(row.counts, [1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 1]);
+}
+
+#[test]
+fn where_many_starts_overlap_there_is_no_place_of_the_rise() {
+    let overlapping = |k| -> Counts {
+        let rejected = Counts { rejected: 1, ..one(None, 0, 0) };
+        (0..6).map(|_| one(Some(k), 1, 1)).chain([rejected]).collect()
+    };
+    let ensemble = Ensemble {
+        chain: Chain { masses: 9, ..Chain::default() },
+        sigmas: vec![0.1, 0.2],
+        realisations: 7,
+        ..Ensemble::default()
+    };
+    let curve = Curve::new(&ensemble, &[overlapping(0), overlapping(10)], 0);
+    assert_eq!((curve.rise.half_height_all, curve.rows[1].ran), (None, 6));
+}
+
+#[test]
+fn a_run_in_pieces_has_the_digest_of_the_whole() {
+    for boundary in [Boundary::Walls, Boundary::Ring] {
+        let chain = Chain { masses: 20, boundary, ..Chain::default() };
+        let stream = "replay".into();
+        let forces = Forces::Drawn { sigma: 0.3, stream, seed: 1, realisation: 0 };
+        let request = Request { chain, forces, transient: 50.0, window: 50.0 };
+        let mut whole = Replay::new(&request).unwrap();
+        assert!(!whole.advance(u64::MAX, |_, _| ()).unwrap());
+        assert!(whole.engine().counters().impacts > 300 && whole.distinct() > 10);
+        let mut pieces = Replay::new(&request).unwrap();
+        let mut shown = Vec::new();
+        while pieces.advance(7, |_, gap| shown.push(gap)).unwrap() {}
+        assert_eq!(shown.len() as u64, whole.engine().counters().impacts);
+        assert!(shown.iter().all(|gap| *gap < whole.gaps()));
+        assert_eq!((pieces.digest(), pieces.distinct()), (whole.digest(), whole.distinct()));
+    }
+}
+
+#[test]
+fn the_rise_lies_where_it_was_measured_elsewhere() {
+    // An independent simulator, 1000 realisations, rest start, T = 500, W = 200: 0.1165(4).
+    let ensemble = Ensemble {
+        sigmas: (18..=28).map(|i| f64::from(i) / 200.0).collect(),
+        realisations: 60,
+        stream: "sweep".into(),
+        ..Ensemble::default()
+    };
+    assert_eq!(ensemble.chain.start, Start::Rest);
+    let found = CUTTING.run(&vec![ensemble], "test", &Progress::silent()).unwrap();
+    let rise = &found[0].first().rise;
+    let half = rise.half_height.unwrap();
+    // Four standard errors of both together; a wrong law of impact moves it by ten.
+    let error = (half.error * half.error + 4e-4 * 4e-4).sqrt();
+    assert!(half.error < 2e-3, "{half:?}");
+    assert!((half.value - 0.1165).abs() < 4.0 * error, "{half:?}");
+    let onset = rise.kept_half.unwrap().value;
+    assert!(onset < half.value, "half of the chains impact long before half of the gaps: {onset}");
+}
