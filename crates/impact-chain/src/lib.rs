@@ -19,7 +19,6 @@
 //! **Eq. (1)** (step towards (2)): a piecewise smooth system, smooth in flight, with a jump of
 //! velocities at impacts.
 
-#![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod chain;
