@@ -93,7 +93,15 @@ fn ended(mut child: Child, signal: &str) -> [String; 2] {
     [out, note]
 }
 
-/// A run of minutes, and one that waits for its reader and says after some seconds that it is still there.
+/// The first line on the standard error of a program that is at work.
+fn first_line(child: &mut Child) -> String {
+    let mut line = String::new();
+    BufReader::new(child.stderr.as_mut().unwrap()).read_line(&mut line).unwrap();
+    line
+}
+
+/// Runs of minutes, which say first how long they take, and one that waits for its reader and says after some seconds
+/// that it is still there.
 #[cfg(unix)]
 #[test]
 fn signals_end_the_work_and_leave_nothing_half_written() {
@@ -101,18 +109,27 @@ fn signals_end_the_work_and_leave_nothing_half_written() {
     fs::write(folder.path().join("s.json"), SCENARIO).unwrap();
     let paper = "paper --figure 3 --out paper --results r --threads 1 --templates";
     let mut command = program(folder.path(), &format!("{paper} {TEMPLATES}"));
-    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    std::thread::sleep(std::time::Duration::from_secs(1));
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let line = first_line(&mut child);
+    assert!(line.starts_with("1 experiment to run, about "), "{line}");
+    assert!(line.contains(" on 1 thread; `--profile quick` takes seconds"), "{line}");
+    std::thread::sleep(std::time::Duration::from_millis(300));
     let [out, note] = ended(child, "-TERM");
     assert!(out.is_empty() && note.contains("interrupted"), "{out}{note}");
     assert!(!folder.path().join("paper").exists());
     let saved = tree(&folder.path().join("r"));
     assert!(saved.keys().all(|name| name.starts_with("sweep-full-")), "whole units are kept");
 
+    let mut command = program(folder.path(), &format!("check --results c --templates {TEMPLATES}"));
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let line = first_line(&mut child);
+    assert!(line.starts_with(&format!("{EXPERIMENTS} experiments to run, about ")), "{line}");
+    assert!(line.contains("`--profile quick` takes seconds"), "{line}");
+    ended(child, "-TERM");
+
     let mut command = program(folder.path(), "trace s.json --until 1e12");
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    let mut line = String::new();
-    BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
+    let line = first_line(&mut child);
     assert!(line.starts_with("trace: at t = ") && line.contains(", after 5 s"), "{line}");
     let [out, _] = ended(child, "-INT");
     assert!(out.ends_with('\n'), "whole lines");
