@@ -1,8 +1,9 @@
-//! What the templates can name besides the cells of tables: some values, and the rows of generated tables.
+//! What the templates can name besides the cells of tables: some values, and the rows of generated
+//! tables.
 //!
-//! A value is computed here from results and carries the path of the function that computed it, which the
-//! compiler gives ([`literate::value::origin`]). Groups are `v` (ours), `paper` (numbers that the paper chose) and
-//! `printed` (numbers in its statements).
+//! A value is computed here from results and carries the path of the function that computed it,
+//! which the compiler gives ([`literate::value::origin`]). Groups are `v` (ours), `paper` (numbers
+//! that the paper chose) and `printed` (numbers in its statements).
 
 use crate::claims::{self, Basis, Check, FAMILY_LEVEL, Kind, Published, Verdict};
 use crate::experiments::accuracy::case;
@@ -30,7 +31,8 @@ pub fn values(_: &Results, _: &Published) -> Result<Vec<Value>, Failure> {
     Ok(values.map(|value| value.source(origin(claims::level), "")).into())
 }
 
-/// The rows of the generated tables, by the name that templates use, with heads and words that depend on the results.
+/// The rows of the generated tables, by the name that templates use, with heads and words that
+/// depend on the results.
 ///
 /// # Errors
 /// If a result is missing.
@@ -72,7 +74,8 @@ fn score(verdict: Verdict, checks: &[&Check]) -> Json {
     json!({"verdict": verdict.words(), "count": mark(verdict.words()), "claims": which})
 }
 
-/// A basis, how many statements rest on it, and how many of these are reproduced; none if no statement rests on it.
+/// A basis, how many statements rest on it, and how many of these are reproduced; none if no
+/// statement rests on it.
 fn split(basis: Basis, checks: &[&Check]) -> Option<Json> {
     checks.iter().find(|check| check.basis == basis)?;
     let words = basis.words();
@@ -84,9 +87,10 @@ fn mark(name: &str) -> String {
     framed(&format!("score.{}", name.replace(' ', "_")), "")
 }
 
-/// What goes wrong most often in a scene with each method, at its settings from coarse to fine, and in how many cases;
-/// and whether failures end with an error or with a wrong result that looks like a right one. No method here warns of a
-/// result that it gives. `sizes` are the numbers of settings of the methods.
+/// What goes wrong most often in a scene with each method, at its settings from coarse to fine, and
+/// in how many cases; and whether failures end with an error or with a wrong result that looks like
+/// a right one. No method here warns of a result that it gives. `sizes` are the numbers of settings
+/// of the methods.
 fn scene(what: &str, trials: &[Trial], sizes: &[usize]) -> Json {
     use case::Verdict::{GaveUp, Right};
     let outcome = |trial: &Trial| match (trouble(trial), trial.len() - right(trial), trial.len()) {

@@ -1,8 +1,10 @@
-//! The numbered equations of the paper, and where each is in the source: a test finds `**Eq. (n)**` there.
+//! The numbered equations of the paper, and where each is in the source: a test finds `**Eq. (n)**`
+//! there.
 
 use literate::report::ledger::EquationEntry;
 
-/// Rows of number, section, words, the item that documents it, and for a step without code the equation it leads to.
+/// Rows of number, section, words, the item that documents it, and for a step without code the
+/// equation it leads to.
 macro_rules! equations {
     ($($number:literal, $section:literal, $what:literal, $home:path $(, towards $next:literal)?;)*) => {
         vec![$(EquationEntry {

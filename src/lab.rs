@@ -1,4 +1,5 @@
-//! lab.js, which a page loads to compute: the engine, the results with which its runs are compared, and the script.
+//! lab.js, which a page loads to compute: the engine, the results with which its runs are compared,
+//! and the script.
 
 use crate::experiments::rise::{Mean, RisePoint};
 use crate::experiments::sweep;
@@ -6,7 +7,8 @@ use crate::experiments::{REPLAY, Results, Session};
 use literate::{Failure, input};
 use serde_json::json;
 
-/// The engine as WebAssembly, where `.ci/module` has put it: the machine may have no compiler for that.
+/// The engine as WebAssembly, where `.ci/module` has put it: the machine may have no compiler for
+/// that.
 const MODULE: &str = "target/page.wasm";
 
 /// The file; none without the engine.
@@ -48,7 +50,8 @@ pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, 
     Ok(format!("\"use strict\";\nconst LAB = {data};\n{script}"))
 }
 
-/// The smallest k such that at least this share of the realisations count k or fewer; `counts` are their numbers by k.
+/// The smallest k such that at least this share of the realisations count k or fewer; `counts` are
+/// their numbers by k.
 fn quantile(counts: &[u32], share: f64) -> usize {
     let all: u32 = counts.iter().sum();
     let sums = counts.iter().scan(0, |sum, count| {

@@ -17,11 +17,11 @@
 //! - What is run, with which parameters: [`experiments`] and [`params`]; in the report
 //!   [the method](../../../paper/methods.html#sec-method) and its
 //!   [speed and accuracy](../../../paper/methods.html#sec-accuracy).
-//! - What is shown: [`figures`], [`claims`], [`contents`] and the engine in the page ([`lab`]); `src/main.rs` puts it
-//!   together. Where each equation is: [`mod@equations`].
+//! - What is shown: [`figures`], [`claims`], [`contents`] and the engine in the page ([`lab`]);
+//!   `src/main.rs` puts it together. Where each equation is: [`mod@equations`].
 //!
-//! Imports flow one way: `impact-numerics` → `impact-chain` → `impact-circuits` (crates) → `experiments` →
-//! `figures`, `claims` → `contents`; `params` may be read by all.
+//! Imports flow one way: `impact-numerics` → `impact-chain` → `impact-circuits` (crates) →
+//! `experiments` → `figures`, `claims` → `contents`; `params` may be read by all.
 // People read this library in its source; it is not published.
 #![allow(missing_docs)]
 // Macros that print panic on a closed pipe or a full disk: `literate::cli::terminal` does not.

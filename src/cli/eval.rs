@@ -59,7 +59,8 @@ struct Inputs {
     #[arg(long, value_name = "w", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     omega: Option<f64>,
-    /// Forcing frequency Ω, different from ω [default: √2; the double nearest to √2 is read as √2 itself].
+    /// Forcing frequency Ω, different from ω [default: √2; the double nearest to √2 is read as √2
+    /// itself].
     #[arg(long, value_name = "W", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     forcing_frequency: Option<f64>,
@@ -157,7 +158,8 @@ impl Inputs {
     /// Fills in the defaults of the inputs that the quantity needs.
     ///
     /// # Errors
-    /// Exit code 2 for an option that it does not use, which is a misunderstanding, and for one that is missing.
+    /// Exit code 2 for an option that it does not use, which is a misunderstanding, and for one
+    /// that is missing.
     fn of(mut self, quantity: &Quantity) -> Result<Inputs, Failure> {
         let (name, needs) = (quantity.name, |need: &str| quantity.needs.contains(&need));
         let given = serde_json::to_value(&self).unwrap_or_default();

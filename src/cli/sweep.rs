@@ -105,7 +105,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         seed: args.seed,
         ..Ensemble::default()
     };
-    // Each thread has a chain, and a few words for each of its gaps; each realisation leaves its counts.
+    // Each thread has a chain, and a few words for each of its gaps; each realisation leaves its
+    // counts.
     let threads = args.threads.number() as u128;
     let chain = Engine::memory(args.masses, 1) + 64 * args.masses as u128;
     let needed = threads * chain + (1 << 10) * args.realisations as u128;
@@ -190,8 +191,8 @@ const MOST: f64 = 1e5;
 
 /// Reads a list or a range of standard deviations, in units of d ω².
 ///
-/// A range is A + i·STEP, rounded to the decimals of A and STEP, so that 0.1..0.2:0.02 holds the same double
-/// 0.12 as a list does; B belongs to it when it is hit within STEP/1000.
+/// A range is A + i·STEP, rounded to the decimals of A and STEP, so that 0.1..0.2:0.02 holds the
+/// same double 0.12 as a list does; B belongs to it when it is hit within STEP/1000.
 ///
 /// # Errors
 /// One line with what is wrong and what to write.

@@ -23,9 +23,10 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 ///   trace chain.json --until 100 --method verlet --step 0.01
 ///   trace chain.json --until 100 --method truth
 ///
-/// Count gaps from the left wall: gap 0 lies between it and mass 1, gap j between masses j and
-/// j + 1; on a ring gap n lies between masses n and 1. Of neighbouring gaps that close at exactly
-/// the same instant the lowest is taken first; of the method certified, standard error reports how often.
+/// Count gaps from the left wall: gap 0 lies between it and mass 1, gap j between masses j and j +
+/// 1; on a ring gap n lies between masses n and 1. Of neighbouring gaps that close at exactly the
+/// same instant the lowest is taken first; of the method certified, standard error reports how
+/// often.
 ///
 /// Do not trust single impacts far into a chaotic run: errors grow about tenfold in a dozen units
 /// of time. Compare with --method truth to see from where on a run is off. The truth has every
@@ -39,7 +40,8 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment, after_help = FORM)]
 pub struct Args {
-    /// Read the scenario from this JSON file (the form is below), 64 MiB at most; - for standard input.
+    /// Read the scenario from this JSON file (the form is below), 64 MiB at most; - for standard
+    /// input.
     #[arg(value_name = "SCENARIO.json")]
     scenario: PathBuf,
     /// Stop at this time.
@@ -55,12 +57,14 @@ pub struct Args {
     /// Take this step in time, of the methods that have one.
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Allow this error in a step, of runge-kutta, or this width of a gap that is hit, of advancement.
+    /// Allow this error in a step, of runge-kutta, or this width of a gap that is hit, of
+    /// advancement.
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     tolerance: Option<f64>,
 }
 
-/// A method, its option with the usual value if it has one, and its line of `trace --help`, where `{}` is the option.
+/// A method, its option with the usual value if it has one, and its line of `trace --help`, where
+/// `{}` is the option.
 type MethodLine = (MethodName, Option<(&'static str, f64)>, &'static str);
 
 const METHODS: [MethodLine; 8] = [
@@ -129,7 +133,8 @@ initial:  "rest" (at equilibrium), "zero" (no free part),
           {"at": {"positions": [x_1, ...], "velocities": [v_1, ...]}} (from the left wall),
           {"random": {"sigma": s, "seed": k}} (normal free parts)."#;
 
-/// Bytes that are printed at once, in whole lines: a signal that ends the program leaves no half of a number.
+/// Bytes that are printed at once, in whole lines: a signal that ends the program leaves no half of
+/// a number.
 const BLOCK: usize = 16 << 10;
 
 pub fn run(args: Args) -> Result<(), Failure> {

@@ -75,7 +75,8 @@ fn join(
     all.iter().map(counted).collect()
 }
 
-/// The results of a function on each of several items, on all threads; the stage advances by one for each.
+/// The results of a function on each of several items, on all threads; the stage advances by one
+/// for each.
 pub fn each<A: Send, R: Send>(
     stage: &Stage,
     progress: &Progress,

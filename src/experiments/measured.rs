@@ -1,7 +1,8 @@
 //! Times that were measured once, on one machine: `benches/measured.json`.
 //!
-//! Times differ from run to run, so nothing of the reproduction depends on them. `make measure` writes them, with date
-//! and machine, and they are committed; the report only reads them, and keeps its bytes until somebody measures again.
+//! Times differ from run to run, so nothing of the reproduction depends on them. `make measure`
+//! writes them, with date and machine, and they are committed; the report only reads them, and
+//! keeps its bytes until somebody measures again.
 
 use crate::experiments::prelude::*;
 use crate::params::Setting;
@@ -29,7 +30,8 @@ pub struct Measured {
     pub sessions: Vec<MeasuredOn>,
 }
 
-/// What was measured on one day and machine; times of two such sessions are compared as multiples of the engine's.
+/// What was measured on one day and machine; times of two such sessions are compared as multiples
+/// of the engine's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeasuredOn {
@@ -56,19 +58,22 @@ pub struct Machine {
 pub enum What {
     /// One chain in the engine of this project.
     Engine,
-    /// A method of this project (`impact_chain::methods`) with one setting, timed in turn with the engine.
+    /// A method of this project (`impact_chain::methods`) with one setting, timed in turn with the
+    /// engine.
     Method,
     /// Another project.
     Peer,
-    /// What the report does not show: whole commands, ensembles, and programs that could not be run.
+    /// What the report does not show: whole commands, ensembles, and programs that could not be
+    /// run.
     #[serde(other)]
     Other,
 }
 
-/// One run, as far as the report needs it. Times are in microseconds or seconds of the clock, simulated time is in units of 1/ω.
+/// One run, as far as the report needs it. Times are in microseconds or seconds of the clock,
+/// simulated time is in units of 1/ω.
 ///
-/// A run starts from rest with r = 0.8 and Ω = √2 between walls. It is compared with a reference of 106 bits up to the first
-/// wrong impact (the *horizon*).
+/// A run starts from rest with r = 0.8 and Ω = √2 between walls. It is compared with a reference of
+/// 106 bits up to the first wrong impact (the *horizon*).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
     /// What the row is about.
@@ -87,8 +92,8 @@ pub struct Measurement {
     pub chains: u64,
     /// Time over impacts: the best of several repetitions.
     pub microseconds_per_impact: Option<f64>,
-    /// Time, in the reference, of the first impact with a wrong gap or a time off by more than 1e−3; none if all that were
-    /// compared are right.
+    /// Time, in the reference, of the first impact with a wrong gap or a time off by more than
+    /// 1e−3; none if all that were compared are right.
     pub horizon_time: Option<f64>,
     /// Time of all of it, in seconds: of the clock, for methods of the processor.
     pub seconds: Option<f64>,
@@ -126,7 +131,8 @@ impl Measured {
         self.of(What::Method).filter(alike).find(|row| row.n == n as u64 && row.sigma == sigma)
     }
 
-    /// Time of an impact in one chain of n masses by the engine, in microseconds, in the session of a row.
+    /// Time of an impact in one chain of n masses by the engine, in microseconds, in the session of
+    /// a row.
     pub fn engine(&self, row: &Measurement) -> Option<f64> {
         let session = self.sessions.iter().find(|session| session.rows.contains(row))?;
         let engine = session.rows.iter().filter(|at| at.what == What::Engine && at.n == row.n);

@@ -1,5 +1,6 @@
-//! Runs chains and computes the theory: a file or a folder for each experiment, with its parameters, run and tables, and
-//! the list of all ([`ALL`]). [`literate::experiments`] saves their results and cuts them into units.
+//! Runs chains and computes the theory: a file or a folder for each experiment, with its
+//! parameters, run and tables, and the list of all ([`ALL`]). [`literate::experiments`] saves their
+//! results and cuts them into units.
 
 // Functions take parameters and results as the types that an experiment declares, also vectors.
 #![allow(clippy::ptr_arg)]

@@ -84,8 +84,8 @@ impl SpaceTime {
         self.with_neighbours().filter(first).map(|(gap, ..)| gap).collect()
     }
 
-    /// How long each step of a front takes, the quickest first: from the first impact of the earlier neighbour of a gap to
-    /// that of the gap; starts are no steps.
+    /// How long each step of a front takes, the quickest first: from the first impact of the
+    /// earlier neighbour of a gap to that of the gap; starts are no steps.
     pub fn advances(&self) -> Vec<f64> {
         let advance = |(_, time, near): (usize, f64, Option<f64>)| {
             near.filter(|near| *near < time).map(|near| time - near)

@@ -1,8 +1,9 @@
 //! Two masses (the remark of Sec. 2): under a low enough force they never hit.
 //!
-//! After a start from rest every gap keeps R1 + R2 < d, and so never closes, while the amplitudes are below a bound in
-//! closed form. With fixed directions of the forcing and growing amplitude the first impact must therefore come at that
-//! bound or above, and close to it in long times, because ω and Ω are incommensurable.
+//! After a start from rest every gap keeps R1 + R2 < d, and so never closes, while the amplitudes
+//! are below a bound in closed form. With fixed directions of the forcing and growing amplitude the
+//! first impact must therefore come at that bound or above, and close to it in long times, because
+//! ω and Ω are incommensurable.
 
 use crate::experiments::prelude::*;
 use crate::params::TwoMassesParams;
@@ -24,8 +25,8 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
 pub struct TwoMasses {
     /// What was run.
     pub parameters: TwoMassesParams,
-    /// For each time, over random directions: least and largest amplitude with an impact by then, divided by the bound
-    /// of its direction.
+    /// For each time, over random directions: least and largest amplitude with an impact by then,
+    /// divided by the bound of its direction.
     pub excess: Vec<[f64; 2]>,
     /// Impacts below the bound, over all directions and times: must be 0.
     pub violations: u64,
@@ -101,7 +102,8 @@ fn worst(chain: &Chain) -> Vec<[f64; 2]> {
     }
 }
 
-/// The factor on `forcing` below which R1 + R2 < d in every gap between walls, after a start from rest.
+/// The factor on `forcing` below which R1 + R2 < d in every gap between walls, after a start from
+/// rest.
 fn bound(chain: &Chain, forcing: &[[f64; 2]]) -> f64 {
     let (w, big_w) = (chain.natural_frequency, chain.forcing_frequency);
     let wall = [[0.0; 2]];
@@ -114,8 +116,8 @@ fn bound(chain: &Chain, forcing: &[[f64; 2]]) -> f64 {
     chain.spacing * (w * w - big_w * big_w).abs() / reach.fold(0.0, f64::max)
 }
 
-/// Impacts below the bound of fixed directions of the forcing, and for each time the smallest ratio to the bound with an
-/// impact.
+/// Impacts below the bound of fixed directions of the forcing, and for each time the smallest ratio
+/// to the bound with an impact.
 fn thresholds(
     parameters: &TwoMassesParams,
     forcing: &[[f64; 2]],

@@ -59,8 +59,8 @@ fn settings(values: &[&[f64]]) -> Vec<Setting> {
     all(values).into_iter().map(|(method, value)| Setting { method, value }).collect()
 }
 
-/// Random stream and seed of the chains: those of `benches/peers/measure.rs`, so that the first chain is the one on which
-/// other programs are measured.
+/// Random stream and seed of the chains: those of `benches/peers/measure.rs`, so that the first
+/// chain is the one on which other programs are measured.
 pub const BENCH: (&str, u64) = ("bench", 1);
 
 /// Every method against the true motion of a few chains: the next impact from many exact states,

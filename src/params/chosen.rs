@@ -1,4 +1,5 @@
-//! Single numbers that the paper or this edition chose: seeds, sizes of graphs, values of p, limits.
+//! Single numbers that the paper or this edition chose: seeds, sizes of graphs, values of p,
+//! limits.
 
 /// Master seed of all random streams (ours: the year of the paper).
 pub const SEED: u64 = 2007;

@@ -50,7 +50,8 @@ pub fn second_seed(profile: Profile) -> Vec<Ensemble> {
     vec![Ensemble { seed: SECOND_SEED, ..paper("sweep", sigmas, realisations) }]
 }
 
-/// The map over transients and windows; and, in the same windows, chains of the main sweep well below the rise.
+/// The map over transients and windows; and, in the same windows, chains of the main sweep well
+/// below the rise.
 pub fn protocol(profile: Profile) -> Vec<Ensemble> {
     let (longest, widest, sigmas, realisations, below) = match profile {
         Profile::Full => (9, 7, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100), 120, 1000),
@@ -87,8 +88,8 @@ pub fn starts(profile: Profile) -> Vec<Ensemble> {
     ]
 }
 
-/// Chains from rest and from above, of several lengths and after several transients, each at a few σ around the rise; and
-/// chains with a random start.
+/// Chains from rest and from above, of several lengths and after several transients, each at a few
+/// σ around the rise; and chains with a random start.
 pub fn branches(profile: Profile) -> Vec<Ensemble> {
     const REST: Option<Heating> = None;
     const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });
@@ -147,7 +148,8 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
         chain: Chain { start: Start::Random, ..Chain::default() },
         protocols: windows(transients, &[200.0]),
         stream: "chains".into(),
-        // The half height lies at larger σ, where many random starts overlap; the others are counted.
+        // The half height lies at larger σ, where many random starts overlap; the others are
+        // counted.
         most_rejected: 1.0,
         ..paper("random", Grid::default().and(9, 18, step, 100), realisations)
     };

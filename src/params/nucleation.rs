@@ -1,4 +1,5 @@
-//! Sizes of the experiments on gaps that close by themselves and on the spreading of impacts from one of them.
+//! Sizes of the experiments on gaps that close by themselves and on the spreading of impacts from
+//! one of them.
 
 use super::chosen::SEED;
 use super::grid::Grid;
@@ -63,7 +64,8 @@ pub struct SeedsParams {
     pub bins: usize,
     /// Window W of the counts that are predicted, in bins.
     pub window: usize,
-    /// Transients T of the counts that are predicted, in bins, rising; the last window ends with the bins.
+    /// Transients T of the counts that are predicted, in bins, rising; the last window ends with
+    /// the bins.
     pub transients: Vec<usize>,
     /// Name of the random stream.
     pub stream: String,

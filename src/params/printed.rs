@@ -1,4 +1,5 @@
-//! Takes the threshold that the paper printed (Sec. 2) from `templates/published.toml`, as the program was built with it.
+//! Takes the threshold that the paper printed (Sec. 2) from `templates/published.toml`, as the
+//! program was built with it.
 
 use literate::claims::{Published, PublishedError, Statement};
 use std::sync::LazyLock;

@@ -32,7 +32,8 @@ impl Runs {
         Runs { chain, sigma: 0.2, until: 500.0, realisations, stream, seed: SEED }
     }
 
-    /// A run at the printed threshold, recorded impact by impact: the first of these that has an impact in its last tenth.
+    /// A run at the printed threshold, recorded impact by impact: the first of these that has an
+    /// impact in its last tenth.
     pub fn spacetime(profile: Profile) -> Self {
         let until = if profile == Profile::Quick { 400.0 } else { 4000.0 };
         let (chain, stream) = (Chain::default(), "space-time".into());

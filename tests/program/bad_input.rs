@@ -17,8 +17,8 @@ fn with(field: &str) -> String {
     format!(r#"{{"forcing":[[0.9,-0.4]],{field}}}"#)
 }
 
-/// Texts that are no scenario, or, without braces, fields of one with a mass; of values with bars between, each
-/// stands there once. And what is said.
+/// Texts that are no scenario, or, without braces, fields of one with a mass; of values with bars
+/// between, each stands there once. And what is said.
 const NO_SCENARIOS: &str = r##"{ => line 1
 [] => forcing
 {"a\nb":1} => a b
@@ -61,8 +61,8 @@ fn text_that_is_no_scenario() {
     }
 }
 
-/// Near resonance the motion is a small difference of large parts: it is refused where nothing is left of it,
-/// and standard error says by how much rounding moves it where it matters.
+/// Near resonance the motion is a small difference of large parts: it is refused where nothing is
+/// left of it, and standard error says by how much rounding moves it where it matters.
 #[test]
 fn near_resonance() {
     let folder = tempfile::tempdir().unwrap();
@@ -74,8 +74,8 @@ fn near_resonance() {
     assert!(note.contains("closing speed v by 2.9e-7/v"), "{note}");
 }
 
-/// What the verbs refuse, and words that the line says of it: the field, the bound or the remedy. Of values with
-/// bars between, each stands there once.
+/// What the verbs refuse, and words that the line says of it: the field, the bound or the remedy.
+/// Of values with bars between, each stands there once.
 const REFUSED: &str = "
 trace s.json => --until
 trace missing.json --until 5 => missing.json:

@@ -99,7 +99,8 @@ fn the_same_bytes_for_any_number_of_threads() {
         [1, 4, 7].map(|threads| table(&format!("--sigma 0.12..0.2:0.02 --threads {threads}")));
     assert_eq!(tables[0].lines().count(), 6);
     assert!(tables.iter().all(|table| *table == tables[0]), "{tables:#?}");
-    // A row does not depend on the other rows, nor on how σ was written; another seed is another ensemble.
+    // A row does not depend on the other rows, nor on how σ was written; another seed is another
+    // ensemble.
     let [alone, other] = ["", " --seed 1"]
         .map(|seed| table(&format!("--sigma 0.16{seed}")).lines().nth(1).unwrap().to_string());
     assert!(tables[0].lines().any(|row| row == alone) && alone != other, "{alone}\n{other}");
@@ -198,7 +199,7 @@ fn the_truth_shows_from_where_on_a_run_is_off_and_refuses_what_it_does_not_know(
     assert!(truth.iter().zip(&own).any(apart), "{} impacts", truth.len());
     for (scenario, words) in [
         (r#"{"boundary":"ring","forcing":[[1,0],[0,0]]}"#, "walls only"),
-        (r#"{"restitution":0.2,"forcing":[[5.88,-4.94]]}"#, "no contact"),
+        (r#"{"restitution":0.2,"forcing":[[5.88,-4.94]]}"#, "does not support contact"),
     ] {
         std::fs::write(folder.path().join("s.json"), scenario).unwrap();
         let (code, _, note) = run(folder.path(), "trace s.json --until 100 --method truth");

@@ -1,4 +1,5 @@
-//! `impact-paper paper` and `verify` as a user meets them: what runs, what is written, what is left as it is; exit codes.
+//! `impact-paper paper` and `verify` as a user meets them: what runs, what is written, what is left
+//! as it is; exit codes.
 
 use crate::{
     EXPERIMENTS, QUICK, SCENARIO, TEMPLATES, answer, digest, files, program, put, templates, told,
@@ -83,7 +84,8 @@ fn saved_results_change_no_byte_and_neither_edits_nor_full_reports_are_written_o
     assert!(before == tree(&at("one")));
 }
 
-/// Sends a signal to a program that is at work, and holds it to exit code 130: its stdout and stderr.
+/// Sends a signal to a program that is at work, and holds it to exit code 130: its stdout and
+/// stderr.
 fn ended(mut child: Child, signal: &str) -> [String; 2] {
     let early = child.try_wait().unwrap();
     let kill = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
@@ -100,8 +102,8 @@ fn first_line(child: &mut Child) -> String {
     line
 }
 
-/// Runs of minutes, which say first how long they take, and one that waits for its reader and says after some seconds
-/// that it is still there.
+/// Runs of minutes, which say first how long they take, and one that waits for its reader and says
+/// after some seconds that it is still there.
 #[cfg(unix)]
 #[test]
 fn signals_end_the_work_and_leave_nothing_half_written() {
@@ -201,8 +203,8 @@ fn a_rerun_finds_what_the_list_cannot() {
     assert_eq!((code, &*told), (1, "missing  data/fig02.csv\nunlisted data/strange.csv\n"));
 }
 
-/// A report whose statements fail is written all the same. The exit codes of `--help` and DESIGN.md are the same; those of
-/// what is refused and of signals have other tests.
+/// A report whose statements fail is written all the same. The exit codes of `--help` and DESIGN.md
+/// are the same; those of what is refused and of signals have other tests.
 #[test]
 fn a_statement_that_fails_is_exit_code_1() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,5 +1,5 @@
-//! Saved results: never stale, never half, whatever happens to the program; and work shared out to several machines gives
-//! the bytes of one.
+//! Saved results: never stale, never half, whatever happens to the program; and work shared out to
+//! several machines gives the bytes of one.
 
 use crate::{
     EXPERIMENTS, Files, PROGRAM, QUICK, TEMPLATES, digest, files, forged, program, put, run,
@@ -160,7 +160,8 @@ fn a_killed_run_goes_on_where_it_was() {
     assert!(!note.contains("run again"), "{note}");
 }
 
-/// A job array on a real Slurm gives the bytes of one machine, even if a task is killed on its way. Starts munged, slurmctld and slurmd on this machine (root installs them when missing), and stops
+/// A job array on a real Slurm gives the bytes of one machine, even if a task is killed on its way.
+/// Starts munged, slurmctld and slurmd on this machine (root installs them when missing), and stops
 /// them. Some minutes, most of it the full profile twice.
 #[test]
 #[ignore = "starts a Slurm, and runs the full profile twice"]

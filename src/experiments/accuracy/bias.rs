@@ -1,5 +1,5 @@
-//! The error of a method in the mean number of gaps that impact: the same chains by every method, and
-//! the differences chain by chain.
+//! The error of a method in the mean number of gaps that impact: the same chains by every method,
+//! and the differences chain by chain.
 
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, Setting};
@@ -13,7 +13,8 @@ pub struct Biases {
     pub runs: Vec<Vec<Vec<Counted>>>,
 }
 
-/// Distinct gaps that impact in the window (T, T + W] of one realisation; none if the method gave up.
+/// Distinct gaps that impact in the window (T, T + W] of one realisation; none if the method gave
+/// up.
 pub type Counted = Option<u32>;
 
 /// Runs everything.

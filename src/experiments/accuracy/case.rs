@@ -26,8 +26,8 @@ pub const STEADY: f64 = 1e-6;
 /// The expected outcome of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expected {
-    /// The impacts that count, in order. The last bounces of a chatter and those within a cluster do not: they depend on
-    /// the method.
+    /// The impacts that count, in order. The last bounces of a chatter and those within a cluster
+    /// do not: they depend on the method.
     Impacts {
         /// Time and gap of each.
         impacts: Vec<(f64, usize)>,

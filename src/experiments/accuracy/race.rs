@@ -36,8 +36,8 @@ pub struct Entry {
     pub setting: Setting,
     /// Evaluations per impact of the runs.
     pub work: Option<f64>,
-    /// When each run left the truth: the time of the first impact of the truth that it has not within [`DISPLACED`], or
-    /// the end of the run.
+    /// When each run left the truth: the time of the first impact of the truth that it has not
+    /// within [`DISPLACED`], or the end of the run.
     pub runs: Vec<f64>,
     /// Number of exact states from which the next impact was computed.
     pub tried: u64,
@@ -50,8 +50,8 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// Mean time at which the runs left the truth; those that did not count with the end of the run, so the mean is then
-    /// a lower bound.
+    /// Mean time at which the runs left the truth; those that did not count with the end of the
+    /// run, so the mean is then a lower bound.
     pub fn horizon(&self) -> Option<Estimate> {
         mean(&self.runs).map(|mean| with_error(mean, standard_error(&self.runs).unwrap_or(0.0)))
     }
@@ -90,8 +90,8 @@ struct Target {
     unit: f64,
 }
 
-/// At most `number` states right after impacts of the true motion. Each is moved to t = 0, the forcing with it, so
-/// that the rounding of a late time hides no error.
+/// At most `number` states right after impacts of the true motion. Each is moved to t = 0, the
+/// forcing with it, so that the rounding of a late time hides no error.
 fn targets(number: usize, courses: &[Course]) -> Result<Vec<Target>, impact_chain::Error> {
     let mut targets = Vec::with_capacity(number);
     for Course { scenario, hits } in courses {
@@ -153,8 +153,8 @@ fn entry(
     })
 }
 
-/// Runs one chain from its start until it has left the truth and its cost is known. Returns the time at which it left,
-/// and the cost, zero if the method failed before.
+/// Runs one chain from its start until it has left the truth and its cost is known. Returns the
+/// time at which it left, and the cost, zero if the method failed before.
 fn follow(
     parameters: &RaceParams,
     method: &dyn Method,

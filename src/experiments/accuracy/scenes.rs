@@ -1,5 +1,5 @@
-//! Scenes in each of which some method fails. The expected outcome is a closed form where there is one, else it comes from
-//! the motion to 106 bits.
+//! Scenes in each of which some method fails. The expected outcome is a closed form where there is
+//! one, else it comes from the motion to 106 bits.
 
 use super::case::{Case, Expected, NEAR, STEADY};
 use crate::experiments::prelude::*;
@@ -54,8 +54,8 @@ fn row(forcing: Vec<[f64; 2]>, forcing_frequency: f64, restitution: f64) -> Scen
     Scenario::given(&chain, forcing).expect("a pair for each mass")
 }
 
-/// The same on springs so weak that they hardly matter, where a force of so long a period that it hardly changes stands for
-/// gravity.
+/// The same on springs so weak that they hardly matter, where a force of so long a period that it
+/// hardly changes stands for gravity.
 fn loose(forcing: Vec<[f64; 2]>, restitution: f64) -> Scenario {
     Scenario { natural_frequency: 0.01, ..row(forcing, 0.02, restitution) }
 }
@@ -74,9 +74,9 @@ fn tenth(k: i32) -> f64 {
     (0..k).fold(1.0, |x, _| x / 10.0)
 }
 
-/// The gap 1 + a cos t − cos(2t)/4, whose lowest place 3/4 − a = ±10^−k is at t = π. It falls to zero where
-/// cos t = a − √(a² + 5/2). Returns the chain, the time of that zero and the closing speed there, which have a meaning where
-/// the place is below zero.
+/// The gap 1 + a cos t − cos(2t)/4, whose lowest place 3/4 − a = ±10^−k is at t = π. It falls to
+/// zero where cos t = a − √(a² + 5/2). Returns the chain, the time of that zero and the closing
+/// speed there, which have a meaning where the place is below zero.
 fn dip(k: i32, sign: f64) -> (Scenario, f64, f64) {
     let a = 0.75 - sign * tenth(k);
     let scenario = one([a, 0.0], [0.75, 0.0], 2.0, 0.8);
@@ -134,8 +134,9 @@ fn flights(scenario: Scenario, start: State, until: f64, among: Vec<usize>) -> R
     Ok(Case { scenario, start, until, expected })
 }
 
-/// The bouncing ball of the FMI reference models: dropped from a metre at 9.81 m/s², with restitution 0.7. A force
-/// of so long a period stands for the weight that it changes by less than two thousandths in three seconds.
+/// The bouncing ball of the FMI reference models: dropped from a metre at 9.81 m/s², with
+/// restitution 0.7. A force of so long a period stands for the weight that it changes by less than
+/// two thousandths in three seconds.
 fn ball() -> Vec<Case> {
     let (weight, restitution) = (9.81, 0.7);
     let scenario = loose(vec![[-weight, 0.0]], restitution);
@@ -152,8 +153,9 @@ fn ball() -> Vec<Case> {
     vec![case(scenario, 3.0, Expected::Impacts { impacts, faster, among, all: true, within })]
 }
 
-/// A ball on a table that vibrates with twice the acceleration of gravity, in the frame of the table: in each period it
-/// is thrown up, lands, and bounces to rest. Gravity becomes weaker by a tenth meanwhile.
+/// A ball on a table that vibrates with twice the acceleration of gravity, in the frame of the
+/// table: in each period it is thrown up, lands, and bounces to rest. Gravity becomes weaker by a
+/// tenth meanwhile.
 fn table() -> Result<Vec<Case>, Error> {
     let vibration = Overtone { frequency: 1.0, amplitudes: vec![[0.0, 2.0]] };
     let base = loose(vec![[-1.0, 0.0]], 0.3);
@@ -180,8 +182,8 @@ fn on_the_wall() -> State {
     State { time: 0.0, positions: vec![0.0], velocities: vec![0.0] }
 }
 
-/// A mass at rest on the left wall, which a force −3 cos √2 t presses against it until √2 t = arccos(1/3), when the
-/// spring wins.
+/// A mass at rest on the left wall, which a force −3 cos √2 t presses against it until √2 t =
+/// arccos(1/3), when the spring wins.
 fn held() -> Result<Vec<Case>, Error> {
     let scenario = row(vec![[-3.0, 0.0]], SQRT_2, 0.8);
     let free = pxfm::f_acos(1.0 / 3.0) / SQRT_2;

@@ -106,8 +106,9 @@ pub(super) fn eq38(census: &Census) -> Cases {
 /// A formula for N vertices and length k.
 type Formula = fn(usize, usize) -> Option<Fraction>;
 
-/// Of each printed formula for a class of circuits: its equation, the smallest length from which on it is right in every
-/// case, the cases from there on, and what it gives and enumeration finds one length below, on three vertices.
+/// Of each printed formula for a class of circuits: its equation, the smallest length from which on
+/// it is right in every case, the cases from there on, and what it gives and enumeration finds one
+/// length below, on three vertices.
 pub(super) fn class_ranges(census: &Census) -> Vec<(f64, usize, Cases, f64, u128)> {
     let formulas: [Formula; 4] = [doubled, three_visits, four_visits, two_doubled];
     let range = |(class, formula): (&Class, Formula)| {

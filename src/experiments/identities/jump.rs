@@ -39,7 +39,8 @@ pub(super) fn mean_rises() -> Cases {
     cases(means.windows(2).map(|w| w[1] >= w[0]))
 }
 
-/// Eq. (11): sign of the difference of neighbouring weights against the sign of f. A tie of the weights is a zero of f.
+/// Eq. (11): sign of the difference of neighbouring weights against the sign of f. A tie of the
+/// weights is a zero of f.
 pub(super) fn eq11() -> Cases {
     let of_p = |p| weights(p).windows(2).map(|w| w[1].partial_cmp(&w[0])).collect::<Vec<_>>();
     let steps =
@@ -71,7 +72,8 @@ pub(super) fn monotone() -> Cases {
     cases(found.windows(2).map(|w| w[1] >= w[0]))
 }
 
-/// Eq. (12): f is even about the place of its largest value: difference of both sides over the largest of its terms.
+/// Eq. (12): f is even about the place of its largest value: difference of both sides over the
+/// largest of its terms.
 pub(super) fn maximum() -> f64 {
     let pairs = |p| [0.5, 3.0, 40.0].map(|away| (p, top(p) + away, top(p) - away));
     let off = |(p, a, b)| (f(p, a) - f(p, b)).abs() / size(p, a).max(size(p, b));
@@ -87,8 +89,8 @@ pub(super) fn other_root() -> Cases {
     }))
 }
 
-/// The weights themselves around ⌈k₋⌉ and ⌈k₊⌉, at p from the first integer maximum to one; at the ends of 1..=N one
-/// neighbour is enough.
+/// The weights themselves around ⌈k₋⌉ and ⌈k₊⌉, at p from the first integer maximum to one; at the
+/// ends of 1..=N one neighbour is enough.
 pub(super) fn extrema() -> Cases {
     let first = jump::first_local_maximum(VERTICES).map_or(1.0, |(_, [a, b])| a as f64 / b as f64);
     // At the first p itself a minimum and a maximum are level.
@@ -104,8 +106,8 @@ pub(super) fn extrema() -> Cases {
     }))
 }
 
-/// At p_crit, with a double zero, f is −p (k − k_touch)²: Φ flattens there and falls on both sides. Distance of f from
-/// it over the largest of its terms.
+/// At p_crit, with a double zero, f is −p (k − k_touch)²: Φ flattens there and falls on both sides.
+/// Distance of f from it over the largest of its terms.
 pub(super) fn inflexion() -> f64 {
     let p = known(jump::p_crit(VERTICES));
     let off = |k: f64| (f(p, k) + p * (k - top(p)) * (k - top(p))).abs() / size(p, k);

@@ -1,6 +1,6 @@
 //! The exact statements of Secs. 3 to 9, each compared with a second route: formulas with the
-//! enumeration of small graphs, closed forms with quadrature, zeros with the function. What a claim judges is how many
-//! cases fail, or by how much: a row for each, under the id of the statement.
+//! enumeration of small graphs, closed forms with quadrature, zeros with the function. What a claim
+//! judges is how many cases fail, or by how much: a row for each, under the id of the statement.
 //!
 //! Cheap, as the theory is, and not saved.
 

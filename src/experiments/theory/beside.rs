@@ -14,7 +14,8 @@ pub(crate) fn at(curve: &[(f64, f64)], sigma: f64) -> Option<f64> {
     Some(w[0].1 + share * (w[1].1 - w[0].1))
 }
 
-/// Where theory and simulated means lie farthest apart at large σ: their distance in gaps, σ, and both.
+/// Where theory and simulated means lie farthest apart at large σ: their distance in gaps, σ, and
+/// both.
 pub(crate) fn largest_distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<[f64; 4]> {
     let large = means.iter().filter(|(sigma, _)| *sigma >= LARGE_SIGMA);
     let distances = large.filter_map(|&(sigma, mean)| {
@@ -24,7 +25,8 @@ pub(crate) fn largest_distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Op
     distances.reduce(|most, one| if most[0] >= one[0] { most } else { one })
 }
 
-/// The largest increase of a mean within one and within two steps of σ, in gaps; where the grid is `finest`.
+/// The largest increase of a mean within one and within two steps of σ, in gaps; where the grid is
+/// `finest`.
 fn increases(means: &[(f64, f64)], finest: f64) -> Option<[f64; 2]> {
     let fine = |w: &[(f64, f64)]| w.windows(2).all(|w| w[1].0 - w[0].0 < 1.01 * finest);
     let steps = means.windows(3).filter(|w| fine(w)).map(|w| [w[0].1, w[1].1, w[2].1]);

@@ -24,7 +24,8 @@ fn graph() -> Table {
         .done()
 }
 
-/// Fig. 7: share of all simple circuits that those of length k = 1..=N have, and its decimal logarithm.
+/// Fig. 7: share of all simple circuits that those of length k = 1..=N have, and its decimal
+/// logarithm.
 pub fn shares() -> [Vec<f64>; 2] {
     let (shares, log_total) = known(counting::shares(VERTICES));
     let logarithm = |k| (known(counting::log_phi(VERTICES, k)) - log_total) / LN_10;

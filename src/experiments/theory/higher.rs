@@ -26,8 +26,8 @@ fn total_variation(a: &[f64], b: &[f64]) -> f64 {
     0.5 * sum(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
 }
 
-/// One doubled vertex costs p and can be placed in k²/2 ways, except on a single vertex: the weight of such circuits over
-/// that of simple ones.
+/// One doubled vertex costs p and can be placed in k²/2 ways, except on a single vertex: the weight
+/// of such circuits over that of simple ones.
 fn first_order(p: f64) -> f64 {
     let higher = (1_u32..).zip(simple(p)).skip(1);
     sum(higher.map(|(k, q)| q * p * f64::from(k) * f64::from(k) / 2.0))
@@ -72,14 +72,16 @@ fn largest_change(curve: &Table) -> [f64; 2] {
     })
 }
 
-/// Weight of circuits with one doubled vertex over that of simple ones, k being the whole part of μ.
+/// Weight of circuits with one doubled vertex over that of simple ones, k being the whole part of
+/// μ.
 fn doubling(p: f64) -> f64 {
     let law = law(FiveClasses, p);
     let of = |class| law.contribution(class)[law.mean() as usize - 1];
     of(&CLASSES[1]) / of(&CLASSES[0])
 }
 
-/// P(X = k) of five classes, k = 1..=N, if a circuit weighs p^k by its k different vertices and not by its length.
+/// P(X = k) of five classes, k = 1..=N, if a circuit weighs p^k by its k different vertices and not
+/// by its length.
 fn by_different(p: f64) -> Vec<f64> {
     let more = |k| multiplicity(FiveClasses, DoubleDouble::ONE, k).to_f64();
     let weights: Vec<f64> = (1..).zip(simple(p)).map(|(k, q)| q * more(k)).collect();
@@ -106,7 +108,8 @@ fn largest_step() -> u64 {
     ks.windows(2).map(|w| w[1].abs_diff(w[0])).max().unwrap_or(0)
 }
 
-/// Single numbers of Sec. 9, with those of the tables `theory.curve` and `theory.relation` that belong there.
+/// Single numbers of Sec. 9, with those of the tables `theory.curve` and `theory.relation` that
+/// belong there.
 pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     let sigma = SIGMA;
     let eq30 = doubled_as_printed(3, 3).map_or(f64::NAN, Fraction::to_f64);

@@ -74,7 +74,8 @@ pub fn f(p: f64) -> Vec<(f64, f64)> {
     ks.map(|k| (k, jump::f(VERTICES, p, k))).collect()
 }
 
-/// The zeros of f_{N,p}. The double nearest to p_crit may lie on either side of it; there both are 1/√p.
+/// The zeros of f_{N,p}. The double nearest to p_crit may lie on either side of it; there both are
+/// 1/√p.
 pub fn zeros(p: f64) -> Option<[f64; 2]> {
     if p == known(jump::p_crit(VERTICES)) {
         return Some([1.0 / p.sqrt(); 2]);
@@ -92,8 +93,9 @@ pub(crate) fn touching() -> f64 {
     roots::bracket(1e-6, 1.0, |p| top(p) > 0.0 && jump::f(VERTICES, p, top(p)) >= 0.0)[1]
 }
 
-/// The p and the real k at which Φ, with Γ functions for its factorials, has a stationary inflexion: ln Φ has the
-/// derivative ln p − 1/k + ψ(N + 1 − k), which is zero twice in k where 1/k² = ψ′(N + 1 − k).
+/// The p and the real k at which Φ, with Γ functions for its factorials, has a stationary
+/// inflexion: ln Φ has the derivative ln p − 1/k + ψ(N + 1 − k), which is zero twice in k where
+/// 1/k² = ψ′(N + 1 − k).
 pub(crate) fn flat() -> [f64; 2] {
     let k = roots::bracket(1.0, N / 2.0, |k| 1.0 / (k * k) <= pxfm::f_trigamma(N + 1.0 - k))[1];
     [pxfm::f_exp(1.0 / k - pxfm::f_digamma(N + 1.0 - k)), k]

@@ -1,5 +1,6 @@
-//! The graph theory of Secs. 3 to 9 as tables, and beyond the paper many vertices and circuits up to the order of
-//! distant impacts. Curves that only a figure draws are functions, as its data file has their values.
+//! The graph theory of Secs. 3 to 9 as tables, and beyond the paper many vertices and circuits up
+//! to the order of distant impacts. Curves that only a figure draws are functions, as its data file
+//! has their values.
 //!
 //! Cheap: all tables take some tenths of a second, and nothing is saved.
 

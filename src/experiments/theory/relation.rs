@@ -1,4 +1,5 @@
-//! The relation of p and σ, and μ along it: Sec. 8, Figs. 11, 12 and 15; and gaps that close by themselves.
+//! The relation of p and σ, and μ along it: Sec. 8, Figs. 11, 12 and 15; and gaps that close by
+//! themselves.
 
 use super::basics::{known, largest, one};
 use super::law::law;
@@ -26,8 +27,8 @@ fn p_rest_of(sigma: f64) -> f64 {
     known(ImpactProbability::of_paper(sigma)).p_from_rest().unwrap_or(0.0)
 }
 
-/// The smallest σ at which a property that holds from there on holds, to the last bit. At σ = 1 both probabilities are above
-/// 0.99.
+/// The smallest σ at which a property that holds from there on holds, to the last bit. At σ = 1
+/// both probabilities are above 0.99.
 fn smallest_sigma(holds: impl FnMut(f64) -> bool) -> f64 {
     roots::bracket(0.0, 1.0, holds)[1]
 }
@@ -72,25 +73,28 @@ fn any(p: f64, gaps: usize) -> f64 {
     -pxfm::f_expm1(gaps as f64 * pxfm::f_log1p(-p))
 }
 
-/// The same by p of Eq. (25), for random free parts, with another p for gaps at the walls, which do not move: an upper
-/// bound, since normal variables make symmetric convex events no less likely together than one by one.
+/// The same by p of Eq. (25), for random free parts, with another p for gaps at the walls, which do
+/// not move: an upper bound, since normal variables make symmetric convex events no less likely
+/// together than one by one.
 fn any_random(sigma: &f64) -> f64 {
     let none = (Chain::default().gaps() - 2) as f64 * pxfm::f_log1p(-p_of(*sigma));
     -pxfm::f_expm1(none + 2.0 * pxfm::f_log1p(-p_of(sigma / SQRT_2)))
 }
 
-/// σ at which such a share of the chains has a gap that closes by itself, from rest and as if gaps were independent.
+/// σ at which such a share of the chains has a gap that closes by itself, from rest and as if gaps
+/// were independent.
 fn sigma_kept(share: f64) -> f64 {
     smallest_sigma(|sigma| any(p_rest_of(sigma), Chain::default().gaps()) >= share)
 }
 
-/// Share of starts with random free parts that overlap, over p: Δ(0) = d + δα_0 − δα_1 is normal with variance 4σ².
+/// Share of starts with random free parts that overlap, over p: Δ(0) = d + δα_0 − δα_1 is normal
+/// with variance 4σ².
 fn overlap(sigma: f64) -> f64 {
     0.5 * pxfm::f_erfc(Chain::default().spacing / (2.0 * sigma) / SQRT_2) / p_of(sigma)
 }
 
-/// Eq. (25): largest relative difference between closed form and double integral, at σ where the latter has some digits
-/// of p left.
+/// Eq. (25): largest relative difference between closed form and double integral, at σ where the
+/// latter has some digits of p left.
 fn eq25() -> f64 {
     largest([0.15, 0.2, 0.3, 0.5, 1.0].map(|sigma| {
         let gap = known(ImpactProbability::of_paper(sigma));

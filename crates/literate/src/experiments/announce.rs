@@ -1,16 +1,23 @@
 //! Says how many experiments there are to run, and about how long that takes, before the first of them begins.
 
 use super::cutting::SECOND;
-use super::{AnyExperiment, Profile, Session};
+use super::{AnyExperiment, Error, Profile, Session};
 use crate::text::count;
 
 /// Prints one line if any of the experiments has no fresh result.
-pub(super) fn announce(experiments: &[&'static dyn AnyExperiment], session: &Session<'_>) {
+///
+/// # Errors
+/// If results cannot be saved.
+pub(super) fn announce(
+    experiments: &[&'static dyn AnyExperiment],
+    session: &Session<'_>,
+) -> Result<(), Error> {
     let is_stale = |one: &&&dyn AnyExperiment| one.stale(session).is_some();
     let stale: Vec<_> = experiments.iter().filter(is_stale).collect();
     if stale.is_empty() {
-        return;
+        return Ok(());
     }
+    session.store.prepare()?;
     let units = stale.iter().flat_map(|one| one.units(session.profile));
     let work: u64 = units.map(|unit| unit.weight).sum();
     let threads = rayon::current_num_threads();
@@ -21,6 +28,7 @@ pub(super) fn announce(experiments: &[&'static dyn AnyExperiment], session: &Ses
     };
     let (stale, threads) = (count(stale.len(), "experiment"), count(threads, "thread"));
     session.progress.say(&format!("{stale} to run, {time} on {threads}{quick}"));
+    Ok(())
 }
 
 /// Returns a time in words, as precise as an estimate from counted work is.

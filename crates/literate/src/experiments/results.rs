@@ -91,7 +91,7 @@ impl Results {
         derived: &[DerivedTables],
         session: &Session<'_>,
     ) -> Result<Self, Error> {
-        announce(experiments, session);
+        announce(experiments, session)?;
         let mut found = BTreeMap::new();
         for experiment in experiments {
             found.insert(experiment.name(), experiment.found(session)?);
