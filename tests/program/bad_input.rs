@@ -115,7 +115,7 @@ eval p-of-sigma --sigma 0.1 --omega 0 => --omega; from 0.001 to 1000
 eval p-crit --vertices 0|100000001 => --vertices; give
 eval p-jump --masses 100 --vertices 101 => --masses; --vertices; cannot be used with
 eval mean-impacts --p 0.1 --masses 10000000 => --masses (N = n + 1):
-eval probability --p 0.5 --k 0|101 => --k:; 1 ≤ k ≤ 100
+eval probability --p 0.5 --k 0|101 => --k:; from 1 to 100
 eval k-star => --p: k-star needs it
 eval p-jump --vertices 3 => --vertices:; no jump; N ≥ 4
 eval p-of-sigma --sigma 0.01 => sigma:; below the range; log-p-of-sigma

@@ -1,4 +1,4 @@
-//! Circuits that differ only by the order of impacts without a common mass (ours).
+//! Classes of circuits that differ only by the order of impacts without a common mass (ours).
 //!
 //! Two impacts without a common mass may change places in the order of impacts, and every mass
 //! still has its impacts in the same order. Gap i lies between masses i and i + 1, so impacts
@@ -9,8 +9,9 @@
 use crate::graph::{Circuit, Graph};
 use std::collections::BTreeSet;
 
-/// Number of simple circuits on `big_n` gaps in a row, and of classes of them that changes of
-/// neighbouring impacts without a common mass lead from one to another, by enumeration.
+/// Counts, by enumeration, the simple circuits on `big_n` gaps in a row, and the classes of them: two
+/// are in one class if exchanges of neighbouring impacts without a common mass lead from one to the
+/// other.
 pub fn simple_classes(big_n: usize) -> [usize; 2] {
     let all = Graph::of_chain(big_n - 1).circuits(big_n);
     let mut left: BTreeSet<Circuit> = all.filter(|circuit| circuit.repeats().is_empty()).collect();
@@ -19,14 +20,14 @@ pub fn simple_classes(big_n: usize) -> [usize; 2] {
         classes += 1;
         let mut reached = vec![circuit];
         while let Some(circuit) = reached.pop() {
-            reached.extend(changed(circuit.word()).filter(|other| left.remove(other)));
+            reached.extend(exchanged(circuit.word()).filter(|other| left.remove(other)));
         }
     }
     [circuits, classes]
 }
 
-/// A circuit after each allowed change of two neighbours.
-fn changed(word: &[usize]) -> impl Iterator<Item = Circuit> + '_ {
+/// Lists a circuit after each allowed exchange of two neighbours.
+fn exchanged(word: &[usize]) -> impl Iterator<Item = Circuit> + '_ {
     let after = |at: usize| (at + 1) % word.len();
     let free = move |at: &usize| word[*at].abs_diff(word[after(*at)]) > 1;
     (0..word.len()).filter(free).map(move |at| {
@@ -36,8 +37,8 @@ fn changed(word: &[usize]) -> impl Iterator<Item = Circuit> + '_ {
     })
 }
 
-/// Mean number of different gaps if each set of k gaps weighs p^k once, and not (k − 1)! times: the
-/// mean of a binomial variable, but for the empty set.
+/// Returns the mean number of different gaps if each set of k gaps weighs p^k once, and not (k − 1)!
+/// times: the mean of a binomial variable without the empty set.
 pub fn mean_without_orders(big_n: usize, p: f64) -> f64 {
     let share = p / (1.0 + p);
     let mut empty = 1.0;

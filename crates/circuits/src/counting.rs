@@ -1,20 +1,15 @@
-//! How many simple circuits there are (Sec. 5). Exact integers where they fit into 128 bits, and beyond
-//! the weights of Eq. (10) at p = 1, which are the numbers of circuits.
+//! Counts simple circuits (Sec. 5): by exact integers where they fit into 128 bits, and beyond by the
+//! weights of Eq. (10) at p = 1, which are the numbers of circuits.
 
-use crate::Error;
+use crate::arrangements::arrangements;
 use crate::distribution::{Law, SampleSpace};
+use crate::error::Error;
 use impact_numerics::scaled::Scaled;
-
-/// N (N − 1) … (N − count + 1) exactly: ordered choices of `count` of N vertices. Nothing beyond 128 bits.
-pub(crate) fn arrangements(big_n: usize, count: usize) -> Option<u128> {
-    let factors = (0..count).map(|i| big_n.saturating_sub(i) as u128);
-    factors.into_iter().try_fold(1_u128, u128::checked_mul)
-}
 
 /// **Eq. (6)**
 ///
-/// Number of distinct paths of length k from a given vertex back to itself through k − 1 other
-/// vertices, all different: (N − 1)!/(N − k)!. Nothing if it exceeds 128 bits.
+/// Returns the number of distinct paths of length k from a given vertex back to itself through k − 1
+/// other vertices, all different: (N − 1)!/(N − k)!. None if it exceeds 128 bits.
 pub fn paths(big_n: usize, k: usize) -> Option<u128> {
     if !(1..=big_n).contains(&k) {
         return Some(0);
@@ -25,8 +20,8 @@ pub fn paths(big_n: usize, k: usize) -> Option<u128> {
 // listing: phi
 /// **Eq. (7)**
 ///
-/// φ_N(k), the number of distinct simple circuits of length k: N first vertices times
-/// [`paths`], each circuit met k times. Zero outside 1..=N; nothing if N!/(N − k)! exceeds 128 bits.
+/// Returns φ_N(k), the number of distinct simple circuits of length k: N first vertices times
+/// [`paths`], each circuit met k times. Zero outside 1..=N; none if N!/(N − k)! exceeds 128 bits.
 pub fn phi(big_n: usize, k: usize) -> Option<u128> {
     if k == 0 {
         return Some(0);
@@ -35,21 +30,27 @@ pub fn phi(big_n: usize, k: usize) -> Option<u128> {
 }
 // end
 
-/// ln φ_N(k), for 1 ≤ k ≤ N.
+/// Returns ln φ_N(k), for 1 ≤ k ≤ N.
+///
+/// # Errors
+/// [`Error`] for N or k out of range.
 pub fn log_phi(big_n: usize, k: usize) -> Result<f64, Error> {
     Ok(Law::new(SampleSpace::Simple, big_n, 1.0)?.weight(k)?.ln())
 }
 
 /// **Eq. (8)**
 ///
-/// φ_N(k)/φ_N(N) = N/(k (N − k)!), for 1 ≤ k ≤ N: tiny until k comes near N, and above 1 at
+/// Returns φ_N(k)/φ_N(N) = N/(k (N − k)!), for 1 ≤ k ≤ N: tiny until k comes near N, and above 1 at
 /// k = N − 1, which Sec. 5 overlooks.
 pub fn ratio_to_longest(big_n: usize, k: usize) -> f64 {
     let rest = (1..=big_n - k).rev().fold(Scaled::ONE, |w, i| w * Scaled::from(i));
     (Scaled::from(big_n) / (Scaled::from(k) * rest)).to_f64()
 }
 
-/// φ_N(k)/φ_N^tot for k = 1..=N, as Fig. 7 normalises them, and ln φ_N^tot.
+/// Returns φ_N(k)/φ_N^tot for k = 1..=N, as Fig. 7 normalises them, and ln φ_N^tot.
+///
+/// # Errors
+/// [`Error`] for N out of range.
 pub fn shares(big_n: usize) -> Result<(Vec<f64>, f64), Error> {
     let law = Law::new(SampleSpace::Simple, big_n, 1.0)?;
     let total = law.all_weights().fold(Scaled::ZERO, |sum, count| sum + count);

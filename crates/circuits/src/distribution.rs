@@ -1,31 +1,22 @@
-//! The number X of different impacts of a circuit drawn with weight p per edge (Sec. 6).
+//! Computes the distribution of X, the number of different impacts of a circuit drawn with weight p
+//! per edge (Sec. 6).
 //!
 //! Plain factorials leave the range of doubles at N = 171, and differences of log-gamma lose
 //! digits as N grows. Here every weight is a running product of the factors p (N − k), carried
 //! with 106 bits and a separate exponent, so N = 10^6 costs neither digits nor range.
 
-use super::{Error, check_k, check_p, check_vertices, higher_order, jump};
+use crate::error::{Error, check_vertices, within};
+use crate::higher_order;
+pub use crate::sample_space::SampleSpace;
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::scaled::Scaled;
-
-/// The circuits that are possible.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SampleSpace {
-    /// Simple circuits only (Sec. 6).
-    Simple,
-    /// Simple circuits and the four classes of Sec. 9, counted as primitive circuits.
-    FiveClasses,
-    /// The same with the printed formulas of Sec. 9 taken at every length, although they fail for
-    /// one and for two different vertices.
-    FiveClassesPrinted,
-}
 
 /// The distribution of X for one sample space, N and p; p = 0 stands for the limit p → 0+.
 #[derive(Clone, Copy, Debug)]
 pub struct Law {
-    space: SampleSpace,
-    big_n: usize,
-    p: f64,
+    pub(crate) space: SampleSpace,
+    pub(crate) big_n: usize,
+    pub(crate) p: f64,
 }
 
 /// The weight of k, from which that of k + 1 follows.
@@ -43,7 +34,7 @@ impl Weights {
     pub(crate) fn new(space: SampleSpace, big_n: usize, p: DoubleDouble) -> Self {
         let arranged = match space {
             SampleSpace::Simple => Scaled::from(big_n),
-            // What `higher_order::multiplicity` multiplies by, taken out once.
+            // The factor of `higher_order::multiplicity`, divided out once.
             _ => Scaled::from(big_n) / Scaled::from(higher_order::SHARED as usize),
         };
         Weights { space, big_n, p, k: 1, arranged }
@@ -56,7 +47,7 @@ impl Weights {
         self.k += 1;
     }
 
-    /// k times the weight of k: a whole number of products, no division.
+    /// Returns k times the weight of k: only products, no division.
     pub(crate) fn moment(&self) -> Scaled {
         match self.space {
             SampleSpace::Simple => self.arranged,
@@ -64,9 +55,9 @@ impl Weights {
         }
     }
 
-    /// Whether all later weights are known to fall: then the ratio of neighbours, which is p
-    /// (N − k) times at most (k + 3)/(k − 1) (1 for simple circuits), is below 1 for good.
-    pub(crate) fn falls_for_good(&self) -> bool {
+    /// Whether all later weights are known to fall: then the ratio of neighbours, which is at most
+    /// p (N − k) (k + 3)/(k − 1), or p (N − k) for simple circuits, stays below 1.
+    pub(crate) fn falls_from_here(&self) -> bool {
         let k = self.k as f64;
         let ratio = self.p.hi * (self.big_n - self.k) as f64;
         match self.space {
@@ -76,26 +67,27 @@ impl Weights {
     }
 }
 
-/// Sums over the distribution, and (except for simple circuits, see
-/// [`Law::simple_k_star`]) its first maximum.
-struct Sums {
+/// Sums over the distribution, and (except for simple circuits) its first maximum.
+pub(crate) struct Sums {
     total: Scaled,
     first_moment: Scaled,
     largest: Scaled,
-    largest_at: usize,
+    pub(crate) largest_at: usize,
 }
 
 impl Law {
+    /// Creates the law of N vertices with edge probability p.
+    ///
     /// # Errors
-    /// [`Error`] for N outside 1..=[`super::LARGEST_N`] or p outside [0, 1].
+    /// [`Error`] for N outside 1..=[`LARGEST_N`](crate::LARGEST_N) or p outside [0, 1].
     pub fn new(space: SampleSpace, big_n: usize, p: f64) -> Result<Self, Error> {
         check_vertices(big_n)?;
-        check_p(p)?;
+        within("p", p, 0.0, 1.0)?;
         Ok(Law { space, big_n, p })
     }
 
-    /// The weights of k = 1..=N, in order.
-    fn weights(&self) -> impl Iterator<Item = Weights> + use<> {
+    /// Lists the weights of k = 1..=N, in order.
+    pub(crate) fn weights(&self) -> impl Iterator<Item = Weights> + use<> {
         let mut next = Weights::new(self.space, self.big_n, DoubleDouble::from(self.p));
         (1..=self.big_n).map(move |k| {
             while next.k < k {
@@ -107,17 +99,20 @@ impl Law {
 
     /// **Eq. (10)**
     ///
-    /// The weight Φ_{N,p}(k), over p: p^(k−1) N!/(k (N − k)!) for simple circuits. The common
+    /// Returns the weight Φ_{N,p}(k), over p: p^(k−1) N!/(k (N − k)!) for simple circuits. The common
     /// factor p drops out of every probability, and without it the limit p → 0+ is the value at
     /// p = 0. Γ_{N,p}, over p as well, is the sum of all weights.
+    ///
+    /// # Errors
+    /// [`Error`] for k outside 1..=N.
     pub fn weight(&self, k: usize) -> Result<Scaled, Error> {
-        check_k(self.big_n, k)?;
+        within("k", k, 1, self.big_n)?;
         let weights = self.weights().nth(k - 1).expect("k ≤ N");
         Ok(weights.moment() / Scaled::from(k))
     }
 
     /// Sums all weights that can matter to the last bit of 106.
-    fn sums(&self) -> Sums {
+    pub(crate) fn sums(&self) -> Sums {
         let negligible = Scaled::from(1e-32) / Scaled::from(self.big_n);
         let mut sums = Sums {
             total: Scaled::ZERO,
@@ -133,7 +128,7 @@ impl Law {
             if self.space != SampleSpace::Simple && weight > sums.largest {
                 (sums.largest, sums.largest_at) = (weight, k);
             }
-            if weights.falls_for_good() && weight < sums.total * negligible {
+            if weights.falls_from_here() && weight < sums.total * negligible {
                 break;
             }
         }
@@ -142,23 +137,26 @@ impl Law {
 
     /// **Eq. (9)**
     ///
-    /// P(X = k) = Φ_{N,p}(k)/Γ_{N,p}; 0 where it is below the smallest double.
+    /// Returns P(X = k) = Φ_{N,p}(k)/Γ_{N,p}; 0 where it is below the smallest double.
+    ///
+    /// # Errors
+    /// [`Error`] for k outside 1..=N.
     pub fn probability(&self, k: usize) -> Result<f64, Error> {
         Ok((self.weight(k)? / self.sums().total).to_f64())
     }
 
-    /// P(X = k) for k = 1..=N.
+    /// Returns P(X = k) for k = 1..=N.
     pub fn probabilities(&self) -> Vec<f64> {
         let total = self.sums().total;
         self.all_weights().map(|weight| (weight / total).to_f64()).collect()
     }
 
-    /// The weights of k = 1..=N, over p, in order.
+    /// Lists the weights of k = 1..=N, over p, in order.
     pub fn all_weights(&self) -> impl Iterator<Item = Scaled> {
         self.weights().map(|weights| weights.moment() / Scaled::from(weights.k))
     }
 
-    /// The part of one of the five classes in P(X = k), k = 1..=N: the classes add up to
+    /// Returns the part of one of the five classes in P(X = k), k = 1..=N; the classes add up to
     /// [`Law::probabilities`]. For a sample space of five classes.
     pub fn contribution(&self, class: &higher_order::Class) -> Vec<f64> {
         let total = self.sums().total;
@@ -170,26 +168,7 @@ impl Law {
         self.weights().map(share).collect()
     }
 
-    /// k*, the most likely number of different impacts; the lowest of several.
-    pub fn k_star(&self) -> usize {
-        match self.space {
-            SampleSpace::Simple => self.simple_k_star(),
-            _ => self.sums().largest_at,
-        }
-    }
-
-    /// k* of simple circuits: either 1 or the one local maximum, found from exact signs of f.
-    fn simple_k_star(&self) -> usize {
-        let top = jump::local_maximum(self.big_n, self.p);
-        if top == 1 || jump::rises(self.big_n, self.p, 1) {
-            return top;
-        }
-        let first = Scaled::from(self.big_n) * Scaled::from(top);
-        let exceeds = self.weights().nth(top - 1).is_some_and(|own| own.moment() > first);
-        if exceeds { top } else { 1 }
-    }
-
-    /// μ, the expected number of different impacts.
+    /// Returns μ, the expected number of different impacts.
     pub fn mean(&self) -> f64 {
         let sums = self.sums();
         (sums.first_moment / sums.total).to_f64()

@@ -1,4 +1,4 @@
-//! The directed graph of Sec. 3: a vertex for each pair that can impact, an edge for each possible
+//! Builds the directed graph of Sec. 3: a vertex for each pair that can impact, an edge for each possible
 //! flight from one impact to the next, loops included. Periodic orbits are its circuits.
 
 use std::collections::BTreeMap;

@@ -1,23 +1,24 @@
-//! Circuits that repeat vertices (Sec. 9): how many there are, class by class, and the sample
-//! space of five classes.
+//! Counts circuits that repeat vertices (Sec. 9), class by class, and together in the sample space of
+//! five classes.
 //!
 //! The printed formulas count cyclic sequences as length!/length would, which is right only while
-//! no sequence can be a repetition of a shorter one. [`SampleSpace::FiveClasses`] counts distinct circuits.
+//! no sequence can be a repetition of a shorter one. [`SampleSpace::FiveClasses`] counts distinct
+//! circuits.
 
-use crate::Fraction;
-use crate::counting::arrangements;
-use crate::distribution::SampleSpace;
+use crate::arrangements::arrangements;
+use crate::fraction::Fraction;
+use crate::sample_space::SampleSpace;
 use impact_numerics::double_double::DoubleDouble;
 
 /// **Eq. (29)**
 ///
-/// Number of paths from a given doubled vertex for a loop, back, and for another loop, k vertices in all:
-/// (N − 1)!/(N − (k − 1))!, for k ≥ 2; zero beyond N + 1. Nothing beyond 128 bits. How the k − 2 other vertices are
-/// divided between the loops does not matter:
+/// Returns the number of paths from a given doubled vertex for a loop, back, and for another loop, k
+/// vertices in all: (N − 1)!/(N − (k − 1))!, for k ≥ 2; zero beyond N + 1; none beyond 128 bits. The
+/// way in which the k − 2 other vertices are divided between the loops does not matter:
 ///
 /// **Eq. (26)** (step towards (30)): with γ_1 and γ_2 of them, k = (γ_1 + 1) + (γ_2 + 1).
-/// **Eq. (27)** (step towards (29)): (N − 1) … (N − γ_1) ways for the first loop, (N − (γ_1 + 1)) … (N − (γ_1 + γ_2)) for
-/// the second.
+/// **Eq. (27)** (step towards (29)): (N − 1) … (N − γ_1) ways for the first loop,
+/// (N − (γ_1 + 1)) … (N − (γ_1 + γ_2)) for the second.
 /// **Eq. (28)** (step towards (29)): together (N − 1) … (N − (k − 2)).
 pub fn doubled_paths(big_n: usize, k: usize) -> Option<u128> {
     arrangements(big_n - 1, k - 2)
@@ -25,8 +26,8 @@ pub fn doubled_paths(big_n: usize, k: usize) -> Option<u128> {
 
 /// **Eq. (30)**
 ///
-/// φ_N^1(k) *as this equation prints it*: γ(k, 2)/2 times [`doubled_paths`]. A factor N, the
-/// choice of the doubled vertex, is missing; Eq. (33) has it.
+/// Returns φ_N^1(k) *as this equation prints it*: γ(k, 2)/2 times [`doubled_paths`]. A factor N, the
+/// choice of the doubled vertex, is missing; Eq. (33) has it. None beyond 128 bits.
 pub fn doubled_as_printed(big_n: usize, k: usize) -> Option<Fraction> {
     let splits = compositions(k, 2)?;
     Some(Fraction::new(splits.checked_mul(doubled_paths(big_n, k)?)?, 2))
@@ -34,8 +35,8 @@ pub fn doubled_as_printed(big_n: usize, k: usize) -> Option<Fraction> {
 
 /// **Eq. (32)**
 ///
-/// γ(n, j), the number of ways to write n as an ordered sum of j positive integers: the binomial
-/// coefficient (n − 1 over j − 1), for n, j ≥ 1. Nothing beyond 128 bits.
+/// Returns γ(n, j), the number of ways to write n as an ordered sum of j positive integers: the
+/// binomial coefficient (n − 1 over j − 1), for n, j ≥ 1. None beyond 128 bits.
 ///
 /// **Eq. (31)** (step towards (32)): α_1 + … + α_j = n with every α_i > 0.
 pub fn compositions(n: usize, j: usize) -> Option<u128> {
@@ -51,15 +52,15 @@ pub fn compositions(n: usize, j: usize) -> Option<u128> {
 
 /// **Eq. (33)**
 ///
-/// φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: circuits of length k with one
-/// vertex visited twice and no other repeated. Fails at k = 2 (a loop run twice is no new
-/// circuit), where it gives N/2. Nothing beyond 128 bits.
+/// Returns φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: circuits of length k with
+/// one vertex visited twice and no other repeated. Fails at k = 2 (a loop run twice is no new
+/// circuit), where it gives N/2. None beyond 128 bits.
 pub fn doubled(big_n: usize, k: usize) -> Option<Fraction> {
     let choices = arrangements(big_n, k - 1)?;
     Some(Fraction::new(choices.checked_mul(k as u128 - 1)?, 2))
 }
 
-/// (k − 1)!/(k − j)! · N!/(N − d)! / divisor: the common form of the printed formulas.
+/// Returns (k − 1)!/(k − j)! · N!/(N − d)! / divisor, the common form of the printed formulas.
 fn printed(big_n: usize, k: usize, j: usize, d: usize, divisor: u128) -> Option<Fraction> {
     let positions = arrangements(k - 1, j - 1)?;
     Some(Fraction::new(positions.checked_mul(arrangements(big_n, d)?)?, divisor))
@@ -67,24 +68,27 @@ fn printed(big_n: usize, k: usize, j: usize, d: usize, divisor: u128) -> Option<
 
 /// **Eq. (35)**
 ///
-/// φ_N^{1,0}(k) as printed, for k ≥ 3: one vertex visited three times, 1/6 (k − 1)!/(k − 3)!
-/// N!/(N − (k − 2))!. Gives N/3 at k = 3, where there is none. Nothing beyond 128 bits.
+/// Returns φ_N^{1,0}(k) as printed, for k ≥ 3: one vertex visited three times,
+/// 1/6 (k − 1)!/(k − 3)! N!/(N − (k − 2))!. Gives N/3 at k = 3, where there is no such circuit. None
+/// beyond 128 bits.
 pub fn three_visits(big_n: usize, k: usize) -> Option<Fraction> {
     printed(big_n, k, 3, k - 2, 6)
 }
 
 /// **Eq. (36)**
 ///
-/// φ_N^{1,0,0}(k) as printed, for k ≥ 4: one vertex visited four times, 1/24 (k − 1)!/(k − 4)!
-/// N!/(N − (k − 3))!. Gives N/4 at k = 4, where there is none. Nothing beyond 128 bits.
+/// Returns φ_N^{1,0,0}(k) as printed, for k ≥ 4: one vertex visited four times,
+/// 1/24 (k − 1)!/(k − 4)! N!/(N − (k − 3))!. Gives N/4 at k = 4, where there is no such circuit. None
+/// beyond 128 bits.
 pub fn four_visits(big_n: usize, k: usize) -> Option<Fraction> {
     printed(big_n, k, 4, k - 3, 24)
 }
 
 /// **Eq. (37)**
 ///
-/// φ_N^2(k) as printed, for k ≥ 3: two vertices visited twice, 1/8 (k − 1)!/(k − 4)!
-/// N!/(N − (k − 2))!. Gives 3 N (N − 1)/4 at k = 4, where there are N (N − 1)/2. Nothing beyond 128 bits.
+/// Returns φ_N^2(k) as printed, for k ≥ 3: two vertices visited twice,
+/// 1/8 (k − 1)!/(k − 4)! N!/(N − (k − 2))!. Gives 3 N (N − 1)/4 at k = 4, where there are
+/// N (N − 1)/2. None beyond 128 bits.
 pub fn two_doubled(big_n: usize, k: usize) -> Option<Fraction> {
     printed(big_n, k, 4, k - 2, 8)
 }
@@ -111,19 +115,20 @@ pub const CLASSES: [Class; 5] = [
 ];
 
 impl Class {
-    /// Σ j δ_j, by how much the length exceeds the number of different vertices.
+    /// Returns Σ j δ_j, the excess of the length over the number of different vertices.
     pub fn excess(&self) -> usize {
         self.repeats.iter().enumerate().map(|(i, delta)| (i + 1) * delta).sum()
     }
 
-    /// The number of different vertices of its circuits of length k; nothing if k is too short.
+    /// Returns the number of different vertices of circuits of length k, or none if k is too short.
     pub fn different(&self, k: usize) -> Option<usize> {
         let repeated: usize = self.repeats.iter().sum();
         k.checked_sub(self.excess()).filter(|d| *d >= repeated.max(1))
     }
 
-    /// [`SHARED`] times its number of circuits with k different vertices, over φ_N(k): by the
-    /// printed formula, or as primitive circuits. A polynomial in k with whole coefficients, for any N.
+    /// Returns [`SHARED`] times the number of circuits with k different vertices, over φ_N(k): by the
+    /// printed formula, or as primitive circuits. A polynomial in k with whole coefficients, for any
+    /// N.
     pub fn per_simple_circuit(&self, space: SampleSpace, k: usize) -> u128 {
         let short = space == SampleSpace::FiveClasses;
         let k = k as u128;
@@ -146,8 +151,9 @@ pub const SHARED: u128 = 24;
 
 /// **Eq. (38)**
 ///
-/// φ_N(k) + φ_N^1(k+1) + φ_N^{1,0}(k+2) + φ_N^{1,0,0}(k+3) + φ_N^2(k+2), each times p for each edge more than k, over
-/// φ_N(k) and times [`SHARED`]: the weight of all circuits with k different vertices over that of the simple ones.
+/// Returns φ_N(k) + φ_N^1(k+1) + φ_N^{1,0}(k+2) + φ_N^{1,0,0}(k+3) + φ_N^2(k+2), each times p for each
+/// edge more than k, over φ_N(k) and times [`SHARED`]: the weight of all circuits with k different
+/// vertices over that of the simple ones.
 pub fn multiplicity(space: SampleSpace, p: DoubleDouble, k: usize) -> DoubleDouble {
     let [simple, doubled, three, four, two] =
         CLASSES.map(|class| class.per_simple_circuit(space, k));

@@ -1,4 +1,4 @@
-//! The relation of p and σ (Sec. 8): the probability that a gap closes by itself.
+//! Computes the relation of p and σ (Sec. 8): the probability that a gap closes by itself.
 //!
 //! The gap of two neighbours never closes while Y_0 + Y_1/|ω² − Ω²| < d, with Y_0 and Y_1 the
 //! amplitudes of its free and forced parts. As printed, Eq. (25) is one minus a double integral,
@@ -19,7 +19,7 @@
 //!
 //! p_rest = (2/π) ∫_0^{π/2} exp(−(|ω² − Ω²| d/(2σ))²/(1 + √(cos²θ + (Ω/ω)² sin²θ))²) dθ.
 
-use super::Error;
+use crate::error::{Error, within};
 use impact_chain::Chain;
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::quadrature::GaussLegendre;
@@ -48,14 +48,14 @@ pub struct ImpactProbability {
 ///
 /// **Eq. (22)**
 ///
-/// Density of Y_0 at x: Rayleigh, since both differences are normal with variance 2σ².
+/// Returns the density of Y_0 at x: Rayleigh, since both differences are normal with variance 2σ².
 pub fn density_free(x: f64, sigma: f64) -> f64 {
     density_forced(x, sigma, 1.0)
 }
 
 /// **Eq. (23)**
 ///
-/// Density of Y_1/|ω² − Ω²| at x, `detuning` = |ω² − Ω²|.
+/// Returns the density of Y_1/|ω² − Ω²| at x, `detuning` = |ω² − Ω²|.
 pub fn density_forced(x: f64, sigma: f64, detuning: f64) -> f64 {
     if x < 0.0 {
         return 0.0;
@@ -72,13 +72,13 @@ fn square(x: DoubleDouble) -> DoubleDouble {
     x * x
 }
 
-/// The square of a frequency. The double nearest to √2 stands for √2 itself, the paper's Ω: far in
+/// Squares a frequency. The double nearest to √2 stands for √2 itself, the paper's Ω: far in
 /// the tail the difference, one part in 10^16, is a thousand times larger in p.
 fn squared(frequency: f64) -> DoubleDouble {
     if frequency == SQRT_2 { dd(2.0) } else { square(dd(frequency)) }
 }
 
-/// |ω² − Ω²|, without cancellation.
+/// Returns |ω² − Ω²|, without cancellation.
 fn detuning(omega: f64, forcing: f64) -> DoubleDouble {
     let difference = if omega == SQRT_2 || forcing == SQRT_2 {
         squared(omega) - squared(forcing)
@@ -88,31 +88,27 @@ fn detuning(omega: f64, forcing: f64) -> DoubleDouble {
     if difference.hi < 0.0 { -difference } else { difference }
 }
 
-fn check_positive(field: &'static str, value: f64, [low, high]: [f64; 2]) -> Result<(), Error> {
-    if (low..=high).contains(&value) && value > 0.0 {
-        return Ok(());
-    }
-    let remedy = format!("give {low:?} to {high:?}");
-    Err(Error::new(field, format!("{value:?} is out of range"), remedy))
-}
-
-/// (1 − e^{−x})/x.
+/// Returns (1 − e^{−x})/x.
 fn saturation(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { -pxfm::f_expm1(-x) / x }
 }
 
-/// An exponent below which p differs from 1 by so little that 1 − p is the more accurate of the two: its rounding
-/// falls below the last bit of p.
+/// An exponent below which p differs from 1 by so little that 1 − p is the more accurate of the two:
+/// its rounding falls below the last bit of p.
 const NEARLY_ONE: f64 = 0.01;
 
 impl ImpactProbability {
-    /// For a gap of masses d = `spacing` apart, natural frequency ω and forcing frequency Ω.
+    /// Creates the law of a gap of masses d = `spacing` apart, with natural frequency ω and forcing
+    /// frequency Ω.
+    ///
+    /// # Errors
+    /// [`Error`] for a number out of range, or ω = Ω.
     pub fn new(sigma: f64, spacing: f64, omega: f64, forcing: f64) -> Result<Self, Error> {
-        check_positive("sigma", sigma, [0.0, 1e6])?;
+        within("sigma", sigma, 1e-300, 1e6)?;
         // The ranges of a scenario.
-        check_positive("spacing", spacing, [1e-6, 1e6])?;
-        check_positive("omega", omega, [1e-3, 1e3])?;
-        check_positive("forcing-frequency", forcing, [1e-3, 1e3])?;
+        within("spacing", spacing, 1e-6, 1e6)?;
+        within("omega", omega, 1e-3, 1e3)?;
+        within("forcing-frequency", forcing, 1e-3, 1e3)?;
         let detuning = detuning(omega, forcing);
         if detuning.hi == 0.0 {
             let problem = format!("Ω = ω = {omega:?} is resonance, where amplitudes grow for ever");
@@ -127,20 +123,23 @@ impl ImpactProbability {
         })
     }
 
-    /// For the paper's chain, ω = 1, Ω = √2, d = 1 (Fig. 11).
+    /// Creates the law of the paper's chain, ω = 1, Ω = √2, d = 1 (Fig. 11).
+    ///
+    /// # Errors
+    /// [`Error`] for σ out of range.
     pub fn of_paper(sigma: f64) -> Result<Self, Error> {
         let chain = Chain::default();
         Self::new(sigma, chain.spacing, chain.natural_frequency, chain.forcing_frequency)
     }
 
-    /// s ≤ t: d over twice the wider and the narrower Rayleigh scale.
+    /// Returns s ≤ t: d over twice the wider and the narrower Rayleigh scale.
     fn scales(&self) -> (DoubleDouble, DoubleDouble) {
         let (free, forced) = (self.half_ratio, self.half_ratio * self.detuning);
         if free <= forced { (free, forced) } else { (forced, free) }
     }
 
     // listing: leading
-    /// The leading exponent E and the factor B of p = B e^{−E}; both without cancellation.
+    /// Returns the leading exponent E and the factor B of p = B e^{−E}; both without cancellation.
     fn leading(&self) -> (DoubleDouble, f64) {
         let (s, t) = self.scales();
         let ratio = s / t;
@@ -158,8 +157,11 @@ impl ImpactProbability {
 
     /// **Eq. (25)**
     ///
-    /// p(σ), the probability that a gap closes by itself, in closed form and to about 1e−15
+    /// Returns p(σ), the probability that a gap closes by itself, in closed form and to about 1e−15
     /// relative at the exact doubles given.
+    ///
+    /// # Errors
+    /// [`Error`] if p is below the range of doubles.
     pub fn p(&self) -> Result<f64, Error> {
         let (exponent, factor) = self.leading();
         if exponent.to_f64() < NEARLY_ONE {
@@ -174,7 +176,10 @@ impl ImpactProbability {
         Err(Error::underflow("p(σ)", self.sigma, "ask for log-p-of-sigma"))
     }
 
-    /// ln p(σ), to about 1e−15 relative for every σ.
+    /// Returns ln p(σ), to about 1e−15 relative for every σ.
+    ///
+    /// # Errors
+    /// [`Error`] if ln p is below the range of doubles.
     pub fn log_p(&self) -> Result<f64, Error> {
         let (exponent, factor) = self.leading();
         if exponent.hi.is_nan() || exponent.hi > 1e270 {
@@ -189,7 +194,7 @@ impl ImpactProbability {
 
     /// **Eq. (20)**
     ///
-    /// 1 − p = P(Y_0 + Y_1/|ω² − Ω²| < d), the probability that the gap never closes, accurate
+    /// Returns 1 − p = P(Y_0 + Y_1/|ω² − Ω²| < d), the probability that the gap never closes, accurate
     /// even when it is tiny (large σ): an integral over the wider amplitude of positive terms.
     pub fn complement(&self) -> f64 {
         let (s, t) = self.scales();
@@ -213,8 +218,9 @@ impl ImpactProbability {
 
     /// **Eq. (24)**
     ///
-    /// 1 − p is the convolution of both densities. Written out, and taken from one, it is the double integral that
-    /// Eq. (25) prints, by quadrature in `panels` × `panels` panels: the naive route, which keeps no digit of a small p.
+    /// Returns p by quadrature of the double integral that Eq. (25) prints, in `panels` × `panels`
+    /// panels: 1 − p is the convolution of both densities. This naive route keeps no digit of a
+    /// small p.
     pub fn p_by_double_integral(&self, panels: usize) -> f64 {
         let (q2, sigma2) = (square(self.detuning).to_f64(), self.sigma * self.sigma);
         let rule = GaussLegendre::new(20);
@@ -229,9 +235,12 @@ impl ImpactProbability {
         1.0 - q2 / (4.0 * sigma2 * sigma2) * integral
     }
 
-    /// The probability that a gap closes by itself after a start from rest. The integrand is
+    /// Returns the probability that a gap closes by itself after a start from rest. The integrand is
     /// periodic and analytic, so the trapezoidal rule converges faster than any power; the largest
     /// value of the exponential is taken out first, so small values keep their digits.
+    ///
+    /// # Errors
+    /// [`Error`] if it is below the range of doubles.
     pub fn p_from_rest(&self) -> Result<f64, Error> {
         let scale = square(self.half_ratio * self.detuning);
         let kappa = self.frequency_ratio.to_f64();
@@ -240,8 +249,8 @@ impl ImpactProbability {
         let (rate, reach_f64) = (scale.to_f64(), reach.to_f64());
         let least = scale / square(reach);
         let half = (-least).times_power_of_two(0.5).exp();
-        // The mean is at most one. Where even this is too small it would be that of a spike, to
-        // which the rule converges slowly, and for nothing.
+        // The mean is at most one. Where even this is too small the mean would be that of a spike, to
+        // which the rule converges slowly and in vain.
         if half * half >= f64::MIN_POSITIVE {
             let mean =
                 half_period_mean(|theta| pxfm::f_exp(-rate * excess(kappa, reach_f64, theta)));
@@ -254,7 +263,7 @@ impl ImpactProbability {
     }
 }
 
-/// 1/D(θ)² − 1/D_max² with D(θ) = 1 + √(cos²θ + κ sin²θ): by how much the exponent exceeds its
+/// Returns 1/D(θ)² − 1/D_max² with D(θ) = 1 + √(cos²θ + κ sin²θ), the excess of the exponent over its
 /// least value, without cancellation.
 fn excess(kappa: f64, reach: f64, theta: f64) -> f64 {
     let (sin, cos) = pxfm::f_sincos(theta);
@@ -265,8 +274,8 @@ fn excess(kappa: f64, reach: f64, theta: f64) -> f64 {
     shortfall * (reach + d) / (d * d * reach * reach)
 }
 
-/// The mean of an even function of period π over [0, π/2], by the trapezoidal rule with as many
-/// intervals as it takes (at most 2^20).
+/// Returns the mean of an even function of period π over [0, π/2], by the trapezoidal rule with as
+/// many intervals as it takes (at most 2^20).
 fn half_period_mean(f: impl Fn(f64) -> f64) -> f64 {
     let mut intervals = 32;
     let mut sum = 0.5 * (f(0.0) + f(FRAC_PI_2));

@@ -1,14 +1,14 @@
-//! The jump of the most likely number of impacts (Sec. 7).
+//! Computes k*, the most likely number of impacts, and its jump (Sec. 7).
 
-use super::distribution::{Law, SampleSpace, Weights};
-use super::{Error, check_vertices};
+use crate::distribution::{Law, SampleSpace, Weights};
+use crate::error::{Error, check_vertices};
 use impact_numerics::double_double::{DoubleDouble, two_product};
 use impact_numerics::roots;
 use impact_numerics::scaled::Scaled;
 
 /// **Eq. (12)**
 ///
-/// f_{N,p}(k) = −p k² + (N p − 1) k − 1 at real k: Φ_{N,p} rises from k to k + 1 where it is
+/// Returns f_{N,p}(k) = −p k² + (N p − 1) k − 1 at real k: Φ_{N,p} rises from k to k + 1 where it is
 /// positive. Written as p k (N − k) − (k + 1), with the product exact.
 ///
 /// **Eq. (14)** (step towards (18)): f_{N,p}(0) = −1, whatever N and p.
@@ -20,7 +20,7 @@ pub fn f(big_n: usize, p: f64, k: f64) -> f64 {
     (product - DoubleDouble::from(k) - DoubleDouble::ONE).to_f64()
 }
 
-/// f_{N,p} at an integer k, exactly.
+/// Returns f_{N,p} at an integer k, exactly.
 fn f_exact(big_n: usize, p: f64, k: usize) -> DoubleDouble {
     // k (N − k) ≤ N²/4 < 2^53 for every N allowed, so one error-free product is enough.
     two_product(p, (k * (big_n - k)) as f64) - DoubleDouble::from(k + 1)
@@ -28,15 +28,15 @@ fn f_exact(big_n: usize, p: f64, k: usize) -> DoubleDouble {
 
 /// **Eq. (11)**
 ///
-/// Φ_{N,p}(k + 1) − Φ_{N,p}(k) = p^k N!/((N − k)! k (k + 1)) · f_{N,p}(k), for 1 ≤ k < N: whether it is positive,
-/// decided exactly.
+/// Decides exactly whether Φ_{N,p}(k + 1) − Φ_{N,p}(k) = p^k N!/((N − k)! k (k + 1)) · f_{N,p}(k) is
+/// positive, for 1 ≤ k < N.
 pub fn rises(big_n: usize, p: f64, k: usize) -> bool {
     k < big_n && f_exact(big_n, p, k) > DoubleDouble::ZERO
 }
 
 /// **Eq. (13)**
 ///
-/// The zeros k− ≤ k+ of f_{N,p}, or nothing when it has none (p below p_crit, or p = 0). The
+/// Returns the zeros k− ≤ k+ of f_{N,p}, or none when it has none (p below p_crit, or p = 0). The
 /// smaller one comes from k− k+ = 1/p, since the printed difference would cancel.
 pub fn zeros(big_n: usize, p: f64) -> Option<[f64; 2]> {
     let b = two_product(p, big_n as f64) - DoubleDouble::ONE;
@@ -50,15 +50,18 @@ pub fn zeros(big_n: usize, p: f64) -> Option<[f64; 2]> {
 
 /// **Eq. (18)**
 ///
-/// p_crit = ((1 + √(N + 1))/N)², where f_{N,p} first touches zero: Φ gets a stationary point, as
-/// a function of real k. k* stays at 1 until [`p_jump`].
+/// Returns p_crit = ((1 + √(N + 1))/N)², where f_{N,p} first touches zero: Φ gets a stationary point,
+/// as a function of real k. k* stays at 1 until [`p_jump`].
+///
+/// # Errors
+/// [`Error`] for N out of range.
 pub fn p_crit(big_n: usize) -> Result<f64, Error> {
     check_vertices(big_n)?;
     let root = (1.0 + (big_n as f64 + 1.0).sqrt()) / big_n as f64;
     Ok(root * root)
 }
 
-/// The k > 1 at which Φ_{N,p}(k) over integers has its local maximum (the lower of two equal
+/// Returns the k > 1 at which Φ_{N,p}(k) over integers has its local maximum (the lower of two equal
 /// ones), or 1 if Φ falls everywhere: ⌈k+⌉, since f is a forward difference.
 pub fn local_maximum(big_n: usize, p: f64) -> usize {
     let Some([_, plus]) = zeros(big_n, p) else { return 1 };
@@ -77,13 +80,15 @@ pub fn local_maximum(big_n: usize, p: f64) -> usize {
     k
 }
 
-/// The p at which k* steps from k to k + 1 once k* > 1: f_{N,p}(k) = 0, so (k + 1)/(k (N − k)).
+/// Returns the p at which k* steps from k to k + 1 once k* > 1: f_{N,p}(k) = 0, so
+/// (k + 1)/(k (N − k)).
 pub fn step(big_n: usize, k: usize) -> f64 {
     (k + 1) as f64 / (k * (big_n - k)) as f64
 }
 
-/// The first local maximum of Φ over integers as p grows: the k > 1 where f_{N,p}(k) = 0 at the
-/// smallest p, and that p as a fraction. A little above p_crit, unless k+ is an integer there. Needs N ≥ 3.
+/// Returns the first local maximum of Φ over integers as p grows: the k > 1 where f_{N,p}(k) = 0 at
+/// the smallest p, and that p as a fraction. It is a little above p_crit, unless k+ is an integer
+/// there. None for N < 3.
 pub fn first_local_maximum(big_n: usize) -> Option<(usize, [usize; 2])> {
     // (k + 1)/(k (N − k)) over k: compare as integers, exactly.
     let parts = |k: usize| [k + 1, k * (big_n - k)];
@@ -91,7 +96,28 @@ pub fn first_local_maximum(big_n: usize) -> Option<(usize, [usize; 2])> {
     (2..big_n).min_by(|a, b| before(parts(*a), parts(*b))).map(|k| (k, parts(k)))
 }
 
-/// Where the most likely number of impacts leaves 1.
+impl Law {
+    /// Returns k*, the most likely number of different impacts; the lowest of several.
+    pub fn k_star(&self) -> usize {
+        match self.space {
+            SampleSpace::Simple => self.simple_k_star(),
+            _ => self.sums().largest_at,
+        }
+    }
+
+    /// Returns k* of simple circuits: either 1 or the one local maximum, found from exact signs of f.
+    fn simple_k_star(&self) -> usize {
+        let top = local_maximum(self.big_n, self.p);
+        if top == 1 || rises(self.big_n, self.p, 1) {
+            return top;
+        }
+        let first = Scaled::from(self.big_n) * Scaled::from(top);
+        let exceeds = self.weights().nth(top - 1).is_some_and(|weights| weights.moment() > first);
+        if exceeds { top } else { 1 }
+    }
+}
+
+/// The jump of the most likely number of impacts from 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jump {
     /// The double nearest to the infimum of p with k* > 1.
@@ -103,7 +129,7 @@ pub struct Jump {
 }
 
 // listing: p_jump
-/// The actual jump of k*: the infimum of p with k* > 1, and k* after it.
+/// Finds the actual jump of k*: the infimum of p with k* > 1, and k* after it.
 ///
 /// Φ(k)/Φ(1) grows with p for every k > 1, so "some Φ(k) exceeds Φ(1)" turns true once, and
 /// bisection over doubles finds the place to the last bit.
@@ -128,7 +154,7 @@ pub fn p_jump(space: SampleSpace, big_n: usize) -> Result<Jump, Error> {
 // end
 
 // listing: first_is_exceeded
-/// Whether some k > 1 has more weight than k = 1.
+/// Decides whether some k > 1 has more weight than k = 1.
 fn first_is_exceeded(space: SampleSpace, big_n: usize, p: DoubleDouble) -> bool {
     let mut weights = Weights::new(space, big_n, p);
     let first = weights.moment();
@@ -138,7 +164,7 @@ fn first_is_exceeded(space: SampleSpace, big_n: usize, p: DoubleDouble) -> bool 
         if weights.moment() > first * Scaled::from(k) {
             return true;
         }
-        if weights.falls_for_good() {
+        if weights.falls_from_here() {
             return false;
         }
     }
@@ -146,14 +172,14 @@ fn first_is_exceeded(space: SampleSpace, big_n: usize, p: DoubleDouble) -> bool 
 }
 // end
 
-/// The limit of k*/N and of μ/N for N → ∞ with p N fixed: max(0, 1 − 1/(p N)). For k Φ_{N,p}(k) is a Poisson weight of
-/// N − k with mean 1/p (ours, beyond the paper).
+/// Returns the limit of k*/N and of μ/N for N → ∞ with p N fixed: max(0, 1 − 1/(p N)). It follows
+/// since k Φ_{N,p}(k) is a Poisson weight of N − k with mean 1/p (ours, beyond the paper).
 pub fn limit_share(p_big_n: f64) -> f64 {
     (1.0 - 1.0 / p_big_n).max(0.0)
 }
 
-/// The larger root of k² = 2 N (ln k − 1): where k* jumps to for many vertices, but for about ln k (ours). Nothing for
-/// N ≤ e³, where there is no root.
+/// Returns the larger root of k² = 2 N (ln k − 1), to which k* jumps for many vertices, up to about
+/// ln k (ours); none for N ≤ e³, where there is no root.
 pub fn jump_rule(big_n: usize) -> Option<f64> {
     let big_n = big_n as f64;
     let beyond = |k: f64| k * k >= 2.0 * big_n * (pxfm::f_log(k) - 1.0);
@@ -166,8 +192,8 @@ pub fn jump_rule(big_n: usize) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Second routes: the exact jump, from which the rule is off by about ln k; and ⌈k+⌉ of Eq. (13), which is N − 1/p
-    /// but for less than one and 1/(p k*).
+    /// Second routes: the exact jump, from which the rule is off by about ln k; and ⌈k+⌉ of Eq. (13),
+    /// which is N − 1/p up to one and 1/(p k*).
     #[test]
     fn the_rules_for_many_vertices_are_near_the_jump_and_its_share() {
         for big_n in [21, 100, 1000, 1_000_000] {

@@ -25,97 +25,18 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+mod arrangements;
 pub mod commuting;
 pub mod counting;
 pub mod distribution;
+mod error;
+mod fraction;
 pub mod graph;
 pub mod higher_order;
 pub mod impact_probability;
 pub mod jump;
 pub mod nucleation;
+mod sample_space;
 
-/// An argument outside the theory, or a value outside the range of doubles.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{field}: {problem}; {remedy}")]
-pub struct Error {
-    /// The field: `vertices`, `p`, `k`, `sigma`, `omega`, `forcing-frequency` or `spacing`.
-    pub field: &'static str,
-    /// What is wrong, with the value.
-    pub problem: String,
-    /// What to give instead.
-    pub remedy: String,
-}
-
-impl Error {
-    pub(crate) fn new(field: &'static str, problem: String, remedy: impl Into<String>) -> Self {
-        Error { field, problem, remedy: remedy.into() }
-    }
-
-    /// A positive quantity is below the range of doubles at a σ.
-    pub(crate) fn underflow(what: &str, sigma: f64, remedy: &str) -> Self {
-        let problem = format!("{what} is below the range of double precision at σ = {sigma:e}");
-        Error::new("sigma", problem, remedy)
-    }
-}
-
-/// A non-negative fraction in lowest terms: printed formulas need not give integers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Fraction {
-    /// Above the line.
-    pub numerator: u128,
-    /// Below the line, > 0.
-    pub denominator: u128,
-}
-
-impl Fraction {
-    /// `numerator`/`denominator` in lowest terms; the denominator must not be zero.
-    pub fn new(numerator: u128, denominator: u128) -> Self {
-        let divisor = gcd(numerator, denominator).max(1);
-        Fraction { numerator: numerator / divisor, denominator: denominator / divisor }
-    }
-
-    /// The integer it equals, if it does.
-    pub fn integer(self) -> Option<u128> {
-        (self.denominator == 1).then_some(self.numerator)
-    }
-
-    /// The nearest double, up to a rounding of both parts.
-    pub fn to_f64(self) -> f64 {
-        self.numerator as f64 / self.denominator as f64
-    }
-}
-
-/// Greatest common divisor, gcd(0, b) = b.
-fn gcd(a: u128, b: u128) -> u128 {
-    if a == 0 { b } else { gcd(b % a, a) }
-}
-
-/// The largest number of vertices for which a quantity is computed: each takes a time that grows
-/// at most in proportion to N, some seconds at this bound.
-pub const LARGEST_N: usize = 10_000_000;
-
-/// Refuses a number of vertices outside 1..=[`LARGEST_N`].
-pub(crate) fn check_vertices(big_n: usize) -> Result<(), Error> {
-    if (1..=LARGEST_N).contains(&big_n) {
-        return Ok(());
-    }
-    let remedy = format!("give 1 ≤ N ≤ {LARGEST_N}");
-    Err(Error::new("vertices", format!("{big_n} vertices"), remedy))
-}
-
-/// Refuses an edge probability outside [0, 1].
-pub(crate) fn check_p(p: f64) -> Result<(), Error> {
-    if (0.0..=1.0).contains(&p) {
-        return Ok(());
-    }
-    Err(Error::new("p", format!("{p:?} is not a probability"), "give 0 ≤ p ≤ 1"))
-}
-
-/// Refuses a number of different vertices outside 1..=N.
-pub(crate) fn check_k(big_n: usize, k: usize) -> Result<(), Error> {
-    if (1..=big_n).contains(&k) {
-        return Ok(());
-    }
-    let problem = format!("{k} is outside 1..{big_n}");
-    Err(Error::new("k", problem, format!("give 1 ≤ k ≤ {big_n}, the number of vertices")))
-}
+pub use error::{Error, LARGEST_N};
+pub use fraction::Fraction;

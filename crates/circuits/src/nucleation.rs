@@ -1,4 +1,5 @@
-//! Nucleation (ours): the probabilities that a gap of a chain from rest closes by itself, and that some gap of it does.
+//! Computes the probabilities that a gap of a chain from rest closes by itself, and that some gap of
+//! it does (nucleation; ours).
 //!
 //! # One gap
 //! A chain from rest has free parts that cancel the forced positions and velocities at t = 0. With the
@@ -16,8 +17,9 @@
 //!
 //! At a wall only one of the amplitudes differs from zero: σ/√2 stands for σ. For incommensurable
 //! frequencies M_T rises to M(θ) = (1 + √(cos²θ + (Ω/ω)² sin²θ))/|ω² − Ω²|, and p_T to p_rest. A gap
-//! closes late only if it closes barely: the phases that it needs form an ellipse of size √ε, for ρ M = d + ε,
-//! which a straight line of length T in the torus of phases misses for ε of order T^{−2} only.
+//! closes late only if it closes barely: the phases that it needs form an ellipse of size √ε, for
+//! ρ M = d + ε, which a straight line of length T in the torus of phases misses for ε of order
+//! T^{−2} only.
 //!
 //! # Two neighbours
 //! Neighbours share a mass, and with it the force on that mass: both amplitude differences contain it
@@ -25,21 +27,24 @@
 //! r_1 = s cos φ and r_2 = s sin φ, the integral over s is elementary, and three angles are left. Where
 //! tan φ < m_2/m_1, m_i = d/M(θ_i), the second radius decides whether both close, and with t = tan φ
 //!
-//! P = ⟨ ∫_0^{m_2/m_1} (2 t D/Q²)(1 + h) e^{−h} dt ⟩ over θ_1 and θ_2, and the same with 1 and 2 exchanged,
+//! P = ⟨ ∫_0^{m_2/m_1} (2 t D/Q²)(1 + h) e^{−h} dt ⟩ over θ_1 and θ_2, and the same with 1 and 2
+//! exchanged,
 //! Q = v_2 + v_1 t² + 2σ² t cos(θ_1 − θ_2),  D = v_1 v_2 − σ⁴,  h = m_2² Q/(2 D t²),
 //!
 //! v_1 and v_2 being the variances of the differences. The exponential is the only function needed.
 //!
 //! # At least one gap of a chain
-//! The gaps are 1-dependent: gaps that share no mass are independent, neighbours are not, and those that close by
-//! themselves come in clumps. A clump begins at a gap that closes when the gap to its left does not. There is a gap that
-//! closes if and only if there is a clump, and beginnings of clumps are nearly independent: with their mean number λ,
-//! there is none with a probability near e^{−λ}.
+//! The gaps are 1-dependent: gaps that share no mass are independent, neighbours are not, and those
+//! that close by themselves come in clumps. A clump begins at a gap that closes when the gap to its
+//! left does not. There is a gap that closes if and only if there is a clump, and beginnings of clumps
+//! are nearly independent: if their mean number is λ, there is no clump with a probability near
+//! e^{−λ}.
 //!
-//! Dependence only makes chains without such a gap more frequent. In unlimited time a gap does not close if the
-//! difference of its forces lies in a set that is convex and symmetric about zero, and forces are jointly normal. By the
-//! Gaussian correlation inequality (Royen 2014) all gaps stay open with at least the product of their probabilities
-//! to do so: independent gaps give an upper bound on the share of chains with a gap that closes.
+//! Dependence only makes chains without such a gap more frequent. In unlimited time a gap does not
+//! close if the difference of its forces lies in a set that is convex and symmetric about zero, and
+//! forces are jointly normal. By the Gaussian correlation inequality (Royen 2014) all gaps stay open
+//! with at least the product of the probabilities that each does: independent gaps give an upper bound
+//! on the share of chains with a gap that closes.
 
 use impact_chain::{Boundary, Chain};
 use impact_numerics::quadrature::GaussLegendre;
@@ -56,7 +61,7 @@ pub struct Reach {
 /// Steps of the search for maxima in a unit of ωt.
 const STEPS: usize = 8;
 
-/// The curve E and its first derivative at a time.
+/// Returns the curve E and its first derivative at a time.
 fn curve(chain: &Chain, time: f64) -> ([f64; 2], [f64; 2]) {
     let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
     let scale = 1.0 / (omega * omega - big_omega * big_omega);
@@ -72,8 +77,8 @@ fn along([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> f64 {
 }
 
 impl Reach {
-    /// The reach within each of some rising times, at `angles` angles. Times are rounded down to
-    /// eighths of 1/ω; maxima are exact to rounding but for two of them less than an eighth apart.
+    /// Computes the reach within each of some rising times, at `angles` angles. Times are rounded down
+    /// to eighths of 1/ω; maxima are exact to rounding, except two of them less than an eighth apart.
     pub fn within(chain: &Chain, times: &[f64], angles: usize) -> Vec<Reach> {
         let step = 1.0 / (STEPS as f64 * chain.natural_frequency);
         let directions: Vec<[f64; 2]> = directions(angles).collect();
@@ -102,7 +107,7 @@ impl Reach {
         reaches
     }
 
-    /// The reach in unlimited time, for frequencies that have no common multiple.
+    /// Computes the reach in unlimited time, for frequencies that have no common multiple.
     pub fn ever(chain: &Chain, angles: usize) -> Reach {
         let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
         let scale = 1.0 / (omega * omega - big_omega * big_omega).abs();
@@ -112,12 +117,12 @@ impl Reach {
         Reach { radii: directions(angles).map(radius).collect() }
     }
 
-    /// The same at every `step`-th angle only.
+    /// Keeps every `step`-th angle only.
     pub fn every(&self, step: usize) -> Reach {
         Reach { radii: self.radii.iter().copied().step_by(step.max(1)).collect() }
     }
 
-    /// The probability that a gap closes by itself whose two amplitudes differ by normals with
+    /// Returns the probability that a gap closes by itself whose two amplitudes differ by normals with
     /// variance `variance` each: 2σ² between masses, σ² at a wall; d is the `spacing`.
     pub fn probability(&self, spacing: f64, variance: f64) -> f64 {
         let beyond = |radius: &f64| {
@@ -129,7 +134,8 @@ impl Reach {
     }
 }
 
-/// Whether a gap of a chain from rest, whose two forces differ by these amplitudes, closes in unlimited time.
+/// Decides whether a gap of a chain from rest, whose two forces differ by these amplitudes, closes in
+/// unlimited time.
 pub fn closes_by_itself(chain: &Chain, [delta_alpha, delta_beta]: [f64; 2]) -> bool {
     let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
     let turned = big_omega / omega * delta_beta;
@@ -138,7 +144,7 @@ pub fn closes_by_itself(chain: &Chain, [delta_alpha, delta_beta]: [f64; 2]) -> b
     free + forced >= chain.spacing * (omega * omega - big_omega * big_omega).abs()
 }
 
-/// (cos θ, sin θ) at equally spaced angles.
+/// Lists (cos θ, sin θ) at equally spaced angles.
 fn directions(angles: usize) -> impl Iterator<Item = [f64; 2]> {
     (0..angles).map(move |i| {
         let (sin, cos) = pxfm::f_sincos(TAU * i as f64 / angles as f64);
@@ -146,10 +152,11 @@ fn directions(angles: usize) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// Where the curve turns back in a direction, between times of which the first still rises.
+/// Returns the time at which the curve turns back in a direction, between a time at which it rises
+/// and one at which it falls.
 fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64 {
     // The slope is nearly straight in an eighth: false position halves the number of bits left, and
-    // bisection in turn keeps both ends moving.
+    // a bisection now and then keeps both ends moving.
     let slope = |time: f64| along(curve(chain, time).1, direction);
     let (mut rises, mut falls) = (slope(from), slope(until));
     for round in 0..24 {
@@ -167,8 +174,8 @@ fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64
 /// Points of the rule on each side of the angle from which on the other radius decides.
 const POINTS: usize = 20;
 
-/// The probability that two neighbouring gaps both close by themselves, of variances v_1 and v_2
-/// (2σ² between masses, σ² at a wall). The rule over the angles has the points of the reach.
+/// Returns the probability that two neighbouring gaps, of variances v_1 and v_2 (2σ² between masses,
+/// σ² at a wall), both close by themselves. The rule over the angles has the points of the reach.
 fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
     let rule = GaussLegendre::new(POINTS);
     let shared = sigma * sigma;
@@ -215,8 +222,8 @@ pub struct Chances {
 }
 
 impl Chances {
-    /// The chances within a reach, for forces of standard deviation `sigma`; `fewer` is the reach at fewer angles, for
-    /// neighbours, which cost the square of their number.
+    /// Computes the chances within a reach, for forces of standard deviation `sigma`; `fewer` is the
+    /// reach at fewer angles, for neighbours, which cost the square of that number.
     pub fn new(chain: &Chain, reach: &Reach, fewer: &Reach, sigma: f64) -> Chances {
         let (mass, wall) = (2.0 * sigma * sigma, sigma * sigma);
         let d = chain.spacing;
@@ -228,25 +235,26 @@ impl Chances {
         }
     }
 
-    /// The probability 1 − e^{−λ} that at least one gap closes by itself, of a chain of `masses` masses, one at least, between
-    /// walls or in a ring.
+    /// Returns the probability 1 − e^{−λ} that at least one gap closes by itself in a chain of
+    /// `masses` ≥ 1 masses between walls or in a ring.
     pub fn at_least_one(&self, masses: usize, boundary: Boundary) -> f64 {
-        // The chance of a clump to begin at a gap.
         let walls = boundary == Boundary::Walls && masses > 1;
-        let gaps = boundary.gaps(masses);
-        let begins = |gap: usize| match (walls, gap) {
-            (true, 0) => self.wall,
-            (true, 1) => self.p - self.wall_pair,
-            (true, gap) if gap == masses => self.wall - self.wall_pair,
-            _ => self.p - self.pair,
-        };
-        let clumps = (0..gaps).map(begins).fold(0.0, |sum, own| sum + own);
+        let mut clumps = 0.0;
+        for gap in 0..boundary.gaps(masses) {
+            // The chance that a clump begins at this gap.
+            clumps += match gap {
+                0 if walls => self.wall,
+                1 if walls => self.p - self.wall_pair,
+                last if walls && last == masses => self.wall - self.wall_pair,
+                _ => self.p - self.pair,
+            };
+        }
         -pxfm::f_expm1(-clumps)
     }
 }
 
-/// The σ at which half of such chains have a gap that closes by itself, to about 1e-6 of itself; the sum over
-/// angles is less exact.
+/// Returns the σ at which half of such chains have a gap that closes by itself, to a relative error of
+/// about 1e-6; the sum over angles is less exact.
 pub fn half(chain: &Chain, reach: &Reach, fewer: &Reach) -> f64 {
     let share = |sigma: f64| {
         Chances::new(chain, reach, fewer, sigma).at_least_one(chain.masses, chain.boundary)

@@ -1,0 +1,50 @@
+//! Defines the error of the theory, and the range checks that raise it.
+
+use std::fmt::Debug;
+
+/// An argument outside the theory, or a value outside the range of doubles.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{field}: {problem}; {remedy}")]
+pub struct Error {
+    /// The field: `vertices`, `p`, `k`, `sigma`, `omega`, `forcing-frequency` or `spacing`.
+    pub field: &'static str,
+    /// What is wrong, with the value.
+    pub problem: String,
+    /// What to give instead.
+    pub remedy: String,
+}
+
+impl Error {
+    pub(crate) fn new(field: &'static str, problem: String, remedy: impl Into<String>) -> Self {
+        Error { field, problem, remedy: remedy.into() }
+    }
+
+    /// Creates the error of a positive quantity that is below the range of doubles at a σ.
+    pub(crate) fn underflow(what: &str, sigma: f64, remedy: &str) -> Self {
+        let problem = format!("{what} is below the range of double precision at σ = {sigma:e}");
+        Error::new("sigma", problem, remedy)
+    }
+}
+
+/// The largest number of vertices for which a quantity is computed: each takes a time that grows
+/// at most in proportion to N, some seconds at this bound.
+pub const LARGEST_N: usize = 10_000_000;
+
+/// Refuses a number outside [low, high].
+pub(crate) fn within<T: PartialOrd + Debug>(
+    field: &'static str,
+    x: T,
+    low: T,
+    high: T,
+) -> Result<(), Error> {
+    if (&low..=&high).contains(&&x) {
+        return Ok(());
+    }
+    let remedy = format!("give a number from {low:?} to {high:?}");
+    Err(Error::new(field, format!("{x:?} is out of range"), remedy))
+}
+
+/// Refuses a number of vertices outside 1..=[`LARGEST_N`].
+pub(crate) fn check_vertices(big_n: usize) -> Result<(), Error> {
+    within("vertices", big_n, 1, LARGEST_N)
+}
