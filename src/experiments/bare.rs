@@ -34,11 +34,13 @@ pub fn bare() -> Paper {
     #[cfg(feature = "embed")]
     let project =
         Project { copy: literate::texts!("templates", "benches/measured.json"), ..project };
-    Paper {
+    let mut paper = Paper {
         project,
         prose: "templates",
         experiments: ALL.to_vec(),
         derived: DERIVED.to_vec(),
         ..Paper::new(title, sources)
-    }
+    };
+    paper.edition.documents.clear();
+    paper
 }
