@@ -6,7 +6,7 @@ use super::prelude::*;
 pub fn draw() -> Result<Figure, Error> {
     let sheet = Sheet::new(6300);
     let layout = Layout::rectangle((2350, 1300), (6050, 5000), 480, 1900.0);
-    layout.edges(&sheet, Stroke::solid(BLUE, 26));
+    layout.edges(&sheet, Stroke::solid(BLUE, 26))?;
     layout.vertices(&sheet, &[0, 1, 2, 3])?;
 
     // Of the four vertices each leads to each.

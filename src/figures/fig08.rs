@@ -17,7 +17,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let (p, mean) = (short(at, 3), short(of("mean")?, 3));
         panel.record(&format!("probability at p = {p}"), over_k(&probability));
         panel.unrecorded().columns("probability", &probability, Stroke::solid(GREEN, THIN))?;
-        heading(&panel, LETTERS[i], &format!("*p* = {p}, *μ* = {mean}"))?;
+        panel.heading(LETTERS[i], &format!("*p* = {p}, *μ* = {mean}"))?;
         let side = if k_star == 1.0 { (2, 0) } else { (0, -1) };
         let peak = (k_star, largest(&probability));
         panel.label(&format!("*k*^{{∗}} = {k_star}"), peak, side, INK)?;

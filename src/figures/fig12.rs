@@ -20,7 +20,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     panel.label("graph theory", reaches(&simple, 0.7 * n as f64), (2, 0), GREEN)?;
     if let Some(half) = sweep.first().rise.half_height {
         let theory = results.number("theory.relation.sigma_half")?;
-        lag(&sheet, &panel, [half.value, theory], n as f64 / 2.0)?;
+        lag(&panel, [half.value, theory], n as f64 / 2.0)?;
     }
 
     let description = describe!(
@@ -34,8 +34,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 }
 
 /// Where both come to half of all gaps, and how much later in σ the theory does, as an arrow with its length.
-fn lag(sheet: &Sheet, panel: &Panel, [from, to]: [f64; 2], level: f64) -> Result<(), Error> {
-    sheet.free().arrow(vec![panel.at(from, level), panel.at(to, level)], Stroke::solid(INK, THIN));
+fn lag(panel: &Panel, [from, to]: [f64; 2], level: f64) -> Result<(), Error> {
+    panel.area.draw(&arrow(vec![(from, level), (to, level)], Stroke::solid(INK, THIN)))?;
     let middle = (printed_threshold() + to) / 2.0;
     panel.label(&format!("+{}", short(to - from, 2)), (middle, level), (0, -1), INK)?;
     panel.label(&short(from, 4), (from, level), (-2, 0), INK)?;

@@ -13,7 +13,7 @@ const FEW: f64 = 20.0;
 const DETAIL: usize = 12;
 
 /// Name, symbol, colour and dash of a class.
-type Class = (&'static str, &'static str, Colour, Dash);
+type Class = (&'static str, &'static str, RGBColor, Dash);
 
 /// The sum of all classes: wide and pale, so that the classes are seen on it in grey too.
 const SUM: Stroke = Stroke::solid(PALE, 100);
@@ -47,7 +47,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let y = upwards_from_zero(top, label).column("P(X = k)");
         let (left, top) = (1200 + 3900 * (i as i32 % 2), 480 + 2700 * (i as i32 / 2));
         let panel = sheet.panel(Frame::new(left, top, left + 3050, top + 1600), k(end), y)?;
-        heading(&panel, LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
+        panel.heading(LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
         series(&panel, p)?;
         let (corner, side) = if i == 3 { (0.0, 1) } else { (panel.x.hi, -1) };
         let (name, _, colour, _) = CLASSES[SHOWN[i]];
@@ -65,7 +65,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let y = |lowest| Axis::decades(lowest, 0, 2, "*P*(*X* = *k*)");
     let x = Axis::linear(0.0, FEW, 5.0, 5, "*k*");
     let few = sheet.panel(Frame::new(1200, 5850, 4700, 8450), x, y(-12))?;
-    heading(&few, "(e)", &format!("*p* = {}", short(small, 3)))?;
+    few.heading("(e)", &format!("*p* = {}", short(small, 3)))?;
     series(&few, small)?;
     let names = CLASSES.map(|(name, symbol, colour, dash)| {
         (format!("{name}, {symbol}"), colour, Stroke::dashed(colour, LINE, dash))
@@ -73,14 +73,15 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let all = ("all five classes".to_string(), GREY, SUM);
     for (place, (name, colour, stroke)) in [all].into_iter().chain(names).enumerate() {
         let y = few.frame.top + 450 + 340 * place as i32;
-        sheet.free().line(vec![(few.frame.right + 300, y), (few.frame.right + 700, y)], stroke);
-        let look = (SMALL, colour, HPos::Left, VPos::Center);
-        sheet.text(&name, (few.frame.right + 780, y), look)?;
+        let [from, to, text] = [300, 700, 780].map(|right| (few.frame.right + right, y));
+        sheet.area.draw(&line(vec![from, to], stroke))?;
+        let style = words(SMALL, colour, HPos::Left, VPos::Center);
+        sheet.area.draw_text(&name, &style, text)?;
     }
 
     let x = Axis::linear(50.0, whole, 10.0, 2, "*k*");
     let many = sheet.panel(Frame::new(1200, 9450, 8150, 12_050), x, y(-8))?;
-    heading(&many, "(f)", &format!("*p* = {}", short(large, 3)))?;
+    many.heading("(f)", &format!("*p* = {}", short(large, 3)))?;
     series(&many, large)?;
     let flank = super::simulated::reaches(&over_k(&five(large)), 1e-3);
     many.label("all five classes", flank, (-3, 0), GREY)?;

@@ -18,7 +18,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let y = upwards_from_zero(top, "*P*(*X* = *k*)");
         let panel = sheet.panel(FOUR[i], x, y)?;
         let p = short(at, 3);
-        heading(&panel, LETTERS[i], &format!("*p* = {p}"))?;
+        panel.heading(LETTERS[i], &format!("*p* = {p}"))?;
         panel.curve("simple circuits", &over_k(&simple), line, Outside::Refuse)?;
         panel.curve("five classes", &over_k(&higher), broken, Outside::Refuse)?;
         let peak = |values: &[f64]| {

@@ -60,35 +60,40 @@ impl Layout {
     }
 
     /// Draws all sixteen edges.
-    pub fn edges(&self, sheet: &Sheet, stroke: Stroke) {
+    pub fn edges(&self, sheet: &Sheet, stroke: Stroke) -> Result<(), Error> {
         for edge in 0..16 {
-            sheet.free().arrow(self.edge(edge / 4, edge % 4), stroke);
+            sheet.area.draw(&arrow(self.edge(edge / 4, edge % 4), stroke))?;
         }
+        Ok(())
     }
 
     /// Draws the vertices; those that are `visited` stand out.
     pub fn vertices(&self, sheet: &Sheet, visited: &[usize]) -> Result<(), Error> {
         for (vertex, &centre) in self.centres.iter().enumerate() {
             let (ink, width) = if visited.contains(&vertex) { (INK, 30) } else { (GREY, HAIR) };
-            sheet.free().disc(centre, self.radius, WHITE, Stroke::solid(ink, width));
-            sheet.text(&name(vertex), centre, (TEXT, ink, HPos::Center, VPos::Center))?;
+            let ring = (Symbol::Ring, self.radius, Stroke::solid(ink, width));
+            sheet.area.draw(&markers(vec![centre], ring))?;
+            let style = words(TEXT, ink, HPos::Center, VPos::Center);
+            sheet.area.draw_text(&name(vertex), &style, centre)?;
         }
         Ok(())
     }
 
     /// Draws a circuit: its edges, each with the number of its step.
-    pub fn circuit(&self, sheet: &Sheet, order: &[usize], colour: Colour) -> Result<(), Error> {
+    pub fn circuit(&self, sheet: &Sheet, order: &[usize], colour: RGBColor) -> Result<(), Error> {
         let steps = || order.iter().zip(order.iter().cycle().skip(1)).zip(1..);
         for ((&from, &to), _) in steps() {
-            sheet.free().arrow(self.edge(from, to), Stroke::solid(colour, 42));
+            sheet.area.draw(&arrow(self.edge(from, to), Stroke::solid(colour, 42)))?;
         }
         for ((&from, &to), step) in steps() {
             // Off the middle, where the diagonals cross.
             let share = if from.abs_diff(to) == 2 { 24 } else { 50 };
             let path = self.edge(from, to);
             let at = path[path.len() * share / 100];
-            sheet.free().disc(at, 150, WHITE, Stroke::solid(colour, HAIR));
-            sheet.text(&i32::to_string(&step), at, (SMALL, INK, HPos::Center, VPos::Center))?;
+            let ring = (Symbol::Ring, 150, Stroke::solid(colour, HAIR));
+            sheet.area.draw(&markers(vec![at], ring))?;
+            let style = words(SMALL, INK, HPos::Center, VPos::Center);
+            sheet.area.draw_text(&i32::to_string(&step), &style, at)?;
         }
         Ok(())
     }

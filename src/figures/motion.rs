@@ -4,8 +4,8 @@ use super::graph::{Layout, NAMES, name};
 use super::prelude::*;
 use crate::experiments::segments::Segment;
 
-/// Colour and dash of each mass.
-const MASSES: [(Colour, Dash); 3] =
+/// RGBColor and dash of each mass.
+const MASSES: [(RGBColor, Dash); 3] =
     [(BLUE, Dash::Solid), (GREEN, Dash::Long), (ORANGE, Dash::Alternate)];
 
 /// Draws one of the two figures; `order` are the gaps in the order of their impacts.
@@ -16,11 +16,11 @@ pub fn draw(
 ) -> Result<Figure, Error> {
     let sheet = Sheet::new(9250);
     let layout = Layout::rectangle((2700, 1150), (5700, 3400), 400, 2000.0);
-    layout.edges(&sheet, Stroke::solid(PALE, HAIR));
+    layout.edges(&sheet, Stroke::solid(PALE, HAIR))?;
     layout.circuit(&sheet, order, RED)?;
     layout.vertices(&sheet, order)?;
-    let look = (TEXT, INK, HPos::Left, VPos::Bottom);
-    sheet.text(LETTERS[0], (260, 350), look)?;
+    let style = words(TEXT, INK, HPos::Left, VPos::Bottom);
+    sheet.area.draw_text(LETTERS[0], &style, (260, 350))?;
 
     let duration = segment.until - segment.from;
     let walls = (segment.masses + 1) as f64;
@@ -28,7 +28,7 @@ pub fn draw(
     let y = Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*");
     let panel = sheet.panel(Frame::new(1200, 4900, 8000, 8500), x, y)?;
     let panel = panel.with_suffix("b");
-    sheet.text(LETTERS[1], (260, 4690), look)?;
+    sheet.area.draw_text(LETTERS[1], &style, (260, 4690))?;
     motion(&panel, segment, order.len())?;
     let names: Vec<&str> = order.iter().map(|&gap| NAMES[gap]).collect();
     let description = describe!(

@@ -54,7 +54,11 @@ fn window(panel: &Panel, until: f64) -> Result<(), Error> {
         return Ok(());
     }
     let (low, high) = (panel.y.lo, panel.y.hi);
-    panel.filled_area("window", &[(from, low), (to, low), (to, high), (from, high)], ORANGE, 30)?;
+    panel.filled_area(
+        "window",
+        &[(from, low), (to, low), (to, high), (from, high)],
+        ORANGE.mix(0.3),
+    )?;
     panel.label("counting window", (from, high), (1, -1), ORANGE)
 }
 

@@ -10,7 +10,7 @@ use literate::table::Table;
 const WINDOW: f64 = 200.0;
 
 /// The branches: column, name, colour.
-const BRANCHES: [(&str, &str, Colour); 2] =
+const BRANCHES: [(&str, &str, RGBColor); 2] =
     [("from_rest", "from rest", BLUE), ("from_above", "from above", RED)];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {

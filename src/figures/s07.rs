@@ -96,8 +96,8 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     if let Some([first, middle, ..]) = tsit.map(|program| &program.1[..]) {
         // With a leader, since other curves are as near.
         by_time.label("diffsol", *first, (3, -3), GREY)?;
-        let (x, y) = by_time.at(middle.0, middle.1);
-        sheet.free().line(vec![(x + 15, y + 65), (x + 60, y + 260)], Stroke::solid(GREY, HAIR));
+        let leader = PathElement::new([(15, 65), (60, 260)], Stroke::solid(GREY, HAIR));
+        by_time.area.draw(&(EmptyElement::at(*middle) + leader))?;
     }
     for (program, points) in others {
         let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };
@@ -123,12 +123,7 @@ fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
     let cut = |t: f64| t.min(panel.y.hi);
     let below = grid.iter().map(|(x, t)| (*x, cut(t[0])));
     let above = grid.iter().rev().map(|(x, t)| (*x, cut(t[2])));
-    panel.filled_area(
-        "interval of the growth",
-        &below.chain(above).collect::<Vec<_>>(),
-        PALE,
-        100,
-    )?;
+    panel.filled_area("interval of the growth", &below.chain(above).collect::<Vec<_>>(), PALE)?;
     let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
     let stroke = Stroke::dashed(GREY, LINE, Dash::Short);
     panel.curve("what chaos allows", &line, stroke, Outside::Cut)

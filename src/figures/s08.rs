@@ -61,7 +61,7 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
             by_method(&all, |row| Some((row.setting.method, (time(row.setting)?, row.share?))));
         let mut curves = Vec::new();
         for (method, found) in found {
-            curves.push((method, shown(&sheet, &panel, method, &found)?));
+            curves.push((method, shown(&panel, method, &found)?));
         }
         if i == 0 {
             panel.label("black: clear errors", (panel.x.hi, panel.y.lo), (-1, -6), INK)?;
@@ -75,7 +75,6 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
 /// The settings of a method: an error with its standard error, or an arrow down from where it may be at most. Returns where
 /// they stand.
 fn shown(
-    sheet: &Sheet,
     panel: &Panel,
     method: MethodName,
     found: &[(f64, Estimate)],
@@ -98,7 +97,7 @@ fn shown(
             let bar = [(*x, y - bias.error, y + bias.error)];
             panel.bars(title, &bar, 0, stroke, Outside::Edge)?;
         } else {
-            sheet.free().arrow([*y, 0.5 * y].map(|y| panel.at(*x, y)).into(), stroke);
+            panel.area.draw(&arrow(vec![(*x, *y), (*x, 0.5 * y)], stroke))?;
         }
         panel.markers(title, &[(*x, *y)], (mark, size, stroke), Outside::Edge)?;
     }

@@ -1,10 +1,14 @@
 //! Places values on an axis: its scale, range, ticks and labels, all in units of the data.
 //!
-//! The logarithmic coordinate of plotters uses the platform's logarithm; ours is a linear axis over
+//! An axis is a coordinate of plotters: `map` gives the place on the sheet, `key_points` the ticks.
+//! The logarithmic coordinate of plotters takes the platform's logarithm; ours is a linear one over
 //! log10 of the data, taken with a portable function.
 
 use super::markup::spelled;
-use pxfm::f_log10;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use plotters::coord::types::RangedCoordf64;
+use pxfm::{f_exp10, f_log10};
+use std::ops::Range;
 
 /// How values lie along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,6 +139,14 @@ impl Axis {
         }
     }
 
+    /// Returns the value at a position.
+    pub fn value(&self, position: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => position,
+            Scale::Logarithm => f_exp10(position),
+        }
+    }
+
     /// Returns the positions of both ends.
     pub fn ends(&self) -> (f64, f64) {
         (self.position(self.lo), self.position(self.hi))
@@ -152,6 +164,11 @@ impl Axis {
         lo - slack <= at && at <= hi + slack
     }
 
+    /// Tells whether the tick at a value has a label, if only an empty one.
+    pub(super) fn is_labelled(&self, value: f64) -> bool {
+        self.ticks.iter().any(|tick| tick.at == value && tick.label.is_some())
+    }
+
     /// Removes label and numbers, for a panel that shares the axis of the panel below.
     pub fn without_numbers(mut self) -> Self {
         let (name, unit) = self.name_and_unit();
@@ -161,6 +178,35 @@ impl Axis {
             tick.label = tick.label.take().map(|_| String::new());
         }
         self
+    }
+}
+
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let (lo, hi) = self.ends();
+        RangedCoordf64::from(lo..hi).map(&self.position(*value), limit)
+    }
+
+    /// Returns the ticks, or those with a label if bold points are asked for.
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        let all = hint.weight().allow_light_points();
+        let ticks = self.ticks.iter().filter(|tick| all || tick.label.is_some());
+        ticks.map(|tick| tick.at).take(hint.max_num_points()).collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.lo..self.hi
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    /// Returns the label of the tick at a value; nothing if it has none.
+    fn format_ext(&self, value: &f64) -> String {
+        let tick = self.ticks.iter().find(|tick| tick.at == *value);
+        tick.and_then(|tick| tick.label.clone()).unwrap_or_default()
     }
 }
 

@@ -1,6 +1,8 @@
 //! Says why a figure cannot be drawn.
 
 use crate::experiments;
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters_backend::DrawingErrorKind;
 use thiserror::Error;
 
 /// Why a figure cannot be drawn.
@@ -14,4 +16,19 @@ pub enum Error {
     Glyph { character: char, label: String },
     #[error("drawing failed: {0}")]
     Drawing(String),
+}
+
+impl From<Error> for DrawingErrorKind<Error> {
+    fn from(error: Error) -> Self {
+        DrawingErrorKind::DrawingError(error)
+    }
+}
+
+impl From<DrawingAreaErrorKind<Error>> for Error {
+    fn from(error: DrawingAreaErrorKind<Error>) -> Self {
+        match error {
+            DrawingAreaErrorKind::BackendError(DrawingErrorKind::DrawingError(error)) => error,
+            other => Error::Drawing(other.to_string()),
+        }
+    }
 }

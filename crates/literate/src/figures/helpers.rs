@@ -1,19 +1,15 @@
 //! Helps figures with what many of them need: columns over integers, round ends of axes, frames,
-//! headings, short numbers.
+//! letters, short numbers.
 
 use super::axis::{Axis, number};
 use super::drawing::Frame;
-use super::error::Error;
-use super::panel::Panel;
-use super::style::SMALL;
-use plotters::style::text_anchor::{HPos, VPos};
 
-/// Points (k, value) of a series whose first value belongs to k = 1.
+/// Returns the points (k, value) of a series whose first value belongs to k = 1.
 pub fn over_k(values: &[f64]) -> Vec<(f64, f64)> {
     values.iter().enumerate().map(|(i, &v)| ((i + 1) as f64, v)).collect()
 }
 
-/// An axis from zero to a round number at or above `largest`, with about four labelled steps.
+/// Makes an axis from zero to a round number at or above `largest`, with about four labelled steps.
 pub fn upwards_from_zero(largest: f64, label: &str) -> Axis {
     let mut unit = 1.0;
     while unit > largest {
@@ -32,7 +28,7 @@ pub fn upwards_from_zero(largest: f64, label: &str) -> Axis {
     Axis::linear(0.0, 10.0 * unit, 5.0 * unit, 1, label)
 }
 
-/// Largest of a series, zero if it is empty.
+/// Returns the largest of a series, zero if it is empty.
 pub fn largest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
 }
@@ -48,15 +44,8 @@ pub const FOUR: [Frame; 4] = [
 /// The letters of panels.
 pub const LETTERS: [&str; 4] = ["(a)", "(b)", "(c)", "(d)"];
 
-/// The letter of a panel and the parameter it is drawn for, above its frame.
-pub fn heading(panel: &Panel, letter: &str, parameter: &str) -> Result<(), Error> {
-    panel.letter(letter)?;
-    let corner = (panel.frame.right, panel.frame.top - 80);
-    panel.text(parameter, corner, SMALL, HPos::Right, VPos::Bottom)
-}
-
-/// A number with about `digits` significant decimals, for notes and descriptions; a tiny one as a
-/// multiple of a power of ten.
+/// Formats a number with about `digits` significant digits, for notes and descriptions; a tiny one
+/// as a multiple of a power of ten.
 pub fn short(value: f64, digits: usize) -> String {
     if value != 0.0 && value.abs() < 1e-3 {
         let shown = format!("{:.*e}", digits.saturating_sub(1), value);

@@ -4,7 +4,10 @@
 #![allow(missing_docs, reason = "obvious fields have no comment")]
 
 mod axis;
+mod backend;
+mod cut;
 mod drawing;
+mod elements;
 mod error;
 mod figure;
 mod font;
@@ -16,8 +19,10 @@ mod pdf;
 mod plot;
 mod record;
 mod series;
+mod sheet;
 mod style;
 mod svg;
+mod text;
 
 pub use drawing::{Drawing, Glyphs};
 pub use error::Error;
@@ -29,12 +34,17 @@ pub use svg::{escape, outlines};
 pub mod prelude {
     pub use super::axis::{Axis, Scale, Tick, number};
     pub use super::drawing::Frame;
+    pub use super::elements::{Marker, arrow, line, markers};
     pub use super::helpers::*;
-    pub use super::panel::{Panel, Sheet};
+    pub use super::panel::Panel;
     pub use super::plot::Plot;
-    pub use super::series::{Marker, Outside};
+    pub use super::series::Outside;
+    pub use super::sheet::{Sheet, SheetArea};
     pub use super::style::*;
+    pub use super::text::{rimmed, words};
     pub use super::{DataFile, Description, Error, Figure};
     pub use crate::describe;
+    pub use plotters::element::{EmptyElement, PathElement, Rectangle, Text};
     pub use plotters::style::text_anchor::{HPos, VPos};
+    pub use plotters::style::{Color, RGBColor};
 }

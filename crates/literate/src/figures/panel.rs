@@ -1,32 +1,37 @@
-//! The sheet that a figure is drawn on, and its panels: frames with two axes; [`super::series`] draws data in it and records it.
-//! Both fail if a label has a character that the shipped fonts lack.
+//! Draws panels: frames with two axes, and names in them; [`super::series`] draws data in a panel.
+//!
+//! All methods fail if a label has a character that the shipped fonts lack.
 
-use super::axis::{Axis, Tick};
-use super::drawing::{Drawing, Frame, Look};
+use super::axis::Axis;
+use super::drawing::{Drawing, Frame};
+use super::elements::segments;
 use super::error::Error;
-use super::figure::{Description, Figure};
 use super::font;
 use super::path::Point;
 use super::record::Record;
-use super::style::{Colour, HAIR, INK, SMALL, Stroke, TEXT, WIDTH};
-use plotters::coord::CoordTranslate;
-use plotters::coord::cartesian::Cartesian2d;
-use plotters::coord::types::RangedCoordf64;
+use super::style::{HAIR, INK, SMALL, Stroke, TEXT, WIDTH};
+use super::text::{rimmed, upwards, words};
+use plotters::coord::cartesian::{Cartesian2d, MeshLine};
+use plotters::coord::ranged1d::{BoldPoints, Ranged, ValueFormatter};
+use plotters::drawing::DrawingArea;
+use plotters::element::{EmptyElement, Text};
 use plotters::style::text_anchor::{HPos, VPos};
-use std::cell::{RefCell, RefMut};
+use plotters::style::{RGBColor, ShapeStyle, TextStyle};
+use plotters_backend::DrawingBackend;
+use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Axes in a frame; data is given in its own units, whatever the scales.
+/// Axes in a frame; data is in its units, whatever the scales.
 #[derive(Clone)]
 pub struct Panel {
-    pub(super) drawing: Rc<RefCell<Drawing>>,
-    pub(super) plane: Cartesian2d<RangedCoordf64, RangedCoordf64>,
-    /// Where it stands.
+    /// The panel as a drawing area of plotters, in units of the data.
+    pub area: DrawingArea<Drawing, Cartesian2d<Axis, Axis>>,
     pub frame: Frame,
-    /// Horizontal axis.
+    /// The horizontal axis.
     pub x: Axis,
-    /// Vertical axis.
+    /// The vertical axis.
     pub y: Axis,
+    drawing: Rc<RefCell<Drawing>>,
     pub(super) record: Rc<RefCell<Record>>,
     pub(super) recorded: bool,
 }
@@ -35,19 +40,20 @@ const TICK: i32 = 85;
 const MINOR_TICK: i32 = 50;
 const GAP: i32 = 70;
 
-/// Distance from a frame to the base of the label of its upright axis, without the width of the numbers.
-pub(super) const BESIDE: i32 = TICK + 4 * GAP;
+/// From a frame to the base of the label of its upright axis, without the width of the numbers.
+pub(super) const LABEL_LEFT: i32 = TICK + 4 * GAP;
 /// From a frame to the top of the label below it.
-pub(super) const BELOW: i32 = TICK + 3 * GAP + SMALL;
+pub(super) const LABEL_BELOW: i32 = TICK + 3 * GAP + SMALL;
 
 /// What stays clear around a name.
 const CLEARANCE: i32 = 45;
 
 /// From one line of words to the next.
-pub(super) const LINE_HEIGHT: i32 = 340;
+const LINE_HEIGHT: i32 = 340;
 
-/// Heights on the sheet in the same order, at least `least` apart: where some are closer, they move to both sides.
-pub(super) fn apart(heights: &[i32], least: i32) -> Vec<i32> {
+/// Moves heights that are closer than `least` to both sides, until all are that far apart; their
+/// order stays.
+fn spread(heights: &[i32], least: i32) -> Vec<i32> {
     let mut order: Vec<usize> = (0..heights.len()).collect();
     order.sort_by_key(|&i| heights[i]);
     let mut places = heights.to_vec();
@@ -61,223 +67,201 @@ pub(super) fn apart(heights: &[i32], least: i32) -> Vec<i32> {
     places
 }
 
+/// Returns which point of words is their anchor if they stand in this direction from it.
+fn anchor((right, down): (i32, i32)) -> (HPos, VPos) {
+    let h = match right.signum() {
+        -1 => HPos::Right,
+        0 => HPos::Center,
+        _ => HPos::Left,
+    };
+    let v = match down.signum() {
+        -1 => VPos::Bottom,
+        0 => VPos::Center,
+        _ => VPos::Top,
+    };
+    (h, v)
+}
+
 impl Panel {
-    /// A panel without anything in it yet, not even its axes.
+    /// Makes a panel without anything in it, not even its axes. Its area is as large as the sheet,
+    /// so that plotters moves no point onto the frame.
     pub(super) fn new(drawing: &Rc<RefCell<Drawing>>, frame: Frame, x: Axis, y: Axis) -> Self {
-        let record = Rc::new(RefCell::new(Record::new(&x, &y)));
-        let ((from, to), (low, high)) = (x.ends(), y.ends());
         let place = (frame.left..frame.right, frame.bottom..frame.top);
-        let plane = Cartesian2d::new(from..to, low..high, place);
-        Panel { drawing: drawing.clone(), plane, frame, x, y, record, recorded: true }
+        let plane = Cartesian2d::new(x.clone(), y.clone(), place);
+        let area = DrawingArea::from(drawing).apply_coord_spec(plane);
+        let record = Rc::new(RefCell::new(Record::new(&x, &y)));
+        Panel { area, frame, x, y, drawing: drawing.clone(), record, recorded: true }
     }
 
-    /// Where a value stands on the sheet.
-    pub fn at(&self, x: f64, y: f64) -> Point {
-        self.place((self.x.position(x), self.y.position(y)))
-    }
-
-    /// Where a place on the axes stands on the sheet.
-    pub(super) fn place(&self, place: (f64, f64)) -> Point {
-        self.plane.translate(&place)
-    }
-
-    /// The same panel, which records into a file of its own: its name is the figure's id with these letters behind.
+    /// Returns the panel with a file of its data whose name ends in `suffix`, after the id of the
+    /// figure.
     pub fn with_suffix(self, suffix: &str) -> Self {
         self.record.borrow_mut().suffix = suffix.into();
         Panel { recorded: true, ..self }
     }
 
-    /// The same panel for what is no data of its own: repeated outlines, rims, details.
+    /// Returns the panel without a record, for what is no data: repeated outlines, details.
     pub fn unrecorded(&self) -> Self {
         Panel { recorded: false, ..self.clone() }
     }
 
-    pub(super) fn text(
+    /// Writes words at a point of the data, moved on the sheet.
+    fn text(
         &self,
         text: &str,
-        at: Point,
-        size: i32,
-        h: HPos,
-        v: VPos,
+        at: (f64, f64),
+        moved: Point,
+        style: TextStyle<'static>,
     ) -> Result<(), Error> {
-        self.drawing.borrow_mut().label(text, at, (size, INK, h, v), false)
+        Ok(self.area.draw(&(EmptyElement::at(at) + Text::new(text.to_string(), moved, style)))?)
+    }
+
+    /// Writes words at a point of the sheet.
+    fn text_on_sheet(&self, text: &str, at: Point, style: TextStyle<'static>) -> Result<(), Error> {
+        Ok(self.area.use_screen_coord().draw(&Text::new(text.to_string(), at, style))?)
     }
 
     /// Draws both axes: spines at the left and below, ticks outwards, numbers, labels.
-    pub fn axes(&self) -> Result<(), Error> {
+    pub(super) fn draw_axes(&self) -> Result<(), Error> {
         let Frame { left, top, right, bottom } = self.frame;
-        let mut lines = vec![(left, top), (left, bottom), (left, bottom), (right, bottom)];
-        let length = |tick: &Tick| if tick.label.is_some() { TICK } else { MINOR_TICK };
-        lines.extend(self.x.ticks.iter().flat_map(|tick| {
-            let x = self.at(tick.at, self.y.lo).0;
-            [(x, bottom), (x, bottom + length(tick))]
-        }));
-        lines.extend(self.y.ticks.iter().flat_map(|tick| {
-            let y = self.at(self.x.lo, tick.at).1;
-            [(left, y), (left - length(tick), y)]
-        }));
-        self.drawing.borrow_mut().strokes(&lines, Stroke::solid(INK, HAIR));
-        for tick in &self.x.ticks {
-            let x = self.at(tick.at, self.y.lo).0;
-            if let Some(label) = tick.label.as_ref().filter(|label| !label.is_empty()) {
-                let at = (x, bottom + TICK + GAP);
-                self.text(label, at, SMALL, HPos::Center, VPos::Top)?;
+        let hair = Stroke::solid(INK, HAIR);
+        let corner = (self.x.lo, self.y.lo);
+        let spines = vec![(self.x.lo, self.y.hi), corner, corner, (self.x.hi, self.y.lo)];
+        self.area.draw(&segments(spines, hair))?;
+        let tick =
+            |axis: &Axis, value: f64| if axis.is_labelled(value) { TICK } else { MINOR_TICK };
+        let draw_tick = |drawing: &mut Drawing, line: MeshLine<'_, Axis, Axis>| {
+            let (from, to) = match line {
+                MeshLine::XMesh((x, y), _, value) => ((x, y), (x, y + tick(&self.x, *value))),
+                MeshLine::YMesh((x, y), _, value) => ((x, y), (x - tick(&self.y, *value), y)),
+            };
+            drawing.draw_line(from, to, &ShapeStyle::from(hair))
+        };
+        self.area.draw_mesh(draw_tick, usize::MAX, usize::MAX)?;
+
+        let below = words(SMALL, INK, HPos::Center, VPos::Top);
+        for at in self.x.key_points(BoldPoints(usize::MAX)) {
+            let number = self.x.format_ext(&at);
+            if !number.is_empty() {
+                self.text(&number, (at, self.y.lo), (0, TICK + GAP), below.clone())?;
             }
         }
         if !self.x.label.is_empty() {
             let numbers = SMALL * font::CAP_HEIGHT / font::EM;
             let at = ((left + right) / 2, bottom + TICK + numbers + 3 * GAP);
-            self.text(&self.x.label, at, TEXT, HPos::Center, VPos::Top)?;
+            let style = words(TEXT, INK, HPos::Center, VPos::Top);
+            self.text_on_sheet(&self.x.label, at, style)?;
         }
         // The numbers' width decides where the label stands.
         let mut widest = 0;
-        for tick in &self.y.ticks {
-            let y = self.at(self.x.lo, tick.at).1;
-            if let Some(label) = &tick.label {
-                let at = (left - TICK - GAP * 2 / 3, y);
-                self.text(label, at, SMALL, HPos::Right, VPos::Center)?;
-                widest = widest.max(font::set(label)?.width * SMALL / font::EM);
-            }
+        let at_left = words(SMALL, INK, HPos::Right, VPos::Center);
+        for at in self.y.key_points(BoldPoints(usize::MAX)) {
+            let number = self.y.format_ext(&at);
+            let moved = (-TICK - GAP * 2 / 3, 0);
+            self.text(&number, (self.x.lo, at), moved, at_left.clone())?;
+            widest = widest.max(self.area.estimate_text_size(&number, &at_left)?.0 as i32);
         }
         if !self.y.label.is_empty() {
             let at = (left - TICK - widest - 4 * GAP, (top + bottom) / 2);
-            let look = (TEXT, INK, HPos::Center, VPos::Bottom);
-            self.drawing.borrow_mut().label(&self.y.label, at, look, true)?;
+            let style = upwards(TEXT, INK, HPos::Center, VPos::Bottom);
+            self.text_on_sheet(&self.y.label, at, style)?;
         }
         Ok(())
     }
 
-    /// The letter of a panel, "(a)", above its upper left corner, and behind the name of its file.
+    /// Writes the letter of a panel, "(a)", above its upper left corner, and ends the name of its
+    /// file with it.
     pub fn letter(&self, text: &str) -> Result<(), Error> {
         self.record.borrow_mut().suffix = text.trim_matches(['(', ')']).into();
         let at = (self.frame.left + 60, self.frame.top - 80);
-        self.text(text, at, TEXT, HPos::Left, VPos::Bottom)
+        self.text_on_sheet(text, at, words(TEXT, INK, HPos::Left, VPos::Bottom))
     }
 
-    /// Names a curve or a mark in its colour, near a place given in data: so many millimetres to the right of it and
-    /// below it, towards which the words stand. `(1, 0)` is right of the place, `(0, -1)` above it.
+    /// Writes the letter of a panel, and the parameter that it is drawn for, above its frame.
+    pub fn heading(&self, letter: &str, parameter: &str) -> Result<(), Error> {
+        self.letter(letter)?;
+        let corner = (self.frame.right, self.frame.top - 80);
+        self.text_on_sheet(parameter, corner, words(SMALL, INK, HPos::Right, VPos::Bottom))
+    }
+
+    /// Names a curve or a symbol in its colour, near a point of the data: so many millimetres to the
+    /// right of it and below it. `(1, 0)` is right of the point, `(0, -1)` above it.
     pub fn label(
         &self,
         text: &str,
-        (x, y): (f64, f64),
+        at: (f64, f64),
         (right, down): (i32, i32),
-        colour: Colour,
+        colour: RGBColor,
     ) -> Result<(), Error> {
-        let h = [HPos::Right, HPos::Center, HPos::Left][(right.signum() + 1) as usize];
-        let v = [VPos::Bottom, VPos::Center, VPos::Top][(down.signum() + 1) as usize];
-        let (px, py) = self.at(x, y);
-        let at = (px + 100 * right, py + 100 * down);
-        self.drawing.borrow_mut().rimmed(text, at, (SMALL, colour, h, v))
+        let (h, v) = anchor((right, down));
+        self.text(text, at, (100 * right, 100 * down), rimmed(SMALL, colour, h, v))
     }
 
-    /// Names something as [`Panel::label`] does, there or as near as no line and no words are in the way of what is drawn so
-    /// far. A name for which there is no room is left out.
+    /// Names something as [`Panel::label`] does, at this offset or at the nearest one where the name
+    /// is in the way of no line and no words drawn so far. Leaves the name out if there is no room.
     pub fn label_nearby(
         &self,
         text: &str,
         at: (f64, f64),
-        beside: (i32, i32),
-        colour: Colour,
+        offset: (i32, i32),
+        colour: RGBColor,
     ) -> Result<(), Error> {
         const AROUND: [(i32, i32); 8] =
             [(1, 0), (1, -1), (1, 1), (0, -1), (0, 1), (-1, -1), (-1, 1), (-1, 0)];
         let farther = (1..=3).flat_map(|far| AROUND.map(|(x, y)| (far * x, far * y)));
-        let (px, py) = self.at(at.0, at.1);
-        let size = [font::set(text)?.width, font::CAP_HEIGHT].map(|own| own * SMALL / font::EM);
-        let is_free = |&(right, down): &(i32, i32)| {
-            let from = |place: i32, own: i32, to: i32| {
-                place + 100 * to - own * (1 - to.signum()) / 2 - CLEARANCE
-            };
-            let (left, top) = (from(px, size[0], right), from(py, size[1], down));
-            let [width, height] = size.map(|own| own + 2 * CLEARANCE);
-            let frame = Frame::new(left, top, left + width, top + height);
-            let inside = left >= self.frame.left && frame.right <= WIDTH as i32 && top >= 0;
-            inside && frame.bottom <= self.frame.bottom && self.drawing.borrow().is_free(frame)
-        };
-        match std::iter::once(beside).chain(farther).find(is_free) {
-            Some(beside) => self.label(text, at, beside, colour),
+        let point = self.area.map_coordinate(&at);
+        let style = words(SMALL, colour, HPos::Left, VPos::Bottom);
+        let (width, height) = self.area.estimate_text_size(text, &style)?;
+        let size = (width as i32, height as i32);
+        let mut offsets = std::iter::once(offset).chain(farther);
+        match offsets.find(|&offset| self.has_room(point, size, offset)) {
+            Some(offset) => self.label(text, at, offset, colour),
             None => Ok(()),
         }
     }
 
-    /// Names curves, each given by name, points and colour, at their right ends in this panel; names that would touch move
-    /// apart.
+    /// Tells whether words of a size have room at an offset from a point of the sheet.
+    fn has_room(&self, (x, y): Point, size: (i32, i32), (right, down): (i32, i32)) -> bool {
+        // From the point to the near edge of the words, less their size if they end there.
+        let start = |place: i32, size: i32, millimetres: i32| {
+            place + 100 * millimetres - size * (1 - millimetres.signum()) / 2 - CLEARANCE
+        };
+        let (left, top) = (start(x, size.0, right), start(y, size.1, down));
+        let (width, height) = (size.0 + 2 * CLEARANCE, size.1 + 2 * CLEARANCE);
+        let room = Frame::new(left, top, left + width, top + height);
+        left >= self.frame.left
+            && room.right <= WIDTH as i32
+            && top >= 0
+            && room.bottom <= self.frame.bottom
+            && self.drawing.borrow().is_free(room)
+    }
+
+    /// Names curves, each given by name, points and colour, at their right ends in this panel; names
+    /// that would touch move apart.
     pub fn label_ends<P: AsRef<[(f64, f64)]>>(
         &self,
-        curves: &[(String, P, Colour)],
+        curves: &[(String, P, RGBColor)],
     ) -> Result<(), Error> {
-        let end = |points: &[(f64, f64)]| {
+        let mut ends = Vec::new();
+        for (text, points, colour) in curves {
             let inside = |p: &&(f64, f64)| self.x.contains(p.0) && self.y.contains(p.1);
-            points.iter().rfind(inside).map(|p| self.at(p.0, p.1))
-        };
-        let named = || {
-            curves.iter().filter_map(|(text, own, look)| Some((end(own.as_ref())?, text, *look)))
-        };
-        let heights = apart(&named().map(|(at, ..)| at.1).collect::<Vec<_>>(), LINE_HEIGHT);
-        for ((at, text, colour), y) in named().zip(heights) {
-            let look = (SMALL, colour, HPos::Left, VPos::Center);
-            self.drawing.borrow_mut().rimmed(text, (at.0 + 100, y), look)?;
+            if let Some(end) = points.as_ref().iter().rfind(inside) {
+                ends.push((self.area.map_coordinate(end), text, *colour));
+            }
+        }
+        let heights: Vec<i32> = ends.iter().map(|(at, ..)| at.1).collect();
+        for (((x, _), text, colour), y) in ends.into_iter().zip(spread(&heights, LINE_HEIGHT)) {
+            let style = rimmed(SMALL, colour, HPos::Left, VPos::Center);
+            self.text_on_sheet(text, (x + 100, y), style)?;
         }
         Ok(())
-    }
-}
-
-/// A figure in the making.
-pub struct Sheet {
-    drawing: Rc<RefCell<Drawing>>,
-    records: RefCell<Vec<Rc<RefCell<Record>>>>,
-}
-
-impl Sheet {
-    /// An empty sheet of column width, `height` grid units high.
-    pub fn new(height: u32) -> Self {
-        let drawing = Rc::new(RefCell::new(Drawing::new(height)));
-        Sheet { drawing, records: RefCell::default() }
-    }
-
-    /// A panel with its axes drawn.
-    pub fn panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
-        let panel = Panel::new(&self.drawing, frame, x, y);
-        self.records.borrow_mut().push(panel.record.clone());
-        panel.axes()?;
-        Ok(panel)
-    }
-
-    /// A panel with its axes and its letter.
-    pub fn lettered_panel(
-        &self,
-        letter: &str,
-        frame: Frame,
-        x: Axis,
-        y: Axis,
-    ) -> Result<Panel, Error> {
-        let panel = self.panel(frame, x, y)?;
-        panel.letter(letter)?;
-        Ok(panel)
-    }
-
-    /// For free drawing.
-    pub fn free(&self) -> RefMut<'_, Drawing> {
-        self.drawing.borrow_mut()
-    }
-
-    /// Words on the sheet.
-    pub fn text(&self, text: &str, at: Point, look: Look) -> Result<(), Error> {
-        self.free().label(text, at, look, false)
-    }
-
-    /// Closes a figure. Its data is what its panels have recorded, a file for each. The paper gives it its name.
-    pub fn finish(self, title: &str, description: Description) -> Figure {
-        let drawing = self.drawing.take();
-        let records = self.records.take();
-        let data = records.iter().filter_map(|record| record.borrow().file()).collect();
-        Figure { title: title.into(), description, drawing, data, ..Figure::default() }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::drawing::{Element, Label};
+    use super::super::sheet::Sheet;
     use super::super::style::{BLUE, RED};
     use super::*;
 
@@ -298,10 +282,10 @@ mod tests {
             _ => None,
         };
         let names: Vec<_> = drawing.elements.iter().filter_map(named).collect();
-        let of = |text: &str, at, colour| (text.to_string(), at, colour);
-        assert_eq!(names[0], of("mark", (1400, 800), RED));
-        assert_eq!(names[1..], [of("low", (2100, 765), BLUE), of("high", (2000, 425), RED)]);
-        assert_eq!(apart(&[0, 1000, 10], 100), [-45, 1000, 55]);
+        let name = |text: &str, at, colour| (text.to_string(), at, colour);
+        assert_eq!(names[0], name("mark", (1400, 800), RED));
+        assert_eq!(names[1..], [name("low", (2100, 765), BLUE), name("high", (2000, 425), RED)]);
+        assert_eq!(spread(&[0, 1000, 10], 100), [-45, 1000, 55]);
     }
 
     #[test]

@@ -3,10 +3,11 @@
 use super::drawing::{Drawing, Element, Fill, Label};
 use super::font;
 use super::path::{Point, Step, polygon};
-use super::style::{Colour, Stroke, WHITE, WIDTH};
+use super::style::{Stroke, WHITE, WIDTH};
 use super::svg::PIXELS_PER_HUNDRED;
 use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, TextStr};
+use plotters::style::RGBColor;
 use std::collections::BTreeSet;
 
 impl Drawing {
@@ -56,7 +57,7 @@ fn state(hundredths: u8) -> String {
 }
 
 /// Returns red, green and blue as parts of one.
-fn shares(Colour(r, g, b): Colour) -> [f32; 3] {
+fn shares(RGBColor(r, g, b): RGBColor) -> [f32; 3] {
     [r, g, b].map(|part| f32::from(part) / 255.0)
 }
 

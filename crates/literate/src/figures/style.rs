@@ -4,6 +4,8 @@
 //! Okabe and Ito (2008), which colour-blind readers distinguish, the orange darker for its contrast
 //! with paper. A colour never stands alone: a symbol, a dash or a name says the same.
 
+use plotters::style::{Color, RGBColor, ShapeStyle};
+
 /// Width of every figure: one column.
 pub const WIDTH: u32 = 8400;
 
@@ -28,33 +30,29 @@ pub const MEDIUM: i32 = 52;
 /// Half the width of symbols.
 pub const LARGE: i32 = 58;
 
-/// An opaque colour: its red, green and blue.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Colour(pub u8, pub u8, pub u8);
-
 /// Text and axes.
-pub const INK: Colour = Colour(0x22, 0x22, 0x22);
+pub const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 /// What steps back: construction lines, unused edges.
-pub const GREY: Colour = Colour(0x6b, 0x6b, 0x6b);
+pub const GREY: RGBColor = RGBColor(0x6b, 0x6b, 0x6b);
 /// Light fills and guides.
-pub const PALE: Colour = Colour(0xbd, 0xbd, 0xbd);
-pub const RED: Colour = Colour(0xc8, 0x1e, 0x1e);
-pub const GREEN: Colour = Colour(0x00, 0x80, 0x5d);
-pub const BLUE: Colour = Colour(0x00, 0x72, 0xb2);
-pub const ORANGE: Colour = Colour(0x9a, 0x66, 0x00);
-pub const PURPLE: Colour = Colour(0xa5, 0x50, 0x8c);
+pub const PALE: RGBColor = RGBColor(0xbd, 0xbd, 0xbd);
+pub const RED: RGBColor = RGBColor(0xc8, 0x1e, 0x1e);
+pub const GREEN: RGBColor = RGBColor(0x00, 0x80, 0x5d);
+pub const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xb2);
+pub const ORANGE: RGBColor = RGBColor(0x9a, 0x66, 0x00);
+pub const PURPLE: RGBColor = RGBColor(0xa5, 0x50, 0x8c);
 /// Four shades of blue from light to dark, for an ordered parameter; grey keeps their order.
-const SHADES: [Colour; 4] = [
-    Colour(0x3b, 0x83, 0xb5),
-    Colour(0x1f, 0x65, 0x9a),
-    Colour(0x12, 0x46, 0x70),
-    Colour(0x0b, 0x25, 0x45),
+const SHADES: [RGBColor; 4] = [
+    RGBColor(0x3b, 0x83, 0xb5),
+    RGBColor(0x1f, 0x65, 0x9a),
+    RGBColor(0x12, 0x46, 0x70),
+    RGBColor(0x0b, 0x25, 0x45),
 ];
 /// The page.
-pub const WHITE: Colour = Colour(0xff, 0xff, 0xff);
+pub const WHITE: RGBColor = RGBColor(0xff, 0xff, 0xff);
 
 /// All colours by the names that style sheets use.
-pub(super) const PALETTE: [(&str, Colour); 13] = [
+pub(super) const PALETTE: [(&str, RGBColor); 13] = [
     ("ink", INK),
     ("grey", GREY),
     ("pale", PALE),
@@ -72,15 +70,22 @@ pub(super) const PALETTE: [(&str, Colour); 13] = [
 
 /// Yields the name of each colour in style sheets, and the colour as `#rrggbb`.
 pub(super) fn palette() -> impl Iterator<Item = (&'static str, String)> {
-    let shown = |Colour(r, g, b)| format!("#{r:02x}{g:02x}{b:02x}");
+    let shown = |RGBColor(r, g, b)| format!("#{r:02x}{g:02x}{b:02x}");
     PALETTE.into_iter().map(move |(name, colour)| (name, shown(colour)))
 }
 
 /// Returns the colour of one of up to four values of an ordered parameter, counted from zero: the
 /// larger the value, the darker. The value that matters most may be [`RED`] instead.
-pub fn ordered(place: usize, count: usize) -> Colour {
+pub fn ordered(place: usize, count: usize) -> RGBColor {
     let last = count.max(2) - 1;
     SHADES[(3 * place.min(last) + last / 2) / last]
+}
+
+/// The line as plotters has it; it knows no dashes.
+impl From<Stroke> for ShapeStyle {
+    fn from(stroke: Stroke) -> Self {
+        stroke.colour.stroke_width(stroke.width)
+    }
 }
 
 /// How a line is broken.
@@ -94,20 +99,20 @@ pub enum Dash {
     Twice,
 }
 
-/// Colour, thickness and dash of a line.
+/// RGBColor, thickness and dash of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stroke {
-    pub colour: Colour,
+    pub colour: RGBColor,
     pub width: u32,
     pub dash: Dash,
 }
 
 impl Stroke {
-    pub const fn solid(colour: Colour, width: u32) -> Self {
+    pub const fn solid(colour: RGBColor, width: u32) -> Self {
         Stroke { colour, width, dash: Dash::Solid }
     }
 
-    pub const fn dashed(colour: Colour, width: u32, dash: Dash) -> Self {
+    pub const fn dashed(colour: RGBColor, width: u32, dash: Dash) -> Self {
         Stroke { colour, width, dash }
     }
 

@@ -7,7 +7,8 @@
 use super::drawing::{Drawing, Element, Fill, Glyphs, Label};
 use super::font;
 use super::path::{Point, Step};
-use super::style::{self, Colour, Stroke, WHITE, WIDTH, palette};
+use super::style::{self, Stroke, WHITE, WIDTH, palette};
+use plotters::style::RGBColor;
 use std::fmt::Write as _;
 
 /// Screen pixels per hundred grid units, at the natural size of a drawing.
@@ -52,8 +53,9 @@ pub fn outlines(glyphs: &Glyphs) -> String {
     out
 }
 
-/// Returns the class that paints a colour as the `fill` or the `stroke` of a shape.
-fn class(paint: &str, colour: Colour) -> String {
+/// Returns the class that paints a colour as the `fill` or the `stroke` of a shape; that of ink if
+/// the palette lacks it.
+fn class(paint: &str, colour: RGBColor) -> String {
     let named = style::PALETTE.iter().find(|named| named.1 == colour);
     format!("{paint}-{}", named.map_or("ink", |named| named.0))
 }

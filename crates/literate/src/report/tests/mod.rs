@@ -4,8 +4,8 @@ mod broken;
 
 use super::*;
 use crate::claims::{Check, Kind, decimals, with_error};
-use crate::figures::prelude::{HPos, INK, VPos};
-use crate::figures::{DataFile, Drawing, Figure};
+use crate::figures::prelude::{HPos, INK, Sheet, VPos, words};
+use crate::figures::{DataFile, Figure};
 use crate::project::Project;
 use crate::prose::Templates;
 use crate::source::toy;
@@ -173,20 +173,14 @@ Of \hyperref[eq:map]{Eq.~(1)},⏎\begin{equation}⏎x \to f(x)⏎\tag{1}\label{e
 }
 
 fn figure() -> Figure {
-    let mut drawing = Drawing::new(400);
-    drawing.label("(a)", (0, 300), (200, INK, HPos::Left, VPos::Bottom), false).unwrap();
+    let sheet = Sheet::new(400);
+    let style = words(200, INK, HPos::Left, VPos::Bottom);
+    sheet.area.draw_text("(a)", &style, (0, 300)).unwrap();
     let words = |row: [&str; 2]| row.map(String::from).to_vec();
     let (name, rows) = ("fig03.csv".into(), vec![words(["0.1", "2"])]);
     let data = DataFile { name, header: words(["sigma", "mean"]), rows };
-    Figure {
-        id: "fig03".into(),
-        title: "The rise".into(),
-        description: crate::describe!("It rises [steeply]."),
-        drawing,
-        data: vec![data],
-        source: String::new(),
-        experiments: Vec::new(),
-    }
+    let figure = sheet.finish("The rise", crate::describe!("It rises [steeply]."));
+    Figure { id: "fig03".into(), data: vec![data], ..figure }
 }
 
 fn claim() -> Check {

@@ -1,0 +1,168 @@
+//! Collects what plotters draws as the shapes of a [`Drawing`]: the backend of all figures.
+//!
+//! plotters has coordinates, drawing areas, elements and series. Axes ([`super::axis`]), a few
+//! elements ([`super::elements`]), fonts and the writers are ours, because of these limits of
+//! plotters, none of which a figure of ours meets:
+//!
+//! - An area moves points outside it onto its edge, so that a curve is silently wrong. Ours are as
+//!   large as the sheet, and [`super::cut`] cuts curves at the frame of a panel.
+//! - `DashedPathElement` has dashes of one length, takes the platform's `hypot`, and makes hundreds
+//!   of paths of a curve. A dashed curve of ours is one path.
+//! - `LogCoord` and `TriangleMarker` take the platform's mathematics, so that bytes differ between
+//!   machines. Ours take portable functions or none.
+//! - `ErrorBar` draws a disc over the symbol. Ours has caps only.
+//! - A style has no fill with an edge, no dash, and no rim of words ([`super::text`]).
+
+use super::drawing::{Drawing, Element, Label};
+use super::error::Error;
+use super::font;
+use super::markup;
+use super::path::{Point, Step, circle, polygon, polyline};
+use super::style::{Stroke, WIDTH};
+use super::text;
+use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{FontTransform, RGBColor};
+use plotters_backend::{
+    BackendColor, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
+};
+use std::collections::btree_map::Entry;
+
+/// Whether something could be drawn.
+pub(super) type Drawn = Result<(), DrawingErrorKind<Error>>;
+
+impl Drawing {
+    /// Adds a path, filled or as a line; one of an invisible colour is left out.
+    fn path(&mut self, path: Vec<Step>, style: &impl BackendStyle, filled: bool) -> Drawn {
+        let BackendColor { alpha, rgb: (r, g, b) } = style.color();
+        let colour = RGBColor(r, g, b);
+        if alpha == 0.0 {
+        } else if filled {
+            self.shape(path, Some((colour, (100.0 * alpha).round() as u8)), None);
+        } else {
+            self.shape(path, None, Some(Stroke::solid(colour, style.stroke_width())));
+        }
+        Ok(())
+    }
+}
+
+impl DrawingBackend for Drawing {
+    type ErrorType = Error;
+
+    fn get_size(&self) -> (u32, u32) {
+        (WIDTH, self.height)
+    }
+
+    fn ensure_prepared(&mut self) -> Drawn {
+        Ok(())
+    }
+
+    fn present(&mut self) -> Drawn {
+        Ok(())
+    }
+
+    fn draw_pixel(&mut self, (x, y): Point, colour: BackendColor) -> Drawn {
+        self.draw_rect((x, y), (x + 1, y + 1), &colour, true)
+    }
+
+    /// Draws a straight line from its upper end. It continues the stroke before it if both look
+    /// alike, so that thousands of ticks are one path.
+    fn draw_line<S: BackendStyle>(&mut self, a: Point, b: Point, style: &S) -> Drawn {
+        let (from, to) = if a.1 <= b.1 { (a, b) } else { (b, a) };
+        self.path(polyline([from, to]), style, false)?;
+        if let [.., Element::Shape(path, None, before), Element::Shape(more, None, stroke)] =
+            &mut self.elements[..]
+            && before == stroke
+        {
+            path.append(more);
+            self.elements.pop();
+        }
+        Ok(())
+    }
+
+    fn draw_rect<S: BackendStyle>(
+        &mut self,
+        (left, top): Point,
+        (right, bottom): Point,
+        style: &S,
+        fill: bool,
+    ) -> Drawn {
+        let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+        self.path(polygon(corners), style, fill)
+    }
+
+    /// Draws a line through points; repeated points are left out.
+    fn draw_path<S: BackendStyle, I: IntoIterator<Item = Point>>(
+        &mut self,
+        points: I,
+        style: &S,
+    ) -> Drawn {
+        let mut points: Vec<Point> = points.into_iter().collect();
+        points.dedup();
+        self.path(polyline(points), style, false)
+    }
+
+    fn draw_circle<S: BackendStyle>(
+        &mut self,
+        centre: Point,
+        radius: u32,
+        style: &S,
+        fill: bool,
+    ) -> Drawn {
+        self.path(circle(centre, radius as i32), style, fill)
+    }
+
+    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = Point>>(
+        &mut self,
+        points: I,
+        style: &S,
+    ) -> Drawn {
+        self.path(polygon(points), style, true)
+    }
+
+    /// Sets words in the shipped fonts, whatever the font of the style; see [`markup`].
+    fn draw_text<S: BackendTextStyle>(&mut self, words: &str, style: &S, at: Point) -> Drawn {
+        let font::Line { mut glyphs, width } = font::set(words)?;
+        let dx = match style.anchor().h_pos {
+            HPos::Left => 0,
+            HPos::Center => -width / 2,
+            HPos::Right => -width,
+        };
+        let dy = match style.anchor().v_pos {
+            VPos::Top => -font::CAP_HEIGHT,
+            VPos::Center => -font::CAP_HEIGHT / 2,
+            VPos::Bottom => 0,
+        };
+        for placed in &mut glyphs {
+            (placed.x, placed.y) = (placed.x + dx, placed.y + dy);
+            if let Entry::Vacant(place) = self.glyphs.entry(font::id(placed)) {
+                place.insert(font::outline(placed)?);
+            }
+        }
+        let (r, g, b) = style.color().rgb;
+        self.elements.push(Element::Label(Label {
+            words: markup::plain(words),
+            at,
+            size: style.size() as i32,
+            colour: RGBColor(r, g, b),
+            upwards: match style.transform() {
+                FontTransform::None => false,
+                FontTransform::Rotate270 => true,
+                _ => return Err(Error::Drawing(format!("{words:?} would stand head down")).into()),
+            },
+            rim: text::is_rimmed(style),
+            glyphs,
+        }));
+        Ok(())
+    }
+
+    /// Returns the width of words and the height of a capital.
+    fn estimate_text_size<S: BackendTextStyle>(
+        &self,
+        words: &str,
+        style: &S,
+    ) -> Result<(u32, u32), DrawingErrorKind<Error>> {
+        let size = [font::set(words)?.width, font::CAP_HEIGHT];
+        let [width, height] = size.map(|units| units * style.size() as i32 / font::EM);
+        Ok((width as u32, height as u32))
+    }
+}

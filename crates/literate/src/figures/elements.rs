@@ -1,0 +1,220 @@
+//! Adds the elements that plotters lacks: lines with a pattern of dashes, arrows, symbols with an
+//! edge, dense ticks, and error bars of caps alone.
+
+use super::backend::Drawn;
+use super::drawing::{Drawing, Element};
+use super::path::{Point, Step, circle, polygon, polyline};
+use super::style::{Dash, Stroke, Symbol, WHITE};
+use plotters::element::{
+    Cross, Drawable, DynElement, IntoDynElement, PathElement, PointCollection,
+};
+use plotters::style::ShapeStyle;
+use plotters_backend::{BackendCoord, DrawingBackend};
+use std::iter::once;
+use std::ops::Range;
+
+/// Symbol, half its width, and the line of an open symbol, whose colour fills a closed one.
+pub type Marker = (Symbol, i32, Stroke);
+
+/// An element of the kinds that plotters lacks; [`line`], [`arrow`], [`markers`], [`segments`],
+/// [`ticks`] and [`error_bar`] make it.
+pub struct CustomElement<C> {
+    points: Vec<C>,
+    shape: Shape,
+}
+
+enum Shape {
+    Dashed(Stroke),
+    Arrow(Stroke),
+    Markers(Marker),
+    /// A straight stroke from each first point to the second.
+    Segments(Stroke),
+    /// With their width.
+    Ticks(i32, Stroke),
+    /// With half the width of a cap, and the stretch that caps stay in.
+    ErrorBar(i32, Range<i32>, Stroke),
+}
+
+/// Draws a line through points: an element of plotters if it is solid.
+pub fn line<C: Clone + 'static>(points: Vec<C>, stroke: Stroke) -> DynElement<'static, Drawing, C> {
+    if stroke.dash == Dash::Solid {
+        PathElement::new(points, stroke).into_dyn()
+    } else {
+        CustomElement { points, shape: Shape::Dashed(stroke) }.into_dyn()
+    }
+}
+
+/// Draws a solid line that ends in an arrow head.
+pub fn arrow<C>(points: Vec<C>, stroke: Stroke) -> CustomElement<C> {
+    CustomElement { points, shape: Shape::Arrow(stroke) }
+}
+
+/// Draws equal symbols at points, as one shape.
+pub fn markers<C>(points: Vec<C>, marker: Marker) -> CustomElement<C> {
+    CustomElement { points, shape: Shape::Markers(marker) }
+}
+
+/// Draws a straight stroke from each first point to the second, as one shape.
+pub(super) fn segments<C>(points: Vec<C>, stroke: Stroke) -> CustomElement<C> {
+    CustomElement { points, shape: Shape::Segments(stroke) }
+}
+
+/// Draws upright ticks of a width, as high as the stroke is thick; those in one row that touch are
+/// one stroke.
+pub(super) fn ticks<C>(points: Vec<C>, width: i32, stroke: Stroke) -> CustomElement<C> {
+    CustomElement { points, shape: Shape::Ticks(width, stroke) }
+}
+
+/// Draws a bar from end to end with caps of half a width, which stay within a stretch of x on the
+/// sheet; no caps if it is zero.
+pub(super) fn error_bar<C>(
+    ends: [C; 2],
+    half: i32,
+    within: Range<i32>,
+    stroke: Stroke,
+) -> CustomElement<C> {
+    CustomElement { points: ends.into(), shape: Shape::ErrorBar(half, within, stroke) }
+}
+
+impl<'a, C> PointCollection<'a, C> for &'a CustomElement<C> {
+    type Point = &'a C;
+    type IntoIter = &'a [C];
+
+    fn point_iter(self) -> &'a [C] {
+        &self.points
+    }
+}
+
+impl<C> Drawable<Drawing> for CustomElement<C> {
+    fn draw<I: Iterator<Item = BackendCoord>>(
+        &self,
+        points: I,
+        drawing: &mut Drawing,
+        _: (u32, u32),
+    ) -> Drawn {
+        let mut points: Vec<Point> = points.collect();
+        match &self.shape {
+            Shape::Dashed(stroke) => {
+                points.dedup();
+                drawing.shape(polyline(points), None, Some(*stroke));
+            }
+            Shape::Arrow(stroke) => draw_arrow(drawing, points, *stroke)?,
+            Shape::Markers(marker) => draw_markers(drawing, &points, *marker)?,
+            Shape::Segments(stroke) => draw_segments(drawing, &points, *stroke)?,
+            Shape::Ticks(width, stroke) => draw_ticks(drawing, points, *width, *stroke)?,
+            Shape::ErrorBar(half, within, stroke) => {
+                let style = ShapeStyle::from(*stroke);
+                drawing.draw_path(points.iter().copied(), &style)?;
+                for (x, y) in points.into_iter().filter(|_| *half > 0) {
+                    let cap = [(x - half).max(within.start), (x + half).min(within.end)];
+                    drawing.draw_path(cap.map(|x| (x, y)), &style)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn draw_segments(drawing: &mut Drawing, ends: &[Point], stroke: Stroke) -> Drawn {
+    for pair in ends.chunks_exact(2) {
+        drawing.draw_line(pair[0], pair[1], &ShapeStyle::from(stroke))?;
+    }
+    Ok(())
+}
+
+fn draw_ticks(drawing: &mut Drawing, points: Vec<Point>, width: i32, stroke: Stroke) -> Drawn {
+    let mut places: Vec<Point> = points.into_iter().map(|(x, y)| (y, x)).collect();
+    places.sort_unstable();
+    for run in places.chunk_by(|a, b| a.0 == b.0 && b.1 - a.1 <= width) {
+        let (y, left) = (run[0].0, run[0].1 - width / 2);
+        let right = run[run.len() - 1].1 - width / 2 + width;
+        drawing.draw_line((left, y), (right, y), &ShapeStyle::from(stroke))?;
+    }
+    Ok(())
+}
+
+/// Ends the line inside the head. A short last stretch must not turn the head, so its direction is
+/// taken over at least its length.
+fn draw_arrow(drawing: &mut Drawing, mut path: Vec<Point>, stroke: Stroke) -> Drawn {
+    let Some(&tip) = path.last() else { return Ok(()) };
+    let width = f64::from(stroke.width);
+    let (length, half) = (90.0 + 2.6 * width, 34.0 + 1.1 * width);
+    let to_tip = |p: &Point| {
+        let (dx, dy) = (f64::from(tip.0 - p.0), f64::from(tip.1 - p.1));
+        (dx, dy, (dx * dx + dy * dy).sqrt())
+    };
+    while path.len() > 1 && path.last().is_some_and(|p| to_tip(p).2 < length) {
+        path.pop();
+    }
+    let Some((dx, dy, distance)) = path.last().map(to_tip).filter(|&(.., d)| d > 0.0) else {
+        return Ok(());
+    };
+    let (ux, uy) = (dx / distance, dy / distance);
+    let at = |along: f64, aside: f64| {
+        let x = f64::from(tip.0) - along * ux - aside * uy;
+        let y = f64::from(tip.1) - along * uy + aside * ux;
+        (x.round() as i32, y.round() as i32)
+    };
+    path.push(at(0.75 * length, 0.0));
+    let style = ShapeStyle::from(stroke);
+    drawing.draw_path(path, &style)?;
+    let head = [tip, at(length, half), at(0.75 * length, 0.0), at(length, -half)];
+    drawing.fill_polygon(head, &style.color)
+}
+
+fn draw_markers(drawing: &mut Drawing, points: &[Point], marker: Marker) -> Drawn {
+    let (symbol, r, stroke) = marker;
+    let mut path: Vec<Step> = Vec::new();
+    for &(x, y) in points {
+        match symbol {
+            Symbol::Cross => Cross::new((), r, stroke).draw(once((x, y)), drawing, (0, 0))?,
+            Symbol::Plus => {
+                path.extend(polyline([(x - r, y), (x + r, y)]));
+                path.extend(polyline([(x, y - r), (x, y + r)]));
+            }
+            Symbol::Disc | Symbol::Ring => path.extend(circle((x, y), r)),
+            Symbol::OpenSquare => path.extend(polygon([
+                (x - r, y - r),
+                (x + r, y - r),
+                (x + r, y + r),
+                (x - r, y + r),
+            ])),
+            Symbol::OpenTriangle => {
+                path.extend(polygon([(x - r, y + r), (x, y - r), (x + r, y + r)]));
+            }
+            Symbol::OpenDiamond => {
+                path.extend(polygon([(x, y - r), (x + r, y), (x, y + r), (x - r, y)]));
+            }
+        }
+    }
+    let fill = match symbol {
+        Symbol::Disc => Some((stroke.colour, 100)),
+        Symbol::Cross => return Ok(()),
+        Symbol::Plus => None,
+        _ => Some((WHITE, 100)),
+    };
+    drawing.shape(path, fill, Some(stroke));
+    Ok(())
+}
+
+/// Draws itself: a group of shapes begins or ends.
+impl Drawable<Drawing> for Element {
+    fn draw<I: Iterator<Item = BackendCoord>>(
+        &self,
+        _: I,
+        drawing: &mut Drawing,
+        _: (u32, u32),
+    ) -> Drawn {
+        drawing.elements.push(self.clone());
+        Ok(())
+    }
+}
+
+impl<'a, C: 'a> PointCollection<'a, C> for &'a Element {
+    type Point = &'a C;
+    type IntoIter = std::iter::Empty<&'a C>;
+
+    fn point_iter(self) -> Self::IntoIter {
+        std::iter::empty()
+    }
+}
