@@ -1,8 +1,6 @@
 //! Draws figures: frames, axes, curves and labels as one list of shapes, which is written as SVG, into
 //! a page and as PDF.
 
-#![allow(missing_docs, reason = "obvious fields have no comment")]
-
 mod axis;
 mod backend;
 mod cut;
