@@ -1,8 +1,8 @@
-//! `references.bib` → labels and entries of the list of references: authors and year, title, where it was published.
+//! Reads `references.bib` into labels and entries of the list of references.
 //!
 //! Articles, books, doctoral theses and software; entries of other kinds are refused.
 
-use super::document::{Entry, Inline, plain, words_and_maths};
+use super::document::{Inline, Reference, plain, words_and_maths};
 use super::error::Error;
 use crate::input::line_and_column;
 use biblatex::{Bibliography, ChunksExt, EntryType, Person};
@@ -10,7 +10,7 @@ use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};
 
 /// All entries of a .bib file, in the order in which a list shows them.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Library(Vec<Entry>);
+pub struct Library(Vec<Reference>);
 
 impl Library {
     /// Reads BibTeX.
@@ -27,7 +27,7 @@ impl Library {
         Ok(Library(entries))
     }
 
-    fn entry(&self, key: &str) -> Result<&Entry, Error> {
+    fn entry(&self, key: &str) -> Result<&Reference, Error> {
         let unknown = || Error::Reference(key.to_string());
         self.0.iter().find(|entry| entry.key == key).ok_or_else(unknown)
     }
@@ -38,14 +38,14 @@ impl Library {
     }
 
     /// The entries with these keys, as a list shows them.
-    pub fn entries(&self, keys: &[String]) -> Result<Vec<Entry>, Error> {
+    pub fn entries(&self, keys: &[String]) -> Result<Vec<Reference>, Error> {
         keys.iter().try_for_each(|key| self.entry(key).map(drop))?;
         Ok(self.0.iter().filter(|entry| keys.contains(&entry.key)).cloned().collect())
     }
 }
 
-/// An entry as the list shows it; what is said behind its key if it cannot be shown.
-fn shown(entry: &biblatex::Entry) -> Result<Entry, String> {
+/// Formats an entry for the list; the error is a message that follows its key.
+fn shown(entry: &biblatex::Entry) -> Result<Reference, String> {
     let field = |name: &str| {
         let words = entry.get(name)?.format_verbatim().replace("---", "—").replace("--", "–");
         let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -60,7 +60,8 @@ fn shown(entry: &biblatex::Entry) -> Result<Entry, String> {
     let authors = authors.ok_or("lacks its author or editor; give it")?;
     let (title, date) = (either(["title", "booktitle"])?, either(["year", "date"])?);
     let year = date.split('-').next().unwrap_or_default();
-    let label = match authors.iter().map(|own| own.name.as_str()).collect::<Vec<_>>().as_slice() {
+    let names: Vec<&str> = authors.iter().map(|author| author.name.as_str()).collect();
+    let label = match names.as_slice() {
         [one, two] if *two != "others" => format!("{one} & {two}, {year}"),
         [one, _, ..] => format!("{one} et al., {year}"),
         one => format!("{}, {year}", one.concat()),
@@ -106,7 +107,7 @@ fn shown(entry: &biblatex::Entry) -> Result<Entry, String> {
     if let Some(to) = doi.or_else(|| field("url")) {
         text.extend([words(" ".into()), Inline::Link { to: to.clone(), shown: vec![words(to)] }]);
     }
-    Ok(Entry { key: entry.key.clone(), label, text })
+    Ok(Reference { key: entry.key.clone(), label, text })
 }
 
 /// All authors as `Rice, S. O.`, with a full stop at the end.
@@ -147,7 +148,7 @@ mod tests {
             Inline::Link { to, .. } => format!("<{to}>"),
             other => plain(std::slice::from_ref(other)),
         };
-        let entry = |entry: &Entry| {
+        let entry = |entry: &Reference| {
             format!("{}: {}", entry.label, entry.text.iter().map(piece).collect::<String>())
         };
         Ok(library.0.iter().map(entry).collect())
@@ -176,8 +177,8 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_shown_is_told_with_its_key() {
-        for (text, told) in [
+    fn an_entry_that_cannot_be_shown_is_named_by_its_key() {
+        for (text, message) in [
             (
                 "@misc{a, author={B}, title={c}, year={1999}}",
                 "references.bib: a has the type @misc",
@@ -188,7 +189,7 @@ mod tests {
             ("@book{a, author={B}, title={c, year={1}}", "references.bib:1:"),
         ] {
             let found = list(text).unwrap_err();
-            assert!(found.contains(told) && !found.contains('\n'), "{found}");
+            assert!(found.contains(message) && !found.contains('\n'), "{found}");
         }
     }
 }

@@ -1,7 +1,7 @@
-//! The card of one thing, with all that is known of it: for pages and for the terminal.
+//! Makes the card of a value, figure, equation or statement, for pages and for the terminal: all
+//! that is known of it.
 //!
-//! Cards are made of values.json and ledger.json alone, with the parameters of the profile, so that
-//! no run is needed.
+//! Cards need values.json, ledger.json and the parameters of the profile, and no run.
 
 use super::document::{Inline, printed, words_and_maths};
 use super::edition::Edition;
@@ -56,7 +56,7 @@ impl Card {
 
     fn experiment(&mut self, name: &str, cards: &Cards<'_>) {
         let mut all = cards.experiments.iter();
-        let Some(experiment) = all.find(|own| own.name() == name) else { return };
+        let Some(experiment) = all.find(|experiment| experiment.name() == name) else { return };
         self.item("experiment", &experiment.item(), cards.project);
         let profile = cards.values.profile().unwrap_or(Profile::Full);
         let pairs = settings(&experiment.parameters(profile)).into_iter();
@@ -101,7 +101,8 @@ impl Cards<'_> {
         values.chain(figures).chain(equations).chain(claims).collect()
     }
 
-    /// Ids of what was asked for: by its id, as "Fig. 3" or "Eq. (18)", by a part of its id, or by its digits.
+    /// Returns the ids of what was asked for by an id, as "Fig. 3" or "Eq. (18)", by a part of an
+    /// id, or by digits.
     pub fn find(&self, asked: &str) -> Vec<String> {
         // Templates have quotation marks in names of rows; people write brackets and blanks.
         let asked = asked.trim().replace('"', "");
@@ -151,8 +152,8 @@ impl Cards<'_> {
         }
         card.experiment(&value.experiment, self);
         card.row("note", words_and_maths(&value.note));
-        let own = table_of(&value.id).map(|table| format!("data/{}", DataFile::name_of(table)));
-        let data: Vec<String> = ["values.json".into()].into_iter().chain(own).collect();
+        let mut data = vec!["values.json".to_string()];
+        data.extend(table_of(&value.id).map(|t| format!("data/{}", DataFile::name_of(t))));
         card.row("data", links(&data));
         card.row("id", vec![Inline::Code(value.id.clone())]);
         Some(card)
@@ -161,7 +162,7 @@ impl Cards<'_> {
     fn figure(&self, asked: &str) -> Option<Card> {
         let is = |label: &str| label.to_lowercase() == asked;
         let mut figures = self.ledger.figures.iter();
-        let figure = figures.find(|own| is(&own.label) || is(&format!("fig:{}", own.number)))?;
+        let figure = figures.find(|f| is(&f.label) || is(&format!("fig:{}", f.number)))?;
         let title = vec![Inline::Text(figure.title.clone())];
         let mut card = Card::of(figure.label.clone(), title);
         card.words("shows", figure.description.clone());
@@ -244,13 +245,12 @@ fn lead(value: &Value) -> String {
     };
     match value.experiment.as_str() {
         "" => format!("{what}."),
-        "theory" => format!("{what}, from the theory."),
         name => format!("{what}, from the experiment “{}”.", name.replace('_', " ")),
     }
 }
 
-/// Name and setting of each parameter, the seed among them, field by field. Fields of fields get both names; a field with
-/// several values has them all, of many the first and the last.
+/// Returns name and setting of each parameter, the seed among them. A nested field gets both names;
+/// a field with several values lists them, or the first and the last of more than eight.
 fn settings(parameters: &Json) -> Vec<(String, String)> {
     let mut all = Vec::new();
     collect("", parameters, &mut all);
@@ -265,18 +265,24 @@ fn settings(parameters: &Json) -> Vec<(String, String)> {
 fn collect(name: &str, value: &Json, into: &mut Vec<(String, Vec<String>)>) {
     let shown = match value {
         Json::Null => return,
-        Json::Array(list) => return list.iter().for_each(|one| collect(name, one, into)),
+        Json::Array(list) => {
+            for one in list {
+                collect(name, one, into);
+            }
+            return;
+        }
         Json::Object(fields) => {
-            return fields.iter().for_each(|(field, value)| {
+            for (field, value) in fields {
                 let whole = format!("{name} {}", field.replace('_', " "));
                 collect(whole.trim_start(), value, into);
-            });
+            }
+            return;
         }
         Json::String(text) => text.clone(),
         Json::Number(number) if number.is_f64() => number.as_f64().unwrap_or(f64::NAN).to_string(),
         other => other.to_string(),
     };
-    match into.iter_mut().find(|(own, _)| own == name) {
+    match into.iter_mut().find(|(known, _)| known == name) {
         Some((_, values)) if values.contains(&shown) => (),
         Some((_, values)) => values.push(shown),
         None => into.push((name.into(), vec![shown])),

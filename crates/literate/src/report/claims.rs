@@ -7,7 +7,7 @@ use crate::print::{Style, print};
 use serde_json::json;
 use std::collections::BTreeMap;
 
-/// One check for a template: the fields of [`Check`] as Markdown, its numbers printed with their digits.
+/// Returns the fields of a check as Markdown for templates, its numbers printed with their digits.
 pub fn row(check: &Check) -> serde_json::Value {
     let words = |text: &str| markdown::escaped(&symbols(text));
     json!({
@@ -21,7 +21,7 @@ pub fn row(check: &Check) -> serde_json::Value {
         "expected": words(&check.expected),
         "found": sentence(&check.found),
         "tolerance": sentence(&check.tolerance),
-        // Stands in emphasis, in which hosts see no formula.
+        // The reason stands in emphasis, in which GitHub renders no formula.
         "reason": markdown::escaped(&check.reason),
         "basis": check.basis.words(),
         "verdict": check.verdict.words(),
@@ -37,7 +37,7 @@ fn sentence(text: &Text) -> String {
     text.0.iter().map(piece).collect()
 }
 
-/// A text in which each symbol with an index or a star, as p_crit or k*, is a formula. Other letters stay text.
+/// Makes a formula of each symbol with an index or a star, such as p_crit or k*.
 fn symbols(text: &str) -> String {
     let (mut out, mut rest) = (String::new(), text);
     while let Some(at) = rest.find(['_', '*']) {
@@ -63,7 +63,8 @@ fn symbols(text: &str) -> String {
     out + rest
 }
 
-/// What was printed, as values: the groups `paper` (parameters) and `printed` (statements).
+/// Returns the printed numbers as values: the groups `paper` (parameters) and `printed`
+/// (statements).
 pub fn printed(published: &Published) -> Vec<Value> {
     let chosen = published.parameters.iter().map(|p| {
         let text = p.value.to_string();
@@ -77,17 +78,18 @@ pub fn printed(published: &Published) -> Vec<Value> {
     chosen.chain(stated).collect()
 }
 
-/// The scorecard of the statements as values: `score.total`, `score.reproduced`, `score.differs_and_explained`,
-/// `score.differs`, `score.cannot_be_judged`; for each basis `score.exact`, … those reproduced and `score.exact_of`, …
-/// all; for each word for a difference, `score.misprint`, … those that differ so; and `score.definitions`.
+/// Counts the statements as values: `score.total`, `score.reproduced`,
+/// `score.differs_and_explained`, `score.differs`, `score.cannot_be_judged`; for each basis those
+/// reproduced, `score.exact`, and all, `score.exact_of`; for each word for a difference,
+/// `score.misprint`; and `score.definitions`.
 pub fn scorecard(claims: &[Check]) -> Vec<Value> {
     let value = |name: String, count: usize| {
         let id = format!("score.{}", name.replace(' ', "_"));
         Value::integer(id, count).source(origin(scorecard), "").data_only()
     };
-    let (own, definitions): (Vec<&Check>, Vec<&Check>) =
+    let (judged, definitions): (Vec<&Check>, Vec<&Check>) =
         claims.iter().partition(|claim| claim.kind == Kind::Statement);
-    let statements = || own.iter().copied();
+    let statements = || judged.iter().copied();
     let verdicts = Verdict::ALL.into_iter().zip(score(statements()));
     let verdicts = verdicts.map(|(verdict, count)| value(verdict.words().into(), count));
     let bases = Basis::ALL.into_iter().flat_map(|basis| {
@@ -96,11 +98,11 @@ pub fn scorecard(claims: &[Check]) -> Vec<Value> {
         [value(basis.words().into(), of[0]), all]
     });
     let mut words = BTreeMap::new();
-    statements().filter(|own| !own.why.is_empty()).for_each(|own| {
-        *words.entry(own.why.as_str()).or_insert(0) += usize::from(own.difference().is_some());
-    });
+    for claim in statements().filter(|claim| !claim.why.is_empty()) {
+        *words.entry(claim.why.as_str()).or_insert(0) += usize::from(claim.difference().is_some());
+    }
     let words = words.into_iter().map(|(word, count)| value(word.into(), count));
-    let all = [value("total".into(), own.len()), value("definitions".into(), definitions.len())];
+    let all = [value("total".into(), judged.len()), value("definitions".into(), definitions.len())];
     verdicts.chain(all).chain(bases).chain(words).collect()
 }
 
@@ -120,7 +122,7 @@ mod tests {
 
     #[test]
     fn a_score_counts_no_definition_and_each_word_for_a_difference() {
-        let own = |kind, why: &str, explained: bool| {
+        let check = |kind, why: &str, explained: bool| {
             let mut check = Check::new(kind, "a", "b", "c");
             check.why = why.into();
             check.judged(false).explained("d", explained)
@@ -128,11 +130,11 @@ mod tests {
         use Kind::{Definition, Statement};
         let checks = [(Statement, "misprint", true), (Statement, "misprint", false)];
         let checks = checks.into_iter().chain([(Definition, "", true)]);
-        let checks: Vec<Check> = checks.map(|(kind, why, holds)| own(kind, why, holds)).collect();
+        let checks: Vec<Check> = checks.map(|(kind, why, holds)| check(kind, why, holds)).collect();
         assert_eq!([0, 1].map(|i: usize| checks[i].difference()), [Some("misprint"), None]);
         assert_eq!(row(&checks[2])["kind"], "definition");
         let score = scorecard(&checks);
-        let count = |id: &str| score.iter().find(|own| own.id == id).unwrap().number.clone();
+        let count = |id: &str| score.iter().find(|value| value.id == id).unwrap().number.clone();
         let expected =
             [("total", 2), ("differs", 1), ("definitions", 1), ("misprint", 1), ("exact_of", 2)];
         for (name, expected) in expected {

@@ -1,8 +1,7 @@
-//! The report as a tree, between one prose and several formats.
+//! Defines the tree of a document, which is between the prose and its formats.
 //!
-//! [`super::parse`] makes it from filled Markdown, [`super::labels`] numbers what can be referred
-//! to and resolves references, and each format has one writer that walks it. Writers decide on
-//! markup only: numbers, words of references and digits of values are in the tree already.
+//! [`super::parse`] makes it from filled Markdown, [`super::labels`] adds numbers and resolves
+//! references, and each format has one writer that walks it. Writers decide on markup only.
 
 use super::edition::Document;
 use super::error::Error;
@@ -10,10 +9,11 @@ use super::tex;
 use crate::print::Shown;
 use pulldown_cmark::Alignment;
 
-/// A block of the report. Ids are written as `sec:protocol`, numbers as "2.1" or "S1"; a number is empty until it is given.
+/// A block of a document. Ids are written as `sec:protocol`, numbers as "2.1" or "S1"; a number is
+/// empty until the labels give it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
-    /// A heading. Level 1 is the title; sections start at level 2. It and unnumbered sections have no number.
+    /// A heading; level 1 is the title, which has no number, as have unnumbered sections.
     Heading {
         level: u8,
         number: Option<String>,
@@ -22,8 +22,7 @@ pub enum Block {
     },
     /// A paragraph; displayed equations stand inside it.
     Paragraph(Vec<Inline>),
-    /// A figure by its name: its picture is `figures/NAME.svg`. Its description is for those who do not see it; the origin
-    /// is where its data is, and the code that draws it.
+    /// A figure, whose picture is `figures/NAME.svg`; the origin says where its data and code are.
     Figure {
         id: String,
         number: String,
@@ -51,8 +50,8 @@ pub enum Block {
         language: String,
         text: String,
     },
-    /// A piece of the program's source, folded or put aside where a format can do that: the path of the item, its file from
-    /// the top of the project, and the same in words as a link.
+    /// A piece of the source: the path of the item, its file in the project, and a link to that
+    /// file.
     Listing {
         id: String,
         number: String,
@@ -62,18 +61,19 @@ pub enum Block {
         origin: Vec<Inline>,
         text: String,
     },
-    /// What a reader runs there, by the name of the function that runs it, in formats in which that is possible.
+    /// A function that readers of a page can run, by its name.
     Lab {
         lab: String,
         caption: Vec<Inline>,
     },
-    /// The place of the list of references; filled by [`Labels::resolve`](super::labels::Labels::resolve).
-    Bibliography(Vec<Entry>),
+    /// The place of the list of references; filled by
+    /// [`Labels::resolve`](super::labels::Labels::resolve).
+    Bibliography(Vec<Reference>),
 }
 
 /// One entry of the list of references.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct Reference {
     /// Key as in references.bib.
     pub key: String,
     /// Label as "Rice, 1945".
@@ -110,7 +110,8 @@ pub enum Inline {
     },
     /// References `[@fig:3; @eq:18]` and citations `[@rice1945]`, until they are resolved.
     Unresolved(Vec<String>),
-    /// A resolved reference to `fig:3` or `ref:rice1945`, and the document that has it, if it is another.
+    /// A resolved reference to `fig:3` or `ref:rice1945`, and the document that has it if it is not
+    /// this.
     Reference {
         to: String,
         within: Option<Document>,
@@ -186,7 +187,7 @@ pub fn words_and_maths(text: &str) -> Vec<Inline> {
     out
 }
 
-/// The words of the title, the first heading of level 1.
+/// Returns the words of the title, the first heading of level 1.
 pub fn title(blocks: &[Block]) -> Result<&[Inline], Error> {
     let found = blocks.iter().find_map(|block| match block {
         Block::Heading { level: 1, text, .. } => Some(text.as_slice()),
@@ -195,12 +196,12 @@ pub fn title(blocks: &[Block]) -> Result<&[Inline], Error> {
     found.ok_or_else(|| Error::Markup("a report begins with its title, `# Words`".into()))
 }
 
-/// Is it a displayed equation alone?
+/// Whether it is a displayed equation alone.
 pub fn is_equation(block: &Block) -> bool {
     matches!(block, Block::Paragraph(inlines) if matches!(inlines[..], [Inline::Display { .. }]))
 }
 
-/// Is it the heading of the abstract, which goes to the next heading?
+/// Whether it is the heading of the abstract, which extends to the next heading.
 pub fn is_abstract(block: &Block) -> bool {
     matches!(block, Block::Heading { text, .. } if plain(text) == "Abstract")
 }
@@ -216,7 +217,7 @@ pub fn place_on_page(id: Option<&str>, words: &[Inline]) -> String {
     id.replace([':', '.', '[', ']', '=', ','], "-")
 }
 
-/// Does this paragraph go on with the sentence before it?
+/// Whether a paragraph continues the sentence before it.
 pub fn continues(block: &Block) -> bool {
     let Block::Paragraph(inlines) = block else { return false };
     matches!(inlines.first(), Some(Inline::Text(text)) if text.starts_with(char::is_lowercase))
@@ -278,7 +279,7 @@ fn inner(inline: &Inline) -> &[Inline] {
     }
 }
 
-/// Replaces each piece of running text of the blocks by the pieces that `change` makes of it.
+/// Replaces each piece of running text of the blocks by what `change` returns for it.
 pub fn rewrite<E>(
     blocks: &mut [Block],
     change: &mut impl FnMut(Inline) -> Result<Vec<Inline>, E>,
@@ -308,9 +309,9 @@ fn rewrite_inlines<E>(
     Ok(())
 }
 
-/// A link to a file of the project, `../src/main.rs` as from paper/, as it leads from where the report is written;
-/// where no way leads there, its words alone.
-pub fn led(inline: Inline, top: Option<&str>) -> Vec<Inline> {
+/// Makes a link to a file of the project, `../src/main.rs`, relative to the folder of the report,
+/// where `top` is the path to the project; only its words are left if there is no such path.
+pub fn relative_link(inline: Inline, top: Option<&str>) -> Vec<Inline> {
     match inline {
         Inline::Link { to, shown } if to.starts_with("../") => match top {
             Some(top) => vec![Inline::Link { to: to.replacen("../", top, 1), shown }],

@@ -64,15 +64,16 @@ impl Edition {
 /// A document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Document {
-    /// Its prose: `PROSE.md` of the templates, or else the files of the folder `PROSE`, in the order of their names.
+    /// Its prose: `PROSE.md` of the templates, or the files of the folder `PROSE` in the order of
+    /// their names.
     pub prose: &'static str,
-    /// What the others call it.
+    /// Its name in the other documents.
     pub name: &'static str,
     /// What the numbers of its sections, tables and listings begin with; nothing in the first.
     pub letter: &'static str,
-    /// Its file for hosts.
+    /// Its file in Markdown.
     pub markdown: &'static str,
-    /// Its file for browsers.
+    /// Its file in HTML.
     pub page: &'static str,
     /// Its file for LaTeX, without its ending `.tex`, if it is printed.
     pub print: Option<&'static str>,
@@ -100,7 +101,8 @@ impl Document {
     /// Paths of its prose in the templates, in its order; none if there is no such file.
     pub fn files<'a>(&self, templates: &'a Templates) -> Vec<&'a str> {
         let (one, folder) = (format!("{}.md", self.prose), format!("{}/", self.prose));
-        let own = |path: &&str| *path == one || path.starts_with(&folder) && path.ends_with(".md");
-        templates.iter().map(|(path, _)| path).filter(own).collect()
+        let is_prose =
+            |path: &&str| *path == one || path.starts_with(&folder) && path.ends_with(".md");
+        templates.iter().map(|(path, _)| path).filter(is_prose).collect()
     }
 }

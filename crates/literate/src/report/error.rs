@@ -2,10 +2,10 @@
 
 use crate::input::one_line;
 
-/// Characters that a message may have.
-const LINE: usize = 1000;
+/// The largest number of characters of a message.
+const MAX_LENGTH: usize = 1000;
 
-/// What is wrong with the report, with the place where it can be mended.
+/// What is wrong with a report, with the place where it can be corrected.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("value {0}: the id is taken; give one of the two values another id")]
@@ -14,7 +14,7 @@ pub enum Error {
         "value {0}: not a finite number; leave the value out or say why there is none in words"
     )]
     NotFinite(String),
-    #[error("{}", one_line(.0, LINE))]
+    #[error("{}", one_line(.0, MAX_LENGTH))]
     Template(String),
     #[error(transparent)]
     Prose(#[from] crate::prose::Error),
@@ -77,7 +77,7 @@ impl Error {
         }
     }
 
-    /// Whether the prose can be read, and breaks a rule about its numbers and figures.
+    /// Whether the prose can be read but breaks a rule about its numbers and figures.
     pub fn is_of_rules(&self) -> bool {
         match self {
             Error::HardCoded(_) | Error::NotShown(_) | Error::Unused(_) => true,

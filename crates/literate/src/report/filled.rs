@@ -1,4 +1,5 @@
-//! Keeps for each piece of the filled prose where it stands in the templates, so that errors name a line.
+//! Keeps for each piece of the filled prose where it stands in the templates, so that errors name a
+//! line.
 
 use super::error::Error;
 use super::mark::{Piece, framed, pieces};
@@ -25,13 +26,13 @@ struct Origin {
 
 impl Filled {
     /// Adds what Tera made of a template after [`marked`], a paragraph apart.
-    pub fn add(&mut self, path: &str, template: &str, filled: &str) {
+    pub fn add(&mut self, path: &str, text: &str, filled: &str) {
         if !self.templates.is_empty() {
             self.text += "\n\n";
         }
-        let own = self.templates.len();
-        self.templates.push((path.into(), template.into()));
-        let here = |start, offset, tag| Origin { start, template: own, offset, tag };
+        let template = self.templates.len();
+        self.templates.push((path.into(), text.into()));
+        let here = |start, offset, tag| Origin { start, template, offset, tag };
         self.origins.push(here(self.text.len(), 0, false));
         for piece in pieces(filled) {
             match piece {
@@ -58,18 +59,18 @@ impl Filled {
         format!("{path}:{}", line_and_column(text, (origin.offset + beyond).min(text.len())))
     }
 
-    /// Whether people typed what stands there: text of the template, or a tag that writes a plain number or a quotation
-    /// instead of a value, a declared literal or words of the program.
+    /// Whether people typed what stands at an offset: text of the template, or a tag that writes a
+    /// plain number or a quotation.
     pub fn is_typed(&self, offset: usize) -> bool {
         let Origin { template, offset, tag, .. } = self.origin(offset);
-        let own = self.templates[template].1[offset..].trim_start_matches(['«', '-', ' ']);
+        let typed = self.templates[template].1[offset..].trim_start_matches(['«', '-', ' ']);
         let number = |c: char| c.is_ascii_digit() || "\"'`(-".contains(c);
-        !tag || own.starts_with(number) || own.starts_with("raw.") || own.starts_with("loop.")
+        !tag || typed.starts_with(number) || typed.starts_with("raw.") || typed.starts_with("loop.")
     }
 }
 
-/// Where the things stand that a report has or names: `#fig:3` what can be referred to, `@fig:3` a
-/// reference, `(path` a link.
+/// Offsets of what errors can name: `#fig:3` an id, `@fig:3` a reference, `(path` a link, `$tex` a
+/// formula.
 #[derive(Clone, Debug)]
 pub struct Places<'a> {
     filled: &'a Filled,

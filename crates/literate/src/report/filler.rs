@@ -1,5 +1,5 @@
-//! Filling the templates by Tera: values become marks (`mark`), which the writers turn into digits. The
-//! manual ([`crate::manual`]) has what a template may write.
+//! Fills the templates by Tera: values become marks (`mark`), which the parser replaces by digits.
+//! The manual ([`crate::manual`]) lists what a template may write.
 
 use super::edition::Document;
 use super::error::Error;
@@ -53,8 +53,9 @@ impl Filler {
         Ok(filler)
     }
 
-    /// The same with values: `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain numbers; cells of
-    /// tables are among them, `table["row"].column`, and their keys are `keys.table.key` and `keys.table.rows`.
+    /// Adds values: `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain
+    /// numbers. Cells of tables are `table["row"].column`, their keys `keys.table.key` and
+    /// `keys.table.rows`.
     pub fn with(mut self, values: &Registry) -> Self {
         // Tables for figures alone are long, and no template needs them.
         let named =
@@ -67,9 +68,12 @@ impl Filler {
             put(&mut numbers, name, raw(value));
         }
         for table in values.tables().filter(named) {
-            let rows = |of: fn(&Value) -> Json| {
+            let rows = |cell_json: fn(&Value) -> Json| {
                 let row = |cells: BTreeMap<&str, &Value>| {
-                    cells.into_iter().map(|(column, cell)| (column.to_string(), of(cell))).collect()
+                    cells
+                        .into_iter()
+                        .map(|(column, cell)| (column.to_string(), cell_json(cell)))
+                        .collect()
                 };
                 let mut rows: BTreeMap<String, Json> =
                     table.named().into_iter().map(|(name, cells)| (name, row(cells))).collect();
@@ -117,10 +121,10 @@ impl Filler {
         Ok(filled)
     }
 
-    /// Holds numbers in conditions against what there is: Tera takes one that it does not have for *false*.
+    /// Checks the names of numbers in conditions, since Tera takes an unknown name for *false*.
     fn conditions(&self, path: &str, text: &str) -> Result<(), Error> {
-        let of = |group| text.match_indices(group).map(|(at, _)| at);
-        for at in of("raw.").chain(of("keys.")) {
+        let uses = |group| text.match_indices(group).map(|(at, _)| at);
+        for at in uses("raw.").chain(uses("keys.")) {
             let begins = !text[..at].ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
             if let Some(what) = self.missing(&text[at..]).filter(|_| begins) {
                 let place = line_and_column(text, at);
@@ -132,8 +136,8 @@ impl Filler {
         Ok(())
     }
 
-    /// What a name, `table["row"].column`, has that is not there, with the nearest that is; none where the name is right or
-    /// no name of a value. Where the row is computed any will do.
+    /// Returns which part of a name, `table["row"].column`, does not exist, with the nearest that
+    /// does; none if the name is right or names no value. A computed row may be any row.
     fn missing(&self, expression: &str) -> Option<String> {
         let (mut here, mut rest) = (&self.names, expression);
         loop {
@@ -171,10 +175,11 @@ impl Filler {
     fn failure(&self, error: &tera::Error) -> Error {
         let (ErrorKind::RenderingError(report) | ErrorKind::SyntaxError(report)) = error.kind()
         else {
-            // Of unknown filters and functions Tera draws a picture: what, an arrow to the place, the line.
-            let told = error.to_string();
-            let what = told.split(" --> ").next().unwrap_or_default().replace("error: ", "");
-            let place = told.split("--> ").nth(1).and_then(|rest| rest.lines().next());
+            // For unknown filters and functions Tera writes a message, an arrow to the place, and
+            // the line.
+            let message = error.to_string();
+            let what = message.split(" --> ").next().unwrap_or_default().replace("error: ", "");
+            let place = message.split("--> ").nth(1).and_then(|rest| rest.lines().next());
             let place = place.map(|place| self.templates.place(&format!("{place}: ")));
             let place = place.unwrap_or_default();
             return Error::Template(format!("{place}{}", what.trim()));

@@ -1,7 +1,8 @@
-//! A report in its folder: written whole and over nothing that somebody edited, and compared with its list.
+//! Writes a report into a folder, without overwriting files that somebody edited, and compares the
+//! two.
 //!
-//! SHA256SUMS lists, as `sha256sum` does, every file of a report that is committed, or the figures that were written
-//! alone. Pages and figures for LaTeX are on no list: they are made anew each time.
+//! SHA256SUMS lists every committed file, in the format of `sha256sum`. Pages and figures for LaTeX
+//! are generated each time and are not listed.
 
 use crate::input::{self, STAGING, WRITING, is_absent, remedy, sha256};
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,7 +16,7 @@ pub const SUMS: &str = "SHA256SUMS";
 pub type Files = BTreeMap<String, Vec<u8>>;
 
 /// A report in memory.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// Files that are committed; SHA256SUMS covers them.
     pub committed: Files,
@@ -61,8 +62,8 @@ pub fn sums(files: &Files) -> String {
     lines(&digests(files.iter()))
 }
 
-/// Reads the lines: path and digest. None if there is none, or one is no file of a report, so that no list leads out of the folder, or has
-/// what is not ours removed.
+/// Reads paths and digests. Returns none if there is no line, or if a line names anything but a
+/// file of a report, so that no list can lead out of the folder.
 pub fn read_sums(text: &str) -> Option<Digests> {
     let entry = |line: &str| {
         let (digest, path) = line.split_once("  ")?;
@@ -91,8 +92,8 @@ fn names(folder: &Path) -> Result<Vec<String>, Error> {
     }
 }
 
-/// Paths of all files below a folder, sorted, with slashes. Links are listed and not followed, and what a killed run left
-/// half-done is passed over.
+/// Returns the paths of all files below a folder, sorted, with slashes. Links are listed and not
+/// followed; what a killed run left unfinished is skipped.
 pub fn walk(folder: &Path) -> Result<Vec<String>, Error> {
     let mut paths = Vec::new();
     let mut open = vec![String::new()];
@@ -129,8 +130,9 @@ fn ours(folder: &Path) -> Result<Option<Digests>, Error> {
     Ok(list().or_else(|| is_empty.then(Digests::new)))
 }
 
-/// Refuses a folder that is not ours, and files that were edited, by name: those that stand there with other bytes than we
-/// wrote, and than `files` are about to bring; of a whole report also those that the list names.
+/// Refuses a folder that has no report, and names files that were edited: those whose bytes are
+/// neither what the list says nor what `files` will write. For a whole report all listed files are
+/// checked.
 pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
     let place = || folder.display().to_string();
     let ours = ours(folder)?.ok_or_else(|| Error::NotOurs(place()))?;
@@ -144,9 +146,10 @@ pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
     if edited.is_empty() { Ok(()) } else { Err(Error::Edited(place(), edited)) }
 }
 
-/// Writes files: first all into a temporary folder, then each is renamed into its place, the list last. With a list among
-/// them they are a whole report, and what only the list before has is removed; without one their lines are put into the
-/// list that is there. `generated` are pages and figures for LaTeX, which are on no list. Unless forced, it refuses first.
+/// Writes files: first all into a temporary folder, then each is renamed into its place, the list
+/// last. If the list is among them they are a whole report, and files that only the old list names
+/// are removed; else their lines are added to the old list. `generated` are pages and figures for
+/// LaTeX, which are on no list. Unless forced, it refuses first.
 pub fn write(folder: &Path, files: &Files, generated: &Files, force: bool) -> Result<(), Error> {
     let whole = files.contains_key(SUMS);
     if !force {
@@ -187,7 +190,7 @@ pub fn write(folder: &Path, files: &Files, generated: &Files, force: bool) -> Re
     Ok(())
 }
 
-/// What is wrong with the files of a folder, one line each: digests by path say what should be there.
+/// Returns a line for each file of a folder that is missing, differs or is not expected.
 fn faults(folder: &Path, expected: &Digests) -> Result<Vec<String>, Error> {
     let fault = |(path, digest): (&String, &String)| match read(folder, path) {
         Ok(bytes) if sha256(&bytes) == *digest => None,
@@ -200,8 +203,8 @@ fn faults(folder: &Path, expected: &Digests) -> Result<Vec<String>, Error> {
     Ok(expected.iter().filter_map(fault).chain(strange).collect())
 }
 
-/// Compares a folder with its list: how many files that names, and what is wrong, one line each. What is built but not committed is
-/// on no list.
+/// Compares a folder with its list; returns how many files the list names, and a line for each
+/// fault.
 pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
     let place = folder.join(SUMS);
     let text = input::regular_text(&place).map_err(failed(&place))?;
@@ -219,11 +222,11 @@ impl Report {
         write(folder, &self.committed, &self.generated, force)
     }
 
-    /// Compares a folder with all of it, byte by byte: how many files were compared, and what is wrong, one line each. What
-    /// is built beside may be missing, but not be another.
+    /// Compares a folder with the whole report, byte by byte; returns how many files were compared,
+    /// and a line for each fault. Generated files may be missing, but may not differ.
     pub fn compare(&self, folder: &Path) -> Result<(usize, Vec<String>), Error> {
-        let beside = self.generated.iter().filter(|(path, _)| folder.join(path).exists());
-        let all = digests(self.committed.iter().chain(beside));
+        let generated = self.generated.iter().filter(|(path, _)| folder.join(path).exists());
+        let all = digests(self.committed.iter().chain(generated));
         Ok((all.len(), faults(folder, &all)?))
     }
 }

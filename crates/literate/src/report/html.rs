@@ -1,7 +1,7 @@
-//! The tree → a page; what stands around it is the template report.html.
+//! Writes the tree as a page in HTML; what surrounds it is the template report.html.
 //!
-//! A page lies on a disk with its style sheet, script, fonts and the cards of its numbers in the same folder. It is
-//! well-formed XML, so that tests can read it.
+//! Style sheet, script, fonts and cards lie in the folder of the page, which can be opened from a
+//! disk. A page is well-formed XML, so that tests can read it.
 
 use super::card::Cards;
 use super::document::{self, Block, Formula, Inline, place_on_page, plain, printed, spelt};
@@ -28,7 +28,7 @@ const FONTS: [(&str, &[u8]); 4] = [
     ("LibertinusMath-Regular", include_bytes!("../../fonts/LibertinusMath-Regular.woff2")),
 ];
 
-/// What the template report.html has places for, and the cards that the page opens.
+/// Returns what the template report.html inserts, and the ids of the cards that the page opens.
 pub fn write(
     blocks: &[Block],
     here: Document,
@@ -78,9 +78,10 @@ pub fn write(
     Ok((parts, page.values.into_inner()))
 }
 
-/// What the pages share: fonts, and the cards of all values that they show, as a script, since pages on a disk may
-/// read nothing else. A row that several cards have stands once.
-pub fn beside(
+/// Returns the files that all pages share: fonts, and the cards of all values that they show. The
+/// cards are a script, since a page on a disk can load nothing else. A row that several cards have
+/// is stored once.
+pub fn shared_files(
     values: &BTreeSet<String>,
     cards: Cards<'_>,
     input: &Input<'_>,
@@ -91,7 +92,7 @@ pub fn beside(
     for id in values {
         let unknown = || Error::Template(format!("there is no value {id}"));
         let card = cards.get(id).ok_or_else(unknown)?;
-        let mut own = Vec::new();
+        let mut numbers = Vec::new();
         let is_claim = id.starts_with("claim:");
         let shown = "the row of this statement".to_string();
         let ledger = Inline::Reference { to: id.clone(), within: None, shown };
@@ -102,16 +103,16 @@ pub fn beside(
                     let within = labels.get(&to).map(|label| label.document);
                     vec![Inline::Reference { to, within, shown }]
                 }
-                other => document::led(other, input.top),
+                other => document::relative_link(other, input.top),
             };
             let words: Vec<Inline> = text.iter().flat_map(place).collect();
             let row = format!("<dt>{name}</dt><dd>{}</dd>", page.inlines(&words)?);
-            own.push(*places.entry(row.clone()).or_insert_with(|| {
+            numbers.push(*places.entry(row.clone()).or_insert_with(|| {
                 rows.push(row);
                 rows.len() - 1
             }));
         }
-        all.insert(id, (page.inlines(&card.title)?, text(&card.lead), own));
+        all.insert(id, (page.inlines(&card.title)?, text(&card.lead), numbers));
     }
     let json = serde_json::to_string(&(rows, all)).unwrap_or_default();
     let mut files = Files::from([("cards.js".into(), format!("CARDS = {json};\n").into_bytes())]);
@@ -122,10 +123,11 @@ pub fn beside(
 
 /// Characters of a cell that is text.
 const TEXT: usize = 100;
-/// Columns whose cells have more characters than this are no towers: they have a least width.
+/// Columns whose cells have more characters than this get a minimum width.
 const WIDTHS: [(usize, &str); 3] = [(300, "long"), (TEXT, "text"), (40, "words")];
 
-/// So many columns do not stand side by side on a narrow screen, nor more than a few if one of them is of text.
+/// So many columns do not fit side by side on a narrow screen, nor more than a few if one of them
+/// is text.
 const MANY: usize = 6;
 const FEW: usize = 3;
 
@@ -277,7 +279,7 @@ impl Page<'_> {
             class.map_or(String::new(), |class| format!(" class=\"{class}\""))
         };
         // On a narrow screen rows of many columns become lists, with the heads as names, or at
-        // least scroll sideways as lines and not as towers.
+        // least scroll sideways.
         let has_words = |cell: &Vec<Inline>| {
             let is_word = |inline: &Inline| matches!(inline, Inline::Text(text) if text.contains(char::is_alphabetic));
             cell.iter().any(is_word)
@@ -326,8 +328,8 @@ impl Page<'_> {
         Ok(out + "</tbody>\n</table>")
     }
 
-    /// Running text. Browsers end lines before and after a formula, whatever stands there: what has to stay in one line with
-    /// it is kept there.
+    /// Writes running text. Browsers break lines before and after a formula: what must stay on its
+    /// line is kept together with it.
     fn inlines(&self, list: &[Inline]) -> Result<String, Error> {
         // Pieces, and whether each stays with the one before.
         let mut pieces: Vec<(String, bool)> = Vec::new();
@@ -447,7 +449,8 @@ impl Page<'_> {
         })
     }
 
-    /// A value, which opens its card. (Browsers break lines about a `<button>`, and not about words.)
+    /// Writes a value, which opens its card. (Browsers break lines around a `<button>` but not
+    /// within text.)
     fn value(&self, id: &str, shown: &str) -> String {
         self.values.borrow_mut().insert(id.to_string());
         let id = text(id);
@@ -471,7 +474,7 @@ fn number(numeral: &Numeral, percent: &str) -> String {
     out + if numeral.percent { percent } else { "" }
 }
 
-/// What scrolls by itself where it is too wide.
+/// Wraps what scrolls sideways where it is too wide.
 fn scroll(name: &str, inner: &str) -> String {
     format!(
         "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{name}\">{inner}</div>"

@@ -25,7 +25,8 @@ pub struct Input<'a> {
     pub figures: &'a [Figure],
     /// What a page loads when a reader asks it to compute: lab.js.
     pub lab: Option<&'a str>,
-    /// The way from where it is written to the files of the project, as `../`; none if it is written elsewhere.
+    /// The path from the folder of the report to the project, `../`; none if it is written
+    /// elsewhere.
     pub top: Option<&'a str>,
     pub edition: &'a Edition,
     pub project: &'a Project,

@@ -115,8 +115,8 @@ impl Labels {
         })
     }
 
-    /// Adds labels for the verdict of each statement that has a place: `row:id` and `mark:id` show its
-    /// sign and number, `sign:id` its sign alone.
+    /// Adds labels for the verdict of each statement that has a place: `row:id` and `mark:id` show
+    /// its sign and number, `sign:id` its sign alone.
     pub fn add_verdicts(&mut self, claims: &[Check]) -> Result<(), Error> {
         let mut placed = self.labels.keys().filter_map(|id| id.strip_prefix("claim:"));
         if let Some(id) = placed.find(|id| !claims.iter().any(|claim| claim.id == *id)) {
@@ -229,8 +229,8 @@ impl Labels {
     }
 }
 
-/// Refuses an id that does not begin with the kind of what it names: a table with the id of a figure
-/// would be called a figure.
+/// Refuses an id that does not begin with the kind of what it names: a table with the id of a
+/// figure would be called a figure.
 pub(super) fn check_kind(kind: &str, id: &str) -> Result<(), Error> {
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, ':' | '-' | '_' | '.');
     let name = id.strip_prefix(kind).and_then(|name| name.strip_prefix(':'));

@@ -1,6 +1,6 @@
-//! The tree → a document for LaTeX; what stands around it is the template report.tex.
+//! Writes the tree as a document for LaTeX; what surrounds it is the template report.tex.
 
-use super::document::{self, Block, Formula, Inline};
+use super::document::{Block, Formula, Inline, title};
 use super::document::{continues, is_abstract, is_equation, plain, printed, spelt};
 use super::edition::Document;
 use super::error::Error;
@@ -8,12 +8,12 @@ use super::tex;
 use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};
 
-/// What the template report.tex has places for.
-pub fn write(blocks: &[Block], of: Document) -> Result<Json, Error> {
-    let title = document::title(blocks)?;
+/// Returns what the template report.tex inserts.
+pub fn write(blocks: &[Block], document: Document) -> Result<Json, Error> {
+    let title = title(blocks)?;
     Ok(json!({
-        "letter": of.letter,
-        "page": of.page,
+        "letter": document.letter,
+        "page": document.page,
         "title": inlines(title)?,
         "bookmark": bookmark(title)?,
         "body": body(blocks)?,
@@ -111,7 +111,7 @@ fn write_block(block: &Block) -> Result<String, Error> {
                 out.push_str(&format!("\\setcounter{{enumi}}{{{}}}\n", start.saturating_sub(1)));
             }
             for item in items {
-                out.push_str(&format!("\\item {}\n", apart(body(item)?.trim_end())));
+                out.push_str(&format!("\\item {}\n", separated(body(item)?.trim_end())));
             }
             format!("{out}\\end{{{kind}}}")
         }
@@ -119,7 +119,7 @@ fn write_block(block: &Block) -> Result<String, Error> {
         Block::Code { text, .. } => {
             format!("{{\\small\\begin{{alltt}}\n{}\n\\end{{alltt}}}}", tex::code(text.trim_end())?)
         }
-        // On paper nothing unfolds, a listing stands behind the text; and nothing runs.
+        // Listings stand after the text, and paper runs nothing.
         Block::Listing { .. } | Block::Lab { .. } => String::new(),
         Block::Bibliography(entries) => {
             let mut out = String::from(HANGING);
@@ -154,8 +154,8 @@ pub fn inlines(list: &[Inline]) -> Result<String, Error> {
     let mut out = String::new();
     for (i, piece) in list.iter().enumerate() {
         // A blank line around an equation would begin a paragraph.
-        let beside = |j: usize| matches!(list.get(j), Some(Inline::Display { .. }));
-        if *piece == Inline::Soft && (beside(i + 1) || i > 0 && beside(i - 1)) {
+        let is_display = |j: usize| matches!(list.get(j), Some(Inline::Display { .. }));
+        if *piece == Inline::Soft && (is_display(i + 1) || i > 0 && is_display(i - 1)) {
             continue;
         }
         out.push_str(&inline(piece)?);
@@ -163,8 +163,8 @@ pub fn inlines(list: &[Inline]) -> Result<String, Error> {
     Ok(out)
 }
 
-/// Behind `\\` and `\item` TeX takes a bracket or a star as an argument.
-fn apart(text: &str) -> String {
+/// Separates a bracket or a star from `\\` or `\item`, which would take it as an argument.
+fn separated(text: &str) -> String {
     let taken = text.starts_with(['[', '*']);
     if taken { format!("{{}}{text}") } else { text.to_string() }
 }
@@ -198,12 +198,12 @@ fn inline(inline: &Inline) -> Result<String, Error> {
             let shown = if bare { breakable(&shown).replace('(', "\\allowbreak(") } else { shown };
             format!("\\href{{{}}}{{{}}}", address(to), shown)
         }
-        // Files of the report: the path in words, a PDF travels without them.
+        // A PDF is read without the files of the report, so only the words are shown.
         Inline::Link { shown, .. } => inlines(shown)?,
         Inline::Reference { to, within: None, shown } => {
             format!("\\hyperref[{to}]{{{}}}", tex::text(shown)?)
         }
-        // A PDF travels without the other documents.
+        // A PDF is read without the other documents.
         Inline::Reference { shown, .. } => tex::text(shown)?,
         Inline::Anchor { id, number } => format!("{}{number}", label(id)),
         Inline::Unresolved(ids) => return Err(Error::Reference(ids.join("; "))),
@@ -231,7 +231,7 @@ fn address(to: &str) -> String {
 /// Characters that fit into a line of the page in the size of tables.
 const LINE: usize = 92;
 
-/// A table with more than this many characters in its longest cells together stands across.
+/// A table whose longest cells have more characters than this together is turned on its side.
 const ACROSS: usize = 4 * LINE;
 
 fn table(
@@ -242,28 +242,28 @@ fn table(
     head: &[Vec<Inline>],
     rows: &[Vec<Vec<Inline>>],
 ) -> Result<String, Error> {
-    let most = |of: fn(&str) -> usize| -> Vec<usize> {
+    let largest = |measure: fn(&str) -> usize| -> Vec<usize> {
         let column = |i: usize| {
             let cells = rows.iter().map(Vec::as_slice).chain([head]).filter_map(|row| row.get(i));
-            cells.map(|cell| of(&plain(cell))).max().unwrap_or(0)
+            cells.map(|cell| measure(&plain(cell))).max().unwrap_or(0)
         };
         (0..columns.len()).map(column).collect()
     };
-    let widths = most(|cell| cell.chars().count().max(3));
-    let words = most(|cell| {
+    let widths = largest(|cell| cell.chars().count().max(3));
+    let words = largest(|cell| {
         cell.split_whitespace().map(|word| word.chars().count()).max().unwrap_or(0).min(24)
     });
     let total: usize = widths.iter().map(|w| w + 2).sum();
     let least: usize = (0..columns.len()).map(|i| least_width(widths[i], words[i])).sum();
     let gaps = GAPS * columns.len() as f64;
     let fits = |gaps: f64| total <= ACROSS && least as f64 + gaps <= LINE as f64;
-    // Half of the gaps are spared before a table is laid across.
+    // Gaps are halved before a table is turned on its side.
     let (tight, across) = (!fits(gaps) && fits(0.5 * gaps), !fits(0.5 * gaps));
     let line = if across { LINE * 3 / 2 } else { LINE };
     let row = |cells: &[Vec<Inline>]| -> Result<String, Error> {
         let cells: Vec<String> =
             cells.iter().map(|cell| inlines(cell)).collect::<Result<_, _>>()?;
-        Ok(format!("{} \\\\\n", apart(&cells.join(" & ").replace('\n', " "))))
+        Ok(format!("{} \\\\\n", separated(&cells.join(" & ").replace('\n', " "))))
     };
     let mut out = String::from(if across { "\\begin{landscape}\n" } else { "" });
     let layout = layout(columns, &widths, &words, line);
@@ -276,7 +276,7 @@ fn table(
     let head = row(head)?;
     out.push_str(&format!("\\toprule\n{head}\\midrule\n\\endfirsthead\n"));
     out.push_str(&format!("\\toprule\n{head}\\midrule\n\\endhead\n\\bottomrule\n\\endlastfoot\n"));
-    // Rows of several lines stand apart.
+    // Rows of several lines get a space between them.
     let wraps = total > line;
     for cells in rows {
         out.push_str(&row(cells)?);
@@ -297,8 +297,8 @@ fn least_width(width: usize, longest_word: usize) -> usize {
     if width <= SHORT { width } else { longest_word + 1 }
 }
 
-/// Columns as wide as their words while all fit; else the long ones are as wide as their longest words, and share what is
-/// left.
+/// Lays out columns as wide as their words while all fit; else long ones are at least as wide as
+/// their longest words and share the rest.
 fn layout(columns: &[Alignment], widths: &[usize], words: &[usize], line: usize) -> String {
     let letter = |align: &Alignment| match align {
         Alignment::Left | Alignment::None => "l",

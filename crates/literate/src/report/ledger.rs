@@ -1,4 +1,4 @@
-//! The ledger: every claim, figure and numbered equation of the paper, and its status.
+//! Holds the ledger: every claim, figure and numbered equation of the paper, and its status.
 
 use super::error::Error;
 use crate::claims::Check;

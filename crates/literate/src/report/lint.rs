@@ -35,8 +35,8 @@ impl Declared {
         }
     }
 
-    /// Whether the word at this offset stands inside a declared phrase, between whose words a line may
-    /// end.
+    /// Whether the word at this offset stands inside a declared phrase, between whose words a line
+    /// may end.
     fn allows(&self, text: &str, start: usize, word: &str) -> bool {
         let stands = |phrase: &str, at: usize| {
             let begin = start.checked_sub(at);

@@ -1,11 +1,9 @@
-//! Marks: where a value stands in text, in private-use characters, into which neither Tera nor Markdown reads anything.
+//! Marks values in filled prose by private-use characters, which Tera and Markdown leave alone.
 //!
-//! In filled prose a mark holds the id of a value and the filters of its digits; in the mathematics of a
-//! [`document`](super::document) it holds id and digits, so that a page can make a button of them. Place marks have no id.
-//!
-//! They record where in the templates each piece of filled text stands, so that what is wrong with it can be mended: they are put
-//! about what Tera fills ([`marked`]) and taken out again when the filled text is read ([`Filled::add`]). Between two tags the
-//! text is that of the template; what a tag wrote stands where the tag does.
+//! A mark holds the id of a value and the filters for its digits. Marks without an id hold the
+//! place in the template: [`marked`] puts them around each tag, and
+//! [`Filled::add`](super::filled::Filled::add) takes them out again. Between two tags the text is
+//! that of the template.
 
 use crate::print::Style;
 use crate::value::Digits;
@@ -27,14 +25,14 @@ pub enum Piece<'a> {
     Text(&'a str),
     Value {
         id: String,
-        /// Its digits as TeX, or in filled prose the words of its filters.
+        /// The words of its filters.
         shown: &'a str,
     },
 }
 
 /// A mark with an id and what is shown.
 pub fn framed(id: &str, shown: &str) -> String {
-    let id = BRACKETS.iter().fold(id.to_string(), |id, (own, kept)| id.replace(own, kept));
+    let id = BRACKETS.iter().fold(id.to_string(), |id, (bracket, kept)| id.replace(bracket, kept));
     format!("{OPEN}{id}{NEXT}{shown}{CLOSE}")
 }
 
@@ -44,7 +42,8 @@ pub fn pieces(text: &str) -> Vec<Piece<'_>> {
     while let Some((before, mark)) = rest.split_once(OPEN) {
         let Some((mark, after)) = mark.split_once(CLOSE) else { break };
         let Some((id, shown)) = mark.split_once(NEXT) else { break };
-        let id = BRACKETS.iter().fold(id.to_string(), |id, (own, kept)| id.replace(kept, own));
+        let id =
+            BRACKETS.iter().fold(id.to_string(), |id, (bracket, kept)| id.replace(kept, bracket));
         out.extend((!before.is_empty()).then_some(Piece::Text(before)));
         out.push(Piece::Value { id, shown });
         rest = after;
@@ -80,8 +79,8 @@ pub fn style(words: &str) -> Style {
     style
 }
 
-/// A template with a mark before each `«` and behind each `»`, `%>` and `#>`: the offset there, and whether a tag writes
-/// what follows.
+/// Adds to a template a mark before each `«` and after each `»`, `%>` and `#>`, with the offset
+/// there, and whether a tag writes what follows.
 pub fn marked(text: &str) -> String {
     let (mut out, mut at) = (String::with_capacity(2 * text.len()), 0);
     for (found, sign) in text.match_indices(['«', '»', '>']) {

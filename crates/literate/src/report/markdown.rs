@@ -1,21 +1,21 @@
-//! The tree → report.md, for the place where the repository is hosted.
+//! Writes the tree as Markdown, for GitHub and similar sites.
 //!
-//! Hosts read `$…$` after Markdown has had its way with the characters inside, so mathematics is
+//! These sites read `$…$` after Markdown has read the characters inside, so mathematics is
 //! respelled where Markdown would eat or misread it: `\,` becomes `\thinspace`, `\{` `\lbrace`,
-//! `\\` `\cr`, `*` `\ast`, `<` `\lt`; a `_` that could open emphasis gets a space behind it; and what
-//! follows a closing `$` without a space (`$n$-th`) moves inside.
+//! `\\` `\cr`, `*` `\ast`, `<` `\lt`; a `_` that could open emphasis gets a space behind it; and
+//! what follows a closing `$` without a space (`$n$-th`) moves inside.
 
 use super::document::{self, Block, Inline};
 use pulldown_cmark::Alignment;
 use std::borrow::Cow;
 
-/// Writes report.md.
+/// Writes a document.
 pub fn write(blocks: &[Block]) -> String {
-    let blocks = blocks.iter().map(|own| block(own).trim_end().to_string());
+    let blocks = blocks.iter().map(|one| block(one).trim_end().to_string());
     blocks.filter(|text| !text.is_empty()).collect::<Vec<_>>().join("\n\n") + "\n"
 }
 
-/// Running text as Markdown, for tables and ledgers.
+/// Writes running text.
 pub fn inlines(inlines: &[Inline]) -> String {
     Writer { in_table: false }.all(inlines)
 }
@@ -59,7 +59,7 @@ fn block(block: &Block) -> String {
             let fence = fence(text, 3);
             format!("{fence}{language}\n{}\n{fence}", text.trim_end())
         }
-        // Hosts fold `details`; Markdown goes on inside it after a blank line.
+        // After a blank line Markdown goes on inside `details`.
         Block::Listing { id, number, caption, item, origin, text, .. } => format!(
             "{}**Listing {number}.** {}\n\n<details>\n<summary><code>{item}</code></summary>\n\n\
              {fence}rust\n{}\n{fence}\n\n<sub>{}</sub>\n\n</details>",
@@ -69,10 +69,10 @@ fn block(block: &Block) -> String {
             inlines(origin),
             fence = fence(text, 3)
         ),
-        // Nothing moves here.
+        // Markdown runs nothing.
         Block::Lab { .. } => String::new(),
         Block::Bibliography(entries) => {
-            let entry = |entry: &super::document::Entry| {
+            let entry = |entry: &document::Reference| {
                 format!("- {}{}", anchor(&format!("ref:{}", entry.key)), inlines(&entry.text))
             };
             entries.iter().map(entry).collect::<Vec<_>>().join("\n")
@@ -94,11 +94,13 @@ fn table(columns: &[Alignment], head: &[Vec<Inline>], rows: &[Vec<Vec<Inline>>])
     let rules: Vec<&str> = columns.iter().map(rule).collect();
     let mut out = row(head);
     out.push_str(&format!("|{}|\n", rules.join("|")));
-    rows.iter().for_each(|cells| out.push_str(&row(cells)));
+    for cells in rows {
+        out.push_str(&row(cells));
+    }
     out
 }
 
-/// As many grave accents about code as none in it has, and so many at least.
+/// Returns a fence of at least so many grave accents, longer than any in the code.
 fn fence(code: &str, least: usize) -> String {
     let longest = code.split(|c| c != '`').map(str::len).max().unwrap_or_default();
     let fits = |length: usize| !code.contains('`') || length > longest;
@@ -106,7 +108,7 @@ fn fence(code: &str, least: usize) -> String {
     "`".repeat(length)
 }
 
-/// `fig:3` → an HTML anchor `fig-3`, which hosts keep.
+/// Returns an HTML anchor, `fig-3` for `fig:3`.
 fn anchor(id: &str) -> String {
     format!("<a id=\"{}\"></a>", id.replace(':', "-"))
 }
@@ -267,7 +269,7 @@ fn marker_length(chars: &[char]) -> Option<usize> {
     }
 }
 
-/// Length of what touches the closing dollar and would stop hosts from seeing it.
+/// Returns the length of what touches the closing dollar and would stop GitHub from rendering it.
 fn glued(text: &str) -> usize {
     let touches = |c: char| c.is_alphanumeric() || matches!(c, '-' | '–' | '’' | '\'' | '“' | '”');
     text.find(|c| !touches(c)).unwrap_or(text.len())

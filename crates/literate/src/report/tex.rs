@@ -1,16 +1,16 @@
-//! TeX: characters for pdflatex, of which what is special is escaped and what is not ASCII is named; the macros that every format
-//! shows; and formulas as characters, for terminals.
+//! Writes characters for pdflatex, knows the macros that every format supports, and spells formulas
+//! in characters for terminals.
 //!
-//! The largest host of Markdown draws mathematics by MathJax 3 with some packages taken away (those that
-//! define macros, or bring HTML, actions and boxes) and refuses a formula that names one of a list of
-//! macros, `\operatorname` among them; of a macro that is not known it shows the source in red. So
-//! mathematics is held against a list of what is known there, to LaTeX with amsmath, and to math-core.
+//! GitHub renders mathematics by MathJax 3 without the packages that define macros, or add HTML,
+//! actions and boxes. It refuses a formula that names one of a list of macros, `\operatorname`
+//! among them, and shows the source of an unknown macro in red. So mathematics is checked against a
+//! list of macros that are known there, to LaTeX with amsmath, and to math-core.
 
 use super::error::Error;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// Running text.
+/// Escapes running text: special characters get a backslash, others beyond ASCII a name.
 pub fn text(text: &str) -> Result<String, Error> {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -38,8 +38,7 @@ pub fn text(text: &str) -> Result<String, Error> {
     Ok(out)
 }
 
-/// Mathematics: TeX already, but for characters beyond ASCII, which are written so that they may
-/// stand in `\text{…}` too.
+/// Names the characters beyond ASCII in a formula, so that they may stand in `\text{…}` too.
 pub fn maths(tex: &str) -> Result<String, Error> {
     let mut out = String::with_capacity(tex.len());
     for c in tex.chars() {
@@ -52,7 +51,7 @@ pub fn maths(tex: &str) -> Result<String, Error> {
     Ok(out)
 }
 
-/// A value that leads to its card by the macro `\origin` of the template.
+/// Writes a value that leads to its card by the macro `\origin` of the template.
 pub fn value(id: &str, shown: &str) -> String {
     let is_plain = |c: u8| c.is_ascii_alphanumeric() || b"._:=,-".contains(&c);
     let mut address = String::new();
@@ -65,7 +64,7 @@ pub fn value(id: &str, shown: &str) -> String {
     format!("\\origin{{{address}}}{{{shown}}}")
 }
 
-/// A block of code inside `alltt`, where only `\`, `{` and `}` are special.
+/// Escapes a block of code inside `alltt`, where only `\`, `{` and `}` are special.
 pub fn code(code: &str) -> Result<String, Error> {
     let mut out = String::with_capacity(code.len());
     for c in code.chars() {
@@ -112,7 +111,7 @@ const MATHS: &str = r"
     ⁹ ^9  ⁻ ^-  ₀ _0  ₁ _1  ₂ _2  ₃ _3  ₄ _4  ₅ _5  ₆ _6  ₇ _7  ₈ _8  ₉ _9  ₊ _+  ₋ _-  ½ \frac12
     ¼ \frac14";
 
-/// The same as a map, by which formulas are spelt too.
+/// The same as a map, which spells formulas too.
 static TEX: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
     let words: Vec<&str> = MATHS.split_whitespace().collect();
     words.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
@@ -141,7 +140,8 @@ const ALLOWED: &str = "
 
 const ENVIRONMENTS: [&str; 5] = ["aligned", "cases", "matrix", "pmatrix", "bmatrix"];
 
-/// What is wrong with a formula: its first macro or environment that not every format shows.
+/// Returns what is wrong with a formula: its first macro or environment that not every format
+/// supports.
 pub fn refused(tex: &str) -> Option<String> {
     let mut rest = tex;
     while let Some((before, after)) = rest.split_once('\\') {
@@ -157,12 +157,12 @@ pub fn refused(tex: &str) -> Option<String> {
             rest = after.get(after.chars().next().map_or(0, char::len_utf8)..).unwrap_or_default();
         } else if name == "operatorname" {
             return Some(r"\operatorname is not rendered by GitHub; write \mathrm{…}".into());
-        } else if !ALLOWED.split_whitespace().any(|own| own == name) {
+        } else if !ALLOWED.split_whitespace().any(|macro_name| macro_name == name) {
             return Some(format!(
                 r"\{name} is not supported by every format (the manual lists the macros that are)"
             ));
         } else if name == "begin"
-            && !ENVIRONMENTS.iter().any(|own| rest.starts_with(&format!("{{{own}}}")))
+            && !ENVIRONMENTS.iter().any(|known| rest.starts_with(&format!("{{{known}}}")))
         {
             return Some(format!("an environment must be one of {}", ENVIRONMENTS.join(", ")));
         }
@@ -170,13 +170,14 @@ pub fn refused(tex: &str) -> Option<String> {
     bare(rest)
 }
 
-/// The first sign with a special meaning in LaTeX between macros. (Columns of an environment keep their &.)
+/// Returns the first sign between macros that must be escaped in LaTeX. (An environment needs its
+/// &.)
 fn bare(between: &str) -> Option<String> {
     let sign = between.chars().find(|c| matches!(c, '%' | '#' | '$'))?;
     Some(format!("{sign} must be escaped in LaTeX; write \\{sign}"))
 }
 
-/// Text in which mathematics stands between dollars, in characters.
+/// Spells a text in which formulas stand between dollar signs.
 pub fn spelt(text: &str) -> String {
     let piece =
         |(i, piece): (usize, &str)| if i % 2 == 0 { piece.to_string() } else { spell(piece) };

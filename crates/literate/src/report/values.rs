@@ -1,4 +1,4 @@
-//! All values of a report: those with a name, and the cells of tables under their addresses.
+//! Collects all values of a report: those with a name, and the cells of tables by their addresses.
 
 use super::error::Error;
 use crate::experiments::Profile;

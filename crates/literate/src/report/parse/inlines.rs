@@ -1,4 +1,4 @@
-//! Running text: words, formulas, code, references and values.
+//! Reads running text: words, formulas, code, references and values.
 
 use super::super::document::{Formula, Inline, Part};
 use super::super::error::Error;
@@ -95,7 +95,7 @@ impl Reader<'_> {
     }
 
     fn span(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Inline, Error> {
-        // What stands there is no text but a reference.
+        // This is a reference and not a link.
         if let Tag::Link { link_type: LinkType::ShortcutUnknown, dest_url, .. } = &tag {
             while !matches!(self.next(), None | Some((Event::End(_), _))) {}
             return self.reference(dest_url, range.start);
@@ -219,9 +219,9 @@ impl Reader<'_> {
         if let Some((before, after)) = tex.split_once(r"\tag{") {
             let (tag, after) =
                 after.split_once('}').ok_or_else(|| markup(r"a \tag{ that is not closed"))?;
-            let own = format!("eq:{tag}");
-            self.id("eq", &own, self.at)?;
-            (id, number, tex) = (Some(own), tag.into(), format!("{}{}", before.trim(), after));
+            let tag_id = format!("eq:{tag}");
+            self.id("eq", &tag_id, self.at)?;
+            (id, number, tex) = (Some(tag_id), tag.into(), format!("{}{}", before.trim(), after));
         }
         let formula = self.formula(tex.trim(), range.start)?;
         Ok(Inline::Display { formula, id, number })
@@ -249,8 +249,8 @@ const LEFTOVER: &str = "unclosed markup, or a row where a cell is meant (table[\
 const CUT: &str = "an unclosed formula: Markdown ends it at an empty line, and at a line that begins \
      with +, -, *, #, >, = or 1.; move the sign to the end of the line before";
 
-/// The first sign of markup that Markdown took for text, since its other end is missing, and what is wrong there. The text
-/// stands at `start`; behind a backslash a sign is meant as it stands.
+/// Finds the first sign of markup that Markdown took for text because it is not closed, and says
+/// what is wrong. The text stands at `start`; after a backslash a sign is meant literally.
 fn leftover(source: &str, start: usize, text: &str) -> Option<(usize, &'static str)> {
     let escaped = source[..start].ends_with('\\');
     let left = |(i, c): &(usize, char)| {

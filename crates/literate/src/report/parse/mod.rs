@@ -1,7 +1,8 @@
-//! Filled Markdown → the tree of `document`, in one pass, which looks for hard-coded numbers too.
+//! Reads filled Markdown into the tree of `document`, in one pass, and looks for hard-coded
+//! numbers.
 //!
-//! The manual ([`crate::manual`]) lists all markup. Whatever else Markdown reads is refused, and so is markup that
-//! was left over as text, since its other end is missing.
+//! The manual ([`crate::manual`]) lists all markup. Whatever else Markdown reads is refused, and so
+//! is markup that is not closed.
 
 mod inlines;
 
@@ -17,8 +18,8 @@ use pulldown_cmark::{
 };
 use std::ops::Range;
 
-/// Parses filled Markdown; `values` turn marks into what is shown, `declared` are phrases that may have numbers. The
-/// places are those of what has an id and of what names one. All that is wrong is an error, with its places.
+/// Parses filled Markdown, in which `values` replace marks and `declared` phrases may have numbers;
+/// returns the tree, and the places of all ids and references. All errors are reported at once.
 pub fn parse<'a>(
     filled: &'a Filled,
     values: &'a Registry,
@@ -28,12 +29,12 @@ pub fn parse<'a>(
     let options =
         Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_HEADING_ATTRIBUTES;
     let callback = |link: BrokenLink<'_>| {
-        let own = link.reference.starts_with('@') || link.reference.starts_with('!');
-        own.then(|| (CowStr::from(link.reference.to_string()), CowStr::from("")))
+        let is_reference = link.reference.starts_with(['@', '!']);
+        is_reference.then(|| (CowStr::from(link.reference.to_string()), CowStr::from("")))
     };
     let parser = Parser::new_with_broken_link_callback(&filled.text, options, Some(callback));
     let events: Vec<(Event<'_>, Range<usize>)> = parser.into_offset_iter().collect();
-    // What reads and writes lists, quotations and emphasis calls itself.
+    // Readers and writers of nested markup are recursive.
     let mut depth = 0;
     let deep = events.iter().find(|(event, _)| {
         depth += i32::from(matches!(event, Event::Start(_)));
@@ -76,18 +77,19 @@ struct Reader<'a> {
     at: usize,
     /// Where an id begins and ends that is no text: behind a caption, a picture or an equation.
     id_at: Range<usize>,
-    /// Where a formula ends that Markdown has cut, of which the first fault says all.
+    /// Where a formula ends that Markdown has cut; only its first error is reported.
     quiet: usize,
-    /// Lists and quotations about what is being read.
+    /// Number of lists and quotations around what is being read.
     within: usize,
-    /// Emphasis and links about it, in which hosts see no formula.
+    /// Emphasis and links around it, in which GitHub renders no formula.
     hides: usize,
     titled: bool,
     places: Places<'a>,
     found: Vec<Error>,
 }
 
-/// How a paragraph `Table: words {#tab:id}` or `Listing: words {#lst:id}` begins, before what it belongs to.
+/// How a caption begins, `Table: words {#tab:id}` or `Listing: words {#lst:id}`, and the kind of
+/// its id.
 const CAPTIONS: [(&str, &str); 2] = [("Table: ", "tab"), ("Listing: ", "lst")];
 
 impl<'a> Reader<'a> {
@@ -119,7 +121,8 @@ impl<'a> Reader<'a> {
         check_kind(kind, id)
     }
 
-    /// Blocks up to the end of what contains them. Behind a faulty one reading goes on, but in lists and quotations.
+    /// Reads blocks up to the end of what contains them. After an error reading goes on with the
+    /// next block, except in lists and quotations.
     fn blocks(&mut self) -> Result<Vec<Block>, Error> {
         let (mut blocks, within) = (Vec::new(), self.within);
         while let Some((event, Range { start, end })) = self.events.peek().cloned() {
@@ -216,9 +219,9 @@ impl<'a> Reader<'a> {
     /// A paragraph, or what stands alone in it.
     fn paragraph(&mut self, range: Range<usize>) -> Result<Block, Error> {
         let source = self.source(&range).trim_end();
-        let own = source.strip_suffix('}').and_then(|source| source.rsplit_once("{#"));
-        let id_at = own.map_or(0..0, |(words, _)| range.start + words.len()..range.end);
-        let id = own.map(|(_, id)| id.to_string());
+        let with_id = source.strip_suffix('}').and_then(|source| source.rsplit_once("{#"));
+        let id_at = with_id.map_or(0..0, |(words, _)| range.start + words.len()..range.end);
+        let id = with_id.map(|(_, id)| id.to_string());
         if let Some(Event::Start(Tag::Image { dest_url, .. })) = self.peek() {
             let path = dest_url.to_string();
             self.next();
@@ -239,11 +242,11 @@ impl<'a> Reader<'a> {
             *first = first.trim_start_matches(word).to_string();
             let mut block = self.block()?;
             match (&mut block, id) {
-                (Block::Table { id: own, number, caption, .. }, id) if *kind == "tab" => {
-                    (*own, *number, *caption) = (id, Some(String::new()), inlines);
+                (Block::Table { id: table_id, number, caption, .. }, id) if *kind == "tab" => {
+                    (*table_id, *number, *caption) = (id, Some(String::new()), inlines);
                 }
-                (Block::Listing { id: own, caption, .. }, Some(id)) if *kind == "lst" => {
-                    (*own, *caption) = (id, inlines);
+                (Block::Listing { id: listing_id, caption, .. }, Some(id)) if *kind == "lst" => {
+                    (*listing_id, *caption) = (id, inlines);
                 }
                 _ => {
                     self.at = range.start;
@@ -261,7 +264,7 @@ impl<'a> Reader<'a> {
         }
         if let Some(Inline::Text(first)) = inlines.first_mut()
             && let Some((lab, words)) =
-                first.strip_prefix("Lab ").and_then(|own| own.split_once(": "))
+                first.strip_prefix("Lab ").and_then(|rest| rest.split_once(": "))
         {
             let (lab, words) = (lab.to_string(), words.to_string());
             *first = words;
@@ -270,8 +273,8 @@ impl<'a> Reader<'a> {
         Ok(Block::Paragraph(inlines))
     }
 
-    /// A picture, which stands alone in its paragraph, with its id behind it: that of `figures/NAME.svg` is `fig:NAME`
-    /// else. An id that is a number gives it, as `fig:3` and `fig:S1` do.
+    /// Reads a figure, which stands alone in its paragraph, followed by its id; without one the id
+    /// of `figures/NAME.svg` is `fig:NAME`. The id may give the number, as `fig:3` and `fig:S1` do.
     fn figure(&mut self, path: &str, at: usize, id: Option<String>) -> Result<Block, Error> {
         let caption = self.line()?;
         self.next();
@@ -323,7 +326,7 @@ impl<'a> Reader<'a> {
         let mut rows = Vec::new();
         while let Some(Event::Start(Tag::TableHead | Tag::TableRow)) = self.peek() {
             let Some((_, range)) = self.next() else { break };
-            // Markdown cuts and fills rows in silence.
+            // Markdown silently cuts and fills rows.
             let (count, all) = (cells_of(self.source(&range)), columns.len());
             if count != all {
                 return Err(markup(format!(
@@ -348,7 +351,7 @@ const ELSE: &str = "this markup is not supported by every format";
 const ALONE: &str = "a figure must stand alone in its paragraph";
 const FENCE: &str = "a block of code must stand between two lines ```";
 
-/// Cells of a row of a table, by its bars.
+/// Counts the cells of a row by its bars.
 fn cells_of(row: &str) -> usize {
     let row = row.trim();
     let row = row.strip_prefix('|').unwrap_or(row);
@@ -356,7 +359,7 @@ fn cells_of(row: &str) -> usize {
     row.matches('|').count() - row.matches(r"\|").count() + 1
 }
 
-/// May it stand in a list or a quotation? What is counted there would have no number.
+/// Whether a block may stand in a list or a quotation, where nothing is numbered.
 fn stands_within(block: &Block) -> bool {
     use Block::{Code, List, Paragraph, Quote, Table};
     matches!(

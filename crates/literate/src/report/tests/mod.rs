@@ -101,7 +101,7 @@ fn unmarked(line: &str) -> String {
     line.replace('⏎', "\n").replace('·', "\u{a0}")
 }
 
-/// Holds a document to parts, one a line.
+/// Asserts that a document has these parts, one a line.
 fn has(text: &str, parts: &str) {
     for part in parts.lines().map(unmarked) {
         assert!(text.contains(&part), "{part:?} is not in\n{text}");
@@ -274,10 +274,10 @@ fn a_report_is_all_its_files() {
     assert_eq!(text("SHA256SUMS").lines().count(), paths.len() - 1);
     let sum = "5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv\n";
     assert!(text("SHA256SUMS").contains(sum), "{}", text("SHA256SUMS"));
-    let beside = report.generated.keys().filter(|path| !path.starts_with("fonts/"));
+    let generated = report.generated.keys().filter(|path| !path.starts_with("fonts/"));
     let expected =
         ["cards.js", "figures/fig03.pdf", "report.css", "report.html", "report.js", "search.js"];
-    assert_eq!(beside.collect::<Vec<_>>(), expected);
+    assert_eq!(generated.collect::<Vec<_>>(), expected);
     assert_eq!(assembled(PROSE).unwrap(), report);
 }
 
@@ -297,7 +297,8 @@ fn titles_are_clean() {
     }
 }
 
-/// A front page shows a figure of the report again, and what is referred to is found in the document that has it.
+/// A front page repeats a figure of the report, and references lead to the document that has their
+/// target.
 #[test]
 fn documents_refer_to_each_other() {
     const FRONT: Document = Document {
@@ -403,7 +404,7 @@ fn what_is_not_shown_is_refused() {
     assert!(matches!(fails("\\tag{18}", ""), Error::NoEquation(number) if number == "18"));
 }
 
-/// What another reader of Markdown would take for markup is kept from it, and a bracket behind a line's end from TeX.
+/// Signs that another reader of Markdown, or TeX, would take for markup are escaped.
 #[test]
 fn each_format_shows_what_is_meant() {
     let text = "# T\n\n$a$–$b$ is \\` and ``a `b` c``, \\~\\~c\\~\\~, \\&lt; d.\n\n\\[x\\]: yes\n\n\
