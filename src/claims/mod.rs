@@ -1,10 +1,12 @@
 //! Judges what the paper states, row by row, by what this edition finds: [`Check`].
 //!
-//! A statement stands in `templates/published.toml` ([`Published`]) with its place; the [`Rule`] here with the same id
-//! judges it by the results of the experiments. Prose, table, `check` and its exit code read the same check.
+//! A statement stands in `templates/published.toml` ([`Published`]) with its place; the [`Rule`]
+//! here with the same id judges it by the results of the experiments. Prose, table, `check` and its
+//! exit code read the same check.
 //!
-//! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a difference no longer has the
-//! size that its explanation predicts. [`relations`] compare numbers of this edition with one another.
+//! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a
+//! difference no longer has the size that its explanation predicts. [`relations`] compare numbers
+//! of this edition with one another.
 
 mod relations;
 mod sec2;

@@ -1,5 +1,6 @@
-//! Judges relations between numbers of this edition that must hold whatever was drawn: each between two independent
-//! routes, as two samples of one thing, or a simulation and its bound; and the promises about the engine.
+//! Judges relations between numbers of this edition that must hold whatever was drawn: each between
+//! two independent routes, as two samples of one thing, or a simulation and its bound; and the
+//! promises about the engine.
 
 use super::shared::*;
 use crate::experiments::accuracy::trials::right;
@@ -12,65 +13,34 @@ use impact_numerics::estimates::difference;
 use impact_numerics::statistics::Estimate;
 use literate::claims::Basis::Statistics;
 
-pub fn rules() -> Vec<Rule> {
-    vec![
-        relation(
-            "printed_threshold",
-            "with our protocol the mean of the realisations with an impact passes half of all gaps at the printed σ",
-            printed_threshold,
-        ),
-        relation(
-            "two_seeds",
-            "two seeds of the main sweep have one half height, and one mean at each σ",
-            two_seeds,
-        ),
-        relation(
-            "laws_of_chance",
-            "impacts near in time go with the time between, and slow ones with the square of their speed",
-            laws_of_chance,
-        ),
-        relation(
-            "map_meets_sweep",
-            "the map of protocols and the main sweep, which drew other forces, have one rise",
-            map_meets_sweep,
-        ),
-        relation(
-            "no_rise_before_seeds",
-            "from rest no share of the chains has impacts before as many have a gap that closes by itself",
-            no_rise_before_seeds,
-        ),
-        relation(
-            "above_stays_above",
-            "chains from above have at least as many gaps with an impact as chains from rest under the same forces",
-            above_stays_above,
-        ),
-        relation(
-            "branches_approach",
-            "with time the half heights from rest and from above do not part",
-            branches_approach,
-        ),
-        relation(
-            "seeds_before_circuits",
-            "mean counts by nucleation and growth are nearer to the simulation than those by circuits after every transient",
-            seeds_before_circuits,
-        ),
-        relation(
-            "first_impacts_as_expected",
-            "as many chains have an impact as the theory of clumps expects",
-            first_impacts_as_expected,
-        ),
-        relation(
-            "engine_as_promised",
-            "the engine misses no impact from exact states, is exact to rounding, does not work more in long chains, and meets each scene of failure as expected",
-            engine_as_promised,
-        ),
-    ]
+/// Makes the rules of functions with their statements; the name of a function is the id.
+macro_rules! relations {
+    ($($name:ident: $statement:literal;)*) => {
+        vec![$(relation(stringify!($name), $statement, $name)),*]
+    };
 }
 
-/// Departures from a relation, each over its tolerance (chance, and the error of a formula): at most one.
+pub fn rules() -> Vec<Rule> {
+    relations! {
+        printed_threshold: "with our protocol the mean of the realisations with an impact passes half of all gaps at the printed σ";
+        two_seeds: "two seeds of the main sweep have one half height, and one mean at each σ";
+        laws_of_chance: "impacts near in time go with the time between, and slow ones with the square of their speed";
+        map_meets_sweep: "the map of protocols and the main sweep, which drew other forces, have one rise";
+        no_rise_before_seeds: "from rest no share of the chains has impacts before as many have a gap that closes by itself";
+        above_stays_above: "chains from above have at least as many gaps with an impact as chains from rest under the same forces";
+        branches_approach: "with time the half heights from rest and from above do not part";
+        seeds_before_circuits: "mean counts by nucleation and growth are nearer to the simulation than those by circuits after every transient";
+        first_impacts_as_expected: "as many chains have an impact as the theory of clumps expects";
+        engine_as_promised: "the engine misses no impact from exact states, is exact to rounding, does not work more in long chains, and meets each scene of failure as expected";
+    }
+}
+
+/// Departures from a relation, each over its tolerance (chance, and the error of a formula): at
+/// most one.
 type Departures = Result<Vec<f64>, Error>;
 
-/// Makes the rule of a relation that holds if no departure is above one; without any it cannot be judged.
+/// Makes the rule of a relation that holds if no departure is above one; without any it cannot be
+/// judged.
 fn relation(
     id: &'static str,
     statement: &'static str,
@@ -89,7 +59,7 @@ fn relation(
         }
         Ok(e.found(text, departures.iter().all(|departure| *departure <= 1.0)))
     };
-    Rule::relation(id, statement, judge).on(Statistics)
+    Rule::new(id, judge).relation(statement).on(Statistics)
 }
 
 /// Returns the difference of two estimates over that which chance allows.
@@ -128,9 +98,9 @@ fn two_seeds(e: &Evidence<'_>) -> Departures {
     Ok(departures)
 }
 
-/// Laws of independent impacts: of those within a time of one in an adjacent gap a tenth are within a tenth of it, and
-/// of those below a speed a hundredth are below a tenth of it. Over all decades; for speeds only where no pair came in
-/// contact, since the last bounces of a chatter are slow.
+/// Laws of independent impacts: of those within a time of one in an adjacent gap a tenth are within
+/// a tenth of it, and of those below a speed a hundredth are below a tenth of it. Over all decades;
+/// for speeds only where no pair came in contact, since the last bounces of a chatter are slow.
 fn laws_of_chance(e: &Evidence<'_>) -> Departures {
     let row = sweep::main(e.results)?.runs.iter().find(|row| row.sigma == 0.2);
     let total = &row.ok_or(Undecided)?.total;
@@ -152,8 +122,8 @@ fn laws_of_chance(e: &Evidence<'_>) -> Departures {
     Ok(departures)
 }
 
-/// Half heights of the mean of the realisations with an impact and of all, onset, and where half of the realisations have
-/// one.
+/// Half heights of the mean of the realisations with an impact and of all, onset, and where half of
+/// the realisations have one.
 fn map_meets_sweep(e: &Evidence<'_>) -> Departures {
     let sweep = sweep::main(e.results)?.first();
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
@@ -167,8 +137,8 @@ fn map_meets_sweep(e: &Evidence<'_>) -> Departures {
     Ok(pairs.filter_map(|(a, b)| Some(departure(quantile, &a?, &b?))).collect())
 }
 
-/// For every transient and every r, the mean over all reaches N/2 at no lower σ than half of the chains have a gap that
-/// closes by itself, and N/20 at no lower σ than a twentieth of them.
+/// For every transient and every r, the mean over all reaches N/2 at no lower σ than half of the
+/// chains have a gap that closes by itself, and N/20 at no lower σ than a twentieth of them.
 fn no_rise_before_seeds(e: &Evidence<'_>) -> Departures {
     let [half, onset] = e.numbers("theory.relation", ["sigma_kept_half", "sigma_kept_onset"])?;
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
@@ -230,11 +200,12 @@ fn seeds_before_circuits(e: &Evidence<'_>) -> Departures {
     Ok(column("grown").zip(circuits).map(|(grown, circuits)| grown / circuits).collect())
 }
 
-/// The error of the formula, times n: a clump excludes others from the gaps next to it, which changes the share
-/// by some gaps of n times λ²e^{−λ}/2.
+/// The error of the formula, times n: a clump excludes others from the gaps next to it, which
+/// changes the share by some gaps of n times λ²e^{−λ}/2.
 const LEFT_OUT: f64 = 1.5;
 
-/// Up to the error of the formula and chance: five standard errors, and five chains where hardly any is expected.
+/// Up to the error of the formula and chance: five standard errors, and five chains where hardly
+/// any is expected.
 fn first_impacts_as_expected(e: &Evidence<'_>) -> Departures {
     let chains = e.results.table("nucleation.chains")?;
     let mut departures = Vec::new();
@@ -249,11 +220,13 @@ fn first_impacts_as_expected(e: &Evidence<'_>) -> Departures {
     Ok(departures)
 }
 
-/// Largest error of a waiting time that is allowed, in units of ε (d + R₁ + R₂) over the closing speed (ours).
+/// Largest allowed error of a waiting time, in units of ε (d + R₁ + R₂) over the closing
+/// speed (ours).
 const WAITING: f64 = 8.0;
 
-/// What was promised before it was measured: no miss, waiting times to some units of rounding, evaluations per impact in
-/// the largest chain at most twice those at a hundred masses, and no scene of failure with another outcome than expected.
+/// What was promised before it was measured: no miss, waiting times to some units of rounding,
+/// evaluations per impact in the largest chain at most twice those at a hundred masses, and no
+/// scene of failure with another outcome than expected.
 fn engine_as_promised(e: &Evidence<'_>) -> Departures {
     let mut departures = Vec::new();
     // The engine is the first of the methods.

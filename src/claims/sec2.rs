@@ -53,8 +53,8 @@ fn parameters(e: &Evidence<'_>) -> Judged {
     ))
 }
 
-/// Finds the row of the sweep with the largest σ below about two thirds of the printed threshold (0.67, so that 0.08 is
-/// one).
+/// Finds the row of the sweep with the largest σ below about two thirds of the printed threshold
+/// (0.67, so that 0.08 is one).
 pub(super) fn small_force<'a>(e: &Evidence<'a>) -> Result<&'a RisePoint, Error> {
     let threshold = e.published.statement("sec2_half_height")?.number()?;
     let rows = &sweep::main(e.results)?.first().rows;
@@ -159,8 +159,8 @@ fn repeated(e: &Evidence<'_>) -> Judged {
 const LAST_DIGIT: &str =
     "half a unit of the last printed digit, and the statistical error at the level of the table";
 
-/// Says why a place of the rise cannot be judged: in how many windows of the map it has the printed digits, and where it
-/// lies after each transient.
+/// Says why a place of the rise cannot be judged: in how many windows of the map it has the printed
+/// digits, and where it lies after each transient.
 fn not_judged(e: &Evidence<'_>, place: fn(&Rise) -> Option<Estimate>) -> Result<Text, Error> {
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
     let printed = round_to_printed(map, e.statement.interval()?, place);
@@ -205,7 +205,8 @@ fn onset(e: &Evidence<'_>) -> Judged {
     Ok(e.open(found).note(note.then(not_judged(e, |rise| rise.onset)?)))
 }
 
-/// The mode passes half of all gaps within a range of σ; it agrees if this meets the printed digits.
+/// The mode passes half of all gaps within a range of σ; it agrees if this meets the printed
+/// digits.
 fn mode_rise(e: &Evidence<'_>) -> Judged {
     let [low, high] = e.numbers("sweep.mode", ["half_from", "half_to"])?;
     let [from, to] = e.statement.interval()?;

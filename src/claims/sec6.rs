@@ -71,7 +71,8 @@ pub(super) fn rises([low, high]: [f64; 2]) -> bool {
     low < 0.25 && high > 0.9
 }
 
-/// Returns the least and the largest mean of the simulation, over all gaps, and those of the theory, over N.
+/// Returns the least and the largest mean of the simulation, over all gaps, and those of the
+/// theory, over N.
 pub(super) fn ends(e: &Evidence<'_>) -> Result<[[f64; 2]; 2], Error> {
     let points = e.results.table("sweep.rows")?.points(&[], "sigma", "mean");
     let means = || points.iter().map(|(_, mean)| *mean);

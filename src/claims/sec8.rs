@@ -144,7 +144,8 @@ fn p_small(e: &Evidence<'_>) -> Judged {
 /// A shorter transient counts the first impacts of a chain that has just been released (ours).
 pub(super) const RELEASED: f64 = 100.0;
 
-/// Returns the simulated means against σ in each window of the map of protocols that does not begin right after the release.
+/// Returns the simulated means against σ in each window of the map of protocols that begins late
+/// enough after the release.
 pub(super) fn windows(e: &Evidence<'_>) -> Result<Vec<Vec<(f64, f64)>>, Error> {
     let curves = ensemble(e.results.of(&PROTOCOL)?, "protocol")?.curves.iter();
     let late = curves.filter(|curve| curve.protocol.transient >= RELEASED);
@@ -221,7 +222,8 @@ fn mean_is_easier(e: &Evidence<'_>) -> Judged {
         .note("Median over the rows from onset to half height."))
 }
 
-/// Returns the half heights from rest and with random free parts, of the mean of all, for each transient T that has both.
+/// Returns the half heights from rest and with random free parts, of the mean of all, for each
+/// transient T that has both.
 fn half_heights_of_starts(e: &Evidence<'_>) -> Result<Vec<(f64, Estimate, Estimate)>, Error> {
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
     let mut both = Vec::new();
@@ -235,7 +237,8 @@ fn half_heights_of_starts(e: &Evidence<'_>) -> Result<Vec<(f64, Estimate, Estima
     Ok(both)
 }
 
-/// Part of the distance between theory and simulation is due to the start that the theory assumes, and not to r.
+/// Part of the distance between theory and simulation is due to the start that the theory assumes,
+/// and not to r.
 fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     let theory = e.number("theory.relation.sigma_half")?;
     let share = e.estimate("starts.beside_theory.share")?;
@@ -265,16 +268,6 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     ))))
 }
 
-/// Counts the contact phases.
-fn phases(total: &Total) -> u64 {
-    total.contact_phases
-}
-
-/// Counts the impacts near in time to one in an adjacent gap.
-fn near(total: &Total) -> u64 {
-    total.near.last().copied().unwrap_or(0)
-}
-
 /// Returns the share of all impacts that `pick` counts at r and σ; none where these were not run.
 fn share_at(found: &[Counted], [r, sigma]: [f64; 2], pick: fn(&Total) -> u64) -> Option<f64> {
     let chains = found.iter().find(|chains| chains.ensemble.chain.restitution == r)?;
@@ -282,7 +275,8 @@ fn share_at(found: &[Counted], [r, sigma]: [f64; 2], pick: fn(&Total) -> u64) ->
     Some(pick(total) as f64 / total.impacts.max(1) as f64)
 }
 
-/// Returns the restitutions that were run, from the lowest, and the σ of the sweep that were run with each.
+/// Returns the restitutions that were run, from the lowest, and the σ of the sweep that were run
+/// with each.
 fn restitutions(e: &Evidence<'_>) -> Result<(Vec<f64>, Vec<f64>), Error> {
     let restitutions = e.results.table("restitution.curves")?.values("r");
     let lowest = restitutions.first().ok_or(Undecided)?;
@@ -313,6 +307,7 @@ fn ensured(e: &Evidence<'_>, pick: fn(&Total) -> u64) -> Judged {
 fn restitution_ensures(e: &Evidence<'_>) -> Judged {
     let (restitutions, sigmas) = restitutions(e)?;
     let found = e.results.of(&RESTITUTION)?;
+    let phases = |total: &Total| total.contact_phases;
     let free = |sigma: &f64| {
         restitutions.iter().all(|r| share_at(found, [*r, *sigma], phases) == Some(0.0))
     };
@@ -332,5 +327,5 @@ fn restitution_multiple(e: &Evidence<'_>) -> Judged {
         "Impacts within {} of one in a gap beside theirs, over all. Which the paper means by “multiple” it does not say.",
         [significant(NEAR_SIMULTANEOUS, 1)],
     );
-    Ok(ensured(e, near)?.note(note))
+    Ok(ensured(e, |total| total.near.last().copied().unwrap_or(0))?.note(note))
 }

@@ -197,7 +197,8 @@ fn higher_jump(e: &Evidence<'_>) -> Judged {
         .note(Text::of("A change by {} %.", [significant(100.0 * shift, 2)])))
 }
 
-/// Circuits of k different vertices are k² to k⁴ times as many as simple ones, which fills the valley between one and k₊.
+/// Circuits of k different vertices are k² to k⁴ times as many as simple ones, which fills the
+/// valley between one and k₊.
 fn higher_jump_by_k(e: &Evidence<'_>) -> Judged {
     let step = e.number("theory.higher.step_by_different")?;
     let found = Text::of("k* rises in steps of at most {}", [integer(step as usize)]);

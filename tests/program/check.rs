@@ -1,5 +1,5 @@
-//! `impact-paper check` for people and machines: every form says of every statement what the others say. Faults of the
-//! templates, each with its file and line.
+//! `impact-paper check` for people and machines: every form says of every statement what the others
+//! say. Faults of the templates, each with its file and line.
 
 use crate::{QUICK, run, templates};
 use impact_paper::claims::Basis;
@@ -17,9 +17,9 @@ fn every_form_has_every_statement_at_its_line_and_what_fails() {
     let folder = tempfile::tempdir().unwrap();
     crate::put(&folder.path().join("r"), &QUICK.results);
     templates(&folder.path().join("t"), "published.toml", |text| {
-        let (before, own) = text.split_at(text.find("id = \"sec3_edges\"").unwrap());
+        let (before, entry) = text.split_at(text.find("id = \"sec3_edges\"").unwrap());
         before.to_string()
-            + &own.replacen("\"16\"", "\"17\"", 1).replacen("value = 16", "value = 17", 1)
+            + &entry.replacen("\"16\"", "\"17\"", 1).replacen("value = 16", "value = 17", 1)
     });
     let (code, text, note) = check(folder.path(), "-v");
     let differs = "differ without an explanation that holds: sec3_edges";
@@ -31,8 +31,9 @@ fn every_form_has_every_statement_at_its_line_and_what_fails() {
         .map(|line| {
             let words: Vec<&str> = line.split_whitespace().collect();
             let verdict = line.split_once(": ").unwrap().1.split(" (").next().unwrap();
-            let own = Basis::ALL.iter().any(|own| line.ends_with(&format!("{})", own.words())));
-            assert!(own && words[1].parse::<usize>().is_ok(), "{line}");
+            let basis =
+                Basis::ALL.iter().any(|basis| line.ends_with(&format!("{})", basis.words())));
+            assert!(basis && words[1].parse::<usize>().is_ok(), "{line}");
             assert_eq!(line.starts_with('?'), verdict == "cannot be judged", "{line}");
             (words[2].trim_end_matches(':').to_string(), verdict.to_string())
         })
@@ -41,7 +42,7 @@ fn every_form_has_every_statement_at_its_line_and_what_fails() {
     assert!(text.starts_with("FAILS") && verdicts["sec3_edges"] == "differs", "{text}");
     // Else a line for each that is not simply reproduced, with both sides.
     let (_, short, _) = check(folder.path(), "");
-    let explained = verdicts.values().filter(|own| *own == "differs and explained").count();
+    let explained = verdicts.values().filter(|verdict| *verdict == "differs and explained").count();
     let lines = short.lines().filter(|line| line.starts_with('≠'));
     assert_eq!(lines.clone().count(), explained, "{short}");
     assert!(lines.clone().all(|line| line.contains("; paper: ") && line.contains("; here: ")));
@@ -72,7 +73,7 @@ fn every_form_has_every_statement_at_its_line_and_what_fails() {
     }
     let relations = all["relations"].as_array().unwrap();
     assert!((1..=10).contains(&relations.len()), "{relations:?}");
-    assert!(relations.iter().all(|own| own["words"] == "holds"), "{relations:?}");
+    assert!(relations.iter().all(|relation| relation["words"] == "holds"), "{relations:?}");
 
     let (_, out, _) = check(folder.path(), "--format github");
     assert_eq!(out.lines().count(), 10, "{out}");
@@ -83,8 +84,8 @@ fn every_form_has_every_statement_at_its_line_and_what_fails() {
     assert!(out.starts_with("::error file=t/published.toml,line="), "{out}");
 }
 
-/// What is wrong with a file of the templates, and what is said behind its name: text in the place of other text, or lines
-/// at its end (`+`; $ is the last line).
+/// An exit code, a file of the templates, its fault (other text, or with `+` lines at its end), and
+/// what the message has after the name of the file ($ is the last line).
 const FAULTS: &str = r##"2 front.md +«v.p | nofilter» => :$:
 1 front.md +About 12 of them. => :$:7: hard-coded number 12
 2 front.md +It is «sweep.rise.half_heigth». => :$:
@@ -94,23 +95,23 @@ const FAULTS: &str = r##"2 front.md +«v.p | nofilter» => :$:
 2 published.toml "sec2_half_height" -> "sec2_new" => : no statement "sec2_half_height""##;
 
 #[test]
-fn faults_of_the_prose_are_told_with_their_place() {
+fn faults_of_the_prose_are_reported_with_their_place() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     crate::put(&here.join("r"), &QUICK.results);
     for line in FAULTS.lines() {
-        let (given, says) = line.split_once(" => ").unwrap();
+        let (given, message) = line.split_once(" => ").unwrap();
         let [expected, file, fault] = given.splitn(3, ' ').collect::<Vec<_>>().try_into().unwrap();
         let _ = std::fs::remove_dir_all(here.join("t"));
         templates(&here.join("t"), file, |text| match fault.split_once(" -> ") {
             Some((from, to)) => text.replacen(from, to, 1),
             None => format!("{}\n\n{}\n", text.trim_end(), &fault[1..]),
         });
-        let (code, told, note) =
+        let (code, out, note) =
             crate::run(here, "paper --profile quick --out p --results r --templates t");
         let text = std::fs::read_to_string(here.join("t").join(file)).unwrap();
-        let says = format!("{file}{}", says.replace('$', &text.lines().count().to_string()));
+        let message = format!("{file}{}", message.replace('$', &text.lines().count().to_string()));
         let line = note.lines().last().unwrap();
-        assert!(code.to_string() == expected && line.contains(&says), "{says}: {told}{note}");
+        assert!(code.to_string() == expected && line.contains(&message), "{message}: {out}{note}");
     }
 }

@@ -1,6 +1,6 @@
 //! The prose with the results of the quick profile: it fills, it names no unknown value and leaves
-//! none unused (the assembly refuses both, and hard-coded numbers), it has every equation and figure of
-//! the paper, and every claim has its place in it.
+//! none unused (the assembly refuses both, and hard-coded numbers), it has every equation and
+//! figure of the paper, and every claim has its place in it.
 
 use crate::QUICK;
 use impact_chain::rise::Mean;
@@ -12,8 +12,8 @@ use impact_paper::params::MethodName;
 
 #[test]
 fn the_report_has_every_equation_and_figure() {
-    let own = QUICK.paper.edition.documents.iter().filter(|document| !document.repeats);
-    let text: String = own.map(|document| QUICK.markdown(document)).collect();
+    let documents = QUICK.paper.edition.documents.iter().filter(|document| !document.repeats);
+    let text: String = documents.map(|document| QUICK.markdown(document)).collect();
     for number in 1..=38 {
         assert_eq!(text.matches(&format!("\\tag{{{number}}}")).count(), 1, "Eq. ({number})");
     }
@@ -24,13 +24,13 @@ fn the_report_has_every_equation_and_figure() {
     }
 }
 
-/// A reader meets our figures in the order of their numbers.
+/// A reader meets the supplementary figures in the order of their numbers.
 #[test]
-fn own_figures_are_numbered_by_first_mention() {
+fn supplementary_figures_are_numbered_by_first_mention() {
     let template = QUICK.paper.edition.documents.iter().map(|document| QUICK.prose(document));
     let template = template.collect::<Vec<_>>().join("\n");
-    let own = figures::ALL.iter().filter_map(|figure| figure.name.strip_prefix('s'));
-    let first = own.map(|n| {
+    let numbers = figures::ALL.iter().filter_map(|figure| figure.name.strip_prefix('s'));
+    let first = numbers.map(|n| {
         let s = n.trim_start_matches('0');
         let named = [format!("ig:S{s}]"), format!("ig:S{s};"), format!("figures/s{n}.svg")];
         let first = named.iter().filter_map(|name| template.find(name)).min();
@@ -75,8 +75,8 @@ fn claims_fail_when_the_results_say_so() {
     let rise = &mut sweep.curves[0].rise;
     rise.half_height.as_mut().unwrap().value += 0.05;
     sweep.ensemble.chain.restitution = 0.7;
-    for own in &mut sweep.runs {
-        own.total.contact_phases = own.total.impacts / 100;
+    for run in &mut sweep.runs {
+        run.total.contact_phases = run.total.impacts / 100;
     }
     assert_eq!(verdict("printed_threshold", &results), Verdict::Differs);
     assert_eq!(verdict("sec2_sticking", &results), Verdict::Differs);
@@ -93,7 +93,9 @@ fn claims_fail_when_the_results_say_so() {
         ([0.7, 0.7], Verdict::Reproduced),
     ] {
         let windows = &mut results.of_mut(&PROTOCOL).unwrap()[1].curves;
-        windows.iter_mut().for_each(|curve| curve.rows[0].mean = mean(others));
+        for curve in windows.iter_mut() {
+            curve.rows[0].mean = mean(others);
+        }
         windows[0].rows[0].mean = mean(first);
         assert_eq!(verdict("sec2_few_below", &results), expected, "{first} {others}");
     }
@@ -101,7 +103,9 @@ fn claims_fail_when_the_results_say_so() {
     results.of_mut(&SWEEP).unwrap()[0].curves[0].rise.half_height = None;
     assert_eq!(verdict("printed_threshold", &results), Verdict::CannotBeJudged);
     let runs = &mut results.of_mut(&SWEEP).unwrap()[0].runs;
-    runs.iter_mut().flat_map(|own| own.total.near.last_mut()).for_each(|n| *n += 1000);
+    for run in runs {
+        *run.total.near.last_mut().unwrap() += 1000;
+    }
     assert_eq!(verdict("sec2_three_way", &results), Verdict::Differs);
 }
 

@@ -139,7 +139,8 @@ pub struct Check {
     pub(super) compared: Option<Compared>,
 }
 
-/// The number of a cell and the one that was printed, by which [`Check::within_errors`] and [`Check::near`] judge again.
+/// The number of a cell and the one that was printed, by which [`Check::within_errors`] and
+/// [`Check::near`] judge again.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Compared {
     /// Why there is no such cell.
@@ -166,8 +167,8 @@ impl Check {
         Check { verdict, ..self }
     }
 
-    /// Judges the number of a cell by its distance from the printed one, which may be `room` and the allowed number of
-    /// standard errors; `shown` is the room that the tolerance names.
+    /// Judges the number of a cell by its distance from the printed one, which may be `room` and
+    /// the allowed number of standard errors; `shown` is the room that the tolerance names.
     pub(super) fn allowed(self, room: f64, with_errors: bool, shown: Option<f64>) -> Check {
         let Some(mut compared) = self.compared.clone() else { return self };
         let error = if with_errors { compared.standard_error } else { 0.0 };
@@ -184,22 +185,23 @@ impl Check {
         }
     }
 
-    /// Judges a [cell](super::Evidence::cell) by its standard error alone: it lies within so many of the printed number
-    /// as the level of the statistical checks allows.
+    /// Judges a [cell](super::Evidence::cell) by its standard error alone: it lies within so many
+    /// of the printed number as the level of the statistical checks allows.
     pub fn within_errors(self) -> Check {
         let reason = "standard errors at the level of the table".into();
         Check { reason, basis: Basis::Statistics, ..self.allowed(0.0, true, None) }
     }
 
-    /// Judges a [cell](super::Evidence::cell) by a measure of ours: it lies no further from the printed number.
+    /// Judges a [cell](super::Evidence::cell) by a measure of ours: it lies no further from the
+    /// printed number.
     pub fn near(self, tolerance: f64, reason: &str) -> Check {
         let shown = Text::of("± {}", [chosen(tolerance)]);
         let check = self.allowed(tolerance, false, None).within(shown, reason);
         Check { basis: Basis::OurMeasure, ..check }
     }
 
-    /// Adds an explanation, which predicts what is found (`holds`) or does not: then the check fails, whatever the
-    /// finding.
+    /// Adds an explanation, which predicts what is found (`holds`) or does not: then the check
+    /// fails, whatever the finding.
     pub fn explained(self, why: impl Into<Text>, holds: bool) -> Check {
         let verdict = match (self.verdict, holds) {
             (_, false) => Verdict::Differs,
@@ -219,8 +221,8 @@ impl Check {
         Check { note: note.into(), ..self }
     }
 
-    /// Returns whether a report is to be refused for it: for a difference without an explanation that holds, and for a
-    /// statement that is open without a reason.
+    /// Returns whether a report is to be refused for it: for a difference without an explanation
+    /// that holds, and for a statement that is open without a reason.
     pub fn fails(&self) -> bool {
         let open = self.verdict == Verdict::CannotBeJudged && self.note.is_empty();
         self.verdict == Verdict::Differs || open && self.kind.is_printed()

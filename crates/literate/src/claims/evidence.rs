@@ -4,7 +4,7 @@
 //! # use literate::claims::{Check, Evidence};
 //! # let _: [fn(&Evidence<'_>) -> Check; 3] = [
 //! |e| e.cell("cascade.limit.delta"), // rounds to what was printed
-//! |e| e.cell("walk.fit.slope").within_errors(), // differs by no more than its standard error allows
+//! |e| e.cell("walk.fit.slope").within_errors(), // differs by some standard errors at most
 //! |e| e.cell("walk.fit.onset").near(0.01, "ours: a hundredth").explained("too few steps", true),
 //! # ];
 //! ```
@@ -28,7 +28,7 @@ pub enum Error {
     #[error(transparent)]
     Experiment(#[from] experiments::Error),
     /// The samples are too small for what is asked: the statement cannot be judged.
-    #[error("the results at hand do not decide it")]
+    #[error("the results do not decide it")]
     Undecided,
     /// A rule that needs the number of statistical checks does not count as one of them.
     #[error("the rule of {0} allows for standard errors; add `.statistical()` to it")]
@@ -93,8 +93,8 @@ impl Evidence<'_> {
         Ok(found)
     }
 
-    /// Returns the [number](Self::number) with an address and its standard error; the interval is one error to each
-    /// side.
+    /// Returns the [number](Self::number) with an address and its standard error; the interval is
+    /// one error to each side.
     #[track_caller]
     pub fn estimate(&self, address: &str) -> Result<Estimate, Error> {
         let value = self.number(address)?;
@@ -102,8 +102,9 @@ impl Evidence<'_> {
         Ok(Estimate { value, error, interval: [value - error, value + error] })
     }
 
-    /// Compares a cell with the printed number, to which it has to round, with room for its standard error if it has
-    /// one; [`Check::within_errors`] and [`Check::near`] ask for something else.
+    /// Compares a cell with the printed number, to which it has to round, with room for its
+    /// standard error if it has one; [`Check::within_errors`] and [`Check::near`] ask for something
+    /// else.
     #[track_caller]
     pub fn cell(&self, address: &str) -> Check {
         let statement = self.statement;

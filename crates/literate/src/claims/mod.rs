@@ -1,5 +1,5 @@
-//! Judges statements of a paper, and relations between its numbers, by what is found: [`judge_all`] makes a [`Check`]
-//! of each.
+//! Judges statements of a paper, and relations between its numbers, by what is found: [`judge_all`]
+//! makes a [`Check`] of each.
 
 mod check;
 mod evidence;

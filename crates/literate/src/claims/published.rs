@@ -31,7 +31,7 @@ pub struct Parameter {
 }
 
 /// A quantitative statement of the paper.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table [[statement]]")]
 pub struct Statement {
     /// Its id: the rule with this id judges it.
@@ -139,16 +139,8 @@ impl Published {
 impl Statement {
     /// Makes a statement without a place, as of a relation between numbers.
     pub(super) fn new(kind: Kind, id: &str, statement: &str) -> Statement {
-        Statement {
-            id: id.into(),
-            kind,
-            why: String::new(),
-            place: String::new(),
-            statement: statement.into(),
-            printed: String::new(),
-            value: None,
-            decimals: 0,
-        }
+        let (id, statement) = (id.into(), statement.into());
+        Statement { kind, id, statement, ..Statement::default() }
     }
 
     /// Returns the printed number.
@@ -161,7 +153,8 @@ impl Statement {
         (0..self.decimals).fold(1.0, |unit, _| unit / 10.0) / 2.0
     }
 
-    /// Returns the ends of the numbers that round to the printed one: half a unit of its last digit to both sides.
+    /// Returns the ends of the numbers that round to the printed one: half a unit of its last digit
+    /// to both sides.
     pub fn interval(&self) -> Result<[f64; 2], PublishedError> {
         let value = self.number()?;
         Ok([value - self.half_unit(), value + self.half_unit()])

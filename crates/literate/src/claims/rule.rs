@@ -24,28 +24,19 @@ impl Rule {
         id: &'static str,
         judge: impl Fn(&Evidence<'_>) -> C + Send + Sync + 'static,
     ) -> Rule {
-        Rule {
-            id,
-            relation: None,
-            reads: None,
-            basis: None,
-            statistical: false,
-            judge: Box::new(move |evidence| judge(evidence).into()),
-        }
+        let judge = Box::new(move |evidence: &Evidence<'_>| judge(evidence).into());
+        Rule { id, relation: None, reads: None, basis: None, statistical: false, judge }
     }
 
-    /// Makes a rule for a relation between numbers that must hold. It may allow for standard errors at the level of
-    /// the statistical checks, and does not count as one of them.
-    pub fn relation<C: Into<Judged>>(
-        id: &'static str,
-        relation: &'static str,
-        judge: impl Fn(&Evidence<'_>) -> C + Send + Sync + 'static,
-    ) -> Rule {
-        Rule { relation: Some(relation), ..Rule::new(id, judge) }
+    /// Makes it the rule of a relation between numbers that must hold, and of nothing that was
+    /// printed. It may allow for standard errors at the level of the statistical checks, and does
+    /// not count as one of them.
+    pub fn relation(self, relation: &'static str) -> Rule {
+        Rule { relation: Some(relation), ..self }
     }
 
-    /// Counts the rule as statistical: it compares random numbers and allows for their standard errors, so few that all
-    /// statistical checks together rarely fail by chance.
+    /// Counts the rule as statistical: it compares random numbers and allows for their standard
+    /// errors, so few that all statistical checks together rarely fail by chance.
     pub fn statistical(self) -> Rule {
         Rule { statistical: true, ..self }
     }
@@ -55,8 +46,8 @@ impl Rule {
         Rule { basis: Some(basis), ..self }
     }
 
-    /// Sets the printed words or formula that it judges, where a number alone is not enough: a statement with other
-    /// words is refused. `{}` stands for the number.
+    /// Sets the printed words or formula that it judges, where a number alone is not enough: a
+    /// statement with other words is refused. `{}` stands for the number.
     pub fn reads(self, words: &'static str) -> Rule {
         Rule { reads: Some(words), ..self }
     }
@@ -96,19 +87,13 @@ impl Rule {
     }
 }
 
-impl std::fmt::Debug for Rule {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Rule {:?}", self.id)
-    }
-}
-
 /// Returns the level of each statistical check among these.
 pub fn level_of(rules: &[Rule]) -> Level {
     Level::of(rules.iter().filter(|rule| rule.statistical).count())
 }
 
-/// Judges all statements, in their order, each by the rule with its id, and then all relations. A statement without a
-/// rule stays open, without a reason, so that it [fails](Check::fails).
+/// Judges all statements, in their order, each by the rule with its id, and then all relations. A
+/// statement without a rule stays open, without a reason, so that it [fails](Check::fails).
 ///
 /// # Errors
 /// If there is no statement for a rule, or if a rule needs a number that is missing.
@@ -203,7 +188,7 @@ mod tests {
         let rules = [
             Rule::new("rise", counted).statistical(),
             Rule::new("mean", |e| e.cell("toy.all.mean").within_errors()).statistical(),
-            Rule::relation("both", "The level is known.", counted),
+            Rule::new("both", counted).relation("The level is known."),
         ];
         let checks = judged(&rules).unwrap();
         assert_eq!((RUNS.load(Relaxed), checks.len()), (2, 5));

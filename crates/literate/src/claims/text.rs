@@ -1,4 +1,5 @@
-//! Keeps the sentences of a check as words and numbers, which a report prints with the digits they deserve.
+//! Keeps the sentences of a check as words and numbers, which a report prints with the digits they
+//! deserve.
 
 use crate::print::{Style, print};
 use crate::value::{Digits, Number};
