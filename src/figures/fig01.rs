@@ -8,8 +8,8 @@ const FLOOR: i32 = 2280;
 const HEIGHT: i32 = 1060;
 const RADIUS: i32 = 235;
 
-/// The masses as drawn: the place on the sheet in units of the spacing, the name, the place in the row, and how far the
-/// mass is bent from its equilibrium.
+/// The masses as drawn: the place on the sheet in units of the spacing, the name, the place in the
+/// row, and how far the mass is bent from its equilibrium.
 const MASSES: [(i32, &str, &str, i32); 4] = [
     (1, "1", "*d*", 250),
     (2, "2", "2*d*", -270),
@@ -40,7 +40,7 @@ pub fn draw() -> Result<Figure, Error> {
     Ok(sheet.finish("The chain of masses between two walls", description))
 }
 
-fn walls(sheet: &SheetArea, right: i32) -> Result<(), Error> {
+fn walls(sheet: &SheetArea, right: i32) -> Drawn {
     let (top, thick) = (470, 260);
     for (edge, out) in [(LEFT, -1), (right, 1)] {
         let wall = [(edge, top), (edge + out * thick, FLOOR)];
@@ -52,15 +52,11 @@ fn walls(sheet: &SheetArea, right: i32) -> Result<(), Error> {
     draw_line(sheet, [(left, FLOOR), (right, FLOOR)], 24)
 }
 
-fn draw_line<const N: usize>(
-    sheet: &SheetArea,
-    points: [(i32, i32); N],
-    width: u32,
-) -> Result<(), Error> {
+fn draw_line<const N: usize>(sheet: &SheetArea, points: [(i32, i32); N], width: u32) -> Drawn {
     Ok(sheet.draw(&PathElement::new(points, INK.stroke_width(width)))?)
 }
 
-fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Result<(), Error> {
+fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Drawn {
     let rest = Stroke::dashed(GREY, HAIR, Dash::Short);
     sheet.draw(&line(vec![(root, 740), (root, FLOOR)], rest))?;
     // A clamped stem with a load at its end: s²(3 − s)/2.
@@ -77,7 +73,7 @@ fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Result<(), 
     Ok(sheet.draw_text(name, &words(size, INK, HPos::Center, VPos::Center), centre)?)
 }
 
-fn floor_labels(sheet: &SheetArea, right: i32) -> Result<(), Error> {
+fn floor_labels(sheet: &SheetArea, right: i32) -> Drawn {
     let y = FLOOR + 240;
     let places = MASSES.map(|(slot, _, place, _)| (LEFT + slot * SPACING, place));
     for (x, place) in [(LEFT, "0"), (right, "(*n*+1)*d*")].into_iter().chain(places) {
@@ -87,12 +83,12 @@ fn floor_labels(sheet: &SheetArea, right: i32) -> Result<(), Error> {
     Ok(())
 }
 
-fn double_arrow(sheet: &SheetArea, a: (i32, i32), b: (i32, i32)) -> Result<(), Error> {
+fn double_arrow(sheet: &SheetArea, a: (i32, i32), b: (i32, i32)) -> Drawn {
     sheet.draw(&arrow(vec![a, b], Stroke::solid(INK, HAIR)))?;
     Ok(sheet.draw(&arrow(vec![b, a], Stroke::solid(INK, HAIR)))?)
 }
 
-fn distances(sheet: &SheetArea) -> Result<(), Error> {
+fn distances(sheet: &SheetArea) -> Drawn {
     let (one, two) = (LEFT + SPACING, LEFT + 2 * SPACING);
     let (x1, x2) = (one + MASSES[0].3, two + MASSES[1].3);
     let style = words(TEXT, INK, HPos::Center, VPos::Bottom);

@@ -1,4 +1,5 @@
-//! Fig. 3: the expected number of impacts (of different gaps) against σ, simulated, and how many runs it rests on.
+//! Draws Fig. 3: the expected number of impacts (of different gaps) against σ, simulated, and how
+//! many runs it rests on.
 
 use super::prelude::*;
 use super::simulated::*;

@@ -1,4 +1,5 @@
-//! Fig. 7: how many simple circuits there are of each length, and the logarithm, which the paper does not show.
+//! Draws Fig. 7: how many simple circuits there are of each length, and the logarithm, which the
+//! paper does not show.
 
 use super::prelude::*;
 use crate::experiments::theory::counts::shares;

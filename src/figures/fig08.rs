@@ -10,11 +10,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let mut seen = Vec::new();
     let top = DISTRIBUTION_P.into_iter().map(|p| largest(&simple(p))).fold(0.0, f64::max);
     for (i, at) in DISTRIBUTION_P.into_iter().enumerate() {
-        let of = |column| results.number(&format!("theory.distribution[p={at}].{column}"));
-        let (probability, k_star) = (simple(at), of("k_star")?);
+        let cell = |column| results.number(&format!("theory.distribution[p={at}].{column}"));
+        let (probability, k_star) = (simple(at), cell("k_star")?);
         let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "*k*");
         let panel = sheet.panel(FOUR[i], x, upwards_from_zero(top, "*P*(*X* = *k*)"))?;
-        let (p, mean) = (short(at, 3), short(of("mean")?, 3));
+        let (p, mean) = (short(at, 3), short(cell("mean")?, 3));
         panel.record(&format!("probability at p = {p}"), over_k(&probability));
         panel.unrecorded().columns("probability", &probability, Stroke::solid(GREEN, THIN))?;
         panel.heading(LETTERS[i], &format!("*p* = {p}, *μ* = {mean}"))?;

@@ -37,7 +37,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 }
 
 /// k* as a staircase; its jump from 1 is dotted, because no value lies between.
-fn most_likely([p_jump, jump]: [f64; 2], panel: &Panel) -> Result<(), Error> {
+fn most_likely([p_jump, jump]: [f64; 2], panel: &Panel) -> Drawn {
     let mut stairs: Vec<(f64, f64)> = Vec::new();
     for (p, k_star) in steps().into_iter().filter(|(_, k_star)| *k_star > 1) {
         stairs.extend(stairs.last().map(|before| (p, before.1)));

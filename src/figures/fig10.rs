@@ -61,7 +61,7 @@ fn signs(p: f64) -> Axis {
     Axis::linear(-3.0 * step, hi, step, 1, "*f*_{*N*,*p*}(*k*)")
 }
 
-fn sign(panel: &Panel, p: f64) -> Result<(), Error> {
+fn sign(panel: &Panel, p: f64) -> Drawn {
     panel.level("zero", 0.0, Stroke::solid(GREY, HAIR))?;
     panel.curve("f", &f(p), Stroke::solid(BLUE, LINE), Outside::Cut)?;
     if let Some(zeros) = zeros(p) {
@@ -77,7 +77,7 @@ fn sign(panel: &Panel, p: f64) -> Result<(), Error> {
     Ok(())
 }
 
-fn weight(panel: &Panel, highest: &[usize], shown: &[f64]) -> Result<(), Error> {
+fn weight(panel: &Panel, highest: &[usize], shown: &[f64]) -> Drawn {
     panel.columns("weight", shown, Stroke::solid(GREEN, THIN))?;
     let first = shown.first().copied().unwrap_or(0.0);
     let level = Stroke::dashed(INK, HAIR, Dash::Short);

@@ -1,5 +1,5 @@
-//! Fig. 11: the impact probability p against the standard deviation σ of the forcing; on a logarithmic axis as well,
-//! which the paper does not have.
+//! Draws Fig. 11: the impact probability p against the standard deviation σ of the forcing; on a
+//! logarithmic axis as well, which the paper does not have.
 
 use super::FORCING;
 use super::prelude::*;

@@ -33,8 +33,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     Ok(sheet.finish("Simulation against graph theory", description))
 }
 
-/// Where both come to half of all gaps, and how much later in σ the theory does, as an arrow with its length.
-fn lag(panel: &Panel, [from, to]: [f64; 2], level: f64) -> Result<(), Error> {
+/// Marks where both come to half of all gaps, with an arrow as long as the theory is late in σ.
+fn lag(panel: &Panel, [from, to]: [f64; 2], level: f64) -> Drawn {
     panel.area.draw(&arrow(vec![(from, level), (to, level)], Stroke::solid(INK, THIN)))?;
     let middle = (printed_threshold() + to) / 2.0;
     panel.label(&format!("+{}", short(to - from, 2)), (middle, level), (0, -1), INK)?;

@@ -1,5 +1,6 @@
-//! Fig. 13: (a) to (d) distributions with higher-order circuits and the parts of the classes; (e) and (f), (a) and (d) on
-//! a logarithmic axis, which the paper does not have and where each class is visible and named.
+//! Draws Fig. 13: (a) to (d) distributions with higher-order circuits and the parts of the classes;
+//! (e) and (f), (a) and (d) on a logarithmic axis, which the paper does not have and where each class
+//! is visible and named.
 
 use super::prelude::*;
 use crate::experiments::Results;
@@ -111,7 +112,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     Ok(sheet.finish("Distributions with higher-order circuits", description))
 }
 
-fn series(panel: &Panel, p: f64) -> Result<(), Error> {
+fn series(panel: &Panel, p: f64) -> Drawn {
     panel.curve("all five classes", &over_k(&five(p)), SUM, Outside::Cut)?;
     for (class, (name, _, colour, dash)) in contributions(p).iter().zip(CLASSES) {
         // On a logarithmic axis each is visible.

@@ -1,4 +1,5 @@
-//! Fig. 15: as Fig. 12, with higher-order circuits, and the change by these, which the paper does not show.
+//! Draws Fig. 15: as Fig. 12, with higher-order circuits, and the change by these, which the paper
+//! does not show.
 
 use super::prelude::*;
 use super::simulated::*;

@@ -60,7 +60,7 @@ impl Layout {
     }
 
     /// Draws all sixteen edges.
-    pub fn edges(&self, sheet: &Sheet, stroke: Stroke) -> Result<(), Error> {
+    pub fn edges(&self, sheet: &Sheet, stroke: Stroke) -> Drawn {
         for edge in 0..16 {
             sheet.area.draw(&arrow(self.edge(edge / 4, edge % 4), stroke))?;
         }
@@ -68,7 +68,7 @@ impl Layout {
     }
 
     /// Draws the vertices; those that are `visited` stand out.
-    pub fn vertices(&self, sheet: &Sheet, visited: &[usize]) -> Result<(), Error> {
+    pub fn vertices(&self, sheet: &Sheet, visited: &[usize]) -> Drawn {
         for (vertex, &centre) in self.centres.iter().enumerate() {
             let (ink, width) = if visited.contains(&vertex) { (INK, 30) } else { (GREY, HAIR) };
             let ring = (Symbol::Ring, self.radius, Stroke::solid(ink, width));
@@ -80,7 +80,7 @@ impl Layout {
     }
 
     /// Draws a circuit: its edges, each with the number of its step.
-    pub fn circuit(&self, sheet: &Sheet, order: &[usize], colour: RGBColor) -> Result<(), Error> {
+    pub fn circuit(&self, sheet: &Sheet, order: &[usize], colour: RGBColor) -> Drawn {
         let steps = || order.iter().zip(order.iter().cycle().skip(1)).zip(1..);
         for ((&from, &to), _) in steps() {
             sheet.area.draw(&arrow(self.edge(from, to), Stroke::solid(colour, 42)))?;

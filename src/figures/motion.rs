@@ -49,7 +49,7 @@ fn time_axis(duration: f64) -> Axis {
 }
 
 /// Walls, equilibria, paths and impacts; these have the number of the edge that leaves them in (a).
-fn motion(panel: &Panel, segment: &Segment, length: usize) -> Result<(), Error> {
+fn motion(panel: &Panel, segment: &Segment, length: usize) -> Drawn {
     let (from, d) = (segment.from, segment.spacing);
     let walls = (segment.masses + 1) as f64;
     for j in 1..=segment.masses {

@@ -1,5 +1,5 @@
-//! How methods and other programs look in all charts of speed and accuracy: this engine red, all others grey, each named
-//! next to its marks.
+//! Draws methods and other programs in all charts of speed and accuracy: this engine red, all others
+//! grey, each named next to its symbols.
 
 use super::prelude::*;
 use crate::experiments::Measured;
@@ -23,19 +23,15 @@ pub fn look(method: MethodName) -> Marker {
 /// The points of each method.
 pub type Curves = Vec<(MethodName, Vec<(f64, f64)>)>;
 
-/// Where the name of a method stands: next to which of its settings, with an offset to the right and down in millimetres.
+/// Where the name of a method stands: next to which of its settings, with an offset to the right and
+/// down in millimetres.
 pub type Place = (MethodName, usize, (i32, i32));
 
 /// The finest setting.
 pub const FINEST: usize = usize::MAX;
 
 /// Draws the settings of each method as marks on a line, and the names of some.
-pub fn draw(
-    panel: &Panel,
-    curves: &Curves,
-    places: &[Place],
-    outside: Outside,
-) -> Result<(), Error> {
+pub fn draw(panel: &Panel, curves: &Curves, places: &[Place], outside: Outside) -> Drawn {
     for (method, points) in curves {
         let look = look(*method);
         panel.curve_with_markers(
@@ -49,7 +45,7 @@ pub fn draw(
 }
 
 /// Writes the names of methods next to their marks.
-pub fn names(panel: &Panel, curves: &Curves, places: &[Place]) -> Result<(), Error> {
+pub fn names(panel: &Panel, curves: &Curves, places: &[Place]) -> Drawn {
     for (method, setting, offset) in places {
         let curve = curves.iter().find(|curve| curve.0 == *method).map(|curve| &curve.1);
         if let Some(at) = curve.and_then(|curve| curve.get(*setting).or(curve.last())) {
@@ -66,15 +62,15 @@ pub fn by_method<T, P>(
     rows: &[T],
     point: impl Fn(&T) -> Option<(MethodName, P)>,
 ) -> Vec<(MethodName, Vec<P>)> {
-    let of = |method: MethodName| {
+    let points_of = |method: MethodName| {
         let at = rows.iter().filter_map(&point).filter(|at| at.0 == method);
         (method, at.map(|at| at.1).collect::<Vec<_>>())
     };
-    MethodName::ALL.into_iter().map(of).filter(|(_, points)| !points.is_empty()).collect()
+    MethodName::ALL.into_iter().map(points_of).filter(|(_, points)| !points.is_empty()).collect()
 }
 
-/// Other programs on one chain of `masses` masses: for each setting the time of an impact over the engine's, and the time
-/// up to which the run is right, at most its end.
+/// Returns other programs on one chain of `masses` masses: for each setting the time of an impact
+/// over the engine's, and the time up to which the run is right, at most its end.
 pub fn programs(measured: &Measured, masses: usize) -> Vec<(&str, Vec<(f64, f64)>)> {
     let mut found: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
     for row in measured.of(What::Peer).filter(|row| row.n == masses as u64) {

@@ -47,7 +47,7 @@ fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {
 }
 
 /// The window in which gaps are counted, as a ground, if the run is that long.
-fn window(panel: &Panel, until: f64) -> Result<(), Error> {
+fn window(panel: &Panel, until: f64) -> Drawn {
     let Protocol { transient, window } = Protocol::default();
     let (from, to) = (transient, transient + window);
     if to > until {
@@ -63,7 +63,7 @@ fn window(panel: &Panel, until: f64) -> Result<(), Error> {
 }
 
 /// A disc at the first impact of each gap at which impacts start.
-fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Result<(), Error> {
+fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Drawn {
     let firsts = run.firsts();
     let starts = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
     let starts: Vec<_> = starts.filter(|(time, _)| *time <= until).collect();

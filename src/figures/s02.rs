@@ -21,7 +21,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     Ok(sheet.finish("Gaps that close by themselves", description(missing)))
 }
 
-fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result<(), Error> {
+fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
     let panel = sheet.lettered_panel(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
@@ -55,7 +55,7 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Result
     ring.map_or(Ok(()), |ring| panel.label("main sweep, *n* = 100", ring, (2, 1), INK))
 }
 
-fn times(sheet: &Sheet, found: &Table) -> Result<(), Error> {
+fn times(sheet: &Sheet, found: &Table) -> Drawn {
     let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").between(8.0, 9e3);
     let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*_{rest}");
     let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;

@@ -25,7 +25,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     Ok(sheet.finish("From one gap to many: nucleation and growth", description(advance)))
 }
 
-fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Result<(), Error> {
+fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Drawn {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
     let y = count_axis(sweep.ensemble.chain.gaps(), "mean number of gaps");
     let panel = sheet.lettered_panel(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
@@ -69,7 +69,7 @@ fn spread<T: Copy>(all: &[T]) -> Vec<T> {
     places.into_iter().filter_map(|place| all.get(place).copied()).collect()
 }
 
-fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
+fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "time since first impact (1/*ω*)").between(20.0, 7000.0);
     let y = Axis::decades(-1, 2, 1, "advance (gaps)").between(0.3, 80.0);
     let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 4100, 7650), x, y)?;
@@ -87,7 +87,7 @@ fn advances(sheet: &Sheet, advance: &Table) -> Result<(), Error> {
     panel.label("∝ *t*", (200.0, 20.0), (-1, -1), INK)
 }
 
-fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Result<(), Error> {
+fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").between(20.0, 2000.0);
     let y = Axis::linear(0.1, 0.14, 0.01, 2, "half height (*d ω*^{2})")
         .column("half_height (d omega^2)");

@@ -21,7 +21,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     Ok(sheet.finish("Chains from rest and from above", description(both)))
 }
 
-fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Error> {
+fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Drawn {
     let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 7e5);
     let y = Axis::linear(0.06, 0.14, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
         .column("half_height (d omega^2)");
@@ -46,14 +46,14 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Result<(), Er
 }
 
 /// Shares after the first transient and after the last.
-fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Result<(), Error> {
+fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Drawn {
     let x = Axis::linear(0.03, 0.145, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of active gaps");
     let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
     let early = (both.first(), Dash::Short, Symbol::Ring);
     for (pair, dash, mark) in [early, (both.last(), Dash::Solid, Symbol::Disc)] {
         let Some(pair) = pair else { continue };
-        // Early curves are named at the side that the others do not reach; the late ones have their time.
+        // Early curves are named at the side that the others do not reach; late ones have their time.
         let places = [((0.145, 0.07), (-1, 0)), ((0.03, 0.53), (1, 0))];
         let branches = BRANCHES.into_iter().zip([pair.rest, pair.above]).zip(places);
         for (((start, name, colour), branch), (corner, side)) in branches {

@@ -25,7 +25,7 @@ fn power(vertices: usize) -> String {
     format!("10^{{{}}}", vertices.ilog10())
 }
 
-fn shares(sheet: &Sheet) -> Result<(), Error> {
+fn shares(sheet: &Sheet) -> Drawn {
     let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
     let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
     let panel = sheet.lettered_panel(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
@@ -48,7 +48,7 @@ fn shares(sheet: &Sheet) -> Result<(), Error> {
     panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), RED)
 }
 
-fn jumps(sheet: &Sheet, table: &Table) -> Result<(), Error> {
+fn jumps(sheet: &Sheet, table: &Table) -> Drawn {
     let x = Axis::decades(1, 6, 1, "*N*");
     let y = Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump");
     let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 8150, 7550), x, y)?;

@@ -59,13 +59,13 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
         (method, bars.iter().map(|bar| (bar.0, bar.1)).collect())
     };
     let medians = spreads.into_iter().map(median).collect();
-    for (panel, curves, places, (setting, beside)) in
+    for (panel, curves, places, (setting, offset)) in
         [(&errors, &medians, &NAMES, (1, (1, 6))), (&misses, &missed, &MISSED, (2, (-2, 0)))]
     {
         rivals::draw(panel, curves, places, Outside::Edge)?;
         let verlet = curves.iter().find(|curve| curve.0 == Verlet).map(|curve| &curve.1);
         if let Some(at) = verlet.and_then(|curve| curve.get(setting).or(curve.last())) {
-            panel.label_nearby(ALIKE, *at, beside, INK)?;
+            panel.label_nearby(ALIKE, *at, offset, INK)?;
         }
     }
     Ok(sheet.finish("Error and misses of the next impact", description(race)))

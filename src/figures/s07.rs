@@ -1,4 +1,5 @@
-//! Fig. S7: how long all impacts of a run are right, against its time and against the error of one impact.
+//! Draws Fig. S7: how long all impacts of a run are right, against its time and against the error of
+//! one impact.
 
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look, programs};
@@ -34,7 +35,8 @@ const BY_ERROR: [Place; 4] = [
     (RungeKutta, 0, (-2, -1)),
 ];
 
-/// The time in which an error ε grows to [`DISPLACED`], ln([`DISPLACED`]/ε)/λ, and its interval: [low, value, high].
+/// Returns the time in which an error ε grows to [`DISPLACED`], ln([`DISPLACED`]/ε)/λ, and its
+/// interval: [low, value, high].
 fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
     let growth = race.growth.growth()?;
     let folds = pxfm::f_log(DISPLACED / error).max(0.0);
@@ -116,7 +118,7 @@ fn horizon_axis(top: f64) -> Axis {
 }
 
 /// The line that chaos allows, with the band of λ's interval.
-fn chaos(panel: &Panel, race: &Race) -> Result<(), Error> {
+fn chaos(panel: &Panel, race: &Race) -> Drawn {
     let at = |error: f64| allowed(race, error).map(|t| (error, t));
     let errors = (0..=72).map(|i| pxfm::f_exp10(-18.0 + 0.25 * f64::from(i)));
     let grid: Vec<_> = errors.filter(|error| panel.x.contains(*error)).filter_map(at).collect();

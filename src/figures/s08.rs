@@ -10,8 +10,8 @@ use crate::params::Setting;
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 
-/// Errors below this many standard errors are drawn as bounds: among all points, one exceeds two standard errors by
-/// chance.
+/// Errors below this many standard errors are drawn as bounds: among all points, one exceeds two
+/// standard errors by chance.
 const CLEAR: f64 = 3.0;
 
 /// Standard errors from the value up to such a bound.
@@ -72,8 +72,8 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
     Ok(sheet.finish("Error of a mean against its time", description(biases, &rows)))
 }
 
-/// The settings of a method: an error with its standard error, or an arrow down from where it may be at most. Returns where
-/// they stand.
+/// Draws the settings of a method: an error with its standard error, or an arrow down from where it
+/// may be at most. Returns where they stand.
 fn shown(
     panel: &Panel,
     method: MethodName,

@@ -16,7 +16,8 @@ pub const CROSSES: Marker = (Symbol::Cross, 56, CROSS);
 /// Bars of intervals, which stay behind the marks.
 pub const INTERVAL: Stroke = Stroke::solid(PALE, 70);
 
-/// The axis of σ around the rise. Beyond its end nothing changes any more; the data files have all σ.
+/// Makes the axis of σ around the rise. Beyond its end nothing changes any more; the data files have
+/// all σ.
 pub fn sigma_axis() -> Axis {
     Axis::linear(0.05, 0.25, 0.05, 5, FORCING)
 }
@@ -30,7 +31,7 @@ pub fn count_axis(n: usize, label: &str) -> Axis {
 pub const MAIN: Frame = Frame::new(1200, 430, 8150, 4430);
 
 /// A dotted line at the σ that the paper prints for the rise, from a height to the top.
-pub fn printed(panel: &Panel, from: f64) -> Result<(), Error> {
+pub fn printed(panel: &Panel, from: f64) -> Drawn {
     let printed = printed_threshold();
     let line = [(printed, from), (printed, panel.y.hi)];
     panel.guide("printed", &line, Stroke::dashed(INK, THIN, Dash::Dotted))?;

@@ -231,7 +231,7 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
                     !["wall", "equilibrium", "printed"].contains(&row[0].as_str()),
                     "no data: {row:?}"
                 );
-                // Estimates of one place differ; their errors are in the next column, and not again below.
+                // Estimates of one x differ; their errors are in the next column, not again below.
                 assert!(seen.insert(&row[..3]), "{}: {row:?} twice", file.name);
             }
             let known = rows.insert(file.name.clone(), read);

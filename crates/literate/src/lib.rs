@@ -40,6 +40,7 @@ pub mod input;
 #[doc = include_str!("manual.md")]
 pub mod manual {}
 mod paper;
+pub use plotters;
 /// What a paper needs, for one line of imports.
 pub mod prelude {
     pub use crate::claims::{Basis, Check, Evidence, Judged, Rule, Text};

@@ -28,11 +28,11 @@ use plotters_backend::{
 use std::collections::btree_map::Entry;
 
 /// Whether something could be drawn.
-pub(super) type Drawn = Result<(), DrawingErrorKind<Error>>;
+pub(super) type Outcome = Result<(), DrawingErrorKind<Error>>;
 
 impl Drawing {
     /// Adds a path, filled or as a line; one of an invisible colour is left out.
-    fn path(&mut self, path: Vec<Step>, style: &impl BackendStyle, filled: bool) -> Drawn {
+    fn path(&mut self, path: Vec<Step>, style: &impl BackendStyle, filled: bool) -> Outcome {
         let BackendColor { alpha, rgb: (r, g, b) } = style.color();
         let colour = RGBColor(r, g, b);
         if alpha == 0.0 {
@@ -52,21 +52,21 @@ impl DrawingBackend for Drawing {
         (WIDTH, self.height)
     }
 
-    fn ensure_prepared(&mut self) -> Drawn {
+    fn ensure_prepared(&mut self) -> Outcome {
         Ok(())
     }
 
-    fn present(&mut self) -> Drawn {
+    fn present(&mut self) -> Outcome {
         Ok(())
     }
 
-    fn draw_pixel(&mut self, (x, y): Point, colour: BackendColor) -> Drawn {
+    fn draw_pixel(&mut self, (x, y): Point, colour: BackendColor) -> Outcome {
         self.draw_rect((x, y), (x + 1, y + 1), &colour, true)
     }
 
     /// Draws a straight line from its upper end. It continues the stroke before it if both look
     /// alike, so that thousands of ticks are one path.
-    fn draw_line<S: BackendStyle>(&mut self, a: Point, b: Point, style: &S) -> Drawn {
+    fn draw_line<S: BackendStyle>(&mut self, a: Point, b: Point, style: &S) -> Outcome {
         let (from, to) = if a.1 <= b.1 { (a, b) } else { (b, a) };
         self.path(polyline([from, to]), style, false)?;
         if let [.., Element::Shape(path, None, before), Element::Shape(more, None, stroke)] =
@@ -85,7 +85,7 @@ impl DrawingBackend for Drawing {
         (right, bottom): Point,
         style: &S,
         fill: bool,
-    ) -> Drawn {
+    ) -> Outcome {
         let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
         self.path(polygon(corners), style, fill)
     }
@@ -95,7 +95,7 @@ impl DrawingBackend for Drawing {
         &mut self,
         points: I,
         style: &S,
-    ) -> Drawn {
+    ) -> Outcome {
         let mut points: Vec<Point> = points.into_iter().collect();
         points.dedup();
         self.path(polyline(points), style, false)
@@ -107,7 +107,7 @@ impl DrawingBackend for Drawing {
         radius: u32,
         style: &S,
         fill: bool,
-    ) -> Drawn {
+    ) -> Outcome {
         self.path(circle(centre, radius as i32), style, fill)
     }
 
@@ -115,12 +115,12 @@ impl DrawingBackend for Drawing {
         &mut self,
         points: I,
         style: &S,
-    ) -> Drawn {
+    ) -> Outcome {
         self.path(polygon(points), style, true)
     }
 
     /// Sets words in the shipped fonts, whatever the font of the style; see [`markup`].
-    fn draw_text<S: BackendTextStyle>(&mut self, words: &str, style: &S, at: Point) -> Drawn {
+    fn draw_text<S: BackendTextStyle>(&mut self, words: &str, style: &S, at: Point) -> Outcome {
         let font::Line { mut glyphs, width } = font::set(words)?;
         let dx = match style.anchor().h_pos {
             HPos::Left => 0,

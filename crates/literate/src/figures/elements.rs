@@ -1,8 +1,8 @@
 //! Adds the elements that plotters lacks: lines with a pattern of dashes, arrows, symbols with an
 //! edge, dense ticks, and error bars of caps alone.
 
-use super::backend::Drawn;
-use super::drawing::{Drawing, Element};
+use super::backend::Outcome;
+use super::drawing::Drawing;
 use super::path::{Point, Step, circle, polygon, polyline};
 use super::style::{Dash, Stroke, Symbol, WHITE};
 use plotters::element::{
@@ -91,7 +91,7 @@ impl<C> Drawable<Drawing> for CustomElement<C> {
         points: I,
         drawing: &mut Drawing,
         _: (u32, u32),
-    ) -> Drawn {
+    ) -> Outcome {
         let mut points: Vec<Point> = points.collect();
         match &self.shape {
             Shape::Dashed(stroke) => {
@@ -115,14 +115,14 @@ impl<C> Drawable<Drawing> for CustomElement<C> {
     }
 }
 
-fn draw_segments(drawing: &mut Drawing, ends: &[Point], stroke: Stroke) -> Drawn {
+fn draw_segments(drawing: &mut Drawing, ends: &[Point], stroke: Stroke) -> Outcome {
     for pair in ends.chunks_exact(2) {
         drawing.draw_line(pair[0], pair[1], &ShapeStyle::from(stroke))?;
     }
     Ok(())
 }
 
-fn draw_ticks(drawing: &mut Drawing, points: Vec<Point>, width: i32, stroke: Stroke) -> Drawn {
+fn draw_ticks(drawing: &mut Drawing, points: Vec<Point>, width: i32, stroke: Stroke) -> Outcome {
     let mut places: Vec<Point> = points.into_iter().map(|(x, y)| (y, x)).collect();
     places.sort_unstable();
     for run in places.chunk_by(|a, b| a.0 == b.0 && b.1 - a.1 <= width) {
@@ -135,7 +135,7 @@ fn draw_ticks(drawing: &mut Drawing, points: Vec<Point>, width: i32, stroke: Str
 
 /// Ends the line inside the head. A short last stretch must not turn the head, so its direction is
 /// taken over at least its length.
-fn draw_arrow(drawing: &mut Drawing, mut path: Vec<Point>, stroke: Stroke) -> Drawn {
+fn draw_arrow(drawing: &mut Drawing, mut path: Vec<Point>, stroke: Stroke) -> Outcome {
     let Some(&tip) = path.last() else { return Ok(()) };
     let width = f64::from(stroke.width);
     let (length, half) = (90.0 + 2.6 * width, 34.0 + 1.1 * width);
@@ -162,7 +162,7 @@ fn draw_arrow(drawing: &mut Drawing, mut path: Vec<Point>, stroke: Stroke) -> Dr
     drawing.fill_polygon(head, &style.color)
 }
 
-fn draw_markers(drawing: &mut Drawing, points: &[Point], marker: Marker) -> Drawn {
+fn draw_markers(drawing: &mut Drawing, points: &[Point], marker: Marker) -> Outcome {
     let (symbol, r, stroke) = marker;
     let mut path: Vec<Step> = Vec::new();
     for &(x, y) in points {
@@ -195,26 +195,4 @@ fn draw_markers(drawing: &mut Drawing, points: &[Point], marker: Marker) -> Draw
     };
     drawing.shape(path, fill, Some(stroke));
     Ok(())
-}
-
-/// Draws itself: a group of shapes begins or ends.
-impl Drawable<Drawing> for Element {
-    fn draw<I: Iterator<Item = BackendCoord>>(
-        &self,
-        _: I,
-        drawing: &mut Drawing,
-        _: (u32, u32),
-    ) -> Drawn {
-        drawing.elements.push(self.clone());
-        Ok(())
-    }
-}
-
-impl<'a, C: 'a> PointCollection<'a, C> for &'a Element {
-    type Point = &'a C;
-    type IntoIter = std::iter::Empty<&'a C>;
-
-    fn point_iter(self) -> Self::IntoIter {
-        std::iter::empty()
-    }
 }

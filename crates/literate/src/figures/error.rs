@@ -18,6 +18,9 @@ pub enum Error {
     Drawing(String),
 }
 
+/// Whether something could be drawn.
+pub type Drawn = Result<(), Error>;
+
 impl From<Error> for DrawingErrorKind<Error> {
     fn from(error: Error) -> Self {
         DrawingErrorKind::DrawingError(error)

@@ -23,7 +23,7 @@ mod svg;
 mod text;
 
 pub use drawing::{Drawing, Glyphs};
-pub use error::Error;
+pub use error::{Drawn, Error};
 pub use figure::{Description, Figure};
 pub use record::DataFile;
 pub use svg::{escape, outlines};
@@ -40,7 +40,7 @@ pub mod prelude {
     pub use super::sheet::{Sheet, SheetArea};
     pub use super::style::*;
     pub use super::text::{rimmed, words};
-    pub use super::{DataFile, Description, Error, Figure};
+    pub use super::{DataFile, Description, Drawn, Error, Figure};
     pub use crate::describe;
     pub use plotters::element::{EmptyElement, PathElement, Rectangle, Text};
     pub use plotters::style::text_anchor::{HPos, VPos};

@@ -5,7 +5,7 @@
 use super::axis::Axis;
 use super::drawing::{Drawing, Frame};
 use super::elements::segments;
-use super::error::Error;
+use super::error::Drawn;
 use super::font;
 use super::path::Point;
 use super::record::Record;
@@ -31,7 +31,7 @@ pub struct Panel {
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    drawing: Rc<RefCell<Drawing>>,
+    pub(super) drawing: Rc<RefCell<Drawing>>,
     pub(super) record: Rc<RefCell<Record>>,
     pub(super) recorded: bool,
 }
@@ -106,23 +106,17 @@ impl Panel {
     }
 
     /// Writes words at a point of the data, moved on the sheet.
-    fn text(
-        &self,
-        text: &str,
-        at: (f64, f64),
-        moved: Point,
-        style: TextStyle<'static>,
-    ) -> Result<(), Error> {
+    fn text(&self, text: &str, at: (f64, f64), moved: Point, style: TextStyle<'static>) -> Drawn {
         Ok(self.area.draw(&(EmptyElement::at(at) + Text::new(text.to_string(), moved, style)))?)
     }
 
     /// Writes words at a point of the sheet.
-    fn text_on_sheet(&self, text: &str, at: Point, style: TextStyle<'static>) -> Result<(), Error> {
+    fn text_on_sheet(&self, text: &str, at: Point, style: TextStyle<'static>) -> Drawn {
         Ok(self.area.use_screen_coord().draw(&Text::new(text.to_string(), at, style))?)
     }
 
     /// Draws both axes: spines at the left and below, ticks outwards, numbers, labels.
-    pub(super) fn draw_axes(&self) -> Result<(), Error> {
+    pub(super) fn draw_axes(&self) -> Drawn {
         let Frame { left, top, right, bottom } = self.frame;
         let hair = Stroke::solid(INK, HAIR);
         let corner = (self.x.lo, self.y.lo);
@@ -171,14 +165,14 @@ impl Panel {
 
     /// Writes the letter of a panel, "(a)", above its upper left corner, and ends the name of its
     /// file with it.
-    pub fn letter(&self, text: &str) -> Result<(), Error> {
+    pub fn letter(&self, text: &str) -> Drawn {
         self.record.borrow_mut().suffix = text.trim_matches(['(', ')']).into();
         let at = (self.frame.left + 60, self.frame.top - 80);
         self.text_on_sheet(text, at, words(TEXT, INK, HPos::Left, VPos::Bottom))
     }
 
     /// Writes the letter of a panel, and the parameter that it is drawn for, above its frame.
-    pub fn heading(&self, letter: &str, parameter: &str) -> Result<(), Error> {
+    pub fn heading(&self, letter: &str, parameter: &str) -> Drawn {
         self.letter(letter)?;
         let corner = (self.frame.right, self.frame.top - 80);
         self.text_on_sheet(parameter, corner, words(SMALL, INK, HPos::Right, VPos::Bottom))
@@ -192,7 +186,7 @@ impl Panel {
         at: (f64, f64),
         (right, down): (i32, i32),
         colour: RGBColor,
-    ) -> Result<(), Error> {
+    ) -> Drawn {
         let (h, v) = anchor((right, down));
         self.text(text, at, (100 * right, 100 * down), rimmed(SMALL, colour, h, v))
     }
@@ -205,7 +199,7 @@ impl Panel {
         at: (f64, f64),
         offset: (i32, i32),
         colour: RGBColor,
-    ) -> Result<(), Error> {
+    ) -> Drawn {
         const AROUND: [(i32, i32); 8] =
             [(1, 0), (1, -1), (1, 1), (0, -1), (0, 1), (-1, -1), (-1, 1), (-1, 0)];
         let farther = (1..=3).flat_map(|far| AROUND.map(|(x, y)| (far * x, far * y)));
@@ -238,10 +232,7 @@ impl Panel {
 
     /// Names curves, each given by name, points and colour, at their right ends in this panel; names
     /// that would touch move apart.
-    pub fn label_ends<P: AsRef<[(f64, f64)]>>(
-        &self,
-        curves: &[(String, P, RGBColor)],
-    ) -> Result<(), Error> {
+    pub fn label_ends<P: AsRef<[(f64, f64)]>>(&self, curves: &[(String, P, RGBColor)]) -> Drawn {
         let mut ends = Vec::new();
         for (text, points, colour) in curves {
             let inside = |p: &&(f64, f64)| self.x.contains(p.0) && self.y.contains(p.1);

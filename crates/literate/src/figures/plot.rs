@@ -260,6 +260,9 @@ impl AxisOptions {
 mod tests {
     use super::*;
     use crate::describe;
+    use crate::figures::drawing::Element;
+    use plotters::series::AreaSeries;
+    use plotters::style::Color;
 
     fn labels(options: &AxisOptions, values: &[f64]) -> (f64, f64, Vec<String>) {
         let axis = options.axis(values.iter().copied());
@@ -300,10 +303,21 @@ mod tests {
         );
         let high = figure.drawing.height as i32;
         for element in &figure.drawing.elements {
-            let super::super::drawing::Element::Label(label) = element else { continue };
+            let Element::Label(label) = element else { continue };
             let (x, y) = label.at;
             assert!((1..WIDTH as i32).contains(&x) && (1..high).contains(&y), "{}", label.words);
         }
+        // An area of plotters: inside the frame, and with an edge that is invisible.
+        let (sheet, panel) = Plot::new().line("a", &[(0.0, 1.0), (1.0, 2.0)]).draw().unwrap();
+        let area = AreaSeries::new([(0.0, 1.0), (1.0, 2.0)], 1.0, BLUE.mix(0.2));
+        panel.draw_series("area", area).unwrap();
+        let elements = sheet.finish("", Description::default()).drawing.elements;
+        let [.., Element::Open(..), Element::Shape(path, fill, None), Element::Close] =
+            &elements[..]
+        else {
+            panic!("{elements:?}")
+        };
+        assert_eq!((path.len(), *fill), (5, Some((BLUE, 20))));
         let wrong = Plot::new().line("a", &[(0.0, f64::NAN)]).finish("A", describe!("A"));
         assert!(matches!(wrong, Err(Error::Outside { .. })));
     }

@@ -9,7 +9,7 @@
 use super::cut::cut;
 use super::drawing::{Drawing, Element};
 use super::elements::{Marker, error_bar, line, markers, ticks};
-use super::error::Error;
+use super::error::{Drawn, Error};
 use super::panel::Panel;
 use super::record::DataPoint;
 use super::style::{Dash, Stroke};
@@ -35,22 +35,18 @@ pub enum Outside {
 
 impl Panel {
     /// Draws a series of plotters, or any elements, as a group of this name.
-    pub fn draw_series<S>(&self, name: &str, series: S) -> Result<(), Error>
+    pub fn draw_series<S>(&self, name: &str, series: S) -> Drawn
     where
         S: IntoIterator,
         S::Item: Drawable<Drawing>,
         for<'a> &'a S::Item: PointCollection<'a, (f64, f64)>,
     {
-        self.group(Element::Open(name.into(), self.frame))?;
+        self.drawing.borrow_mut().elements.push(Element::Open(name.into(), self.frame));
         for element in series {
             self.area.draw(&element)?;
         }
-        self.group(Element::Close)
-    }
-
-    /// Begins or ends a group.
-    fn group(&self, end: Element) -> Result<(), Error> {
-        Ok(self.area.draw(&end)?)
+        self.drawing.borrow_mut().elements.push(Element::Close);
+        Ok(())
     }
 
     /// Keeps rows of a series for the data file, as a picture may show them in another way.
@@ -99,36 +95,24 @@ impl Panel {
     }
 
     /// Draws a curve.
-    pub fn curve(
-        &self,
-        name: &str,
-        points: Points,
-        stroke: Stroke,
-        outside: Outside,
-    ) -> Result<(), Error> {
+    pub fn curve(&self, name: &str, points: Points, stroke: Stroke, outside: Outside) -> Drawn {
         let parts = cut(&self.checked(name, points, outside)?, &self.x, &self.y);
         self.record_points(name, points, outside);
         self.draw_series(name, parts.into_iter().map(|part| line(part, stroke)))
     }
 
     /// Draws a line that is no data, cut at the frame: zero, a level, an outline, a printed value.
-    pub fn guide(&self, name: &str, points: Points, stroke: Stroke) -> Result<(), Error> {
+    pub fn guide(&self, name: &str, points: Points, stroke: Stroke) -> Drawn {
         self.unrecorded().curve(name, points, stroke, Outside::Cut)
     }
 
     /// Draws a guide across the panel at one height.
-    pub fn level(&self, name: &str, y: f64, stroke: Stroke) -> Result<(), Error> {
+    pub fn level(&self, name: &str, y: f64, stroke: Stroke) -> Drawn {
         self.guide(name, &[(self.x.lo, y), (self.x.hi, y)], stroke)
     }
 
     /// Draws symbols; those outside the frame are left out if `outside` cuts.
-    pub fn markers(
-        &self,
-        name: &str,
-        points: Points,
-        marker: Marker,
-        outside: Outside,
-    ) -> Result<(), Error> {
+    pub fn markers(&self, name: &str, points: Points, marker: Marker, outside: Outside) -> Drawn {
         let mut places = self.checked(name, points, outside)?;
         places.retain(|p| self.contains(*p));
         self.record_points(name, points, outside);
@@ -142,39 +126,28 @@ impl Panel {
         points: Points,
         (stroke, marker): (Stroke, Marker),
         outside: Outside,
-    ) -> Result<(), Error> {
+    ) -> Drawn {
         self.curve(name, points, stroke, outside)?;
         self.markers(name, points, marker, outside)
     }
 
     /// Draws upright ticks of a width at many points, all inside the frame; the thickness of the
     /// stroke is their height.
-    pub fn ticks(
-        &self,
-        name: &str,
-        points: Points,
-        width: i32,
-        stroke: Stroke,
-    ) -> Result<(), Error> {
+    pub fn ticks(&self, name: &str, points: Points, width: i32, stroke: Stroke) -> Drawn {
         let places = self.checked(name, points, Outside::Refuse)?;
         self.record_points(name, points, Outside::Refuse);
         self.draw_series(name, [ticks(places, width, stroke)])
     }
 
     /// Fills a polygon, all of it inside the frame; it is a ground, and no data.
-    pub fn filled_area(
-        &self,
-        name: &str,
-        points: Points,
-        fill: impl Into<ShapeStyle>,
-    ) -> Result<(), Error> {
+    pub fn filled_area(&self, name: &str, points: Points, fill: impl Into<ShapeStyle>) -> Drawn {
         let places = self.checked(name, points, Outside::Refuse)?;
         self.draw_series(name, [Polygon::new(places, fill)])
     }
 
     /// Draws columns of width 1 around 1, 2, …, which stand on zero: filled and with an outline;
     /// those outside the axis are left out.
-    pub fn columns(&self, name: &str, values: &[f64], stroke: Stroke) -> Result<(), Error> {
+    pub fn columns(&self, name: &str, values: &[f64], stroke: Stroke) -> Drawn {
         let heights = || (1..).map(f64::from).zip(values.iter().copied());
         self.record(name, heights());
         let mut outline = Vec::new();
@@ -200,7 +173,7 @@ impl Panel {
         half: i32,
         stroke: Stroke,
         outside: Outside,
-    ) -> Result<(), Error> {
+    ) -> Drawn {
         let mut ends = Vec::new();
         for &(x, low, high) in bars {
             if outside != Outside::Cut || self.x.contains(x) {
@@ -217,12 +190,7 @@ impl Panel {
 
     /// Draws estimates with bars of one standard error. What lies outside the frame is left out, and
     /// bars are cut: a few realisations leave some that are longer than the axis.
-    pub fn estimates(
-        &self,
-        name: &str,
-        estimates: &[(f64, Estimate)],
-        marker: Marker,
-    ) -> Result<(), Error> {
+    pub fn estimates(&self, name: &str, estimates: &[(f64, Estimate)], marker: Marker) -> Drawn {
         let shown = |(x, y): &&(f64, Estimate)| self.has_place((*x, y.value));
         self.record(name, estimates.iter().filter(shown).copied());
         let (mut bars, mut points) = (Vec::new(), Vec::new());
@@ -240,7 +208,7 @@ impl Panel {
         name: &str,
         estimates: &[(f64, Estimate)],
         marker: Marker,
-    ) -> Result<(), Error> {
+    ) -> Drawn {
         let points: Vec<_> = estimates.iter().map(|(x, y)| (*x, y.value)).collect();
         self.unrecorded().curve(name, &points, marker.2, Outside::Cut)?;
         let (symbol, size, line) = marker;
