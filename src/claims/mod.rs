@@ -5,7 +5,7 @@
 //! exit code read the same check.
 //!
 //! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a
-//! difference no longer has the size that its explanation predicts. [`relations`] compare numbers
+//! difference no longer has the size that its explanation predicts. Relations compare numbers
 //! of this edition with one another.
 
 mod relations;

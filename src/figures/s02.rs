@@ -4,13 +4,11 @@ use super::FORCING;
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::beside::at;
+use crate::params::{Chain, printed_threshold};
 use literate::table::Table;
 
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.055, 0.165);
-
-/// The chain of the paper, and a σ near its half height.
-const PAPER: (f64, f64) = (100.0, 0.12);
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
@@ -36,7 +34,11 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn 
     let last = found.values("time").last().copied().unwrap_or_default();
     let lengths = found.values("masses");
     for (place, &masses) in lengths.iter().enumerate() {
-        let colour = if masses == PAPER.0 { RED } else { ordered(place, lengths.len()) };
+        let colour = if masses == Chain::default().masses as f64 {
+            RED
+        } else {
+            ordered(place, lengths.len())
+        };
         let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
         let curve = shares.points(&keys[..1], "sigma", "clumps");
         panel.curve(&name, &curve, Stroke::solid(colour, LINE), Outside::Refuse)?;
@@ -60,7 +62,7 @@ fn times(sheet: &Sheet, found: &Table) -> Drawn {
     let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*_{rest}");
     let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
     let sigmas = found.values("sigma");
-    let three = [sigmas.first().copied(), Some(PAPER.1), sigmas.last().copied()];
+    let three = [sigmas.first().copied(), Some(printed_threshold()), sigmas.last().copied()];
     let mut drawn = Vec::new();
     for (place, sigma) in three.into_iter().flatten().enumerate() {
         let colour = [GREEN, PURPLE, ORANGE][place];

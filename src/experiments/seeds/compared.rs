@@ -17,7 +17,8 @@ fn mean(cell: &Curve, sigma: f64) -> Option<f64> {
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let of = |name: &str| all.iter().find(|table| table.name() == name);
     let (means, rise, theory) = (of("seeds.means")?, of("seeds.rise")?, of("theory.curve")?);
-    let (seeds, map) = (&results.of(&SEEDS).ok()?.parameters, &results.of(&PROTOCOL).ok()?[0]);
+    let seeds = &results.of(&SEEDS).ok()?.parameters;
+    let map = named(results.of(&PROTOCOL).ok()?, "protocol")?;
     let window = seeds.window as f64 * seeds.bin;
     let transients = rise.values("transient").into_iter();
     let cells: Vec<&Curve> = transients.filter_map(|time| map.curve(time, window)).collect();
