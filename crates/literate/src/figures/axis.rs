@@ -5,7 +5,7 @@
 //! log10 of the data, taken with a portable function.
 
 use super::markup::spelled;
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use pxfm::{f_exp10, f_log10};
 use std::ops::Range;
@@ -164,8 +164,8 @@ impl Axis {
         lo - slack <= at && at <= hi + slack
     }
 
-    /// Tells whether the tick at a value has a label, if only an empty one.
-    pub(super) fn is_labelled(&self, value: f64) -> bool {
+    /// Tells whether the tick at a value is a major one: has a label, if only an empty one.
+    pub(super) fn is_major(&self, value: f64) -> bool {
         self.ticks.iter().any(|tick| tick.at == value && tick.label.is_some())
     }
 
@@ -199,14 +199,6 @@ impl Ranged for Axis {
 
     fn range(&self) -> Range<f64> {
         self.lo..self.hi
-    }
-}
-
-impl ValueFormatter<f64> for Axis {
-    /// Returns the label of the tick at a value; nothing if it has none.
-    fn format_ext(&self, value: &f64) -> String {
-        let tick = self.ticks.iter().find(|tick| tick.at == *value);
-        tick.and_then(|tick| tick.label.clone()).unwrap_or_default()
     }
 }
 

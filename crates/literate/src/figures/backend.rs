@@ -18,7 +18,7 @@ use super::error::Error;
 use super::font;
 use super::markup;
 use super::path::{Point, Step, circle, polygon, polyline};
-use super::style::{Stroke, WIDTH};
+use super::style::{PALETTE, Stroke, WIDTH};
 use super::text;
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{FontTransform, RGBColor};
@@ -30,13 +30,23 @@ use std::collections::btree_map::Entry;
 /// Whether something could be drawn.
 pub(super) type Outcome = Result<(), DrawingErrorKind<Error>>;
 
+/// Returns a colour, which must be one of ours: others have no form for light and for dark pages.
+fn in_palette(colour: BackendColor) -> Result<RGBColor, Error> {
+    let (r, g, b) = colour.rgb;
+    let known = PALETTE.iter().any(|(_, known)| *known == RGBColor(r, g, b));
+    let missing = || Error::Drawing(format!("#{r:02x}{g:02x}{b:02x} is no colour of the prelude"));
+    known.then_some(RGBColor(r, g, b)).ok_or_else(missing)
+}
+
 impl Drawing {
     /// Adds a path, filled or as a line; one of an invisible colour is left out.
     fn path(&mut self, path: Vec<Step>, style: &impl BackendStyle, filled: bool) -> Outcome {
-        let BackendColor { alpha, rgb: (r, g, b) } = style.color();
-        let colour = RGBColor(r, g, b);
+        let alpha = style.color().alpha;
         if alpha == 0.0 {
-        } else if filled {
+            return Ok(());
+        }
+        let colour = in_palette(style.color())?;
+        if filled {
             self.shape(path, Some((colour, (100.0 * alpha).round() as u8)), None);
         } else {
             self.shape(path, None, Some(Stroke::solid(colour, style.stroke_width())));
@@ -138,12 +148,12 @@ impl DrawingBackend for Drawing {
                 place.insert(font::outline(placed)?);
             }
         }
-        let (r, g, b) = style.color().rgb;
+        let colour = in_palette(style.color())?;
         self.elements.push(Element::Label(Label {
             words: markup::plain(words),
             at,
             size: style.size() as i32,
-            colour: RGBColor(r, g, b),
+            colour,
             upwards: match style.transform() {
                 FontTransform::None => false,
                 FontTransform::Rotate270 => true,

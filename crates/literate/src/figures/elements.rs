@@ -16,22 +16,21 @@ use std::ops::Range;
 /// Symbol, half its width, and the line of an open symbol, whose colour fills a closed one.
 pub type Marker = (Symbol, i32, Stroke);
 
-/// An element of the kinds that plotters lacks; [`line`], [`arrow`], [`markers`], [`segments`],
-/// [`ticks`] and [`error_bar`] make it.
+/// An element of the kinds that plotters lacks, drawn at or through points.
 pub struct CustomElement<C> {
-    points: Vec<C>,
-    shape: Shape,
+    pub(super) points: Vec<C>,
+    pub(super) shape: Shape,
 }
 
-enum Shape {
+pub(super) enum Shape {
     Dashed(Stroke),
     Arrow(Stroke),
     Markers(Marker),
     /// A straight stroke from each first point to the second.
     Segments(Stroke),
-    /// With their width.
+    /// Upright ticks of a width, as high as the stroke is thick.
     Ticks(i32, Stroke),
-    /// With half the width of a cap, and the stretch that caps stay in.
+    /// A bar with caps of half a width, none if it is zero, within a stretch of x on the sheet.
     ErrorBar(i32, Range<i32>, Stroke),
 }
 
@@ -52,28 +51,6 @@ pub fn arrow<C>(points: Vec<C>, stroke: Stroke) -> CustomElement<C> {
 /// Draws equal symbols at points, as one shape.
 pub fn markers<C>(points: Vec<C>, marker: Marker) -> CustomElement<C> {
     CustomElement { points, shape: Shape::Markers(marker) }
-}
-
-/// Draws a straight stroke from each first point to the second, as one shape.
-pub(super) fn segments<C>(points: Vec<C>, stroke: Stroke) -> CustomElement<C> {
-    CustomElement { points, shape: Shape::Segments(stroke) }
-}
-
-/// Draws upright ticks of a width, as high as the stroke is thick; those in one row that touch are
-/// one stroke.
-pub(super) fn ticks<C>(points: Vec<C>, width: i32, stroke: Stroke) -> CustomElement<C> {
-    CustomElement { points, shape: Shape::Ticks(width, stroke) }
-}
-
-/// Draws a bar from end to end with caps of half a width, which stay within a stretch of x on the
-/// sheet; no caps if it is zero.
-pub(super) fn error_bar<C>(
-    ends: [C; 2],
-    half: i32,
-    within: Range<i32>,
-    stroke: Stroke,
-) -> CustomElement<C> {
-    CustomElement { points: ends.into(), shape: Shape::ErrorBar(half, within, stroke) }
 }
 
 impl<'a, C> PointCollection<'a, C> for &'a CustomElement<C> {
@@ -100,7 +77,11 @@ impl<C> Drawable<Drawing> for CustomElement<C> {
             }
             Shape::Arrow(stroke) => draw_arrow(drawing, points, *stroke)?,
             Shape::Markers(marker) => draw_markers(drawing, &points, *marker)?,
-            Shape::Segments(stroke) => draw_segments(drawing, &points, *stroke)?,
+            Shape::Segments(stroke) => {
+                for pair in points.chunks_exact(2) {
+                    drawing.draw_line(pair[0], pair[1], &ShapeStyle::from(*stroke))?;
+                }
+            }
             Shape::Ticks(width, stroke) => draw_ticks(drawing, points, *width, *stroke)?,
             Shape::ErrorBar(half, within, stroke) => {
                 let style = ShapeStyle::from(*stroke);
@@ -115,13 +96,7 @@ impl<C> Drawable<Drawing> for CustomElement<C> {
     }
 }
 
-fn draw_segments(drawing: &mut Drawing, ends: &[Point], stroke: Stroke) -> Outcome {
-    for pair in ends.chunks_exact(2) {
-        drawing.draw_line(pair[0], pair[1], &ShapeStyle::from(stroke))?;
-    }
-    Ok(())
-}
-
+/// Draws ticks; those in one row that touch are one stroke.
 fn draw_ticks(drawing: &mut Drawing, points: Vec<Point>, width: i32, stroke: Stroke) -> Outcome {
     let mut places: Vec<Point> = points.into_iter().map(|(x, y)| (y, x)).collect();
     places.sort_unstable();
@@ -166,6 +141,9 @@ fn draw_markers(drawing: &mut Drawing, points: &[Point], marker: Marker) -> Outc
     let (symbol, r, stroke) = marker;
     let mut path: Vec<Step> = Vec::new();
     for &(x, y) in points {
+        let mut corners = |places: &[Point]| {
+            path.extend(polygon(places.iter().map(|(right, down)| (x + right * r, y + down * r))));
+        };
         match symbol {
             Symbol::Cross => Cross::new((), r, stroke).draw(once((x, y)), drawing, (0, 0))?,
             Symbol::Plus => {
@@ -173,18 +151,9 @@ fn draw_markers(drawing: &mut Drawing, points: &[Point], marker: Marker) -> Outc
                 path.extend(polyline([(x, y - r), (x, y + r)]));
             }
             Symbol::Disc | Symbol::Ring => path.extend(circle((x, y), r)),
-            Symbol::OpenSquare => path.extend(polygon([
-                (x - r, y - r),
-                (x + r, y - r),
-                (x + r, y + r),
-                (x - r, y + r),
-            ])),
-            Symbol::OpenTriangle => {
-                path.extend(polygon([(x - r, y + r), (x, y - r), (x + r, y + r)]));
-            }
-            Symbol::OpenDiamond => {
-                path.extend(polygon([(x, y - r), (x + r, y), (x, y + r), (x - r, y)]));
-            }
+            Symbol::OpenSquare => corners(&[(-1, -1), (1, -1), (1, 1), (-1, 1)]),
+            Symbol::OpenTriangle => corners(&[(-1, 1), (0, -1), (1, 1)]),
+            Symbol::OpenDiamond => corners(&[(0, -1), (1, 0), (0, 1), (-1, 0)]),
         }
     }
     let fill = match symbol {

@@ -4,19 +4,18 @@
 
 use super::axis::Axis;
 use super::drawing::{Drawing, Frame};
-use super::elements::segments;
+use super::elements::{CustomElement, Shape};
 use super::error::Drawn;
 use super::font;
 use super::path::Point;
 use super::record::Record;
 use super::style::{HAIR, INK, SMALL, Stroke, TEXT, WIDTH};
-use super::text::{rimmed, upwards, words};
+use super::text::{rimmed, words};
 use plotters::coord::cartesian::{Cartesian2d, MeshLine};
-use plotters::coord::ranged1d::{BoldPoints, Ranged, ValueFormatter};
 use plotters::drawing::DrawingArea;
 use plotters::element::{EmptyElement, Text};
 use plotters::style::text_anchor::{HPos, VPos};
-use plotters::style::{RGBColor, ShapeStyle, TextStyle};
+use plotters::style::{FontTransform, RGBColor, ShapeStyle, TextStyle};
 use plotters_backend::DrawingBackend;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -121,9 +120,8 @@ impl Panel {
         let hair = Stroke::solid(INK, HAIR);
         let corner = (self.x.lo, self.y.lo);
         let spines = vec![(self.x.lo, self.y.hi), corner, corner, (self.x.hi, self.y.lo)];
-        self.area.draw(&segments(spines, hair))?;
-        let tick =
-            |axis: &Axis, value: f64| if axis.is_labelled(value) { TICK } else { MINOR_TICK };
+        self.area.draw(&CustomElement { points: spines, shape: Shape::Segments(hair) })?;
+        let tick = |axis: &Axis, value: f64| if axis.is_major(value) { TICK } else { MINOR_TICK };
         let draw_tick = |drawing: &mut Drawing, line: MeshLine<'_, Axis, Axis>| {
             let (from, to) = match line {
                 MeshLine::XMesh((x, y), _, value) => ((x, y), (x, y + tick(&self.x, *value))),
@@ -134,10 +132,9 @@ impl Panel {
         self.area.draw_mesh(draw_tick, usize::MAX, usize::MAX)?;
 
         let below = words(SMALL, INK, HPos::Center, VPos::Top);
-        for at in self.x.key_points(BoldPoints(usize::MAX)) {
-            let number = self.x.format_ext(&at);
-            if !number.is_empty() {
-                self.text(&number, (at, self.y.lo), (0, TICK + GAP), below.clone())?;
+        for tick in &self.x.ticks {
+            if let Some(number) = tick.label.as_ref().filter(|number| !number.is_empty()) {
+                self.text(number, (tick.at, self.y.lo), (0, TICK + GAP), below.clone())?;
             }
         }
         if !self.x.label.is_empty() {
@@ -149,15 +146,17 @@ impl Panel {
         // The numbers' width decides where the label stands.
         let mut widest = 0;
         let at_left = words(SMALL, INK, HPos::Right, VPos::Center);
-        for at in self.y.key_points(BoldPoints(usize::MAX)) {
-            let number = self.y.format_ext(&at);
+        for tick in &self.y.ticks {
+            let Some(number) = &tick.label else { continue };
             let moved = (-TICK - GAP * 2 / 3, 0);
-            self.text(&number, (self.x.lo, at), moved, at_left.clone())?;
-            widest = widest.max(self.area.estimate_text_size(&number, &at_left)?.0 as i32);
+            self.text(number, (self.x.lo, tick.at), moved, at_left.clone())?;
+            widest = widest.max(self.area.estimate_text_size(number, &at_left)?.0 as i32);
         }
         if !self.y.label.is_empty() {
             let at = (left - TICK - widest - 4 * GAP, (top + bottom) / 2);
-            let style = upwards(TEXT, INK, HPos::Center, VPos::Bottom);
+            let style = words(TEXT, INK, HPos::Center, VPos::Bottom);
+            // From bottom to top.
+            let style = style.transform(FontTransform::Rotate270);
             self.text_on_sheet(&self.y.label, at, style)?;
         }
         Ok(())

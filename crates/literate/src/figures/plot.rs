@@ -160,11 +160,8 @@ impl Plot {
         names
     }
 
-    /// Draws the figure.
-    ///
-    /// # Errors
-    /// For a number that is not finite, and for a label with a character that the shipped fonts
-    /// lack.
+    /// Draws the figure. Fails for a number that is not finite, and for a label with a character that
+    /// the shipped fonts lack.
     pub fn finish(self, title: &str, description: Description) -> Result<Figure, Error> {
         let (sheet, _) = self.draw()?;
         Ok(sheet.finish(title, description))
@@ -172,9 +169,6 @@ impl Plot {
 
     /// Draws the plot and returns the sheet and the panel, whose `area` takes any series or element
     /// of plotters.
-    ///
-    /// # Errors
-    /// As [`Plot::finish`].
     pub fn draw(mut self) -> Result<(Sheet, Panel), Error> {
         let (x, y) = self.axes();
         let names = self.names();

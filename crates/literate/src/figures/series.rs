@@ -8,7 +8,7 @@
 
 use super::cut::cut;
 use super::drawing::{Drawing, Element};
-use super::elements::{Marker, error_bar, line, markers, ticks};
+use super::elements::{CustomElement, Marker, Shape, line, markers};
 use super::error::{Drawn, Error};
 use super::panel::Panel;
 use super::record::DataPoint;
@@ -136,7 +136,8 @@ impl Panel {
     pub fn ticks(&self, name: &str, points: Points, width: i32, stroke: Stroke) -> Drawn {
         let places = self.checked(name, points, Outside::Refuse)?;
         self.record_points(name, points, Outside::Refuse);
-        self.draw_series(name, [ticks(places, width, stroke)])
+        let ticks = CustomElement { points: places, shape: Shape::Ticks(width, stroke) };
+        self.draw_series(name, [ticks])
     }
 
     /// Fills a polygon, all of it inside the frame; it is a ground, and no data.
@@ -184,7 +185,10 @@ impl Panel {
         let ends = self.checked(name, &ends, outside)?;
         self.record(name, bars.iter().copied());
         let within = self.frame.left..self.frame.right;
-        let bar = |ends: &[(f64, f64)]| error_bar([ends[0], ends[1]], half, within.clone(), stroke);
+        let bar = |ends: &[(f64, f64)]| {
+            let shape = Shape::ErrorBar(half, within.clone(), stroke);
+            CustomElement { points: ends.to_vec(), shape }
+        };
         self.draw_series(name, ends.chunks_exact(2).map(bar))
     }
 

@@ -53,8 +53,7 @@ pub fn outlines(glyphs: &Glyphs) -> String {
     out
 }
 
-/// Returns the class that paints a colour as the `fill` or the `stroke` of a shape; that of ink if
-/// the palette lacks it, since only the palette has colours for light and dark.
+/// Returns the class that paints a colour as the `fill` or the `stroke` of a shape.
 fn class(paint: &str, colour: RGBColor) -> String {
     let named = style::PALETTE.iter().find(|named| named.1 == colour);
     format!("{paint}-{}", named.map_or("ink", |named| named.0))

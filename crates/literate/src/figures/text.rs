@@ -5,7 +5,7 @@
 //! it.
 
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, TextStyle};
+use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBColor, TextStyle};
 use plotters_backend::BackendTextStyle;
 
 const PLAIN: &str = "plain";
@@ -19,11 +19,6 @@ pub fn words(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static
 /// Makes the style of words that may stand on something: a rim of the page's colour sets them off.
 pub fn rimmed(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
     style(RIMMED, size, colour, Pos::new(h, v))
-}
-
-/// Makes the style of words that read from bottom to top.
-pub(super) fn upwards(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
-    words(size, colour, h, v).transform(FontTransform::Rotate270)
 }
 
 fn style(font: &'static str, size: i32, colour: RGBColor, pos: Pos) -> TextStyle<'static> {
