@@ -10,7 +10,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let sheet = Sheet::new(7550);
     let n = sweep.ensemble.chain.gaps();
     let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
-    let panel = sheet.lettered_panel(LETTERS[0], MAIN, x, y)?;
+    let panel = sheet.lettered(LETTERS[0], MAIN, x, y)?;
     let all: Vec<_> =
         sweep.comparable().filter_map(|row| Some((row.sigma, row.mean_all?.value))).collect();
     let intervals = sweep
@@ -34,12 +34,12 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     }
 
     let (x, y) = (sigma_axis(), Axis::linear(0.0, 1.0, 0.5, 5, "share"));
-    let share = sheet.lettered_panel(LETTERS[1], Frame::new(1200, 5200, 8150, 6650), x, y)?;
+    let share = sheet.lettered(LETTERS[1], Frame::new(1200, 5200, 8150, 6650), x, y)?;
     let ran = sweep.comparable().filter(|row| row.ran > 0);
     let fraction: Vec<_> = ran.map(|row| (row.sigma, row.kept as f64 / row.ran as f64)).collect();
     let line = Stroke::solid(RED, THIN);
     let dot = (Symbol::Disc, 38, Stroke::solid(RED, HAIR));
-    share.curve_with_markers("share with an impact", &fraction, (line, dot), Outside::Cut)?;
+    share.marked_curve("share with an impact", &fraction, (line, dot), Outside::Cut)?;
     let at = reaches(&fraction, 0.5);
     share.label("share of the realisations with an impact", at, (5, 0), RED)?;
 

@@ -14,9 +14,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let y = |label: &str| Axis::linear(-4.0, top, 20.0, 2, label);
     let p = || Axis::decades(-3, 0, 1, "*p*");
     let frame = Frame::new(1150, 430, 8150, 3430);
-    let mode = sheet.lettered_panel(LETTERS[0], frame, p().without_numbers(), y("*k*^{∗}"))?;
+    let mode = sheet.lettered(LETTERS[0], frame, p().without_numbers(), y("*k*^{∗}"))?;
     let frame = Frame::new(1150, 4130, 8150, 7130);
-    let expected = sheet.lettered_panel(LETTERS[1], frame, p(), y("*μ*"))?;
+    let expected = sheet.lettered(LETTERS[1], frame, p(), y("*μ*"))?;
 
     let p_jump = results.number("theory.jump.p_jump")?;
     let jump = results.number("theory.jump.k_after")?;

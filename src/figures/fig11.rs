@@ -16,10 +16,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sigma = || Axis::linear(0.0, end, 0.1, 5, FORCING);
     let y = upwards_from_zero(p.iter().chain(&from_rest).map(|p| p.1).fold(0.0, f64::max), "*p*");
     let linear = Frame::new(1300, 430, 8150, 3430);
-    let linear = sheet.lettered_panel(LETTERS[0], linear, sigma().without_numbers(), y)?;
+    let linear = sheet.lettered(LETTERS[0], linear, sigma().without_numbers(), y)?;
     let y = Axis::decades(LOWEST, 0, 2, "*p*");
-    let decades =
-        sheet.lettered_panel(LETTERS[1], Frame::new(1300, 4130, 8150, 7530), sigma(), y)?;
+    let decades = sheet.lettered(LETTERS[1], Frame::new(1300, 4130, 8150, 7530), sigma(), y)?;
 
     let (main, rest) = (Stroke::solid(BLUE, LINE), Stroke::dashed(GREY, LINE, Dash::Short));
     // Both vanish with σ.

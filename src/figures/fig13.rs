@@ -1,6 +1,6 @@
 //! Draws Fig. 13: (a) to (d) distributions with higher-order circuits and the parts of the classes;
-//! (e) and (f), (a) and (d) on a logarithmic axis, which the paper does not have and where each class
-//! is visible and named.
+//! (e) and (f), (a) and (d) on a logarithmic axis, which the paper does not have and where each
+//! class is visible and named.
 
 use super::prelude::*;
 use crate::experiments::Results;

@@ -11,7 +11,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let n = sweep.ensemble.chain.gaps();
     let threshold = printed_threshold();
     let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
-    let panel = sheet.lettered_panel(LETTERS[0], MAIN, x, y)?;
+    let panel = sheet.lettered(LETTERS[0], MAIN, x, y)?;
     let [simple, higher] = ["simple", "higher"].map(|column| curve(theory, sweep, column));
     panel.curve("simple circuits", &simple, Stroke::solid(GREEN, LINE), Outside::Cut)?;
     let blue = Stroke::dashed(BLUE, LINE, Dash::Long);
@@ -27,8 +27,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);
     let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "added");
-    let added =
-        sheet.lettered_panel(LETTERS[1], Frame::new(1200, 5200, 8150, 6650), sigma_axis(), y)?;
+    let added = sheet.lettered(LETTERS[1], Frame::new(1200, 5200, 8150, 6650), sigma_axis(), y)?;
     added.curve("difference of the theories", &change, Stroke::solid(BLUE, LINE), Outside::Cut)?;
     let peak = (reaches(&change, most).0, 0.7 * most);
     added.label("what the higher orders add", peak, (5, 0), BLUE)?;

@@ -1,5 +1,5 @@
-//! Draws methods and other programs in all charts of speed and accuracy: this engine red, all others
-//! grey, each named next to its symbols.
+//! Draws methods and other programs in all charts of speed and accuracy: this engine red, all
+//! others grey, each named next to its symbols.
 
 use super::prelude::*;
 use crate::experiments::Measured;
@@ -23,8 +23,8 @@ pub fn look(method: MethodName) -> Marker {
 /// The points of each method.
 pub type Curves = Vec<(MethodName, Vec<(f64, f64)>)>;
 
-/// Where the name of a method stands: next to which of its settings, with an offset to the right and
-/// down in millimetres.
+/// Where the name of a method stands: next to which of its settings, with an offset to the right
+/// and down in millimetres.
 pub type Place = (MethodName, usize, (i32, i32));
 
 /// The finest setting.
@@ -34,7 +34,7 @@ pub const FINEST: usize = usize::MAX;
 pub fn draw(panel: &Panel, curves: &Curves, places: &[Place], outside: Outside) -> Drawn {
     for (method, points) in curves {
         let look = look(*method);
-        panel.curve_with_markers(
+        panel.marked_curve(
             method.title(),
             points,
             (Stroke { width: THIN, ..look.2 }, look),

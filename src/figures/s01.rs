@@ -18,8 +18,7 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
 
     // Thousandths are finer than the picture, and a file of all digits would be twice as long.
     let whole = time(0.0, until, until / 4.0).column("time_to_thousandths (1/omega)");
-    let whole =
-        sheet.lettered_panel(LETTERS[0], Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
+    let whole = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
     let impacts = points(run, 0.0, until);
     window(&whole, until)?;
     let row = (whole.frame.bottom - whole.frame.top) / (run.width() as i32 + 1);
@@ -31,8 +30,7 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let from = (run.times.first().unwrap_or(&0.0) / 10.0).floor() * 10.0;
     let to = from + DETAIL;
     let near = Frame::new(1200, 5250, 8150, 8550);
-    let near =
-        sheet.lettered_panel(LETTERS[1], near, time(from, to, DETAIL / 4.0), gaps())?.unrecorded();
+    let near = sheet.lettered(LETTERS[1], near, time(from, to, DETAIL / 4.0), gaps())?.unrecorded();
     near.ticks("first impacts", &points(run, from, to), 14, Stroke::solid(INK, 30))?;
     starts(&near, run, to)?;
     if let Some((time, gap)) = run.times.first().zip(run.gaps.first()) {
@@ -54,11 +52,8 @@ fn window(panel: &Panel, until: f64) -> Drawn {
         return Ok(());
     }
     let (low, high) = (panel.y.lo, panel.y.hi);
-    panel.filled_area(
-        "window",
-        &[(from, low), (to, low), (to, high), (from, high)],
-        ORANGE.mix(0.3),
-    )?;
+    let corners = [(from, low), (to, low), (to, high), (from, high)];
+    panel.filled_area("window", &corners, ORANGE.mix(0.3))?;
     panel.label("counting window", (from, high), (1, -1), ORANGE)
 }
 

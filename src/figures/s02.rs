@@ -22,33 +22,23 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
-    let panel = sheet.lettered_panel(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let mut kept = sweep.points(&[], "sigma", "kept");
     kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
-    panel.markers(
-        "kept",
-        &kept,
-        (Symbol::Ring, LARGE, Stroke::solid(INK, THIN)),
-        Outside::Refuse,
-    )?;
+    let ring = (Symbol::Ring, LARGE, Stroke::solid(INK, THIN));
+    panel.markers("kept", &kept, ring, Outside::Refuse)?;
     let last = found.values("time").last().copied().unwrap_or_default();
     let lengths = found.values("masses");
     for (place, &masses) in lengths.iter().enumerate() {
-        let colour = if masses == Chain::default().masses as f64 {
-            RED
-        } else {
-            ordered(place, lengths.len())
-        };
+        let is_ours = masses == Chain::default().masses as f64;
+        let colour = if is_ours { RED } else { ordered(place, lengths.len()) };
         let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
         let curve = shares.points(&keys[..1], "sigma", "clumps");
         panel.curve(&name, &curve, Stroke::solid(colour, LINE), Outside::Refuse)?;
         let marks = found.estimates(&keys, "sigma", "found");
         panel.record(&format!("{name}, simulation"), marks.iter().copied());
-        panel.unrecorded().estimates(
-            &name,
-            &marks,
-            (Symbol::Disc, LARGE, Stroke::solid(colour, THIN)),
-        )?;
+        let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
+        panel.unrecorded().estimates(&name, &marks, disc)?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, share)| (share, sigma)).collect();
         let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-3, 0)) };
         panel.label(&name, (at(&rising, height).unwrap_or(SIGMAS.0), height), side, colour)?;
@@ -60,7 +50,7 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn 
 fn times(sheet: &Sheet, found: &Table) -> Drawn {
     let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").between(8.0, 9e3);
     let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*_{rest}");
-    let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
     let sigmas = found.values("sigma");
     let three = [sigmas.first().copied(), Some(printed_threshold()), sigmas.last().copied()];
     let mut drawn = Vec::new();
@@ -69,12 +59,7 @@ fn times(sheet: &Sheet, found: &Table) -> Drawn {
         let points = found.points(&[("sigma", sigma)], "time", "missing");
         let thin = Stroke::solid(colour, THIN);
         let name = format!("*σ* = {sigma}");
-        panel.curve_with_markers(
-            &name,
-            &points,
-            (thin, (Symbol::Disc, LARGE, thin)),
-            Outside::Cut,
-        )?;
+        panel.marked_curve(&name, &points, (thin, (Symbol::Disc, LARGE, thin)), Outside::Cut)?;
         // The names stand clear of the last discs.
         let ends = points.into_iter().map(|(time, missing)| (1.1 * time, missing));
         drawn.push((name, ends.collect::<Vec<_>>(), colour));

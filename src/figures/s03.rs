@@ -28,7 +28,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Drawn {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
     let y = count_axis(sweep.ensemble.chain.gaps(), "mean number of gaps");
-    let panel = sheet.lettered_panel(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.first().protocol.transient)];
     let lines = [
         ("circuits, Eq. (25)", "simple", Stroke::dashed(BLUE, LINE, Dash::Short), 50.0),
@@ -72,7 +72,7 @@ fn spread<T: Copy>(all: &[T]) -> Vec<T> {
 fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "time since first impact (1/*ω*)").between(20.0, 7000.0);
     let y = Axis::decades(-1, 2, 1, "advance (gaps)").between(0.3, 80.0);
-    let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 4100, 7650), x, y)?;
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4100, 7650), x, y)?;
     let sigmas = spread(&advance.values("sigma"));
     let mut drawn = Vec::new();
     for (place, sigma) in sigmas.iter().enumerate() {
@@ -91,9 +91,9 @@ fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").between(20.0, 2000.0);
     let y = Axis::linear(0.1, 0.14, 0.01, 2, "half height (*d ω*^{2})")
         .column("half_height (d omega^2)");
-    let panel = sheet.lettered_panel(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
+    let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
     let grown = rise.points(&[], "transient", "half_height");
-    panel.curve_with_markers(GROWN.0, &grown, (GROWN.1.2, GROWN.1), Outside::Edge)?;
+    panel.marked_curve(GROWN.0, &grown, (GROWN.1.2, GROWN.1), Outside::Edge)?;
     let look = (Symbol::Disc, LARGE, Stroke::solid(RED, THIN));
     let found = scores.estimates(&[], "transient", "half_height");
     panel.estimates("simulation", &found, look)?;

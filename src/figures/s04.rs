@@ -25,7 +25,7 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Drawn {
     let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 7e5);
     let y = Axis::linear(0.06, 0.14, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
         .column("half_height (d omega^2)");
-    let panel = sheet.lettered_panel(LETTERS[0], Frame::new(1150, 430, 8150, 3930), x, y)?;
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3930), x, y)?;
     let bound = results.number("theory.relation.sigma_kept_half")?;
     panel.level("bound by seeds", bound, Stroke::dashed(INK, THIN, Dash::Dotted))?;
     panel.label("bound from rest, *n* = 100", (10.0, bound), (1, 1), INK)?;
@@ -49,11 +49,12 @@ fn half_heights(sheet: &Sheet, results: &Results, both: &Table) -> Drawn {
 fn shares(sheet: &Sheet, both: &[Both<'_>]) -> Drawn {
     let x = Axis::linear(0.03, 0.145, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of active gaps");
-    let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
     let early = (both.first(), Dash::Short, Symbol::Ring);
     for (pair, dash, mark) in [early, (both.last(), Dash::Solid, Symbol::Disc)] {
         let Some(pair) = pair else { continue };
-        // Early curves are named at the side that the others do not reach; late ones have their time.
+        // Early curves are named at the side that the others do not reach; late ones have their
+        // time.
         let places = [((0.145, 0.07), (-1, 0)), ((0.03, 0.53), (1, 0))];
         let branches = BRANCHES.into_iter().zip([pair.rest, pair.above]).zip(places);
         for (((start, name, colour), branch), (corner, side)) in branches {

@@ -28,7 +28,7 @@ fn power(vertices: usize) -> String {
 fn shares(sheet: &Sheet) -> Drawn {
     let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
     let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
-    let panel = sheet.lettered_panel(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
     for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
         let colour = ordered(place, DRAWN_VERTICES.len());
         let stroke = Stroke::solid(colour, LINE);
@@ -51,7 +51,7 @@ fn shares(sheet: &Sheet) -> Drawn {
 fn jumps(sheet: &Sheet, table: &Table) -> Drawn {
     let x = Axis::decades(1, 6, 1, "*N*");
     let y = Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump");
-    let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 8150, 7550), x, y)?;
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7550), x, y)?;
     let rule = table.points(&[], "n", "rule");
     let rule: Vec<_> = rule.into_iter().map(|(n, k)| (n, k / n)).collect();
     let line = Stroke::solid(INK, THIN);

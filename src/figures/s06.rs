@@ -32,7 +32,7 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
     let (x, y) =
         (cost_axis().without_numbers(), error.column("error of the next impact's time (1/omega)"));
-    let errors = sheet.lettered_panel(LETTERS[0], Frame::new(1300, 430, 8250, 4330), x, y)?;
+    let errors = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8250, 4330), x, y)?;
     errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, Dash::Short))?;
     errors.label("missed above", (errors.x.hi, DISPLACED), (-1, -1), INK)?;
 
@@ -45,7 +45,7 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
         first.label = Some("none".into());
     }
     let misses = Frame::new(1300, 4950, 8250, 7250);
-    let misses = sheet.lettered_panel(LETTERS[1], misses, cost_axis(), axis)?;
+    let misses = sheet.lettered(LETTERS[1], misses, cost_axis(), axis)?;
 
     let spread = |e: &Entry| Some((e.setting.method, (e.work?, e.errors?[0], e.errors?[1])));
     let share = |e: &Entry| e.misses as f64 / e.tried.max(1) as f64;

@@ -1,5 +1,5 @@
-//! Draws Fig. S7: how long all impacts of a run are right, against its time and against the error of
-//! one impact.
+//! Draws Fig. S7: how long all impacts of a run are right, against its time and against the error
+//! of one impact.
 
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look, programs};
@@ -50,10 +50,10 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         .between(0.2, 8e3)
         .column("measured time over the engine's (1)");
     let by_time = Frame::new(1100, 430, 8250, 4330);
-    let by_time = sheet.lettered_panel(LETTERS[0], by_time, x, horizon_axis(top))?;
+    let by_time = sheet.lettered(LETTERS[0], by_time, x, horizon_axis(top))?;
     let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").between(1e-20, 0.5);
     let by_error = Frame::new(1100, 5500, 8250, 7700);
-    let by_error = sheet.lettered_panel(LETTERS[1], by_error, x, horizon_axis(top))?;
+    let by_error = sheet.lettered(LETTERS[1], by_error, x, horizon_axis(top))?;
 
     chaos(&by_error, race)?;
     if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|t| t[1] < top) {

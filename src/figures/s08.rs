@@ -44,7 +44,7 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
             Axis { label: String::new(), ..y.column("error of the mean (%)") }
         };
         let frame = Frame::new(1150, top, 8250, top + HEIGHT);
-        let panel = sheet.lettered_panel(LETTERS[i], frame, x, y)?;
+        let panel = sheet.lettered(LETTERS[i], frame, x, y)?;
         let corner = (panel.x.hi, panel.y.hi);
         panel.label(&format!("*σ* = {}", chains.sigma), corner, (-1, -1), INK)?;
         let time = |setting: Setting| {

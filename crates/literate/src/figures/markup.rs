@@ -1,8 +1,7 @@
 //! Parses the mark-up of labels: `*k*^{∗}`, `*ϕ*_{*N*}(*k*)`, `10^{−3}`.
 //!
-//! A star turns italics on and off, `_{…}` lowers, `^{…}` raises, and a character behind a backslash
-//! stands for itself. A raised part that directly follows a
-//! lowered one stands above it.
+//! A star turns italics on and off, `_{…}` lowers, `^{…}` raises, and a character behind a
+//! backslash stands for itself. A raised part that directly follows a lowered one stands above it.
 
 /// Which of the two shipped faces a character is set in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,5 +1,5 @@
-//! Draws figures: frames, axes, curves and labels as one list of shapes, which is written as SVG, into
-//! a page and as PDF.
+//! Draws figures: frames, axes, curves and labels as one list of shapes, which is written as SVG,
+//! into a page and as PDF.
 
 mod axis;
 mod backend;

@@ -177,8 +177,8 @@ impl Panel {
         self.text_on_sheet(parameter, corner, words(SMALL, INK, HPos::Right, VPos::Bottom))
     }
 
-    /// Names a curve or a symbol in its colour, near a point of the data: so many millimetres to the
-    /// right of it and below it. `(1, 0)` is right of the point, `(0, -1)` above it.
+    /// Names a curve or a symbol in its colour, near a point of the data: so many millimetres to
+    /// the right of it and below it. `(1, 0)` is right of the point, `(0, -1)` above it.
     pub fn label(
         &self,
         text: &str,
@@ -190,8 +190,9 @@ impl Panel {
         self.text(text, at, (100 * right, 100 * down), rimmed(SMALL, colour, h, v))
     }
 
-    /// Names something as [`Panel::label`] does, at this offset or at the nearest one where the name
-    /// is in the way of no line and no words drawn so far. Leaves the name out if there is no room.
+    /// Names something as [`Panel::label`] does, at this offset or at the nearest one where the
+    /// name is in the way of no line and no words drawn so far. Leaves the name out if there is no
+    /// room.
     pub fn label_nearby(
         &self,
         text: &str,
@@ -229,8 +230,8 @@ impl Panel {
             && self.drawing.borrow().is_free(room)
     }
 
-    /// Names curves, each given by name, points and colour, at their right ends in this panel; names
-    /// that would touch move apart.
+    /// Names curves, each given by name, points and colour, at their right ends in this panel;
+    /// names that would touch move apart.
     pub fn label_ends<P: AsRef<[(f64, f64)]>>(&self, curves: &[(String, P, RGBColor)]) -> Drawn {
         let mut ends = Vec::new();
         for (text, points, colour) in curves {
@@ -261,7 +262,8 @@ mod tests {
         let sheet = Sheet::new(3000);
         let panel = sheet.panel(Frame::new(1000, 100, 2000, 1100), axis(), axis()).unwrap();
         panel.label("mark", (0.5, 0.5), (-1, 2), RED).unwrap();
-        // The last point of the second lies outside; the ends of both are then too near for their names.
+        // The last point of the second lies outside; the ends of both are then too near for their
+        // names.
         let (low, high) = ([(0.0, 0.0), (1.0, 0.5)], [(0.9, 0.51), (1.0, 1.5)]);
         panel.label_ends(&[("low".into(), &low, BLUE), ("high".into(), &high, RED)]).unwrap();
         let drawing = sheet.finish("", Default::default()).drawing;

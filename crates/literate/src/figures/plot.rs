@@ -1,5 +1,5 @@
-//! Draws a plot of one panel whose ranges, ticks, frame and names at the ends of curves follow from its
-//! data; [`Sheet`] and [`Panel`] are for figures that place these by hand.
+//! Draws a plot of one panel whose ranges, ticks, frame and names at the ends of curves follow from
+//! its data; [`Sheet`] and [`Panel`] are for figures that place these by hand.
 //!
 //! ```
 //! use literate::prelude::*;
@@ -160,8 +160,8 @@ impl Plot {
         names
     }
 
-    /// Draws the figure. Fails for a number that is not finite, and for a label with a character that
-    /// the shipped fonts lack.
+    /// Draws the figure. Fails for a number that is not finite, and for a label with a character
+    /// that the shipped fonts lack.
     pub fn finish(self, title: &str, description: Description) -> Result<Figure, Error> {
         let (sheet, _) = self.draw()?;
         Ok(sheet.finish(title, description))
@@ -221,8 +221,8 @@ fn widths(axis: &Axis) -> Result<Vec<i32>, Error> {
 }
 
 impl AxisOptions {
-    /// Makes the axis that holds these values: whole decades, or a margin of a twenty-fifth and ticks
-    /// at 1, 2 or 5 times a power of ten.
+    /// Makes the axis that holds these values: whole decades, or a margin of a twenty-fifth and
+    /// ticks at 1, 2 or 5 times a power of ten.
     fn axis(&self, values: impl Iterator<Item = f64>) -> Axis {
         let ends = axis::range(values.filter(|value| value.is_finite()));
         let [low, high] = ends.unwrap_or([0.1, 1.0]);

@@ -26,15 +26,16 @@ type Points<'a> = &'a [(f64, f64)];
 pub enum Outside {
     /// It is a mistake.
     Refuse,
-    /// The panel shows a part of the data on purpose: cut at the frame. What is not positive is left
-    /// out on a logarithmic axis, of the record too.
+    /// The panel shows a part of the data on purpose: cut at the frame. What is not positive is
+    /// left out on a logarithmic axis, of the record too.
     Cut,
     /// It is shown at the edge.
     Edge,
 }
 
 impl Panel {
-    /// Draws a series of plotters, or any elements, as a group of this name.
+    /// Draws a series of plotters, or any elements, as a group of this name. What lies outside the
+    /// frame is not cut; see [`Panel::cut`].
     pub fn draw_series<S>(&self, name: &str, series: S) -> Drawn
     where
         S: IntoIterator,
@@ -94,9 +95,14 @@ impl Panel {
         })
     }
 
+    /// Returns the parts of a curve inside the frame, for series of plotters, which are not cut.
+    pub fn cut(&self, points: Points) -> Vec<Vec<(f64, f64)>> {
+        cut(points, &self.x, &self.y)
+    }
+
     /// Draws a curve.
     pub fn curve(&self, name: &str, points: Points, stroke: Stroke, outside: Outside) -> Drawn {
-        let parts = cut(&self.checked(name, points, outside)?, &self.x, &self.y);
+        let parts = self.cut(&self.checked(name, points, outside)?);
         self.record_points(name, points, outside);
         self.draw_series(name, parts.into_iter().map(|part| line(part, stroke)))
     }
@@ -120,7 +126,7 @@ impl Panel {
     }
 
     /// Draws a curve with symbols at its points.
-    pub fn curve_with_markers(
+    pub fn marked_curve(
         &self,
         name: &str,
         points: Points,
@@ -192,8 +198,8 @@ impl Panel {
         self.draw_series(name, ends.chunks_exact(2).map(bar))
     }
 
-    /// Draws estimates with bars of one standard error. What lies outside the frame is left out, and
-    /// bars are cut: a few realisations leave some that are longer than the axis.
+    /// Draws estimates with bars of one standard error. What lies outside the frame is left out,
+    /// and bars are cut: a few realisations leave some that are longer than the axis.
     pub fn estimates(&self, name: &str, estimates: &[(f64, Estimate)], marker: Marker) -> Drawn {
         let shown = |(x, y): &&(f64, Estimate)| self.has_place((*x, y.value));
         self.record(name, estimates.iter().filter(shown).copied());
@@ -256,8 +262,7 @@ mod tests {
     #[test]
     fn on_a_logarithmic_axis_what_is_not_positive_is_outside_below() {
         let sheet = Sheet::new(3000);
-        let panel =
-            sheet.lettered_panel("(b)", FRAME, axis(), Axis::decades(-2, 0, 1, "y")).unwrap();
+        let panel = sheet.lettered("(b)", FRAME, axis(), Axis::decades(-2, 0, 1, "y")).unwrap();
         assert_eq!(panel.area.map_coordinate(&(0.5, 0.1)), (1500, 600));
         let points = [(0.1, 0.5), (0.2, 0.0), (0.3, 1e-3), (0.4, -1.0)];
         let refused = panel.curve("refused", &points, LINE, Outside::Refuse);

@@ -37,13 +37,7 @@ impl Sheet {
     }
 
     /// Adds a panel, its axes and its letter.
-    pub fn lettered_panel(
-        &self,
-        letter: &str,
-        frame: Frame,
-        x: Axis,
-        y: Axis,
-    ) -> Result<Panel, Error> {
+    pub fn lettered(&self, letter: &str, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
         let panel = self.panel(frame, x, y)?;
         panel.letter(letter)?;
         Ok(panel)
