@@ -3,10 +3,12 @@
 
 use super::prelude::*;
 use super::simulated::*;
-use crate::experiments::rise::Counted;
 use crate::experiments::theory::beside;
+use crate::experiments::{Results, sweep};
 
-pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let sweep = sweep::main(results)?;
+    let half_height = results.number("sweep.rise.half_height").ok();
     let sheet = Sheet::new(7550);
     let n = sweep.ensemble.chain.gaps();
     let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
@@ -25,11 +27,11 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let end = (panel.x.hi, n as f64);
     panel.label("mean of those with an impact", end, (-1, 3), RED)?;
     panel.label("mean of all", reaches(&all, 7.0), (3, 0), GREY)?;
-    if let Some(half) = sweep.first().rise.half_height {
+    if let Some(half) = half_height {
         let level = n as f64 / 2.0;
         let guide = Stroke::dashed(GREY, HAIR, Dash::Dotted);
-        panel.guide("half height", &[(panel.x.lo, level), (half.value, level)], guide)?;
-        let text = format!("half of {n} at {}", short(half.value, 4));
+        panel.guide("half height", &[(panel.x.lo, level), (half, level)], guide)?;
+        let text = format!("half of {n} at {}", short(half, 4));
         panel.label(&text, (panel.x.lo, level), (2, -1), INK)?;
     }
 
@@ -48,10 +50,8 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
          (crosses, pale 95 % intervals) it {}; of all realisations (broken line) it starts near zero. (b) The share with an \
          impact rises from {} to {}.",
         sweep.ensemble.chain.masses,
-        sweep.first().rise.half_height.map_or("rises".into(), |half| format!(
-            "passes half of {n} at σ = {}",
-            short(half.value, 4)
-        )),
+        half_height
+            .map_or("rises".into(), |half| format!("passes half of {n} at σ = {}", short(half, 4))),
         fraction.first().map_or("0".into(), |f| short(f.1, 2)),
         fraction.last().map_or("1".into(), |f| short(f.1, 3)),
     );

@@ -18,9 +18,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     panel.markers("simulation", &simulated, CROSSES, Outside::Cut)?;
     panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
     panel.label("graph theory", reaches(&simple, 0.7 * n as f64), (2, 0), GREEN)?;
-    if let Some(half) = sweep.first().rise.half_height {
+    if let Ok(half) = results.number("sweep.rise.half_height") {
         let theory = results.number("theory.relation.sigma_half")?;
-        lag(&panel, [half.value, theory], n as f64 / 2.0)?;
+        lag(&panel, [half, theory], n as f64 / 2.0)?;
     }
 
     let description = describe!(

@@ -57,7 +57,7 @@ const fn drawing(
 pub const ALL: [FigureSpec; 24] = [
     drawing("fig01", &[], |_| fig01::draw()),
     drawing("fig02", &[&SWEEP], |all| fig02::draw(sweep::main(all)?)),
-    drawing("fig03", &[&SWEEP], |all| fig03::draw(sweep::main(all)?)),
+    drawing("fig03", &[&SWEEP], fig03::draw),
     drawing("fig04", &[], |_| fig04::draw()),
     drawing("fig05", &[&SEGMENTS], |all| fig05::draw(all.of(&SEGMENTS)?)),
     drawing("fig06", &[&SEGMENTS], |all| fig06::draw(all.of(&SEGMENTS)?)),
