@@ -1,5 +1,5 @@
 "use strict";
-// What a page can do: cards of numbers, looks at what is referred to, a search, filters.
+// Adds to a page: cards of numbers, previews of what is referred to, a search, filters.
 {
   const all = (what, within = document) => [...within.querySelectorAll(what)];
   const make = (tag, properties = {}, ...children) => {
@@ -8,10 +8,10 @@
     return node;
   };
 
-  // A page on a disk may read nothing but scripts: other files are loaded when they are first asked for.
+  // A page on a disk can load nothing but scripts, which are loaded when they are first needed.
   const load = (src) => new Promise((onload, onerror) => document.head.append(make("script", { src, onload, onerror })));
 
-  // What readers run themselves; on the first page it begins without being asked, in the place of the picture before it.
+  // What readers can run; on the first page it starts by itself, in place of the figure before it.
   let lab;
   const front = document.querySelector(".documents a")?.hasAttribute("aria-current");
   for (const figure of all("WebAssembly" in globalThis ? ".lab" : "#none")) {
@@ -35,10 +35,10 @@
   const open = async (value) => {
     await (cards ??= load("cards.js"));
     const [rows, all] = CARDS;
-    const [title, lead, own] = all[value.dataset.card];
+    const [title, lead, numbers] = all[value.dataset.card];
     card.querySelector("header span").innerHTML = title;
     card.querySelector("p").innerHTML = lead;
-    card.querySelector("dl").innerHTML = own.map((row) => rows[row]).join("");
+    card.querySelector("dl").innerHTML = numbers.map((number) => rows[number]).join("");
     card.hidePopover();
     card.showPopover({ source: value });
     card.scrollTop = 0;
@@ -77,8 +77,8 @@
     const steps = {
       ArrowRight: (at) => buttons[at + 1],
       ArrowLeft: (at) => buttons[at - 1],
-      ArrowDown: (at) => buttons.find((own, i) => i > at && cell(own).cellIndex === cell(buttons[at]).cellIndex),
-      ArrowUp: (at) => buttons.findLast((own, i) => i < at && cell(own).cellIndex === cell(buttons[at]).cellIndex),
+      ArrowDown: (at) => buttons.find((button, i) => i > at && cell(button).cellIndex === cell(buttons[at]).cellIndex),
+      ArrowUp: (at) => buttons.findLast((button, i) => i < at && cell(button).cellIndex === cell(buttons[at]).cellIndex),
     };
     table.addEventListener("keydown", (event) => {
       const at = buttons.indexOf(document.activeElement);
@@ -90,21 +90,21 @@
     });
   }
 
-  // A look at an equation, a figure, a table or a reference while its name is pointed at.
-  const look = document.getElementById("look");
+  // A preview of an equation, a figure, a table or a reference while a link to it is pointed at.
+  const preview = document.getElementById("look");
   let waiting;
   const soon = (what) => {
     clearTimeout(waiting);
     waiting = setTimeout(what, 300);
   };
-  const hide = () => look.hidePopover();
+  const hide = () => preview.hidePopover();
   const show = (link, target) => {
     const copy = target.cloneNode(true);
     all("[id]", copy).concat(copy).forEach((node) => node.removeAttribute("id"));
     all("[role=button], a", copy).forEach((node) => node.replaceWith(...node.childNodes));
     all("[tabindex]", copy).forEach((node) => node.removeAttribute("tabindex"));
-    look.replaceChildren(copy);
-    look.showPopover({ source: link });
+    preview.replaceChildren(copy);
+    preview.showPopover({ source: link });
   };
   for (const link of all('main a[href^="#"]')) {
     const target = document.getElementById(decodeURIComponent(link.hash.slice(1)));
@@ -114,11 +114,11 @@
     link.addEventListener("focus", () => link.matches(":focus-visible") && soon(() => show(link, target)));
     link.addEventListener("blur", () => soon(hide));
   }
-  look.addEventListener("pointerenter", () => clearTimeout(waiting));
-  look.addEventListener("pointerleave", () => soon(hide));
+  preview.addEventListener("pointerenter", () => clearTimeout(waiting));
+  preview.addEventListener("pointerleave", () => soon(hide));
   addEventListener("keydown", ({ key }) => key === "Escape" && hide());
 
-  // The section that is read is marked in the contents, which a narrow screen folds.
+  // The contents, which a narrow screen folds, mark the section that is being read.
   const contents = document.querySelector("nav.contents");
   if (matchMedia("(max-width: 64rem)").matches) contents.querySelector("details")?.removeAttribute("open");
   const sections = all("main h2[id], main h3[id]");
@@ -141,8 +141,8 @@
   }, { passive: true });
 
   // A search through all documents, this one first; Enter goes from find to find.
-  const MOST = 12;
-  const AROUND = 50;
+  const MAX_FINDS = 12;
+  const CONTEXT = 50;
   const found = make("ol");
   const input = make("input", { type: "search", placeholder: "Search all documents" });
   input.setAttribute("aria-label", "Search all documents");
@@ -157,14 +157,14 @@
       const at = text.search(word);
       if (at < 0) return [];
       const end = at + asked.length;
-      const before = text.slice(Math.max(0, at - AROUND), at).replace(at > AROUND ? /^\S*\s/ : "", "");
-      const after = text.slice(end, end + AROUND).replace(text.length > end + AROUND ? /\s\S*$/ : "", "");
+      const before = text.slice(Math.max(0, at - CONTEXT), at).replace(at > CONTEXT ? /^\S*\s/ : "", "");
+      const after = text.slice(end, end + CONTEXT).replace(text.length > end + CONTEXT ? /\s\S*$/ : "", "");
       const where = page === here ? section : `${name}: ${section}`;
       const words = make("small", {}, before, make("mark", {}, text.slice(at, end)), after);
-      return [[`${page}#${id}:~:text=${encodeURIComponent(text.slice(at, end + AROUND).replace(/\s\S*$/, "")).replaceAll("-", "%2D")}`, where, words]];
+      return [[`${page}#${id}:~:text=${encodeURIComponent(text.slice(at, end + CONTEXT).replace(/\s\S*$/, "")).replaceAll("-", "%2D")}`, where, words]];
     }));
     next = 0;
-    found.replaceChildren(...places.slice(0, MOST).map(([href, where, words]) => make("li", {}, make("a", { href }, where, make("br"), words))));
+    found.replaceChildren(...places.slice(0, MAX_FINDS).map(([href, where, words]) => make("li", {}, make("a", { href }, where, make("br"), words))));
   });
   input.addEventListener("keydown", ({ key }) => {
     const finds = all("a", found);
@@ -172,18 +172,18 @@
   });
   if (sections.length > 0) contents.querySelector("details")?.append(make("div", { className: "search", role: "search" }, input, found));
 
-  // What is long in a table of many columns unfolds; on paper all is open.
+  // Long cells in a table of many columns can be unfolded; on paper all are open.
   for (const cell of all(".lists td.long")) {
     const start = cell.textContent.replace(/^(.{40}\S*).*/s, "$1 …");
     cell.replaceChildren(make("details", {}, make("summary", {}, make("span", {}, start)), ...cell.childNodes));
   }
-  // A row that is gone to by its address is open.
+  // A row that a link leads to is open.
   const unfold = () => all("details", document.getElementById(decodeURIComponent(location.hash.slice(1)))?.closest("tr") ?? make("p")).forEach((fold) => (fold.open = true));
   addEventListener("hashchange", unfold);
   unfold();
   addEventListener("beforeprint", () => all("main details").forEach((fold) => (fold.open = true)));
 
-  // Long tables can be filtered by the columns of few words.
+  // Long tables can be filtered by the columns that have few different words.
   const LONG = 40;
   const FEW = 12;
   for (const table of all("figure.table table")) {
@@ -206,7 +206,7 @@
       count.value = `${lines.filter((line) => !line.hidden).length} of ${lines.length}`;
     };
     choices.forEach(({ select }) => select.addEventListener("change", filter));
-    // A row that is gone to by its address is shown.
+    // A row that a link leads to is shown.
     addEventListener("hashchange", () => {
       if (document.getElementById(decodeURIComponent(location.hash.slice(1)))?.closest("tr")?.hidden) {
         choices.forEach(({ select }) => (select.value = ""));

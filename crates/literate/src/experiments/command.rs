@@ -135,7 +135,7 @@ impl Command {
             return Err(fail(format!("ended with {}: {last}", output.status)));
         }
         let wrong = |what| {
-            let form = "the manual of literate, *A paper of your own*, has the form";
+            let form = "the manual of literate, *A new paper*, has the form";
             fail(format!("printed {what}; {form}"))
         };
         let no_json = |error| wrong(format!("no tables in JSON, which has null for NaN: {error}"));

@@ -47,7 +47,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let shown = write_documents(input, &parts, &mut filler, &mut report)?;
     let Input { edition, project, experiments, .. } = *input;
     let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
-    report.generated.extend(html::shared_files(&shown, cards, input, &labels)?);
+    report.generated.extend(html::shared::files(&shown, cards, input, &labels)?);
     report.committed.insert(SUMS.into(), folder::sums(&report.committed).into_bytes());
     for Part { document, blocks, places } in &parts {
         check_links(blocks, *document, &labels, &report.committed, edition)

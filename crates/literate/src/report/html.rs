@@ -3,30 +3,22 @@
 //! Style sheet, script, fonts and cards lie in the folder of the page, which can be opened from a
 //! disk. A page is well-formed XML, so that tests can read it.
 
-use super::card::Cards;
-use super::document::{self, Block, Formula, Inline, place_on_page, plain, printed, spelt};
+pub(super) mod shared;
+mod table;
+
+use super::document::{self, Block, Formula, Inline, place_on_page, printed, spelt};
 use super::edition::Document;
 use super::error::Error;
-use super::folder::Files;
 use super::input::Input;
-use super::labels::Labels;
 use super::{latex, mathml};
 use crate::claims::Verdict;
 use crate::figures::{Glyphs, escape as text, outlines};
 use crate::print::{Numeral, Shown};
 use math_core::MathDisplay;
-use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
-
-const FONTS: [(&str, &[u8]); 4] = [
-    ("LibertinusSerif-Regular", include_bytes!("../../fonts/LibertinusSerif-Regular.woff2")),
-    ("LibertinusSerif-Italic", include_bytes!("../../fonts/LibertinusSerif-Italic.woff2")),
-    ("LibertinusSerif-Bold", include_bytes!("../../fonts/LibertinusSerif-Bold.woff2")),
-    ("LibertinusMath-Regular", include_bytes!("../../fonts/LibertinusMath-Regular.woff2")),
-];
 
 /// Returns what the template report.html inserts, and the ids of the cards that the page opens.
 pub fn write(
@@ -77,59 +69,6 @@ pub fn write(
     });
     Ok((parts, page.values.into_inner()))
 }
-
-/// Returns the files that all pages share: fonts, and the cards of all values that they show. The
-/// cards are a script, since a page on a disk can load nothing else. A row that several cards have
-/// is stored once.
-pub fn shared_files(
-    values: &BTreeSet<String>,
-    cards: Cards<'_>,
-    input: &Input<'_>,
-    labels: &Labels,
-) -> Result<Files, Error> {
-    let page = Page { input, values: RefCell::default(), glyphs: RefCell::default() };
-    let (mut rows, mut places, mut all) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
-    for id in values {
-        let unknown = || Error::Template(format!("there is no value {id}"));
-        let card = cards.get(id).ok_or_else(unknown)?;
-        let mut numbers = Vec::new();
-        let is_claim = id.starts_with("claim:");
-        let shown = "the row of this statement".to_string();
-        let ledger = Inline::Reference { to: id.clone(), within: None, shown };
-        let ledger = is_claim.then(|| ("ledger", vec![ledger]));
-        for (name, text) in card.rows.iter().chain(&ledger) {
-            let place = |inline: &Inline| match inline.clone() {
-                Inline::Reference { to, shown, .. } => {
-                    let within = labels.get(&to).map(|label| label.document);
-                    vec![Inline::Reference { to, within, shown }]
-                }
-                other => document::relative_link(other, input.top),
-            };
-            let words: Vec<Inline> = text.iter().flat_map(place).collect();
-            let row = format!("<dt>{name}</dt><dd>{}</dd>", page.inlines(&words)?);
-            numbers.push(*places.entry(row.clone()).or_insert_with(|| {
-                rows.push(row);
-                rows.len() - 1
-            }));
-        }
-        all.insert(id, (page.inlines(&card.title)?, text(&card.lead), numbers));
-    }
-    let json = serde_json::to_string(&(rows, all)).unwrap_or_default();
-    let mut files = Files::from([("cards.js".into(), format!("CARDS = {json};\n").into_bytes())]);
-    let font = |(name, bytes): (&str, &[u8])| (format!("fonts/{name}.woff2"), bytes.to_vec());
-    files.extend(FONTS.map(font));
-    Ok(files)
-}
-
-/// Characters of a cell that is text.
-const TEXT: usize = 100;
-/// Columns whose cells have more characters than this get a minimum width.
-const WIDTHS: [(usize, &str); 3] = [(300, "long"), (TEXT, "text"), (40, "words")];
-
-/// So many columns do not fit side by side on a narrow screen, nor more than a few if one of them
-/// is text.
-const MANY: usize = 6;
-const FEW: usize = 3;
 
 const OPENING: [char; 4] = ['(', '[', '“', '‘'];
 const CLOSING: [char; 12] = ['.', ',', ';', ':', '!', '?', ')', ']', '”', '’', '%', '-'];
@@ -258,74 +197,6 @@ impl Page<'_> {
             out += &equation.map_or(Ok(String::new()), |equation| self.inline(equation))?;
         }
         Ok(out)
-    }
-
-    fn table(
-        &self,
-        columns: &[Alignment],
-        head: &[Vec<Inline>],
-        rows: &[Vec<Vec<Inline>>],
-    ) -> Result<String, Error> {
-        let longest =
-            |i: usize| rows.iter().filter_map(|row| row.get(i)).map(|c| plain(c).len()).max();
-        let longest: Vec<usize> = (0..columns.len()).filter_map(longest).collect();
-        let class = |i: usize| {
-            let long = |length: &usize| WIDTHS.iter().find(|(least, _)| length > least);
-            let class = match columns.get(i) {
-                Some(Alignment::Right) => Some("right"),
-                Some(Alignment::Center) => Some("centre"),
-                _ => longest.get(i).and_then(long).map(|(_, class)| *class),
-            };
-            class.map_or(String::new(), |class| format!(" class=\"{class}\""))
-        };
-        // On a narrow screen rows of many columns become lists, with the heads as names, or at
-        // least scroll sideways.
-        let has_words = |cell: &Vec<Inline>| {
-            let is_word = |inline: &Inline| matches!(inline, Inline::Text(text) if text.contains(char::is_alphabetic));
-            cell.iter().any(is_word)
-        };
-        let texts = longest.iter().any(|length| *length > TEXT) && columns.len() > FEW;
-        let many = columns.len() >= MANY || texts;
-        let lists = many && head.iter().all(has_words);
-        // A browser forgets that these are tables once style sheets lay them out as lists.
-        let [table, line, field, column] = match (lists, many) {
-            (true, _) => [
-                " class=\"lists\" role=\"table\"",
-                " role=\"row\"",
-                " role=\"cell\"",
-                " role=\"columnheader\"",
-            ],
-            (false, true) => [" class=\"many\"", "", "", ""],
-            (false, false) => [""; 4],
-        };
-        let mut out = format!("<table{table}>\n<thead><tr{line}>");
-        for (i, cell) in head.iter().enumerate() {
-            let mut words = self.inlines(cell)?;
-            // Some readers of screens see no words in mathematics.
-            if matches!(cell.as_slice(), [Inline::Maths(_)]) {
-                let spelt = text(&spelt(cell));
-                words = format!(
-                    "<span aria-hidden=\"true\">{words}</span><span class=\"unseen\">{spelt}</span>"
-                );
-            }
-            // A head without words is no head.
-            let _ = match words.trim().is_empty() {
-                true => write!(out, "<td{}></td>", class(i)),
-                false => write!(out, "<th scope=\"col\"{column}{}>{words}</th>", class(i)),
-            };
-        }
-        out.push_str("</tr></thead>\n<tbody>\n");
-        for row in rows {
-            let _ = write!(out, "<tr{line}>");
-            for (i, cell) in row.iter().enumerate() {
-                let name = head.get(i).filter(|_| lists);
-                let name = name.map(|head| format!(" data-name=\"{}\"", text(&spelt(head))));
-                let (name, words) = (name.unwrap_or_default(), self.inlines(cell)?);
-                let _ = write!(out, "<td{field}{}{name}>{words}</td>", class(i));
-            }
-            out.push_str("</tr>\n");
-        }
-        Ok(out + "</tbody>\n</table>")
     }
 
     /// Writes running text. Browsers break lines before and after a formula: what must stay on its

@@ -135,9 +135,15 @@ fn write_block(block: &Block) -> Result<String, Error> {
 
 /// Words as bookmarks of a PDF show them: ASCII without markup.
 fn bookmark(text: &[Inline]) -> Result<String, Error> {
-    let words = spelt(text).replace('σ', "sigma").replace('φ', "phi").replace('–', "-");
-    let mut words = words.replace('\u{a0}', " ");
-    words.retain(|c| c.is_ascii());
+    let mut words = String::new();
+    for c in spelt(text).chars() {
+        match c {
+            '–' => words.push('-'),
+            '\u{a0}' => words.push(' '),
+            c if c.is_ascii() => words.push(c),
+            c => words += tex::letter(c).unwrap_or_default(),
+        }
+    }
     tex::text(&words)
 }
 

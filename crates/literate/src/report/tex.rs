@@ -117,6 +117,12 @@ static TEX: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
     words.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
 });
 
+/// Returns the name of a letter: `sigma` for σ.
+pub fn letter(c: char) -> Option<&'static str> {
+    let name = in_maths(c)?.strip_prefix('\\')?;
+    c.is_alphabetic().then_some(name)
+}
+
 fn in_maths(c: char) -> Option<&'static str> {
     TEX.get(&*c.encode_utf8(&mut [0; 4])).copied()
 }

@@ -1,6 +1,7 @@
 //! A report of one document that uses everything, and everything that can be wrong with it.
 
 mod broken;
+mod documents;
 
 use super::*;
 use crate::claims::{Check, Kind, decimals, with_error};
@@ -295,86 +296,6 @@ fn titles_are_clean() {
     ] {
         assert!(text.contains(part), "{part} is not in {text}");
     }
-}
-
-/// A front page repeats a figure of the report, and references lead to the document that has their
-/// target.
-#[test]
-fn documents_refer_to_each_other() {
-    const FRONT: Document = Document {
-        prose: "front",
-        name: "Front",
-        markdown: "README.md",
-        page: "index.html",
-        print: None,
-        repeats: true,
-        ..Document::REPORT
-    };
-    const MORE: Document = Document {
-        prose: "more",
-        name: "More",
-        letter: "S",
-        markdown: "more.md",
-        page: "more.html",
-        print: Some("more"),
-        repeats: false,
-    };
-    let edition = Edition { documents: vec![FRONT, Document::REPORT, MORE], ..edition() };
-    let files = [
-        (
-            "front.md",
-            "# Front\n\n![Again.](figures/fig03.svg)\n\nSee [@sec:b], [@sign:rise] and [more](more.md).",
-        ),
-        ("report/02-second.md", "## Last {#sec:last}\n\nWords, [@row:rise] and [@sec:b.]"),
-        (
-            "report/01-first.md",
-            "# Report\n\n## Abstract\n\nIt *rises*.\n\n## First {#sec:first}\n\n![The rise.](figures/fig03.svg)",
-        ),
-        (
-            "more.md",
-            "# More\n\n## A {#sec:a}\n\n### B {#sec:b}\n\n«v.half_height», [@fig:fig03], [@sec:last].\n\n\
-          Table: T {#tab:t}\n\n| a |\n|---|\n| [!claim:rise] |",
-        ),
-    ];
-    let made = |files: &[(&str, &str)]| made(files, &edition, None, figure(), claim());
-    // A mistake in the second file of a document has its place there.
-    let error = made(&files).unwrap_err().to_string();
-    assert!(error.starts_with("report/02-second.md:3:24: [@sec:b.]: nothing"), "{error}");
-    let right = files.map(|(path, text)| (path, text.replace("[@sec:b.]", "[@sec:b]")));
-    let right: Vec<_> = right.iter().map(|(path, text)| (*path, text.as_str())).collect();
-    let report = made(&right).unwrap();
-    let text = |path: &str| {
-        let bytes = report.committed.get(path).or(report.generated.get(path)).unwrap();
-        String::from_utf8(bytes.clone()).unwrap()
-    };
-    let parts = r##"
-README.md => # Front⏎⏎<a id="fig-fig03"></a>⏎![It rises \[steeply\].](figures/fig03.svg)⏎⏎**Figure 1.**
-report.md => # Report⏎⏎*A. Uthor (R & D), B. Uthor, 2026-11-24*⏎⏎## Abstract⏎⏎It *rises*.⏎⏎## 
-report.html => </h1>⏎<p class="byline">A. Uthor (R &amp; D), B. Uthor, 2026-11-24</p>
-report.html => <section class="abstract">⏎<h2 id="abstract"><a href="#abstract">Abstract</a></h2>⏎<p>It <em>rises</em>.</p>⏎</section>⏎<h2
-report.tex => \author{A. Uthor\\{\small R \& D} \and B. Uthor}⏎\date{2026-11-24}⏎
-report.tex => \maketitle⏎⏎\begin{abstract}⏎⏎It \emph{rises}.⏎\end{abstract}⏎⏎\section{First}
-README.md => See [Sec.·S1.1](more.md#sec-b), [✓](more.md#claim-rise) and [more](more.md).
-index.html => <a href="more.html#sec-b">Sec.·S1.1</a>
-index.html => title="reproduced" data-card="claim:rise">✓</a> and <a href="more.html">more</a>.
-index.html => <li><a href="index.html" aria-current="page">Front</a></li>
-report.md => Words, <sup>[✓·1](more.md#claim-rise)</sup> and
-report.tex => Words, \textsuperscript{\ensuremath{\checkmark}~1} and Sec.~S1.1
-more.md => [Fig.·1](report.md#fig-fig03), [Sec.·2](report.md#sec-last).
-more.md => **Table S1.** T
-more.tex => \renewcommand{\thesection}{S\arabic{section}}"##;
-    for line in parts.lines().skip(1) {
-        let (file, part) = line.split_once(" => ").unwrap();
-        has(&text(file), part);
-    }
-    assert!(text("report.md").find("First") < text("report.md").find("Last"));
-    // Only a front page shows a figure again.
-    let again =
-        format!("{}\n\n![Again.](figures/fig03.svg)", files[3].1.replace("sec:b.]", "sec:b]"));
-    let twice =
-        right.iter().map(|(path, text)| (*path, if *path == "more.md" { &again } else { *text }));
-    let error = made(&twice.collect::<Vec<_>>()).unwrap_err().to_string();
-    assert!(error.contains("fig:fig03: two things"), "{error}");
 }
 
 #[test]

@@ -1,0 +1,62 @@
+//! Makes the files that all pages share: fonts, and the cards of their numbers.
+
+use super::super::card::Cards;
+use super::super::document::{self, Inline};
+use super::super::error::Error;
+use super::super::folder::Files;
+use super::super::input::Input;
+use super::super::labels::Labels;
+use super::Page;
+use crate::figures::escape as text;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+
+const FONTS: [(&str, &[u8]); 4] = [
+    ("LibertinusSerif-Regular", include_bytes!("../../../fonts/LibertinusSerif-Regular.woff2")),
+    ("LibertinusSerif-Italic", include_bytes!("../../../fonts/LibertinusSerif-Italic.woff2")),
+    ("LibertinusSerif-Bold", include_bytes!("../../../fonts/LibertinusSerif-Bold.woff2")),
+    ("LibertinusMath-Regular", include_bytes!("../../../fonts/LibertinusMath-Regular.woff2")),
+];
+
+/// Returns the files that all pages share: fonts, and the cards of all values that they show. The
+/// cards are a script, since a page on a disk can load nothing else. A row that several cards have
+/// is stored once.
+pub fn files(
+    values: &BTreeSet<String>,
+    cards: Cards<'_>,
+    input: &Input<'_>,
+    labels: &Labels,
+) -> Result<Files, Error> {
+    let page = Page { input, values: RefCell::default(), glyphs: RefCell::default() };
+    let (mut rows, mut places, mut all) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
+    for id in values {
+        let unknown = || Error::Template(format!("there is no value {id}"));
+        let card = cards.get(id).ok_or_else(unknown)?;
+        let mut numbers = Vec::new();
+        let is_claim = id.starts_with("claim:");
+        let shown = "the row of this statement".to_string();
+        let ledger = Inline::Reference { to: id.clone(), within: None, shown };
+        let ledger = is_claim.then(|| ("ledger", vec![ledger]));
+        for (name, text) in card.rows.iter().chain(&ledger) {
+            let place = |inline: &Inline| match inline.clone() {
+                Inline::Reference { to, shown, .. } => {
+                    let within = labels.get(&to).map(|label| label.document);
+                    vec![Inline::Reference { to, within, shown }]
+                }
+                other => document::relative_link(other, input.top),
+            };
+            let words: Vec<Inline> = text.iter().flat_map(place).collect();
+            let row = format!("<dt>{name}</dt><dd>{}</dd>", page.inlines(&words)?);
+            numbers.push(*places.entry(row.clone()).or_insert_with(|| {
+                rows.push(row);
+                rows.len() - 1
+            }));
+        }
+        all.insert(id, (page.inlines(&card.title)?, text(&card.lead), numbers));
+    }
+    let json = serde_json::to_string(&(rows, all)).unwrap_or_default();
+    let mut files = Files::from([("cards.js".into(), format!("CARDS = {json};\n").into_bytes())]);
+    let font = |(name, bytes): (&str, &[u8])| (format!("fonts/{name}.woff2"), bytes.to_vec());
+    files.extend(FONTS.map(font));
+    Ok(files)
+}

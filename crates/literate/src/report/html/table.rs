@@ -1,0 +1,89 @@
+//! Writes tables, which become lists or scroll sideways on a narrow screen.
+
+use super::super::document::{Inline, plain, spelt};
+use super::super::error::Error;
+use super::Page;
+use crate::figures::escape as text;
+use pulldown_cmark::Alignment;
+use std::fmt::Write as _;
+
+/// Characters of a cell that is text.
+const TEXT: usize = 100;
+/// Columns whose cells have more characters than this get a minimum width.
+const WIDTHS: [(usize, &str); 3] = [(300, "long"), (TEXT, "text"), (40, "words")];
+
+/// So many columns do not fit side by side on a narrow screen, nor more than a few if one of them
+/// is text.
+const MANY: usize = 6;
+const FEW: usize = 3;
+
+impl Page<'_> {
+    /// Writes a table without its caption.
+    pub(super) fn table(
+        &self,
+        columns: &[Alignment],
+        head: &[Vec<Inline>],
+        rows: &[Vec<Vec<Inline>>],
+    ) -> Result<String, Error> {
+        let longest =
+            |i: usize| rows.iter().filter_map(|row| row.get(i)).map(|c| plain(c).len()).max();
+        let longest: Vec<usize> = (0..columns.len()).filter_map(longest).collect();
+        let class = |i: usize| {
+            let long = |length: &usize| WIDTHS.iter().find(|(least, _)| length > least);
+            let class = match columns.get(i) {
+                Some(Alignment::Right) => Some("right"),
+                Some(Alignment::Center) => Some("centre"),
+                _ => longest.get(i).and_then(long).map(|(_, class)| *class),
+            };
+            class.map_or(String::new(), |class| format!(" class=\"{class}\""))
+        };
+        // On a narrow screen rows of many columns become lists, with the heads as names, or at
+        // least scroll sideways.
+        let has_words = |cell: &Vec<Inline>| {
+            let is_word = |inline: &Inline| matches!(inline, Inline::Text(text) if text.contains(char::is_alphabetic));
+            cell.iter().any(is_word)
+        };
+        let texts = longest.iter().any(|length| *length > TEXT) && columns.len() > FEW;
+        let many = columns.len() >= MANY || texts;
+        let lists = many && head.iter().all(has_words);
+        // A browser forgets that these are tables once style sheets lay them out as lists.
+        let [table, line, field, column] = match (lists, many) {
+            (true, _) => [
+                " class=\"lists\" role=\"table\"",
+                " role=\"row\"",
+                " role=\"cell\"",
+                " role=\"columnheader\"",
+            ],
+            (false, true) => [" class=\"many\"", "", "", ""],
+            (false, false) => [""; 4],
+        };
+        let mut out = format!("<table{table}>\n<thead><tr{line}>");
+        for (i, cell) in head.iter().enumerate() {
+            let mut words = self.inlines(cell)?;
+            // Some readers of screens see no words in mathematics.
+            if matches!(cell.as_slice(), [Inline::Maths(_)]) {
+                let spelt = text(&spelt(cell));
+                words = format!(
+                    "<span aria-hidden=\"true\">{words}</span><span class=\"unseen\">{spelt}</span>"
+                );
+            }
+            // A head without words is no head.
+            let _ = match words.trim().is_empty() {
+                true => write!(out, "<td{}></td>", class(i)),
+                false => write!(out, "<th scope=\"col\"{column}{}>{words}</th>", class(i)),
+            };
+        }
+        out.push_str("</tr></thead>\n<tbody>\n");
+        for row in rows {
+            let _ = write!(out, "<tr{line}>");
+            for (i, cell) in row.iter().enumerate() {
+                let name = head.get(i).filter(|_| lists);
+                let name = name.map(|head| format!(" data-name=\"{}\"", text(&spelt(head))));
+                let (name, words) = (name.unwrap_or_default(), self.inlines(cell)?);
+                let _ = write!(out, "<td{field}{}{name}>{words}</td>", class(i));
+            }
+            out.push_str("</tr>\n");
+        }
+        Ok(out + "</tbody>\n</table>")
+    }
+}
