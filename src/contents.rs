@@ -99,11 +99,11 @@ fn scene(what: &str, trials: &[Trial], sizes: &[usize]) -> Json {
         (Some(trouble), wrong, all) if wrong == all => format!("all {}", trouble.words()),
         (Some(trouble), wrong, _) => format!("{wrong} {}", trouble.words()),
     };
-    let mut rest = trials;
-    let cell = |&size: &usize| {
-        let (shown, others) = rest.split_at(size);
+    let (mut cells, mut rest) = (Vec::new(), trials);
+    for &size in sizes {
+        let (of_method, others) = rest.split_at(size);
         rest = others;
-        let mut outcomes: Vec<String> = shown.iter().map(outcome).collect();
+        let mut outcomes: Vec<String> = of_method.iter().map(outcome).collect();
         outcomes.dedup();
         // Of two numbers of the same failure, the words stand once.
         if let [coarse, fine] = &mut outcomes[..] {
@@ -112,17 +112,16 @@ fn scene(what: &str, trials: &[Trial], sizes: &[usize]) -> Json {
                 coarse.truncate(coarse.len() - words.len() - 1);
             }
         }
-        outcomes.join("; ")
-    };
-    let cells: Vec<String> = sizes.iter().map(cell).collect();
+        cells.push(outcomes.join("; "));
+    }
     let mut all = trials.iter().flatten();
     let refused = all.clone().any(|verdict| *verdict == GaveUp);
     let silent = all.any(|verdict| !matches!(verdict, Right | GaveUp));
-    let told = match (refused, silent) {
+    let failure = match (refused, silent) {
         (false, false) => "–",
         (true, false) => "refused",
         (false, true) => "silent",
         (true, true) => "silent or refused",
     };
-    json!({"name": what, "cases": trials[0].len(), "cells": cells, "told": told})
+    json!({"name": what, "cases": trials[0].len(), "cells": cells, "failure": failure})
 }

@@ -4,6 +4,7 @@
 use crate::experiments::rise::{Mean, RisePoint};
 use crate::experiments::sweep;
 use crate::experiments::{REPLAY, Results, Session};
+use impact_numerics::statistics::count_quantile;
 use literate::{Failure, input};
 use serde_json::json;
 
@@ -20,8 +21,7 @@ pub fn lab(session: &Session<'_>, results: &Results) -> Result<Option<String>, F
     match found.filter(|module| module.starts_with(b"\0asm")) {
         Some(module) => Ok(Some(script(&module, results, session.templates.text("lab.js")?)?)),
         None => {
-            let what =
-                "is not there or no module, so the pages run nothing; `make paper` builds it";
+            let what = "is missing or not WebAssembly, so the pages cannot run the engine; `make paper` builds it";
             session.progress.say(&format!("{MODULE} {what}"));
             Ok(None)
         }
@@ -40,7 +40,7 @@ pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, 
         .collect();
     let value = |mean: Option<Mean>| mean.map(|mean| mean.value);
     let row = |row: &RisePoint| {
-        let [low, high] = [0.05, 0.95].map(|share| quantile(&row.counts, share));
+        let [low, high] = [0.05, 0.95].map(|share| count_quantile(&row.counts, share).unwrap_or(0));
         (row.sigma, value(row.mean_all), value(row.mean), low, high)
     };
     let rows: Vec<_> = sweep.comparable().map(row).collect();
@@ -48,17 +48,6 @@ pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, 
     let data =
         json!({ "runs": runs, "curve": { "gaps": gaps, "rows": rows }, "module": base64(module) });
     Ok(format!("\"use strict\";\nconst LAB = {data};\n{script}"))
-}
-
-/// The smallest k such that at least this share of the realisations count k or fewer; `counts` are
-/// their numbers by k.
-fn quantile(counts: &[u32], share: f64) -> usize {
-    let all: u32 = counts.iter().sum();
-    let sums = counts.iter().scan(0, |sum, count| {
-        *sum += count;
-        Some(*sum)
-    });
-    sums.take_while(|sum| f64::from(*sum) < share * f64::from(all)).count()
 }
 
 /// Base64 with padding (RFC 4648).

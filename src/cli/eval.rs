@@ -1,4 +1,4 @@
-//! `impact-paper eval`: one quantity of the theory as JSON.
+//! The verb `eval`: computes one quantity of the theory and prints it as JSON.
 
 use super::range::within;
 use clap::builder::PossibleValuesParser;

@@ -1,4 +1,4 @@
-//! The verb `sweep`.
+//! The verb `sweep`: runs an ensemble and prints a row for each σ.
 
 use super::range::within;
 use impact_chain::LATEST;
@@ -11,7 +11,7 @@ use impact_paper::params::SEED;
 use literate::Failure;
 use literate::cli::terminal::{Threads, print, progress, warn};
 use literate::experiments::cutting::Cutting;
-use serde::Serialize;
+use literate::figures::{DataFile, shortest};
 use std::sync::Arc;
 
 /// Run an ensemble of random chains at each σ and print a row for each σ
@@ -66,9 +66,8 @@ fn at_least_one(text: &str) -> Result<usize, String> {
     number.filter(|&n| n > 0).ok_or_else(|| "give a whole number, 1 or more".into())
 }
 
-/// A printed row; the names are the columns.
-#[derive(Debug, Serialize)]
-struct Printed {
+/// A printed row.
+struct Row {
     sigma: f64,
     realisations: usize,
     kept: usize,
@@ -118,12 +117,47 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     let progress = progress();
     let rows = args.threads.run(|| rows(ensemble, &progress))?;
-    let mut csv = csv::Writer::from_writer(Vec::new());
-    rows.iter().try_for_each(|row| csv.serialize(row))?;
-    print(&String::from_utf8(csv.into_inner().map_err(|error| error.into_error())?)?)
+    print(&table(&rows))
 }
 
-fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Printed>, Failure> {
+/// Returns the rows as CSV; a number that there is not is an empty cell.
+fn table(rows: &[Row]) -> String {
+    let columns = [
+        "sigma",
+        "realisations",
+        "kept",
+        "rejected",
+        "mean_distinct",
+        "standard_error",
+        "mode_distinct",
+        "impacts_per_time",
+        "impacts",
+        "near_simultaneous",
+        "slow",
+        "contact_phases",
+    ];
+    let real = |value: Option<f64>| value.map_or_else(String::new, shortest);
+    let cells = |row: &Row| {
+        vec![
+            shortest(row.sigma),
+            row.realisations.to_string(),
+            row.kept.to_string(),
+            row.rejected.to_string(),
+            real(row.mean_distinct),
+            real(row.standard_error),
+            row.mode_distinct.map_or_else(String::new, |mode| mode.to_string()),
+            real(row.impacts_per_time),
+            row.impacts.to_string(),
+            row.near_simultaneous.to_string(),
+            row.slow.to_string(),
+            row.contact_phases.to_string(),
+        ]
+    };
+    let rows = rows.iter().map(cells).collect();
+    DataFile { name: "sweep.csv".into(), header: columns.map(String::from).into(), rows }.csv()
+}
+
+fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Row>, Failure> {
     let cutting: Cutting<Vec<Ensemble>, Counts, Vec<Counts>> = Cutting {
         rows: CUTTING.rows,
         part: CUTTING.part,
@@ -137,7 +171,7 @@ fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Printed>, Failure
     Ok(all[0].sigmas.iter().zip(&counts).map(row).collect())
 }
 
-fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Printed {
+fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Row {
     let (all, rejected) = (ensemble.realisations, counts.rejected);
     if counts.failed > 0 {
         let failed = counts.failed;
@@ -153,7 +187,7 @@ fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Printed {
     }
     let (row, total) =
         (rise::RisePoint::new(sigma, counts, 0, ensemble.chain.gaps(), [None; 2]), &counts.total);
-    Printed {
+    Row {
         sigma,
         realisations: all,
         kept: row.kept,
@@ -175,19 +209,19 @@ fn fits(needed: u128) -> Result<(), Failure> {
     let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
     let free = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
     let kib = free.and_then(|line| line.split_whitespace().next()?.parse::<u128>().ok());
-    let at_hand = kib.map_or(4 << 30, |kib| kib << 10).min(usize::MAX as u128 / 2);
-    if needed <= at_hand {
+    let available = kib.map_or(4 << 30, |kib| kib << 10).min(usize::MAX as u128 / 2);
+    if needed <= available {
         return Ok(());
     }
     let gib = |bytes: u128| format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30));
-    let (needed, at_hand) = (gib(needed), gib(at_hand));
+    let (needed, available) = (gib(needed), gib(available));
     Err(Failure::input(format!(
-        "--masses, --realisations: about {needed} of memory are needed and {at_hand} are at hand; give fewer"
+        "--masses, --realisations: about {needed} of memory are needed and {available} are available; use fewer"
     )))
 }
 
-/// More values than this are taken for a slip.
-const MOST: f64 = 1e5;
+/// A range with this many values or more is taken for a mistake.
+const MOST_VALUES: f64 = 1e5;
 
 /// Reads a list or a range of standard deviations, in units of d ω².
 ///
@@ -205,7 +239,7 @@ fn sigmas(text: &str) -> Result<Arc<[f64]>, String> {
     let (to, step) = rest.split_once(':').ok_or("the range has no step; write A..B:STEP")?;
     let [a, b, h] = [number(from)?, number(to)?, number(step)?];
     let steps = ((b - a) / h + 1e-3).floor();
-    if !(0.0..MOST).contains(&steps) {
+    if !(0.0..MOST_VALUES).contains(&steps) {
         return Err("write a range of 1 to 100000 values, the smaller end first: A..B:STEP".into());
     }
     let decimals = |text: &str| match text.trim().split_once('.') {

@@ -1,4 +1,4 @@
-//! The verb `trace`.
+//! The verb `trace`: runs one scenario and prints its impacts.
 
 use super::range::within;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -38,7 +38,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 /// closed form). Bodies that part more slowly than 1e-10 d w stay in contact while forces press
 /// them.
 #[derive(clap::Args)]
-#[command(verbatim_doc_comment, after_help = FORM)]
+#[command(verbatim_doc_comment, after_help = SCENARIO_HELP)]
 pub struct Args {
     /// Read the scenario from this JSON file (the form is below), 64 MiB at most; - for standard
     /// input.
@@ -121,7 +121,7 @@ fn method_names() -> impl TypedValueParser<Value = MethodName> {
     PossibleValuesParser::new(names).try_map(MethodName::try_from)
 }
 
-const FORM: &str = r#"The scenario, with the defaults of everything but "forcing":
+const SCENARIO_HELP: &str = r#"The scenario, with the defaults of everything but "forcing":
   {"spacing": 1, "natural_frequency": 1, "forcing_frequency": 1.4142135623730951,
    "restitution": 0.8, "boundary": "walls", "initial": "rest",
    "forcing": [[alpha_1, beta_1], ..., [alpha_n, beta_n]]}

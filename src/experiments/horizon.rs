@@ -90,7 +90,7 @@ fn rate(differences: &[(f64, f64)]) -> Option<f64> {
     let stride = |point: &(f64, f64)| (point.0 / STRIDE) as u64;
     let points: Vec<(f64, f64)> = differences
         .chunk_by(|a, b| stride(a) == stride(b))
-        .map(|own| (stride(&own[0]), own.iter().map(|own| own.1).fold(0.0, f64::max)))
+        .map(|points| (stride(&points[0]), points.iter().map(|at| at.1).fold(0.0, f64::max)))
         .filter(|(_, largest)| GROWING.contains(largest))
         .map(|(stride, largest)| ((stride as f64 + 0.5) * STRIDE, pxfm::f_log(largest)))
         .collect();
@@ -125,9 +125,10 @@ mod tests {
     #[test]
     fn only_what_lies_between_rounding_and_saturation_counts() {
         // e^(t/4), hidden by rounding before and by saturation after.
-        let of = |time: f64| (1e-15 * pxfm::f_exp(0.25 * time)).clamp(1e-14, 1e-3);
+        let difference = |time: f64| (1e-15 * pxfm::f_exp(0.25 * time)).clamp(1e-14, 1e-3);
         let times = || (0..200).map(|i| 0.5 * f64::from(i));
-        let found = rate(&times().map(|time| (time, of(time))).collect::<Vec<_>>()).unwrap();
+        let found =
+            rate(&times().map(|time| (time, difference(time))).collect::<Vec<_>>()).unwrap();
         assert!((found - 0.25).abs() < 1e-3, "{found}");
         assert_eq!(rate(&times().map(|time| (time, 1e-15)).collect::<Vec<_>>()), None);
     }

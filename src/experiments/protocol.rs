@@ -12,7 +12,7 @@ pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::pr
 
 /// All tables.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
-    let map = &found[0];
+    let Some(map) = named(found, PROTOCOL.name) else { return Vec::new() };
     let halves = || map.curves.iter().filter_map(|cell| Some((cell.rise.half_height?, cell)));
     let least = halves().min_by(|a, b| a.0.value.total_cmp(&b.0.value)).map(|(_, cell)| cell);
     let most = halves().max_by(|a, b| a.0.value.total_cmp(&b.0.value)).map(|(_, cell)| cell);

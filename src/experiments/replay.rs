@@ -25,12 +25,12 @@ pub struct Replays {
     /// What was run.
     pub parameters: ReplayRuns,
     /// The result of each.
-    pub found: Vec<Found>,
+    pub found: Vec<ReplayResult>,
 }
 
 /// The result of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Found {
+pub struct ReplayResult {
     /// Impacts.
     pub impacts: u64,
     /// Different gaps with an impact in the window.
@@ -100,7 +100,7 @@ pub fn run(parameters: &ReplayRuns, progress: &Progress) -> Result<Replays, Erro
         let mut replay = Replay::new(asked).map_err(failed)?;
         replay.advance(u64::MAX, |_, _| ()).map_err(failed)?;
         let work = replay.engine().counters();
-        Ok(Found {
+        Ok(ReplayResult {
             impacts: work.impacts,
             distinct: replay.distinct(),
             contact_phases: work.contact_phases,

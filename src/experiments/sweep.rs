@@ -20,9 +20,9 @@ const ABOVE: f64 = 0.2;
 /// A σ at which masses begin to be able to stick.
 const STICKING: f64 = 0.3;
 
-/// The main sweep.
+/// Returns the ensemble of the main sweep.
 pub fn main(results: &Results) -> Result<&Counted, Error> {
-    Ok(&results.of(&SWEEP)?[0])
+    named(results.of(&SWEEP)?, SWEEP.name).ok_or(Error::NotRun(SWEEP.name))
 }
 
 /// Impacts of all σ.
@@ -34,7 +34,7 @@ pub fn total(sweep: &Counted) -> Total {
 
 /// All tables of the main sweep.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
-    let sweep = &found[0];
+    let Some(sweep) = named(found, SWEEP.name) else { return Vec::new() };
     vec![run(sweep), rows(sweep), rise_table(sweep), modes(sweep), rare(sweep), sticking()]
 }
 
@@ -51,7 +51,7 @@ const WIDTH_OF_ACTIVE: &str =
     "from a quarter to three quarters of all gaps, of the mean of realisations with an impact";
 
 fn run(sweep: &Counted) -> Table {
-    let of = |pick: fn(&RunTotals) -> u64| move |all: &&Counted| all.runs.iter().map(pick).sum();
+    let total = |pick: fn(&RunTotals) -> u64| move |all: &&Counted| all.runs.iter().map(pick).sum();
     let protocol = sweep.first().protocol;
     Table::of("sweep.run", &[sweep], |sweep| sweep.ensemble.realisations)
         .count("gaps", "gaps of a chain", |sweep| sweep.ensemble.chain.gaps() as u64)
@@ -67,8 +67,16 @@ fn run(sweep: &Counted) -> Table {
         .count("sigmas", "values of σ", |sweep| sweep.runs.len() as u64)
         .count("seed", "master seed", |sweep| sweep.ensemble.seed)
         .chosen("confidence", "1", "of all intervals", |_| Some(LEVEL))
-        .count("impacts", "impacts simulated, transients included", of(|runs| runs.total.impacts))
-        .count("failed", "realisations that the engine ended early", of(|runs| runs.failed as u64))
+        .count(
+            "impacts",
+            "impacts simulated, transients included",
+            total(|runs| runs.total.impacts),
+        )
+        .count(
+            "failed",
+            "realisations that the engine ended early",
+            total(|runs| runs.failed as u64),
+        )
         .done()
 }
 

@@ -44,9 +44,10 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
     let stage = progress.stage("two masses", directions as u64 + 1);
     // The last direction is the worst one.
     let found = each(&stage, progress, 0..=directions, |index| {
-        let forcing = match index < directions {
-            true => parameters.directions.scenario(index as u64).forcing,
-            false => worst(&parameters.directions.chain),
+        let forcing = if index < directions {
+            parameters.directions.scenario(index as u64).forcing
+        } else {
+            worst(&parameters.directions.chain)
         };
         thresholds(parameters, &forcing, progress)
     })?;
@@ -96,9 +97,10 @@ pub fn safe_force(chain: &Chain) -> f64 {
 
 /// The worst directions: opposite forces in the quadrature that the start from rest amplifies.
 fn worst(chain: &Chain) -> Vec<[f64; 2]> {
-    match chain.forcing_frequency > chain.natural_frequency {
-        true => vec![[0.0, 1.0], [0.0, -1.0]],
-        false => vec![[1.0, 0.0], [-1.0, 0.0]],
+    if chain.forcing_frequency > chain.natural_frequency {
+        vec![[0.0, 1.0], [0.0, -1.0]]
+    } else {
+        vec![[1.0, 0.0], [-1.0, 0.0]]
     }
 }
 

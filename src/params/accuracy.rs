@@ -157,9 +157,10 @@ impl BiasParams {
     /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let quick = profile == Profile::Quick;
-        let (sigmas, protocol) = match quick {
-            true => (vec![0.12, 0.14], Protocol { transient: 100.0, window: 100.0 }),
-            false => (vec![0.11, 0.12, 0.14], Protocol::default()),
+        let (sigmas, protocol) = if quick {
+            (vec![0.12, 0.14], Protocol { transient: 100.0, window: 100.0 })
+        } else {
+            (vec![0.11, 0.12, 0.14], Protocol::default())
         };
         let settings: Vec<(Setting, usize)> = all(&BIAS)
             .into_iter()

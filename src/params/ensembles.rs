@@ -1,4 +1,4 @@
-//! Ensembles of chains: which, at which σ, and how many.
+//! Chooses the ensembles of chains: which chains, at which σ, and how many.
 
 use super::chosen::SECOND_SEED;
 use super::grid::Grid;
@@ -7,8 +7,13 @@ use literate::experiments::Profile;
 
 /// Windows (T, T + W] for all of these T and W, transients outer.
 fn windows(transients: &[f64], windows: &[f64]) -> Vec<Protocol> {
-    let of = |&transient: &f64| windows.iter().map(move |&window| Protocol { transient, window });
-    transients.iter().flat_map(of).collect()
+    let mut protocols = Vec::new();
+    for &transient in transients {
+        for &window in windows {
+            protocols.push(Protocol { transient, window });
+        }
+    }
+    protocols
 }
 
 /// The paper's chain from rest, with our protocol (the default of [`Ensemble`]).
@@ -124,23 +129,24 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
             (BOTH, 200, ABOVE, [20, 100, 20], 2, &[50.0, 500.0]),
         ],
     };
-    let of = |&(stream, masses, heating, [from, to, step], realisations, transients): &Case| {
-        let start = if heating.is_some() { "above" } else { "rest" };
-        // The paper's chain has a wider window too after the longest time.
-        let wide = transients == [5e4] && masses == 100;
-        Ensemble {
-            chain: Chain { masses, ..Chain::default() },
-            heating,
-            protocols: windows(transients, if wide { &[200.0, 2000.0] } else { &[200.0] }),
-            pieces: (masses / 250).max(1),
-            stream: stream.into(),
-            ..paper(
-                &format!("{start}, n = {masses}, T = {}", transients[0]),
-                Grid::default().and(from, to, step as usize, 1000),
-                realisations,
-            )
-        }
-    };
+    let ensemble =
+        |&(stream, masses, heating, [from, to, step], realisations, transients): &Case| {
+            let start = if heating.is_some() { "above" } else { "rest" };
+            // The paper's chain has a wider window too after the longest time.
+            let wide = transients == [5e4] && masses == 100;
+            Ensemble {
+                chain: Chain { masses, ..Chain::default() },
+                heating,
+                protocols: windows(transients, if wide { &[200.0, 2000.0] } else { &[200.0] }),
+                pieces: (masses / 250).max(1),
+                stream: stream.into(),
+                ..paper(
+                    &format!("{start}, n = {masses}, T = {}", transients[0]),
+                    Grid::default().and(from, to, step as usize, 1000),
+                    realisations,
+                )
+            }
+        };
     let full = profile == Profile::Full;
     let transients: &[f64] = if full { &[100.0, 500.0, 1000.0, 2000.0] } else { &[100.0, 500.0] };
     let (step, realisations) = if full { (1, 24) } else { (4, 2) };
@@ -153,7 +159,7 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
         most_rejected: 1.0,
         ..paper("random", Grid::default().and(9, 18, step, 100), realisations)
     };
-    cases.iter().map(of).chain([random]).collect()
+    cases.iter().map(ensemble).chain([random]).collect()
 }
 
 /// Chains of several restitutions.
@@ -167,10 +173,10 @@ pub fn restitution(profile: Profile) -> Vec<Ensemble> {
         ),
         Profile::Quick => (&[0.0, 0.8], grid.and(9, 15, 6, 100).and(30, 60, 30, 100), 2),
     };
-    let of = |&restitution: &f64| Ensemble {
+    let ensemble = |&restitution: &f64| Ensemble {
         chain: Chain { restitution, ..Chain::default() },
         stream: "restitution".into(),
         ..paper(&format!("r = {restitution}"), sigmas.clone(), realisations)
     };
-    restitutions.iter().map(of).collect()
+    restitutions.iter().map(ensemble).collect()
 }

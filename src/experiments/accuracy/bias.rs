@@ -10,12 +10,12 @@ pub struct Biases {
     /// What was run.
     pub parameters: BiasParams,
     /// For each σ and each setting, in their order, the realisations.
-    pub runs: Vec<Vec<Vec<Counted>>>,
+    pub runs: Vec<Vec<Vec<GapCount>>>,
 }
 
 /// Distinct gaps that impact in the window (T, T + W] of one realisation; none if the method gave
 /// up.
-pub type Counted = Option<u32>;
+pub type GapCount = Option<u32>;
 
 /// Runs everything.
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
@@ -33,9 +33,15 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
         Ok(counted)
     })?;
     let mut counted = counted.into_iter();
-    let mut of = |(_, n): &(Setting, usize)| counted.by_ref().take(*n).collect();
-    let runs = parameters.chains.iter().map(|_| parameters.settings.iter().map(&mut of).collect());
-    Ok(Biases { runs: runs.collect(), parameters: parameters.clone() })
+    let mut runs = Vec::new();
+    for _ in &parameters.chains {
+        let mut by_setting: Vec<Vec<GapCount>> = Vec::new();
+        for &(_, realisations) in &parameters.settings {
+            by_setting.push(counted.by_ref().take(realisations).collect());
+        }
+        runs.push(by_setting);
+    }
+    Ok(Biases { runs, parameters: parameters.clone() })
 }
 
 fn count(
@@ -43,7 +49,7 @@ fn count(
     scenario: &Scenario,
     (transient, end): (f64, f64),
     progress: &Progress,
-) -> Counted {
+) -> GapCount {
     let mut hit = vec![false; scenario.gaps()];
     let mut see = |impact: Impact| {
         hit[impact.gap] |= impact.time > transient;

@@ -206,7 +206,7 @@ fn held() -> Result<Vec<Case>, Error> {
 
 /// Masses that are pressed together towards the middle, and let go.
 fn squeezed(sizes: &[u32]) -> Result<Vec<Case>, Error> {
-    let of = |&n: &u32| {
+    let case = |&n: &u32| {
         let push = |j: u32| 3.0 * (f64::from(n - 1) - 2.0 * f64::from(j));
         // Not in mirror symmetry, in which gaps would tie.
         let forcing = (0..n).map(|j| [push(j) + 0.1 * f64::from(j), 0.3 * f64::from(j)]).collect();
@@ -215,7 +215,7 @@ fn squeezed(sizes: &[u32]) -> Result<Vec<Case>, Error> {
         let start = State::of(&scenario);
         flights(scenario, start, 2.4, vec![0, n as usize])
     };
-    sizes.iter().map(of).collect()
+    sizes.iter().map(case).collect()
 }
 
 /// One unforced mass between walls with r = 1: u = b sin t hits |u| = 1 at the speed √(b² − 1).

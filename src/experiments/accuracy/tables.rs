@@ -1,6 +1,6 @@
 //! Tables of the comparison of methods.
 
-use super::bias::{self, Biases, Counted};
+use super::bias::{self, Biases, GapCount};
 use super::race::{self, DISPLACED, Entry, Race};
 use super::scale::{self, Scale};
 use crate::experiments::prelude::*;
@@ -36,11 +36,11 @@ fn or_nan(value: Option<f64>) -> f64 {
 
 /// Figs. S6 and S7.
 pub fn race(race: &Race) -> Vec<Table> {
-    let of = |method| race.entries.iter().filter(move |entry| entry.setting.method == method);
+    let by = |method| race.entries.iter().filter(move |entry| entry.setting.method == method);
     let coarsest: Vec<&Entry> =
-        MethodName::ALL.into_iter().filter_map(|method| of(method).next()).collect();
+        MethodName::ALL.into_iter().filter_map(|method| by(method).next()).collect();
     let finest: Vec<&Entry> =
-        MethodName::ALL.into_iter().filter_map(|method| of(method).next_back()).collect();
+        MethodName::ALL.into_iter().filter_map(|method| by(method).next_back()).collect();
     vec![entries("race.coarsest", &coarsest), entries("race.finest", &finest), all(race)]
 }
 
@@ -141,7 +141,7 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
         .estimate("share", "1", "error of the mean over the mean", |row| row.share)
         .done();
     let counts =
-        |runs: &Vec<Vec<Counted>>| runs[0].iter().flatten().map(|k| f64::from(*k)).collect();
+        |runs: &Vec<Vec<GapCount>>| runs[0].iter().flatten().map(|k| f64::from(*k)).collect();
     let counts: Vec<Vec<f64>> = biases.runs.iter().map(counts).collect();
     let scenes: Vec<_> = biases.parameters.chains.iter().zip(counts).collect();
     let means = Table::of("bias.means", &scenes, |(_, counts)| counts.len())

@@ -1,4 +1,4 @@
-//! Counts of circuits, against the enumeration of small graphs: Secs. 3, 5 and 9.
+//! Compares the counts of circuits with the enumeration of small graphs: Secs. 3, 5 and 9.
 
 use super::cases::{Cases, cases};
 use crate::experiments::theory::census::{Census, LONGEST, counted, enumerated};
@@ -83,10 +83,10 @@ pub(super) fn eq32() -> Cases {
 /// Circuits of all five classes with k different vertices, wherever no formula of Eq. (38) is used
 /// below the range that is printed with it: from k = 3 on, since Eq. (37) has length k + 2 > 4.
 pub(super) fn eq38(census: &Census) -> Cases {
-    let of = |(n, longest): (usize, usize)| {
+    let lengths = |(n, longest): (usize, usize)| {
         (3..=n).take_while(move |k| k + 3 <= longest).map(move |k| (n, k))
     };
-    cases((1..).zip(LONGEST).flat_map(of).map(|(n, k)| {
+    cases((1..).zip(LONGEST).flat_map(lengths).map(|(n, k)| {
         let simple = phi(n, k).map(|count| Fraction::new(count, 1));
         let printed: [(Option<Fraction>, usize, &[usize]); 5] = [
             (simple, 0, &[]),

@@ -1,4 +1,4 @@
-//! The theory compared with the simulation.
+//! Compares the theory with the simulation.
 
 use crate::experiments::prelude::*;
 use crate::experiments::sweep;
@@ -52,10 +52,10 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let [simple, higher] = &curves;
     let found = |number: Option<f64>| number.unwrap_or(f64::NAN);
     let rows = &sweep.first().rows;
-    let of = |mean: fn(&RisePoint) -> Option<Mean>| -> Vec<(f64, f64)> {
+    let means_by = |mean: fn(&RisePoint) -> Option<Mean>| -> Vec<(f64, f64)> {
         rows.iter().filter_map(|row| Some((row.sigma, mean(row)?.value))).collect()
     };
-    let means = of(|row| row.mean);
+    let means = means_by(|row| row.mean);
     // To a part in a million.
     let steps = rows.windows(2).map(|w| w[1].sigma - w[0].sigma);
     let finest = (steps.fold(f64::INFINITY, f64::min) * 1e6).round() / 1e6;
@@ -76,7 +76,7 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         })
         .real("increase_of_two", "1", 2, "in two steps", |()| found(kept.map(|[_, two]| two)))
         .real("increase_of_all", "1", 2, "of the mean of all in one step", |()| {
-            found(increases(&of(|row| row.mean_all), finest).map(|[one, _]| one))
+            found(increases(&means_by(|row| row.mean_all), finest).map(|[one, _]| one))
         })
         .chosen("step", SIGMA, "the finest of the grid", |()| Some(finest))
         .computed_by(origin(impact_chain::rise::Curve::new))

@@ -65,7 +65,7 @@ fn means_apart() -> [f64; 3] {
 
 /// The largest change of μ(p(σ)) by higher orders, and the σ where it is.
 fn largest_change(curve: &Table) -> [f64; 2] {
-    let [simple, higher] = ["simple", "higher"].map(|of| curve.points(&[], "sigma", of));
+    let [simple, higher] = ["simple", "higher"].map(|column| curve.points(&[], "sigma", column));
     simple.iter().zip(higher).fold([0.0, 0.0], |most, ((sigma, simple), (_, higher))| {
         let change = (higher - simple).abs();
         if change > most[0] { [change, *sigma] } else { most }
@@ -76,8 +76,8 @@ fn largest_change(curve: &Table) -> [f64; 2] {
 /// μ.
 fn doubling(p: f64) -> f64 {
     let law = law(FiveClasses, p);
-    let of = |class| law.contribution(class)[law.mean() as usize - 1];
-    of(&CLASSES[1]) / of(&CLASSES[0])
+    let weight = |class| law.contribution(class)[law.mean() as usize - 1];
+    weight(&CLASSES[1]) / weight(&CLASSES[0])
 }
 
 /// P(X = k) of five classes, k = 1..=N, if a circuit weighs p^k by its k different vertices and not
@@ -120,9 +120,9 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     let tail = (2.0 / first).sqrt().ceil() as usize;
     let weight = sum(five(first).into_iter().skip(tail - 1));
     let ([at, mean, more], [change, change_at]) = (means_apart(), largest_change(curve));
-    let of = |column| relation.number(&[], column).unwrap_or(f64::NAN);
-    let half_shift = of("sigma_half") - of("sigma_half_higher");
-    let shift = |column| (of(column) - of("sigma_jump")).abs();
+    let sigma_of = |column| relation.number(&[], column).unwrap_or(f64::NAN);
+    let half_shift = sigma_of("sigma_half") - sigma_of("sigma_half_higher");
+    let shift = |column| (sigma_of(column) - sigma_of("sigma_jump")).abs();
     let over = shift("sigma_jump_rest") / shift("sigma_jump_higher");
     one("theory.higher", origin(doubled_as_printed))
         .real("eq30_printed", "1", 1, "Eq. (30) as printed, k = N = 3", |()| eq30)

@@ -25,7 +25,7 @@ mod text;
 pub use drawing::{Drawing, Glyphs};
 pub use error::{Drawn, Error};
 pub use figure::{Description, Figure};
-pub use record::DataFile;
+pub use record::{DataFile, shortest};
 pub use svg::{escape, outlines};
 
 /// What a figure is drawn with, for one line of imports.
