@@ -33,7 +33,8 @@ fn impacts(bencher: Bencher, masses: usize) {
     bencher.counter(ItemsCount::new(count)).bench(|| run(divan::black_box(&scenario), until));
 }
 
-/// A realisation of the main sweep at each σ, first by the bare engine, then as ensembles run and count it.
+/// A realisation of the main sweep at each σ, first by the bare engine, then as ensembles run and
+/// count it.
 #[divan::bench(args = [(0.16, false), (0.16, true), (0.3, false), (0.3, true)])]
 fn counted(bencher: Bencher, (sigma, counts): (f64, bool)) {
     let ensemble = Ensemble { stream: "sweep".into(), ..Ensemble::default() };

@@ -3,8 +3,9 @@
 //!
 //! `cargo run --release -p impact-bench --bin reference -- SCENARIO.json UNTIL` prints
 //! {"impacts": [[t, gap], …], "segments": [{"t", "u", "v", "next_t", "next_gap"}, …]}.
-//! A segment starts right after an impact: displacements u from equilibrium and velocities v of all masses, rounded to
-//! doubles, and the impact that follows. There are at most a thousand, evenly spaced.
+//! A segment starts right after an impact: displacements u from equilibrium and velocities v of all
+//! masses, rounded to doubles, and the impact that follows. There are at most a thousand, evenly
+//! spaced.
 
 #[path = "../tests/physics/reference/mod.rs"]
 mod reference;

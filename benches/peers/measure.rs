@@ -1,5 +1,5 @@
-//! Speed of the engine and of its rivals, as JSON, and the scenarios on which other programs are measured, for
-//! `make measure` (`benches/peers/measure.py`).
+//! Speed of the engine and of its rivals, as JSON, and the scenarios on which other programs are
+//! measured, for `make measure` (`benches/peers/measure.py`).
 //!
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 

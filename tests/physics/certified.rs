@@ -1,8 +1,8 @@
 //! Segments: the next impact from one state against the reference, in gap, time and closing speed.
 //!
 //! The doubles of the scenario are exact, and chaos has no time to act. Times and closing speeds
-//! are held to the bounds of `impact_chain::rounding`, and misses and ghosts are counted. Next to resonance a search must end
-//! soon.
+//! are held to the bounds of `impact_chain::rounding`, and misses and ghosts are counted. Next to
+//! resonance a search must end soon.
 
 use crate::reference::{Dd, Real, Reference};
 use crate::{first, given};
@@ -11,8 +11,8 @@ use impact_chain::{Engine, Initial, Overtone, Scenario};
 use impact_numerics::random::NormalPairs;
 use impact_paper::params::{Boundary, Chain};
 
-/// The closing speed is off by at most ε S (C′ max(ω, Ω) + C M₂/v), where M₂ = ω² R₁ + Ω² R₂ bounds Δ'' and its term is
-/// due to the error of the time. This is C′.
+/// The closing speed is off by at most ε S (C′ max(ω, Ω) + C M₂/v), where M₂ = ω² R₁ + Ω² R₂ bounds
+/// Δ'' and its term is due to the error of the time. This is C′.
 const SPEED: f64 = 47.0;
 
 /// An impact is no graze if v² is at least this many M₂ C ε S.
@@ -165,12 +165,13 @@ fn corner_biased_segments_have_no_miss_and_no_ghost() {
     println!("{tally:?}");
     assert!(tally.segments >= 10_000 && tally.impacts > 4000, "{tally:?}");
     assert!(tally.undecidable * 100 < tally.segments, "{tally:?}");
-    // Of these the worst had 2.3 and 0.03; a loss of digits would show here before it reaches the bounds.
+    // Of these the worst had 2.3 and 0.03; a loss of digits would show here before it reaches the
+    // bounds.
     assert!(tally.worst < 5.0 && tally.worst_speed < 0.1, "{tally:?}");
 }
 
-/// Next to resonance amplitudes are ten million times a gap that hardly moves: the certified steps must follow the gap
-/// and not the amplitudes.
+/// Next to resonance amplitudes are ten million times a gap that hardly moves: the certified steps
+/// must follow the gap and not the amplitudes.
 #[test]
 fn next_to_resonance_a_gap_that_hardly_moves_is_soon_passed() {
     for (k, scale) in [(1.0, 1.65e-7), (2.0, 1.6e-7), (16.0, 1.1e-7), (64.0, 1.6e-7)] {
@@ -186,8 +187,8 @@ fn next_to_resonance_a_gap_that_hardly_moves_is_soon_passed() {
     }
 }
 
-/// Two components of one frequency next to resonance nearly cancel for a hundred thousand periods: a leap that fails is
-/// made shorter. Their sum as one component is hit at the same time.
+/// Two components of one frequency next to resonance nearly cancel for a hundred thousand periods:
+/// a leap that fails is made shorter. Their sum as one component is hit at the same time.
 #[test]
 fn components_that_nearly_cancel_are_soon_passed() {
     let frequency = 1.0 - 2.0_f64.powi(-40);

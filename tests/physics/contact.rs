@@ -1,6 +1,7 @@
-//! Contact of pairs and clusters: how it begins, which forces hold it, when it ends. Ω = 2 and cosine
-//! forcing only, so a mass under F cos Ωt is at j d + a − F/3 at t = 0, and forces are known. Then neighbouring gaps that close at
-//! exactly the same instant: masses in one point at t = 0, or mirror images.
+//! Contact of pairs and clusters: how it begins, which forces hold it, when it ends. Ω = 2 and
+//! cosine forcing only, so a mass under F cos Ωt is at j d + a − F/3 at t = 0, and forces are
+//! known. Then neighbouring gaps that close at exactly the same instant: masses in one point at t =
+//! 0, or mirror images.
 
 use crate::reference::{Dd, Reference};
 use crate::{drawn, first, given, run, trace};
@@ -27,14 +28,15 @@ fn held(engine: &mut Engine, t: f64) -> Vec<usize> {
     contacts.into_iter().map(|c| c.0).collect()
 }
 
-/// Gaps that are in contact as long as the cosine of 2t is above a number, with the factor and the constant of their
-/// forces.
+/// Gaps that are in contact as long as the cosine of 2t is above a number, with the factor and the
+/// constant of their forces.
 type Held = (f64, &'static [(usize, f64, f64)]);
 
 #[test]
 fn clusters_are_released_gap_by_gap_where_a_force_changes_its_sign() {
-    // A pair; three under (6, 0, −3) cos 2t, of which gap 2 opens first; and two at the wall, of which the left one
-    // would leave it (1 + 3 > 0) without the other: K = (1, 2), g = (1 + 3c, 1 − 10c).
+    // A pair; three under (6, 0, −3) cos 2t, of which gap 2 opens first; and two at the wall, of
+    // which the left one would leave it (1 + 3 > 0) without the other: K = (1, 2), g = (1 + 3c, 1 −
+    // 10c).
     let pair: [Held; 1] = [(1.0 / 3.0, &[(1, 1.5, -0.5)])];
     let three: [Held; 2] =
         [(0.25, &[(1, 5.0, -1.0), (2, 4.0, -1.0)]), (1.0 / 6.0, &[(1, 3.0, -0.5)])];
@@ -80,8 +82,9 @@ fn a_pair_that_is_shut_but_for_rounding_is_shut() {
     }
 }
 
-/// Two hits in a row multiply (rate just hit, other rate) by a matrix with μ² − (1 + r)/2 μ + r = 0: with
-/// two real roots, r < 7 − 4√3, closing speeds fall by the larger, and waits by the roots' ratio.
+/// Two hits in a row multiply (rate just hit, other rate) by a matrix with μ² − (1 + r)/2 μ + r =
+/// 0: with two real roots, r < 7 − 4√3, closing speeds fall by the larger, and waits by the roots'
+/// ratio.
 #[test]
 fn three_masses_collapse_in_a_geometric_series() {
     for r in [0.0, 0.02, 0.05] {
@@ -148,8 +151,9 @@ fn without_restitution_a_pair_sticks_only_while_it_is_pressed() {
     }
 }
 
-/// Two gaps at the walls are released within 1e-17 of one another: the second release looks at the first gap again
-/// while it is open by 1e-50, moves at 1e-33, and is lifted by its third derivative alone.
+/// Two gaps at the walls are released within 1e-17 of one another: the second release looks at the
+/// first gap again while it is open by 1e-50, moves at 1e-33, and is lifted by its third derivative
+/// alone.
 #[test]
 fn gaps_that_are_released_together_part_without_a_crawl() {
     for big_w in [2.0, std::f64::consts::SQRT_2] {
@@ -161,7 +165,8 @@ fn gaps_that_are_released_together_part_without_a_crawl() {
         };
         let mut engine = Engine::new(&scenario).unwrap();
         let impacts = run(&mut engine, 30.0);
-        // The masses meet and stick, part, reach both walls at once and stick there, again and again.
+        // The masses meet and stick, part, reach both walls at once and stick there, again and
+        // again.
         let hard: Vec<usize> =
             impacts.iter().filter(|impact| impact.closing_speed > 1.0).map(|i| i.gap).collect();
         assert!(
@@ -172,8 +177,9 @@ fn gaps_that_are_released_together_part_without_a_crawl() {
     }
 }
 
-/// Forces ten thousand times those between the masses: where the one on gap 2 ends, rounding makes the acceleration of
-/// the gap negative, and it would be shut again and released at the same instant for ever.
+/// Forces ten thousand times those between the masses: where the one on gap 2 ends, rounding makes
+/// the acceleration of the gap negative, and it would be shut again and released at the same
+/// instant for ever.
 #[test]
 fn a_released_gap_is_not_shut_by_rounding() {
     for pressing in [1e3, 1e4, 1e5] {
@@ -190,7 +196,8 @@ fn a_released_gap_is_not_shut_by_rounding() {
     }
 }
 
-/// Forces that grow along the row: every contact force is a parabola along it times (F cos Ωt − 1), and all end at once.
+/// Forces that grow along the row: every contact force is a parabola along it times (F cos Ωt − 1),
+/// and all end at once.
 #[test]
 fn long_runs_that_are_released_at_once_part() {
     for (n, force) in [(100, 1.04), (300, 1.31), (1600, 1.3)] {
@@ -269,7 +276,8 @@ fn a_three_way_impact() {
     }
 }
 
-/// Ties of a mirror image with an even number of masses are none of neighbours: each impact has its twin to the last bit.
+/// Ties of a mirror image with an even number of masses are none of neighbours: each impact has its
+/// twin to the last bit.
 #[test]
 fn an_even_mirror_image_keeps_its_symmetry() {
     for (masses, index) in [(21, 1), (20, 3)] {
@@ -279,7 +287,8 @@ fn an_even_mirror_image_keeps_its_symmetry() {
         let x = engine.positions(300.0);
         let off = |j: usize| (x[j] + x[masses - 1 - j] - (masses + 1) as f64).abs();
         let worst = (0..masses).map(off).fold(0.0, f64::max);
-        // One gap after the other cannot keep that of an odd one, whose middle mass is hit from both sides.
+        // One gap after the other cannot keep that of an odd one, whose middle mass is hit from
+        // both sides.
         let odd = masses % 2 == 1;
         assert_eq!((worst > 1e-3, engine.counters().simultaneous > 0), (odd, odd));
         assert!(odd || worst < 1e-14, "{worst:e}");

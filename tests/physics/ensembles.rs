@@ -1,5 +1,5 @@
-//! Ensembles: counts in windows against a list of impacts, what follows from counts by hand, and runs
-//! in pieces.
+//! Ensembles: counts in windows against a list of impacts, what follows from counts by hand, and
+//! runs in pieces.
 
 use crate::trace;
 use impact_chain::replay::{Forces, Replay, Request};

@@ -2,16 +2,16 @@
 //!
 //! Two impacts without a common mass may change places in the order of impacts, and every mass
 //! still has its impacts in the same order. Gap i lies between masses i and i + 1, so impacts
-//! of gaps i and j have a common mass where |i − j| ≤ 1. In a simple circuit each gap appears once, and
-//! a mass meets the gap to its left and the gap to its right by turns, whichever of the (k − 1)! cyclic
-//! orders of the k gaps it is: all of them are one order up to such changes.
+//! of gaps i and j have a common mass where |i − j| ≤ 1. In a simple circuit each gap appears once,
+//! and a mass meets the gap to its left and the gap to its right by turns, whichever of the (k −
+//! 1)! cyclic orders of the k gaps it is: all of them are one order up to such changes.
 
 use crate::graph::{Circuit, Graph};
 use std::collections::BTreeSet;
 
-/// Counts, by enumeration, the simple circuits on `big_n` gaps in a row, and the classes of them: two
-/// are in one class if exchanges of neighbouring impacts without a common mass lead from one to the
-/// other.
+/// Counts, by enumeration, the simple circuits on `big_n` gaps in a row, and the classes of them:
+/// two are in one class if exchanges of neighbouring impacts without a common mass lead from one to
+/// the other.
 pub fn simple_classes(big_n: usize) -> [usize; 2] {
     let all = Graph::of_chain(big_n - 1).circuits(big_n);
     let mut left: BTreeSet<Circuit> = all.filter(|circuit| circuit.repeats().is_empty()).collect();
@@ -37,8 +37,8 @@ fn exchanged(word: &[usize]) -> impl Iterator<Item = Circuit> + '_ {
     })
 }
 
-/// Returns the mean number of different gaps if each set of k gaps weighs p^k once, and not (k − 1)!
-/// times: the mean of a binomial variable without the empty set.
+/// Returns the mean number of different gaps if each set of k gaps weighs p^k once, and not (k −
+/// 1)! times: the mean of a binomial variable without the empty set.
 pub fn mean_without_orders(big_n: usize, p: f64) -> f64 {
     let share = p / (1.0 + p);
     let mut empty = 1.0;

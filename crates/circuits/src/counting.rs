@@ -1,5 +1,5 @@
-//! Counts simple circuits (Sec. 5): by exact integers where they fit into 128 bits, and beyond by the
-//! weights of Eq. (10) at p = 1, which are the numbers of circuits.
+//! Counts simple circuits (Sec. 5): by exact integers where they fit into 128 bits, and beyond by
+//! the weights of Eq. (10) at p = 1, which are the numbers of circuits.
 
 use crate::arrangements::arrangements;
 use crate::distribution::{Law, SampleSpace};
@@ -8,8 +8,8 @@ use impact_numerics::scaled::Scaled;
 
 /// **Eq. (6)**
 ///
-/// Returns the number of distinct paths of length k from a given vertex back to itself through k − 1
-/// other vertices, all different: (N − 1)!/(N − k)!. None if it exceeds 128 bits.
+/// Returns the number of distinct paths of length k from a given vertex back to itself through k −
+/// 1 other vertices, all different: (N − 1)!/(N − k)!. None if it exceeds 128 bits.
 pub fn paths(big_n: usize, k: usize) -> Option<u128> {
     if !(1..=big_n).contains(&k) {
         return Some(0);

@@ -1,5 +1,5 @@
-//! Builds the directed graph of Sec. 3: a vertex for each pair that can impact, an edge for each possible
-//! flight from one impact to the next, loops included. Periodic orbits are its circuits.
+//! Builds the directed graph of Sec. 3: a vertex for each pair that can impact, an edge for each
+//! possible flight from one impact to the next, loops included. Periodic orbits are its circuits.
 
 use std::collections::BTreeMap;
 
@@ -45,8 +45,8 @@ impl Graph {
     /// Every primitive circuit of at most `longest` edges, in lexicographic order: a circuit that
     /// only runs another one several times over is the same periodic orbit and is left out.
     ///
-    /// There are about N^longest/longest of them: meant for small graphs. Their least rotations are the Lyndon words over
-    /// the vertices, which Duval's algorithm lists in order.
+    /// There are about N^longest/longest of them: meant for small graphs. Their least rotations are
+    /// the Lyndon words over the vertices, which Duval's algorithm lists in order.
     pub fn circuits(&self, longest: usize) -> impl Iterator<Item = Circuit> + use<> {
         let last = self.vertices() - 1;
         let first = (longest > 0).then(|| Circuit(vec![0]));

@@ -1,5 +1,5 @@
-//! Counts circuits that repeat vertices (Sec. 9), class by class, and together in the sample space of
-//! five classes.
+//! Counts circuits that repeat vertices (Sec. 9), class by class, and together in the sample space
+//! of five classes.
 //!
 //! The printed formulas count cyclic sequences as length!/length would, which is right only while
 //! no sequence can be a repetition of a shorter one. [`SampleSpace::FiveClasses`] counts distinct
@@ -12,9 +12,9 @@ use impact_numerics::double_double::DoubleDouble;
 
 /// **Eq. (29)**
 ///
-/// Returns the number of paths from a given doubled vertex for a loop, back, and for another loop, k
-/// vertices in all: (N − 1)!/(N − (k − 1))!, for k ≥ 2; zero beyond N + 1; none beyond 128 bits. The
-/// way in which the k − 2 other vertices are divided between the loops does not matter:
+/// Returns the number of paths from a given doubled vertex for a loop, back, and for another loop,
+/// k vertices in all: (N − 1)!/(N − (k − 1))!, for k ≥ 2; zero beyond N + 1; none beyond 128 bits.
+/// The way in which the k − 2 other vertices are divided between the loops does not matter:
 ///
 /// **Eq. (26)** (step towards (30)): with γ_1 and γ_2 of them, k = (γ_1 + 1) + (γ_2 + 1).
 /// **Eq. (27)** (step towards (29)): (N − 1) … (N − γ_1) ways for the first loop,
@@ -26,8 +26,8 @@ pub fn doubled_paths(big_n: usize, k: usize) -> Option<u128> {
 
 /// **Eq. (30)**
 ///
-/// Returns φ_N^1(k) *as this equation prints it*: γ(k, 2)/2 times [`doubled_paths`]. A factor N, the
-/// choice of the doubled vertex, is missing; Eq. (33) has it. None beyond 128 bits.
+/// Returns φ_N^1(k) *as this equation prints it*: γ(k, 2)/2 times [`doubled_paths`]. A factor N,
+/// the choice of the doubled vertex, is missing; Eq. (33) has it. None beyond 128 bits.
 pub fn doubled_as_printed(big_n: usize, k: usize) -> Option<Fraction> {
     let splits = compositions(k, 2)?;
     Some(Fraction::new(splits.checked_mul(doubled_paths(big_n, k)?)?, 2))
@@ -52,8 +52,8 @@ pub fn compositions(n: usize, j: usize) -> Option<u128> {
 
 /// **Eq. (33)**
 ///
-/// Returns φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: circuits of length k with
-/// one vertex visited twice and no other repeated. Fails at k = 2 (a loop run twice is no new
+/// Returns φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: circuits of length k
+/// with one vertex visited twice and no other repeated. Fails at k = 2 (a loop run twice is no new
 /// circuit), where it gives N/2. None beyond 128 bits.
 pub fn doubled(big_n: usize, k: usize) -> Option<Fraction> {
     let choices = arrangements(big_n, k - 1)?;
@@ -69,8 +69,8 @@ fn printed(big_n: usize, k: usize, j: usize, d: usize, divisor: u128) -> Option<
 /// **Eq. (35)**
 ///
 /// Returns φ_N^{1,0}(k) as printed, for k ≥ 3: one vertex visited three times,
-/// 1/6 (k − 1)!/(k − 3)! N!/(N − (k − 2))!. Gives N/3 at k = 3, where there is no such circuit. None
-/// beyond 128 bits.
+/// 1/6 (k − 1)!/(k − 3)! N!/(N − (k − 2))!. Gives N/3 at k = 3, where there is no such circuit.
+/// None beyond 128 bits.
 pub fn three_visits(big_n: usize, k: usize) -> Option<Fraction> {
     printed(big_n, k, 3, k - 2, 6)
 }
@@ -78,8 +78,8 @@ pub fn three_visits(big_n: usize, k: usize) -> Option<Fraction> {
 /// **Eq. (36)**
 ///
 /// Returns φ_N^{1,0,0}(k) as printed, for k ≥ 4: one vertex visited four times,
-/// 1/24 (k − 1)!/(k − 4)! N!/(N − (k − 3))!. Gives N/4 at k = 4, where there is no such circuit. None
-/// beyond 128 bits.
+/// 1/24 (k − 1)!/(k − 4)! N!/(N − (k − 3))!. Gives N/4 at k = 4, where there is no such circuit.
+/// None beyond 128 bits.
 pub fn four_visits(big_n: usize, k: usize) -> Option<Fraction> {
     printed(big_n, k, 4, k - 3, 24)
 }
@@ -126,9 +126,9 @@ impl Class {
         k.checked_sub(self.excess()).filter(|d| *d >= repeated.max(1))
     }
 
-    /// Returns [`SHARED`] times the number of circuits with k different vertices, over φ_N(k): by the
-    /// printed formula, or as primitive circuits. A polynomial in k with whole coefficients, for any
-    /// N.
+    /// Returns [`SHARED`] times the number of circuits with k different vertices, over φ_N(k): by
+    /// the printed formula, or as primitive circuits. A polynomial in k with whole coefficients,
+    /// for any N.
     pub fn per_simple_circuit(&self, space: SampleSpace, k: usize) -> u128 {
         let short = space == SampleSpace::FiveClasses;
         let k = k as u128;
@@ -151,9 +151,9 @@ pub const SHARED: u128 = 24;
 
 /// **Eq. (38)**
 ///
-/// Returns φ_N(k) + φ_N^1(k+1) + φ_N^{1,0}(k+2) + φ_N^{1,0,0}(k+3) + φ_N^2(k+2), each times p for each
-/// edge more than k, over φ_N(k) and times [`SHARED`]: the weight of all circuits with k different
-/// vertices over that of the simple ones.
+/// Returns φ_N(k) + φ_N^1(k+1) + φ_N^{1,0}(k+2) + φ_N^{1,0,0}(k+3) + φ_N^2(k+2), each times p for
+/// each edge more than k, over φ_N(k) and times [`SHARED`]: the weight of all circuits with k
+/// different vertices over that of the simple ones.
 pub fn multiplicity(space: SampleSpace, p: DoubleDouble, k: usize) -> DoubleDouble {
     let [simple, doubled, three, four, two] =
         CLASSES.map(|class| class.per_simple_circuit(space, k));

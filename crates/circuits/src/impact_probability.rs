@@ -12,8 +12,8 @@
 //! a sum of positive terms: nothing cancels, for any ω, Ω, d and σ.
 //!
 //! Eq. (25) draws the free part of the motion independently of the forcing, with the same σ. A
-//! chain that is at rest when the forcing sets in has no such random part: its free part cancels the
-//! forced position and velocity at t = 0, so with δα, δβ the differences of forcing amplitudes
+//! chain that is at rest when the forcing sets in has no such random part: its free part cancels
+//! the forced position and velocity at t = 0, so with δα, δβ the differences of forcing amplitudes
 //! Y_0 = √(δα² + (Ω/ω)² δβ²)/|ω² − Ω²|, which goes with Y_1. In polar form the radius integrates
 //! out and one angle is left (ours):
 //!
@@ -44,7 +44,8 @@ pub struct ImpactProbability {
     frequency_ratio: DoubleDouble,
 }
 
-/// **Eq. (21)** (step towards (22)): Y = √((α_{j+1} − α_j)² + (β_{j+1} − β_j)²), the amplitude of one harmonic of a gap.
+/// **Eq. (21)** (step towards (22)): Y = √((α_{j+1} − α_j)² + (β_{j+1} − β_j)²), the amplitude of
+/// one harmonic of a gap.
 ///
 /// **Eq. (22)**
 ///
@@ -93,8 +94,8 @@ fn saturation(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { -pxfm::f_expm1(-x) / x }
 }
 
-/// An exponent below which p differs from 1 by so little that 1 − p is the more accurate of the two:
-/// its rounding falls below the last bit of p.
+/// An exponent below which p differs from 1 by so little that 1 − p is the more accurate of the
+/// two: its rounding falls below the last bit of p.
 const NEARLY_ONE: f64 = 0.01;
 
 impl ImpactProbability {
@@ -194,8 +195,9 @@ impl ImpactProbability {
 
     /// **Eq. (20)**
     ///
-    /// Returns 1 − p = P(Y_0 + Y_1/|ω² − Ω²| < d), the probability that the gap never closes, accurate
-    /// even when it is tiny (large σ): an integral over the wider amplitude of positive terms.
+    /// Returns 1 − p = P(Y_0 + Y_1/|ω² − Ω²| < d), the probability that the gap never closes,
+    /// accurate even when it is tiny (large σ): an integral over the wider amplitude of positive
+    /// terms.
     pub fn complement(&self) -> f64 {
         let (s, t) = self.scales();
         let (s2, t_value) = (square(s).to_f64(), t.to_f64());
@@ -235,9 +237,9 @@ impl ImpactProbability {
         1.0 - q2 / (4.0 * sigma2 * sigma2) * integral
     }
 
-    /// Returns the probability that a gap closes by itself after a start from rest. The integrand is
-    /// periodic and analytic, so the trapezoidal rule converges faster than any power; the largest
-    /// value of the exponential is taken out first, so small values keep their digits.
+    /// Returns the probability that a gap closes by itself after a start from rest. The integrand
+    /// is periodic and analytic, so the trapezoidal rule converges faster than any power; the
+    /// largest value of the exponential is taken out first, so small values keep their digits.
     ///
     /// # Errors
     /// [`Error`] if it is below the range of doubles.
@@ -249,8 +251,8 @@ impl ImpactProbability {
         let (rate, reach_f64) = (scale.to_f64(), reach.to_f64());
         let least = scale / square(reach);
         let half = (-least).times_power_of_two(0.5).exp();
-        // The mean is at most one. Where even this is too small the mean would be that of a spike, to
-        // which the rule converges slowly and in vain.
+        // The mean is at most one. Where even this is too small the mean would be that of a spike,
+        // to which the rule converges slowly and in vain.
         if half * half >= f64::MIN_POSITIVE {
             let mean =
                 half_period_mean(|theta| pxfm::f_exp(-rate * excess(kappa, reach_f64, theta)));
@@ -263,8 +265,8 @@ impl ImpactProbability {
     }
 }
 
-/// Returns 1/D(θ)² − 1/D_max² with D(θ) = 1 + √(cos²θ + κ sin²θ), the excess of the exponent over its
-/// least value, without cancellation.
+/// Returns 1/D(θ)² − 1/D_max² with D(θ) = 1 + √(cos²θ + κ sin²θ), the excess of the exponent over
+/// its least value, without cancellation.
 fn excess(kappa: f64, reach: f64, theta: f64) -> f64 {
     let (sin, cos) = pxfm::f_sincos(theta);
     let root = (cos * cos + kappa * sin * sin).sqrt();

@@ -8,13 +8,14 @@ use impact_numerics::scaled::Scaled;
 
 /// **Eq. (12)**
 ///
-/// Returns f_{N,p}(k) = −p k² + (N p − 1) k − 1 at real k: Φ_{N,p} rises from k to k + 1 where it is
-/// positive. Written as p k (N − k) − (k + 1), with the product exact.
+/// Returns f_{N,p}(k) = −p k² + (N p − 1) k − 1 at real k: Φ_{N,p} rises from k to k + 1 where it
+/// is positive. Written as p k (N − k) − (k + 1), with the product exact.
 ///
 /// **Eq. (14)** (step towards (18)): f_{N,p}(0) = −1, whatever N and p.
 /// **Eq. (15)** (step towards (18)): f_{N,p}(N) = −(N + 1), whatever p.
 /// **Eq. (16)** (step towards (18)): f_{N,0}(k) = −(k + 1) < 0, so at p → 0+ every step falls.
-/// **Eq. (17)** (step towards (18)): ∂f/∂p = k (N − k), positive inside (0, N), so f grows with p at every k.
+/// **Eq. (17)** (step towards (18)): ∂f/∂p = k (N − k), positive inside (0, N), so f grows with p
+/// at every k.
 pub fn f(big_n: usize, p: f64, k: f64) -> f64 {
     let product = two_product(k, big_n as f64 - k) * p;
     (product - DoubleDouble::from(k) - DoubleDouble::ONE).to_f64()
@@ -28,8 +29,8 @@ fn f_exact(big_n: usize, p: f64, k: usize) -> DoubleDouble {
 
 /// **Eq. (11)**
 ///
-/// Decides exactly whether Φ_{N,p}(k + 1) − Φ_{N,p}(k) = p^k N!/((N − k)! k (k + 1)) · f_{N,p}(k) is
-/// positive, for 1 ≤ k < N.
+/// Decides exactly whether Φ_{N,p}(k + 1) − Φ_{N,p}(k) = p^k N!/((N − k)! k (k + 1)) · f_{N,p}(k)
+/// is positive, for 1 ≤ k < N.
 pub fn rises(big_n: usize, p: f64, k: usize) -> bool {
     k < big_n && f_exact(big_n, p, k) > DoubleDouble::ZERO
 }
@@ -50,8 +51,8 @@ pub fn zeros(big_n: usize, p: f64) -> Option<[f64; 2]> {
 
 /// **Eq. (18)**
 ///
-/// Returns p_crit = ((1 + √(N + 1))/N)², where f_{N,p} first touches zero: Φ gets a stationary point,
-/// as a function of real k. k* stays at 1 until [`p_jump`].
+/// Returns p_crit = ((1 + √(N + 1))/N)², where f_{N,p} first touches zero: Φ gets a stationary
+/// point, as a function of real k. k* stays at 1 until [`p_jump`].
 ///
 /// # Errors
 /// [`Error`] for N out of range.
@@ -61,8 +62,8 @@ pub fn p_crit(big_n: usize) -> Result<f64, Error> {
     Ok(root * root)
 }
 
-/// Returns the k > 1 at which Φ_{N,p}(k) over integers has its local maximum (the lower of two equal
-/// ones), or 1 if Φ falls everywhere: ⌈k+⌉, since f is a forward difference.
+/// Returns the k > 1 at which Φ_{N,p}(k) over integers has its local maximum (the lower of two
+/// equal ones), or 1 if Φ falls everywhere: ⌈k+⌉, since f is a forward difference.
 pub fn local_maximum(big_n: usize, p: f64) -> usize {
     let Some([_, plus]) = zeros(big_n, p) else { return 1 };
     // Rounding may put k+ on the wrong side of an integer: exact signs decide.
@@ -105,7 +106,8 @@ impl Law {
         }
     }
 
-    /// Returns k* of simple circuits: either 1 or the one local maximum, found from exact signs of f.
+    /// Returns k* of simple circuits: either 1 or the one local maximum, found from exact signs of
+    /// f.
     fn simple_k_star(&self) -> usize {
         let top = local_maximum(self.big_n, self.p);
         if top == 1 || rises(self.big_n, self.p, 1) {
@@ -192,8 +194,8 @@ pub fn jump_rule(big_n: usize) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Second routes: the exact jump, from which the rule is off by about ln k; and ⌈k+⌉ of Eq. (13),
-    /// which is N − 1/p up to one and 1/(p k*).
+    /// Second routes: the exact jump, from which the rule is off by about ln k; and ⌈k+⌉ of Eq.
+    /// (13), which is N − 1/p up to one and 1/(p k*).
     #[test]
     fn the_rules_for_many_vertices_are_near_the_jump_and_its_share() {
         for big_n in [21, 100, 1000, 1_000_000] {

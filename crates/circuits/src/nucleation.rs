@@ -1,31 +1,33 @@
-//! Computes the probabilities that a gap of a chain from rest closes by itself, and that some gap of
-//! it does (nucleation; ours).
+//! Computes the probabilities that a gap of a chain from rest closes by itself, and that some gap
+//! of it does (nucleation; ours).
 //!
 //! # One gap
-//! A chain from rest has free parts that cancel the forced positions and velocities at t = 0. With the
-//! differences δα = ρ cos θ, δβ = ρ sin θ of the amplitudes on both sides of a gap, its width is
+//! A chain from rest has free parts that cancel the forced positions and velocities at t = 0. With
+//! the differences δα = ρ cos θ, δβ = ρ sin θ of the amplitudes on both sides of a gap, its width
+//! is
 //!
 //! Δ(t) = d − ρ E(t) · (cos θ, sin θ),
 //! E(t) = (cos ωt − cos Ωt, (Ω/ω) sin ωt − sin Ωt)/(ω² − Ω²),
 //!
-//! the same plane curve E for every gap of every chain. The gap closes by T where ρ M_T(θ) ≥ d, with
-//! M_T(θ) the largest value of E · (cos θ, sin θ) on [0, T]: how far the convex hull of the curve
-//! reaches in that direction. The differences are normal, so ρ is Rayleigh distributed, θ uniform,
-//! and for a gap between two masses
+//! the same plane curve E for every gap of every chain. The gap closes by T where ρ M_T(θ) ≥ d,
+//! with M_T(θ) the largest value of E · (cos θ, sin θ) on [0, T]: how far the convex hull of the
+//! curve reaches in that direction. The differences are normal, so ρ is Rayleigh distributed, θ
+//! uniform, and for a gap between two masses
 //!
 //! p_T = (1/2π) ∮ exp(−(d/(2σ M_T(θ)))²) dθ.
 //!
 //! At a wall only one of the amplitudes differs from zero: σ/√2 stands for σ. For incommensurable
-//! frequencies M_T rises to M(θ) = (1 + √(cos²θ + (Ω/ω)² sin²θ))/|ω² − Ω²|, and p_T to p_rest. A gap
-//! closes late only if it closes barely: the phases that it needs form an ellipse of size √ε, for
-//! ρ M = d + ε, which a straight line of length T in the torus of phases misses for ε of order
+//! frequencies M_T rises to M(θ) = (1 + √(cos²θ + (Ω/ω)² sin²θ))/|ω² − Ω²|, and p_T to p_rest. A
+//! gap closes late only if it closes barely: the phases that it needs form an ellipse of size √ε,
+//! for ρ M = d + ε, which a straight line of length T in the torus of phases misses for ε of order
 //! T^{−2} only.
 //!
 //! # Two neighbours
-//! Neighbours share a mass, and with it the force on that mass: both amplitude differences contain it
-//! with opposite signs, so their covariance is −σ². In polar coordinates for the radii of the two,
-//! r_1 = s cos φ and r_2 = s sin φ, the integral over s is elementary, and three angles are left. Where
-//! tan φ < m_2/m_1, m_i = d/M(θ_i), the second radius decides whether both close, and with t = tan φ
+//! Neighbours share a mass, and with it the force on that mass: both amplitude differences contain
+//! it with opposite signs, so their covariance is −σ². In polar coordinates for the radii of the
+//! two, r_1 = s cos φ and r_2 = s sin φ, the integral over s is elementary, and three angles are
+//! left. Where tan φ < m_2/m_1, m_i = d/M(θ_i), the second radius decides whether both close, and
+//! with t = tan φ
 //!
 //! P = ⟨ ∫_0^{m_2/m_1} (2 t D/Q²)(1 + h) e^{−h} dt ⟩ over θ_1 and θ_2, and the same with 1 and 2
 //! exchanged,
@@ -36,15 +38,15 @@
 //! # At least one gap of a chain
 //! The gaps are 1-dependent: gaps that share no mass are independent, neighbours are not, and those
 //! that close by themselves come in clumps. A clump begins at a gap that closes when the gap to its
-//! left does not. There is a gap that closes if and only if there is a clump, and beginnings of clumps
-//! are nearly independent: if their mean number is λ, there is no clump with a probability near
-//! e^{−λ}.
+//! left does not. There is a gap that closes if and only if there is a clump, and beginnings of
+//! clumps are nearly independent: if their mean number is λ, there is no clump with a probability
+//! near e^{−λ}.
 //!
 //! Dependence only makes chains without such a gap more frequent. In unlimited time a gap does not
 //! close if the difference of its forces lies in a set that is convex and symmetric about zero, and
-//! forces are jointly normal. By the Gaussian correlation inequality (Royen 2014) all gaps stay open
-//! with at least the product of the probabilities that each does: independent gaps give an upper bound
-//! on the share of chains with a gap that closes.
+//! forces are jointly normal. By the Gaussian correlation inequality (Royen 2014) all gaps stay
+//! open with at least the product of the probabilities that each does: independent gaps give an
+//! upper bound on the share of chains with a gap that closes.
 
 use impact_chain::{Boundary, Chain};
 use impact_numerics::quadrature::GaussLegendre;
@@ -77,8 +79,9 @@ fn along([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> f64 {
 }
 
 impl Reach {
-    /// Computes the reach within each of some rising times, at `angles` angles. Times are rounded down
-    /// to eighths of 1/ω; maxima are exact to rounding, except two of them less than an eighth apart.
+    /// Computes the reach within each of some rising times, at `angles` angles. Times are rounded
+    /// down to eighths of 1/ω; maxima are exact to rounding, except two of them less than an eighth
+    /// apart.
     pub fn within(chain: &Chain, times: &[f64], angles: usize) -> Vec<Reach> {
         let step = 1.0 / (STEPS as f64 * chain.natural_frequency);
         let directions: Vec<[f64; 2]> = directions(angles).collect();
@@ -122,8 +125,8 @@ impl Reach {
         Reach { radii: self.radii.iter().copied().step_by(step.max(1)).collect() }
     }
 
-    /// Returns the probability that a gap closes by itself whose two amplitudes differ by normals with
-    /// variance `variance` each: 2σ² between masses, σ² at a wall; d is the `spacing`.
+    /// Returns the probability that a gap closes by itself whose two amplitudes differ by normals
+    /// with variance `variance` each: 2σ² between masses, σ² at a wall; d is the `spacing`.
     pub fn probability(&self, spacing: f64, variance: f64) -> f64 {
         let beyond = |radius: &f64| {
             let least = spacing / radius;
@@ -134,8 +137,8 @@ impl Reach {
     }
 }
 
-/// Decides whether a gap of a chain from rest, whose two forces differ by these amplitudes, closes in
-/// unlimited time.
+/// Decides whether a gap of a chain from rest, whose two forces differ by these amplitudes, closes
+/// in unlimited time.
 pub fn closes_by_itself(chain: &Chain, [delta_alpha, delta_beta]: [f64; 2]) -> bool {
     let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
     let turned = big_omega / omega * delta_beta;
@@ -174,8 +177,9 @@ fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64
 /// Points of the rule on each side of the angle from which on the other radius decides.
 const POINTS: usize = 20;
 
-/// Returns the probability that two neighbouring gaps, of variances v_1 and v_2 (2σ² between masses,
-/// σ² at a wall), both close by themselves. The rule over the angles has the points of the reach.
+/// Returns the probability that two neighbouring gaps, of variances v_1 and v_2 (2σ² between
+/// masses, σ² at a wall), both close by themselves. The rule over the angles has the points of the
+/// reach.
 fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
     let rule = GaussLegendre::new(POINTS);
     let shared = sigma * sigma;
@@ -222,8 +226,8 @@ pub struct Chances {
 }
 
 impl Chances {
-    /// Computes the chances within a reach, for forces of standard deviation `sigma`; `fewer` is the
-    /// reach at fewer angles, for neighbours, which cost the square of that number.
+    /// Computes the chances within a reach, for forces of standard deviation `sigma`; `fewer` is
+    /// the reach at fewer angles, for neighbours, which cost the square of that number.
     pub fn new(chain: &Chain, reach: &Reach, fewer: &Reach, sigma: f64) -> Chances {
         let (mass, wall) = (2.0 * sigma * sigma, sigma * sigma);
         let d = chain.spacing;
@@ -253,8 +257,8 @@ impl Chances {
     }
 }
 
-/// Returns the σ at which half of such chains have a gap that closes by itself, to a relative error of
-/// about 1e-6; the sum over angles is less exact.
+/// Returns the σ at which half of such chains have a gap that closes by itself, to a relative error
+/// of about 1e-6; the sum over angles is less exact.
 pub fn half(chain: &Chain, reach: &Reach, fewer: &Reach) -> f64 {
     let share = |sigma: f64| {
         Chances::new(chain, reach, fewer, sigma).at_least_one(chain.masses, chain.boundary)

@@ -35,8 +35,8 @@ struct Shut<'a, const M: usize> {
 }
 
 impl<const M: usize> Shut<'_, M> {
-    /// Adds gaps that are driven shut; returns true if none is left. A sweep to the right and one to
-    /// the left let a long run grow in few rounds.
+    /// Adds gaps that are driven shut; returns true if none is left. A sweep to the right and one
+    /// to the left let a long run grow in few rounds.
     fn grow(&mut self) -> bool {
         let n = self.g.len();
         self.spread(0..n);

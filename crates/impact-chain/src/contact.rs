@@ -146,8 +146,8 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// Lists the maximal runs of adjacent settled gaps, from left to right. On a ring a run may pass
-    /// from the last gap to the first.
+    /// Lists the maximal runs of adjacent settled gaps, from left to right. On a ring a run may
+    /// pass from the last gap to the first.
     fn runs(&self, known: &BTreeMap<usize, [f64; 2]>) -> Vec<Vec<usize>> {
         let follows = |run: &[usize], k: usize| {
             run.last().is_some_and(|last| self.topology.adjacent(*last)[1] == Some(k))

@@ -1,6 +1,6 @@
 //! Counts the impacts of an ensemble at one σ: different gaps with an impact in each window, close
-//! and slow impacts. All counts are whole numbers that add. This code runs at every impact, so it is
-//! compiled for speed with the engine.
+//! and slow impacts. All counts are whole numbers that add. This code runs at every impact, so it
+//! is compiled for speed with the engine.
 
 use crate::ensemble::{Ensemble, Protocol};
 use crate::search::outcome::Counters;
@@ -17,8 +17,8 @@ pub const SLOW_DECADES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e
 /// Impacts after which a run checks again whether to stop.
 const CHECK_EVERY: u64 = 4096;
 
-/// The counts of realisations in their order, for each window of the ensemble. Counts of realisations
-/// that follow one another are joined by collecting them.
+/// The counts of realisations in their order, for each window of the ensemble. Counts of
+/// realisations that follow one another are joined by collecting them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
     /// Different gaps with an impact in each window, of each piece of each realisation; none if it
@@ -238,8 +238,8 @@ impl Watch {
     }
 }
 
-/// Counts the masses with an impact on one side or both: mass j lies between gaps j − 1 and j, and on
-/// a ring the last one between the last gap and the first.
+/// Counts the masses with an impact on one side or both: mass j lies between gaps j − 1 and j, and
+/// on a ring the last one between the last gap and the first.
 fn masses_hit(hit: &[bool], ring: bool) -> u32 {
     let last = ring && hit.first().zip(hit.last()).is_some_and(|(first, last)| *first || *last);
     let inner = hit.windows(2).map(|sides| u32::from(sides[0] || sides[1])).sum::<u32>();

@@ -12,7 +12,8 @@ use super::flight::Phases;
 use super::simulation::Simulation;
 use impact_numerics::double_double::DoubleDouble;
 
-/// Closing speed, in units of d ω, below which the frame of a gap is more accurate than the motions.
+/// Closing speed, in units of d ω, below which the frame of a gap is more accurate than the
+/// motions.
 const LEAST_SPEED: f64 = 1e-3;
 
 impl<const M: usize> Simulation<M> {

@@ -3,8 +3,8 @@
 use crate::Chain;
 use serde::{Deserialize, Serialize};
 
-/// The window (T, T + W] in which gaps with an impact are counted (ours; Sec. 2 has only "a suitable
-/// transient time").
+/// The window (T, T + W] in which gaps with an impact are counted (ours; Sec. 2 has only "a
+/// suitable transient time").
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Protocol {
     /// Transient T that is dropped, in units of 1/ω.
@@ -26,8 +26,8 @@ impl Protocol {
     }
 }
 
-/// A stronger force before the count begins; then all forces are lowered to σ at unchanged positions
-/// and velocities.
+/// A stronger force before the count begins; then all forces are lowered to σ at unchanged
+/// positions and velocities.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Heating {
     /// Standard deviation of the stronger amplitudes.
@@ -36,8 +36,8 @@ pub struct Heating {
     pub time: f64,
 }
 
-/// Fewer or shorter runs beyond the rise, where all chains have nearly the same count and each costs
-/// most.
+/// Fewer or shorter runs beyond the rise, where all chains have nearly the same count and each
+/// costs most.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Beyond {
     /// The σ above which runs are fewer or shorter, in units of d ω².

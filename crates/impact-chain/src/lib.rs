@@ -2,14 +2,15 @@
 //!
 //! # Contents
 //!
-//! - [`Chain`], [`Scenario`]: the chain of Sec. 2, and a chain with the amplitudes of its forcing and its start.
-//! - [`Engine`], [`Impact`], [`Counters`]: the simulation of a scenario, its impacts, and its counted
-//!   work.
+//! - [`Chain`], [`Scenario`]: the chain of Sec. 2, and a chain with the amplitudes of its forcing
+//!   and its start.
+//! - [`Engine`], [`Impact`], [`Counters`]: the simulation of a scenario, its impacts, and its
+//!   counted work.
 //! - [`Ensemble`], [`Counts`], [`rise`]: many random chains, counted in windows of time; means and
 //!   places of the rise.
 //! - [`Error`], [`rounding`]: input that is refused, and a bound of the errors of impacts.
-//! - [`replay`]: runs with a digest of their impacts, to be repeated bit for bit. [`counts`]: close and
-//!   slow impacts.
+//! - [`replay`]: runs with a digest of their impacts, to be repeated bit for bit. [`counts`]: close
+//!   and slow impacts.
 //! - [`methods`], [`State`]: other ways to simulate a chain, to compare with, and the motion to 106
 //!   bits.
 //!

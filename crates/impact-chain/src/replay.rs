@@ -1,5 +1,5 @@
-//! Runs a chain so that the run can be repeated elsewhere: a digest of the impacts shows that they are
-//! the same to the last bit.
+//! Runs a chain so that the run can be repeated elsewhere: a digest of the impacts shows that they
+//! are the same to the last bit.
 
 use crate::error::{Error, within};
 use crate::search::clock::LATEST;
@@ -124,9 +124,9 @@ impl Replay {
         &self.engine
     }
 
-    /// Returns SHA-256 over the impacts so far, in hexadecimal: of each impact the time, the gap as the
-    /// engine numbers it, and the closing speed; eight bytes each, the lowest first, with the bits of
-    /// doubles as they are.
+    /// Returns SHA-256 over the impacts so far, in hexadecimal: of each impact the time, the gap as
+    /// the engine numbers it, and the closing speed; eight bytes each, the lowest first, with the
+    /// bits of doubles as they are.
     pub fn digest(&self) -> String {
         self.hash.clone().finalize().iter().map(|byte| format!("{byte:02x}")).collect()
     }

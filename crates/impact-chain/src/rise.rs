@@ -90,8 +90,8 @@ pub struct RisePoint {
     pub counts: Vec<u32>,
 }
 
-/// The place of the rise on the σ axis, in several senses. Each is the last rise of a curve through a
-/// level, linear between rows; none if the curve does not rise through it.
+/// The place of the rise on the σ axis, in several senses. Each is the last rise of a curve through
+/// a level, linear between rows; none if the curve does not rise through it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rise {
     /// Half height: the mean over realisations with an impact reaches N/2.

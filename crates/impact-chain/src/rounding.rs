@@ -2,9 +2,9 @@
 //!
 //! Take the doubles of a scenario as exact, and let gap Δ of two neighbours close next, at t + s,
 //! falling with speed v = −Δ'(t + s). Then the engine's waiting time is off by at most
-//! |δs| ≤ C ε S/v, with C = [`TIME`], ε = 2⁻⁵² and S = d + Q₁ + Q₂, where Q₁ and Q₂ are the free and
-//! the forced amplitudes of *both* neighbours, summed. Amplitudes that two neighbours share vanish
-//! from the gap, but their roundings do not: each forced amplitude is divided by ω² − Ω²
+//! |δs| ≤ C ε S/v, with C = [`TIME`], ε = 2⁻⁵² and S = d + Q₁ + Q₂, where Q₁ and Q₂ are the free
+//! and the forced amplitudes of *both* neighbours, summed. Amplitudes that two neighbours share
+//! vanish from the gap, but their roundings do not: each forced amplitude is divided by ω² − Ω²
 //! separately. Impacts that nearly graze are excepted: there no double can decide whether the gap
 //! closes.
 //!

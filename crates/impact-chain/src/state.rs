@@ -93,8 +93,8 @@ impl State {
         Ok(())
     }
 
-    /// Returns the scenario that starts at t = 0 exactly where this state is: the forcing rotated by
-    /// Ωt, the free parts derived.
+    /// Returns the scenario that starts at t = 0 exactly where this state is: the forcing rotated
+    /// by Ωt, the free parts derived.
     ///
     /// # Errors
     /// [`Error::Input`] for a scenario or a state outside the model, [`Error::Overlap`] for an

@@ -1,11 +1,12 @@
-//! Bootstrap intervals, with a separate random stream and in a fixed order.
+//! Computes bootstrap intervals, with a separate random stream and in a fixed order.
 
 use super::random::generator;
 use super::statistics::{Estimate, quantile, standard_deviation};
 use rand::Rng;
 
-/// How often each of `size` members of a sample is drawn in resample `index`: `size` draws with replacement. Equal
-/// (seed, index, size) give equal weights, so quantities are resampled jointly by use of the same index.
+/// Draws how often each of `size` members of a sample is drawn in resample `index`: `size` draws
+/// with replacement. Equal (seed, index, size) give equal weights, so quantities are resampled
+/// jointly by use of the same index.
 pub fn weights(seed: u64, index: u64, size: usize) -> Vec<u32> {
     let mut random = generator("bootstrap", seed, index);
     let mut weights = vec![0; size];
@@ -17,8 +18,8 @@ pub fn weights(seed: u64, index: u64, size: usize) -> Vec<u32> {
     weights
 }
 
-/// The histogram of a resample: how often each count occurs, by the weights of the members; members without a count are
-/// left out. `histogram` must be longer than the largest count.
+/// The histogram of a resample: how often each count occurs, by the weights of the members; members
+/// without a count are left out. `histogram` must be longer than the largest count.
 pub fn histogram(counts: &[Option<u32>], weights: &[u32], histogram: &mut [u32]) {
     histogram.fill(0);
     for (&count, &weight) in counts.iter().zip(weights) {
@@ -28,17 +29,21 @@ pub fn histogram(counts: &[Option<u32>], weights: &[u32], histogram: &mut [u32])
     }
 }
 
-/// The number of members of a histogram, and the sum of their counts.
+/// Returns the number of members of a histogram, and the sum of their counts.
 pub fn total(histogram: &[u32]) -> [u64; 2] {
-    let one = |[n, sum]: [u64; 2], (k, &h): (u64, &u32)| [n + u64::from(h), sum + k * u64::from(h)];
-    (0_u64..).zip(histogram).fold([0; 2], one)
+    let (mut members, mut sum) = (0, 0);
+    for (k, &occurs) in (0_u64..).zip(histogram) {
+        members += u64::from(occurs);
+        sum += k * u64::from(occurs);
+    }
+    [members, sum]
 }
 
 /// Share of resamples without a value above which there is no interval.
 const MISSING: f64 = 0.01;
 
-/// The percentile interval of `resampled` around the estimate of the whole sample. None if there
-/// is no such estimate, or if more than one resample in a hundred has none.
+/// Returns the percentile interval of `resampled` around the estimate of the whole sample. None if
+/// there is no such estimate, or if more than one resample in a hundred has none.
 pub fn estimate(value: Option<f64>, resampled: &[Option<f64>], level: f64) -> Option<Estimate> {
     let value = value?;
     let mut present: Vec<f64> = resampled.iter().copied().flatten().collect();

@@ -12,11 +12,11 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 pub struct DoubleDouble {
     /// The nearest double.
     pub hi: f64,
-    /// What is left of the value.
+    /// The rest of the value.
     pub lo: f64,
 }
 
-/// a + b exactly, as rounded sum and error.
+/// Returns a + b exactly, as rounded sum and error.
 fn two_sum(a: f64, b: f64) -> DoubleDouble {
     let hi = a + b;
     let b_part = hi - a;
@@ -24,7 +24,7 @@ fn two_sum(a: f64, b: f64) -> DoubleDouble {
     DoubleDouble { hi, lo }
 }
 
-/// a + b exactly, when |a| ≥ |b| or a = 0.
+/// Returns a + b exactly, when |a| ≥ |b| or a = 0.
 fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     let hi = a + b;
     DoubleDouble { hi, lo: b - (hi - a) }
@@ -37,7 +37,7 @@ fn split(a: f64) -> (f64, f64) {
     (high, a - high)
 }
 
-/// a · b exactly, as rounded product and error.
+/// Returns a · b exactly, as rounded product and error.
 pub fn two_product(a: f64, b: f64) -> DoubleDouble {
     let hi = a * b;
     let (a1, a2) = split(a);
@@ -47,11 +47,8 @@ pub fn two_product(a: f64, b: f64) -> DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// Zero.
     pub const ZERO: Self = DoubleDouble { hi: 0.0, lo: 0.0 };
-    /// One.
     pub const ONE: Self = DoubleDouble { hi: 1.0, lo: 0.0 };
-    /// ln 2.
     pub const LN_2: Self =
         DoubleDouble { hi: std::f64::consts::LN_2, lo: 2.319_046_813_846_299_6e-17 };
 
@@ -60,19 +57,19 @@ impl DoubleDouble {
         DoubleDouble { hi: self.hi * factor, lo: self.lo * factor }
     }
 
-    /// The nearest double.
+    /// Returns the nearest double.
     pub fn to_f64(self) -> f64 {
         self.hi + self.lo
     }
 
-    /// e^self as a double, with the relative error of the exponential of a double.
+    /// Returns e^self as a double, with the relative error of the exponential of a double.
     pub fn exp(self) -> f64 {
         let e = pxfm::f_exp(self.hi);
         // At 0 and ∞ nothing is left to correct, and lo may be anything.
         if e == 0.0 || e.is_infinite() { e } else { e + e * pxfm::f_expm1(self.lo) }
     }
 
-    /// The square root, for values ≥ 0.
+    /// Returns the square root, for values ≥ 0.
     pub fn sqrt(self) -> Self {
         if self.hi <= 0.0 {
             return DoubleDouble::ZERO;
@@ -171,7 +168,8 @@ const HALF_PI: DoubleDouble =
 /// Terms below this part of the sum change no bit of 106.
 const NEGLIGIBLE: f64 = 1e-33;
 
-/// sin x and cos x by their Taylor series, which is slow; the absolute error grows as 1e−32 |x|.
+/// Computes sin x and cos x by their Taylor series, which is slow; the absolute error grows as
+/// 1e−32 |x|.
 pub fn sin_cos(x: DoubleDouble) -> [DoubleDouble; 2] {
     let turns = (x / HALF_PI).hi.round();
     let r = x - HALF_PI * turns;

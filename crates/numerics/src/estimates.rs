@@ -1,34 +1,35 @@
-//! Numbers with their errors and intervals, from samples and by the jackknife.
+//! Estimates numbers with errors and intervals, from samples and by the jackknife.
 
 use super::statistics::{Estimate, mean, normal_quantile, standard_error};
 
 /// The level of intervals.
 pub const LEVEL: f64 = 0.95;
 
-/// A number with its standard error, and the normal interval that follows from it.
+/// Joins a number, its standard error, and the normal interval that follows from it.
 pub fn with_error(value: f64, error: f64) -> Estimate {
     let half = normal_quantile(LEVEL) * error;
     Estimate { value, error, interval: [value - half, value + half] }
 }
 
-/// The mean of a sample; none of fewer than two values.
+/// Returns the mean of a sample; none of fewer than two values.
 pub fn average(sample: &[f64]) -> Option<Estimate> {
     Some(with_error(mean(sample)?, standard_error(sample)?))
 }
 
-/// The share `part`/`whole` with its binomial error; none if `whole` is 0.
+/// Returns the share `part`/`whole` with its binomial error; none if `whole` is 0.
 pub fn share(part: u64, whole: u64) -> Option<Estimate> {
     let (p, n) = (part as f64 / whole as f64, whole as f64);
     (whole > 0).then(|| with_error(p, (p * (1.0 - p) / n).sqrt()))
 }
 
-/// The difference a − b of estimates from independent samples.
+/// Returns the difference a − b of estimates from independent samples.
 pub fn difference(a: Estimate, b: Estimate) -> Estimate {
     with_error(a.value - b.value, (a.error * a.error + b.error * b.error).sqrt())
 }
 
-/// `statistic` of all realisations, with the jackknife error from its values without each in turn (its argument is the
-/// one left out). None if one of these does not exist, or there are fewer than two realisations.
+/// `statistic` of all realisations, with the jackknife error from its values without each in turn
+/// (its argument is the one left out). None if one of these does not exist, or there are fewer than
+/// two realisations.
 pub fn jackknife(
     realisations: usize,
     statistic: impl Fn(Option<usize>) -> Option<f64>,
@@ -38,7 +39,7 @@ pub fn jackknife(
     Some(with_error(statistic(None)?, error))
 }
 
-/// The ratio of two sums over realisations, with its jackknife error.
+/// Returns the ratio of two sums over realisations, with its jackknife error.
 pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
     jackknife(pairs.len(), |out| {
         let used = pairs.iter().enumerate().filter(|(at, _)| Some(*at) != out);

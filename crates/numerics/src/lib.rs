@@ -1,10 +1,10 @@
-//! Mathematics without physics. Everything gives the same bits on every machine: only + − × ÷ √ and the functions of
-//! `pxfm` are used, never the platform's libm.
+//! Mathematics without physics. Everything gives the same bits on every machine: only + − × ÷ √ and
+//! the functions of `pxfm` are used, never the platform's libm.
 //!
 //! - Numbers beyond f64: [`double_double`] has 32 digits, [`scaled`] the exponents of factorials.
 //! - [`roots`] and integrals ([`quadrature`]).
-//! - Samples: [`random`] streams that depend on their names only, [`statistics`], the [`bootstrap`], and [`estimates`]
-//!   with errors by the jackknife.
+//! - Samples: [`random`] streams that depend on their names only, [`statistics`], the
+//!   [`bootstrap`], and [`estimates`] with errors by the jackknife.
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 

@@ -1,4 +1,4 @@
-//! Gauss–Legendre rules of any order, and sums of panels.
+//! Integrates by Gauss–Legendre rules of any order, and by sums of panels.
 
 /// Nodes and weights of a Gauss–Legendre rule on [−1, 1].
 #[derive(Clone, Debug)]
@@ -8,8 +8,9 @@ pub struct GaussLegendre {
 }
 
 impl GaussLegendre {
-    /// The rule with `points` ≥ 1 points, exact for polynomials of degree 2·points − 1. The nodes
-    /// are zeros of the Legendre polynomial, by Newton's method from the usual cosine estimate.
+    /// Creates the rule with `points` ≥ 1 points, exact for polynomials of degree 2·points − 1. The
+    /// nodes are zeros of the Legendre polynomial, by Newton's method from the usual cosine
+    /// estimate.
     pub fn new(points: usize) -> Self {
         let n = points as f64;
         let (mut nodes, mut weights) = (Vec::new(), Vec::new());
@@ -28,21 +29,21 @@ impl GaussLegendre {
         GaussLegendre { nodes, weights }
     }
 
-    /// The integral of `f` over [a, b].
+    /// Returns the integral of `f` over [a, b].
     pub fn integrate(&self, a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
         let terms = self.nodes.iter().zip(&self.weights).map(|(x, w)| w * f(middle + half * x));
         half * terms.fold(0.0, |sum, term| sum + term)
     }
 
-    /// The integral of `f` over [a, b], cut into `panels` equal parts.
+    /// Returns the integral of `f` over [a, b], cut into `panels` equal parts.
     pub fn integrate_panels(&self, a: f64, b: f64, panels: usize, f: impl Fn(f64) -> f64) -> f64 {
         let edge = |i: usize| a + (b - a) * (i as f64 / panels as f64);
         (0..panels).fold(0.0, |sum, i| sum + self.integrate(edge(i), edge(i + 1), &f))
     }
 }
 
-/// The Legendre polynomial of degree n and its derivative at x, |x| < 1.
+/// Returns the Legendre polynomial of degree n and its derivative at x, |x| < 1.
 fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut previous, mut value) = (1.0, x);
     for j in 2..=n {

@@ -1,4 +1,4 @@
-//! Random streams keyed by (experiment, master seed, realisation), with portable normals.
+//! Creates random streams keyed by (experiment, master seed, realisation), with portable normals.
 
 use rand_distr::{Distribution, UnitDisc};
 use rand_pcg::Pcg64Dxsm;
@@ -13,7 +13,7 @@ use sha2::{Digest, Sha256};
 #[derive(Clone, Debug)]
 pub struct NormalPairs(Pcg64Dxsm);
 
-/// The generator behind every random choice: stream `index` of `experiment` under `seed`.
+/// Creates the generator behind every random choice: stream `index` of `experiment` under `seed`.
 pub fn generator(experiment: &str, seed: u64, index: u64) -> Pcg64Dxsm {
     let mut hash = Sha256::new();
     hash.update(seed.to_le_bytes());
@@ -25,12 +25,12 @@ pub fn generator(experiment: &str, seed: u64, index: u64) -> Pcg64Dxsm {
 }
 
 impl NormalPairs {
-    /// The stream of one realisation.
+    /// Creates the stream of one realisation.
     pub fn new(experiment: &str, seed: u64, realisation: u64) -> Self {
         NormalPairs(generator(experiment, seed, realisation))
     }
 
-    /// The next pair of independent standard normals.
+    /// Returns the next pair of independent standard normals.
     pub fn pair(&mut self) -> [f64; 2] {
         loop {
             let [x, y]: [f64; 2] = UnitDisc.sample(&mut self.0);

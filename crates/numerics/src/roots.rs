@@ -1,6 +1,7 @@
-//! Roots of functions of one number: by bisection down to two neighbouring doubles, and by false position.
+//! Finds roots of functions of one number: by bisection down to two neighbouring doubles, and by
+//! false position.
 
-/// The neighbouring positive doubles between which `holds` turns from false to true.
+/// Returns the neighbouring positive doubles between which `holds` turns from false to true.
 ///
 /// `holds` must be monotone on [low, high], false at `low` and true at `high` (neither is tried);
 /// 0 ≤ low < high, both finite. At most 64 evaluations, whatever the interval.
@@ -18,19 +19,20 @@ pub fn bracket(low: f64, high: f64, mut holds: impl FnMut(f64) -> bool) -> [f64;
     [f64::from_bits(below), f64::from_bits(above)]
 }
 
-/// Most evaluations; a few are enough where the function is smooth.
-const MOST: usize = 100;
+/// The largest number of evaluations; a few are enough where the function is smooth.
+const MAX_EVALUATIONS: usize = 100;
 
-/// Where a continuous function crosses zero from below: false position, in which an end that stays for a second
-/// time counts with half its value, so that both ends move (the Illinois method; Dowell and Jarratt 1971). It ends
-/// when two estimates in a row differ by no more than `tolerance`, which is not a bound of the error.
+/// Finds where a continuous function crosses zero from below: false position, in which an end that
+/// stays for a second time counts with half its value, so that both ends move (the Illinois method;
+/// Dowell and Jarratt 1971). It ends when two estimates in a row differ by no more than
+/// `tolerance`, which is not a bound of the error.
 ///
 /// `f` must be negative at `low` and positive at `high`; it is evaluated there too.
 pub fn crossing([low, high]: [f64; 2], tolerance: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
     let ((mut low, mut below), (mut high, mut above)) = ((low, f(low)), (high, f(high)));
     debug_assert!(below < 0.0 && above > 0.0, "no crossing between {low} and {high}");
     let (mut last, mut rose) = (f64::INFINITY, None);
-    for _ in 0..MOST {
+    for _ in 0..MAX_EVALUATIONS {
         let middle = (low * above - high * below) / (above - below);
         if (middle - last).abs() <= tolerance {
             return middle;

@@ -1,5 +1,5 @@
-//! Numbers ≥ 0 of any magnitude: 106 bits and a separate binary exponent, so that products of a million factors
-//! neither overflow nor lose digits.
+//! Numbers ≥ 0 of any magnitude: 106 bits and a separate binary exponent, so that products of a
+//! million factors neither overflow nor lose digits.
 
 use super::double_double::DoubleDouble;
 use std::ops::{Add, Div, Mul};
@@ -7,7 +7,8 @@ use std::ops::{Add, Div, Mul};
 /// Binary digits by which mantissas are rescaled at once.
 const STEP: i64 = 128;
 
-/// The value mantissa · 2^exponent; the mantissa is from 1 on and below 2^128, the exponent a multiple of 128.
+/// The value mantissa · 2^exponent; the mantissa is from 1 on and below 2^128, the exponent a
+/// multiple of 128.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Scaled {
     exponent: i64,
@@ -20,9 +21,7 @@ fn power_of_two(e: i64) -> f64 {
 }
 
 impl Scaled {
-    /// Zero.
     pub const ZERO: Self = Scaled { mantissa: DoubleDouble::ZERO, exponent: i64::MIN / 2 };
-    /// One.
     pub const ONE: Self = Scaled { mantissa: DoubleDouble::ONE, exponent: 0 };
 
     fn normalised(mut mantissa: DoubleDouble, mut exponent: i64) -> Self {
@@ -40,7 +39,7 @@ impl Scaled {
         Scaled { mantissa, exponent }
     }
 
-    /// The nearest double: 0 below and ∞ above the range of a double.
+    /// Returns the nearest double: 0 below and ∞ above the range of a double.
     pub fn to_f64(self) -> f64 {
         match self.exponent {
             // Twice, since 2^-1152 is no double.
@@ -54,7 +53,7 @@ impl Scaled {
         }
     }
 
-    /// The natural logarithm of a positive value.
+    /// Returns the natural logarithm of a positive value.
     pub fn ln(self) -> f64 {
         // The mantissa between 3/4 and 3/2, so that nothing cancels when the value is near 1.
         let mut shift = (self.mantissa.hi.to_bits() >> 52) as i64 - 1023;

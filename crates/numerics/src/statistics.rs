@@ -1,4 +1,4 @@
-//! Estimates from samples: means, modes, quantiles, proportions and their errors.
+//! Computes estimates from samples: means, modes, quantiles, proportions and their errors.
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
@@ -8,30 +8,31 @@ use statrs::distribution::{ContinuousCDF, Normal};
 pub struct Estimate {
     /// The estimate from the whole sample.
     pub value: f64,
-    /// Its standard error.
+    /// Standard error.
     pub error: f64,
-    /// Its confidence interval.
+    /// Confidence interval.
     pub interval: [f64; 2],
 }
 
-/// The mean; none of an empty sample.
+/// Returns the mean; none of an empty sample.
 pub fn mean(sample: &[f64]) -> Option<f64> {
     (!sample.is_empty()).then(|| sample.iter().sum::<f64>() / sample.len() as f64)
 }
 
-/// The standard deviation with n − 1 degrees of freedom; none below two values.
+/// Returns the standard deviation with n − 1 degrees of freedom; none below two values.
 pub fn standard_deviation(sample: &[f64]) -> Option<f64> {
     let centre = mean(sample)?;
     let squares: f64 = sample.iter().map(|x| (x - centre) * (x - centre)).sum();
     (sample.len() > 1).then(|| (squares / (sample.len() - 1) as f64).sqrt())
 }
 
-/// The standard error of the mean; none below two values.
+/// Returns the standard error of the mean; none below two values.
 pub fn standard_error(sample: &[f64]) -> Option<f64> {
     Some(standard_deviation(sample)? / (sample.len() as f64).sqrt())
 }
 
-/// The quantile of a sorted sample, linear between order statistics (Hyndman and Fan's type 7).
+/// Returns the quantile of a sorted sample, linear between order statistics (Hyndman and Fan's type
+/// 7).
 pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let place = share.clamp(0.0, 1.0) * last as f64;
@@ -41,8 +42,8 @@ pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     Some(sorted[below] + rest * (sorted[above] - sorted[below]))
 }
 
-/// The quantile of whole numbers given as a histogram: the smallest k such that at least `share`
-/// of all lies at or below it.
+/// Returns the quantile of whole numbers given as a histogram: the smallest k such that at least
+/// `share` of all lies at or below it.
 pub fn count_quantile(histogram: &[u32], share: f64) -> Option<usize> {
     let total: u64 = histogram.iter().copied().map(u64::from).sum();
     let mut below = 0;
@@ -52,21 +53,23 @@ pub fn count_quantile(histogram: &[u32], share: f64) -> Option<usize> {
     })
 }
 
-/// The most frequent whole number of a histogram; of several, the lowest. None if all are empty.
+/// Returns the most frequent whole number of a histogram; of several, the lowest. None if all are
+/// empty.
 pub fn mode(histogram: &[u32]) -> Option<usize> {
     let most = *histogram.iter().max()?;
     (most > 0).then(|| histogram.iter().position(|&count| count == most))?
 }
 
-/// The two-sided standard normal quantile: the z with P(|Z| < z) = `level`.
+/// Returns the two-sided standard normal quantile: the z with P(|Z| < z) = `level`.
 ///
-/// Rounded to 1e−9: statrs computes logarithms by the platform, whose last bits must not reach a file.
+/// Rounded to 1e−9: statrs computes logarithms by the platform, whose last bits must not reach a
+/// file.
 pub fn normal_quantile(level: f64) -> f64 {
     let z = Normal::standard().inverse_cdf(0.5 + 0.5 * level);
     (z * 1e9).round() / 1e9
 }
 
-/// Wilson's interval of a proportion; none without trials.
+/// Returns Wilson's interval of a proportion; none without trials.
 pub fn wilson(successes: u64, trials: u64, level: f64) -> Option<[f64; 2]> {
     if trials == 0 {
         return None;
@@ -82,8 +85,9 @@ pub fn wilson(successes: u64, trials: u64, level: f64) -> Option<[f64; 2]> {
     Some([low, high])
 }
 
-/// Where y(x) comes up to `level` for good: the last x from which on all values are at or above it, linear between the
-/// points, without those that have no value. None if y ends below the level or never lies below it.
+/// Finds where y(x) rises to `level` for good: the last x from which on all values are at or above
+/// it, linear between the points, without those that have no value. None if y ends below the level
+/// or never lies below it.
 pub fn last_rise(x: &[f64], y: &[Option<f64>], level: f64) -> Option<f64> {
     let points: Vec<(f64, f64)> = x.iter().zip(y).filter_map(|(&x, &y)| Some((x, y?))).collect();
     let below = points.iter().rposition(|&(_, y)| y < level)?;
@@ -91,7 +95,8 @@ pub fn last_rise(x: &[f64], y: &[Option<f64>], level: f64) -> Option<f64> {
     Some(x0 + (x1 - x0) * (level - y0) / (y1 - y0))
 }
 
-/// The slope of the straight line through (x, y) by least squares. None below two different x.
+/// Returns the slope of the straight line through (x, y) by least squares. None below two different
+/// x.
 pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
     let total = points.len() as f64;
     let centre = points.iter().map(|&(x, _)| x).sum::<f64>() / total;

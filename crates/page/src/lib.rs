@@ -1,9 +1,11 @@
-//! The functions that a page of the report calls, as WebAssembly. Numbers are passed directly; texts and lists lie in
-//! memory that is valid until the next call.
+//! The functions that a page of the report calls, as WebAssembly. Numbers are passed directly;
+//! texts and lists lie in memory that is valid until the next call.
 //!
-//! - [`room`], [`open`], [`advance`]: one run of the engine at a time, of at most a thousand masses.
+//! - [`room`], [`open`], [`advance`]: one run of the engine at a time, of at most a thousand
+//!   masses.
 //! - [`law`], [`p_of_sigma`], [`mean`], [`k_star`]: the theory.
-//! - [`text`], [`numbers`], [`picture`], with [`text_length`] and [`columns`]: where the results lie.
+//! - [`text`], [`numbers`], [`picture`], with [`text_length`] and [`columns`]: where the results
+//!   lie.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![deny(unsafe_op_in_unsafe_fn)]
 
@@ -14,10 +16,10 @@ use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::jump;
 use std::cell::RefCell;
 
-/// Masses of a chain at most.
-const MOST: usize = 1000;
-/// Length of a run at most.
-const LONGEST: f64 = 20_000.0;
+/// The largest number of masses of a chain.
+const MAX_MASSES: usize = 1000;
+/// The longest time of a run.
+const MAX_TIME: f64 = 20_000.0;
 /// Columns of the picture in space and time.
 const COLUMNS: usize = 640;
 
@@ -35,22 +37,24 @@ thread_local! {
 }
 
 impl Page {
-    fn tell(&mut self, text: impl ToString) {
+    fn set_text(&mut self, text: impl ToString) {
         self.text = text.to_string().into_bytes();
     }
 
     /// Starts the run that numbers and text describe.
     fn open(&mut self) -> Result<(), String> {
         self.run = None;
-        let asked = asked(&self.numbers, &String::from_utf8_lossy(&self.text))?;
-        let (masses, until) = (asked.chain.masses, asked.until());
-        if masses > MOST {
-            return Err(format!("{masses} masses are too many for a page; give {MOST} at most"));
+        let request = request(&self.numbers, &String::from_utf8_lossy(&self.text))?;
+        let (masses, until) = (request.chain.masses, request.until());
+        if masses > MAX_MASSES {
+            return Err(format!(
+                "{masses} masses are too many for a page; give {MAX_MASSES} at most"
+            ));
         }
-        if until > LONGEST {
-            return Err(format!("T + W = {until} is too long for a page; give {LONGEST} at most"));
+        if until > MAX_TIME {
+            return Err(format!("T + W = {until} is too long for a page; give {MAX_TIME} at most"));
         }
-        let run = Replay::new(&asked).map_err(|error| error.to_string())?;
+        let run = Replay::new(&request).map_err(|error| error.to_string())?;
         self.picture = vec![0; COLUMNS * run.gaps()];
         self.run = Some((run, until));
         Ok(())
@@ -76,9 +80,10 @@ impl Page {
     }
 }
 
-/// A run from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a ring, start 0 rest, 1 zero or 2 random),
-/// then σ, seed and realisation of the stream that the text names; without one, α and β of each mass.
-fn asked(numbers: &[f64], stream: &str) -> Result<Request, String> {
+/// A run from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a ring, start 0 rest, 1
+/// zero or 2 random), then σ, seed and realisation of the stream that the text names; without one,
+/// α and β of each mass.
+fn request(numbers: &[f64], stream: &str) -> Result<Request, String> {
     let [
         transient,
         window,
@@ -101,7 +106,11 @@ fn asked(numbers: &[f64], stream: &str) -> Result<Request, String> {
         forcing_frequency: *forcing_frequency,
         restitution: *restitution,
         boundary: if *ring == 1.0 { Boundary::Ring } else { Boundary::Walls },
-        start: [Start::Rest, Start::Zero, Start::Random][(*start as usize).min(2)],
+        start: match *start as usize {
+            0 => Start::Rest,
+            1 => Start::Zero,
+            _ => Start::Random,
+        },
     };
     let forces = match (rest, stream) {
         (pairs, "") => {
@@ -123,13 +132,14 @@ fn answer(work: impl FnOnce(&mut Page) -> Result<bool, String>) -> u32 {
     PAGE.with_borrow_mut(|page| match work(page) {
         Ok(on) => u32::from(on),
         Err(refused) => {
-            page.tell(refused);
+            page.set_text(refused);
             2
         }
     })
 }
 
-/// Makes room for a text of so many bytes and for so many numbers, into which the page writes its arguments.
+/// Makes room for a text of so many bytes and for so many numbers, into which the page writes its
+/// arguments.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(bytes: usize, numbers: usize) {
     PAGE.with_borrow_mut(|page| {
@@ -144,29 +154,30 @@ pub extern "C" fn open() -> u32 {
     answer(|page| page.open().map(|()| false))
 }
 
-/// Advances by so many impacts at most: 1 if there may be more, 0 at the end, 2 if it failed. The numbers are then time,
-/// impacts, different gaps in the window, and gaps; the text is the digest, or the error.
+/// Advances by so many impacts at most: 1 if there may be more, 0 at the end, 2 if it failed. The
+/// numbers are then time, impacts, different gaps in the window, and gaps; the text is the digest,
+/// or the error.
 #[unsafe(no_mangle)]
 pub extern "C" fn advance(impacts: u32) -> u32 {
     answer(|page| page.advance(impacts.into()))
 }
 
-/// The circuits of N vertices with edge probability p, into the numbers: k*, μ, p_crit, p_jump, k− and k+ (−1 where one
-/// does not exist), then P(X = k) for k = 1..N, then f(k).
+/// The circuits of N vertices with edge probability p, into the numbers: k*, μ, p_crit, p_jump, k−
+/// and k+ (−1 where one does not exist), then P(X = k) for k = 1..N, then f(k).
 #[unsafe(no_mangle)]
 pub extern "C" fn law(vertices: usize, p: f64) -> u32 {
     answer(|page| {
-        if vertices > MOST + 1 {
+        if vertices > MAX_MASSES + 1 {
             return Err(format!(
                 "N = {vertices} is too large for a page; give {} at most",
-                MOST + 1
+                MAX_MASSES + 1
             ));
         }
-        let told = |error: impact_circuits::Error| error.to_string();
-        let law = Law::new(SampleSpace::Simple, vertices, p).map_err(told)?;
+        let message = |error: impact_circuits::Error| error.to_string();
+        let law = Law::new(SampleSpace::Simple, vertices, p).map_err(message)?;
         let after = jump::p_jump(SampleSpace::Simple, vertices).map_or(-1.0, |jump| jump.p);
         let [minus, plus] = jump::zeros(vertices, p).unwrap_or([-1.0; 2]);
-        let crit = jump::p_crit(vertices).map_err(told)?;
+        let crit = jump::p_crit(vertices).map_err(message)?;
         page.numbers = vec![law.k_star() as f64, law.mean(), crit, after, minus, plus];
         page.numbers.extend(law.probabilities());
         page.numbers.extend((1..=vertices).map(|k| jump::f(vertices, p, k as f64)));
@@ -174,49 +185,50 @@ pub extern "C" fn law(vertices: usize, p: f64) -> u32 {
     })
 }
 
-/// p(σ) of the paper's chain by Eq. (25); 0 where it is too small for a number.
+/// Returns p(σ) of the paper's chain by Eq. (25); 0 where it is too small for a number.
 #[unsafe(no_mangle)]
 pub extern "C" fn p_of_sigma(sigma: f64) -> f64 {
     ImpactProbability::of_paper(sigma).and_then(|law| law.p()).unwrap_or(0.0)
 }
 
-/// μ of so many vertices at p, or −1.
+/// Returns μ of this many vertices at p, or −1.
 #[unsafe(no_mangle)]
 pub extern "C" fn mean(vertices: usize, p: f64) -> f64 {
-    Law::new(SampleSpace::Simple, vertices.min(MOST + 1), p).map_or(-1.0, |law| law.mean())
+    Law::new(SampleSpace::Simple, vertices.min(MAX_MASSES + 1), p).map_or(-1.0, |law| law.mean())
 }
 
-/// k* of so many vertices at p, or −1.
+/// Returns k* of this many vertices at p, or −1.
 #[unsafe(no_mangle)]
 pub extern "C" fn k_star(vertices: usize, p: f64) -> f64 {
-    Law::new(SampleSpace::Simple, vertices.min(MOST + 1), p).map_or(-1.0, |l| l.k_star() as f64)
+    Law::new(SampleSpace::Simple, vertices.min(MAX_MASSES + 1), p)
+        .map_or(-1.0, |l| l.k_star() as f64)
 }
 
-/// Where the text lies.
+/// Returns the address of the text.
 #[unsafe(no_mangle)]
 pub extern "C" fn text() -> *const u8 {
     PAGE.with_borrow(|page| page.text.as_ptr())
 }
 
-/// Its bytes.
+/// Returns the bytes of the text.
 #[unsafe(no_mangle)]
 pub extern "C" fn text_length() -> usize {
     PAGE.with_borrow(|page| page.text.len())
 }
 
-/// Where the numbers lie.
+/// Returns the address of the numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn numbers() -> *const f64 {
     PAGE.with_borrow(|page| page.numbers.as_ptr())
 }
 
-/// Where the picture lies: gap by gap, the impacts of each column of time.
+/// Returns the address of the picture: gap by gap, the impacts of each column of time.
 #[unsafe(no_mangle)]
 pub extern "C" fn picture() -> *const u32 {
     PAGE.with_borrow(|page| page.picture.as_ptr())
 }
 
-/// Columns of the picture.
+/// Returns the columns of the picture.
 #[unsafe(no_mangle)]
 pub extern "C" fn columns() -> usize {
     COLUMNS
@@ -240,8 +252,8 @@ mod tests {
         let chain = Chain { masses: 30, forcing_frequency: 1.5, ..Chain::default() };
         let stream = "page".into();
         let forces = Forces::Drawn { sigma: 0.3, stream, seed: 1, realisation: 4 };
-        let asked = Request { chain, forces, transient: 50.0, window: 20.0 };
-        let mut run = Replay::new(&asked).unwrap();
+        let request = Request { chain, forces, transient: 50.0, window: 20.0 };
+        let mut run = Replay::new(&request).unwrap();
         run.advance(u64::MAX, |_, _| ()).unwrap();
         assert_eq!(page.text, run.digest().into_bytes());
         let impacts = run.engine().counters().impacts as f64;
@@ -251,7 +263,7 @@ mod tests {
         let none = opened("", &NUMBERS[..9]).map(|_| ()).unwrap_err();
         assert!(none.starts_with("forcing: it has 0 pairs for 30 masses; give one"), "{none}");
         // Amplitudes one by one, without a stream.
-        let pairs = asked.scenario().unwrap().forcing;
+        let pairs = request.scenario().unwrap().forcing;
         let given: Vec<f64> =
             NUMBERS[..9].iter().copied().chain(pairs.into_iter().flatten()).collect();
         let mut page = opened("", &given).unwrap();
@@ -261,7 +273,7 @@ mod tests {
 
     #[test]
     fn the_law_is_that_of_the_theory() {
-        assert_eq!((law(100, 0.02), law(MOST + 2, 0.02), law(100, f64::NAN)), (0, 2, 2));
+        assert_eq!((law(100, 0.02), law(MAX_MASSES + 2, 0.02), law(100, f64::NAN)), (0, 2, 2));
         assert_eq!(law(100, 0.02), 0);
         let numbers = PAGE.with_borrow(|page| page.numbers.clone());
         assert_eq!(numbers.len(), 6 + 2 * 100);

@@ -1,4 +1,5 @@
-//! The numbers of the reference: double-doubles of 106 bits, which `traces.rs` compares with floats of 256 bits from dashu.
+//! The numbers of the reference: double-doubles of 106 bits, which `traces.rs` compares with floats
+//! of 256 bits from dashu.
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;

@@ -8,17 +8,18 @@ use crate::search::clock::{Instant, LATEST};
 use crate::search::earliest::Earliest;
 use crate::{Error, Sink};
 
-/// Conservative advancement: flight in closed form; each gap is advanced to where the parabola below
-/// it comes to zero, and no gap can close before. The parabola has the width and the rate of the gap
-/// and a bound on its second derivative. The gap that is certainly open for the shortest time is
-/// evaluated next, and is hit when it is closing and no wider than the tolerance.
+/// Conservative advancement: flight in closed form; each gap is advanced to where the parabola
+/// below it comes to zero, and no gap can close before. The parabola has the width and the rate of
+/// the gap and a bound on its second derivative. The gap that is certainly open for the shortest
+/// time is evaluated next, and is hit when it is closing and no wider than the tolerance.
 ///
 /// - Source: Mirtich (1996), Impulse-based dynamic simulation of rigid body systems, thesis,
 ///   University of California, Berkeley; the queue of gaps is that of the engine.
 /// - Order: none, it has no step. An impact is early by up to the tolerance over its closing speed.
-/// - Fails: no zero is passed, but a gap that comes within the tolerance of zero is hit, also one that
-///   opens and turns back within it; near a graze the steps get short; a chatter has infinitely many
-///   impacts in a finite time, and there is no rest in contact: the bound on work ends the run there.
+/// - Fails: no zero is passed, but a gap that comes within the tolerance of zero is hit, also one
+///   that opens and turns back within it; near a graze the steps get short; a chatter has
+///   infinitely many impacts in a finite time, and there is no rest in contact: the bound on work
+///   ends the run there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Advancement {
     /// Width of a closing gap, in units of d, at which it is hit.

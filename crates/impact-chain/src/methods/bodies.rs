@@ -9,7 +9,8 @@ use crate::search::clock::Instant;
 use crate::topology::Topology;
 use crate::{Boundary, Error, Scenario, Sink, State};
 
-/// The bodies of a chain with their state and forces; bodies are numbered from the left wall (0) to the right one (n + 1).
+/// The bodies of a chain with their state and forces; bodies are numbered from the left wall (0) to
+/// the right one (n + 1).
 pub struct Bodies {
     pub topology: Topology,
     is_ring: bool,
@@ -87,7 +88,8 @@ impl Bodies {
         }
     }
 
-    /// Computes the accelerations in flight at displacements `u` and an instant. The walls have none.
+    /// Computes the accelerations in flight at displacements `u` and an instant. The walls have
+    /// none.
     pub fn accelerations(&self, at: Instant, u: &[f64], out: &mut [f64]) {
         self.forces(at, out);
         for (out, u) in out.iter_mut().zip(u) {
@@ -95,8 +97,8 @@ impl Bodies {
         }
     }
 
-    /// Whether any gap would be shut after a time `ahead` at its present rate. The test is cheap, as
-    /// it mostly fails.
+    /// Whether any gap would be shut after a time `ahead` at its present rate. The test is cheap,
+    /// as it mostly fails.
     pub fn any_shut(&self, ahead: f64) -> bool {
         let (u, v) = (&self.u, &self.v);
         let is_shut =

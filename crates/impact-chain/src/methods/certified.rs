@@ -8,7 +8,8 @@ use crate::{Engine, Error, Impact, Scenario, Sink, State};
 /// The exact event-driven engine: flight in closed form, the first root of each gap certified.
 ///
 /// - Source: this project, [`crate::Engine`].
-/// - Order: none, it has no step. The time of an impact is off by a few roundings of the gap over its speed.
+/// - Order: none, it has no step. The time of an impact is off by a few roundings of the gap over
+///   its speed.
 /// - Fails: nowhere within the model; a run that needs more events than its bound is an error.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Certified;

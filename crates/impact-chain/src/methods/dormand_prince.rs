@@ -63,8 +63,8 @@ impl Stages {
         derivative(row, at, &self.y, &mut self.k[0]);
     }
 
-    /// Tries a step of length `h`. Returns its error in units of that which `tolerance` allows: root
-    /// mean square over all components, absolute and relative.
+    /// Tries a step of length `h`. Returns its error in units of that which `tolerance` allows:
+    /// root mean square over all components, absolute and relative.
     pub fn attempt(&mut self, row: &Bodies, from: Instant, h: f64, tolerance: f64) -> f64 {
         self.h = h;
         for (stage, coefficients) in STAGES.iter().enumerate() {

@@ -70,8 +70,8 @@ impl Flights {
         self.phases(if s == step.h { step.to } else { step.from.after(s) })
     }
 
-    /// Returns the forced response of the right one of two bodies less that of the left one, and its
-    /// rate.
+    /// Returns the forced response of the right one of two bodies less that of the left one, and
+    /// its rate.
     fn response(&self, [left, right]: [usize; 2], phases: &FlightPhases) -> [f64; 2] {
         let [mut v, mut rate] = [0.0; 2];
         for (component, (sin, cos)) in self.forced.iter().zip(&phases.1) {
@@ -96,8 +96,8 @@ impl Flights {
         GapState { s, width, rate }
     }
 
-    /// Bounds the second derivative of gap k: Σ R Ω² over its sinusoids of amplitude R, the free part
-    /// among them.
+    /// Bounds the second derivative of gap k: Σ R Ω² over its sinusoids of amplitude R, the free
+    /// part among them.
     pub fn curvature(&self, k: usize) -> f64 {
         let [left, right] = self.topology.sides(k);
         let length = |x: f64, y: f64| (x * x + y * y).sqrt();

@@ -22,8 +22,8 @@ impl Cost {
     }
 }
 
-/// The task of a method: a chain, a state from which it starts, and the time until which it runs. The
-/// start of the scenario is ignored.
+/// The task of a method: a chain, a state from which it starts, and the time until which it runs.
+/// The start of the scenario is ignored.
 pub type Task<'a> = (&'a Scenario, &'a State, f64);
 
 /// A way to simulate a chain.
@@ -39,7 +39,8 @@ pub trait Method: Sync {
     ///
     /// # Errors
     /// [`Error::Input`] for a scenario, start, step or tolerance outside the model,
-    /// [`Error::Overlap`] for an overlapping start, [`Error::Work`] when a bound on work is exceeded.
+    /// [`Error::Overlap`] for an overlapping start, [`Error::Work`] when a bound on work is
+    /// exceeded.
     fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error>;
 
     /// Returns the first impact, or none if there is no impact.

@@ -1,7 +1,8 @@
 //! Simulates a chain in several ways under one trait: the engine, its rivals and the true motion.
 //!
-//! Each rival is the textbook form of a method that is in use, so that its cost and its failures can
-//! be measured on the same scenes. Its documentation names its source, its order and its failures.
+//! Each rival is the textbook form of a method that is in use, so that its cost and its failures
+//! can be measured on the same scenes. Its documentation names its source, its order and its
+//! failures.
 //!
 //! - [`Certified`]: the engine of this project. [`Truth`], [`truth::TrueMotion`]: the motion to 106
 //!   bits.

@@ -8,22 +8,25 @@ use crate::search::clock::Instant;
 use crate::{Error, Sink};
 use std::f64::consts::PI;
 
-/// Penalty springs: a shut gap is a stiff spring with a damper that is tuned to the restitution; velocity Verlet.
+/// Penalty springs: a shut gap is a stiff spring with a damper that is tuned to the restitution;
+/// velocity Verlet.
 ///
 /// Alone, an overlapped gap follows Δ'' + 2ζω_c Δ' + ω_c² Δ = 0 and comes back with r times its
-/// speed for ζ = −ln r/√(π² + ln² r). The stiffness follows from the step: half a period of ω_c takes
-/// (0.4 h/ω)^(1/2), which is 20 steps at h = 0.001/ω and 200 at 0.00001/ω. So the errors of the two sides
-/// balance: a contact takes time, and its beginning and end, known to a step, change its restitution.
+/// speed for ζ = −ln r/√(π² + ln² r). The stiffness follows from the step: half a period of ω_c
+/// takes (0.4 h/ω)^(1/2), which is 20 steps at h = 0.001/ω and 200 at 0.00001/ω. So the errors of
+/// the two sides balance: a contact takes time, and its beginning and end, known to a step, change
+/// its restitution.
 ///
-/// An impact is an episode of contact, counted once at its beginning; the damper acts until its end,
-/// so it also pulls.
+/// An impact is an episode of contact, counted once at its beginning; the damper acts until its
+/// end, so it also pulls.
 ///
 /// - Source: Cundall and Strack (1979), Géotechnique 29, 47; the damper for a given r: Schäfer,
 ///   Dippel and Wolf (1996), J. Phys. I France 6, 5.
 /// - Order: 1/2 in the step, by the choice above; 1 in the duration of a contact.
 /// - Fails: a neighbour that is hit while a contact lasts takes part in it, which changes both
-///   impacts altogether (a row hit at its end, any cluster); near misses and grazes are decided by the
-///   step; with r = 0 a gap creeps open and never ends its contact; a step for a hard contact is tiny.
+///   impacts altogether (a row hit at its end, any cluster); near misses and grazes are decided by
+///   the step; with r = 0 a gap creeps open and never ends its contact; a step for a hard contact
+///   is tiny.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penalty {
     /// Length h of a step.

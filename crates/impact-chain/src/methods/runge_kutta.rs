@@ -10,18 +10,20 @@ use crate::search::clock::Instant;
 use crate::{Error, Sink};
 
 /// The pair of Dormand and Prince with a tolerance; a gap that is negative at the end of a step is
-/// an event, bisected on the dense output; the earliest ends the step, and integration starts again.
+/// an event, bisected on the dense output; the earliest ends the step, and integration starts
+/// again.
 ///
-/// Absolute and relative tolerance are one number. The next step has 0.9 err^(−1/5) times the length
-/// of the last, from 1/5 to 5 times; after an event it is the length tried before.
+/// Absolute and relative tolerance are one number. The next step has 0.9 err^(−1/5) times the
+/// length of the last, from 1/5 to 5 times; after an event it is the length tried before.
 ///
 /// - Source: Dormand and Prince (1980), J. Comput. Appl. Math. 6, 19; step control and dense output
-///   as in Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, secs. II.4 to II.6
-///   (DOPRI5); events by sign as in SciPy's solve_ivp or MATLAB's ode45 with an event function.
+///   as in Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, secs. II.4 to
+///   II.6 (DOPRI5); events by sign as in SciPy's solve_ivp or MATLAB's ode45 with an event
+///   function.
 /// - Order: 5 at the ends of steps, 4 between them, where impacts lie.
-/// - Fails: two roots within a step leave no change of sign, so grazes and short dips are missed, and
-///   the steps of a loose tolerance are long; the error in flight adds up; each event costs a step of
-///   all masses; a chatter ends in the bound on work.
+/// - Fails: two roots within a step leave no change of sign, so grazes and short dips are missed,
+///   and the steps of a loose tolerance are long; the error in flight adds up; each event costs a
+///   step of all masses; a chatter ends in the bound on work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RungeKutta {
     /// Error allowed in a step, absolute and relative.
@@ -86,8 +88,8 @@ impl Run {
         Ok(())
     }
 
-    /// Returns the gap that closes first, and the time in the step at which it does; none if no gap is
-    /// negative at the end of the step.
+    /// Returns the gap that closes first, and the time in the step at which it does; none if no gap
+    /// is negative at the end of the step.
     fn event(&self, h: f64, tally: &mut Tally) -> Option<(usize, f64)> {
         let (row, stages) = (&self.row, &self.stages);
         let gaps = row.topology.gaps();

@@ -13,11 +13,11 @@ use crate::{Error, Sink};
 ///
 /// - Source: the bracketing and bisection of every textbook (Press et al., Numerical Recipes, sec.
 ///   9.1); simulations of impacting oscillators are mostly written so.
-/// - Order: none; an impact that is found is accurate to rounding, and the step decides whether it is
-///   found.
-/// - Fails: two roots within a step leave no change of sign, so grazes and short dips are missed, of
-///   depth up to |Δ''| h²/8; three are taken for one, often the wrong one. A chatter has infinitely
-///   many impacts in a finite time: the bound on work ends the run there.
+/// - Order: none; an impact that is found is accurate to rounding, and the step decides whether it
+///   is found.
+/// - Fails: two roots within a step leave no change of sign, so grazes and short dips are missed,
+///   of depth up to |Δ''| h²/8; three are taken for one, often the wrong one. A chatter has
+///   infinitely many impacts in a finite time: the bound on work ends the run there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
     /// Time h between two samples.
@@ -48,7 +48,8 @@ impl Method for Sampled {
 
 /// All gaps in one step.
 struct Samples {
-    /// Gaps at the beginning of the step, or right after the last impact of the gap or one next to it.
+    /// Gaps at the beginning of the step, or right after the last impact of the gap or one next to
+    /// it.
     begin: Vec<GapState>,
     end: Vec<GapState>,
     /// The times between at which gaps close.
@@ -82,7 +83,8 @@ impl Samples {
                 tally.cost.evaluations += 2;
                 self.roots[j] = self.locate(j, flights, step, tally);
             }
-            // A gap at rest at zero is no impact, but counts as an event: it may stay there for ever.
+            // A gap at rest at zero is no impact, but counts as an event: it may stay there for
+            // ever.
             if speed > 0.0 {
                 tally.impact(k, time, speed)?;
             } else {
@@ -95,8 +97,8 @@ impl Samples {
         Ok(())
     }
 
-    /// Returns the time after the beginning of the step at which gap k comes to zero, or none if its
-    /// sign does not change.
+    /// Returns the time after the beginning of the step at which gap k comes to zero, or none if
+    /// its sign does not change.
     fn locate(&self, k: usize, flights: &Flights, step: &Step, tally: &mut Tally) -> Option<f64> {
         let (from, to) = (self.begin[k], self.end[k]);
         if to.width >= 0.0 {
@@ -108,7 +110,8 @@ impl Samples {
         }))
     }
 
-    /// Returns the gap that closes first, the lowest of several, and the time; none if no gap closes.
+    /// Returns the gap that closes first, the lowest of several, and the time; none if no gap
+    /// closes.
     fn earliest(&self) -> Option<(usize, f64)> {
         let found = self.roots.iter().enumerate().filter_map(|(k, s)| Some((k, (*s)?)));
         found.reduce(|best, next| if next.1 < best.1 { next } else { best })

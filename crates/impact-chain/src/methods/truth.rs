@@ -1,10 +1,11 @@
 //! Computes the motion of a chain to 106 bits, with which every method is compared.
 //!
-//! The certified engine, started from the state rounded to doubles, finds which gap closes next; the instant, and all that
-//! follows from it, is then computed by Newton's iteration on plain amplitudes of 106 bits. Chaos enlarges 1e−31 to 1e−3
-//! in about twice the time in which it enlarges the rounding of doubles, so runs are right far beyond the horizon of any
-//! method. A tie of two gaps within the rounding of doubles could be taken in the wrong order; it has a probability of
-//! about 1e−14 an impact.
+//! The certified engine, started from the state rounded to doubles, finds which gap closes next;
+//! the instant, and all that follows from it, is then computed by Newton's iteration on plain
+//! amplitudes of 106 bits. Chaos enlarges 1e−31 to 1e−3 in about twice the time in which it
+//! enlarges the rounding of doubles, so runs are right far beyond the horizon of any method. A tie
+//! of two gaps within the rounding of doubles could be taken in the wrong order; it has a
+//! probability of about 1e−14 an impact.
 
 use super::certified::Certified;
 use super::method::{Cost, Method, Task};
@@ -69,7 +70,8 @@ fn dd(x: f64) -> DoubleDouble {
     DoubleDouble::from(x)
 }
 
-/// The true motion of a chain between walls. Bodies are numbered from the left wall (0) to the right one (n + 1).
+/// The true motion of a chain between walls. Bodies are numbered from the left wall (0) to the
+/// right one (n + 1).
 #[derive(Clone, Debug)]
 pub struct TrueMotion {
     scenario: Scenario,
@@ -97,8 +99,8 @@ pub struct Hit {
 type TruePhases = [[DoubleDouble; 2]; 2];
 
 impl TrueMotion {
-    /// Starts the chain of a scenario from exactly the state that is given. It must have one component
-    /// of forcing, no contact, and walls at both ends.
+    /// Starts the chain of a scenario from exactly the state that is given. It must have one
+    /// component of forcing, no contact, and walls at both ends.
     pub fn of(scenario: &Scenario, state: &State) -> TrueMotion {
         let rates = [scenario.natural_frequency, scenario.forcing_frequency].map(dd);
         let factor = rates[0] * rates[0] - rates[1] * rates[1];
@@ -192,7 +194,8 @@ impl TrueMotion {
         for _ in 0..8 {
             let [width, rate] = self.gap(found.gap, &self.phases(time));
             let step = width / rate;
-            // At a grazing impact the rate nearly vanishes, and a Newton step would be far too long.
+            // At a grazing impact the rate nearly vanishes, and a Newton step would be far too
+            // long.
             if step.hi.is_nan() || step.hi.abs() >= 1e-3 {
                 break;
             }

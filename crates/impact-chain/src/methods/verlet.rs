@@ -15,9 +15,10 @@ use crate::{Error, Sink};
 /// - Order: 2 in flight, 1 as soon as there is an impact, whose time is late by up to a step.
 /// - Fails: each impact is late by half a step in the mean, and the way back takes as long, so that
 ///   the delays of all impacts add up; grazes and near misses are decided by the error of flight,
-///   and a dip that opens again within a step is missed (tunnelling); overlaps of up to a step times
-///   the speed stay, and r < 1 takes its part of the wrong energy there; a gap pressed shut is flipped,
-///   and counted, again and again. With r = 1 and no forcing the energy is kept: flips only exchange it.
+///   and a dip that opens again within a step is missed (tunnelling); overlaps of up to a step
+///   times the speed stay, and r < 1 takes its part of the wrong energy there; a gap pressed shut
+///   is flipped, and counted, again and again. With r = 1 and no forcing the energy is kept: flips
+///   only exchange it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verlet {
     /// Length h of a step.

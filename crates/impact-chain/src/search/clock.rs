@@ -1,4 +1,5 @@
-//! Keeps exact time: instants on a fixed grid, and phases of a frequency without loss at any instant.
+//! Keeps exact time: instants on a fixed grid, and phases of a frequency without loss at any
+//! instant.
 
 use super::trig::sin_cos_turn;
 
@@ -58,8 +59,8 @@ impl Instant {
         sticky as i64 as f64 * f64::from_bits(u64::from(1023 + 65 - 80 - zeros) << 52)
     }
 
-    /// Returns the time since `epoch` in whole units of 2^-58, rounded down: 0 before the epoch, the
-    /// largest number from 64 units of time after it on.
+    /// Returns the time since `epoch` in whole units of 2^-58, rounded down: 0 before the epoch,
+    /// the largest number from 64 units of time after it on.
     #[inline(always)]
     pub fn fine(self, epoch: Instant) -> u64 {
         let units = (self.0 - epoch.0) >> 22;
@@ -78,7 +79,8 @@ impl Instant {
 pub struct Rate([u64; 3]);
 
 impl Rate {
-    /// Computes the rate of an angular frequency `omega`, 0 < `omega` ≤ 1e6, to 2^-128 turns per unit time.
+    /// Computes the rate of an angular frequency `omega`, 0 < `omega` ≤ 1e6, to 2^-128 turns per
+    /// unit time.
     pub fn new(omega: f64) -> Rate {
         // omega = mantissa · 2^exponent exactly.
         let bits = omega.to_bits();

@@ -8,10 +8,10 @@ use super::clock::Instant;
 /// bits are replaced by the index. The lesser word is the earlier key, unless the two agree in all
 /// other bits (2^-51 of time for 100 keys, 2^-38 for a million). Then [`first`](Self::first) is the
 /// lower index, [`is_close`](Self::is_close) is true, and [`first_in_full`](Self::first_in_full)
-/// compares the full keys of all words that agree with the root. So there is no branch on the way up,
-/// and only callers that need the exact order pay for it. Words end 64 units of time after the epoch;
-/// when no key is left before that end, the earliest becomes the epoch. The shape is fixed, so the
-/// order of changes never matters.
+/// compares the full keys of all words that agree with the root. So there is no branch on the way
+/// up, and only callers that need the exact order pay for it. Words end 64 units of time after the
+/// epoch; when no key is left before that end, the earliest becomes the epoch. The shape is fixed,
+/// so the order of changes never matters.
 #[derive(Clone, Debug)]
 pub struct Earliest {
     /// The keys in full, "never" beyond `len`.
@@ -90,7 +90,8 @@ impl Earliest {
         }
     }
 
-    /// Whether key `index` equals that before or after it; the last and the first are neighbours too.
+    /// Whether key `index` equals that before or after it; the last and the first are neighbours
+    /// too.
     #[inline(always)]
     pub fn ties_with_neighbour(&self, index: usize) -> bool {
         let before = if index == 0 { self.last } else { index - 1 };
@@ -168,8 +169,8 @@ mod tests {
     use impact_numerics::random::generator;
     use rand::Rng;
 
-    /// Compares with a scan of all keys, with many exact ties, ties of words alone, and times before
-    /// and after the epoch.
+    /// Compares with a scan of all keys, with many exact ties, ties of words alone, and times
+    /// before and after the epoch.
     #[test]
     fn agrees_with_a_scan() {
         fn check(earliest: &mut Earliest, keys: &[Instant]) {

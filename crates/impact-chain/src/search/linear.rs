@@ -1,5 +1,5 @@
-//! Evaluates numbers that are linear in a frame (coefficients of polynomials, values). Their factors
-//! depend on the frequencies alone: a table, made once, replaces every sine.
+//! Evaluates numbers that are linear in a frame (coefficients of polynomials, values). Their
+//! factors depend on the frequencies alone: a table, made once, replaces every sine.
 
 use super::local_frame::{Frame, Frequencies};
 use super::trig::small_sin_cos;
@@ -16,8 +16,8 @@ pub struct Linear<const M: usize, const N: usize> {
     forced: [[[f64x2; N]; 2]; M],
 }
 
-/// Computes the Taylor coefficients about s of 1 − cos νs and of sin νs, the latter with sin νs − νs
-/// for its value.
+/// Computes the Taylor coefficients about s of 1 − cos νs and of sin νs, the latter with sin νs −
+/// νs for its value.
 fn waves(nu: f64, s: f64) -> [Taylor; 2] {
     let [rest, versine] = small_sin_cos(nu * s);
     let (sin, cos) = (nu * s + rest, 1.0 - versine);

@@ -5,8 +5,8 @@
 //! f(s) = f₀ + (g₀/ω) sin ωs − α (1 − cos ωs) + Σ_m [δ (sin Ωs − (Ω/ω) sin ωs) − γ (1 − cos Ωs)],
 //!
 //! where f₀ and g₀ are its value and slope at s = 0, α the amplitude of cos ωs, and γ and δ those
-//! of cos Ωs and sin Ωs for each of the `M` frequencies Ω (M₂, M₄, … are bounds of derivatives). So nothing
-//! cancels at small s: right after an impact f₀ = 0 exactly, and the waiting time keeps its
+//! of cos Ωs and sin Ωs for each of the `M` frequencies Ω (M₂, M₄, … are bounds of derivatives). So
+//! nothing cancels at small s: right after an impact f₀ = 0 exactly, and the waiting time keeps its
 //! relative accuracy however short it is.
 
 use super::trig::{RANGE, small_sin_cos};
@@ -89,8 +89,8 @@ pub struct Point<const M: usize> {
 }
 
 /// Rounding of one evaluation, in units of the sum of the absolute values of its terms: each term
-/// carries at most five roundings of 2^-53 and the sum four more, 9 · 2^-53 < 5e-16 times 2; doubled,
-/// as the margin is used at both sides.
+/// carries at most five roundings of 2^-53 and the sum four more, 9 · 2^-53 < 5e-16 times 2;
+/// doubled, as the margin is used at both sides.
 pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl<const M: usize> Frame<M> {
@@ -108,8 +108,8 @@ impl<const M: usize> Frame<M> {
         slope * frequencies.inverse_omega
     }
 
-    /// Prevents the fall of a function at rest at zero that cannot fall: a curvature that rounding made
-    /// negative is set to the bound of that rounding.
+    /// Prevents the fall of a function at rest at zero that cannot fall: a curvature that rounding
+    /// made negative is set to the bound of that rounding.
     pub fn prevent_fall(&mut self, frequencies: &Frequencies<M>) {
         let w2 = frequencies.omega * frequencies.omega;
         let (mut forced, mut size) = (0.0, w2 * self.alpha.abs());

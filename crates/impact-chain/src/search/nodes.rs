@@ -1,8 +1,8 @@
 //! Finds a root to full accuracy from a guess, without a sine: by the Taylor polynomial about the
 //! nearest of fixed nodes.
 //!
-//! The Taylor coefficients of f about a node are linear in the frame of f ([`Linear`]). At the first
-//! node, s = 0, they are exact, so a short wait keeps its relative accuracy.
+//! The Taylor coefficients of f about a node are linear in the frame of f ([`Linear`]). At the
+//! first node, s = 0, they are exact, so a short wait keeps its relative accuracy.
 
 use super::linear::Linear;
 use super::local_frame::{Frame, Frequencies};
@@ -12,9 +12,9 @@ use wide::f64x2;
 /// Nodes over the reach, both ends included; a power of two.
 const NODES: usize = 32;
 
-/// The largest distance from a node at which its polynomial is used, over the fastest frequency: the
-/// remainder is 0.06¹⁰/10! < 2e-19 of the size of f and 0.06⁹/9! < 3e-17 of that of its slope. Nodes
-/// are 0.092 apart.
+/// The largest distance from a node at which its polynomial is used, over the fastest frequency:
+/// the remainder is 0.06¹⁰/10! < 2e-19 of the size of f and 0.06⁹/9! < 3e-17 of that of its slope.
+/// Nodes are 0.092 apart.
 const RADIUS: f64 = 0.06;
 
 /// All nodes of given frequencies.

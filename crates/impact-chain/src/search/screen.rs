@@ -4,8 +4,9 @@
 //! On a piece [a, a + w] the function f is compared with the polynomial p of degree seven that
 //! shares its value and first three derivatives at both ends (Hermite). The difference is at most
 //! M₈ (s − a)⁴ (a + w − s)⁴ / 8!, a polynomial of degree eight with one Bernstein coefficient, so
-//! q, p minus the difference, is below f and its nine Bernstein coefficients bound it from below. They
-//! are linear in f₀, g₀, α, γ and δ, with factors by frequencies and piece alone, which are tabulated once.
+//! q, p minus the difference, is below f and its nine Bernstein coefficients bound it from below.
+//! They are linear in f₀, g₀, α, γ and δ, with factors by frequencies and piece alone, which are
+//! tabulated once.
 
 use super::linear::{Linear, Taylor};
 use super::local_frame::{Frame, Frequencies};
@@ -33,8 +34,8 @@ impl<const M: usize> Eighths<M> {
         Eighths { values, width }
     }
 
-    /// Guesses the root of a function that is not negative at s = 0 and falls below zero once, by the
-    /// secant of the eighth in which it lies.
+    /// Guesses the root of a function that is not negative at s = 0 and falls below zero once, by
+    /// the secant of the eighth in which it lies.
     #[inline(always)]
     pub fn guess(&self, frame: &Frame<M>) -> f64 {
         let row = self.values.evaluate(frame).map(|x| x + f64x2::splat(frame.f0));
@@ -76,8 +77,8 @@ pub struct Coefficients {
     slack: f64,
 }
 
-/// Returns C(i, k) k! (8 − k)!/8! wᵏ, the factor of the k-th Taylor coefficient at an end in the i-th
-/// Bernstein coefficient.
+/// Returns C(i, k) k! (8 − k)!/8! wᵏ, the factor of the k-th Taylor coefficient at an end in the
+/// i-th Bernstein coefficient.
 fn weight(i: usize, k: usize, w: f64) -> f64 {
     let mut out = 1.0;
     for m in 0..k {
@@ -86,7 +87,8 @@ fn weight(i: usize, k: usize, w: f64) -> f64 {
     out
 }
 
-/// Returns b₁ … b₈ of the Hermite polynomial with the given value and three derivatives at both ends.
+/// Returns b₁ … b₈ of the Hermite polynomial with the given value and three derivatives at both
+/// ends.
 fn hermite(left: Taylor, right: Taylor, w: f64) -> CoefficientPairs {
     let mut b = [0.0; N + 1];
     for i in 0..4 {
@@ -180,7 +182,8 @@ impl Coefficients {
         least.simd_gt(f64x2::splat(self.slack)).all()
     }
 
-    /// Whether the signs of b₁ … b₈, which are not all plus, change at most once, from plus to minus.
+    /// Whether the signs of b₁ … b₈, which are not all plus, change at most once, from plus to
+    /// minus.
     #[inline(always)]
     pub fn change_sign_once(&self) -> bool {
         let slack = f64x2::splat(self.slack);

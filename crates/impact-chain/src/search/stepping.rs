@@ -100,8 +100,8 @@ fn stays_open<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64, s
     coefficients.iter().all(|&c| c > slack)
 }
 
-/// Returns order and value of the first of f'', f''' and f'''' that exceeds `times` its rounding, or
-/// none.
+/// Returns order and value of the first of f'', f''' and f'''' that exceeds `times` its rounding,
+/// or none.
 fn leading<const M: usize>(
     p: &Point<M>,
     times: f64,
@@ -121,7 +121,8 @@ fn leading<const M: usize>(
 }
 
 /// Returns the length of a stretch over which f''' > 0 alone, or f'''' > 0 where f''' is zero too,
-/// lifts f from a point where it does not fall and f'' is zero, all to rounding; 0 if there is none.
+/// lifts f from a point where it does not fall and f'' is zero, all to rounding; 0 if there is
+/// none.
 ///
 /// With f, f' ≥ 0, f ≥ f'' h²/2 + f''' h³/12 while h ≤ 2 f'''/M₄. That is never below
 /// −(8/3) |f''|³/f'''², far less than the rounding of positions, and positive from h = 6 |f''|/f'''
@@ -142,9 +143,9 @@ const PATIENCE: u32 = 64;
 /// Finds the first root after `from`, where f ≥ 0, or proves that there is none up to `limit`.
 ///
 /// # Why no root is skipped
-/// s only advances over intervals that are proven to hold no root, in one of two ways; both bound the
-/// exact function from below, and count the rounding of its values against it. A *leap* goes to a
-/// point chosen by any guess (the end of the search, or just before a guessed root) and is taken
+/// s only advances over intervals that are proven to hold no root, in one of two ways; both bound
+/// the exact function from below, and count the rounding of its values against it. A *leap* goes to
+/// a point chosen by any guess (the end of the search, or just before a guessed root) and is taken
 /// if `stays_open` certifies the interval. Where it does not, `stretch` gives a step that is
 /// certain from this side alone; if that is far shorter, because the parts of a gap cancel, halves
 /// of the leap are tried first. The search ends when the quadratic f + f' h + ½ f'' h² has its root
@@ -313,8 +314,8 @@ fn before_root<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64) 
     (slope < 0.0 && t > 0.0 && t < 1.0).then_some(t * h)
 }
 
-/// Corrects the root s + h of the quadratic about a point, which falls there at `slope`, by the terms
-/// of higher order; returns the root and the speed at it.
+/// Corrects the root s + h of the quadratic about a point, which falls there at `slope`, by the
+/// terms of higher order; returns the root and the speed at it.
 ///
 /// What the quadratic leaves out is below the margin in f, yet not in f': at h = 1e-5 the slope
 /// f''' h²/2 is 1e-10, and f'''' h³/6, which has one sign, would take energy from a chain.

@@ -98,9 +98,9 @@ fn polynomials(z: f64x2) -> f64x2 {
     even + z * odd
 }
 
-/// Evaluates the first eight rows alone, enough for a quarter turn: the first omitted ones are below
-/// 1e-19 and 3e-18. The order is that of least latency, since all work at an event waits for its
-/// phases.
+/// Evaluates the first eight rows alone, enough for a quarter turn: the first omitted ones are
+/// below 1e-19 and 3e-18. The order is that of least latency, since all work at an event waits for
+/// its phases.
 #[inline(always)]
 fn quarter_polynomials(z: f64x2) -> f64x2 {
     let square = z * z;
@@ -123,7 +123,8 @@ pub fn small_sin_cos(x: f64) -> [f64; 2] {
     remainders(x, polynomials)
 }
 
-/// Returns (sin, cos) of a phase given as a fraction of a turn in units of 2^-64, to 1.2 units of 2^-53.
+/// Returns (sin, cos) of a phase given as a fraction of a turn in units of 2^-64, to 1.2 units of
+/// 2^-53.
 ///
 /// The reduction to the nearest quarter turn is exact integer arithmetic.
 #[inline(always)]
