@@ -6,7 +6,7 @@ use super::{Basis, Check, Kind, Published, Text, integer, level, significant};
 use crate::experiments::accuracy::trials::right;
 use crate::experiments::rise::{Curve, RisePoint};
 use crate::experiments::{
-    BRANCHES, NUCLEATION, PROTOCOL, RACE, Results, SCALE, SECOND_SEED, TRIALS, branches,
+    LENGTHS, NUCLEATION, PROTOCOL, RACE, Results, SCALE, SECOND_SEED, TRIALS, lengths,
 };
 use crate::params::MethodName;
 use impact_numerics::estimates::difference;
@@ -127,9 +127,9 @@ fn map_meets_sweep(e: &Evidence) -> Departures {
 /// closes by itself, and N/20 at no lower σ than a twentieth of them.
 fn no_rise_before_seeds(e: &Evidence) -> Departures {
     let [half, onset] = e.numbers("theory.relation", ["sigma_kept_half", "sigma_kept_onset"])?;
-    let (map, found) = (&e.results.of(&PROTOCOL)?[0], e.results.of(&BRANCHES)?);
+    let (map, found) = (&e.results.of(&PROTOCOL)?[0], e.results.of(&LENGTHS)?);
     let masses = map.ensemble.chain.masses;
-    let long = branches::from_rest(found).filter(|(all, _)| all.ensemble.chain.masses == masses);
+    let long = lengths::from_rest(found).filter(|(all, _)| all.ensemble.chain.masses == masses);
     let bounds = map.curves.iter().chain(long.map(|(_, curve)| curve)).flat_map(|cell| {
         let rise = &cell.rise;
         [(rise.half_height_all, half), (rise.kept_half, half), (rise.onset, onset)]
@@ -146,29 +146,15 @@ fn over(excess: f64, allowed: f64) -> f64 {
 }
 
 fn above_stays_above(e: &Evidence) -> Departures {
-    let shares = e.results.table("branches.shares")?;
-    let mut found = Vec::new();
-    for transient in shares.values("transient") {
-        let of = |column| shares.estimates(&[("transient", transient)], "sigma", column);
-        let above = of("from_above");
-        for (sigma, rest) in of("from_rest") {
-            if let Some((_, more)) = above.iter().find(|(other, _)| *other == sigma) {
-                let less = difference(rest, *more);
-                found.push(over(less.value, 5.0 * less.error));
-            }
-        }
-    }
-    Ok(found)
+    let excesses = e.results.table("branches.shares")?.estimates(&[], "sigma", "excess");
+    Ok(excesses.iter().map(|(_, excess)| over(-excess.value, 5.0 * excess.error)).collect())
 }
 
 fn branches_approach(e: &Evidence) -> Departures {
-    let distances =
-        e.results.table("branches.half_heights")?.estimates(&[], "transient", "distance");
-    let step = |pair: &[(f64, Estimate)]| {
-        let more = difference(pair[1].1, pair[0].1);
-        over(more.value, e.level.quantile * more.error)
-    };
-    Ok(distances.windows(2).map(step).collect())
+    let table = e.results.table("branches.half_heights")?;
+    let changes = table.estimates(&[], "transient", "change_of_distance");
+    let part = |(_, change): &(f64, Estimate)| over(change.value, e.level.quantile * change.error);
+    Ok(changes.iter().map(part).collect())
 }
 
 fn seeds_before_circuits(e: &Evidence) -> Departures {

@@ -1,11 +1,11 @@
 //! Section 2: the simulation.
 
 use super::judge::*;
-use crate::experiments::branches::from_rest;
 use crate::experiments::ensembles::named;
 use crate::experiments::half_height::half_height_all;
+use crate::experiments::lengths::from_rest;
 use crate::experiments::sweep::{expected, mode_half, total};
-use crate::experiments::{BRANCHES, PROTOCOL, STARTS, TWO_MASSES, two_masses};
+use crate::experiments::{LENGTHS, PROTOCOL, STARTS, TWO_MASSES, two_masses};
 use crate::params::{NEAR_SIMULTANEOUS, Protocol, SLOW};
 use impact_chain::rise::{self, Rise};
 use impact_numerics::estimates::difference;
@@ -293,7 +293,7 @@ fn walls_like_masses(e: &Evidence, s: &Statement) -> Judged {
 /// The threshold of percolation sharpens with size. The paper compares without a quantity.
 fn percolation(e: &Evidence, s: &Statement) -> Judged {
     let transient = e.sweep()?.first().protocol.transient;
-    let widths = from_rest(e.results.of(&BRANCHES)?)
+    let widths = from_rest(e.results.of(&LENGTHS)?)
         .filter(|(_, curve)| curve.protocol.transient == transient)
         .filter_map(|(chains, curve)| Some((chains.ensemble.chain.masses, curve.rise.width?)));
     let mut widths: Vec<_> = widths.filter(|(masses, _)| *masses >= 100).collect();

@@ -8,7 +8,7 @@ use crate::experiments::half_height::half_height_all;
 use crate::experiments::protocol::range;
 use crate::experiments::starts::share_of_start;
 use crate::experiments::theory::beside::{LARGE_SIGMA, largest_distance};
-use crate::experiments::{BRANCHES, PROTOCOL, RESTITUTION, STARTS};
+use crate::experiments::{LENGTHS, PROTOCOL, RESTITUTION, STARTS};
 use crate::params::{NEAR_SIMULTANEOUS, Protocol, VERTICES};
 use impact_chain::rise::{Counted, RisePoint};
 use impact_numerics::estimates::share;
@@ -208,7 +208,7 @@ fn mean_is_easier(e: &Evidence, s: &Statement) -> Judged {
 
 /// The half heights from rest and with random free parts, of the mean of all, for each transient T that has both.
 fn of_starts(e: &Evidence) -> Result<Vec<(f64, Estimate, Estimate)>, Error> {
-    let (map, chains) = (&e.results.of(&PROTOCOL)?[0], e.results.of(&BRANCHES)?);
+    let (map, chains) = (&e.results.of(&PROTOCOL)?[0], e.results.of(&LENGTHS)?);
     let random = named(chains, "random").map_or(&[][..], |found| &found.curves);
     let both = random.iter().filter_map(|cell| {
         let Protocol { transient, window } = cell.protocol;
