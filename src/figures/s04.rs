@@ -70,7 +70,11 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
             let points =
                 shares.estimates(&[("masses", masses), ("transient", *transient)], "sigma", column);
             let name = format!("{name}, *T* = {}", time(*transient));
-            panel.joined_estimates(&name, &points, (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)))?;
+            panel.joined_estimates(
+                &name,
+                &points,
+                (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)),
+            )?;
             let at = if column == "from_rest" { points.last() } else { points.first() };
             let Some((sigma, share)) = at else { continue };
             let side = if column == "from_rest" { (2, 0) } else { (-2, 0) };
@@ -97,7 +101,7 @@ fn description(halves: &Table, masses: f64) -> Description {
             format!("from {} to {}", short(first.1, 3), short(last.1, 3))
         })
     };
-    seen!(
+    describe!(
         "(a) Half height against T: from rest it falls, {}; from above it rises, {}. (b) Share of gaps with an impact against σ, \
          early and late: two curves far apart that approach.",
         ends("from_rest"),

@@ -134,38 +134,36 @@ pub fn lengths(profile: Profile) -> Vec<Ensemble> {
 pub fn branches(profile: Profile) -> Vec<Ensemble> {
     const REST: Option<Heating> = None;
     const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });
-    // Start, σ in thousandths (first, last, step), transients.
-    type Case = (Option<Heating>, [u32; 3], &'static [f64]);
-    let (lengths, chains, cases): ([usize; 2], _, &[Case]) = match profile {
-        Profile::Full => {
-            const ALL: &[f64] = &[500.0, 5e3, 2e4, 5e4, 1e5];
-            (
-                [300, 1000],
-                12,
-                &[
-                    (REST, [90, 100, 5], ALL),
-                    (REST, [105, 105, 5], &[500.0, 5e3, 2e4]),
-                    (REST, [110, 110, 5], &[500.0, 5e3]),
-                    (REST, [115, 125, 5], &[500.0]),
-                    (ABOVE, [60, 70, 5], &[500.0]),
-                    (ABOVE, [75, 75, 5], &[500.0, 5e3]),
-                    (ABOVE, [80, 80, 5], &[500.0, 5e3, 2e4]),
-                    (ABOVE, [85, 90, 5], ALL),
-                ],
-            )
-        }
+    const ALL: &[f64] = &[500.0, 5e3, 2e4, 5e4, 1e5];
+    // Masses, start, σ in thousandths (first, last, step), transients.
+    type Case = (&'static [usize], Option<Heating>, [u32; 3], &'static [f64]);
+    let (chains, cases): (_, &[Case]) = match profile {
+        Profile::Full => (
+            12,
+            &[
+                (&[300, 1000], REST, [90, 100, 5], ALL),
+                // Short chains rise later.
+                (&[300], REST, [105, 105, 5], ALL),
+                (&[1000], REST, [105, 105, 5], &ALL[..3]),
+                (&[300, 1000], REST, [110, 110, 5], &ALL[..2]),
+                (&[300, 1000], REST, [115, 125, 5], &ALL[..1]),
+                (&[300, 1000], ABOVE, [60, 70, 5], &ALL[..1]),
+                (&[300, 1000], ABOVE, [75, 75, 5], &ALL[..2]),
+                (&[300, 1000], ABOVE, [80, 80, 5], &ALL[..3]),
+                (&[300, 1000], ABOVE, [85, 90, 5], ALL),
+            ],
+        ),
         Profile::Quick => (
-            [60, 200],
             3,
             &[
-                (REST, [100, 160, 20], &[50.0, 200.0, 500.0]),
-                (ABOVE, [20, 100, 20], &[50.0, 200.0, 500.0]),
+                (&[60, 200], REST, [100, 160, 20], &[50.0, 200.0, 500.0]),
+                (&[60, 200], ABOVE, [20, 100, 20], &[50.0, 200.0, 500.0]),
             ],
         ),
     };
     let mut all = Vec::new();
-    for masses in lengths {
-        for &(heating, [from, to, step], transients) in cases {
+    for &(lengths, heating, [from, to, step], transients) in cases {
+        for &masses in lengths {
             let start = if heating.is_some() { "above" } else { "rest" };
             let name = format!("{start}, n = {masses}, σ from {}", f64::from(from) / 1000.0);
             let sigmas = Grid::default().and(from, to, step as usize, 1000);

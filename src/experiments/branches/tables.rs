@@ -116,7 +116,7 @@ pub fn tables(found: &Vec<Chains>) -> Vec<Table> {
             (pair, before(place).filter(|before| before.masses == pair.masses))
         })
         .collect();
-    vec![half_heights(&steps), laws(&pairs), shares(&steps), all(found, &pairs)]
+    vec![half_heights(&steps), laws(&pairs), lengths(&pairs), shares(&steps), all(found, &pairs)]
 }
 
 /// The change of a quantity from one transient to the next, in the same chains.
@@ -152,17 +152,15 @@ fn half_heights(steps: &[Step<'_>]) -> Table {
         .done()
 }
 
-/// The exponent of a power law of T through the distances of some pairs, by least squares in logarithms.
-fn exponent(pairs: &[&Pair]) -> Option<Estimate> {
-    let chains = pairs.iter().map(|pair| pair.chains()).min()?;
-    jackknife(chains, |without| {
-        let mut points = Vec::new();
-        for pair in pairs {
-            let distance = pair.distance(without).filter(|distance| *distance > 0.0)?;
-            points.push((pxfm::f_log(pair.transient), pxfm::f_log(distance)));
-        }
-        slope(&points)
-    })
+/// The exponent of a power law of T through the distances of some pairs, over all chains but one, by least squares in
+/// logarithms. None if a distance is not positive.
+fn exponent(pairs: &[Pair], without: Option<usize>) -> Option<f64> {
+    let mut points = Vec::new();
+    for pair in pairs {
+        let distance = pair.distance(without).filter(|distance| *distance > 0.0)?;
+        points.push((pxfm::f_log(pair.transient), pxfm::f_log(distance)));
+    }
+    slope(&points)
 }
 
 /// The interval of an estimate from independent chains, with Student's t.
@@ -174,24 +172,53 @@ fn interval(estimate: Option<Estimate>, chains: usize) -> [f64; 2] {
     [value - quantile * error, value + quantile * error]
 }
 
-/// How the distance falls with T, as a power law through all transients, the first two and the last three.
+/// How the distance falls with T, as a power law over the first two transients and over the last three.
 fn laws(pairs: &[Pair]) -> Table {
     let lengths: Vec<&[Pair]> = pairs.chunk_by(|a, b| a.masses == b.masses).collect();
-    let over = |pairs: &[Pair]| exponent(&pairs.iter().collect::<Vec<_>>());
-    let of_all = |pairs: &[Pair]| interval(over(pairs), pairs[0].chains());
-    const LAW: &str = "d ln(distance)/d ln T by least squares";
+    let early = |pairs: &[Pair], without| exponent(&pairs[..pairs.len().min(2)], without);
+    let late = |pairs: &[Pair], without| exponent(&pairs[pairs.len().saturating_sub(3)..], without);
+    let end = |pairs: &[Pair], end: usize| {
+        let chains = pairs[0].chains();
+        interval(jackknife(chains, |without| late(pairs, without)), chains)[end]
+    };
+    const LAW: &str = "d ln(distance)/d ln T by least squares over the last three transients";
     Table::of("branches.laws", &lengths, |pairs| pairs[0].chains())
         .key("masses", "1", |pairs| pairs[0].masses as f64)
         .computed_by(origin(exponent))
-        .estimate("exponent", "1", LAW, |pairs| over(pairs))
-        .real("exponent_from", "1", 2, "lower end of its interval", |pairs| of_all(pairs)[0])
-        .real("exponent_to", "1", 2, "upper end of its interval", |pairs| of_all(pairs)[1])
+        .estimate("exponent", "1", LAW, |pairs| {
+            jackknife(pairs[0].chains(), |without| late(pairs, without))
+        })
+        .real("exponent_from", "1", 2, "lower end of its interval", |pairs| end(pairs, 0))
+        .real("exponent_to", "1", 2, "upper end of its interval", |pairs| end(pairs, 1))
         .estimate("early", "1", "the same over the first two transients", |pairs| {
-            over(&pairs[..pairs.len().min(2)])
+            jackknife(pairs[0].chains(), |without| early(pairs, without))
         })
-        .estimate("late", "1", "the same over the last three transients", |pairs| {
-            over(&pairs[pairs.len().saturating_sub(3)..])
+        .estimate("change", "1", "the exponent less the early one", |pairs| {
+            jackknife(pairs[0].chains(), |without| {
+                Some(late(pairs, without)? - early(pairs, without)?)
+            })
         })
+        .done()
+}
+
+/// Half heights and distances of the shorter chains less those of the longer ones, which begin with the same forces.
+fn lengths(pairs: &[Pair]) -> Table {
+    let lengths: Vec<&[Pair]> = pairs.chunk_by(|a, b| a.masses == b.masses).collect();
+    let rows: Vec<(&Pair, &Pair)> = match lengths[..] {
+        [short, long] => short.iter().zip(long).collect(),
+        _ => Vec::new(),
+    };
+    let less = |(short, long): &(&Pair, &Pair), of: fn(&Pair, Option<usize>) -> Option<f64>| {
+        let chains = short.chains().min(long.chains());
+        jackknife(chains, |without| Some(of(short, without)? - of(long, without)?))
+    };
+    const LESS: &str = "that of the shorter chains less that of the longer ones";
+    Table::of("branches.lengths", &rows, |(short, long)| short.chains().min(long.chains()))
+        .key("transient", TIME, |(short, _)| short.transient)
+        .computed_by(origin(Branch::half_height))
+        .estimate("from_rest", SIGMA, LESS, |row| less(row, |pair, o| pair.rest.half_height(o)))
+        .estimate("from_above", SIGMA, LESS, |row| less(row, |pair, o| pair.above.half_height(o)))
+        .estimate("distance", SIGMA, LESS, |row| less(row, Pair::distance))
         .done()
 }
 
@@ -299,10 +326,8 @@ mod tests {
         let times = [1.0, 4.0, 25.0];
         let at = |time: &f64| pair(*time, &[0.5 + distance(*time); 3], &[0.5; 3]);
         let pairs: Vec<Pair> = times.iter().map(at).collect();
-        let found = exponent(&pairs.iter().collect::<Vec<_>>()).unwrap();
-        assert!((found.value + 0.5).abs() < 1e-12 && found.error < 1e-12, "{found:?}");
-        let missing = exponent(&[&pairs[0], &pair(9.0, &[0.4; 3], &[0.5; 3])]);
-        assert_eq!(missing, None);
+        assert!((exponent(&pairs, None).unwrap() + 0.5).abs() < 1e-12);
+        assert_eq!(exponent(&[at(&1.0), pair(9.0, &[0.4; 3], &[0.5; 3])], None), None);
     }
 
     #[test]
