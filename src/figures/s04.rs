@@ -58,7 +58,10 @@ fn half_heights(
 
 /// Shares after the first transient and after the last.
 fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
-    let x = Axis::linear(0.055, 0.13, 0.01, 2, FORCING);
+    let sigmas = shares.values("sigma");
+    let least = sigmas.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = sigmas.iter().copied().fold(0.0, f64::max);
+    let x = Axis::linear(least - 0.005, most + 0.005, 0.01, 2, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of active gaps");
     let panel = sheet.lettered_panel(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
     let transients = shares.values("transient");

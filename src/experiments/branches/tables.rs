@@ -116,39 +116,37 @@ pub fn tables(found: &Vec<Chains>) -> Vec<Table> {
             (pair, before(place).filter(|before| before.masses == pair.masses))
         })
         .collect();
-    vec![half_heights(&steps), laws(&pairs), lengths(&pairs), shares(&steps), all(found, &pairs)]
+    vec![half_heights(&steps), laws(&pairs), lengths(&pairs), late(&pairs), fixed(&pairs), shares(&pairs), all(found, &pairs)]
 }
 
-/// The change of a quantity from one transient to the next, in the same chains.
+/// The change of a quantity of the same chains from one transient to another.
 fn change(
-    (pair, before): &Step<'_>,
+    before: &Pair,
+    after: &Pair,
     quantity: impl Fn(&Pair, Option<usize>) -> Option<f64>,
 ) -> Option<Estimate> {
-    let before = (*before)?;
-    jackknife(pair.chains(), |without| Some(quantity(pair, without)? - quantity(before, without)?))
+    jackknife(after.chains(), |without| Some(quantity(after, without)? - quantity(before, without)?))
 }
 
 fn half_heights(steps: &[Step<'_>]) -> Table {
-    let of_rest = |pair: &Pair, without| pair.rest.half_height(without);
-    let of_above = |pair: &Pair, without| pair.above.half_height(without);
     const LATER: &str = "the same less that after the transient before";
     Table::of("branches.half_heights", steps, |(pair, _)| pair.chains())
         .key("masses", "1", |(pair, _)| pair.masses as f64)
         .key("transient", TIME, |(pair, _)| pair.transient)
         .computed_by(origin(Branch::half_height))
         .estimate("from_rest", SIGMA, HALF_HEIGHT, |(pair, _)| {
-            jackknife(pair.chains(), |without| of_rest(pair, without))
+            jackknife(pair.chains(), |without| pair.rest.half_height(without))
         })
-        .estimate("change_from_rest", SIGMA, LATER, |step| change(step, of_rest))
         .estimate("from_above", SIGMA, HALF_HEIGHT, |(pair, _)| {
-            jackknife(pair.chains(), |without| of_above(pair, without))
+            jackknife(pair.chains(), |without| pair.above.half_height(without))
         })
-        .estimate("change_from_above", SIGMA, LATER, |step| change(step, of_above))
         .computed_by(origin(Pair::distance))
         .estimate("distance", SIGMA, "half height from rest less that from above", |(pair, _)| {
             jackknife(pair.chains(), |without| pair.distance(without))
         })
-        .estimate("change_of_distance", SIGMA, LATER, |step| change(step, Pair::distance))
+        .estimate("change_of_distance", SIGMA, LATER, |(pair, before)| {
+            change((*before)?, pair, Pair::distance)
+        })
         .done()
 }
 
@@ -184,6 +182,10 @@ fn laws(pairs: &[Pair]) -> Table {
     const LAW: &str = "d ln(distance)/d ln T by least squares over the last three transients";
     Table::of("branches.laws", &lengths, |pairs| pairs[0].chains())
         .key("masses", "1", |pairs| pairs[0].masses as f64)
+        .chosen("until", TIME, "the second transient", |pairs| Some(pairs.get(1)?.transient))
+        .chosen("since", TIME, "the third last transient", |pairs| {
+            Some(pairs[pairs.len().saturating_sub(3)].transient)
+        })
         .computed_by(origin(exponent))
         .estimate("exponent", "1", LAW, |pairs| {
             jackknife(pairs[0].chains(), |without| late(pairs, without))
@@ -222,38 +224,86 @@ fn lengths(pairs: &[Pair]) -> Table {
         .done()
 }
 
+/// Changes of half heights from the third last transient to the last.
+fn late(pairs: &[Pair]) -> Table {
+    let lengths: Vec<&[Pair]> = pairs.chunk_by(|a, b| a.masses == b.masses).collect();
+    let ends = |pairs: &'_ [Pair]| [pairs.len().saturating_sub(3), pairs.len() - 1];
+    let since = |pairs: &[Pair], of: fn(&Pair, Option<usize>) -> Option<f64>| {
+        let [before, after] = ends(pairs);
+        change(&pairs[before], &pairs[after], of)
+    };
+    const SINCE: &str = "half height at last less that at the earlier time";
+    Table::of("branches.late", &lengths, |pairs| pairs[0].chains())
+        .key("masses", "1", |pairs| pairs[0].masses as f64)
+        .chosen("since", TIME, "the earlier time", |pairs| Some(pairs[ends(pairs)[0]].transient))
+        .computed_by(origin(Branch::half_height))
+        .estimate("from_rest", SIGMA, SINCE, |pairs| since(pairs, |pair, o| pair.rest.half_height(o)))
+        .estimate("from_above", SIGMA, SINCE, |pairs| {
+            since(pairs, |pair, o| pair.above.half_height(o))
+        })
+        .done()
+}
+
+/// Shares at the largest σ that both branches have after every transient.
+fn fixed(pairs: &[Pair]) -> Table {
+    let mut rows: Vec<(&[Pair], f64)> = Vec::new();
+    for pairs in pairs.chunk_by(|a, b| a.masses == b.masses) {
+        let everywhere = |sigma: &f64| {
+            pairs.iter().all(|at| at.rest.sigmas.contains(sigma) && at.above.sigmas.contains(sigma))
+        };
+        let sigmas = pairs[0].rest.sigmas.iter().copied();
+        rows.extend(sigmas.rev().find(everywhere).map(|sigma| (pairs, sigma)));
+    }
+    let above = |sigma: f64| move |pair: &Pair, o: Option<usize>| pair.above.share(sigma, o);
+    let excess = |at: &Pair, sigma: f64| jackknife(at.chains(), |o| at.excess(sigma, o));
+    let changed = |pairs: &[Pair], from: usize, sigma: f64| {
+        change(&pairs[from], &pairs[pairs.len() - 1], above(sigma))
+    };
+    const ABOVE: &str = "share from above at last less that at the first time";
+    const LATE: &str = "the same since the third last time";
+    Table::of("branches.fixed", &rows, |(pairs, _)| pairs[0].chains())
+        .key("masses", "1", |(pairs, _)| pairs[0].masses as f64)
+        .chosen("sigma", SIGMA, "standard deviation σ", |(_, sigma)| Some(*sigma))
+        .computed_by(origin(Branch::share))
+        .estimate("fall", "1", ABOVE, |(pairs, sigma)| changed(pairs, 0, *sigma))
+        .estimate("late_fall", "1", LATE, |(pairs, sigma)| {
+            changed(pairs, pairs.len().saturating_sub(3), *sigma)
+        })
+        .computed_by(origin(Pair::excess))
+        .estimate("excess", "1", "share from above less that from rest, at first", |row| {
+            excess(&row.0[0], row.1)
+        })
+        .estimate("late_excess", "1", "the same at last", |row| {
+            excess(&row.0[row.0.len() - 1], row.1)
+        })
+        .done()
+}
+
 /// At every σ that was run on a branch.
-fn shares(steps: &[Step<'_>]) -> Table {
-    let mut rows: Vec<(&Step<'_>, f64)> = Vec::new();
-    for step in steps {
-        let (rest, above) = (&step.0.rest.sigmas, &step.0.above.sigmas);
+fn shares(pairs: &[Pair]) -> Table {
+    let mut rows: Vec<(&Pair, f64)> = Vec::new();
+    for pair in pairs {
+        let (rest, above) = (&pair.rest.sigmas, &pair.above.sigmas);
         let mut sigmas = [rest.as_slice(), above.as_slice()].concat();
         sigmas.sort_by(f64::total_cmp);
         sigmas.dedup();
-        rows.extend(sigmas.into_iter().map(|sigma| (step, sigma)));
+        rows.extend(sigmas.into_iter().map(|sigma| (pair, sigma)));
     }
     const SHARE: &str = "share of all gaps with an impact";
-    const LATER: &str = "the same less that after the transient before";
-    Table::of("branches.shares", &rows, |(step, _)| step.0.chains())
-        .key("masses", "1", |(step, _)| step.0.masses as f64)
-        .key("transient", TIME, |(step, _)| step.0.transient)
+    Table::of("branches.shares", &rows, |(pair, _)| pair.chains())
+        .key("masses", "1", |(pair, _)| pair.masses as f64)
+        .key("transient", TIME, |(pair, _)| pair.transient)
         .key("sigma", SIGMA, |(_, sigma)| *sigma)
         .computed_by(origin(Branch::share))
-        .estimate("from_rest", "1", SHARE, |(step, sigma)| {
-            jackknife(step.0.chains(), |without| step.0.rest.share(*sigma, without))
+        .estimate("from_rest", "1", SHARE, |(pair, sigma)| {
+            jackknife(pair.chains(), |without| pair.rest.share(*sigma, without))
         })
-        .estimate("change_from_rest", "1", LATER, |(step, sigma)| {
-            change(step, |pair, without| pair.rest.share(*sigma, without))
-        })
-        .estimate("from_above", "1", SHARE, |(step, sigma)| {
-            jackknife(step.0.chains(), |without| step.0.above.share(*sigma, without))
-        })
-        .estimate("change_from_above", "1", LATER, |(step, sigma)| {
-            change(step, |pair, without| pair.above.share(*sigma, without))
+        .estimate("from_above", "1", SHARE, |(pair, sigma)| {
+            jackknife(pair.chains(), |without| pair.above.share(*sigma, without))
         })
         .computed_by(origin(Pair::excess))
-        .estimate("excess", "1", "share from above less that from rest", |(step, sigma)| {
-            jackknife(step.0.chains(), |without| step.0.excess(*sigma, without))
+        .estimate("excess", "1", "share from above less that from rest", |(pair, sigma)| {
+            jackknife(pair.chains(), |without| pair.excess(*sigma, without))
         })
         .done()
 }
@@ -335,9 +385,7 @@ mod tests {
         // Chains differ much, and all change by the same.
         let (first, later) = ([0.1, 0.5, 0.9], [0.2, 0.6, 1.0]);
         let (first, later) = (pair(1.0, &first, &first), pair(2.0, &later, &first));
-        let found = change(&(&later, Some(&first)), |pair, without| pair.rest.half_height(without));
-        let found = found.unwrap();
+        let found = change(&first, &later, |pair, without| pair.rest.half_height(without)).unwrap();
         assert!((found.value - 0.1).abs() < 1e-12 && found.error < 1e-12, "{found:?}");
-        assert_eq!(change(&(&later, None), Pair::distance), None);
     }
 }
