@@ -6,7 +6,7 @@ use super::shared::*;
 use crate::experiments::accuracy::trials::right;
 use crate::experiments::rise::{Curve, RisePoint};
 use crate::experiments::{
-    BRANCHES, NUCLEATION, PROTOCOL, RACE, SCALE, SECOND_SEED, TRIALS, branches, sweep,
+    LENGTHS, NUCLEATION, PROTOCOL, RACE, SCALE, SECOND_SEED, TRIALS, lengths, sweep,
 };
 use crate::params::MethodName;
 use impact_numerics::estimates::difference;
@@ -143,7 +143,7 @@ fn no_rise_before_seeds(e: &Evidence<'_>) -> Departures {
     let [half, onset] = e.numbers("theory.relation", ["sigma_kept_half", "sigma_kept_onset"])?;
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
     let mut curves: Vec<&Curve> = map.curves.iter().collect();
-    for (chains, curve) in branches::from_rest(e.results.of(&BRANCHES)?) {
+    for (chains, curve) in lengths::from_rest(e.results.of(&LENGTHS)?) {
         if chains.ensemble.chain.masses == map.ensemble.chain.masses {
             curves.push(curve);
         }
@@ -167,30 +167,16 @@ fn over(excess: f64, allowed: f64) -> f64 {
 }
 
 fn above_stays_above(e: &Evidence<'_>) -> Departures {
-    let shares = e.results.table("branches.shares")?;
-    let mut departures = Vec::new();
-    for transient in shares.values("transient") {
-        let branch = |column| shares.estimates(&[("transient", transient)], "sigma", column);
-        let above = branch("from_above");
-        for (sigma, rest) in branch("from_rest") {
-            if let Some((_, more)) = above.iter().find(|(other, _)| *other == sigma) {
-                let less = difference(rest, *more);
-                departures.push(over(less.value, 5.0 * less.error));
-            }
-        }
-    }
-    Ok(departures)
+    let excesses = e.results.table("branches.shares")?.estimates(&[], "sigma", "excess");
+    Ok(excesses.iter().map(|(_, excess)| over(-excess.value, 5.0 * excess.error)).collect())
 }
 
 fn branches_approach(e: &Evidence<'_>) -> Departures {
     let table = e.results.table("branches.half_heights")?;
-    let distances = table.estimates(&[], "transient", "distance");
+    let changes = table.estimates(&[], "transient", "change_of_distance");
     let quantile = e.level()?.quantile;
-    let step = |pair: &[(f64, Estimate)]| {
-        let more = difference(pair[1].1, pair[0].1);
-        over(more.value, quantile * more.error)
-    };
-    Ok(distances.windows(2).map(step).collect())
+    let part = |(_, change): &(f64, Estimate)| over(change.value, quantile * change.error);
+    Ok(changes.iter().map(part).collect())
 }
 
 fn seeds_before_circuits(e: &Evidence<'_>) -> Departures {

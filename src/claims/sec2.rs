@@ -1,11 +1,11 @@
 //! Judges Section 2, the simulation.
 
 use super::shared::*;
-use crate::experiments::branches::from_rest;
+use crate::experiments::lengths::from_rest;
 use crate::experiments::protocol::round_to_printed;
 use crate::experiments::rise::{Curve, Rise, RisePoint};
 use crate::experiments::sweep::{self, mode_half};
-use crate::experiments::{BRANCHES, PROTOCOL, TWO_MASSES};
+use crate::experiments::{LENGTHS, PROTOCOL, TWO_MASSES};
 use crate::params::{NEAR_SIMULTANEOUS, SLOW};
 use impact_numerics::statistics::Estimate;
 
@@ -304,7 +304,7 @@ fn walls_like_masses(e: &Evidence<'_>) -> Judged {
 /// The threshold of percolation sharpens with size. The paper compares without a quantity.
 fn percolation(e: &Evidence<'_>) -> Judged {
     let transient = e.number("sweep.run.transient")?;
-    let widths = from_rest(e.results.of(&BRANCHES)?)
+    let widths = from_rest(e.results.of(&LENGTHS)?)
         .filter(|(_, curve)| curve.protocol.transient == transient)
         .filter_map(|(chains, curve)| Some((chains.ensemble.chain.masses, curve.rise.width?)));
     let mut widths: Vec<_> = widths.filter(|(masses, _)| *masses >= 100).collect();

@@ -7,7 +7,7 @@ use crate::experiments::protocol::range;
 use crate::experiments::starts::share_of_start;
 use crate::experiments::sweep;
 use crate::experiments::theory::beside::{LARGE_SIGMA, largest_distance};
-use crate::experiments::{BRANCHES, PROTOCOL, RESTITUTION, STARTS};
+use crate::experiments::{LENGTHS, PROTOCOL, RESTITUTION, STARTS};
 use crate::params::{NEAR_SIMULTANEOUS, Protocol, VERTICES};
 use impact_chain::counts::Total;
 use impact_chain::rise::{Counted, RisePoint};
@@ -227,7 +227,7 @@ fn mean_is_easier(e: &Evidence<'_>) -> Judged {
 fn half_heights_of_starts(e: &Evidence<'_>) -> Result<Vec<(f64, Estimate, Estimate)>, Error> {
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
     let mut both = Vec::new();
-    for curve in &ensemble(e.results.of(&BRANCHES)?, "random")?.curves {
+    for curve in &ensemble(e.results.of(&LENGTHS)?, "random")?.curves {
         let Protocol { transient, window } = curve.protocol;
         let rest = map.curve(transient, window).and_then(|curve| curve.rise.half_height_all);
         if let Some((rest, random)) = rest.zip(curve.rise.half_height_all) {

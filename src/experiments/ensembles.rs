@@ -32,7 +32,8 @@ fn cases(all: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
     all.iter().flat_map(|one| one.sigmas.iter().map(move |&sigma| (one, sigma)))
 }
 
-fn rows(all: &Vec<Ensemble>) -> Vec<UnitRow> {
+/// A row of work for each σ of each ensemble.
+pub fn rows(all: &Vec<Ensemble>) -> Vec<UnitRow> {
     let row = |(one, sigma): (&Ensemble, f64)| UnitRow {
         realisations: one.realisations_at(sigma),
         weight: one.work(sigma),
@@ -40,7 +41,8 @@ fn rows(all: &Vec<Ensemble>) -> Vec<UnitRow> {
     cases(all).map(row).collect()
 }
 
-fn part(
+/// Counts the realisations of a unit.
+pub fn part(
     all: &Vec<Ensemble>,
     unit: &Unit,
     stage: &Stage,

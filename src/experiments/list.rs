@@ -1,9 +1,9 @@
 //! Lists the experiments in the order in which they run, and the tables that need several of them.
 
 use super::{
-    BIAS, BRANCHES, HORIZON, MEASURED, NUCLEATION, PROTOCOL, RACE, REPLAY, RESTITUTION, SCALE,
-    SECOND_SEED, SEEDS, SEGMENTS, SPACE_TIME, STARTS, SWEEP, TRIALS, TWO_MASSES, identities, seeds,
-    starts, theory,
+    BIAS, BRANCHES, HORIZON, LENGTHS, MEASURED, NUCLEATION, PROTOCOL, RACE, REPLAY, RESTITUTION,
+    SCALE, SECOND_SEED, SEEDS, SEGMENTS, SPACE_TIME, STARTS, SWEEP, TRIALS, TWO_MASSES, identities,
+    seeds, starts, theory,
 };
 use crate::params;
 use literate::experiments::experiment::How::Read;
@@ -28,6 +28,7 @@ pub const ALL: &[&dyn AnyExperiment] = &[
     &NUCLEATION,
     &SEEDS,
     &RESTITUTION,
+    &LENGTHS,
     &BRANCHES,
     &REPLAY,
 ];

@@ -12,6 +12,7 @@ pub mod ensembles;
 pub(crate) mod half_height;
 pub mod horizon;
 pub mod identities;
+pub mod lengths;
 mod list;
 pub mod measured;
 pub mod nucleation;
@@ -32,6 +33,7 @@ pub use bare::bare;
 pub use branches::BRANCHES;
 pub use horizon::HORIZON;
 pub use impact_chain::rise;
+pub use lengths::LENGTHS;
 pub use list::{ALL, THEORY};
 pub use literate::experiments::{
     AnyExperiment, Error, Progress, Results, Session, Store, alive, say,

@@ -48,7 +48,7 @@ pub fn sweep(profile: Profile) -> Vec<Ensemble> {
 /// The headline numbers again, with another seed and fewer realisations on the rise only.
 pub fn second_seed(profile: Profile) -> Vec<Ensemble> {
     let (sigmas, realisations) = match profile {
-        Profile::Full => (Grid::default().and(34, 64, 1, 400), 400),
+        Profile::Full => (Grid::default().and(34, 54, 1, 400), 200),
         Profile::Quick => (Grid::default().and(8, 16, 1, 100), 8),
     };
     // The stream of the main sweep: only the seed differs.
@@ -59,7 +59,7 @@ pub fn second_seed(profile: Profile) -> Vec<Ensemble> {
 /// below the rise.
 pub fn protocol(profile: Profile) -> Vec<Ensemble> {
     let (longest, widest, sigmas, realisations, below) = match profile {
-        Profile::Full => (9, 7, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100), 120, 1000),
+        Profile::Full => (9, 7, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100), 80, 1000),
         Profile::Quick => (6, 5, Grid::default().and(9, 17, 1, 100), 6, 100),
     };
     let transients = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0];
@@ -93,60 +93,34 @@ pub fn starts(profile: Profile) -> Vec<Ensemble> {
     ]
 }
 
-/// Chains from rest and from above, of several lengths and after several transients, each at a few
-/// σ around the rise; and chains with a random start.
-pub fn branches(profile: Profile) -> Vec<Ensemble> {
-    const REST: Option<Heating> = None;
-    const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });
-    // Stream, masses, start, σ in thousandths (first, last, step), realisations, transients.
-    type Case = (&'static str, usize, Option<Heating>, [u32; 3], usize, &'static [f64]);
-    // Random streams: of chains of several lengths, and of both branches.
-    const LENGTH: &str = "sizes";
-    const BOTH: &str = "history";
-    let late: &[f64] = &[5e4, 1e5];
+/// Chains from rest of several lengths, and chains with a random start.
+pub fn lengths(profile: Profile) -> Vec<Ensemble> {
+    // Masses, σ in thousandths (first, last, step), realisations, transient, windows.
+    type Case = (usize, [u32; 3], usize, f64, &'static [f64]);
     let cases: &[Case] = match profile {
         Profile::Full => &[
-            (LENGTH, 100, REST, [80, 160, 10], 120, &[500.0]),
-            (LENGTH, 1000, REST, [80, 150, 10], 8, &[500.0]),
-            (LENGTH, 10_000, REST, [80, 150, 10], 2, &[500.0]),
-            (LENGTH, 100, REST, [100, 116, 8], 100, &[5e3]),
-            (LENGTH, 1000, REST, [95, 111, 8], 8, &[5e3]),
-            (LENGTH, 10_000, REST, [95, 111, 8], 1, &[5e3]),
-            (LENGTH, 100, REST, [90, 114, 8], 30, &[5e4]),
-            (BOTH, 2000, REST, [85, 140, 5], 4, &[500.0]),
-            (BOTH, 2000, ABOVE, [35, 100, 5], 4, &[500.0]),
-            (BOTH, 2000, REST, [85, 120, 5], 2, &[5e3]),
-            (BOTH, 2000, ABOVE, [70, 100, 5], 2, &[5e3]),
-            (BOTH, 1000, REST, [85, 105, 5], 1, late),
-            (BOTH, 1000, ABOVE, [70, 100, 5], 1, late),
+            (100, [80, 160, 10], 120, 500.0, &[200.0]),
+            (1000, [80, 150, 10], 8, 500.0, &[200.0]),
+            (10_000, [80, 150, 10], 2, 500.0, &[200.0]),
+            (100, [90, 114, 8], 30, 5e4, &[200.0, 2000.0]),
         ],
         Profile::Quick => &[
-            (LENGTH, 20, REST, [140, 180, 20], 10, &[50.0]),
-            (LENGTH, 100, REST, [120, 160, 20], 2, &[50.0]),
-            (LENGTH, 20, REST, [105, 145, 20], 10, &[500.0]),
-            (LENGTH, 100, REST, [100, 140, 20], 2, &[500.0]),
-            (BOTH, 200, REST, [80, 160, 20], 2, &[50.0, 500.0]),
-            (BOTH, 200, ABOVE, [20, 100, 20], 2, &[50.0, 500.0]),
+            (20, [140, 180, 20], 10, 50.0, &[200.0]),
+            (100, [120, 160, 20], 2, 50.0, &[200.0]),
+            (100, [100, 140, 20], 2, 500.0, &[200.0, 2000.0]),
         ],
     };
-    let ensemble =
-        |&(stream, masses, heating, [from, to, step], realisations, transients): &Case| {
-            let start = if heating.is_some() { "above" } else { "rest" };
-            // The paper's chain has a wider window too after the longest time.
-            let wide = transients == [5e4] && masses == 100;
-            Ensemble {
-                chain: Chain { masses, ..Chain::default() },
-                heating,
-                protocols: windows(transients, if wide { &[200.0, 2000.0] } else { &[200.0] }),
-                pieces: (masses / 250).max(1),
-                stream: stream.into(),
-                ..paper(
-                    &format!("{start}, n = {masses}, T = {}", transients[0]),
-                    Grid::default().and(from, to, step as usize, 1000),
-                    realisations,
-                )
-            }
-        };
+    let rest = |&(masses, [from, to, step], realisations, transient, widths): &Case| Ensemble {
+        chain: Chain { masses, ..Chain::default() },
+        protocols: windows(&[transient], widths),
+        pieces: (masses / 250).max(1),
+        stream: "sizes".into(),
+        ..paper(
+            &format!("rest, n = {masses}, T = {transient}"),
+            Grid::default().and(from, to, step as usize, 1000),
+            realisations,
+        )
+    };
     let full = profile == Profile::Full;
     let transients: &[f64] = if full { &[100.0, 500.0, 1000.0, 2000.0] } else { &[100.0, 500.0] };
     let (step, realisations) = if full { (1, 24) } else { (4, 2) };
@@ -159,24 +133,84 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
         most_rejected: 1.0,
         ..paper("random", Grid::default().and(9, 18, step, 100), realisations)
     };
-    cases.iter().map(ensemble).chain([random]).collect()
+    cases.iter().map(rest).chain([random]).collect()
 }
 
-/// Chains of several restitutions.
-pub fn restitution(profile: Profile) -> Vec<Ensemble> {
-    let grid = Grid::default();
-    let (restitutions, sigmas, realisations): (&[f64], _, _) = match profile {
+/// Chains of two lengths from rest and from above, under the same forces. At each σ they run as long as a half height lies
+/// near it.
+pub fn branches(profile: Profile) -> Vec<Ensemble> {
+    const REST: Option<Heating> = None;
+    const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });
+    const ALL: &[f64] = &[500.0, 5e3, 2e4, 5e4, 1e5];
+    // Masses, start, σ in thousandths (first, last, step), transients.
+    type Case = (&'static [usize], Option<Heating>, [u32; 3], &'static [f64]);
+    let (chains, cases): (_, &[Case]) = match profile {
         Profile::Full => (
-            &[0.0, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95],
-            grid.and(8, 18, 1, 100).and(4, 6, 1, 20).and(2, 3, 1, 5),
+            12,
+            &[
+                (&[300, 1000], REST, [90, 100, 5], ALL),
+                // Short chains rise later.
+                (&[300], REST, [105, 105, 5], ALL),
+                (&[1000], REST, [105, 105, 5], &ALL[..3]),
+                (&[300, 1000], REST, [110, 110, 5], &ALL[..2]),
+                (&[300, 1000], REST, [115, 125, 5], &ALL[..1]),
+                (&[300, 1000], ABOVE, [60, 70, 5], &ALL[..1]),
+                (&[300, 1000], ABOVE, [75, 75, 5], &ALL[..2]),
+                (&[300, 1000], ABOVE, [80, 80, 5], &ALL[..3]),
+                (&[300, 1000], ABOVE, [85, 90, 5], ALL),
+            ],
+        ),
+        Profile::Quick => (
+            3,
+            &[
+                (&[60, 200], REST, [100, 160, 20], &[50.0, 200.0, 500.0]),
+                (&[60, 200], ABOVE, [20, 100, 20], &[50.0, 200.0, 500.0]),
+            ],
+        ),
+    };
+    let mut all = Vec::new();
+    for &(lengths, heating, [from, to, step], transients) in cases {
+        for &masses in lengths {
+            let start = if heating.is_some() { "above" } else { "rest" };
+            let name = format!("{start}, n = {masses}, σ from {}", f64::from(from) / 1000.0);
+            let sigmas = Grid::default().and(from, to, step as usize, 1000);
+            all.push(Ensemble {
+                chain: Chain { masses, ..Chain::default() },
+                heating,
+                protocols: windows(transients, &[200.0]),
+                stream: "history".into(),
+                ..paper(&name, sigmas, chains)
+            });
+        }
+    }
+    all
+}
+
+/// Chains of several restitutions, each at the σ where its half height may lie.
+pub fn restitution(profile: Profile) -> Vec<Ensemble> {
+    let grid = Grid::default;
+    let quick = || grid().and(9, 15, 6, 100).and(30, 60, 30, 100);
+    // Restitutions, and their σ.
+    let (cases, realisations): (Vec<(&[f64], Grid)>, _) = match profile {
+        Profile::Full => (
+            vec![
+                (&[0.0, 0.05, 0.1, 0.2, 0.4], grid().and(16, 18, 1, 100).and(4, 7, 1, 20)),
+                (&[0.6], grid().and(10, 20, 1, 100)),
+                (&[0.8, 0.9, 0.95], grid().and(8, 14, 1, 100)),
+            ],
             24,
         ),
-        Profile::Quick => (&[0.0, 0.8], grid.and(9, 15, 6, 100).and(30, 60, 30, 100), 2),
+        Profile::Quick => (vec![(&[0.0, 0.8], quick())], 2),
     };
-    let ensemble = |&restitution: &f64| Ensemble {
-        chain: Chain { restitution, ..Chain::default() },
-        stream: "restitution".into(),
-        ..paper(&format!("r = {restitution}"), sigmas.clone(), realisations)
-    };
-    restitutions.iter().map(ensemble).collect()
+    let mut all = Vec::new();
+    for (restitutions, sigmas) in cases {
+        for &restitution in restitutions {
+            all.push(Ensemble {
+                chain: Chain { restitution, ..Chain::default() },
+                stream: "restitution".into(),
+                ..paper(&format!("r = {restitution}"), sigmas.clone(), realisations)
+            });
+        }
+    }
+    all
 }

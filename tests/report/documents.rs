@@ -52,6 +52,7 @@ fn no_document_outgrows_its_reader() {
         ("the edition", words(&edition), 7_000),
         ("its abstract", words(section(&edition, "Abstract")), 220),
         ("the second paper", words(&beyond), 4_500),
+        ("its abstract", words(section(&beyond, "Abstract")), 120),
         ("the methods", words(&text("methods")), 3_000),
     ];
     let passed: Vec<_> =

@@ -51,6 +51,7 @@
 use impact_chain::{Boundary, Chain};
 use impact_numerics::quadrature::GaussLegendre;
 use impact_numerics::roots::crossing;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the force.
@@ -213,7 +214,7 @@ fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
 }
 
 /// The probabilities that single gaps and neighbours of a chain from rest close by themselves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Chances {
     /// A gap between masses.
     pub p: f64,

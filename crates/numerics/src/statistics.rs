@@ -1,7 +1,7 @@
 //! Computes estimates from samples: means, modes, quantiles, proportions and their errors.
 
 use serde::{Deserialize, Serialize};
-use statrs::distribution::{ContinuousCDF, Normal};
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 /// A number with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -67,6 +67,13 @@ pub fn mode(histogram: &[u32]) -> Option<usize> {
 pub fn normal_quantile(level: f64) -> f64 {
     let z = Normal::standard().inverse_cdf(0.5 + 0.5 * level);
     (z * 1e9).round() / 1e9
+}
+
+/// Returns the two-sided quantile of Student's t with some degrees of freedom; none below one
+/// degree. Rounded as [`normal_quantile`] is.
+pub fn student_quantile(level: f64, freedom: usize) -> Option<f64> {
+    let t = StudentsT::new(0.0, 1.0, freedom as f64).ok()?.inverse_cdf(0.5 + 0.5 * level);
+    Some((t * 1e9).round() / 1e9)
 }
 
 /// Returns Wilson's interval of a proportion; none without trials.
@@ -142,6 +149,15 @@ mod tests {
         assert_eq!(wilson(0, 10, 0.95).unwrap()[0], 0.0);
         assert_eq!(wilson(10, 10, 0.95).unwrap()[1], 1.0);
         assert_eq!(wilson(0, 0, 0.95), None);
+    }
+
+    /// As tables print it; with one degree of freedom, tan(π · level/2).
+    #[test]
+    fn student_quantiles_of_tables() {
+        for (freedom, printed) in [(1, 12.706), (11, 2.201), (15, 2.131)] {
+            assert!((student_quantile(0.95, freedom).unwrap() - printed).abs() < 5e-4);
+        }
+        assert_eq!(student_quantile(0.95, 0), None);
     }
 
     #[test]

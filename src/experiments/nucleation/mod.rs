@@ -3,7 +3,7 @@
 pub mod run;
 pub mod tables;
 
-pub use run::{First, Nucleation};
+pub use run::{Expected, First, Gaps, Nucleation};
 
 use crate::params::NucleationParams;
 use literate::experiments::Experiment;

@@ -2,6 +2,14 @@
 
 use crate::experiments::prelude::*;
 use crate::params::NucleationParams;
+use impact_circuits::nucleation::{Chances, Reach, half};
+use rayon::prelude::*;
+
+/// Angles at which the reach of a gap is computed.
+const ANGLES: usize = 256;
+
+/// Angles of the rule for neighbours, whose cost grows as their square.
+const COARSE: usize = 64;
 
 /// First impacts of chains from rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -10,6 +18,30 @@ pub struct Nucleation {
     pub parameters: NucleationParams,
     /// For each length and σ, length by length, the realisations.
     pub rows: Vec<Vec<First>>,
+    /// What is expected.
+    pub expected: Expected,
+}
+
+/// The chances of gaps to close by themselves, by the theory.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Expected {
+    /// At each σ that was run.
+    pub gaps: Vec<Gaps>,
+    /// Within the latest time, at σ that lie closer together, for curves.
+    pub curve: Vec<(f64, Chances)>,
+    /// The σ at which half of the chains of the paper have such a gap, in unlimited time.
+    pub half: f64,
+}
+
+/// The chances of gaps at one σ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gaps {
+    /// Standard deviation σ.
+    pub sigma: f64,
+    /// Within each time.
+    pub within: Vec<Chances>,
+    /// In unlimited time.
+    pub ever: Chances,
 }
 
 /// The time of a chain's first impact, if it has one in time.
@@ -38,7 +70,30 @@ pub fn run(parameters: &NucleationParams, progress: &Progress) -> Result<Nucleat
         let one = |index| first(parameters, &chain, sigma, index);
         each(&stage, progress, 0..realisations as u64, one)
     });
-    Ok(Nucleation { parameters: parameters.clone(), rows: rows.collect::<Result<_, _>>()? })
+    let rows = rows.collect::<Result<_, _>>()?;
+    Ok(Nucleation { parameters: parameters.clone(), rows, expected: expected(parameters) })
+}
+
+fn expected(parameters: &NucleationParams) -> Expected {
+    let chain = &parameters.chain;
+    let within = Reach::within(chain, &parameters.times, ANGLES);
+    let fewer: Vec<Reach> = within.iter().map(|reach| reach.every(ANGLES / COARSE)).collect();
+    let ever = Reach::ever(chain, COARSE);
+    let gaps = |&sigma: &f64| {
+        let both = within.iter().zip(&fewer);
+        let within = both.map(|(all, few)| Chances::new(chain, all, few, sigma)).collect();
+        Gaps { sigma, within, ever: Chances::new(chain, &ever, &ever, sigma) }
+    };
+    let last = within.last().zip(fewer.last());
+    let curve = last.map_or(Vec::new(), |(all, few)| {
+        (55..=165_u32)
+            .into_par_iter()
+            .map(|step| f64::from(step) / 1000.0)
+            .map(|sigma| (sigma, Chances::new(chain, all, few, sigma)))
+            .collect()
+    });
+    let gaps = parameters.sigmas.par_iter().map(gaps).collect();
+    Expected { gaps, curve, half: half(chain, &ever, &ever) }
 }
 
 fn first(

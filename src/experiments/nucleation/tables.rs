@@ -1,23 +1,9 @@
 //! Tables of first impacts, found and expected from the reach of single gaps.
 
-use super::run::{First, Nucleation, ensembles};
+use super::run::{First, Gaps, Nucleation, ensembles};
 use crate::experiments::prelude::*;
 use crate::params::NucleationParams;
-use impact_circuits::nucleation::{Chances, Reach, half};
-use rayon::prelude::*;
-
-/// Angles at which the reach of a gap is computed.
-const ANGLES: usize = 256;
-
-/// Angles of the rule for neighbours, whose cost grows as their square.
-const COARSE: usize = 64;
-
-/// The chances of gaps at one σ, within each time and in unlimited time.
-struct Gaps {
-    sigma: f64,
-    within: Vec<Chances>,
-    ever: Chances,
-}
+use impact_circuits::nucleation::Chances;
 
 /// Chains of one length at one σ by some time.
 struct Chains<'a> {
@@ -30,41 +16,21 @@ struct Chains<'a> {
 
 /// All tables.
 pub fn tables(found: &Nucleation) -> Vec<Table> {
-    let parameters = &found.parameters;
-    let chain = &parameters.chain;
-    let within = Reach::within(chain, &parameters.times, ANGLES);
-    let fewer = |reach: &Reach| reach.every(ANGLES / COARSE);
-    let fewer: Vec<Reach> = within.iter().map(fewer).collect();
-    let ever = Reach::ever(chain, COARSE);
-    let gaps = |&sigma: &f64| {
-        let both = within.iter().zip(&fewer);
-        let within = both.map(|(all, few)| Chances::new(chain, all, few, sigma)).collect();
-        Gaps { sigma, within, ever: Chances::new(chain, &ever, &ever, sigma) }
-    };
-    let gaps: Vec<Gaps> = parameters.sigmas.par_iter().map(gaps).collect();
+    let (parameters, gaps) = (&found.parameters, &found.expected.gaps);
     let mut chains = Vec::new();
     for (row, ((masses, _, sigma), part)) in ensembles(parameters).zip(&found.rows).enumerate() {
         let at = &gaps[row % gaps.len()];
         for (&time, chances) in parameters.times.iter().zip(&at.within) {
-            let expected = chances.at_least_one(masses, chain.boundary);
+            let expected = chances.at_least_one(masses, parameters.chain.boundary);
             chains.push(Chains { masses, sigma, time, part, expected });
         }
     }
-    // Between the σ that were run, for curves.
-    let last = within.last().zip(fewer.last());
-    let between: Vec<(f64, Chances)> = last.map_or(Vec::new(), |(all, few)| {
-        (55..=165_u32)
-            .into_par_iter()
-            .map(|step| f64::from(step) / 1000.0)
-            .map(|sigma| (sigma, Chances::new(chain, all, few, sigma)))
-            .collect()
-    });
     vec![
-        single(&gaps),
-        shares(parameters, &between),
-        times(parameters, &gaps),
+        single(gaps),
+        shares(parameters, &found.expected.curve),
+        times(parameters, gaps),
         chains_table(&chains),
-        all(parameters, &chains, half(chain, &ever, &ever)),
+        all(parameters, &chains, found.expected.half),
     ]
 }
 

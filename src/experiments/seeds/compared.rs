@@ -37,6 +37,11 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .key("transient", TIME, |cell| cell.protocol.transient)
         .estimate("half_height", SIGMA, "", |cell| cell.rise.half_height_all)
         .same("half_height", |cell| Some(address(cell, "half_height_all")))
+        .estimate("deficit", SIGMA, "simulated half height less the predicted one", |cell| {
+            let keys = [("transient", cell.protocol.transient)];
+            let predicted = rise.estimates(&keys, "transient", "half_height");
+            Some(difference(cell.rise.half_height_all?, predicted.first()?.1))
+        })
         .real("eq25", "1", 2, OFF, |cell| off(cell, theory.points(&[], "sigma", "simple")))
         .real("from_rest", "1", 2, OFF, |cell| off(cell, theory.points(&[], "sigma", "rest")))
         .real("grown", "1", 2, OFF, |cell| off(cell, grown(cell)))
@@ -44,11 +49,15 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     // With the protocol of the main sweep.
     let transient = of("sweep.run")?.number(&[], "transient").ok()?;
     let half = rise.estimates(&[("transient", transient)], "transient", "half_height");
+    let clumps = rise.estimates(&[("transient", transient)], "transient", "of_clumps");
     let swept = of("sweep.rise")?.estimates(&[], "half_height_all", "half_height_all");
     let compared = Table::of("seeds.compared", &[()], |()| seeds.realisations)
         .count("sigmas", "values of σ that seeds and map have", |()| sigmas.len() as u64)
         .estimate("early", SIGMA, "half height of the main sweep less this", |()| {
             Some(difference(swept.first()?.1, half.first()?.1))
+        })
+        .estimate("of_clumps", SIGMA, "the same if only clumps of gaps are seeds", |()| {
+            Some(difference(swept.first()?.1, clumps.first()?.1))
         })
         .done();
     Some(vec![scores, compared])

@@ -2,6 +2,7 @@
 
 use super::run::Trace;
 use crate::params::SeedsParams;
+use impact_numerics::statistics::slope;
 
 /// Counts of impacts by distance from the seed, over runs at one σ.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -75,11 +76,19 @@ impl ByDistance {
         self.shares(&self.reached[bin]).skip(1).sum()
     }
 
-    /// d ln(advance)/d ln t from the time that is a quarter of the last one on: 1 for a constant speed.
-    pub(super) fn exponent(&self) -> f64 {
+    /// The exponent of a power law of time through the advance from a quarter of the last time on, by least squares in
+    /// logarithms: 1 for a constant speed. None if a front has not passed a gap by then.
+    pub(super) fn exponent(&self) -> Option<f64> {
         let last = self.reached.len() - 1;
-        let ratio = self.advance(last) / self.advance(last / 4);
-        pxfm::f_log(ratio) / pxfm::f_log(last as f64 / (last / 4) as f64)
+        let mut points = Vec::new();
+        for bin in (last / 4).max(1)..=last {
+            let advance = self.advance(bin);
+            if advance <= 0.0 {
+                return None;
+            }
+            points.push((pxfm::f_log(bin as f64), pxfm::f_log(advance)));
+        }
+        slope(&points)
     }
 }
 
@@ -89,10 +98,12 @@ mod tests {
 
     #[test]
     fn the_exponent_by_hand() {
-        // After four times the time twice as many.
-        let far = |near: u64, far: u64| vec![1, near, far];
-        let reached = vec![vec![0; 3], far(1, 0), far(1, 0), far(1, 0), far(1, 1)];
-        let seen = ByDistance { places: vec![1, 2, 2], reached, active: Vec::new() };
-        assert!((seen.exponent() - 0.5).abs() < 1e-15);
+        // The numbers of gaps at the times 1, 2, 3 and 4 are 1, 2, 3 and 4.
+        let far = |far: u64| vec![1, far];
+        let reached = vec![vec![0; 2], far(1), far(2), far(3), far(4)];
+        let seen = ByDistance { places: vec![1, 4], reached, active: Vec::new() };
+        assert!((seen.exponent().unwrap() - 1.0).abs() < 1e-15);
+        let silent = ByDistance { reached: vec![vec![0; 2]; 5], ..seen };
+        assert_eq!(silent.exponent(), None);
     }
 }

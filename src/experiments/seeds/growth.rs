@@ -12,12 +12,24 @@
 
 use super::ByDistance;
 use crate::params::SeedsParams;
-use impact_circuits::nucleation::Reach;
+use impact_circuits::nucleation::{Chances, Reach};
 use impact_numerics::estimates::jackknife;
 use impact_numerics::statistics::{Estimate, last_rise};
 
 /// Angles at which the reach of a gap is computed.
 const ANGLES: usize = 256;
+
+/// Angles of the rule for neighbours.
+const COARSE: usize = 64;
+
+/// Where impacts begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Begin {
+    /// At every gap that closes by itself.
+    Gaps,
+    /// At one gap of each clump of them.
+    Clumps,
+}
 
 /// Groups of runs, each of which is left out in turn for the error of their sum.
 pub(super) const GROUPS: usize = 8;
@@ -46,22 +58,38 @@ impl Prediction {
     }
 }
 
-/// For each σ the chances that a gap at a wall, and any other, closes by itself in each bin.
-fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 2]> {
+/// For each σ the chances that impacts begin at a gap at a wall, and at any other, in each bin.
+fn closing(parameters: &SeedsParams, begin: Begin) -> Vec<[Vec<f64>; 2]> {
+    let chain = &parameters.chain;
     let edges: Vec<f64> = (1..=parameters.bins).map(|bin| bin as f64 * parameters.bin).collect();
-    let reaches = Reach::within(&parameters.chain, &edges, ANGLES);
-    let by = |variance: f64| {
-        let by = reaches.iter().map(|reach| reach.probability(parameters.chain.spacing, variance));
+    let reaches = Reach::within(chain, &edges, ANGLES);
+    let ever = Reach::ever(chain, COARSE);
+    let by = |variance: f64, share: f64| {
+        let by = reaches.iter().map(|reach| share * reach.probability(chain.spacing, variance));
         let by: Vec<f64> = std::iter::once(0.0).chain(by).collect();
         by.windows(2).map(|pair| pair[1] - pair[0]).collect()
     };
-    let of = |sigma: &f64| [1.0, 2.0].map(|forces| by(forces * sigma * sigma));
+    let of = |sigma: &f64| {
+        // The share of closing gaps whose left neighbour stays open.
+        let first = match begin {
+            Begin::Gaps => 1.0,
+            Begin::Clumps => {
+                let chances = Chances::new(chain, &ever, &ever, *sigma);
+                1.0 - chances.pair / chances.p
+            }
+        };
+        [by(sigma * sigma, 1.0), by(2.0 * sigma * sigma, first)]
+    };
     parameters.sigmas.iter().map(of).collect()
 }
 
 /// The predictions of all transients, from the counts of groups of runs at each σ.
-pub(super) fn predictions(parameters: &SeedsParams, seen: &[Vec<ByDistance>]) -> Vec<Prediction> {
-    let closing = closing(parameters);
+pub(super) fn predictions(
+    parameters: &SeedsParams,
+    seen: &[Vec<ByDistance>],
+    begin: Begin,
+) -> Vec<Prediction> {
+    let closing = closing(parameters, begin);
     let sum = |left| seen.iter().map(|groups| ByDistance::sum(groups, left)).collect();
     let sums: Vec<Vec<ByDistance>> = (0..=GROUPS).map(sum).collect();
     let of = |&transient: &usize| {

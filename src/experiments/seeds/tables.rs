@@ -2,10 +2,11 @@
 
 use super::counting::{bits, ran};
 use super::fronts::{Fronts, beat, over};
-use super::growth::{GROUPS, Prediction, predictions};
+use super::growth::{Begin, GROUPS, Prediction, predictions};
 use super::{ByDistance, Seeds, Trace};
 use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
+use impact_numerics::estimates::jackknife;
 use rayon::prelude::*;
 
 struct RunsAtSigma<'a> {
@@ -13,6 +14,7 @@ struct RunsAtSigma<'a> {
     sigma: f64,
     runs: Vec<(usize, &'a Trace)>,
     seen: ByDistance,
+    groups: &'a [ByDistance],
     fronts: Vec<Fronts>,
 }
 
@@ -32,16 +34,18 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
         let runs: Vec<(usize, &Trace)> = ran(&seeds.rows[place]).collect();
         let fronts = runs.iter().map(|run| Fronts::of(parameters, *run)).collect();
         let seen = ByDistance::sum(&groups[place], GROUPS);
-        RunsAtSigma { parameters, sigma: parameters.sigmas[place], runs, seen, fronts }
+        let (sigma, groups) = (parameters.sigmas[place], &groups[place][..]);
+        RunsAtSigma { parameters, sigma, runs, seen, groups, fronts }
     };
     let rows: Vec<RunsAtSigma<'_>> = (0..seeds.rows.len()).into_par_iter().map(row).collect();
-    let predicted = predictions(parameters, &groups);
+    let predicted = predictions(parameters, &groups, Begin::Gaps);
+    let clumped = predictions(parameters, &groups, Begin::Clumps);
     vec![
         course(&rows),
         advance(&rows),
         fronts(&rows),
         means(&rows, &predicted),
-        rise(parameters, &predicted),
+        rise(parameters, &predicted, &clumped),
         all(parameters),
     ]
 }
@@ -79,8 +83,10 @@ fn advance(rows: &[RunsAtSigma<'_>]) -> Table {
 fn fronts(rows: &[RunsAtSigma<'_>]) -> Table {
     Table::of("seeds.fronts", rows, |row| row.runs.len())
         .key("sigma", SIGMA, |row| row.sigma)
-        .real("exponent", "1", 2, "d ln(advance)/d ln t over the last three quarters", |row| {
-            row.seen.exponent()
+        .estimate("exponent", "1", "d ln(advance)/d ln t over the last three quarters", |row| {
+            jackknife(row.groups.len(), |left_out| {
+                ByDistance::sum(row.groups, left_out.unwrap_or(GROUPS)).exponent()
+            })
         })
         .estimate("bursts", "1", "share of steps within a beat", |row| {
             over(&row.fronts, |sums| [sums.short, sums.steps])
@@ -109,12 +115,17 @@ fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
         .done()
 }
 
-/// Where the mean counts pass half of all gaps.
-fn rise(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
-    Table::of("seeds.rise", predicted, |_| parameters.realisations)
-        .key("transient", TIME, |given| given.transient as f64 * parameters.bin)
-        .estimate("half_height", SIGMA, "σ where that is half of all gaps", |given| {
+/// Where the mean counts pass half of all gaps, if every gap that closes by itself is a seed, and if only the first of a
+/// clump is.
+fn rise(parameters: &SeedsParams, gaps: &[Prediction], clumps: &[Prediction]) -> Table {
+    let rows: Vec<_> = gaps.iter().zip(clumps).collect();
+    Table::of("seeds.rise", &rows, |_| parameters.realisations)
+        .key("transient", TIME, |(given, _)| given.transient as f64 * parameters.bin)
+        .estimate("half_height", SIGMA, "σ where that is half of all gaps", |(given, _)| {
             given.half_height(parameters)
+        })
+        .estimate("of_clumps", SIGMA, "the same if only clumps of such gaps are seeds", |row| {
+            row.1.half_height(parameters)
         })
         .done()
 }

@@ -1,0 +1,20 @@
+//! Compares chains from rest with chains from above under the same forces, after several transients.
+
+pub mod run;
+pub mod tables;
+
+pub use run::Chains;
+
+use crate::params;
+use impact_chain::{Counts, Ensemble};
+use literate::experiments::Experiment;
+use literate::experiments::experiment::How::Cut;
+
+/// Chains from rest and from above under the same forces, after several transients.
+pub const BRANCHES: Experiment<Vec<Ensemble>, Vec<Chains>, Counts> = Experiment {
+    name: "branches",
+    code: &["src/experiments/branches", "src/experiments/ensembles.rs"],
+    parameters: params::branches,
+    how: Cut("branches", run::CUTTING),
+    tables: tables::tables,
+};

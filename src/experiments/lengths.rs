@@ -1,0 +1,57 @@
+//! Chains of several lengths from rest, and chains with a random start, after several transients.
+
+use super::ensembles::{Ensembles, ensembles};
+use super::half_height::HALF_HEIGHT;
+use crate::experiments::prelude::*;
+use crate::params;
+use impact_chain::Start;
+
+/// Chains of several lengths from rest, and chains with a random start.
+pub const LENGTHS: Ensembles = ensembles("lengths", "lengths", params::lengths, tables);
+
+/// The chains from rest, with their curves.
+pub fn from_rest(found: &[Counted]) -> impl Iterator<Item = (&Counted, &Curve)> {
+    let at_rest = found.iter().filter(|one| one.ensemble.chain.start == Start::Rest);
+    at_rest.flat_map(|one| one.curves.iter().map(move |curve| (one, curve)))
+}
+
+/// Makes the tables of both.
+pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
+    vec![rest(found), random(found), all(found)]
+}
+
+fn rest(found: &[Counted]) -> Table {
+    let rows: Vec<_> = from_rest(found).collect();
+    const WIDTH: &str = "from a quarter to three quarters of all gaps";
+    Table::of("lengths.rest", &rows, |row| row.0.ensemble.realisations)
+        .key("masses", "1", |row| row.0.ensemble.chain.masses as f64)
+        .key("transient", TIME, |row| row.1.protocol.transient)
+        .key("window", TIME, |row| row.1.protocol.window)
+        .computed_by(origin(Curve::new))
+        .estimate("half_height", SIGMA, HALF_HEIGHT, |row| row.1.rise.half_height_all)
+        .estimate("width", SIGMA, WIDTH, |row| row.1.rise.quarters)
+        .done()
+}
+
+fn random(found: &[Counted]) -> Table {
+    let random = named(found, "random");
+    let curves = random.map_or(&[][..], |one| &one.curves);
+    Table::of("lengths.random", curves, |_| random.map_or(0, |one| one.ensemble.realisations))
+        .key("transient", TIME, |curve| curve.protocol.transient)
+        .computed_by(origin(Curve::new))
+        .estimate("half_height", SIGMA, HALF_HEIGHT, |curve| curve.rise.half_height_all)
+        .done()
+}
+
+/// The longest chains.
+fn all(found: &[Counted]) -> Table {
+    let longest = found.iter().max_by_key(|one| one.ensemble.chain.masses);
+    Table::of("lengths.all", &[()], |()| 0)
+        .chosen("longest", "1", "masses of the longest chains", |()| {
+            longest.map(|one| one.ensemble.chain.masses as f64)
+        })
+        .chosen("stretch", "1", "masses of a stretch of them that is counted like a chain", |()| {
+            longest.map(|one| (one.ensemble.chain.masses / one.ensemble.pieces) as f64)
+        })
+        .done()
+}
