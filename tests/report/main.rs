@@ -4,6 +4,7 @@ mod damage;
 mod documents;
 mod figures;
 mod html;
+mod imports;
 // What the paper is made of.
 #[path = "../../src/main.rs"]
 #[allow(dead_code)]

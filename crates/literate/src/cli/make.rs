@@ -11,6 +11,7 @@ use crate::prose::Templates;
 use crate::report::claims::printed;
 use crate::report::filler::Filler;
 use crate::report::{Input, Registry, Report, Value, assemble};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -20,7 +21,7 @@ use std::sync::Arc;
 #[derive(clap::Args)]
 pub(super) struct Sources {
     /// Take these sample sizes.
-    #[arg(long, default_value = "full")]
+    #[arg(long, default_value = "full", value_parser = profile())]
     pub profile: Profile,
     #[command(flatten)]
     pub threads: Threads,
@@ -30,6 +31,12 @@ pub(super) struct Sources {
     /// Keep results of long runs in this folder.
     #[arg(long, value_name = "DIR", default_value = "target/results")]
     pub results: PathBuf,
+}
+
+fn profile() -> impl TypedValueParser<Value = Profile> {
+    let quick = PossibleValue::new("quick").help("To try out: small samples");
+    let full = PossibleValue::new("full").help("The committed report");
+    PossibleValuesParser::new([quick, full]).try_map(|name| name.parse::<Profile>())
 }
 
 impl Sources {

@@ -1,14 +1,13 @@
 //! An experiment: a name, parameters, a way to run it, and the tables that follow.
 
 use super::cutting::{Cutting, Unit};
-use super::store::Identity;
+use super::store::{Identity, Json};
 use super::{Error, Profile, Progress, Session};
 use crate::input::count;
 use crate::project::Project;
 use crate::table::Table;
 use rayon::prelude::*;
 use serde::Serialize;
-use serde::de::DeserializeOwned;
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -53,11 +52,6 @@ impl<P, T> Experiment<P, T> {
         Experiment { name, code: &[], parameters, how: How::Whole(run, |_| 0), tables }
     }
 }
-
-/// What is saved as JSON.
-pub trait Json: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static {}
-
-impl<T: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static> Json for T {}
 
 /// A result of any experiment.
 pub type Found = Arc<dyn Any + Send + Sync>;

@@ -1,7 +1,7 @@
 //! All results derived.
 
 use super::announce::announce;
-use super::experiment::Json;
+use super::store::Json;
 use super::{AnyExperiment, Error, Experiment, Found, Profile, Session};
 use crate::table::{Table, Tables, number_at};
 use rayon::prelude::*;

@@ -13,6 +13,11 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+/// What is saved as JSON.
+pub trait Json: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static {}
+
+impl<T: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static> Json for T {}
+
 /// The form of saved files; a change of it makes all of them unknown.
 const SCHEMA: u32 = 3;
 

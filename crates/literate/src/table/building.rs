@@ -1,6 +1,6 @@
 //! A table that is being made: each call adds a column, keys first.
 
-use super::{Column, Table, called};
+use super::rows::{Column, Table, called};
 use crate::value::{Digits, Kind, Number, Origin, Value, origin_of};
 use impact_numerics::statistics::Estimate;
 use std::rc::Rc;

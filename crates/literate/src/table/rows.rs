@@ -1,15 +1,4 @@
-//! Tables: rows that keys name, and columns that declare what each cell is.
-//!
-//! An experiment saves what its runs gave, and nothing that follows from it. What follows stands in tables:
-//! [`Table::of`] takes one thing for each row, keys are the parameters by which a row is found, and each further
-//! column has a name, a unit, a meaning and the code that computes it. A cell is a [`Value`] from then on, with its
-//! error, digits and origin, under its address: `experiment.table[key=value,…].column`, and without brackets where a
-//! table has one row and no keys. Prose, figures, data files, claims and cards take cells by their addresses or keys,
-//! so no number is computed or named twice. Rows are found by equal keys, never by near ones.
-
-mod building;
-
-pub use building::Building;
+//! Holds the cells of a table, and finds them by addresses and keys.
 
 use crate::value::{Kind, Number, Value};
 use impact_numerics::statistics::Estimate;
@@ -19,20 +8,20 @@ use std::sync::Arc;
 /// Rows with keys, and columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    name: &'static str,
-    columns: Vec<Column>,
+    pub(super) name: &'static str,
+    pub(super) columns: Vec<Column>,
     /// How many of the columns are keys; they come first.
-    keys: usize,
+    pub(super) keys: usize,
     /// For each row its address within the table (`r=0.8,sigma=0.3`), and its cells.
-    rows: Vec<(String, Vec<Value>)>,
+    pub(super) rows: Vec<(String, Vec<Value>)>,
 }
 
 /// What all cells below one another are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Column {
-    name: &'static str,
+pub(super) struct Column {
+    pub(super) name: &'static str,
     /// As data files write it: `d omega^2`, and `1` for a pure number.
-    unit: &'static str,
+    pub(super) unit: &'static str,
 }
 
 /// There is no such cell, or it has no number.
@@ -128,7 +117,7 @@ impl Table {
         format!("there is no such {kind}; nearest: {}", nearest.join(", "))
     }
 
-    fn column(&self, name: &str) -> Option<usize> {
+    pub(super) fn column(&self, name: &str) -> Option<usize> {
         self.columns.iter().position(|column| column.name == name)
     }
 
@@ -209,18 +198,23 @@ impl Table {
         for (_, cells) in &self.rows {
             let mut names = vec![String::new()];
             for ((key, all), cell) in keys.iter().zip(cells) {
-                let own = called(cell);
-                let is_end = |end: Option<&String>| end == Some(&own);
-                let first = is_end(all.first()).then_some("first");
-                let ways = first.into_iter().chain(is_end(all.last()).then_some("last"));
-                let ways: Vec<&str> = ways.chain([own.as_str()]).collect();
-                let join = |before: &String, way: &&str| match before.as_str() {
-                    "" => format!("{key}={way}"),
-                    before => format!("{before},{key}={way}"),
-                };
-                let longer =
-                    names.iter().flat_map(|name| ways.iter().map(move |way| join(name, way)));
-                names = longer.collect();
+                let written = called(cell);
+                let mut ways = Vec::new();
+                if all.first() == Some(&written) {
+                    ways.push("first");
+                }
+                if all.last() == Some(&written) {
+                    ways.push("last");
+                }
+                ways.push(&written);
+                let mut longer = Vec::new();
+                for name in &names {
+                    let separator = if name.is_empty() { "" } else { "," };
+                    for way in &ways {
+                        longer.push(format!("{name}{separator}{key}={way}"));
+                    }
+                }
+                names = longer;
             }
             let row: BTreeMap<_, _> =
                 self.columns.iter().map(|column| column.name).zip(cells).collect();
@@ -251,7 +245,7 @@ impl Table {
 }
 
 /// A key as addresses write it.
-fn called(cell: &Value) -> String {
+pub(super) fn called(cell: &Value) -> String {
     match &cell.number {
         Number::Text(words) => words.clone(),
         _ => number(cell).unwrap_or(f64::NAN).to_string(),

@@ -1,0 +1,44 @@
+//! Lists what can go wrong in an experiment.
+
+use crate::input::remedy;
+use std::path::PathBuf;
+
+/// An error of an experiment.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error("interrupted; nothing was left half-written")]
+    Interrupted,
+    #[error("{field}: {problem}; {remedy}")]
+    Input { field: String, problem: String, remedy: String },
+    #[error(transparent)]
+    Missing(#[from] crate::table::Missing),
+    #[error("{experiment}: {source}")]
+    Failed { experiment: &'static str, source: Box<dyn std::error::Error + Send + Sync> },
+    #[error("the results of {0} were not run; add it to `needs`")]
+    NotRun(&'static str),
+    #[error(
+        "{experiment}: a result is not finite, so it was not saved; internal error; please report"
+    )]
+    NotFinite { experiment: String },
+    #[error("--results: {path}: {source}; {}", remedy(source, "choose another folder"))]
+    Store { path: PathBuf, source: std::io::Error },
+}
+
+impl Error {
+    /// An [`Error::Failed`] of an experiment.
+    pub fn failed(
+        experiment: &'static str,
+        source: impl std::error::Error + Send + Sync + 'static,
+    ) -> Self {
+        Error::Failed { experiment, source: Box::new(source) }
+    }
+
+    /// An [`Error::Input`] from its three parts.
+    pub fn input(
+        field: impl Into<String>,
+        problem: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Error::Input { field: field.into(), problem: problem.into(), remedy: remedy.into() }
+    }
+}

@@ -1,0 +1,409 @@
+//! Reads the imports of all crates and of src, and refuses those that DESIGN.md does not allow, and circles.
+
+use crate::structure::{files, root};
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+
+/// Crates by the names of their libraries, and the folders of their source.
+const CRATES: [(&str, &str); 8] = [
+    ("impact_numerics", "crates/numerics/src"),
+    ("impact_chain", "crates/impact-chain/src"),
+    ("impact_circuits", "crates/circuits/src"),
+    ("impact_page", "crates/page/src"),
+    ("literate_sources", "crates/sources/src"),
+    ("literate", "crates/literate/src"),
+    ("impact_paper", "src"),
+    // The program is a crate beside its library, with files of its own.
+    ("main", "src/main"),
+];
+
+fn is_name(word: &str) -> bool {
+    word.starts_with(|c: char| c.is_alphabetic() || c == '_')
+}
+
+/// Splits Rust into words, signs and `::`, without comments, texts and characters.
+fn tokens(text: &str) -> Vec<String> {
+    let chars: Vec<char> = text.chars().collect();
+    let at = |i: usize| chars.get(i).copied().unwrap_or('\0');
+    let starts = |i: usize, what: &str| what.chars().enumerate().all(|(j, c)| at(i + j) == c);
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let (mut all, mut i) = (Vec::new(), 0);
+    while i < chars.len() {
+        if starts(i, "//") {
+            while i < chars.len() && at(i) != '\n' {
+                i += 1;
+            }
+        } else if starts(i, "/*") {
+            while i < chars.len() && !starts(i, "*/") {
+                i += 1;
+            }
+            i += 2;
+        } else if starts(i, "r\"") || starts(i, "r#\"") {
+            let end = if at(i + 1) == '#' { "\"#" } else { "\"" };
+            i += 1 + end.len();
+            while i < chars.len() && !starts(i, end) {
+                i += 1;
+            }
+            i += end.len();
+        } else if at(i) == '"' {
+            i += 1;
+            while i < chars.len() && at(i) != '"' {
+                i += if at(i) == '\\' { 2 } else { 1 };
+            }
+            i += 1;
+        } else if at(i) == '\'' && (at(i + 1) == '\\' || at(i + 2) == '\'') {
+            i += if at(i + 1) == '\\' { 3 } else { 2 };
+            while i < chars.len() && at(i) != '\'' {
+                i += 1;
+            }
+            i += 1;
+        } else if is_word(at(i)) {
+            let begin = i;
+            while is_word(at(i)) {
+                i += 1;
+            }
+            all.push(chars[begin..i].iter().collect());
+        } else if starts(i, "::") {
+            all.push("::".into());
+            i += 2;
+        } else {
+            if !at(i).is_whitespace() {
+                all.push(at(i).to_string());
+            }
+            i += 1;
+        }
+    }
+    all
+}
+
+/// The place behind the item that begins here: behind its `;`, or behind its braces.
+fn behind_item(tokens: &[String], begin: usize) -> usize {
+    let ends_in_brace = tokens[begin..].iter().take(4).all(|token| token != "use");
+    let mut depth = 0;
+    for (i, token) in tokens.iter().enumerate().skip(begin) {
+        match token.as_str() {
+            "(" | "[" | "{" => depth += 1,
+            ")" | "]" => depth -= 1,
+            "}" => {
+                depth -= 1;
+                if depth == 0 && ends_in_brace {
+                    return i + 1;
+                }
+            }
+            ";" if depth == 0 => return i + 1,
+            _ => (),
+        }
+    }
+    tokens.len()
+}
+
+/// Leaves out what is compiled for tests alone.
+fn without_tests(tokens: &[String]) -> Vec<String> {
+    let (mut kept, mut i) = (Vec::new(), 0);
+    while i < tokens.len() {
+        let begins = tokens[i..].iter().take(4).map(String::as_str).eq(["#", "[", "cfg", "("]);
+        let end = i + tokens[i..].iter().position(|token| token == "]").unwrap_or(0) + 1;
+        let names = |word: &str| tokens[i..end].iter().any(|token| token == word);
+        if begins && names("test") && !names("not") {
+            i = end;
+            while tokens[i] == "#" {
+                i += tokens[i..].iter().position(|token| token == "]").unwrap() + 1;
+            }
+            i = behind_item(tokens, i);
+        } else {
+            kept.push(tokens[i].clone());
+            i += 1;
+        }
+    }
+    kept
+}
+
+type Path = Vec<String>;
+
+/// What a module has: the names of its items, of its imports with what they name, and all paths in its code.
+#[derive(Default)]
+struct Module {
+    file: String,
+    items: BTreeSet<String>,
+    imports: BTreeMap<String, Path>,
+    globs: Vec<Path>,
+    paths: Vec<Path>,
+}
+
+/// All modules, by their paths, of which the first part is the name of the crate.
+#[derive(Default)]
+struct Modules {
+    all: BTreeMap<Path, Module>,
+    /// What names mean that were looked up before, or are being looked up.
+    known: RefCell<BTreeMap<Path, Option<Found>>>,
+}
+
+impl Modules {
+    fn read(&mut self, path: Path, file: &str, tokens: &[String]) {
+        let mut module = Module { file: file.into(), ..Module::default() };
+        let (mut i, mut depth) = (0, 0);
+        while i < tokens.len() {
+            let next = |n: usize| tokens.get(i + n).map_or("", String::as_str);
+            match next(0) {
+                "{" => depth += 1,
+                "}" => depth -= 1,
+                "use" if next(1) != "<" => i = import(tokens, i + 1, &mut Vec::new(), &mut module),
+                "mod" if depth == 0 && next(2) == "{" => {
+                    let end = behind_item(tokens, i);
+                    let child = [path.clone(), vec![next(1).into()]].concat();
+                    self.read(child, file, &tokens[i + 3..end - 1]);
+                    i = end - 1;
+                }
+                "fn" | "struct" | "enum" | "const" | "static" | "type" | "trait" | "union"
+                    if depth == 0 =>
+                {
+                    module.items.insert(next(1).into());
+                }
+                "macro_rules" => {
+                    // A macro that is exported has its place at the top of the crate.
+                    let inside = [&["crate".to_string()], &path[1..], &[next(2).into()]].concat();
+                    let top = self.all.entry(path[..1].to_vec()).or_default();
+                    top.imports.insert(next(2).into(), inside);
+                    module.items.insert(next(2).into());
+                }
+                word if is_name(word) => {
+                    let follows = i > 0 && ["::", "."].contains(&tokens[i - 1].as_str());
+                    let mut whole = vec![word.to_string()];
+                    while tokens.get(i + 1).is_some_and(|token| token == "::")
+                        && tokens.get(i + 2).is_some_and(|token| is_name(token))
+                    {
+                        whole.push(tokens[i + 2].clone());
+                        i += 2;
+                    }
+                    let calls = tokens.get(i + 1).is_some_and(|token| token == "(");
+                    let is_variable = whole.len() == 1 && word.starts_with(char::is_lowercase);
+                    if !follows && (calls || !is_variable) {
+                        module.paths.push(whole);
+                    }
+                }
+                _ => (),
+            }
+            i += 1;
+        }
+        let known = self.all.entry(path).or_default();
+        module.imports.append(&mut known.imports);
+        *known = module;
+    }
+
+    /// Finds what a path means in a module.
+    fn resolve(&self, from: &[String], path: &[String]) -> Option<Found> {
+        let Some((first, rest)) = path.split_first() else {
+            return Some(Found::Module(from.to_vec()));
+        };
+        match first.as_str() {
+            "crate" => self.resolve(&from[..1], rest),
+            "self" => self.resolve(from, rest),
+            "super" => self.resolve(&from[..from.len() - 1], rest),
+            name => match self.named(from, name)? {
+                Found::Module(inside) => self.resolve(&inside, rest),
+                item => Some(item),
+            },
+        }
+    }
+
+    /// Finds what a name means in a module.
+    fn named(&self, from: &[String], name: &str) -> Option<Found> {
+        let child = [from, &[name.to_string()]].concat();
+        if let Some(found) = self.known.borrow().get(&child) {
+            return found.clone();
+        }
+        self.known.borrow_mut().insert(child.clone(), None);
+        let found = self.look_up(from, name, &child);
+        self.known.borrow_mut().insert(child, found.clone());
+        found
+    }
+
+    fn look_up(&self, from: &[String], name: &str, child: &[String]) -> Option<Found> {
+        let module = self.all.get(from)?;
+        if self.all.contains_key(child) {
+            return Some(Found::Module(child.to_vec()));
+        }
+        if module.items.contains(name) {
+            return Some(Found::Item(module.file.clone()));
+        }
+        let imported = module.imports.get(name).filter(|path| path[..] != [name.to_string()]);
+        if let Some(path) = imported {
+            return self.resolve(from, path);
+        }
+        for glob in &module.globs {
+            if let Some(Found::Module(inside)) = self.resolve(from, glob)
+                && let Some(found) = self.resolve(&inside, &[name.to_string()])
+            {
+                return Some(found);
+            }
+        }
+        let is_crate = CRATES.iter().any(|(known, _)| *known == name);
+        is_crate.then(|| Found::Module(vec![name.to_string()]))
+    }
+}
+
+/// What a path names: an item of a file, or a module.
+#[derive(Clone)]
+enum Found {
+    Item(String),
+    Module(Path),
+}
+
+/// Reads what an import names, from behind `use`, and returns the place of its end.
+fn import(tokens: &[String], begin: usize, before: &mut Path, module: &mut Module) -> usize {
+    let (mut i, depth) = (begin, before.len());
+    loop {
+        match tokens[i].as_str() {
+            "{" => {
+                i += 1;
+                while tokens[i] != "}" {
+                    i = import(tokens, i, &mut before.clone(), module);
+                    i += usize::from(tokens[i] == ",");
+                }
+                i += 1;
+                before.truncate(depth);
+                return i;
+            }
+            "*" => {
+                module.globs.push(before.clone());
+                return i + 1;
+            }
+            "::" => i += 1,
+            ";" | "," | "}" => break,
+            "as" => {
+                module.imports.insert(tokens[i + 1].clone(), before.clone());
+                module.paths.push(before.clone());
+                return i + 2;
+            }
+            word => {
+                before.push(word.to_string());
+                i += 1;
+            }
+        }
+    }
+    if before.last().is_some_and(|last| last == "self") {
+        before.pop();
+    }
+    if let Some(last) = before.last() {
+        module.imports.insert(last.clone(), before.clone());
+        module.paths.push(before.clone());
+    }
+    i
+}
+
+/// Which files each file imports, by the item that a name resolves to.
+fn arrows() -> BTreeMap<String, BTreeSet<String>> {
+    let mut modules = Modules::default();
+    for (name, folder) in CRATES.iter().filter(|(name, _)| *name != "main") {
+        for (file, text) in files(folder, &[".rs"]) {
+            let inside = file[folder.len() + 1..].trim_end_matches(".rs");
+            let is_program = *folder == "src" && (inside == "main" || inside.starts_with("cli"));
+            let mut path = vec![if is_program { "main" } else { name }.to_string()];
+            path.extend(inside.split('/').map(String::from));
+            if ["lib", "main", "mod"].contains(&path.last().unwrap().as_str()) {
+                path.pop();
+            }
+            if !path.contains(&"tests".to_string()) {
+                modules.read(path, &file, &without_tests(&tokens(&text)));
+            }
+        }
+    }
+    let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for (path, module) in &modules.all {
+        let globs = module.globs.iter().map(|glob| (glob, true));
+        for (used, is_glob) in module.paths.iter().map(|path| (path, false)).chain(globs) {
+            let to = match modules.resolve(path, used) {
+                Some(Found::Item(file)) => file,
+                Some(Found::Module(to)) if is_glob => modules.all[&to].file.clone(),
+                _ => continue,
+            };
+            if to != module.file {
+                all.entry(module.file.clone()).or_default().insert(to);
+            }
+        }
+    }
+    all
+}
+
+/// The files that can be reached from one, by any number of arrows.
+fn reached<'a>(
+    arrows: &'a BTreeMap<String, BTreeSet<String>>,
+    from: &'a str,
+) -> BTreeSet<&'a String> {
+    let (mut seen, mut open) = (BTreeSet::new(), vec![from]);
+    while let Some(file) = open.pop() {
+        for next in arrows.get(file).into_iter().flatten() {
+            if seen.insert(next) {
+                open.push(next);
+            }
+        }
+    }
+    seen
+}
+
+#[test]
+fn no_file_imports_itself_through_others() {
+    let arrows = arrows();
+    assert!(arrows.len() > 150, "{} files import others", arrows.len());
+    let all: BTreeMap<&String, _> =
+        arrows.keys().map(|file| (file, reached(&arrows, file))).collect();
+    let circles: BTreeSet<Vec<&String>> = all
+        .iter()
+        .filter(|(file, reached)| reached.contains(**file))
+        .map(|(file, reached)| {
+            let back = |other: &&&String| all.get(**other).is_some_and(|from| from.contains(*file));
+            reached.iter().filter(back).copied().collect()
+        })
+        .collect();
+    for circle in &circles {
+        println!("circle:");
+        for file in circle {
+            let inside = arrows[*file].iter().filter(|to| circle.contains(to));
+            println!("  {file} -> {}", inside.cloned().collect::<Vec<_>>().join(" "));
+        }
+    }
+    assert!(circles.is_empty(), "files import each other in {} circles", circles.len());
+}
+
+/// The layers of DESIGN.md: the start of the paths of their files, and the layers that they may import.
+fn layers() -> Vec<(String, Vec<String>)> {
+    let design = fs::read_to_string(root().join("DESIGN.md")).unwrap();
+    let lines = design.lines().filter(|line| line.starts_with("    "));
+    let layer = |line: &str| {
+        let (names, used) = line.split_once('←')?;
+        let used: Vec<String> = used.split_whitespace().map(String::from).collect();
+        let names = names.split_whitespace().map(String::from).collect::<Vec<_>>();
+        Some(names.into_iter().map(move |name| (name, used.clone())))
+    };
+    lines.filter_map(layer).flatten().collect()
+}
+
+#[test]
+fn imports_are_those_of_the_drawing() {
+    let layers = layers();
+    assert!(layers.len() > 15, "DESIGN.md has the layers, a line each, as `LAYER ← LAYERS`");
+    let of = |file: &str| {
+        let inside = file.replace("/src/", "/").trim_start_matches("crates/").to_string();
+        let is_in = |name: &str| {
+            let rest = inside.strip_prefix(name);
+            rest.is_some_and(|rest| rest.starts_with('/') || rest.starts_with(".rs"))
+        };
+        let found = layers.iter().filter(|(name, _)| is_in(name));
+        found.max_by_key(|(name, _)| name.len()).map(|(name, used)| (name.clone(), used))
+    };
+    let mut wrong = Vec::new();
+    for (from, to) in arrows() {
+        let Some((layer, used)) = of(&from) else {
+            wrong.push(format!("{from} is in no layer"));
+            continue;
+        };
+        for file in to {
+            let other = of(&file).map_or_else(String::new, |(name, _)| name);
+            if other != layer && !used.contains(&other) {
+                wrong.push(format!("{from} ({layer}) imports {file} ({other})"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
