@@ -17,7 +17,6 @@ fn main() -> ExitCode {
     paper().cli_with(cli::run)
 }
 
-/// The paper.
 pub fn paper() -> Paper {
     let paper = experiments::bare();
     Paper {

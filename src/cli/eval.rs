@@ -59,8 +59,8 @@ struct Inputs {
     #[arg(long, value_name = "w", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     omega: Option<f64>,
-    /// Forcing frequency Ω, different from ω [default: √2; the double nearest to √2 is read as √2
-    /// itself].
+    /// Forcing frequency Ω, different from ω [default: √2; the double nearest to √2 is read
+    /// as √2 itself].
     #[arg(long, value_name = "W", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     forcing_frequency: Option<f64>,

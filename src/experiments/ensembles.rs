@@ -1,4 +1,5 @@
-//! Experiments that are ensembles of chains: cut into units by σ and realisation, joined to curves.
+//! Experiments that are ensembles of chains: cut into units by σ and realisation, joined to
+//! curves.
 
 use crate::params::Profile;
 use impact_chain::rise::{Counted, Curve};

@@ -22,7 +22,6 @@ pub const HORIZON: Experiment<Runs, Horizon> = Experiment {
 /// The twins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Horizon {
-    /// What was run.
     pub parameters: Runs,
     /// One for each pair of twins.
     pub twins: Vec<Twins>,

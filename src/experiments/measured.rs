@@ -22,7 +22,6 @@ pub const MEASURED: Experiment<(), Measured> = Experiment {
 /// Path of the file from the top of the project.
 pub const FILE: &str = "benches/measured.json";
 
-/// What was measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measured {
@@ -39,7 +38,6 @@ pub struct MeasuredOn {
     pub date: String,
     /// What it ran on.
     pub machine: Machine,
-    /// One for each run.
     pub rows: Vec<Measurement>,
 }
 
@@ -72,8 +70,8 @@ pub enum What {
 /// One run, as far as the report needs it. Times are in microseconds or seconds of the clock,
 /// simulated time is in units of 1/ω.
 ///
-/// A run starts from rest with r = 0.8 and Ω = √2 between walls. It is compared with a reference of
-/// 106 bits up to the first wrong impact (the *horizon*).
+/// A run starts from rest with r = 0.8 and Ω = √2 between walls. It is compared with a reference
+/// of 106 bits up to the first wrong impact (the *horizon*).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
     /// What the row is about.
@@ -88,7 +86,6 @@ pub struct Measurement {
     pub sigma: f64,
     /// Simulated time T.
     pub until: f64,
-    /// Chains run.
     pub chains: u64,
     /// Time over impacts: the best of several repetitions.
     pub microseconds_per_impact: Option<f64>,

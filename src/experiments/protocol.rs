@@ -10,7 +10,6 @@ use impact_chain::rise::Rise;
 /// Half height against transient and window.
 pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::protocol, tables);
 
-/// All tables.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let Some(map) = named(found, PROTOCOL.name) else { return Vec::new() };
     let halves = || map.curves.iter().filter_map(|cell| Some((cell.rise.half_height?, cell)));

@@ -22,16 +22,12 @@ pub type ReplayRuns = Vec<(String, Request)>;
 /// The results, run by run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replays {
-    /// What was run.
     pub parameters: ReplayRuns,
-    /// The result of each.
     pub found: Vec<ReplayResult>,
 }
 
-/// The result of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReplayResult {
-    /// Impacts.
     pub impacts: u64,
     /// Different gaps with an impact in the window.
     pub distinct: usize,
@@ -92,7 +88,6 @@ fn mirrored() -> Vec<[f64; 2]> {
     half.iter().copied().chain(other).collect()
 }
 
-/// Runs all.
 pub fn run(parameters: &ReplayRuns, progress: &Progress) -> Result<Replays, Error> {
     let stage = progress.stage("replays", parameters.len() as u64);
     let one = |(_, asked): &(String, Request)| {

@@ -43,10 +43,8 @@ pub struct Segment {
     pub impacts: Vec<SegmentImpact>,
 }
 
-/// One impact of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SegmentImpact {
-    /// Time.
     pub time: f64,
     /// Gap: 0 is left wall–mass 1.
     pub gap: usize,

@@ -18,10 +18,8 @@ pub const SPACE_TIME: Experiment<Runs, SpaceTime> = Experiment {
     tables,
 };
 
-/// The run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpaceTime {
-    /// What was run.
     pub parameters: Runs,
     /// Time of each impact, rising.
     pub times: Vec<f64>,
@@ -96,7 +94,6 @@ impl SpaceTime {
     }
 }
 
-/// The table of the run.
 pub fn tables(found: &SpaceTime) -> Vec<Table> {
     let advances = found.advances();
     let step = |place: usize| advances.get(place).copied().unwrap_or(f64::NAN);

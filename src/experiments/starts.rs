@@ -1,5 +1,5 @@
-//! Half heights of chains that differ from the paper's in the start, in Ω, or by a ring in place of
-//! walls.
+//! Half heights of chains that differ from the paper's in the start, in Ω, or by a ring in place
+//! of walls.
 
 use super::ensembles::{Ensembles, ensembles};
 use super::half_height::{HALF_HEIGHT, half_height_all};

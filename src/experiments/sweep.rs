@@ -145,8 +145,8 @@ fn modes(sweep: &Counted) -> Table {
 }
 
 /// Impacts within [`NEAR_SIMULTANEOUS`] of one in an adjacent gap, and impacts slower than
-/// [`SLOW`], expected by chance in a whole sweep: from those within δ = 1e−2 in proportion to δ,
-/// and from those below v = 0.1 in proportion to v², as the rate of impacts grows with v.
+/// [`SLOW`], expected by chance in a whole sweep: from those within δ = 1e−2 in proportion to
+/// δ, and from those below v = 0.1 in proportion to v², as the rate of impacts grows with v.
 pub fn expected(total: &Total) -> [f64; 2] {
     let slow = SLOW / SLOW_DECADES[0];
     [

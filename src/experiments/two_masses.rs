@@ -23,7 +23,6 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
 /// The smallest forces that lead to an impact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TwoMasses {
-    /// What was run.
     pub parameters: TwoMassesParams,
     /// For each time, over random directions: least and largest amplitude with an impact by then,
     /// divided by the bound of its direction.
@@ -38,7 +37,6 @@ const BELOW: f64 = 1.0 - 1e-9;
 /// Halvings of the bracket around the smallest amplitude.
 const HALVINGS: usize = 28;
 
-/// Runs the experiment.
 pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasses, Error> {
     let directions = parameters.directions.realisations;
     let stage = progress.stage("two masses", directions as u64 + 1);

@@ -73,7 +73,6 @@ pub struct RaceParams {
     pub until: f64,
     /// Until then a run goes on although it has left the truth, so that its cost is known.
     pub at_least: f64,
-    /// Number of chains.
     pub chains: usize,
     /// Impacts from whose states each method starts anew, spread evenly over all chains.
     pub segments: usize,

@@ -136,8 +136,8 @@ pub fn lengths(profile: Profile) -> Vec<Ensemble> {
     cases.iter().map(rest).chain([random]).collect()
 }
 
-/// Chains of two lengths from rest and from above, under the same forces. At each σ they run as long as a half height lies
-/// near it.
+/// Chains of two lengths from rest and from above, under the same forces. At each σ they run as
+/// long as a half height lies near it.
 pub fn branches(profile: Profile) -> Vec<Ensemble> {
     const REST: Option<Heating> = None;
     const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });

@@ -50,7 +50,6 @@ impl NucleationParams {
 /// Chains from rest of which exactly one gap closes by itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SeedsParams {
-    /// The chain.
     pub chain: Chain,
     /// Standard deviations σ, rising.
     pub sigmas: Vec<f64>,

@@ -16,7 +16,6 @@ pub struct Runs {
     pub sigma: f64,
     /// Time at which runs end.
     pub until: f64,
-    /// Number of realisations.
     pub realisations: usize,
     /// Name of the random stream.
     pub stream: String,

@@ -11,8 +11,8 @@ use impact_chain::{Engine, Initial, Overtone, Scenario};
 use impact_numerics::random::NormalPairs;
 use impact_paper::params::{Boundary, Chain};
 
-/// The closing speed is off by at most ε S (C′ max(ω, Ω) + C M₂/v), where M₂ = ω² R₁ + Ω² R₂ bounds
-/// Δ'' and its term is due to the error of the time. This is C′.
+/// The closing speed is off by at most ε S (C′ max(ω, Ω) + C M₂/v), where M₂ = ω² R₁ +
+/// Ω² R₂ bounds Δ'' and its term is due to the error of the time. This is C′.
 const SPEED: f64 = 47.0;
 
 /// An impact is no graze if v² is at least this many M₂ C ε S.

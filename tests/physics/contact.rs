@@ -35,8 +35,8 @@ type Held = (f64, &'static [(usize, f64, f64)]);
 #[test]
 fn clusters_are_released_gap_by_gap_where_a_force_changes_its_sign() {
     // A pair; three under (6, 0, −3) cos 2t, of which gap 2 opens first; and two at the wall, of
-    // which the left one would leave it (1 + 3 > 0) without the other: K = (1, 2), g = (1 + 3c, 1 −
-    // 10c).
+    // which the left one would leave it (1 + 3 > 0) without the other: K = (1, 2), g = (1 + 3c, 1
+    // − 10c).
     let pair: [Held; 1] = [(1.0 / 3.0, &[(1, 1.5, -0.5)])];
     let three: [Held; 2] =
         [(0.25, &[(1, 5.0, -1.0), (2, 4.0, -1.0)]), (1.0 / 6.0, &[(1, 3.0, -0.5)])];
@@ -66,8 +66,8 @@ fn clusters_are_released_gap_by_gap_where_a_force_changes_its_sign() {
     }
 }
 
-/// With Ω = √2 neither the responses nor their sums are doubles, so such a pair is apart, or in one
-/// another, by some 1e-16.
+/// With Ω = √2 neither the responses nor their sums are doubles, so such a pair is apart, or in
+/// one another, by some 1e-16.
 #[test]
 fn a_pair_that_is_shut_but_for_rounding_is_shut() {
     let big_w = std::f64::consts::SQRT_2;
@@ -82,9 +82,9 @@ fn a_pair_that_is_shut_but_for_rounding_is_shut() {
     }
 }
 
-/// Two hits in a row multiply (rate just hit, other rate) by a matrix with μ² − (1 + r)/2 μ + r =
-/// 0: with two real roots, r < 7 − 4√3, closing speeds fall by the larger, and waits by the roots'
-/// ratio.
+/// Two hits in a row multiply (rate just hit, other rate) by a matrix with μ² − (1 + r)/2 μ +
+/// r = 0: with two real roots, r < 7 − 4√3, closing speeds fall by the larger, and waits by the
+/// roots' ratio.
 #[test]
 fn three_masses_collapse_in_a_geometric_series() {
     for r in [0.0, 0.02, 0.05] {
@@ -196,8 +196,8 @@ fn a_released_gap_is_not_shut_by_rounding() {
     }
 }
 
-/// Forces that grow along the row: every contact force is a parabola along it times (F cos Ωt − 1),
-/// and all end at once.
+/// Forces that grow along the row: every contact force is a parabola along it times (F cos Ωt −
+/// 1), and all end at once.
 #[test]
 fn long_runs_that_are_released_at_once_part() {
     for (n, force) in [(100, 1.04), (300, 1.31), (1600, 1.3)] {

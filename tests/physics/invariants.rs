@@ -54,8 +54,8 @@ fn arcsine_of_inverse(x: f64) -> Dd {
 }
 
 /// Without loss and forcing, every impact k is at θ + (k − 1) p, with θ = asin(1/A). Errors of
-/// single impacts add up as √k; a bias of times or speeds by a hundredth of a last bit would add up
-/// as k or k².
+/// single impacts add up as √k; a bias of times or speeds by a hundredth of a last bit would add
+/// up as k or k².
 #[test]
 fn orbits_that_repeat_themselves_keep_their_times() {
     // Between two walls; a pair, which is a mass and a wall; three, the outer ones towards the one

@@ -124,9 +124,9 @@ fn the_true_motion_has_digits_beyond_doubles() {
 
 /// The saved scenarios of Figs. 5 and 6 were searched for, as random motions do not show the
 /// impacts of Fig. 6 in order (none in 10^7 impacts). For given *times* of the impacts all else is
-/// linear: each requires Δ = 0 and a kick of −(1 + r) Δ', in the unknown amplitudes (four for each
-/// mass) and kicks. The search went over times and lowered overlaps, kicks of the wrong sign, and
-/// large amplitudes; the best numbers were cut to five decimals.
+/// linear: each requires Δ = 0 and a kick of −(1 + r) Δ', in the unknown amplitudes (four for
+/// each mass) and kicks. The search went over times and lowered overlaps, kicks of the wrong sign,
+/// and large amplitudes; the best numbers were cut to five decimals.
 ///
 /// The impacts as gaps: L-1, 1-2, 2-3 and 3-R are 0, 1, 2 and 3. That of Sec. 5 is not simple; both
 /// close.

@@ -1,5 +1,5 @@
-//! Text from outside that is nearly right: for each of its readers a valid text is damaged in a seeded way. No reader
-//! panics or hangs, and each fault is reported in one line.
+//! Text from outside that is nearly right: for each of its readers a valid text is damaged in a
+//! seeded way. No reader panics or hangs, and each fault is reported in one line.
 
 use crate::QUICK;
 use impact_chain::Scenario;
@@ -35,7 +35,8 @@ $$
 [@bibliography]
 "#;
 
-/// What is put in anywhere: signs that mean something to one of the readers, numbers, and what can be nested.
+/// What is put in anywhere: signs that mean something to one of the readers, numbers, and what can
+/// be nested.
 const SIGNS: &str = "{~}~[~]~(~)~\"~\\~,~=~\n\n~\r~\0~#~$~$$~```~*~|~> ~- ~«~»~«(~<% if true %>~<!--~[@~![~\
                      {\"a\":~\\sqrt{~\u{e000}~\u{2028}~NaN~-1e309~99999999999999999999~5e-324";
 

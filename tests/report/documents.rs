@@ -1,13 +1,14 @@
-//! The documents as a host reads them: by a CommonMark parser with tables, which knows nothing of our mathematics. What it
-//! makes of the text must be what the document means. And they are bounded: a reader of five minutes, half an hour or a day
-//! must not find that one has grown beyond its time. (The browser test bounds the pages, and `.ci/latex` those in print.)
+//! The documents as a host reads them: by a CommonMark parser with tables, which knows nothing of
+//! our mathematics. What it makes of the text must be what the document means. And they are
+//! bounded: a reader of five minutes, half an hour or a day must not find that one has grown beyond
+//! its time. (The browser test bounds the pages, and `.ci/latex` those in print.)
 
 use crate::QUICK;
 use literate::report::{Document, Report};
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
-/// Words of prose: no code, no displayed formula, no table, no address of a link, no description that is read
-/// instead of a picture; a formula in a line is one word.
+/// Words of prose: no code, no displayed formula, no table, no address of a link, no description
+/// that is read instead of a picture; a formula in a line is one word.
 fn words(markdown: &str) -> usize {
     let (mut left_out, mut text) = (0, String::new());
     for event in Parser::new_ext(markdown, Options::ENABLE_TABLES | Options::ENABLE_MATH) {

@@ -107,8 +107,8 @@ fn every_value_has_one_card() {
     assert!(page.descendants().any(|node| headline(&node)));
 }
 
-/// Colours of what is drawn come from the style sheet, which knows light from dark. (The browser finds what is loaded, and
-/// pages that are too long.)
+/// Colours of what is drawn come from the style sheet, which knows light from dark. (The browser
+/// finds what is loaded, and pages that are too long.)
 #[test]
 fn no_colour_is_fixed() {
     for (_, page) in pages() {

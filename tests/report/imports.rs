@@ -1,4 +1,5 @@
-//! Reads the imports of all crates and of src, and refuses those that DESIGN.md does not allow, and circles.
+//! Reads the imports of all crates and of src, and refuses those that DESIGN.md does not allow, and
+//! circles.
 
 use crate::structure::{files, root};
 use std::cell::RefCell;
@@ -121,7 +122,8 @@ fn without_tests(tokens: &[String]) -> Vec<String> {
 
 type Path = Vec<String>;
 
-/// What a module has: the names of its items, of its imports with what they name, and all paths in its code.
+/// What a module has: the names of its items, of its imports with what they name, and all paths in
+/// its code.
 #[derive(Default)]
 struct Module {
     file: String,
@@ -366,7 +368,8 @@ fn no_file_imports_itself_through_others() {
     assert!(circles.is_empty(), "files import each other in {} circles", circles.len());
 }
 
-/// The layers of DESIGN.md: the start of the paths of their files, and the layers that they may import.
+/// The layers of DESIGN.md: the start of the paths of their files, and the layers that they may
+/// import.
 fn layers() -> Vec<(String, Vec<String>)> {
     let design = fs::read_to_string(root().join("DESIGN.md")).unwrap();
     let lines = design.lines().filter(|line| line.starts_with("    "));

@@ -1,4 +1,5 @@
-//! The report and what it is made of: templates, figures, pages, damaged texts, and rules about the source.
+//! The report and what it is made of: templates, figures, pages, damaged texts, and rules about the
+//! source.
 
 mod damage;
 mod documents;
@@ -62,8 +63,8 @@ impl Quick {
 /// Links and places of each file.
 type Links = BTreeMap<String, (Vec<String>, Vec<String>)>;
 
-/// Follows the links of files in a report that is written into paper/, into a folder of target/, and elsewhere; so many at
-/// least lead within a file, and from one to another.
+/// Follows the links of files in a report that is written into paper/, into a folder of target/,
+/// and elsewhere; so many at least lead within a file, and from one to another.
 fn links_land(files: impl Fn(&Report) -> Links, least: usize, across: usize) {
     for (report, top) in [&QUICK.report, &QUICK.elsewhere[0], &QUICK.elsewhere[1]]
         .into_iter()

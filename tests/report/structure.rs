@@ -1,4 +1,5 @@
-//! Rules about the source that no compiler checks: no path of a machine, and a README that is current.
+//! Rules about the source that no compiler checks: no path of a machine, and a README that is
+//! current.
 
 use crate::QUICK;
 use literate::report::ledger::EquationEntry;

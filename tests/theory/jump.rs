@@ -16,8 +16,8 @@ fn p_crit_to_the_last_digits() {
     }
 }
 
-/// p_jump from its definition for simple circuits: Φ(k) = Φ(1) at p^(k−1) = k (N − k)!/(N − 1)!,
-/// so the infimum is the least (k − 1)-th root over k, taken through logarithms.
+/// p_jump from its definition for simple circuits: Φ(k) = Φ(1) at p^(k−1) = k (N − k)!/(N −
+/// 1)!, so the infimum is the least (k − 1)-th root over k, taken through logarithms.
 fn p_jump_by_roots(big_n: usize) -> (Big, usize) {
     let mut falling = UBig::ONE;
     let mut best: Option<(Big, usize)> = None;

@@ -100,8 +100,8 @@ impl Law {
     /// **Eq. (10)**
     ///
     /// Returns the weight Φ_{N,p}(k), over p: p^(k−1) N!/(k (N − k)!) for simple circuits. The
-    /// common factor p drops out of every probability, and without it the limit p → 0+ is the value
-    /// at p = 0. Γ_{N,p}, over p as well, is the sum of all weights.
+    /// common factor p drops out of every probability, and without it the limit p → 0+ is the
+    /// value at p = 0. Γ_{N,p}, over p as well, is the sum of all weights.
     ///
     /// # Errors
     /// [`Error`] for k outside 1..=N.

@@ -87,8 +87,8 @@ impl Circuit {
         visits
     }
 
-    /// δ_1, δ_2, …: how many vertices are visited j + 1 times, without trailing zeros; empty for a
-    /// simple circuit. The class of Eq. (34) to which the circuit belongs.
+    /// δ_1, δ_2, …: how many vertices are visited j + 1 times, without trailing zeros; empty
+    /// for a simple circuit. The class of Eq. (34) to which the circuit belongs.
     pub fn repeats(&self) -> Vec<usize> {
         let visits = self.visits();
         let most = visits.values().copied().max().unwrap_or(1);

@@ -13,8 +13,9 @@ use impact_numerics::double_double::DoubleDouble;
 /// **Eq. (29)**
 ///
 /// Returns the number of paths from a given doubled vertex for a loop, back, and for another loop,
-/// k vertices in all: (N − 1)!/(N − (k − 1))!, for k ≥ 2; zero beyond N + 1; none beyond 128 bits.
-/// The way in which the k − 2 other vertices are divided between the loops does not matter:
+/// k vertices in all: (N − 1)!/(N − (k − 1))!, for k ≥ 2; zero beyond N + 1; none beyond
+/// 128 bits. The way in which the k − 2 other vertices are divided between the loops does not
+/// matter:
 ///
 /// **Eq. (26)** (step towards (30)): with γ_1 and γ_2 of them, k = (γ_1 + 1) + (γ_2 + 1).
 /// **Eq. (27)** (step towards (29)): (N − 1) … (N − γ_1) ways for the first loop,
@@ -52,15 +53,16 @@ pub fn compositions(n: usize, j: usize) -> Option<u128> {
 
 /// **Eq. (33)**
 ///
-/// Returns φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: circuits of length k
-/// with one vertex visited twice and no other repeated. Fails at k = 2 (a loop run twice is no new
-/// circuit), where it gives N/2. None beyond 128 bits.
+/// Returns φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: circuits of
+/// length k with one vertex visited twice and no other repeated. Fails at k = 2 (a loop run twice
+/// is no new circuit), where it gives N/2. None beyond 128 bits.
 pub fn doubled(big_n: usize, k: usize) -> Option<Fraction> {
     let choices = arrangements(big_n, k - 1)?;
     Some(Fraction::new(choices.checked_mul(k as u128 - 1)?, 2))
 }
 
-/// Returns (k − 1)!/(k − j)! · N!/(N − d)! / divisor, the common form of the printed formulas.
+/// Returns (k − 1)!/(k − j)! · N!/(N − d)! / divisor, the common form of the printed
+/// formulas.
 fn printed(big_n: usize, k: usize, j: usize, d: usize, divisor: u128) -> Option<Fraction> {
     let positions = arrangements(k - 1, j - 1)?;
     Some(Fraction::new(positions.checked_mul(arrangements(big_n, d)?)?, divisor))
@@ -68,18 +70,18 @@ fn printed(big_n: usize, k: usize, j: usize, d: usize, divisor: u128) -> Option<
 
 /// **Eq. (35)**
 ///
-/// Returns φ_N^{1,0}(k) as printed, for k ≥ 3: one vertex visited three times,
-/// 1/6 (k − 1)!/(k − 3)! N!/(N − (k − 2))!. Gives N/3 at k = 3, where there is no such circuit.
-/// None beyond 128 bits.
+/// Returns φ_N^{1,0}(k) as printed, for k ≥ 3: one vertex visited three times, 1/6 (k − 1)!/(k
+/// − 3)! N!/(N − (k − 2))!. Gives N/3 at k = 3, where there is no such circuit. None beyond
+/// 128 bits.
 pub fn three_visits(big_n: usize, k: usize) -> Option<Fraction> {
     printed(big_n, k, 3, k - 2, 6)
 }
 
 /// **Eq. (36)**
 ///
-/// Returns φ_N^{1,0,0}(k) as printed, for k ≥ 4: one vertex visited four times,
-/// 1/24 (k − 1)!/(k − 4)! N!/(N − (k − 3))!. Gives N/4 at k = 4, where there is no such circuit.
-/// None beyond 128 bits.
+/// Returns φ_N^{1,0,0}(k) as printed, for k ≥ 4: one vertex visited four times, 1/24 (k −
+/// 1)!/(k − 4)! N!/(N − (k − 3))!. Gives N/4 at k = 4, where there is no such circuit. None
+/// beyond 128 bits.
 pub fn four_visits(big_n: usize, k: usize) -> Option<Fraction> {
     printed(big_n, k, 4, k - 3, 24)
 }
@@ -151,8 +153,8 @@ pub const SHARED: u128 = 24;
 
 /// **Eq. (38)**
 ///
-/// Returns φ_N(k) + φ_N^1(k+1) + φ_N^{1,0}(k+2) + φ_N^{1,0,0}(k+3) + φ_N^2(k+2), each times p for
-/// each edge more than k, over φ_N(k) and times [`SHARED`]: the weight of all circuits with k
+/// Returns φ_N(k) + φ_N^1(k+1) + φ_N^{1,0}(k+2) + φ_N^{1,0,0}(k+3) + φ_N^2(k+2), each times p
+/// for each edge more than k, over φ_N(k) and times [`SHARED`]: the weight of all circuits with k
 /// different vertices over that of the simple ones.
 pub fn multiplicity(space: SampleSpace, p: DoubleDouble, k: usize) -> DoubleDouble {
     let [simple, doubled, three, four, two] =

@@ -13,11 +13,12 @@
 //!
 //! Eq. (25) draws the free part of the motion independently of the forcing, with the same σ. A
 //! chain that is at rest when the forcing sets in has no such random part: its free part cancels
-//! the forced position and velocity at t = 0, so with δα, δβ the differences of forcing amplitudes
-//! Y_0 = √(δα² + (Ω/ω)² δβ²)/|ω² − Ω²|, which goes with Y_1. In polar form the radius integrates
-//! out and one angle is left (ours):
+//! the forced position and velocity at t = 0, so with δα, δβ the differences of forcing
+//! amplitudes Y_0 = √(δα² + (Ω/ω)² δβ²)/|ω² − Ω²|, which goes with Y_1. In polar
+//! form the radius integrates out and one angle is left (ours):
 //!
-//! p_rest = (2/π) ∫_0^{π/2} exp(−(|ω² − Ω²| d/(2σ))²/(1 + √(cos²θ + (Ω/ω)² sin²θ))²) dθ.
+//! p_rest = (2/π) ∫_0^{π/2} exp(−(|ω² − Ω²| d/(2σ))²/(1 + √(cos²θ + (Ω/ω)²
+//! sin²θ))²) dθ.
 
 use crate::error::{Error, within};
 use impact_chain::Chain;
@@ -44,12 +45,13 @@ pub struct ImpactProbability {
     frequency_ratio: DoubleDouble,
 }
 
-/// **Eq. (21)** (step towards (22)): Y = √((α_{j+1} − α_j)² + (β_{j+1} − β_j)²), the amplitude of
-/// one harmonic of a gap.
+/// **Eq. (21)** (step towards (22)): Y = √((α_{j+1} − α_j)² + (β_{j+1} − β_j)²), the
+/// amplitude of one harmonic of a gap.
 ///
 /// **Eq. (22)**
 ///
-/// Returns the density of Y_0 at x: Rayleigh, since both differences are normal with variance 2σ².
+/// Returns the density of Y_0 at x: Rayleigh, since both differences are normal with variance
+/// 2σ².
 pub fn density_free(x: f64, sigma: f64) -> f64 {
     density_forced(x, sigma, 1.0)
 }
@@ -99,8 +101,8 @@ fn saturation(x: f64) -> f64 {
 const NEARLY_ONE: f64 = 0.01;
 
 impl ImpactProbability {
-    /// Creates the law of a gap of masses d = `spacing` apart, with natural frequency ω and forcing
-    /// frequency Ω.
+    /// Creates the law of a gap of masses d = `spacing` apart, with natural frequency ω and
+    /// forcing frequency Ω.
     ///
     /// # Errors
     /// [`Error`] for a number out of range, or ω = Ω.
@@ -140,7 +142,8 @@ impl ImpactProbability {
     }
 
     // listing: leading
-    /// Returns the leading exponent E and the factor B of p = B e^{−E}; both without cancellation.
+    /// Returns the leading exponent E and the factor B of p = B e^{−E}; both without
+    /// cancellation.
     fn leading(&self) -> (DoubleDouble, f64) {
         let (s, t) = self.scales();
         let ratio = s / t;
@@ -158,8 +161,8 @@ impl ImpactProbability {
 
     /// **Eq. (25)**
     ///
-    /// Returns p(σ), the probability that a gap closes by itself, in closed form and to about 1e−15
-    /// relative at the exact doubles given.
+    /// Returns p(σ), the probability that a gap closes by itself, in closed form and to about
+    /// 1e−15 relative at the exact doubles given.
     ///
     /// # Errors
     /// [`Error`] if p is below the range of doubles.
@@ -195,9 +198,9 @@ impl ImpactProbability {
 
     /// **Eq. (20)**
     ///
-    /// Returns 1 − p = P(Y_0 + Y_1/|ω² − Ω²| < d), the probability that the gap never closes,
-    /// accurate even when it is tiny (large σ): an integral over the wider amplitude of positive
-    /// terms.
+    /// Returns 1 − p = P(Y_0 + Y_1/|ω² − Ω²| < d), the probability that the gap never
+    /// closes, accurate even when it is tiny (large σ): an integral over the wider amplitude of
+    /// positive terms.
     pub fn complement(&self) -> f64 {
         let (s, t) = self.scales();
         let (s2, t_value) = (square(s).to_f64(), t.to_f64());
@@ -265,8 +268,8 @@ impl ImpactProbability {
     }
 }
 
-/// Returns 1/D(θ)² − 1/D_max² with D(θ) = 1 + √(cos²θ + κ sin²θ), the excess of the exponent over
-/// its least value, without cancellation.
+/// Returns 1/D(θ)² − 1/D_max² with D(θ) = 1 + √(cos²θ + κ sin²θ), the excess of the
+/// exponent over its least value, without cancellation.
 fn excess(kappa: f64, reach: f64, theta: f64) -> f64 {
     let (sin, cos) = pxfm::f_sincos(theta);
     let root = (cos * cos + kappa * sin * sin).sqrt();
@@ -276,8 +279,8 @@ fn excess(kappa: f64, reach: f64, theta: f64) -> f64 {
     shortfall * (reach + d) / (d * d * reach * reach)
 }
 
-/// Returns the mean of an even function of period π over [0, π/2], by the trapezoidal rule with as
-/// many intervals as it takes (at most 2^20).
+/// Returns the mean of an even function of period π over [0, π/2], by the trapezoidal rule with
+/// as many intervals as it takes (at most 2^20).
 fn half_period_mean(f: impl Fn(f64) -> f64) -> f64 {
     let mut intervals = 32;
     let mut sum = 0.5 * (f(0.0) + f(FRAC_PI_2));

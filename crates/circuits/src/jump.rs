@@ -8,14 +8,13 @@ use impact_numerics::scaled::Scaled;
 
 /// **Eq. (12)**
 ///
-/// Returns f_{N,p}(k) = −p k² + (N p − 1) k − 1 at real k: Φ_{N,p} rises from k to k + 1 where it
-/// is positive. Written as p k (N − k) − (k + 1), with the product exact.
+/// Returns f_{N,p}(k) = −p k² + (N p − 1) k − 1 at real k: Φ_{N,p} rises from k to k + 1
+/// where it is positive. Written as p k (N − k) − (k + 1), with the product exact.
 ///
-/// **Eq. (14)** (step towards (18)): f_{N,p}(0) = −1, whatever N and p.
-/// **Eq. (15)** (step towards (18)): f_{N,p}(N) = −(N + 1), whatever p.
-/// **Eq. (16)** (step towards (18)): f_{N,0}(k) = −(k + 1) < 0, so at p → 0+ every step falls.
-/// **Eq. (17)** (step towards (18)): ∂f/∂p = k (N − k), positive inside (0, N), so f grows with p
-/// at every k.
+/// **Eq. (14)** (step towards (18)): f_{N,p}(0) = −1, whatever N and p. **Eq. (15)** (step
+/// towards (18)): f_{N,p}(N) = −(N + 1), whatever p. **Eq. (16)** (step towards (18)): f_{N,0}(k)
+/// = −(k + 1) < 0, so at p → 0+ every step falls. **Eq. (17)** (step towards (18)): ∂f/∂p =
+/// k (N − k), positive inside (0, N), so f grows with p at every k.
 pub fn f(big_n: usize, p: f64, k: f64) -> f64 {
     let product = two_product(k, big_n as f64 - k) * p;
     (product - DoubleDouble::from(k) - DoubleDouble::ONE).to_f64()
@@ -29,16 +28,16 @@ fn f_exact(big_n: usize, p: f64, k: usize) -> DoubleDouble {
 
 /// **Eq. (11)**
 ///
-/// Decides exactly whether Φ_{N,p}(k + 1) − Φ_{N,p}(k) = p^k N!/((N − k)! k (k + 1)) · f_{N,p}(k)
-/// is positive, for 1 ≤ k < N.
+/// Decides exactly whether Φ_{N,p}(k + 1) − Φ_{N,p}(k) = p^k N!/((N − k)! k (k + 1)) ·
+/// f_{N,p}(k) is positive, for 1 ≤ k < N.
 pub fn rises(big_n: usize, p: f64, k: usize) -> bool {
     k < big_n && f_exact(big_n, p, k) > DoubleDouble::ZERO
 }
 
 /// **Eq. (13)**
 ///
-/// Returns the zeros k− ≤ k+ of f_{N,p}, or none when it has none (p below p_crit, or p = 0). The
-/// smaller one comes from k− k+ = 1/p, since the printed difference would cancel.
+/// Returns the zeros k− ≤ k+ of f_{N,p}, or none when it has none (p below p_crit, or p = 0).
+/// The smaller one comes from k− k+ = 1/p, since the printed difference would cancel.
 pub fn zeros(big_n: usize, p: f64) -> Option<[f64; 2]> {
     let b = two_product(p, big_n as f64) - DoubleDouble::ONE;
     let discriminant = b * b - DoubleDouble::from(4.0 * p);
@@ -87,9 +86,9 @@ pub fn step(big_n: usize, k: usize) -> f64 {
     (k + 1) as f64 / (k * (big_n - k)) as f64
 }
 
-/// Returns the first local maximum of Φ over integers as p grows: the k > 1 where f_{N,p}(k) = 0 at
-/// the smallest p, and that p as a fraction. It is a little above p_crit, unless k+ is an integer
-/// there. None for N < 3.
+/// Returns the first local maximum of Φ over integers as p grows: the k > 1 where f_{N,p}(k) = 0
+/// at the smallest p, and that p as a fraction. It is a little above p_crit, unless k+ is an
+/// integer there. None for N < 3.
 pub fn first_local_maximum(big_n: usize) -> Option<(usize, [usize; 2])> {
     // (k + 1)/(k (N − k)) over k: compare as integers, exactly.
     let parts = |k: usize| [k + 1, k * (big_n - k)];
@@ -174,14 +173,15 @@ fn first_is_exceeded(space: SampleSpace, big_n: usize, p: DoubleDouble) -> bool 
 }
 // end
 
-/// Returns the limit of k*/N and of μ/N for N → ∞ with p N fixed: max(0, 1 − 1/(p N)). It follows
-/// since k Φ_{N,p}(k) is a Poisson weight of N − k with mean 1/p (ours, beyond the paper).
+/// Returns the limit of k*/N and of μ/N for N → ∞ with p N fixed: max(0, 1 − 1/(p N)). It
+/// follows since k Φ_{N,p}(k) is a Poisson weight of N − k with mean 1/p (ours, beyond the
+/// paper).
 pub fn limit_share(p_big_n: f64) -> f64 {
     (1.0 - 1.0 / p_big_n).max(0.0)
 }
 
-/// Returns the larger root of k² = 2 N (ln k − 1), to which k* jumps for many vertices, up to about
-/// ln k (ours); none for N ≤ e³, where there is no root.
+/// Returns the larger root of k² = 2 N (ln k − 1), to which k* jumps for many vertices, up to
+/// about ln k (ours); none for N ≤ e³, where there is no root.
 pub fn jump_rule(big_n: usize) -> Option<f64> {
     let big_n = big_n as f64;
     let beyond = |k: f64| k * k >= 2.0 * big_n * (pxfm::f_log(k) - 1.0);

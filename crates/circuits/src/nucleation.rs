@@ -3,35 +3,35 @@
 //!
 //! # One gap
 //! A chain from rest has free parts that cancel the forced positions and velocities at t = 0. With
-//! the differences δα = ρ cos θ, δβ = ρ sin θ of the amplitudes on both sides of a gap, its width
-//! is
+//! the differences δα = ρ cos θ, δβ = ρ sin θ of the amplitudes on both sides of a gap, its
+//! width is
 //!
 //! Δ(t) = d − ρ E(t) · (cos θ, sin θ),
 //! E(t) = (cos ωt − cos Ωt, (Ω/ω) sin ωt − sin Ωt)/(ω² − Ω²),
 //!
 //! the same plane curve E for every gap of every chain. The gap closes by T where ρ M_T(θ) ≥ d,
-//! with M_T(θ) the largest value of E · (cos θ, sin θ) on [0, T]: how far the convex hull of the
-//! curve reaches in that direction. The differences are normal, so ρ is Rayleigh distributed, θ
-//! uniform, and for a gap between two masses
+//! with M_T(θ) the largest value of E · (cos θ, sin θ) on [0, T]: how far the convex hull of
+//! the curve reaches in that direction. The differences are normal, so ρ is Rayleigh distributed,
+//! θ uniform, and for a gap between two masses
 //!
 //! p_T = (1/2π) ∮ exp(−(d/(2σ M_T(θ)))²) dθ.
 //!
-//! At a wall only one of the amplitudes differs from zero: σ/√2 stands for σ. For incommensurable
-//! frequencies M_T rises to M(θ) = (1 + √(cos²θ + (Ω/ω)² sin²θ))/|ω² − Ω²|, and p_T to p_rest. A
-//! gap closes late only if it closes barely: the phases that it needs form an ellipse of size √ε,
-//! for ρ M = d + ε, which a straight line of length T in the torus of phases misses for ε of order
-//! T^{−2} only.
+//! At a wall only one of the amplitudes differs from zero: σ/√2 stands for σ. For
+//! incommensurable frequencies M_T rises to M(θ) = (1 + √(cos²θ + (Ω/ω)² sin²θ))/|ω²
+//! − Ω²|, and p_T to p_rest. A gap closes late only if it closes barely: the phases that it
+//! needs form an ellipse of size √ε, for ρ M = d + ε, which a straight line of length T in the
+//! torus of phases misses for ε of order T^{−2} only.
 //!
 //! # Two neighbours
 //! Neighbours share a mass, and with it the force on that mass: both amplitude differences contain
-//! it with opposite signs, so their covariance is −σ². In polar coordinates for the radii of the
-//! two, r_1 = s cos φ and r_2 = s sin φ, the integral over s is elementary, and three angles are
-//! left. Where tan φ < m_2/m_1, m_i = d/M(θ_i), the second radius decides whether both close, and
-//! with t = tan φ
+//! it with opposite signs, so their covariance is −σ². In polar coordinates for the radii of
+//! the two, r_1 = s cos φ and r_2 = s sin φ, the integral over s is elementary, and three angles
+//! are left. Where tan φ < m_2/m_1, m_i = d/M(θ_i), the second radius decides whether both close,
+//! and with t = tan φ
 //!
-//! P = ⟨ ∫_0^{m_2/m_1} (2 t D/Q²)(1 + h) e^{−h} dt ⟩ over θ_1 and θ_2, and the same with 1 and 2
-//! exchanged,
-//! Q = v_2 + v_1 t² + 2σ² t cos(θ_1 − θ_2),  D = v_1 v_2 − σ⁴,  h = m_2² Q/(2 D t²),
+//! P = ⟨ ∫_0^{m_2/m_1} (2 t D/Q²)(1 + h) e^{−h} dt ⟩ over θ_1 and θ_2, and the same with
+//! 1 and 2 exchanged, Q = v_2 + v_1 t² + 2σ² t cos(θ_1 − θ_2), D = v_1 v_2 − σ⁴, h =
+//! m_2² Q/(2 D t²),
 //!
 //! v_1 and v_2 being the variances of the differences. The exponential is the only function needed.
 //!
@@ -54,7 +54,8 @@ use impact_numerics::roots::crossing;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the force.
+/// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the
+/// force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
     /// M_T at each angle.
@@ -81,8 +82,8 @@ fn along([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> f64 {
 
 impl Reach {
     /// Computes the reach within each of some rising times, at `angles` angles. Times are rounded
-    /// down to eighths of 1/ω; maxima are exact to rounding, except two of them less than an eighth
-    /// apart.
+    /// down to eighths of 1/ω; maxima are exact to rounding, except two of them less than an
+    /// eighth apart.
     pub fn within(chain: &Chain, times: &[f64], angles: usize) -> Vec<Reach> {
         let step = 1.0 / (STEPS as f64 * chain.natural_frequency);
         let directions: Vec<[f64; 2]> = directions(angles).collect();
@@ -179,8 +180,8 @@ fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64
 const POINTS: usize = 20;
 
 /// Returns the probability that two neighbouring gaps, of variances v_1 and v_2 (2σ² between
-/// masses, σ² at a wall), both close by themselves. The rule over the angles has the points of the
-/// reach.
+/// masses, σ² at a wall), both close by themselves. The rule over the angles has the points of
+/// the reach.
 fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
     let rule = GaussLegendre::new(POINTS);
     let shared = sigma * sigma;
@@ -258,8 +259,8 @@ impl Chances {
     }
 }
 
-/// Returns the σ at which half of such chains have a gap that closes by itself, to a relative error
-/// of about 1e-6; the sum over angles is less exact.
+/// Returns the σ at which half of such chains have a gap that closes by itself, to a relative
+/// error of about 1e-6; the sum over angles is less exact.
 pub fn half(chain: &Chain, reach: &Reach, fewer: &Reach) -> f64 {
     let share = |sigma: f64| {
         Chances::new(chain, reach, fewer, sigma).at_least_one(chain.masses, chain.boundary)

@@ -7,10 +7,11 @@ use crate::search::local_frame::Frequencies;
 /// Finds which gaps of a run stay shut; returns for each gap its contact force λ_i, or none if it
 /// opens. Gaps that are not `allowed` stay open.
 ///
-/// Gap i accelerates by g_i + K_i λ_i − λ_{i−1} − λ_{i+1}, where K_i is `inverse_mass` and λ_i ≥ 0
-/// the contact force; a shut gap needs acceleration ≥ 0, and λ_i = 0 where it is > 0. The matrix is
-/// an M-matrix, so starting from no gap and adding every gap that would be driven shut ends at the
-/// solution after at most as many rounds as there are gaps (Chandrasekaran, 1970, Opsearch 7, 263).
+/// Gap i accelerates by g_i + K_i λ_i − λ_{i−1} − λ_{i+1}, where K_i is `inverse_mass` and
+/// λ_i ≥ 0 the contact force; a shut gap needs acceleration ≥ 0, and λ_i = 0 where it is > 0.
+/// The matrix is an M-matrix, so starting from no gap and adding every gap that would be driven
+/// shut ends at the solution after at most as many rounds as there are gaps (Chandrasekaran, 1970,
+/// Opsearch 7, 263).
 pub fn contact_forces<const M: usize>(
     g: &[Force<M>],
     inverse_mass: &[f64],

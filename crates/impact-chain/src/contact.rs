@@ -1,9 +1,9 @@
 //! Brings chattering gaps to rest, keeps pressed gaps in contact, and releases them.
 //!
-//! When a gap bounces off more slowly than [`CONTACT_SPEED`] d ω, its remaining impacts fall within
-//! a time far below the rounding of t, and the run of gaps that are shut and slow is *settled*:
-//! their masses take a common velocity (momentum is kept), and the contact forces of the whole
-//! run decide which gaps are pressed. These form rigid clusters; the others open. Contact is
+//! When a gap bounces off more slowly than [`CONTACT_SPEED`] d ω, its remaining impacts fall
+//! within a time far below the rounding of t, and the run of gaps that are shut and slow is
+//! *settled*: their masses take a common velocity (momentum is kept), and the contact forces of the
+//! whole run decide which gaps are pressed. These form rigid clusters; the others open. Contact is
 //! decided for the whole run, not pair by pair: a gap that would open alone may be held shut by its
 //! neighbours.
 //!

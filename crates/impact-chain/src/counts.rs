@@ -238,8 +238,8 @@ impl Watch {
     }
 }
 
-/// Counts the masses with an impact on one side or both: mass j lies between gaps j − 1 and j, and
-/// on a ring the last one between the last gap and the first.
+/// Counts the masses with an impact on one side or both: mass j lies between gaps j − 1 and j,
+/// and on a ring the last one between the last gap and the first.
 fn masses_hit(hit: &[bool], ring: bool) -> u32 {
     let last = ring && hit.first().zip(hit.last()).is_some_and(|(first, last)| *first || *last);
     let inner = hit.windows(2).map(|sides| u32::from(sides[0] || sides[1])).sum::<u32>();

@@ -42,14 +42,13 @@ pub struct Heating {
 pub struct Beyond {
     /// The σ above which runs are fewer or shorter, in units of d ω².
     pub above: f64,
-    /// Number of realisations there.
     pub realisations: Option<usize>,
     /// Time at which they end, in units of 1/ω; windows that end later have no counts.
     pub until: Option<f64>,
 }
 
-/// Random chains with the same parameters at several σ. Realisation i has the same standard normals
-/// at every σ.
+/// Random chains with the same parameters at several σ. Realisation i has the same standard
+/// normals at every σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ensemble {
     /// Name, as in the tables of results.

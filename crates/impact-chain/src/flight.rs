@@ -3,8 +3,8 @@
 use crate::search::clock::{Instant, Rate};
 use crate::search::local_frame::{Frame, Frequencies};
 
-/// Returns the response (c, s) of an undamped oscillator to a component of Eq. (3), with ω² − Ω²
-/// as (ω − Ω)(ω + Ω).
+/// Returns the response (c, s) of an undamped oscillator to a component of Eq. (3), with ω² −
+/// Ω² as (ω − Ω)(ω + Ω).
 pub fn response(w: f64, big_w: f64, amplitudes: [f64; 2]) -> [f64; 2] {
     let factor = (w - big_w) * (w + big_w);
     amplitudes.map(|amplitude| amplitude / factor)
@@ -59,8 +59,8 @@ pub struct Motion<const M: usize> {
     pub a: f64,
     /// b, free part along sin ωt.
     pub b: f64,
-    /// Forced response of each component: c = α/(ω² − Ω²) along cos Ωt, s = β/(ω² − Ω²) along
-    /// sin Ωt.
+    /// Forced response of each component: c = α/(ω² − Ω²) along cos Ωt, s = β/(ω² −
+    /// Ω²) along sin Ωt.
     pub forced: [[f64; 2]; M],
     /// Distance of the centre of motion from j d: 0, except in a cluster.
     pub offset: f64,
@@ -122,8 +122,8 @@ impl<const M: usize> Motion<M> {
 
     /// Computes the local frame of a gap at an instant.
     ///
-    /// **Eq. (19)**: Δ(t) = d + A cos ωt + B sin ωt + C cos Ωt + D sin Ωt, where the capitals are
-    /// the differences of the amplitudes of the two neighbours (`self`). The bounds take
+    /// **Eq. (19)**: Δ(t) = d + A cos ωt + B sin ωt + C cos Ωt + D sin Ωt, where the capitals
+    /// are the differences of the amplitudes of the two neighbours (`self`). The bounds take
     /// |u| + |u̇/ω| for the amplitude R of a part: at most √2 too much, and no square root.
     #[inline(always)]
     pub fn frame(

@@ -2,7 +2,6 @@
 
 use crate::Error;
 
-/// One impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// Time t, in the units of the scenario.

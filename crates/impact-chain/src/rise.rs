@@ -1,5 +1,5 @@
-//! Summarises the counts of an ensemble: means, shares and modes at each σ, and where the number of
-//! impacts rises, with bootstrap errors.
+//! Summarises the counts of an ensemble: means, shares and modes at each σ, and where the number
+//! of impacts rises, with bootstrap errors.
 
 use crate::counts::{Counts, Total};
 use crate::ensemble::{Ensemble, Protocol};
@@ -90,8 +90,8 @@ pub struct RisePoint {
     pub counts: Vec<u32>,
 }
 
-/// The place of the rise on the σ axis, in several senses. Each is the last rise of a curve through
-/// a level, linear between rows; none if the curve does not rise through it.
+/// The place of the rise on the σ axis, in several senses. Each is the last rise of a curve
+/// through a level, linear between rows; none if the curve does not rise through it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rise {
     /// Half height: the mean over realisations with an impact reaches N/2.

@@ -4,9 +4,9 @@
 //! falling with speed v = −Δ'(t + s). Then the engine's waiting time is off by at most
 //! |δs| ≤ C ε S/v, with C = [`TIME`], ε = 2⁻⁵² and S = d + Q₁ + Q₂, where Q₁ and Q₂ are the free
 //! and the forced amplitudes of *both* neighbours, summed. Amplitudes that two neighbours share
-//! vanish from the gap, but their roundings do not: each forced amplitude is divided by ω² − Ω²
-//! separately. Impacts that nearly graze are excepted: there no double can decide whether the gap
-//! closes.
+//! vanish from the gap, but their roundings do not: each forced amplitude is divided by ω² −
+//! Ω² separately. Impacts that nearly graze are excepted: there no double can decide whether the
+//! gap closes.
 //!
 //! Scenarios whose C ε S exceeds [`LARGEST`] of d are refused: near resonance S is the amplitude
 //! over |ω² − Ω²|, however slowly the motion grows.

@@ -56,9 +56,9 @@ pub struct Overtone {
 impl Scenario {
     /// **Eq. (5)**
     ///
-    /// Draws the amplitudes α_j, β_j of the forcing α_j cos Ωt + β_j sin Ωt with standard deviation
-    /// `sigma` from `normals`: first the n pairs of the forcing, then, for a random start, the n
-    /// pairs of the free part.
+    /// Draws the amplitudes α_j, β_j of the forcing α_j cos Ωt + β_j sin Ωt with standard
+    /// deviation `sigma` from `normals`: first the n pairs of the forcing, then, for a random
+    /// start, the n pairs of the free part.
     pub fn draw(chain: &Chain, sigma: f64, normals: &mut NormalPairs) -> Scenario {
         let mut scenario = Scenario::of(chain, draw_pairs(chain.masses, sigma, normals));
         if chain.start == Start::Random {

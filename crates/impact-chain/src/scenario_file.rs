@@ -63,8 +63,8 @@ const REMEDY: &str =
     r#"write {"forcing": [[alpha, beta], ...]}, and other fields where they differ from the paper"#;
 
 impl Scenario {
-    /// Reads a scenario from JSON: `{"forcing": [[α₁, β₁], …]}`, with those fields of [`Chain`]
-    /// that differ from the paper's.
+    /// Reads a scenario from JSON: `{"forcing": [[α₁, β₁], …]}`, with those fields of
+    /// [`Chain`] that differ from the paper's.
     ///
     /// `"initial"` is `"rest"`, `"zero"`, `{"free": [[a₁, b₁], …]}`,
     /// `{"at": {"positions": [x₁, …], "velocities": [v₁, …]}}` or

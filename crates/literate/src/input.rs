@@ -7,7 +7,8 @@ use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
 use std::sync::RwLock;
 
-/// MiB at most of a text that somebody names: it is kept in memory. A scenario of a million masses has less.
+/// MiB at most of a text that somebody names: it is kept in memory. A scenario of a million masses
+/// has less.
 const NAMED: u64 = 64;
 
 /// MiB at most of a file that is found in a folder: four times the largest that the program writes.
@@ -23,8 +24,8 @@ pub fn read_from(file: impl Read) -> Result<String, Error> {
     text(bounded(file, NAMED)?)
 }
 
-/// A file that is found in a folder, whole. Nothing but a regular file is opened: whoever opens a pipe waits for its
-/// other end.
+/// A file that is found in a folder, whole. Nothing but a regular file is opened: whoever opens a
+/// pipe waits for its other end.
 pub fn regular(path: &Path) -> Result<Vec<u8>, Error> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(Error::new(ErrorKind::InvalidInput, "it is no regular file"));
@@ -37,8 +38,8 @@ pub fn regular_text(path: &Path) -> Result<String, Error> {
     text(regular(path)?)
 }
 
-/// Bytes as text, without a byte-order mark. Lines end in `\n` however they end in the file, so that what is made of them
-/// has the same bytes.
+/// Bytes as text, without a byte-order mark. Lines end in `\n` however they end in the file, so
+/// that what is made of them has the same bytes.
 fn text(bytes: Vec<u8>) -> Result<String, Error> {
     let wrong = |_| Error::new(ErrorKind::InvalidData, "it is no UTF-8 text");
     let text = String::from_utf8(bytes).map_err(wrong)?;
@@ -79,11 +80,12 @@ pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
 /// Files and folders that wait until they are complete begin with this.
 pub const STAGING: &str = ".staging-literate-";
 
-/// Held for reading while files are put into place, so that who ends the program waits for that by holding it for writing.
+/// Held for reading while files are put into place, so that who ends the program waits for that by
+/// holding it for writing.
 pub static WRITING: RwLock<()> = RwLock::new(());
 
-/// Is the character none of a text: one that controls a terminal, or one for private use, which frames values in filled
-/// prose?
+/// Is the character none of a text: one that controls a terminal, or one for private use, which
+/// frames values in filled prose?
 pub fn is_no_text(c: char) -> bool {
     let controls = c.is_control() && !matches!(c, '\n' | '\t');
     controls || ('\u{e000}'..='\u{f8ff}').contains(&c)

@@ -15,9 +15,7 @@ use std::collections::BTreeMap;
 pub struct FigureSpec {
     /// Its name; its picture is `figures/NAME.svg`.
     pub name: &'static str,
-    /// The experiments that it needs.
     pub needs: &'static [&'static dyn AnyExperiment],
-    /// Draws it.
     pub draw: fn(&Results) -> Result<Figure, figures::Error>,
 }
 
@@ -44,13 +42,16 @@ impl FigureSpec {
 /// Values with names, which the prose may use like the cells of tables.
 pub type Values = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
 
-/// Rows of tables in the prose that are neither values nor checks, by the names that the prose uses.
+/// Rows of tables in the prose that are neither values nor checks, by the names that the prose
+/// uses.
 pub type Rows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure>;
 
-/// Makes the text of `lab.js`, which a page loads when a reader asks it to compute; none if it cannot be had here.
+/// Makes the text of `lab.js`, which a page loads when a reader asks it to compute; none if it
+/// cannot be had here.
 pub type Lab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
 
-/// A paper: its description, its experiments, figures and checks, and the documents that are written.
+/// A paper: its description, its experiments, figures and checks, and the documents that are
+/// written.
 pub struct Paper {
     pub edition: Edition,
     pub project: Project,
@@ -76,7 +77,8 @@ impl std::fmt::Debug for Paper {
 }
 
 impl Paper {
-    /// A paper with this title and source, one document `report`, and its prose in the folder `prose`.
+    /// A paper with this title and source, one document `report`, and its prose in the folder
+    /// `prose`.
     pub fn new(title: &'static str, sources: Sources) -> Self {
         Paper {
             edition: Edition::new(title),

@@ -1,8 +1,9 @@
-//! The files of a project: its source, by which saved results are known, and what the program reads when it runs: prose,
-//! printed numbers, data.
+//! The files of a project: its source, by which saved results are known, and what the program reads
+//! when it runs: prose, printed numbers, data.
 //!
-//! What is read is looked for below the current folder, then in the folders above the program itself, one of which is the
-//! checkout in which it was built. A program that is to travel alone has a copy inside instead.
+//! What is read is looked for below the current folder, then in the folders above the program
+//! itself, one of which is the checkout in which it was built. A program that is to travel alone
+//! has a copy inside instead.
 
 use crate::input::{self, sha256};
 use crate::source::Sources;
@@ -11,12 +12,12 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A project.
 #[derive(Debug)]
 pub struct Project {
     /// Its source.
     pub sources: Sources,
-    /// A copy of what it reads when it runs: path from the top of the project, and text; empty unless it travels alone.
+    /// A copy of what it reads when it runs: path from the top of the project, and text; empty
+    /// unless it travels alone.
     pub copy: &'static [(&'static str, &'static str)],
     /// Folders and files on which every result depends; those of an experiment come to them.
     pub shared: &'static [&'static str],
@@ -30,8 +31,8 @@ impl Project {
         Project { sources, copy: &[], shared: &["Cargo.lock"], left_out: &[] }
     }
 
-    /// Path and hash of every file on which a result depends: those that all share, and those in these files and folders;
-    /// all if none is named.
+    /// Path and hash of every file on which a result depends: those that all share, and those in
+    /// these files and folders; all if none is named.
     pub fn code(&self, files: &[&str]) -> BTreeMap<String, String> {
         let is_in = |path: &str, place: &str| {
             let rest = path.strip_prefix(place);
@@ -46,7 +47,8 @@ impl Project {
         all.map(|(path, text)| (path.to_string(), sha256(text)[..16].to_string())).collect()
     }
 
-    /// Where a file or folder lies, by its path from the top of the project; none if only the copy inside has it.
+    /// Where a file or folder lies, by its path from the top of the project; none if only the copy
+    /// inside has it.
     pub fn find(&self, path: &str) -> Option<PathBuf> {
         let here = Path::new(path);
         if here.exists() {
@@ -86,7 +88,8 @@ impl Project {
         self.top().is_none_or(|top| top.join(path).exists())
     }
 
-    /// The way from a folder, which may not be there yet, up to the checkout, as `../`; none if it lies outside.
+    /// The way from a folder, which may not be there yet, up to the checkout, as `../`; none if it
+    /// lies outside.
     pub fn way_up(&self, folder: &Path) -> Option<String> {
         let folder = std::path::absolute(folder).ok()?;
         let real =
@@ -99,7 +102,8 @@ impl Project {
     /// The text of a file, by its path from the top of the project.
     ///
     /// # Errors
-    /// As [`input::regular_text`]; [`io::ErrorKind::NotFound`] with what to do if there is no such file.
+    /// As [`input::regular_text`]; [`io::ErrorKind::NotFound`] with what to do if there is no such
+    /// file.
     pub fn text(&self, path: &str) -> io::Result<Cow<'static, str>> {
         if let Some(found) = self.find(path) {
             return input::regular_text(&found).map(Cow::Owned);

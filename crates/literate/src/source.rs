@@ -5,11 +5,11 @@
 pub struct Sources {
     /// Name of the crate.
     pub name: &'static str,
-    /// Its version.
     pub version: &'static str,
     /// Path of each file from the folder of its Cargo.toml, and its text.
     pub files: &'static [(&'static str, &'static str)],
-    /// Crates as paths of items name them, and the folders of their source; an empty name for the program.
+    /// Crates as paths of items name them, and the folders of their source; an empty name for the
+    /// program.
     pub crates: &'static [(&'static str, &'static str)],
 }
 
@@ -20,8 +20,8 @@ impl Sources {
         if first == self.name.replace('-', "_") { rest } else { path }
     }
 
-    /// The listing of an item: what stands in its file between the lines `// listing: NAME`, with the last name of its path,
-    /// and `// end`, moved to the left edge.
+    /// The listing of an item: what stands in its file between the lines `// listing: NAME`, with
+    /// the last name of its path, and `// end`, moved to the left edge.
     pub fn listing(&self, item: &str) -> Result<String, String> {
         let file = self.file(item);
         let text = self.files.iter().find(|(path, _)| Some(*path) == file);

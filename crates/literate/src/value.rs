@@ -1,8 +1,8 @@
 //! A number of the report with its unit, kind and origin.
 //!
-//! A number in prose is never typed. An experiment's table ([`crate::table`]) or a section computes it, it
-//! becomes a [`Value`] with an id, and a template names that id: `«v.half_height»`. The printed digits
-//! follow from the value itself, so that prose, tables and `values.json` agree.
+//! A number in prose is never typed. An experiment's table ([`crate::table`]) or a section computes
+//! it, it becomes a [`Value`] with an id, and a template names that id: `«v.half_height»`. The
+//! printed digits follow from the value itself, so that prose, tables and `values.json` agree.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,6 @@ use serde::{Deserialize, Serialize};
 pub enum Number {
     /// An exact integer.
     Integer(i64),
-    /// A real number.
     Real {
         /// The number, to full precision.
         value: f64,
@@ -58,7 +57,6 @@ pub enum Kind {
     Ensemble {
         /// Number of realisations behind it.
         realisations: u64,
-        /// Its standard error.
         standard_error: f64,
     },
     /// Printed in the paper, at this place.
@@ -76,7 +74,6 @@ pub struct Value {
     /// The name: `half_height` is `«v.half_height»` in templates, and `printed.threshold`, with
     /// one dot, is `«printed.threshold»`.
     pub id: String,
-    /// The number.
     pub number: Number,
     /// Its unit as Markdown, empty for a pure number; its card has it.
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -168,7 +165,6 @@ impl Value {
         self
     }
 
-    /// With a note.
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.note = note.into();
         self
@@ -225,8 +221,8 @@ fn origin_from(path: &str) -> Origin {
     // What a closure computes, the function computes in which it stands.
     let path = path.replace("::{{closure}}", "");
     let (Some(from), Some(to)) = (path.find('<'), path.rfind('>')) else { return Origin(path) };
-    // A method that stands in another module than its type is `module::<impl other::Type>::method`; of one
-    // of a generic type the parameters go.
+    // A method that stands in another module than its type is `module::<impl other::Type>::method`;
+    // of one of a generic type the parameters go.
     let other = path[from..to].strip_prefix("<impl ").and_then(|own| own.rsplit("::").next());
     Origin(format!("{}{}{}", &path[..from], other.unwrap_or_default(), &path[to + 1..]))
 }

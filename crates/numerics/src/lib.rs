@@ -1,5 +1,5 @@
-//! Mathematics without physics. Everything gives the same bits on every machine: only + − × ÷ √ and
-//! the functions of `pxfm` are used, never the platform's libm.
+//! Mathematics without physics. Everything gives the same bits on every machine: only + − × ÷
+//! √ and the functions of `pxfm` are used, never the platform's libm.
 //!
 //! - Numbers beyond f64: [`double_double`] has 32 digits, [`scaled`] the exponents of factorials.
 //! - [`roots`] and integrals ([`quadrature`]).

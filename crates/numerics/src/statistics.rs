@@ -135,8 +135,8 @@ mod tests {
 
     #[test]
     fn wilson_against_printed_values() {
-        // Wilson's score interval is the set of p with |s − n p| ≤ z √(n p (1 − p)): both ends
-        // must solve that equation, which is the second route.
+        // Wilson's score interval is the set of p with |s − n p| ≤ z √(n p (1 − p)): both
+        // ends must solve that equation, which is the second route.
         let z = normal_quantile(0.95);
         // Tables give 1.959964.
         assert!((z - 1.959_964).abs() < 5e-7);

@@ -80,9 +80,9 @@ impl Page {
     }
 }
 
-/// A run from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a ring, start 0 rest, 1
-/// zero or 2 random), then σ, seed and realisation of the stream that the text names; without one,
-/// α and β of each mass.
+/// A run from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a ring, start 0 rest,
+/// 1 zero or 2 random), then σ, seed and realisation of the stream that the text names; without
+/// one, α and β of each mass.
 fn request(numbers: &[f64], stream: &str) -> Result<Request, String> {
     let [
         transient,
@@ -162,8 +162,8 @@ pub extern "C" fn advance(impacts: u32) -> u32 {
     answer(|page| page.advance(impacts.into()))
 }
 
-/// The circuits of N vertices with edge probability p, into the numbers: k*, μ, p_crit, p_jump, k−
-/// and k+ (−1 where one does not exist), then P(X = k) for k = 1..N, then f(k).
+/// The circuits of N vertices with edge probability p, into the numbers: k*, μ, p_crit, p_jump,
+/// k− and k+ (−1 where one does not exist), then P(X = k) for k = 1..N, then f(k).
 #[unsafe(no_mangle)]
 pub extern "C" fn law(vertices: usize, p: f64) -> u32 {
     answer(|page| {

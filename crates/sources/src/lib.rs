@@ -1,11 +1,12 @@
-//! Macros that put the text of files into a program, which is built again when one of them changes: [`sources!`] for the
-//! source that it was made of, [`texts!`] for prose.
+//! Macros that put the text of files into a program, which is built again when one of them changes:
+//! [`sources!`] for the source that it was made of, [`texts!`] for prose.
 
 use proc_macro::{TokenStream, TokenTree};
 use std::path::{Path, PathBuf};
 
-/// The source of a program, as `literate::Sources`: `sources!("src")` has Cargo.lock and every Rust file below `src`.
-/// Folders are given from that of the crate's Cargo.toml; the first has the program.
+/// The source of a program, as `literate::Sources`: `sources!("src")` has Cargo.lock and every Rust
+/// file below `src`. Folders are given from that of the crate's Cargo.toml; the first has the
+/// program.
 #[proc_macro]
 pub fn sources(folders: TokenStream) -> TokenStream {
     let folders: Vec<String> = names(folders);
@@ -22,7 +23,8 @@ pub fn sources(folders: TokenStream) -> TokenStream {
     })
 }
 
-/// Paths and texts of files, as `&[(&str, &str)]`: of the named files, and of every text below the named folders.
+/// Paths and texts of files, as `&[(&str, &str)]`: of the named files, and of every text below the
+/// named folders.
 #[proc_macro]
 pub fn texts(places: TokenStream) -> TokenStream {
     let endings = ["md", "tex", "bib", "toml", "html", "css", "js", "json"];

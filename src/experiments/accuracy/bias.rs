@@ -7,7 +7,6 @@ use crate::params::{BiasParams, Setting};
 /// All realisations by all methods.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Biases {
-    /// What was run.
     pub parameters: BiasParams,
     /// For each σ and each setting, in their order, the realisations.
     pub runs: Vec<Vec<Vec<GapCount>>>,
@@ -17,7 +16,6 @@ pub struct Biases {
 /// up.
 pub type GapCount = Option<u32>;
 
-/// Runs everything.
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
     let mut all = Vec::new();
     for chains in &parameters.chains {

@@ -8,7 +8,6 @@ use impact_chain::methods::Method;
 pub struct Case {
     /// The chain.
     pub scenario: Scenario,
-    /// Where it starts.
     pub start: State,
     /// When it ends.
     pub until: f64,

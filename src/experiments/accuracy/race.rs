@@ -21,7 +21,6 @@ const PATIENCE: f64 = 0.1;
 /// All methods against the truth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Race {
-    /// What was run.
     pub parameters: RaceParams,
     /// Growth of small differences in the same chain.
     pub growth: Horizon,
@@ -63,7 +62,6 @@ struct Course {
     hits: Vec<(Hit, State)>,
 }
 
-/// Runs everything.
 pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> {
     let growth = horizon::run(&parameters.growth, progress)?;
     let stage = progress.stage("true motions", parameters.chains as u64);

@@ -14,7 +14,6 @@ fn until(masses: usize, method: MethodName) -> f64 {
     }
 }
 
-/// Runs everything.
 pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error> {
     let mut cases = Vec::new();
     for setting in &parameters.settings {

@@ -15,7 +15,6 @@ pub struct Scene {
     pub id: &'static str,
     /// What happens in it.
     pub what: &'static str,
-    /// Its cases.
     pub cases: Vec<Case>,
 }
 
@@ -74,9 +73,9 @@ fn tenth(k: i32) -> f64 {
     (0..k).fold(1.0, |x, _| x / 10.0)
 }
 
-/// The gap 1 + a cos t − cos(2t)/4, whose lowest place 3/4 − a = ±10^−k is at t = π. It falls to
-/// zero where cos t = a − √(a² + 5/2). Returns the chain, the time of that zero and the closing
-/// speed there, which have a meaning where the place is below zero.
+/// The gap 1 + a cos t − cos(2t)/4, whose lowest place 3/4 − a = ±10^−k is at t = π. It
+/// falls to zero where cos t = a − √(a² + 5/2). Returns the chain, the time of that zero and
+/// the closing speed there, which have a meaning where the place is below zero.
 fn dip(k: i32, sign: f64) -> (Scenario, f64, f64) {
     let a = 0.75 - sign * tenth(k);
     let scenario = one([a, 0.0], [0.75, 0.0], 2.0, 0.8);
@@ -104,8 +103,8 @@ fn square_root() -> Vec<Case> {
     cases.collect()
 }
 
-/// A gap that is left with speed v under an acceleration of −5: v sin t + 6 sin²(t/2) − 4 sin² t,
-/// which is sin(t/2) times 2v cos h + 6 sin h − 16 sin h cos² h with h = t/2.
+/// A gap that is left with speed v under an acceleration of −5: v sin t + 6 sin²(t/2) − 4
+/// sin² t, which is sin(t/2) times 2v cos h + 6 sin h − 16 sin h cos² h with h = t/2.
 fn recontact(decades: i32) -> Vec<Case> {
     let cases = (1..=decades).map(|k| {
         let v = tenth(k);
@@ -218,7 +217,8 @@ fn squeezed(sizes: &[u32]) -> Result<Vec<Case>, Error> {
     sizes.iter().map(case).collect()
 }
 
-/// One unforced mass between walls with r = 1: u = b sin t hits |u| = 1 at the speed √(b² − 1).
+/// One unforced mass between walls with r = 1: u = b sin t hits |u| = 1 at the speed √(b² −
+/// 1).
 fn elastic(impacts: usize) -> Vec<Case> {
     let scenario = one([0.0, 1.25], [0.0, 0.0], SQRT_2, 1.0);
     // From wall to wall takes 2 arcsin(1/b).

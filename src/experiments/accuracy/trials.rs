@@ -8,7 +8,6 @@ use crate::params::TrialParams;
 /// The outcomes of every method in every scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trials {
-    /// What was run.
     pub parameters: TrialParams,
     /// For each scene what happens in it, and for each setting in their order its verdicts.
     pub scenes: Vec<(String, Vec<Trial>)>,
@@ -31,7 +30,6 @@ pub fn trouble(trial: &Trial) -> Option<Verdict> {
     wrong.chunk_by(|a, b| a == b).rev().max_by_key(|equal| equal.len()).map(|equal| equal[0])
 }
 
-/// Runs everything.
 pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Error> {
     let scenes = scenes::all(parameters.short).map_err(|source| Error::failed("trials", source))?;
     let settings = &parameters.settings;

@@ -1,4 +1,5 @@
-//! Compares chains from rest with chains from above under the same forces, after several transients.
+//! Compares chains from rest with chains from above under the same forces, after several
+//! transients.
 
 pub mod run;
 pub mod tables;

@@ -1,9 +1,10 @@
 //! Half heights and shares on both branches, and their differences chain by chain.
 //!
-//! Chains are independent of each other, and nothing else is: the same chain at another σ, after another transient or
-//! on the other branch has the same forces. So every error is that of leaving out whole chains in turn (the jackknife,
-//! which gives the usual standard error of a mean), and a difference is taken before its error is. Intervals have
-//! the quantiles of Student's t for the number of chains.
+//! Chains are independent of each other, and nothing else is: the same chain at another σ, after
+//! another transient or on the other branch has the same forces. So every error is that of leaving
+//! out whole chains in turn (the jackknife, which gives the usual standard error of a mean), and a
+//! difference is taken before its error is. Intervals have the quantiles of Student's t for the
+//! number of chains.
 
 use super::run::Chains;
 use crate::experiments::half_height::HALF_HEIGHT;
@@ -39,7 +40,6 @@ impl Branch {
         Branch { sigmas, shares }
     }
 
-    /// Number of chains.
     fn chains(&self) -> usize {
         self.shares.iter().map(Vec::len).min().unwrap_or(0)
     }
@@ -160,8 +160,8 @@ fn half_heights(steps: &[Step<'_>]) -> Table {
         .done()
 }
 
-/// The exponent of a power law of T through the distances of some pairs, over all chains but one, by least squares in
-/// logarithms. None if a distance is not positive.
+/// The exponent of a power law of T through the distances of some pairs, over all chains but one,
+/// by least squares in logarithms. None if a distance is not positive.
 fn exponent(pairs: &[Pair], without: Option<usize>) -> Option<f64> {
     let mut points = Vec::new();
     for pair in pairs {
@@ -180,7 +180,8 @@ fn interval(estimate: Option<Estimate>, chains: usize) -> [f64; 2] {
     [value - quantile * error, value + quantile * error]
 }
 
-/// How the distance falls with T, as a power law over the first two transients and over the last three.
+/// How the distance falls with T, as a power law over the first two transients and over the last
+/// three.
 fn laws(pairs: &[Pair]) -> Table {
     let lengths: Vec<&[Pair]> = pairs.chunk_by(|a, b| a.masses == b.masses).collect();
     let early = |pairs: &[Pair], without| exponent(&pairs[..pairs.len().min(2)], without);
@@ -213,7 +214,8 @@ fn laws(pairs: &[Pair]) -> Table {
         .done()
 }
 
-/// Half heights and distances of the shorter chains less those of the longer ones, which begin with the same forces.
+/// Half heights and distances of the shorter chains less those of the longer ones, which begin with
+/// the same forces.
 fn lengths(pairs: &[Pair]) -> Table {
     let lengths: Vec<&[Pair]> = pairs.chunk_by(|a, b| a.masses == b.masses).collect();
     let rows: Vec<(&Pair, &Pair)> = match lengths[..] {
@@ -348,8 +350,9 @@ mod tests {
         Pair { masses: 1, transient, rest: made_up(rest), above: made_up(above) }
     }
 
-    /// Places of chains on both branches: a part that both share, with a standard deviation of 0.06, and parts of
-    /// each branch, with 0.03 and 0.04. The distance of the half heights then has the error 0.05/√12.
+    /// Places of chains on both branches: a part that both share, with a standard deviation of
+    /// 0.06, and parts of each branch, with 0.03 and 0.04. The distance of the half heights then
+    /// has the error 0.05/√12.
     fn drawn(index: u64) -> [Vec<f64>; 2] {
         let mut normals = NormalPairs::new("test of branches", 1, index);
         let mut places = [Vec::new(), Vec::new()];
@@ -373,8 +376,9 @@ mod tests {
             let [from, to] = interval(Some(found), CHAINS);
             inside += u64::from((from..to).contains(&0.2));
         }
-        // 4000 mean squares with 11 degrees of freedom: known to √(2/11/4000) = 0.7 %. Resampling with replacement would
-        // give 11/12 of it, errors combined as if branches were independent nearly four times as much.
+        // 4000 mean squares with 11 degrees of freedom: known to √(2/11/4000) = 0.7 %. Resampling
+        // with replacement would give 11/12 of it, errors combined as if branches were independent
+        // nearly four times as much.
         let known = 0.05 * 0.05 / CHAINS as f64;
         assert!((squares / known - 1.0).abs() < 0.03, "{}", squares / known);
         // 95 % to √(0.95 · 0.05/4000) = 0.34 %.

@@ -89,8 +89,8 @@ pub(super) fn other_root() -> Cases {
     }))
 }
 
-/// The weights themselves around ⌈k₋⌉ and ⌈k₊⌉, at p from the first integer maximum to one; at the
-/// ends of 1..=N one neighbour is enough.
+/// The weights themselves around ⌈k₋⌉ and ⌈k₊⌉, at p from the first integer maximum to
+/// one; at the ends of 1..=N one neighbour is enough.
 pub(super) fn extrema() -> Cases {
     let first = jump::first_local_maximum(VERTICES).map_or(1.0, |(_, [a, b])| a as f64 / b as f64);
     // At the first p itself a minimum and a maximum are level.
@@ -106,8 +106,8 @@ pub(super) fn extrema() -> Cases {
     }))
 }
 
-/// At p_crit, with a double zero, f is −p (k − k_touch)²: Φ flattens there and falls on both sides.
-/// Distance of f from it over the largest of its terms.
+/// At p_crit, with a double zero, f is −p (k − k_touch)²: Φ flattens there and falls on both
+/// sides. Distance of f from it over the largest of its terms.
 pub(super) fn inflexion() -> f64 {
     let p = known(jump::p_crit(VERTICES));
     let off = |k: f64| (f(p, k) + p * (k - top(p)) * (k - top(p))).abs() / size(p, k);

@@ -1,4 +1,5 @@
-//! First impacts of chains: how many chains have one by some time, and the number expected from the reach of single gaps.
+//! First impacts of chains: how many chains have one by some time, and the number expected from the
+//! reach of single gaps.
 
 pub mod run;
 pub mod tables;

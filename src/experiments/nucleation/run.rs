@@ -1,4 +1,5 @@
-//! First impacts: how many chains have one by some time, and the number expected from the reach of single gaps.
+//! First impacts: how many chains have one by some time, and the number expected from the reach of
+//! single gaps.
 
 use crate::experiments::prelude::*;
 use crate::params::NucleationParams;
@@ -14,11 +15,9 @@ const COARSE: usize = 64;
 /// First impacts of chains from rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Nucleation {
-    /// What was run.
     pub parameters: NucleationParams,
     /// For each length and σ, length by length, the realisations.
     pub rows: Vec<Vec<First>>,
-    /// What is expected.
     pub expected: Expected,
 }
 

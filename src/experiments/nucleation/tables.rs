@@ -14,7 +14,6 @@ struct Chains<'a> {
     expected: f64,
 }
 
-/// All tables.
 pub fn tables(found: &Nucleation) -> Vec<Table> {
     let (parameters, gaps) = (&found.parameters, &found.expected.gaps);
     let mut chains = Vec::new();

@@ -1,4 +1,5 @@
-//! Predicted and simulated half heights and mean counts after several transients, by the map of the protocol.
+//! Predicted and simulated half heights and mean counts after several transients, by the map of the
+//! protocol.
 
 use crate::experiments::prelude::*;
 use crate::experiments::protocol::address;

@@ -71,13 +71,15 @@ impl ByDistance {
         hit.iter().zip(&self.places).map(share)
     }
 
-    /// The expected number of gaps that a front has passed by the end of a bin, to one side of a long chain.
+    /// The expected number of gaps that a front has passed by the end of a bin, to one side of a
+    /// long chain.
     pub(super) fn advance(&self, bin: usize) -> f64 {
         self.shares(&self.reached[bin]).skip(1).sum()
     }
 
-    /// The exponent of a power law of time through the advance from a quarter of the last time on, by least squares in
-    /// logarithms: 1 for a constant speed. None if a front has not passed a gap by then.
+    /// The exponent of a power law of time through the advance from a quarter of the last time on,
+    /// by least squares in logarithms: 1 for a constant speed. None if a front has not passed a gap
+    /// by then.
     pub(super) fn exponent(&self) -> Option<f64> {
         let last = self.reached.len() - 1;
         let mut points = Vec::new();

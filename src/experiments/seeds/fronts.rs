@@ -1,8 +1,8 @@
 //! How fronts advance: how long each waits for the next gap.
 //!
-//! Ahead of a front no mass was ever hit, and no gap closes by itself there. So a front takes one gap after the
-//! other, and between two first impacts it waits for the gap ahead. A wait ends with a step or with the run; a
-//! front at a wall has no wait any more.
+//! Ahead of a front no mass was ever hit, and no gap closes by itself there. So a front takes one
+//! gap after the other, and between two first impacts it waits for the gap ahead. A wait ends with
+//! a step or with the run; a front at a wall has no wait any more.
 
 use super::Trace;
 use crate::experiments::prelude::*;
@@ -25,8 +25,8 @@ pub struct Fronts {
     pub standing: f64,
 }
 
-/// The time 2π/|Ω − ω| after which free and forced motion have the same relative phase again: a gap that the present
-/// motions can close is closed by then, as a rule.
+/// The time 2π/|Ω − ω| after which free and forced motion have the same relative phase again:
+/// a gap that the present motions can close is closed by then, as a rule.
 pub fn beat(chain: &Chain) -> f64 {
     TAU / (chain.forcing_frequency - chain.natural_frequency).abs()
 }

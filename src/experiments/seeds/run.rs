@@ -9,7 +9,6 @@ use std::ops::Range;
 /// Chains with one gap that closes by itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Seeds {
-    /// What was run.
     pub parameters: SeedsParams,
     /// For each σ its runs.
     pub rows: Vec<Part>,
@@ -59,11 +58,11 @@ impl Search<'_> {
         }
     }
 
-    /// Draws the amplitudes of these bodies, the walls being the first and the last, until at most one gap between them
-    /// closes by itself, and returns that gap.
+    /// Draws the amplitudes of these bodies, the walls being the first and the last, until at most
+    /// one gap between them closes by itself, and returns that gap.
     ///
-    /// Both halves are drawn in this way, until it holds for the whole. The result is distributed as if whole chains
-    /// had been drawn and rejected, which would take a hundred thousand of them.
+    /// Both halves are drawn in this way, until it holds for the whole. The result is distributed
+    /// as if whole chains had been drawn and rejected, which would take a hundred thousand of them.
     fn part(&mut self, of: Range<usize>, bodies: &mut Vec<[f64; 2]>) -> Option<usize> {
         let (middle, begin) = (of.start.midpoint(of.end), bodies.len());
         if of.len() == 1 {
@@ -146,7 +145,8 @@ mod tests {
         (0..chain.gaps()).filter(closes).collect()
     }
 
-    /// Against whole chains that are drawn until one is accepted: the place of its gap and the mean square of the forces.
+    /// Against whole chains that are drawn until one is accepted: the place of its gap and the mean
+    /// square of the forces.
     #[test]
     fn a_drawn_chain_has_one_gap_that_closes_by_itself() {
         let (chain, sigma) = (Chain { masses: 5, ..Chain::default() }, 0.25);

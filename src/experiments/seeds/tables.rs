@@ -18,7 +18,6 @@ struct RunsAtSigma<'a> {
     fronts: Vec<Fronts>,
 }
 
-/// All tables.
 pub fn tables(seeds: &Seeds) -> Vec<Table> {
     let parameters = &seeds.parameters;
     let groups: Vec<Vec<ByDistance>> = seeds
@@ -115,8 +114,8 @@ fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
         .done()
 }
 
-/// Where the mean counts pass half of all gaps, if every gap that closes by itself is a seed, and if only the first of a
-/// clump is.
+/// Where the mean counts pass half of all gaps, if every gap that closes by itself is a seed, and
+/// if only the first of a clump is.
 fn rise(parameters: &SeedsParams, gaps: &[Prediction], clumps: &[Prediction]) -> Table {
     let rows: Vec<_> = gaps.iter().zip(clumps).collect();
     Table::of("seeds.rise", &rows, |_| parameters.realisations)
@@ -163,7 +162,8 @@ mod tests {
         let mut parameters = SeedsParams::new(Profile::Quick);
         (parameters.chain.masses, parameters.sigmas) = (2, vec![0.1]);
         (parameters.bins, parameters.window, parameters.transients) = (4, 2, vec![0, 2]);
-        // The seed is hit in the first bin, its neighbours in the second and the fourth, or one of them at all.
+        // The seed is hit in the first bin, its neighbours in the second and the fourth, or one of
+        // them at all.
         let run = |hits: [u64; 3], firsts: [Option<u32>; 3]| {
             let (hits, firsts) = (hits.to_vec(), firsts.to_vec());
             Some(Trace { seed: Some(1), hits, firsts })

@@ -26,8 +26,8 @@ fn total_variation(a: &[f64], b: &[f64]) -> f64 {
     0.5 * sum(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
 }
 
-/// One doubled vertex costs p and can be placed in k²/2 ways, except on a single vertex: the weight
-/// of such circuits over that of simple ones.
+/// One doubled vertex costs p and can be placed in k²/2 ways, except on a single vertex: the
+/// weight of such circuits over that of simple ones.
 fn first_order(p: f64) -> f64 {
     let higher = (1_u32..).zip(simple(p)).skip(1);
     sum(higher.map(|(k, q)| q * p * f64::from(k) * f64::from(k) / 2.0))

@@ -38,8 +38,8 @@ pub fn limit() -> Vec<(f64, f64)> {
     drawn().into_iter().map(|x| (x, limit_share(x))).collect()
 }
 
-/// k*/N against p N up to the jump and beyond: 1 before it, the local maximum then, since Φ(k)/Φ(1)
-/// rises with p.
+/// k*/N against p N up to the jump and beyond: 1 before it, the local maximum then, since
+/// Φ(k)/Φ(1) rises with p.
 pub fn shares(vertices: usize) -> [Vec<(f64, f64)>; 2] {
     let leap = known(p_jump(Simple, vertices));
     let (big_n, at) = (vertices as f64, leap.p * vertices as f64);

@@ -87,8 +87,8 @@ fn sigma_kept(share: f64) -> f64 {
     smallest_sigma(|sigma| any(p_rest_of(sigma), Chain::default().gaps()) >= share)
 }
 
-/// Share of starts with random free parts that overlap, over p: Δ(0) = d + δα_0 − δα_1 is normal
-/// with variance 4σ².
+/// Share of starts with random free parts that overlap, over p: Δ(0) = d + δα_0 − δα_1 is
+/// normal with variance 4σ².
 fn overlap(sigma: f64) -> f64 {
     0.5 * pxfm::f_erfc(Chain::default().spacing / (2.0 * sigma) / SQRT_2) / p_of(sigma)
 }

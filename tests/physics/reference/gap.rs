@@ -151,8 +151,8 @@ impl<R: Real> Gap<R> {
         self.jet(t)[0] <= R::of(0.0)
     }
 
-    /// The place in (from, to] where Δ falls (mode 0), Δ' rises (1) or Δ' falls (2) through zero:
-    /// bisection down to a small piece, then Newton steps kept inside it.
+    /// The place in (from, to] where Δ falls (mode 0), Δ' rises (1) or Δ' falls (2) through
+    /// zero: bisection down to a small piece, then Newton steps kept inside it.
     fn bisect(&self, mut from: R, mut to: R, mode: usize) -> R {
         let value = |t: &R| {
             let [f, g, h] = self.jet(t);

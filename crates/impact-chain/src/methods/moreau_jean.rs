@@ -9,26 +9,28 @@ use crate::{Error, Sink};
 
 /// Time stepping with contacts on the level of velocities and impulses: flight by the implicit
 /// midpoint rule (Jean's θ = 1/2); gaps that the forecast Δ + h Δ'/2 finds shut enter one
-/// complementarity problem 0 ≤ U⁺ + r U ⊥ P ≥ 0 for the step's impulses P, with U and U⁺ their
-/// rates before and after.
+/// complementarity problem 0 ≤ U⁺ + r U ⊥ P ≥ 0 for the step's impulses P, with U and U⁺
+/// their rates before and after.
 ///
-/// The matrix of that problem is tridiagonal for a row of masses; projected Gauss–Seidel solves it,
-/// lowest gap first. An impact is an episode of steps with P > 0, counted at the end of its first.
+/// The matrix of that problem is tridiagonal for a row of masses; projected Gauss–Seidel solves
+/// it, lowest gap first. An impact is an episode of steps with P > 0, counted at the end of its
+/// first.
 ///
 /// - Source: Moreau (1988), CISM Courses 302, 1; Jean (1999), Comput. Methods Appl. Mech. Eng. 177,
 ///   235; Acary and Brogliato (2008), Lect. Notes Appl. Comput. Mech. 35, sec. 10.
 /// - Order: 2 in flight, 1 as soon as there is an impact, whose time is known to a step.
 /// - Fails: impacts of one gap within neighbouring steps are one; impacts of different gaps within
 ///   a step are simultaneous, so their order is lost; the forecast hits gaps that only come near,
-///   to |Δ''| h²/8; overlaps of up to a step times the speed stay; a gap that is hit right after it
-///   was pressed is no new impact. It is made for rest in contact.
+///   to |Δ''| h²/8; overlaps of up to a step times the speed stay; a gap that is hit right after
+///   it was pressed is no new impact. It is made for rest in contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MoreauJean {
     /// Length h of a step.
     pub step: f64,
 }
 
-/// The largest number of sweeps of Gauss–Seidel in one step. A cluster of m contacts needs some m².
+/// The largest number of sweeps of Gauss–Seidel in one step. A cluster of m contacts needs some
+/// m².
 const SWEEPS: usize = 1000;
 
 /// The sweeps end when no impulse changes by more than this part of the largest.

@@ -11,11 +11,11 @@ use std::f64::consts::PI;
 /// Penalty springs: a shut gap is a stiff spring with a damper that is tuned to the restitution;
 /// velocity Verlet.
 ///
-/// Alone, an overlapped gap follows Δ'' + 2ζω_c Δ' + ω_c² Δ = 0 and comes back with r times its
-/// speed for ζ = −ln r/√(π² + ln² r). The stiffness follows from the step: half a period of ω_c
-/// takes (0.4 h/ω)^(1/2), which is 20 steps at h = 0.001/ω and 200 at 0.00001/ω. So the errors of
-/// the two sides balance: a contact takes time, and its beginning and end, known to a step, change
-/// its restitution.
+/// Alone, an overlapped gap follows Δ'' + 2ζω_c Δ' + ω_c² Δ = 0 and comes back with r times
+/// its speed for ζ = −ln r/√(π² + ln² r). The stiffness follows from the step: half a
+/// period of ω_c takes (0.4 h/ω)^(1/2), which is 20 steps at h = 0.001/ω and 200 at 0.00001/ω.
+/// So the errors of the two sides balance: a contact takes time, and its beginning and end, known
+/// to a step, change its restitution.
 ///
 /// An impact is an episode of contact, counted once at its beginning; the damper acts until its
 /// end, so it also pulls.

@@ -16,8 +16,8 @@ pub struct Linear<const M: usize, const N: usize> {
     forced: [[[f64x2; N]; 2]; M],
 }
 
-/// Computes the Taylor coefficients about s of 1 − cos νs and of sin νs, the latter with sin νs −
-/// νs for its value.
+/// Computes the Taylor coefficients about s of 1 − cos νs and of sin νs, the latter with sin
+/// νs − νs for its value.
 fn waves(nu: f64, s: f64) -> [Taylor; 2] {
     let [rest, versine] = small_sin_cos(nu * s);
     let (sin, cos) = (nu * s + rest, 1.0 - versine);

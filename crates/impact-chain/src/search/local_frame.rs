@@ -2,12 +2,13 @@
 //!
 //! In the *local frame* of an instant, with s the time since then, the function is
 //!
-//! f(s) = f₀ + (g₀/ω) sin ωs − α (1 − cos ωs) + Σ_m [δ (sin Ωs − (Ω/ω) sin ωs) − γ (1 − cos Ωs)],
+//! f(s) = f₀ + (g₀/ω) sin ωs − α (1 − cos ωs) + Σ_m [δ (sin Ωs − (Ω/ω) sin ωs)
+//! − γ (1 − cos Ωs)],
 //!
-//! where f₀ and g₀ are its value and slope at s = 0, α the amplitude of cos ωs, and γ and δ those
-//! of cos Ωs and sin Ωs for each of the `M` frequencies Ω (M₂, M₄, … are bounds of derivatives). So
-//! nothing cancels at small s: right after an impact f₀ = 0 exactly, and the waiting time keeps its
-//! relative accuracy however short it is.
+//! where f₀ and g₀ are its value and slope at s = 0, α the amplitude of cos ωs, and γ and δ
+//! those of cos Ωs and sin Ωs for each of the `M` frequencies Ω (M₂, M₄, … are bounds of
+//! derivatives). So nothing cancels at small s: right after an impact f₀ = 0 exactly, and the
+//! waiting time keeps its relative accuracy however short it is.
 
 use super::trig::{RANGE, small_sin_cos};
 

@@ -13,8 +13,8 @@ use wide::f64x2;
 const NODES: usize = 32;
 
 /// The largest distance from a node at which its polynomial is used, over the fastest frequency:
-/// the remainder is 0.06¹⁰/10! < 2e-19 of the size of f and 0.06⁹/9! < 3e-17 of that of its slope.
-/// Nodes are 0.092 apart.
+/// the remainder is 0.06¹⁰/10! < 2e-19 of the size of f and 0.06⁹/9! < 3e-17 of that of its
+/// slope. Nodes are 0.092 apart.
 const RADIUS: f64 = 0.06;
 
 /// All nodes of given frequencies.
@@ -47,8 +47,8 @@ impl<const M: usize> Nodes<M> {
         }
     }
 
-    /// Returns the root near `guess`, 0 ≤ `guess` ≤ reach, and −f' there; none if there is no root
-    /// near it.
+    /// Returns the root near `guess`, 0 ≤ `guess` ≤ reach, and −f' there; none if there is no
+    /// root near it.
     #[inline(always)]
     pub fn root(&self, frame: &Frame<M>, guess: f64, work: &mut Counters) -> Option<(f64, f64)> {
         let mut s = guess;

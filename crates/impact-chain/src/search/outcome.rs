@@ -1,6 +1,5 @@
 //! Defines what a search returns, and the counters of its work.
 
-/// The outcome of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Next {
     /// The first root, at `s`, where f falls with `speed` = −f'(s) ≥ 0.

@@ -3,10 +3,10 @@
 //!
 //! On a piece [a, a + w] the function f is compared with the polynomial p of degree seven that
 //! shares its value and first three derivatives at both ends (Hermite). The difference is at most
-//! M₈ (s − a)⁴ (a + w − s)⁴ / 8!, a polynomial of degree eight with one Bernstein coefficient, so
-//! q, p minus the difference, is below f and its nine Bernstein coefficients bound it from below.
-//! They are linear in f₀, g₀, α, γ and δ, with factors by frequencies and piece alone, which are
-//! tabulated once.
+//! M₈ (s − a)⁴ (a + w − s)⁴ / 8!, a polynomial of degree eight with one Bernstein
+//! coefficient, so q, p minus the difference, is below f and its nine Bernstein coefficients bound
+//! it from below. They are linear in f₀, g₀, α, γ and δ, with factors by frequencies and
+//! piece alone, which are tabulated once.
 
 use super::linear::{Linear, Taylor};
 use super::local_frame::{Frame, Frequencies};
@@ -77,8 +77,8 @@ pub struct Coefficients {
     slack: f64,
 }
 
-/// Returns C(i, k) k! (8 − k)!/8! wᵏ, the factor of the k-th Taylor coefficient at an end in the
-/// i-th Bernstein coefficient.
+/// Returns C(i, k) k! (8 − k)!/8! wᵏ, the factor of the k-th Taylor coefficient at an end in
+/// the i-th Bernstein coefficient.
 fn weight(i: usize, k: usize, w: f64) -> f64 {
     let mut out = 1.0;
     for m in 0..k {
@@ -87,8 +87,8 @@ fn weight(i: usize, k: usize, w: f64) -> f64 {
     out
 }
 
-/// Returns b₁ … b₈ of the Hermite polynomial with the given value and three derivatives at both
-/// ends.
+/// Returns b₁ … b₈ of the Hermite polynomial with the given value and three derivatives at
+/// both ends.
 fn hermite(left: Taylor, right: Taylor, w: f64) -> CoefficientPairs {
     let mut b = [0.0; N + 1];
     for i in 0..4 {
@@ -127,7 +127,8 @@ impl<const M: usize> Piece<M> {
     /// Bounds f − q, rounding included.
     #[inline(always)]
     pub fn largest_difference(&self, frame: &Frame<M>) -> f64 {
-        // f − q ≤ 2 M₈ (w/2)⁸/8!, which is 140/256 of b₄'s part, so b₄'s part is enough.
+        // f − q ≤ 2 M₈ (w/2)⁸/8!, which is 140/256 of b₄'s part, so b₄'s part is
+        // enough.
         let [_, difference] = self.difference.to_array();
         frame.bound * difference + SLACK * frame.size
     }
@@ -174,7 +175,8 @@ impl<const M: usize> Piece<M> {
 const SLACK: f64 = 64.0 * f64::EPSILON;
 
 impl Coefficients {
-    /// Whether b₁ … b₈ are positive beyond rounding, so that f > 0 on (a, a + w] if f(a) ≥ 0.
+    /// Whether b₁ … b₈ are positive beyond rounding, so that f > 0 on (a, a + w] if f(a) ≥
+    /// 0.
     #[inline(always)]
     pub fn are_positive(&self) -> bool {
         let [a, b, c, d] = self.row;
@@ -182,8 +184,8 @@ impl Coefficients {
         least.simd_gt(f64x2::splat(self.slack)).all()
     }
 
-    /// Whether the signs of b₁ … b₈, which are not all plus, change at most once, from plus to
-    /// minus.
+    /// Whether the signs of b₁ … b₈, which are not all plus, change at most once, from plus
+    /// to minus.
     #[inline(always)]
     pub fn change_sign_once(&self) -> bool {
         let slack = f64x2::splat(self.slack);

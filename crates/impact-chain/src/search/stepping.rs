@@ -3,8 +3,8 @@
 use super::local_frame::{Frame, Frequencies, Point, ROUNDING};
 use super::outcome::{Counters, Next};
 
-/// Returns the first root h > 0 of the parabola f + g h − ½ K h², f ≥ 0; `far` if there is none
-/// before it.
+/// Returns the first root h > 0 of the parabola f + g h − ½ K h², f ≥ 0; `far` if there is
+/// none before it.
 #[inline]
 fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
     let discriminant = g * g + 2.0 * k * f;
@@ -35,9 +35,10 @@ const CANCELS: f64 = 1e4;
 // listing: stretch
 /// Returns the length h ≤ `limit` of a certified stretch: f > 0 on (s, s + h).
 ///
-/// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f stays
-/// above the parabola f + f' h − ½ K h² there, and has no root before the smaller of L and the
-/// parabola's first root. Any L gives a certified stretch; two are tried and the longer is taken.
+/// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f
+/// stays above the parabola f + f' h − ½ K h² there, and has no root before the smaller of L
+/// and the parabola's first root. Any L gives a certified stretch; two are tried and the longer is
+/// taken.
 fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 {
     let certified = |trial: f64| {
         let k = (-(p.d3 * trial)).max(0.0) + 0.5 * bound * trial * trial - p.d2;
@@ -80,10 +81,11 @@ fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
 
 /// Decides whether f > 0 is certain on (a, a + h), from value, slope and curvature at both ends.
 ///
-/// The quintic through these six numbers differs from f by at most M₆ t³ (h − t)³/720 (Hermite's
-/// remainder), with M₆ ≤ max(ω, Ω)² M₄. Quintic minus remainder is a polynomial of degree six, and
-/// its Bernstein coefficients on the interval bound it from below; they need no square root and
-/// no division. The first is f(a) ≥ 0 and the last f(b); `slack` covers the rounding of the values.
+/// The quintic through these six numbers differs from f by at most M₆ t³ (h − t)³/720
+/// (Hermite's remainder), with M₆ ≤ max(ω, Ω)² M₄. Quintic minus remainder is a polynomial
+/// of degree six, and its Bernstein coefficients on the interval bound it from below; they need no
+/// square root and no division. The first is f(a) ≥ 0 and the last f(b); `slack` covers the
+/// rounding of the values.
 #[inline]
 fn stays_open<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64, slack: f64) -> bool {
     let (ga, gb) = (h * a.d1, h * b.d1);
@@ -125,8 +127,8 @@ fn leading<const M: usize>(
 /// none.
 ///
 /// With f, f' ≥ 0, f ≥ f'' h²/2 + f''' h³/12 while h ≤ 2 f'''/M₄. That is never below
-/// −(8/3) |f''|³/f'''², far less than the rounding of positions, and positive from h = 6 |f''|/f'''
-/// on. Likewise with f'''' and M₅ ≤ max(ω, Ω) M₄.
+/// −(8/3) |f''|³/f'''², far less than the rounding of positions, and positive from h = 6
+/// |f''|/f''' on. Likewise with f'''' and M₅ ≤ max(ω, Ω) M₄.
 fn lift<const M: usize>(p: &Point<M>, frame: &Frame<M>, frequencies: &Frequencies<M>) -> f64 {
     match leading(p, 1.0, frame, frequencies).filter(|_| p.d1 >= 0.0) {
         Some((3, third)) if third > 0.0 => 2.0 * third / frame.bound,
@@ -148,14 +150,15 @@ const PATIENCE: u32 = 64;
 /// a point chosen by any guess (the end of the search, or just before a guessed root) and is taken
 /// if `stays_open` certifies the interval. Where it does not, `stretch` gives a step that is
 /// certain from this side alone; if that is far shorter, because the parts of a gap cancel, halves
-/// of the leap are tried first. The search ends when the quadratic f + f' h + ½ f'' h² has its root
-/// so close that the rest, |f'''| h³/6 + M₄ h⁴/24, is below the margin.
+/// of the leap are tried first. The search ends when the quadratic f + f' h + ½ f'' h² has its
+/// root so close that the rest, |f'''| h³/6 + M₄ h⁴/24, is below the margin.
 ///
 /// # The undecidable band
 /// Where the minimum of that quadratic lies within two margins of zero, a double cannot tell a
-/// grazing impact from a near miss. The quadratic then decides, hit if its minimum is ≤ 0, and the
-/// decision is counted in [`Counters::undecided`]. A margin is 8 ε times the sum of the absolute
-/// values of the terms of f, ε = 2^-52; that sum is at most d + 2 (R₁ + R₂) + 3 R₂ Ω/ω.
+/// grazing impact from a near miss. The quadratic then decides, hit if its minimum is ≤ 0, and
+/// the decision is counted in [`Counters::undecided`]. A margin is 8 ε times the sum of the
+/// absolute values of the terms of f, ε = 2^-52; that sum is at most d + 2 (R₁ + R₂) + 3 R₂
+/// Ω/ω.
 pub fn first_root_by_steps<const M: usize>(
     frame: &Frame<M>,
     from: f64,

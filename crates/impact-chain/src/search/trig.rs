@@ -115,7 +115,8 @@ fn remainders(x: f64, polynomials: impl Fn(f64x2) -> f64x2) -> [f64; 2] {
     (polynomials(f64x2::splat(z)) * f64x2::from([z * x, z])).to_array()
 }
 
-/// Returns sin x − x and 1 − cos x for |x| ≤ [`RANGE`], each to a few units in its last place.
+/// Returns sin x − x and 1 − cos x for |x| ≤ [`RANGE`], each to a few units in its last
+/// place.
 ///
 /// The omitted terms are below 2.83^31/31! < 2e-20 and 2.83^30/30! < 2e-19.
 #[inline(always)]
@@ -146,8 +147,8 @@ pub fn sin_cos_turn(turn: u64) -> (f64, f64) {
     (f64::from_bits(sin), f64::from_bits(cos))
 }
 
-/// Coefficients of arctan x over x in x², for 0 ≤ x ≤ 1: the polynomial that agrees at Chebyshev's
-/// points, off by 1.6e-9.
+/// Coefficients of arctan x over x in x², for 0 ≤ x ≤ 1: the polynomial that agrees at
+/// Chebyshev's points, off by 1.6e-9.
 const ARCTAN: [f64; 10] = [
     0.9999999972,
     -0.3333327629,
@@ -161,8 +162,8 @@ const ARCTAN: [f64; 10] = [
     -0.001701169973,
 ];
 
-/// Returns the angles of two vectors from the x axis, in [−π, π] and to 2e-9, for windows that are
-/// widened by more than that.
+/// Returns the angles of two vectors from the x axis, in [−π, π] and to 2e-9, for windows that
+/// are widened by more than that.
 #[inline(always)]
 pub fn rough_angles(y: f64x2, x: f64x2) -> f64x2 {
     use std::f64::consts::{FRAC_PI_2, PI};

@@ -23,11 +23,11 @@ const WIDENED: f64 = 1e-7;
 /// Windows passed in one call.
 const HOPS: u32 = 64;
 
-/// Returns a time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain; none if it is at all
-/// times.
+/// Returns a time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain; none if it is at
+/// all times.
 ///
-/// The part with amplitude R is low enough only while R cos(νs + θ) ≤ −(mean − Σ of the other
-/// amplitudes): in one window a period. Before s no instant lies in the windows of all parts.
+/// The part with amplitude R is low enough only while R cos(νs + θ) ≤ −(mean − Σ of the
+/// other amplitudes): in one window a period. Before s no instant lies in the windows of all parts.
 /// The cost is one comparison a window, however long the wait.
 pub fn next_window<const M: usize>(
     mean: f64,

@@ -1,7 +1,7 @@
 //! A whole second paper: the constants of period doubling, found again from the logistic map.
 //!
-//! It shows what a paper adds to [`literate`]: an experiment, its tables, figures, verdicts on what was printed, and
-//! prose. All of the paper is in this folder.
+//! It shows what a paper adds to [`literate`]: an experiment, its tables, figures, verdicts on what
+//! was printed, and prose. All of the paper is in this folder.
 
 use literate::double_double::DoubleDouble;
 use literate::prelude::*;

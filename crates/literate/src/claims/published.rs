@@ -12,7 +12,6 @@ pub struct Published {
     /// Numbers that the paper chose.
     #[serde(rename = "parameter")]
     pub parameters: Vec<Parameter>,
-    /// Statements that it makes.
     #[serde(rename = "statement")]
     pub statements: Vec<Statement>,
     #[serde(skip)]

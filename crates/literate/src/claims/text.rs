@@ -54,7 +54,6 @@ pub fn chosen(value: f64) -> Number {
     Number::Real { value, digits: Digits::of(value) }
 }
 
-/// Makes an integer.
 pub fn integer(value: usize) -> Number {
     Number::Integer(value as i64)
 }

@@ -17,7 +17,8 @@ use serde_json::{Value, json};
 ///   check --format github       annotations of a pull request
 ///
 /// Saved results are used where they are fresh; what is missing is run. Exit code 1 says that a
-/// statement differs without an explanation that holds, or that a relation between numbers does not hold.
+/// statement differs without an explanation that holds, or that a relation between numbers does not
+/// hold.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
@@ -90,8 +91,8 @@ fn fields(check: &Check) -> impl Iterator<Item = (&'static str, String)> {
     fields.into_iter().filter(|(_, text)| !text.is_empty())
 }
 
-/// A line for each check that is not simply reproduced or holds, what fails first, and the scores; of those that were
-/// asked for, and with -v, all lines of all.
+/// A line for each check that is not simply reproduced or holds, what fails first, and the scores;
+/// of those that were asked for, and with -v, all lines of all.
 fn text(checks: &[Check], args: &Args, number: impl Fn(&str) -> Option<usize>) -> String {
     let all = args.verbose || !args.ids.is_empty();
     let mut listed: Vec<&Check> =

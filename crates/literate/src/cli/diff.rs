@@ -148,8 +148,9 @@ fn checks(before: &Ledger, after: &Ledger) -> Vec<String> {
     ids.into_iter().filter_map(line).collect()
 }
 
-/// Changes of numbers and units, a line each; other fields (notes, sources) do not count. What is a number no more
-/// comes first, then the largest differences in standard errors, and last what only one report has.
+/// Changes of numbers and units, a line each; other fields (notes, sources) do not count. What is a
+/// number no more comes first, then the largest differences in standard errors, and last what only
+/// one report has.
 fn numbers(before: &Registry, after: &Registry) -> Vec<String> {
     let ids: BTreeSet<&str> = before.iter().chain(after.iter()).map(|v| v.id.as_str()).collect();
     let change = |id: &str| {
@@ -188,7 +189,8 @@ fn signed(value: f64) -> String {
     format!("{sign}{}", Text::from(significant(value, 3)))
 }
 
-/// What became of a thing: `x: reproduced -> differs`, `x: new, reproduced`, `x: gone, was reproduced`.
+/// What became of a thing: `x: reproduced -> differs`, `x: new, reproduced`, `x: gone, was
+/// reproduced`.
 fn fate(id: &str, sides: [Option<&str>; 2]) -> String {
     let fate = match sides {
         [Some(before), Some(after)] if before == after => before.into(),

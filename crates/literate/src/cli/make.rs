@@ -25,7 +25,8 @@ pub(super) struct Sources {
     pub profile: Profile,
     #[command(flatten)]
     pub threads: Threads,
-    /// Read the prose from this folder [default: that of the project, or the copy inside the program].
+    /// Read the prose from this folder [default: that of the project, or the copy inside the
+    /// program].
     #[arg(long, value_name = "DIR")]
     pub templates: Option<PathBuf>,
     /// Keep results of long runs in this folder.
@@ -53,7 +54,8 @@ impl Sources {
 }
 
 impl Paper {
-    /// A run with the prose of a folder, or else that of the project, or the copy inside the program.
+    /// A run with the prose of a folder, or else that of the project, or the copy inside the
+    /// program.
     ///
     /// # Errors
     /// If there is no prose, or it cannot be read.
@@ -83,7 +85,8 @@ impl Paper {
         Ok(Session { project, templates, profile, store, progress })
     }
 
-    /// Runs those of the experiments that are needed, in the order of the paper, and returns their results.
+    /// Runs those of the experiments that are needed, in the order of the paper, and returns their
+    /// results.
     ///
     /// # Errors
     /// Of the first run that fails or is interrupted.
@@ -106,7 +109,8 @@ impl Paper {
         })
     }
 
-    /// All checks: the statements, those that rest on a measure of the author first, then relations.
+    /// All checks: the statements, those that rest on a measure of the author first, then
+    /// relations.
     pub fn checks(&self, results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
         let mut checks = judge_all(published, &self.rules, results)?;
         // First what rests on a measure of the author, where a reader may judge otherwise.
@@ -130,8 +134,8 @@ impl Paper {
     }
 }
 
-/// Runs every experiment that is not in the store, and makes every file of a report in the folder `out`. Returns also what
-/// was judged.
+/// Runs every experiment that is not in the store, and makes every file of a report in the folder
+/// `out`. Returns also what was judged.
 pub fn whole(
     paper: &Paper,
     session: &Session<'_>,

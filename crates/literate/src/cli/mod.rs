@@ -1,4 +1,5 @@
-//! The command line of a paper: `paper`, `check`, `explain`, `diff`, `verify`, `run`, and what a paper adds.
+//! The command line of a paper: `paper`, `check`, `explain`, `diff`, `verify`, `run`, and what a
+//! paper adds.
 
 mod check;
 mod diff;

@@ -90,8 +90,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     make::verdict(&checks).map_err(more).and(printed)
 }
 
-/// Lesser samples must not take the place of the committed report, and single figures not stand among those
-/// of other samples.
+/// Lesser samples must not take the place of the committed report, and single figures not stand
+/// among those of other samples.
 fn refuse_over_other(profile: Profile, out: &Path, whole: bool) -> Result<(), Failure> {
     match profile_in(out) {
         Some(there) if there != profile && (!whole || there == Profile::Full) => {

@@ -54,8 +54,8 @@ pub fn print(text: &str) -> Result<(), Failure> {
     written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }
 
-/// From now on Ctrl-C and SIGTERM end the program within a second, with exit code 130. Files that are being put into
-/// place are first all there.
+/// From now on Ctrl-C and SIGTERM end the program within a second, with exit code 130. Files that
+/// are being put into place are first all there.
 #[cfg(unix)]
 pub(super) fn obey_signals() {
     use signal_hook::consts::{SIGINT, SIGTERM};
@@ -104,7 +104,8 @@ impl Threads {
         self.asked.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
     }
 
-    /// Runs `work` on them: all cores, or as many as RAYON_NUM_THREADS sets, if none were asked for.
+    /// Runs `work` on them: all cores, or as many as RAYON_NUM_THREADS sets, if none were asked
+    /// for.
     pub fn run<T: Send>(
         &self,
         work: impl FnOnce() -> Result<T, Failure> + Send,

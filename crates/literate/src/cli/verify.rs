@@ -25,13 +25,15 @@ pub(super) struct Args {
     /// Folder of the report.
     #[arg(value_name = "DIR", default_value = "paper")]
     folder: PathBuf,
-    /// Make the report again, with the profile that it has and without saved results, and compare byte by byte.
+    /// Make the report again, with the profile that it has and without saved results, and compare
+    /// byte by byte.
     #[arg(long)]
     rerun: bool,
     /// Take results of long runs from this folder, where they are fresh, and keep them there.
     #[arg(long, value_name = "DIR", requires = "rerun")]
     results: Option<PathBuf>,
-    /// Read the prose from this folder [default: that of the project, or the copy inside the program].
+    /// Read the prose from this folder [default: that of the project, or the copy inside the
+    /// program].
     #[arg(long, value_name = "DIR", requires = "rerun")]
     templates: Option<PathBuf>,
     #[command(flatten)]

@@ -1,4 +1,5 @@
-//! Says how many experiments there are to run, and about how long that takes, before the first of them begins.
+//! Says how many experiments there are to run, and about how long that takes, before the first of
+//! them begins.
 
 use super::cutting::SECOND;
 use super::{AnyExperiment, Error, Profile, Session};

@@ -1,6 +1,7 @@
 //! An experiment that is a command in another language.
 //!
-//! It is started in the folder of the project. The manual ([`crate::manual`]) has the form of what it reads and prints.
+//! It is started in the folder of the project. The manual ([`crate::manual`]) has the form of what
+//! it reads and prints.
 
 use super::store::Identity;
 use super::{AnyExperiment, Error, Found, Profile, Session};
@@ -19,9 +20,9 @@ use std::sync::Arc;
 /// A command as an experiment.
 #[derive(Clone, Copy, Debug)]
 pub struct Command {
-    /// The name of the experiment.
     pub name: &'static str,
-    /// The program and its arguments, with blanks between. Those that are files belong to what a saved result is known by.
+    /// The program and its arguments, with blanks between. Those that are files belong to what a
+    /// saved result is known by.
     pub line: &'static str,
     /// Its parameters in a profile: an object.
     pub parameters: fn(Profile) -> Json,

@@ -2,8 +2,8 @@
 //!
 //! Such an experiment has rows (each σ of an ensemble, say), and each row has realisations. A unit
 //! is a row's realisations from one number to another; where the cuts are follows from the
-//! parameters alone, never from the number of machines. A result is joined of all units, whoever ran
-//! them: that is why several machines give the same bytes as one.
+//! parameters alone, never from the number of machines. A result is joined of all units, whoever
+//! ran them: that is why several machines give the same bytes as one.
 
 use super::progress::Stage;
 use super::{Error, Progress};
@@ -20,10 +20,8 @@ const HEAVY: u64 = 1_000_000;
 /// ... unless an experiment had then more units than about this many: each has a file.
 const MANY: u64 = 2000;
 
-/// One row of an experiment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitRow {
-    /// Number of realisations.
     pub realisations: usize,
     /// Work of one realisation: a core does [`SECOND`] in about a second.
     pub weight: u64,
@@ -43,7 +41,6 @@ pub struct Unit {
     pub number: usize,
     /// Place of its row.
     pub row: usize,
-    /// Its realisations.
     pub realisations: Range<usize>,
     /// Its work.
     pub weight: u64,
@@ -80,7 +77,6 @@ pub struct Cutting<P, U, T> {
     pub rows: fn(&P) -> Vec<UnitRow>,
     /// Runs realisations of a row, and advances the stage by the row's weight for each.
     pub part: fn(&P, &Unit, &Stage, &Progress) -> Result<U, Error>,
-    /// Makes the result.
     pub join: Join<P, U, T>,
 }
 

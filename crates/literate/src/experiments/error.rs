@@ -3,7 +3,6 @@
 use crate::input::remedy;
 use std::path::PathBuf;
 
-/// An error of an experiment.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("interrupted; nothing was left half-written")]

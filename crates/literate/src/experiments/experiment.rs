@@ -16,22 +16,20 @@ use std::sync::Arc;
 pub struct Experiment<P: 'static, T: 'static, U: 'static = ()> {
     /// Its name, as values and saved files carry it.
     pub name: &'static str,
-    /// The files and folders of its source, from the top of the project, the main one first: a saved result is fresh as
-    /// long as they, and what all experiments share, are the same. None: as long as the whole source is.
+    /// The files and folders of its source, from the top of the project, the main one first: a
+    /// saved result is fresh as long as they, and what all experiments share, are the same. None:
+    /// as long as the whole source is.
     pub code: &'static [&'static str],
-    /// Its parameters in a profile.
     pub parameters: fn(Profile) -> P,
-    /// How it is run.
     pub how: How<P, T, U>,
     /// What follows from its result.
     pub tables: fn(&T) -> Vec<Table>,
 }
 
-/// Estimates the work of a run with some parameters, so that people know how long they will wait: a core
-/// does [`SECOND`](super::cutting::SECOND) in about a second. No result depends on it.
+/// Estimates the work of a run with some parameters, so that people know how long they will wait: a
+/// core does [`SECOND`](super::cutting::SECOND) in about a second. No result depends on it.
 pub type Work<P> = fn(&P) -> u64;
 
-/// How an experiment is run.
 pub enum How<P, T, U> {
     /// Read from a file that is committed, or known without a run; never saved.
     Read(fn(&Session<'_>) -> Result<T, Error>),
@@ -53,12 +51,11 @@ impl<P, T> Experiment<P, T> {
     }
 }
 
-/// A result of any experiment.
 pub type Found = Arc<dyn Any + Send + Sync>;
 
 impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
-    /// The result: the saved one if it is fresh, else that of a run, which is then saved. Units that are in the store
-    /// are not run again; each of the others is saved as soon as it is there.
+    /// The result: the saved one if it is fresh, else that of a run, which is then saved. Units
+    /// that are in the store are not run again; each of the others is saved as soon as it is there.
     pub fn get(&self, session: &Session<'_>) -> Result<T, Error> {
         if let How::Read(read) = &self.how {
             return read(session);
@@ -83,8 +80,8 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         (parameters, identity)
     }
 
-    /// What some units of one that is cut give, in their order, and how many of them were not in the store and had to be
-    /// run.
+    /// What some units of one that is cut give, in their order, and how many of them were not in
+    /// the store and had to be run.
     fn parts(
         &self,
         units: &[Unit],
@@ -147,8 +144,8 @@ pub trait AnyExperiment: Sync {
         vec![Unit::whole(0)]
     }
 
-    /// Runs those of some of its units that are not in the store, and saves what each gives as soon as it is there; none if
-    /// the result is fresh. Returns how many were run.
+    /// Runs those of some of its units that are not in the store, and saves what each gives as soon
+    /// as it is there; none if the result is fresh. Returns how many were run.
     fn run_units(&self, _: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
         let stale = self.stale(session).is_some();
         self.found(session).map(|_| usize::from(stale))
@@ -157,10 +154,8 @@ pub trait AnyExperiment: Sync {
     /// What would be run, and why; none if the saved result is fresh.
     fn stale(&self, session: &Session<'_>) -> Option<String>;
 
-    /// Its result.
     fn found(&self, session: &Session<'_>) -> Result<Found, Error>;
 
-    /// The tables of a result.
     fn tables(&self, found: &Found) -> Vec<Table>;
 }
 

@@ -1,6 +1,7 @@
 //! Progress for the person who waits, and the flag by which that person ends the wait.
 //!
-//! Plain lines, seconds apart, with the time left. All of it goes to stderr, and nothing of it into a result.
+//! Plain lines, seconds apart, with the time left. All of it goes to stderr, and nothing of it into
+//! a result.
 
 use super::Error;
 use std::io::Write;
@@ -67,7 +68,8 @@ impl Progress {
     }
 }
 
-/// Says one line on standard error. If it cannot be written (a full disk, a closed pipe), no work ends for that.
+/// Says one line on standard error. If it cannot be written (a full disk, a closed pipe), no work
+/// ends for that.
 pub fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
@@ -109,8 +111,8 @@ impl Stage {
     }
 }
 
-/// `40 %, about 12 s left`. The last units may be the longest: what is not done is not at 100 %, and no time below a
-/// second is promised.
+/// `40 %, about 12 s left`. The last units may be the longest: what is not done is not at 100 %,
+/// and no time below a second is promised.
 fn told(done: u64, total: u64, elapsed: Duration) -> String {
     let share = if total == 0 { 1.0 } else { done as f64 / total as f64 };
     let percent = (100.0 * share).floor();

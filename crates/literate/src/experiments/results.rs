@@ -24,13 +24,13 @@ pub struct Results {
 }
 
 impl Results {
-    /// The result of an experiment.
     pub fn of<P, T: Json, U>(&self, experiment: &Experiment<P, T, U>) -> Result<&T, Error> {
         let found = self.found.get(experiment.name).and_then(|found| found.downcast_ref());
         found.ok_or(Error::NotRun(experiment.name))
     }
 
-    /// The result of an experiment, to be changed where nobody else holds it; its tables are made anew.
+    /// The result of an experiment, to be changed where nobody else holds it; its tables are made
+    /// anew.
     pub fn of_mut<P, T: Json, U>(&mut self, experiment: &Experiment<P, T, U>) -> Option<&mut T> {
         self.tables = OnceLock::new();
         Arc::get_mut(self.found.get_mut(experiment.name)?)?.downcast_mut()
@@ -38,7 +38,8 @@ impl Results {
 
     /// The tables of the theory and of all results that there are, by name.
     pub fn tables(&self) -> &Tables {
-        // Made before the lock is taken: a thread that waits in it for others may begin something else that looks here.
+        // Made before the lock is taken: a thread that waits in it for others may begin something
+        // else that looks here.
         match self.tables.get() {
             Some(tables) => tables,
             None => {
@@ -82,7 +83,8 @@ impl Results {
         Ok(number_at(self.tables(), address)?)
     }
 
-    /// Runs experiments in this order, and returns their results: saved ones where they are fresh, else those of runs.
+    /// Runs experiments in this order, and returns their results: saved ones where they are fresh,
+    /// else those of runs.
     ///
     /// # Errors
     /// Of the first run that fails or is interrupted.

@@ -1,9 +1,9 @@
 //! Results of long runs, saved and reused.
 //!
-//! A saved result is a file, named by experiment and profile, and so has a unit of one that is not yet
-//! joined, named by its number too. It has three lines of text: a checksum of the other two, what the result was made of, and the result. It is reused if
-//! all of that is as it would be made of now; whatever is not whole or not known is run again, and
-//! the reason is said.
+//! A saved result is a file, named by experiment and profile, and so has a unit of one that is not
+//! yet joined, named by its number too. It has three lines of text: a checksum of the other two,
+//! what the result was made of, and the result. It is reused if all of that is as it would be made
+//! of now; whatever is not whole or not known is run again, and the reason is said.
 
 use super::cutting::Unit;
 use super::{Error, Profile};
@@ -26,7 +26,6 @@ const FORM: &str = "saved in another form";
 /// Everything that a result depends on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Identity {
-    /// Name of the experiment.
     pub experiment: String,
     profile: Profile,
     schema: u32,
@@ -71,8 +70,8 @@ impl Identity {
         }
     }
 
-    /// In which respects a result that was made of `saved` is not the one that would be made of this, in one line; empty
-    /// if it is.
+    /// In which respects a result that was made of `saved` is not the one that would be made of
+    /// this, in one line; empty if it is.
     fn differences(&self, saved: &Identity) -> String {
         if saved.schema != self.schema || saved.experiment != self.experiment {
             return FORM.into();
@@ -118,7 +117,8 @@ impl Store {
         self.folder.as_ref().map(|folder| folder.join(name))
     }
 
-    /// The saved result, or what is to be done for want of it, and why, in one line: `run`, `run again, Cargo.lock changed`.
+    /// The saved result, or what is to be done for want of it, and why, in one line: `run`, `run
+    /// again, Cargo.lock changed`.
     pub fn look<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
         let again = |why: &str| format!("run again, {}", one_line(why, 1000));
         let text = match self.path(identity).map(|path| regular_text(&path)) {

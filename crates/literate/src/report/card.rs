@@ -65,7 +65,6 @@ impl Card {
     }
 }
 
-/// Everything that has a card.
 #[derive(Clone, Copy, Debug)]
 pub struct Cards<'a> {
     pub values: &'a Registry,

@@ -61,7 +61,6 @@ impl Edition {
     }
 }
 
-/// A document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Document {
     /// Its prose: `PROSE.md` of the templates, or the files of the folder `PROSE` in the order of

@@ -13,7 +13,6 @@ pub struct Ledger {
     pub equations: Vec<EquationEntry>,
 }
 
-/// A figure.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct FigureEntry {

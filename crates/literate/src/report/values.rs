@@ -19,7 +19,6 @@ pub struct Registry {
 }
 
 impl Registry {
-    /// Adds a value.
     pub fn add(&mut self, value: Value) -> Result<(), Error> {
         if !value.is_finite() {
             return Err(Error::NotFinite(value.id));
@@ -39,7 +38,6 @@ impl Registry {
         }
     }
 
-    /// All tables, by name.
     pub fn tables(&self) -> impl Iterator<Item = &Table> {
         self.tables.values().map(Arc::as_ref)
     }

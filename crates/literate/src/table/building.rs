@@ -105,7 +105,8 @@ impl<'a, R> Building<'a, R> {
         self.put((name, "text"), "", origin_of::<F>(), |row: &R| Value::text("", of(row)))
     }
 
-    /// A number from chance with its standard error, or the word *none* where the sample decides nothing.
+    /// A number from chance with its standard error, or the word *none* where the sample decides
+    /// nothing.
     pub fn estimate<F: Fn(&R) -> Option<Estimate>>(
         self,
         name: &'static str,
@@ -120,7 +121,8 @@ impl<'a, R> Building<'a, R> {
         self.put((name, unit), meaning, origin_of::<F>(), cell)
     }
 
-    /// A number that no chance has part in, with so many significant digits; *none* if it is not finite.
+    /// A number that no chance has part in, with so many significant digits; *none* if it is not
+    /// finite.
     pub fn real<F: Fn(&R) -> f64>(
         self,
         name: &'static str,
@@ -168,7 +170,8 @@ impl<'a, R> Building<'a, R> {
         self.put((name, "1"), meaning, origin_of::<F>(), cell)
     }
 
-    /// Gives cells of a column the id of the number that they are: one that another table or a value has already.
+    /// Gives cells of a column the id of the number that they are: one that another table or a
+    /// value has already.
     pub fn same(mut self, column: &str, of: impl Fn(&R) -> Option<String>) -> Self {
         if let Some(at) = self.table.column(column) {
             for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {

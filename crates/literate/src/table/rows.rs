@@ -57,7 +57,6 @@ pub fn cell<'a>(tables: &'a Tables, address: &str) -> Result<&'a Value, Missing>
     table.at(address).ok_or_else(|| Missing::new(address, table.nearest(address)))
 }
 
-/// The number with an address.
 #[track_caller]
 pub fn number_at(tables: &Tables, address: &str) -> Result<f64, Missing> {
     number(cell(tables, address)?).ok_or_else(|| Missing::new(address, NO_NUMBER))
@@ -65,7 +64,8 @@ pub fn number_at(tables: &Tables, address: &str) -> Result<f64, Missing> {
 
 const NO_NUMBER: &str = "this cell has no number";
 
-/// The three names that are most like one: with the most characters alike at their beginnings and ends.
+/// The three names that are most like one: with the most characters alike at their beginnings and
+/// ends.
 pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let begin = |own: &str| own.chars().zip(name.chars()).take_while(|(a, b)| a == b).count();
     let ends =
@@ -148,7 +148,8 @@ impl Table {
         self.estimates(keys, x, y).into_iter().map(|(x, own)| (x, own.value)).collect()
     }
 
-    /// The same with standard errors, zero where a number has none; the interval is one error to each side.
+    /// The same with standard errors, zero where a number has none; the interval is one error to
+    /// each side.
     pub fn estimates(&self, keys: Keys<'_>, x: &str, y: &str) -> Vec<(f64, Estimate)> {
         let Some((x, y)) = self.column(x).zip(self.column(y)) else { return Vec::new() };
         let estimate = |cell: &Value| {
@@ -190,8 +191,8 @@ impl Table {
         self.rows.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Every way in which a template can name a row, with its cells by column: for a key its value, or
-    /// `first` and `last` of all its values. One empty name where there are no keys.
+    /// Every way in which a template can name a row, with its cells by column: for a key its value,
+    /// or `first` and `last` of all its values. One empty name where there are no keys.
     pub fn named(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
         let mut found = BTreeMap::new();
         let keys: Vec<_> = self.keys().map(|key| (key, self.called(key))).collect();
@@ -223,8 +224,8 @@ impl Table {
         found
     }
 
-    /// Column names with units, and the cells as data files write them: every bit of each number, and a column
-    /// of its own for each standard error.
+    /// Column names with units, and the cells as data files write them: every bit of each number,
+    /// and a column of its own for each standard error.
     pub fn data(&self) -> (Vec<String>, Vec<Vec<String>>) {
         let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); self.rows.len()]);
         for (at, Column { name, unit }) in self.columns.iter().enumerate() {
