@@ -8,8 +8,8 @@ pub struct GaussLegendre {
 }
 
 impl GaussLegendre {
-    /// Creates the rule with `points` ≥ 1 points, exact for polynomials of degree 2·points −
-    /// 1. The nodes are zeros of the Legendre polynomial, by Newton's method from the usual cosine
+    /// Creates the rule with n = `points` ≥ 1 points, exact for polynomials of degree 2n − 1. The
+    /// nodes are zeros of the Legendre polynomial, by Newton's method from the usual cosine
     /// estimate.
     pub fn new(points: usize) -> Self {
         let n = points as f64;

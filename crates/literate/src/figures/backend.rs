@@ -129,7 +129,7 @@ impl DrawingBackend for Drawing {
         self.path(polygon(points), style, true)
     }
 
-    /// Sets words in the shipped fonts, whatever the font of the style; see [`markup`].
+    /// Sets words in the shipped fonts, whatever the font of the style; see `markup`.
     fn draw_text<S: BackendTextStyle>(&mut self, words: &str, style: &S, at: Point) -> Outcome {
         let font::Line { mut glyphs, width } = font::set(words)?;
         let dx = match style.anchor().h_pos {

@@ -25,7 +25,7 @@ struct Origin {
 }
 
 impl Filled {
-    /// Adds what Tera made of a template after [`marked`], a paragraph apart.
+    /// Adds what Tera made of a marked template, a paragraph apart.
     pub fn add(&mut self, path: &str, text: &str, filled: &str) {
         if !self.templates.is_empty() {
             self.text += "\n\n";
