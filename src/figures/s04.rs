@@ -33,8 +33,6 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
     let map = results.table("protocol.cells")?;
     let map = map.points(&[("window", WINDOW)], "transient", "half_height_all");
     panel.curve("from rest, n = 100", &map, Stroke::solid(GREY, LINE), Outside::Cut)?;
-    let start = map.get(3).copied().unwrap_or((10.0, bound));
-    panel.label_nearby("from rest, *n* = 100", start, (1, -1), GREY)?;
     for (place, masses) in lengths.iter().enumerate() {
         let longest = place + 1 == lengths.len();
         for (column, name, colour) in BRANCHES {
@@ -48,6 +46,8 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
             }
         }
     }
+    let start = map.get(3).copied().unwrap_or((10.0, bound));
+    panel.label_nearby("from rest, *n* = 100", start, (1, -1), GREY)?;
     Ok(())
 }
 
@@ -61,6 +61,7 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
     let transients = shares.values("transient");
     let ends = [transients.first(), transients.last()];
+    let mut labels = Vec::new();
     for (place, transient) in ends.into_iter().flatten().enumerate() {
         let (mark, dash) =
             if place == 0 { (Symbol::Ring, Dash::Short) } else { (Symbol::Disc, Dash::Solid) };
@@ -76,8 +77,12 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
             let at = if column == "from_rest" { points.last() } else { points.first() };
             let Some((sigma, share)) = at else { continue };
             let side = if column == "from_rest" { (2, 0) } else { (-2, 0) };
-            panel.label_nearby(&name, (*sigma, share.value), side, colour)?;
+            labels.push((name, (*sigma, share.value), side, colour));
         }
+    }
+    // Labels keep clear of what is drawn before them.
+    for (name, at, side, colour) in labels {
+        panel.label_nearby(&name, at, side, colour)?;
     }
     Ok(())
 }

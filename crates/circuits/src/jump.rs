@@ -11,10 +11,11 @@ use impact_numerics::scaled::Scaled;
 /// Returns f_{N,p}(k) = −p k² + (N p − 1) k − 1 at real k: Φ_{N,p} rises from k to k + 1
 /// where it is positive. Written as p k (N − k) − (k + 1), with the product exact.
 ///
-/// **Eq. (14)** (step towards (18)): f_{N,p}(0) = −1, whatever N and p. **Eq. (15)** (step
-/// towards (18)): f_{N,p}(N) = −(N + 1), whatever p. **Eq. (16)** (step towards (18)): f_{N,0}(k)
-/// = −(k + 1) < 0, so at p → 0+ every step falls. **Eq. (17)** (step towards (18)): ∂f/∂p =
-/// k (N − k), positive inside (0, N), so f grows with p at every k.
+/// **Eq. (14)** (step towards (18)): f_{N,p}(0) = −1, whatever N and p.
+/// **Eq. (15)** (step towards (18)): f_{N,p}(N) = −(N + 1), whatever p.
+/// **Eq. (16)** (step towards (18)): f_{N,0}(k) = −(k + 1) < 0, so at p → 0+ every step falls.
+/// **Eq. (17)** (step towards (18)): ∂f/∂p = k (N − k), positive inside (0, N), so f grows with p
+/// at every k.
 pub fn f(big_n: usize, p: f64, k: f64) -> f64 {
     let product = two_product(k, big_n as f64 - k) * p;
     (product - DoubleDouble::from(k) - DoubleDouble::ONE).to_f64()

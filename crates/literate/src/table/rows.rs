@@ -303,12 +303,15 @@ mod tests {
         let at = |address| table.at(address).unwrap();
         let cell = at("test.rise[r=0.8,sigma=0.3].mean");
         assert_eq!(cell.kind, Kind::Ensemble { realisations: 2, standard_error: 0.5 });
-        assert_eq!(cell.source, "literate::table::tests::mean");
+        assert_eq!(cell.source, "literate::table::rows::tests::mean");
         assert_eq!((cell.experiment.as_str(), cell.note.as_str()), ("test", "the mean"));
         assert_eq!(table_of(&cell.id), Some("test.rise"));
         assert_eq!(table.number(&[("r", 0.8), ("sigma", 0.3)], "mean"), Ok(7.5));
         // A closure's item is the function in which it stands.
-        assert_eq!(at("test.rise[r=0,sigma=0.1].runs").source, "literate::table::tests::table");
+        assert_eq!(
+            at("test.rise[r=0,sigma=0.1].runs").source,
+            "literate::table::rows::tests::table"
+        );
         assert_eq!(at("test.rise[r=0.8,sigma=0.1].inverse").unit, r"$1/\omega$");
         assert_eq!(at("test.rise[r=0.8,sigma=0.1].sigma").unit, r"$d \omega^2$");
         assert!(
@@ -322,7 +325,7 @@ mod tests {
         let keys = [("r", 0.8), ("sigma", 0.30000000000000004)];
         let lost = table.number(&keys, "mean").unwrap_err();
         assert_eq!(lost.address, "test.rise[r=0.8,sigma=0.30000000000000004].mean");
-        assert!(lost.place.starts_with("crates/literate/src/table.rs:"), "{}", lost.place);
+        assert!(lost.place.starts_with("crates/literate/src/table/rows.rs:"), "{}", lost.place);
         assert!(
             lost.what.ends_with("row; nearest: r=0.8,sigma=0.3, r=0.8,sigma=0.1, r=0,sigma=0.1")
         );
