@@ -190,13 +190,19 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
 pub fn restitution(profile: Profile) -> Vec<Ensemble> {
     let grid = Grid::default;
     let quick = || grid().and(9, 15, 6, 100).and(30, 60, 30, 100);
-    // Restitutions, and their σ.
+    // Restitutions, and their σ: around the half height, and up to strong forces.
     let (cases, realisations): (Vec<(&[f64], Grid)>, _) = match profile {
         Profile::Full => (
             vec![
-                (&[0.0, 0.05, 0.1, 0.2, 0.4], grid().and(16, 18, 1, 100).and(4, 7, 1, 20)),
+                (
+                    &[0.0, 0.05, 0.1, 0.2, 0.4],
+                    grid().and(16, 18, 1, 100).and(4, 7, 1, 20).and(2, 2, 1, 5),
+                ),
                 (&[0.6], grid().and(10, 20, 1, 100)),
-                (&[0.8, 0.9, 0.95], grid().and(8, 14, 1, 100)),
+                (
+                    &[0.8, 0.9, 0.95],
+                    grid().and(8, 14, 1, 100).and(16, 18, 1, 100).and(4, 4, 1, 20).and(2, 2, 1, 5),
+                ),
             ],
             24,
         ),
