@@ -74,9 +74,13 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
                 &points,
                 (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)),
             )?;
-            let at = if column == "from_rest" { points.last() } else { points.first() };
+            // Where a curve has room beside it.
+            let (at, side) = match (column, place) {
+                ("from_above", 1) => (points.first(), (-2, 0)),
+                ("from_rest", 0) => (points.iter().find(|point| point.1.value >= 0.2), (2, 1)),
+                _ => (points.last(), (2, 0)),
+            };
             let Some((sigma, share)) = at else { continue };
-            let side = if column == "from_rest" { (2, 0) } else { (-2, 0) };
             labels.push((name, (*sigma, share.value), side, colour));
         }
     }
