@@ -63,7 +63,7 @@ fn each_reason_is_told_and_nothing_else_is_run_again() {
     let simulation = "\"crates/impact-chain/src/simulation.rs\":\"";
     let mut expected = Vec::new();
     for (name, from, more, reason) in [
-        ("race", "\"schema\":", "9", "saved in another form"),
+        ("race", "\"schema\":", "9", "saved in an older format"),
         ("two_masses", "\"Cargo.lock\":\"", "0", "Cargo.lock changed"),
         ("horizon", simulation, "0", "crates/impact-chain/src/simulation.rs changed"),
         ("scale", "\"sigma\":", "1", "other parameters"),
@@ -75,7 +75,7 @@ fn each_reason_is_told_and_nothing_else_is_run_again() {
     }
     let trials = folder.join("results/trials-quick.json");
     fs::write(trials, &results["trials-quick.json"][..1000]).unwrap();
-    expected.push("trials: run again, the saved result is cut short or has lines too many".into());
+    expected.push("trials: run again, the saved result is cut short or has extra lines".into());
     fs::remove_file(folder.join("results/seeds-quick.json")).unwrap();
     expected.push("seeds: run".into());
     let text = stale(folder, "results");
@@ -121,7 +121,7 @@ fn a_unit_that_is_missing_or_not_to_be_used_is_run_again() {
         (None, None),
         (Some(whole[..whole.len() - 9].into()), Some("the saved result is cut short")),
         (Some(forged(&whole, 1, "\"number\":7", "\"number\":8")), Some("another unit of work")),
-        (Some(forged(&whole, 2, "[", "[[")), Some("saved in another form")),
+        (Some(forged(&whole, 2, "[", "[[")), Some("saved in an older format")),
     ] {
         match bytes {
             Some(bytes) => fs::write(&path, bytes).unwrap(),
@@ -130,7 +130,7 @@ fn a_unit_that_is_missing_or_not_to_be_used_is_run_again() {
         let place = SHARDS.iter().position(|shard| shard.contains_key("sweep-quick-0007.json"));
         let (i, there) = (place.unwrap() + 1, SHARDS[place.unwrap()].len() - 1);
         let (text, note) = shard(folder, i, "results");
-        assert_eq!(text, format!("results: shard {i}/3: 1 unit run, {there} there before\n"));
+        assert_eq!(text, format!("results: shard {i}/3: 1 unit run, {there} already saved\n"));
         let line = says.map(|says| format!("sweep: 1 unit run again, {says}"));
         assert!(line.is_none_or(|line| note.contains(&line)), "{says:?}: {note}");
         assert!(fs::read(&path).unwrap() == whole);

@@ -28,7 +28,7 @@ pub fn read_from(file: impl Read) -> Result<String, Error> {
 /// pipe waits for its other end.
 pub fn regular(path: &Path) -> Result<Vec<u8>, Error> {
     if !std::fs::metadata(path)?.is_file() {
-        return Err(Error::new(ErrorKind::InvalidInput, "it is no regular file"));
+        return Err(Error::new(ErrorKind::InvalidInput, "not a regular file"));
     }
     bounded(File::open(path)?, FOUND)
 }
@@ -41,7 +41,7 @@ pub fn regular_text(path: &Path) -> Result<String, Error> {
 /// Bytes as text, without a byte-order mark. Lines end in `\n` however they end in the file, so
 /// that what is made of them has the same bytes.
 fn text(bytes: Vec<u8>) -> Result<String, Error> {
-    let wrong = |_| Error::new(ErrorKind::InvalidData, "it is no UTF-8 text");
+    let wrong = |_| Error::new(ErrorKind::InvalidData, "not valid UTF-8");
     let text = String::from_utf8(bytes).map_err(wrong)?;
     Ok(text.trim_start_matches('\u{feff}').replace("\r\n", "\n"))
 }
@@ -120,6 +120,6 @@ mod tests {
         std::fs::write(file.path(), "\u{feff}$a\r\n= b$\r\n\r\nc\rd\n").unwrap();
         assert_eq!(regular_text(file.path()).unwrap(), "$a\n= b$\n\nc\rd\n");
         std::fs::write(file.path(), [b'a', 0xff]).unwrap();
-        assert_eq!(read(file.path()).unwrap_err().to_string(), "it is no UTF-8 text");
+        assert_eq!(read(file.path()).unwrap_err().to_string(), "not valid UTF-8");
     }
 }

@@ -70,7 +70,7 @@ impl Rule {
         }
         let mut check = match (self.judge)(evidence) {
             Err(Error::Undecided) => {
-                evidence.open("–").note("The results at hand do not decide it.")
+                evidence.open("–").note("The available results do not decide it.")
             }
             judged => judged?,
         };

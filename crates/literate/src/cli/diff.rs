@@ -88,17 +88,17 @@ fn git(arguments: &[&str]) -> Result<Vec<u8>, String> {
 
 /// The files of a revision below paper/, from where the program runs, as git has stored them.
 fn committed(name: &str) -> Result<Files, Failure> {
-    let neither = |told: String| {
+    let neither = |reason: String| {
         let what = "neither a folder nor a revision of git with a report in ./paper here";
-        let told = one_line(&told, 200);
+        let reason = one_line(&reason, 200);
         let remedy = "give the folder of a report, a tag or a commit";
-        Failure::input(format!("{name}: {what} ({told}); {remedy}"))
+        Failure::input(format!("{name}: {what} ({reason}); {remedy}"))
     };
     let git = |arguments: &[&str]| git(arguments).map_err(neither);
     // What git would take for an option, a path or a range is no revision.
     let odd = |c: char| c.is_control() || c.is_whitespace() || c == ':';
     if name.is_empty() || name.starts_with('-') || name.contains(odd) || name.contains("..") {
-        return Err(neither("the name is none".into()));
+        return Err(neither("not a valid revision".into()));
     }
     let list =
         git(&["ls-tree", "-r", "-z", "--full-tree", "--name-only", &format!("{name}:./paper")])?;

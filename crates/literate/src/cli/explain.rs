@@ -39,7 +39,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         let ids = cards.find(asked);
         if ids.is_empty() {
             let asked = one_line(asked, 60);
-            let what = format!("there is no {asked:?}, nor anything of which it is a part");
+            let what = format!("there is no {asked:?}, and no id contains it");
             return Err(Failure::input(format!("explain: {what}; without it all are listed")));
         }
         found.extend(ids);

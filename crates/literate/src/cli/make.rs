@@ -215,10 +215,7 @@ pub(super) fn scores(checks: &[Check]) -> Vec<String> {
 /// Exit code 1, with names, for what does not hold.
 pub(super) fn verdict(checks: &[Check]) -> Result<(), Failure> {
     let faults = [
-        (
-            Kind::Statement,
-            "statements are judged by nobody or differ without an explanation that holds",
-        ),
+        (Kind::Statement, "statements have no rule or differ without an explanation that holds"),
         (Kind::Relation, "relations between numbers of the report do not hold"),
     ];
     let found = faults.into_iter().filter_map(|(kind, what)| {

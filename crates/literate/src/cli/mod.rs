@@ -21,17 +21,17 @@ pub use make::whole;
 
 const EXIT_CODES: &str = "Exit codes:
   0    fine
-  1    a statement, relation or comparison failed, and what was asked for is written all
-       the same; a rule of the prose is broken (a hard-coded number, an unused value) or a run
-       failed, and nothing is; or saved results are stale, says `paper --dry-run`
-  2    wrong usage or input, broken prose too, or a place that cannot be read or written
+  1    a statement, relation or comparison failed, but the files were written; a rule of the
+       prose is broken (a hard-coded number, an unused value) or a run failed, and nothing was
+       written; or `paper --dry-run` found stale results
+  2    wrong usage or input, including broken prose, or a place that cannot be read or written
   130  ended by Ctrl-C or SIGTERM";
 
 #[derive(Parser)]
 struct Cli<V: Subcommand> {
     #[command(subcommand)]
     verb: Verb<V>,
-    /// Say nothing of progress; errors are said all the same.
+    /// Do not show progress; errors are still printed.
     #[arg(long, short, global = true)]
     quiet: bool,
 }
@@ -63,7 +63,7 @@ impl Paper {
         self,
         more: impl FnOnce(V) -> Result<(), Failure> + Send + 'static,
     ) -> ExitCode {
-        std::panic::set_hook(Box::new(terminal::tell));
+        std::panic::set_hook(Box::new(terminal::report_panic));
         let thread = std::thread::Builder::new().stack_size(terminal::STACK);
         let joined = thread.spawn(move || self.obey(more)).map(std::thread::JoinHandle::join);
         // What went wrong in it was said by the hook.

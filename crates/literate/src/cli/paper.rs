@@ -22,7 +22,7 @@ use std::time::Instant;
 /// Stop it whenever you like: files are moved into place at the very end, results of long runs are
 /// saved, and used again as long as parameters and source are the same. Only files that an earlier
 /// run wrote, and nobody edited since, are replaced. Exit code 1 says that a statement or a
-/// relation fails; the report is written all the same.
+/// relation fails; the report is still written.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {

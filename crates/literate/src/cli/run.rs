@@ -45,7 +45,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         Some(shard) => {
             let [run, there] = run_shard(&saved, shard, &session)?;
             let (i, of) = shard;
-            Ok(format!("shard {i}/{of}: {} run, {there} there before", count(run, "unit")))
+            Ok(format!("shard {i}/{of}: {} run, {there} already saved", count(run, "unit")))
         }
         None => {
             paper.results(&saved, &session)?;

@@ -23,12 +23,12 @@ pub fn warn(line: &str) {
     say(&format!("{name}: {line}"));
 }
 
-/// Says a fault of the program itself in one line: what failed, and where.
-pub(super) fn tell(fault: &std::panic::PanicHookInfo<'_>) {
+/// Reports an internal error in one line: what failed, and where.
+pub(super) fn report_panic(fault: &std::panic::PanicHookInfo<'_>) {
     let words = fault.payload_as_str().unwrap_or("no words");
     let place = fault.location().map_or_else(String::new, |at| format!(" at {at}"));
     let line = format!(
-        "a fault of the program{place}: {words}; if saved results were edited, remove them"
+        "internal error{place}: {words}; please report it; if saved results were edited, remove them"
     );
     warn(&one_line(&line, 4000));
 }

@@ -10,7 +10,7 @@ use crate::paper::Paper;
 use crate::report::folder;
 use std::path::PathBuf;
 
-/// Hold a report against its SHA256SUMS, and with --rerun against what is made here
+/// Check a report against its SHA256SUMS, and with --rerun against what this program makes
 ///
 /// Examples:
 ///   verify                                      paper/ and its list
@@ -67,7 +67,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     print(&(faults.join("\n") + "\n"))?;
     let number = count(faults.len(), "file");
     Err(Failure::check(format!(
-        "{place}: not as it should be: {number}; `paper --out {place} --force` writes the report anew, what is not listed \
-         is yours to move"
+        "{place}: faults in {number}; `paper --out {place} --force` writes the report again; \
+         move unlisted files yourself"
     )))
 }

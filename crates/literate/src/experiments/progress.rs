@@ -28,7 +28,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Shows nothing and is stopped by nobody: for tests and callers inside the program.
+    /// Shows nothing and is never stopped: for tests and callers inside the program.
     pub fn silent() -> Self {
         Progress { quiet: true, stop: Arc::default() }
     }
@@ -60,7 +60,7 @@ impl Progress {
         Stage { done, _lines: lines }
     }
 
-    /// Says one plain line, whatever the way of showing, except to nobody.
+    /// Says one plain line, unless quiet.
     pub fn say(&self, line: &str) {
         if !self.quiet {
             say(line);

@@ -21,7 +21,7 @@ impl<T: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static> Json f
 /// The form of saved files; a change of it makes all of them unknown.
 const SCHEMA: u32 = 3;
 
-const FORM: &str = "saved in another form";
+const OLDER_FORMAT: &str = "saved in an older format";
 
 /// Everything that a result depends on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -74,7 +74,7 @@ impl Identity {
     /// this, in one line; empty if it is.
     fn differences(&self, saved: &Identity) -> String {
         if saved.schema != self.schema || saved.experiment != self.experiment {
-            return FORM.into();
+            return OLDER_FORMAT.into();
         }
         let mut differences = Vec::new();
         if saved.parameters != self.parameters || saved.profile != self.profile {
@@ -117,7 +117,7 @@ impl Store {
         self.folder.as_ref().map(|folder| folder.join(name))
     }
 
-    /// The saved result, or what is to be done for want of it, and why, in one line: `run`, `run
+    /// Returns the saved result, or why it must be run, in one line: `run`, `run
     /// again, Cargo.lock changed`.
     pub fn look<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
         let again = |why: &str| format!("run again, {}", one_line(why, 1000));
@@ -133,7 +133,7 @@ impl Store {
         if !differences.is_empty() {
             return Err(again(&differences));
         }
-        serde_json::from_str(body).map_err(|_| again(FORM))
+        serde_json::from_str(body).map_err(|_| again(OLDER_FORMAT))
     }
 
     /// Makes the folder.
@@ -176,12 +176,12 @@ fn parsed(text: &str) -> Result<(Identity, &str), &'static str> {
     let (Some(checksum), Some(found), Some(body), Some(""), None) =
         (lines.next(), lines.next(), lines.next(), lines.next(), lines.next())
     else {
-        return Err("the saved result is cut short or has lines too many");
+        return Err("the saved result is cut short or has extra lines");
     };
     if checksum != digest(&[found, body]) {
         return Err("the saved result was damaged or edited: its checksum is wrong");
     }
-    Ok((serde_json::from_str(found).map_err(|_| FORM)?, body))
+    Ok((serde_json::from_str(found).map_err(|_| OLDER_FORMAT)?, body))
 }
 
 /// A result as text that reads back to the same bits.
