@@ -26,6 +26,13 @@ pub struct Tick {
     pub label: Option<String>,
 }
 
+impl Tick {
+    /// Returns its label, empty if there is none.
+    pub(super) fn name(&self) -> &str {
+        self.label.as_deref().unwrap_or_default()
+    }
+}
+
 /// One axis of a panel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {

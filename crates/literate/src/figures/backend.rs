@@ -129,9 +129,13 @@ impl DrawingBackend for Drawing {
         self.path(polygon(points), style, true)
     }
 
-    /// Sets words in the shipped fonts, whatever the font of the style; see `markup`.
+    /// Sets words in the shipped fonts, whatever the font of the style; see `markup`. Nothing is
+    /// drawn for no words.
     fn draw_text<S: BackendTextStyle>(&mut self, words: &str, style: &S, at: Point) -> Outcome {
         let font::Line { mut glyphs, width } = font::set(words)?;
+        if glyphs.is_empty() {
+            return Ok(());
+        }
         let dx = match style.anchor().h_pos {
             HPos::Left => 0,
             HPos::Center => -width / 2,
@@ -171,8 +175,7 @@ impl DrawingBackend for Drawing {
         words: &str,
         style: &S,
     ) -> Result<(u32, u32), DrawingErrorKind<Error>> {
-        let size = [font::set(words)?.width, font::CAP_HEIGHT];
-        let [width, height] = size.map(|units| units * style.size() as i32 / font::EM);
-        Ok((width as u32, height as u32))
+        let size = style.size() as i32;
+        Ok((font::width(words, size)? as u32, (font::CAP_HEIGHT * size / font::EM) as u32))
     }
 }

@@ -30,7 +30,7 @@ pub fn cut(points: &[DataPair], x: &Axis, y: &Axis) -> Vec<Vec<DataPair>> {
 
 /// Returns the parameters between which the stretch from `a` to `b` lies in the rectangle; none if
 /// it does not.
-fn inside(a: DataPair, b: DataPair, x: DataPair, y: DataPair) -> Option<(f64, f64)> {
+pub fn inside(a: DataPair, b: DataPair, x: DataPair, y: DataPair) -> Option<(f64, f64)> {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let (mut start, mut end) = (0.0_f64, 1.0_f64);
     for (p, q) in [(-dx, a.0 - x.0), (dx, x.1 - a.0), (-dy, a.1 - y.0), (dy, y.1 - a.1)] {

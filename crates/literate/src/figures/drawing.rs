@@ -3,6 +3,7 @@
 //! The grid is a hundredth of a millimetre at column width, so whole numbers are fine enough for
 //! smooth curves. Labels are outlines (see [`super::font`]); nothing depends on the machine.
 
+use super::cut;
 use super::font::{self, Placed};
 use super::path::{Point, Step};
 use super::style::Stroke;
@@ -21,11 +22,6 @@ pub struct Frame {
 impl Frame {
     pub const fn new(left: i32, top: i32, right: i32, bottom: i32) -> Self {
         Frame { left, top, right, bottom }
-    }
-
-    /// Tells whether a point lies in it, edges included.
-    pub fn contains(&self, (x, y): Point) -> bool {
-        (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
     }
 }
 
@@ -106,33 +102,21 @@ fn stands_in(label: &Label, frame: Frame) -> bool {
 
 /// Tells whether a path enters a frame; curves count as their chords.
 fn crosses(path: &[Step], frame: Frame) -> bool {
-    let mut from = None;
+    let float = |(x, y): Point| (f64::from(x), f64::from(y));
+    let (left_top, right_bottom) =
+        (float((frame.left, frame.top)), float((frame.right, frame.bottom)));
+    let (across, down) = ((left_top.0, right_bottom.0), (left_top.1, right_bottom.1));
+    let mut at = (0, 0);
     for step in path {
-        let (to, drawn) = match step {
-            Step::Move(to) => (*to, false),
-            Step::Line(to) | Step::Curve([_, _, to]) => (*to, true),
+        let (from, to) = match *step {
+            Step::Move(to) => (to, to),
+            Step::Line(to) | Step::Curve([.., to]) => (at, to),
             Step::Close => continue,
         };
-        let enters = match from {
-            Some(from) if drawn => chord_enters(from, to, frame),
-            _ => frame.contains(to),
-        };
-        if enters {
+        if cut::inside(float(from), float(to), across, down).is_some() {
             return true;
         }
-        from = Some(to);
+        at = to;
     }
     false
-}
-
-/// Tells whether a straight line enters a frame, judged at 200 places on it.
-fn chord_enters(from: Point, to: Point, frame: Frame) -> bool {
-    // Most lines of a drawing lie on one side of the frame.
-    let left_or_right = from.0.max(to.0) < frame.left || from.0.min(to.0) > frame.right;
-    let above_or_below = from.1.max(to.1) < frame.top || from.1.min(to.1) > frame.bottom;
-    if left_or_right || above_or_below {
-        return false;
-    }
-    let between = |a: i32, b: i32, i: i32| a + (b - a) * i / 200;
-    (0..=200).any(|i| frame.contains((between(from.0, to.0, i), between(from.1, to.1, i))))
 }

@@ -2,7 +2,7 @@
 //! edge, dense ticks, and error bars of caps alone.
 
 use super::backend::Outcome;
-use super::drawing::Drawing;
+use super::drawing::{Drawing, Element, Frame};
 use super::path::{Point, Step, circle, polygon, polyline};
 use super::style::{Dash, Stroke, Symbol, WHITE};
 use plotters::element::{
@@ -11,7 +11,6 @@ use plotters::element::{
 use plotters::style::ShapeStyle;
 use plotters_backend::{BackendCoord, DrawingBackend};
 use std::iter::once;
-use std::ops::Range;
 
 /// Symbol, half its width, and the line of an open symbol, whose colour fills a closed one.
 pub type Marker = (Symbol, i32, Stroke);
@@ -30,8 +29,11 @@ pub(super) enum Shape {
     Segments(Stroke),
     /// Upright ticks of a width, as high as the stroke is thick.
     Ticks(i32, Stroke),
-    /// A bar with caps of half a width, none if it is zero, within a stretch of x on the sheet.
-    ErrorBar(i32, Range<i32>, Stroke),
+    /// A bar with caps of half a width, none if it is zero.
+    ErrorBar(i32, Stroke),
+    /// What follows, up to the end, is the series of this name in this frame.
+    Start(String, Frame),
+    End,
 }
 
 /// Draws a line through points: an element of plotters if it is solid.
@@ -83,14 +85,17 @@ impl<C> Drawable<Drawing> for CustomElement<C> {
                 }
             }
             Shape::Ticks(width, stroke) => draw_ticks(drawing, points, *width, *stroke)?,
-            Shape::ErrorBar(half, within, stroke) => {
+            Shape::ErrorBar(half, stroke) => {
                 let style = ShapeStyle::from(*stroke);
                 drawing.draw_path(points.iter().copied(), &style)?;
                 for (x, y) in points.into_iter().filter(|_| *half > 0) {
-                    let cap = [(x - half).max(within.start), (x + half).min(within.end)];
-                    drawing.draw_path(cap.map(|x| (x, y)), &style)?;
+                    drawing.draw_path([(x - half, y), (x + half, y)], &style)?;
                 }
             }
+            Shape::Start(name, frame) => {
+                drawing.elements.push(Element::Open(name.clone(), *frame));
+            }
+            Shape::End => drawing.elements.push(Element::Close),
         }
         Ok(())
     }
@@ -137,8 +142,10 @@ fn draw_arrow(drawing: &mut Drawing, mut path: Vec<Point>, stroke: Stroke) -> Ou
     drawing.fill_polygon(head, &style.color)
 }
 
+/// Draws symbols as one path, whose edge is solid.
 fn draw_markers(drawing: &mut Drawing, points: &[Point], marker: Marker) -> Outcome {
-    let (symbol, r, stroke) = marker;
+    let (symbol, r, Stroke { colour, width, .. }) = marker;
+    let stroke = Stroke::solid(colour, width);
     let mut path: Vec<Step> = Vec::new();
     for &(x, y) in points {
         let mut corners = |places: &[Point]| {
@@ -157,7 +164,7 @@ fn draw_markers(drawing: &mut Drawing, points: &[Point], marker: Marker) -> Outc
         }
     }
     let fill = match symbol {
-        Symbol::Disc => Some((stroke.colour, 100)),
+        Symbol::Disc => Some((colour, 100)),
         Symbol::Cross => return Ok(()),
         Symbol::Plus => None,
         _ => Some((WHITE, 100)),

@@ -51,15 +51,16 @@ pub struct Line {
 }
 
 fn font(face: Face) -> Result<&'static FontRef<'static>, Error> {
-    static REGULAR: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
-    static ITALIC: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
-    let (cell, bytes): (_, &'static [u8]) = match face {
-        Face::Regular => (&REGULAR, include_bytes!("../../fonts/LibertinusSerif-Regular.otf")),
-        Face::Italic => (&ITALIC, include_bytes!("../../fonts/LibertinusSerif-Italic.otf")),
+    static FACES: OnceLock<Option<[FontRef<'static>; 2]>> = OnceLock::new();
+    let read = || {
+        let regular = include_bytes!("../../fonts/LibertinusSerif-Regular.otf");
+        let italic = include_bytes!("../../fonts/LibertinusSerif-Italic.otf");
+        let [regular, italic] = [&regular[..], italic].map(FontRef::try_from_slice);
+        Some([regular.ok()?, italic.ok()?])
     };
-    cell.get_or_init(|| FontRef::try_from_slice(bytes).ok())
-        .as_ref()
-        .ok_or_else(|| Error::Drawing("a shipped font file cannot be read".into()))
+    let faces = FACES.get_or_init(read).as_ref();
+    let unreadable = || Error::Drawing("a shipped font file cannot be read".into());
+    faces.map(|faces| &faces[face as usize]).ok_or_else(unreadable)
 }
 
 /// Sets a label in type.
@@ -118,6 +119,11 @@ pub fn set(label: &str) -> Result<Line, Error> {
     }
     line.width = x.max(end_of_scripts);
     Ok(line)
+}
+
+/// Returns the width of a label whose em is `size`.
+pub fn width(label: &str, size: i32) -> Result<i32, Error> {
+    Ok(set(label)?.width * size / EM)
 }
 
 /// Returns the name of a glyph inside a drawing.

@@ -5,7 +5,7 @@
 use super::axis::Axis;
 use super::drawing::{Drawing, Frame};
 use super::elements::{CustomElement, Shape};
-use super::error::Drawn;
+use super::error::{Drawn, Error};
 use super::font;
 use super::path::Point;
 use super::record::Record;
@@ -49,6 +49,15 @@ const CLEARANCE: i32 = 45;
 
 /// From one line of words to the next.
 const LINE_HEIGHT: i32 = 340;
+
+/// Returns the width of the widest number of an axis.
+pub(super) fn widest_number(axis: &Axis) -> Result<i32, Error> {
+    let mut widest = 0;
+    for tick in &axis.ticks {
+        widest = widest.max(font::width(tick.name(), SMALL)?);
+    }
+    Ok(widest)
+}
 
 /// Moves heights that are closer than `least` to both sides, until all are that far apart; their
 /// order stays.
@@ -133,33 +142,20 @@ impl Panel {
 
         let below = words(SMALL, INK, HPos::Center, VPos::Top);
         for tick in &self.x.ticks {
-            if let Some(number) = tick.label.as_ref().filter(|number| !number.is_empty()) {
-                self.text(number, (tick.at, self.y.lo), (0, TICK + GAP), below.clone())?;
-            }
+            self.text(tick.name(), (tick.at, self.y.lo), (0, TICK + GAP), below.clone())?;
         }
-        if !self.x.label.is_empty() {
-            let numbers = SMALL * font::CAP_HEIGHT / font::EM;
-            let at = ((left + right) / 2, bottom + TICK + numbers + 3 * GAP);
-            let style = words(TEXT, INK, HPos::Center, VPos::Top);
-            self.text_on_sheet(&self.x.label, at, style)?;
-        }
-        // The numbers' width decides where the label stands.
-        let mut widest = 0;
+        let numbers = SMALL * font::CAP_HEIGHT / font::EM;
+        let at = ((left + right) / 2, bottom + TICK + numbers + 3 * GAP);
+        self.text_on_sheet(&self.x.label, at, words(TEXT, INK, HPos::Center, VPos::Top))?;
         let at_left = words(SMALL, INK, HPos::Right, VPos::Center);
         for tick in &self.y.ticks {
-            let Some(number) = &tick.label else { continue };
             let moved = (-TICK - GAP * 2 / 3, 0);
-            self.text(number, (self.x.lo, tick.at), moved, at_left.clone())?;
-            widest = widest.max(self.area.estimate_text_size(number, &at_left)?.0 as i32);
+            self.text(tick.name(), (self.x.lo, tick.at), moved, at_left.clone())?;
         }
-        if !self.y.label.is_empty() {
-            let at = (left - TICK - widest - 4 * GAP, (top + bottom) / 2);
-            let style = words(TEXT, INK, HPos::Center, VPos::Bottom);
-            // From bottom to top.
-            let style = style.transform(FontTransform::Rotate270);
-            self.text_on_sheet(&self.y.label, at, style)?;
-        }
-        Ok(())
+        // The numbers' width decides where the label stands. It reads from bottom to top.
+        let at = (left - TICK - widest_number(&self.y)? - 4 * GAP, (top + bottom) / 2);
+        let style = words(TEXT, INK, HPos::Center, VPos::Bottom);
+        self.text_on_sheet(&self.y.label, at, style.transform(FontTransform::Rotate270))
     }
 
     /// Writes the letter of a panel, "(a)", above its upper left corner, and ends the name of its
@@ -204,9 +200,7 @@ impl Panel {
             [(1, 0), (1, -1), (1, 1), (0, -1), (0, 1), (-1, -1), (-1, 1), (-1, 0)];
         let farther = (1..=3).flat_map(|far| AROUND.map(|(x, y)| (far * x, far * y)));
         let point = self.area.map_coordinate(&at);
-        let style = words(SMALL, colour, HPos::Left, VPos::Bottom);
-        let (width, height) = self.area.estimate_text_size(text, &style)?;
-        let size = (width as i32, height as i32);
+        let size = (font::width(text, SMALL)?, SMALL * font::CAP_HEIGHT / font::EM);
         let mut offsets = std::iter::once(offset).chain(farther);
         match offsets.find(|&offset| self.has_room(point, size, offset)) {
             Some(offset) => self.label(text, at, offset, colour),

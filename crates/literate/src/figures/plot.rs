@@ -173,10 +173,10 @@ impl Plot {
         let (x, y) = self.axes();
         let names = self.names();
         let names_end = names.len() > 1;
-        let left = widths(&y)?.into_iter().max().unwrap_or(0) + panel::LABEL_LEFT + 2 * TEXT;
-        let mut right = WIDTH as i32 - 150 - widths(&x)?.last().map_or(0, |width| width / 2);
+        let left = panel::widest_number(&y)? + panel::LABEL_LEFT + 2 * TEXT;
+        let mut right = WIDTH as i32 - 150 - panel::widest_number(&x)? / 2;
         for name in names.iter().filter(|_| names_end) {
-            right = right.min(WIDTH as i32 - width(name)? - 200);
+            right = right.min(WIDTH as i32 - font::width(name, SMALL)? - 200);
         }
         let frame = Frame::new(left, 250, right, 4250);
         let sheet = Sheet::new((frame.bottom + panel::LABEL_BELOW + 2 * TEXT) as u32);
@@ -208,16 +208,6 @@ impl Plot {
         }
         Ok((sheet, panel))
     }
-}
-
-/// Returns the width of small words in grid units.
-fn width(text: &str) -> Result<i32, Error> {
-    Ok(font::set(text)?.width * SMALL / font::EM)
-}
-
-/// Returns the widths of the labels of ticks.
-fn widths(axis: &Axis) -> Result<Vec<i32>, Error> {
-    axis.ticks.iter().flat_map(|tick| &tick.label).map(|label| width(label)).collect()
 }
 
 impl AxisOptions {

@@ -7,12 +7,12 @@
 //! the frame where that is refused.
 
 use super::cut::cut;
-use super::drawing::{Drawing, Element};
+use super::drawing::Drawing;
 use super::elements::{CustomElement, Marker, Shape, line, markers};
 use super::error::{Drawn, Error};
 use super::panel::Panel;
 use super::record::DataPoint;
-use super::style::{Dash, Stroke};
+use super::style::Stroke;
 use impact_numerics::statistics::Estimate;
 use plotters::element::{Drawable, PointCollection, Polygon};
 use plotters::style::{Color, ShapeStyle};
@@ -42,12 +42,16 @@ impl Panel {
         S::Item: Drawable<Drawing>,
         for<'a> &'a S::Item: PointCollection<'a, (f64, f64)>,
     {
-        self.drawing.borrow_mut().elements.push(Element::Open(name.into(), self.frame));
+        self.mark(Shape::Start(name.into(), self.frame))?;
         for element in series {
             self.area.draw(&element)?;
         }
-        self.drawing.borrow_mut().elements.push(Element::Close);
-        Ok(())
+        self.mark(Shape::End)
+    }
+
+    /// Draws where a series starts or ends.
+    fn mark(&self, shape: Shape) -> Drawn {
+        Ok(self.area.draw(&CustomElement { points: Vec::new(), shape })?)
     }
 
     /// Keeps rows of a series for the data file, as a picture may show them in another way.
@@ -55,12 +59,6 @@ impl Panel {
         if self.recorded {
             self.record.borrow_mut().add(name, rows.into_iter().map(R::into));
         }
-    }
-
-    /// Records points, of those to be cut the ones that the axes have a place for.
-    fn record_points(&self, name: &str, points: Points, outside: Outside) {
-        let shown = |p: &&(f64, f64)| outside == Outside::Edge || self.has_place(**p);
-        self.record(name, points.iter().filter(shown).copied());
     }
 
     /// Tells whether the axes have a place for a point.
@@ -72,27 +70,31 @@ impl Panel {
         self.x.contains(x) && self.y.contains(y)
     }
 
-    /// Returns the points that can be drawn.
-    fn checked(
+    /// Records points and returns those that can be drawn. Of those to be cut, the ones that the
+    /// axes have no place for are left out of both.
+    fn places(
         &self,
         name: &str,
         points: Points,
         outside: Outside,
     ) -> Result<Vec<(f64, f64)>, Error> {
-        let is_finite = |p: &(f64, f64)| p.0.is_finite() && p.1.is_finite();
-        let is_refused =
-            |p: &&(f64, f64)| !is_finite(p) || outside == Outside::Refuse && !self.contains(**p);
-        if let Some(&(x, y)) = points.iter().find(is_refused) {
-            return Err(Error::Outside { series: name.into(), x, y });
+        let (mut shown, mut places) = (Vec::new(), Vec::new());
+        for &(x, y) in points {
+            let is_refused = outside == Outside::Refuse && !self.contains((x, y));
+            if is_refused || !x.is_finite() || !y.is_finite() {
+                return Err(Error::Outside { series: name.into(), x, y });
+            }
+            // Where points outside are refused, the edge takes away at most a rounding error.
+            let place = match outside {
+                Outside::Cut if !self.has_place((x, y)) => continue,
+                Outside::Cut => (x, y),
+                _ => (x.clamp(self.x.lo, self.x.hi), y.clamp(self.y.lo, self.y.hi)),
+            };
+            shown.push((x, y));
+            places.push(place);
         }
-        // Where points outside are refused, the edge takes away at most a rounding error.
-        let edge =
-            |p: (f64, f64)| (p.0.clamp(self.x.lo, self.x.hi), p.1.clamp(self.y.lo, self.y.hi));
-        let points = points.iter().copied();
-        Ok(match outside {
-            Outside::Cut => points.filter(|p| self.has_place(*p)).collect(),
-            Outside::Refuse | Outside::Edge => points.map(edge).collect(),
-        })
+        self.record(name, shown);
+        Ok(places)
     }
 
     /// Returns the parts of a curve inside the frame, for series of plotters, which are not cut.
@@ -102,8 +104,7 @@ impl Panel {
 
     /// Draws a curve.
     pub fn curve(&self, name: &str, points: Points, stroke: Stroke, outside: Outside) -> Drawn {
-        let parts = self.cut(&self.checked(name, points, outside)?);
-        self.record_points(name, points, outside);
+        let parts = self.cut(&self.places(name, points, outside)?);
         self.draw_series(name, parts.into_iter().map(|part| line(part, stroke)))
     }
 
@@ -119,9 +120,8 @@ impl Panel {
 
     /// Draws symbols; those outside the frame are left out if `outside` cuts.
     pub fn markers(&self, name: &str, points: Points, marker: Marker, outside: Outside) -> Drawn {
-        let mut places = self.checked(name, points, outside)?;
+        let mut places = self.places(name, points, outside)?;
         places.retain(|p| self.contains(*p));
-        self.record_points(name, points, outside);
         self.draw_series(name, [markers(places, marker)])
     }
 
@@ -140,15 +140,13 @@ impl Panel {
     /// Draws upright ticks of a width at many points, all inside the frame; the thickness of the
     /// stroke is their height.
     pub fn ticks(&self, name: &str, points: Points, width: i32, stroke: Stroke) -> Drawn {
-        let places = self.checked(name, points, Outside::Refuse)?;
-        self.record_points(name, points, Outside::Refuse);
-        let ticks = CustomElement { points: places, shape: Shape::Ticks(width, stroke) };
-        self.draw_series(name, [ticks])
+        let points = self.places(name, points, Outside::Refuse)?;
+        self.draw_series(name, [CustomElement { points, shape: Shape::Ticks(width, stroke) }])
     }
 
     /// Fills a polygon, all of it inside the frame; it is a ground, and no data.
     pub fn filled_area(&self, name: &str, points: Points, fill: impl Into<ShapeStyle>) -> Drawn {
-        let places = self.checked(name, points, Outside::Refuse)?;
+        let places = self.unrecorded().places(name, points, Outside::Refuse)?;
         self.draw_series(name, [Polygon::new(places, fill)])
     }
 
@@ -188,14 +186,13 @@ impl Panel {
             }
         }
         let outside = if outside == Outside::Cut { Outside::Edge } else { outside };
-        let ends = self.checked(name, &ends, outside)?;
+        let ends = self.unrecorded().places(name, &ends, outside)?;
         self.record(name, bars.iter().copied());
-        let within = self.frame.left..self.frame.right;
-        let bar = |ends: &[(f64, f64)]| {
-            let shape = Shape::ErrorBar(half, within.clone(), stroke);
-            CustomElement { points: ends.to_vec(), shape }
-        };
-        self.draw_series(name, ends.chunks_exact(2).map(bar))
+        let bars = ends.chunks_exact(2).map(|bar| CustomElement {
+            points: bar.to_vec(),
+            shape: Shape::ErrorBar(half, stroke),
+        });
+        self.draw_series(name, bars)
     }
 
     /// Draws estimates with bars of one standard error. What lies outside the frame is left out,
@@ -221,8 +218,7 @@ impl Panel {
     ) -> Drawn {
         let points: Vec<_> = estimates.iter().map(|(x, y)| (*x, y.value)).collect();
         self.unrecorded().curve(name, &points, marker.2, Outside::Cut)?;
-        let (symbol, size, line) = marker;
-        self.estimates(name, estimates, (symbol, size, Stroke { dash: Dash::Solid, ..line }))
+        self.estimates(name, estimates, marker)
     }
 }
 

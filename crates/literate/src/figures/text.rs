@@ -5,25 +5,19 @@
 //! it.
 
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBColor, TextStyle};
+use plotters::style::{FontDesc, RGBColor, TextStyle};
 use plotters_backend::BackendTextStyle;
 
-const PLAIN: &str = "plain";
 const RIMMED: &str = "rimmed";
 
 /// Makes the style of words of a size in grid units; `h` and `v` say where in them their place is.
 pub fn words(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
-    style(PLAIN, size, colour, Pos::new(h, v))
+    FontDesc::from(("plain", size)).color(&colour).pos(Pos::new(h, v))
 }
 
 /// Makes the style of words that may stand on something: a rim of the page's colour sets them off.
 pub fn rimmed(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
-    style(RIMMED, size, colour, Pos::new(h, v))
-}
-
-fn style(font: &'static str, size: i32, colour: RGBColor, pos: Pos) -> TextStyle<'static> {
-    let font = FontDesc::new(FontFamily::Name(font), f64::from(size), FontStyle::Normal);
-    TextStyle { font, color: colour.to_backend_color(), pos }
+    FontDesc::from((RIMMED, size)).color(&colour).pos(Pos::new(h, v))
 }
 
 /// Tells whether a style is one of [`rimmed`].
