@@ -167,13 +167,4 @@ mod tests {
     fn a_missing_character_is_an_error() {
         assert!(matches!(set("⌊k⌋"), Err(Error::Glyph { character: '⌊', .. })));
     }
-
-    #[test]
-    fn a_raised_part_stands_above_a_lowered_one() {
-        let line = set("*k*_{*N*}^{∗}").unwrap();
-        assert_eq!(line.glyphs.len(), 3);
-        assert_eq!(line.glyphs[1].x, line.glyphs[2].x);
-        assert!(line.glyphs[1].y < 0 && line.glyphs[2].y > 0);
-        assert!(line.width > line.glyphs[1].x);
-    }
 }

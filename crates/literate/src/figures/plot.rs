@@ -37,7 +37,8 @@ enum SeriesKind {
 }
 
 struct Series {
-    name: String,
+    /// Its place in the list of names.
+    name: usize,
     kind: SeriesKind,
     /// With an error of zero where there is none.
     points: Vec<(f64, Estimate)>,
@@ -54,6 +55,7 @@ struct AxisOptions {
 pub struct Plot {
     x: AxisOptions,
     y: AxisOptions,
+    names: Vec<String>,
     series: Vec<Series>,
 }
 
@@ -90,33 +92,34 @@ impl Plot {
         self.y(label)
     }
 
-    fn add(mut self, name: &str, kind: SeriesKind, points: &[(f64, f64)]) -> Self {
-        let points = points.iter().map(|(x, y)| (*x, with_error(*y, 0.0))).collect();
-        self.series.push(Series { name: name.into(), kind, points });
+    fn add(mut self, name: &str, kind: SeriesKind, points: Vec<(f64, Estimate)>) -> Self {
+        if !self.names.iter().any(|known| known == name) {
+            self.names.push(name.into());
+        }
+        let name = self.names.iter().position(|known| known == name).unwrap_or_default();
+        self.series.push(Series { name, kind, points });
         self
     }
 
     /// Adds a line through points (x, y).
     pub fn line(self, name: &str, points: &[(f64, f64)]) -> Self {
-        self.add(name, SeriesKind::Line, points)
+        self.add(name, SeriesKind::Line, without_errors(points))
     }
 
     /// Adds symbols at points (x, y).
     pub fn points(self, name: &str, points: &[(f64, f64)], symbol: Symbol) -> Self {
-        self.add(name, SeriesKind::Markers(symbol), points)
+        self.add(name, SeriesKind::Markers(symbol), without_errors(points))
     }
 
     /// Adds discs at estimates with bars of one standard error, as a table gives them.
-    pub fn estimates(mut self, name: &str, estimates: &[(f64, Estimate)]) -> Self {
-        let (kind, points) = (SeriesKind::Markers(Symbol::Disc), estimates.to_vec());
-        self.series.push(Series { name: name.into(), kind, points });
-        self
+    pub fn estimates(self, name: &str, estimates: &[(f64, Estimate)]) -> Self {
+        self.add(name, SeriesKind::Markers(Symbol::Disc), estimates.to_vec())
     }
 
     /// Adds a function of x across the plot; the range of y follows from it only where there is no
     /// other data.
     pub fn curve(self, name: &str, function: impl Fn(f64) -> f64 + 'static) -> Self {
-        self.add(name, SeriesKind::Curve(Box::new(function)), &[])
+        self.add(name, SeriesKind::Curve(Box::new(function)), Vec::new())
     }
 
     /// Returns all points that the axes have a place for, with the ends of bars.
@@ -149,17 +152,6 @@ impl Plot {
         (x, y)
     }
 
-    /// Returns the names of the series, each once.
-    fn names(&self) -> Vec<&str> {
-        let mut names: Vec<&str> = Vec::new();
-        for series in &self.series {
-            if !names.contains(&&*series.name) {
-                names.push(&series.name);
-            }
-        }
-        names
-    }
-
     /// Draws the figure. Fails for a number that is not finite, and for a label with a character
     /// that the shipped fonts lack.
     pub fn finish(self, title: &str, description: Description) -> Result<Figure, Error> {
@@ -171,25 +163,24 @@ impl Plot {
     /// of plotters.
     pub fn draw(mut self) -> Result<(Sheet, Panel), Error> {
         let (x, y) = self.axes();
-        let names = self.names();
-        let names_end = names.len() > 1;
+        let has_names = self.names.len() > 1;
         let left = panel::widest_number(&y)? + panel::LABEL_LEFT + 2 * TEXT;
         let mut right = WIDTH as i32 - 150 - panel::widest_number(&x)? / 2;
-        for name in names.iter().filter(|_| names_end) {
-            right = right.min(WIDTH as i32 - font::width(name, SMALL)? - 200);
+        let mut ends = Vec::new();
+        for (name, colour) in self.names.into_iter().zip(COLOURS.into_iter().cycle()) {
+            if has_names {
+                right = right.min(WIDTH as i32 - font::width(&name, SMALL)? - 200);
+            }
+            ends.push((name, Vec::new(), colour));
         }
         let frame = Frame::new(left, 250, right, 4250);
         let sheet = Sheet::new((frame.bottom + panel::LABEL_BELOW + 2 * TEXT) as u32);
         let panel = sheet.panel(frame, x, y)?;
-        let mut ends = Vec::new();
-        for (i, name) in names.iter().enumerate() {
-            ends.push((name.to_string(), Vec::new(), COLOURS[i % COLOURS.len()]));
-        }
-        for Series { name, kind, points } in &self.series {
-            let i = names.iter().position(|listed| listed == name).unwrap_or_default();
+        for Series { name: place, kind, points } in &self.series {
+            let (name, named, colour) = &mut ends[*place];
             let places: Vec<(f64, f64)> = points.iter().map(|(x, y)| (*x, y.value)).collect();
-            let stroke = Stroke::dashed(ends[i].2, LINE, DASHES[i % DASHES.len()]);
-            let marker = |symbol| -> Marker { (symbol, MEDIUM, Stroke::solid(ends[i].2, THIN)) };
+            let stroke = Stroke::dashed(*colour, LINE, DASHES[place % DASHES.len()]);
+            let marker = |symbol| -> Marker { (symbol, MEDIUM, Stroke::solid(*colour, THIN)) };
             match kind {
                 SeriesKind::Line | SeriesKind::Curve(_) => {
                     panel.curve(name, &places, stroke, Outside::Cut)?;
@@ -199,15 +190,19 @@ impl Plot {
                 }
                 SeriesKind::Markers(symbol) => panel.estimates(name, points, marker(*symbol))?,
             }
-            if ends[i].1.is_empty() {
-                ends[i].1 = places;
+            if named.is_empty() {
+                *named = places;
             }
         }
-        if names_end {
+        if has_names {
             panel.label_ends(&ends)?;
         }
         Ok((sheet, panel))
     }
+}
+
+fn without_errors(points: &[(f64, f64)]) -> Vec<(f64, Estimate)> {
+    points.iter().map(|(x, y)| (*x, with_error(*y, 0.0))).collect()
 }
 
 impl AxisOptions {
@@ -245,8 +240,6 @@ mod tests {
     use super::*;
     use crate::describe;
     use crate::figures::drawing::Element;
-    use plotters::series::AreaSeries;
-    use plotters::style::Color;
 
     fn labels(options: &AxisOptions, values: &[f64]) -> (f64, f64, Vec<String>) {
         let axis = options.axis(values.iter().copied());
@@ -276,32 +269,18 @@ mod tests {
     fn all_of_a_plot_lies_on_its_sheet() {
         let points = [(1.0, 0.5), (20.0, 3e4), (300.0, 0.0)];
         let plot = Plot::new().log_x("*k*").log_y("*D* (m²)").line("line", &points);
-        let found = [(2.0, with_error(1.0, 1.5))];
-        let plot = plot.points("line", &points, Symbol::Ring).estimates("found", &found);
-        let plot = plot.curve("theory", |k| k * k);
-        let figure = plot.finish("Spread", describe!("It rises.")).unwrap();
-        let series: Vec<&str> = figure.data[0].rows.iter().map(|row| row[0].as_str()).collect();
-        assert_eq!(
-            (series.iter().filter(|name| **name == "line").count(), series.len()),
-            (2, 2 + 1 + 401)
-        );
-        let high = figure.drawing.height as i32;
+        let plot = plot.points("line", &points, Symbol::Ring);
+        let plot = plot.estimates("found", &[(2.0, with_error(1.0, 1.5))]);
+        let figure = plot.curve("theory", |k| k * k).finish("Spread", describe!("It rises."));
+        let figure = figure.unwrap();
+        // A line and its symbols are one series; zero has no place on the axis.
+        assert_eq!(figure.data[0].rows.len(), 2 + 1 + 401);
         for element in &figure.drawing.elements {
             let Element::Label(label) = element else { continue };
             let (x, y) = label.at;
+            let high = figure.drawing.height as i32;
             assert!((1..WIDTH as i32).contains(&x) && (1..high).contains(&y), "{}", label.words);
         }
-        // An area of plotters: inside the frame, and with an edge that is invisible.
-        let (sheet, panel) = Plot::new().line("a", &[(0.0, 1.0), (1.0, 2.0)]).draw().unwrap();
-        let area = AreaSeries::new([(0.0, 1.0), (1.0, 2.0)], 1.0, BLUE.mix(0.2));
-        panel.draw_series("area", area).unwrap();
-        let elements = sheet.finish("", Description::default()).drawing.elements;
-        let [.., Element::Open(..), Element::Shape(path, fill, None), Element::Close] =
-            &elements[..]
-        else {
-            panic!("{elements:?}")
-        };
-        assert_eq!((path.len(), *fill), (5, Some((BLUE, 20))));
         let wrong = Plot::new().line("a", &[(0.0, f64::NAN)]).finish("A", describe!("A"));
         assert!(matches!(wrong, Err(Error::Outside { .. })));
     }
