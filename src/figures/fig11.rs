@@ -1,7 +1,7 @@
 //! Draws Fig. 11: the impact probability p against the standard deviation σ of the forcing; on a
 //! logarithmic axis as well, which the paper does not have.
 
-use super::labels::FORCING;
+use super::FORCING;
 use super::prelude::*;
 use crate::experiments::Results;
 

@@ -116,10 +116,7 @@ fn series(panel: &Panel, p: f64) -> Drawn {
     panel.curve("all five classes", &over_k(&five(p)), SUM, Outside::Cut)?;
     for (class, (name, _, colour, dash)) in contributions(p).iter().zip(CLASSES) {
         // On a logarithmic axis each is visible.
-        let points = match panel.y.scale {
-            Scale::Linear => visible(class, panel.y.hi),
-            _ => over_k(class),
-        };
+        let points = if panel.y.is_log { over_k(class) } else { visible(class, panel.y.hi) };
         panel.curve(name, &points, Stroke::dashed(colour, LINE, dash), Outside::Cut)?;
     }
     Ok(())

@@ -19,7 +19,6 @@ mod fig13;
 mod fig14;
 mod fig15;
 mod graph;
-mod labels;
 mod motion;
 mod rivals;
 mod s01;
@@ -42,6 +41,9 @@ use crate::experiments::{
     SWEEP, THEORY,
 };
 use literate::FigureSpec;
+
+/// The label of an axis of σ.
+const FORCING: &str = "*σ* (*d ω*^{2})";
 
 const fn drawing(
     name: &'static str,

@@ -24,8 +24,8 @@ pub fn look(method: MethodName) -> Marker {
 pub type Curves = Vec<(MethodName, Vec<(f64, f64)>)>;
 
 /// Where the name of a method stands: next to which of its settings, with an offset to the right
-/// and down in millimetres.
-pub type Place = (MethodName, usize, (i32, i32));
+/// and down in millimetres; and another name, for methods whose marks coincide.
+pub type Place = (MethodName, usize, (i32, i32), Option<&'static str>);
 
 /// The finest setting.
 pub const FINEST: usize = usize::MAX;
@@ -46,12 +46,12 @@ pub fn draw(panel: &Panel, curves: &Curves, places: &[Place], outside: Outside) 
 
 /// Writes the names of methods next to their marks.
 pub fn names(panel: &Panel, curves: &Curves, places: &[Place]) -> Drawn {
-    for (method, setting, offset) in places {
+    for (method, setting, offset, name) in places {
         let curve = curves.iter().find(|curve| curve.0 == *method).map(|curve| &curve.1);
         if let Some(at) = curve.and_then(|curve| curve.get(*setting).or(curve.last())) {
             let inside = (at.0, at.1.clamp(panel.y.lo, panel.y.hi));
             let colour = if *method == MethodName::Certified { RED } else { INK };
-            panel.label_nearby(method.title(), inside, *offset, colour)?;
+            panel.label_nearby(name.unwrap_or(method.title()), inside, *offset, colour)?;
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Fig. S2: gaps that close by themselves, and chains with one of them.
 
-use super::labels::FORCING;
+use super::FORCING;
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::beside::at;

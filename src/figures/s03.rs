@@ -1,6 +1,6 @@
 //! Fig. S3: how impacts spread from one gap that closes by itself, and the mean count that follows.
 
-use super::labels::FORCING;
+use super::FORCING;
 use super::prelude::*;
 use super::simulated::count_axis;
 use crate::experiments::Results;

@@ -1,6 +1,6 @@
 //! Fig. S4: chains from rest and from above after several transients.
 
-use super::labels::FORCING;
+use super::FORCING;
 use super::prelude::*;
 use crate::experiments::Results;
 use literate::table::Table;

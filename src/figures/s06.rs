@@ -6,21 +6,23 @@ use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
 use crate::params::MethodName::{self, *};
 
 /// Where the names stand in the upper panel.
-const NAMES: [Place; 5] = [
-    (Certified, FINEST, (3, 0)),
-    (Sampled, FINEST, (2, 0)),
-    (Advancement, 0, (2, 0)),
-    (RungeKutta, FINEST, (2, 0)),
-    (MoreauJean, 1, (1, -2)),
+const NAMES: [Place; 6] = [
+    (Certified, FINEST, (3, 0), None),
+    (Sampled, FINEST, (2, 0), None),
+    (Advancement, 0, (2, 0), None),
+    (RungeKutta, FINEST, (2, 0), None),
+    (MoreauJean, 1, (1, -2), None),
+    (Verlet, 1, (1, 6), Some(ALIKE)),
 ];
 
 /// Where they stand in the lower panel.
-const MISSED: [Place; 5] = [
-    (Certified, FINEST, (2, -2)),
-    (Sampled, 0, (0, -2)),
-    (Advancement, 0, (2, 0)),
-    (RungeKutta, FINEST, (1, -2)),
-    (MoreauJean, 2, (2, 0)),
+const MISSED: [Place; 6] = [
+    (Certified, FINEST, (2, -2), None),
+    (Sampled, 0, (0, -2), None),
+    (Advancement, 0, (2, 0), None),
+    (RungeKutta, FINEST, (1, -2), None),
+    (MoreauJean, 2, (2, 0), None),
+    (Verlet, 2, (-2, 0), Some(ALIKE)),
 ];
 
 /// Methods whose marks coincide.
@@ -59,15 +61,8 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
         (method, bars.iter().map(|bar| (bar.0, bar.1)).collect())
     };
     let medians = spreads.into_iter().map(median).collect();
-    for (panel, curves, places, (setting, offset)) in
-        [(&errors, &medians, &NAMES, (1, (1, 6))), (&misses, &missed, &MISSED, (2, (-2, 0)))]
-    {
-        rivals::draw(panel, curves, places, Outside::Edge)?;
-        let verlet = curves.iter().find(|curve| curve.0 == Verlet).map(|curve| &curve.1);
-        if let Some(at) = verlet.and_then(|curve| curve.get(setting).or(curve.last())) {
-            panel.label_nearby(ALIKE, *at, offset, INK)?;
-        }
-    }
+    rivals::draw(&errors, &medians, &NAMES, Outside::Edge)?;
+    rivals::draw(&misses, &missed, &MISSED, Outside::Edge)?;
     Ok(sheet.finish("Error and misses of the next impact", description(race)))
 }
 

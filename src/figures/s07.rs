@@ -13,10 +13,10 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 
 /// Where names stand in (a); methods with fixed steps have one name.
 const NAMES: [Place; 4] = [
-    (Certified, FINEST, (2, 0)),
-    (Sampled, FINEST, (2, 1)),
-    (Advancement, 2, (-2, 0)),
-    (RungeKutta, FINEST, (2, 0)),
+    (Certified, FINEST, (2, 0), None),
+    (Sampled, FINEST, (2, 1), None),
+    (Advancement, 2, (-2, 0), None),
+    (RungeKutta, FINEST, (2, 0), None),
 ];
 
 /// The same for other programs: name of the row, name here.
@@ -29,10 +29,10 @@ const PROGRAMS: [(&str, &str, usize, (i32, i32)); 4] = [
 
 /// The same for (b).
 const BY_ERROR: [Place; 4] = [
-    (Certified, FINEST, (-2, 0)),
-    (Sampled, 0, (-2, 0)),
-    (Advancement, 2, (0, 3)),
-    (RungeKutta, 0, (-2, -1)),
+    (Certified, FINEST, (-2, 0), None),
+    (Sampled, 0, (-2, 0), None),
+    (Advancement, 2, (0, 3), None),
+    (RungeKutta, 0, (-2, -1), None),
 ];
 
 /// Returns the time in which an error ε grows to [`DISPLACED`], ln([`DISPLACED`]/ε)/λ, and its

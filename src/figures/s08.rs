@@ -18,12 +18,12 @@ const CLEAR: f64 = 3.0;
 const BOUND: f64 = 2.0;
 
 const NAMES: [Place; 6] = [
-    (Verlet, 0, (-2, 0)),
-    (Advancement, FINEST, (0, 5)),
-    (Sampled, 0, (0, 4)),
-    (RungeKutta, 0, (-1, -1)),
-    (MoreauJean, 0, (1, -1)),
-    (Penalty, 0, (2, -1)),
+    (Verlet, 0, (-2, 0), None),
+    (Advancement, FINEST, (0, 5), None),
+    (Sampled, 0, (0, 4), None),
+    (RungeKutta, 0, (-1, -1), None),
+    (MoreauJean, 0, (1, -1), None),
+    (Penalty, 0, (2, -1), None),
 ];
 
 pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {

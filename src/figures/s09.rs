@@ -7,11 +7,12 @@ use crate::experiments::accuracy::scale::Scale as Costs;
 use crate::experiments::measured::{Measurement, What};
 use crate::params::MethodName::*;
 
-const NAMES: [Place; 4] = [
-    (Certified, FINEST, (0, -2)),
-    (Sampled, FINEST, (2, 0)),
-    (Advancement, FINEST, (2, 0)),
-    (RungeKutta, FINEST, (2, -1)),
+const NAMES: [Place; 5] = [
+    (Certified, FINEST, (0, -2), None),
+    (Sampled, FINEST, (2, 0), None),
+    (Advancement, FINEST, (2, 0), None),
+    (RungeKutta, FINEST, (2, -1), None),
+    (Verlet, FINEST, (2, 0), Some("Verlet, time stepping")),
 ];
 
 /// The measured times of the engine with one chain on one thread.
@@ -33,10 +34,6 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     )?;
     let all = by_method(scale, |row| Some((row.0.method, (row.1 as f64, row.2))));
     rivals::draw(&counted, &all, &NAMES, Outside::Refuse)?;
-    // Their marks coincide.
-    if let Some(at) = all.iter().find(|curve| curve.0 == Verlet).and_then(|curve| curve.1.last()) {
-        counted.label_nearby("Verlet, time stepping", *at, (2, 0), INK)?;
-    }
 
     let rows = of_engine(measured);
     let times = rows.iter().filter_map(|row| row.microseconds_per_impact);

@@ -1,6 +1,6 @@
 //! What the figures of the simulations share: their rows, axes and marks.
 
-use super::labels::FORCING;
+use super::FORCING;
 use super::prelude::*;
 use crate::experiments::rise::Counted;
 use crate::experiments::theory::beside;

@@ -10,14 +10,6 @@ use plotters::coord::types::RangedCoordf64;
 use pxfm::{f_exp10, f_log10};
 use std::ops::Range;
 
-/// How values lie along an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
-    Linear,
-    /// By their logarithm; a value that is not positive lies below every range.
-    Logarithm,
-}
-
 /// A tick; minor ones have no label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
@@ -38,7 +30,8 @@ impl Tick {
 pub struct Axis {
     pub lo: f64,
     pub hi: f64,
-    pub scale: Scale,
+    /// Whether values lie by their logarithm; one that is not positive lies below every range.
+    pub is_log: bool,
     /// With mark-up; empty for none.
     pub label: String,
     /// Name and unit of its column in data files, if they are not in the label.
@@ -73,11 +66,11 @@ impl Axis {
                 Tick { at: at.clamp(lo, hi), label: major.then(|| number(at, decimals)) }
             })
             .collect();
-        Axis::new(Scale::Linear, [lo, hi], label, ticks)
+        Axis::new(false, [lo, hi], label, ticks)
     }
 
-    pub fn new(scale: Scale, [lo, hi]: [f64; 2], label: &str, ticks: Vec<Tick>) -> Self {
-        Axis { lo, hi, scale, label: label.into(), column: None, ticks }
+    fn new(is_log: bool, [lo, hi]: [f64; 2], label: &str, ticks: Vec<Tick>) -> Self {
+        Axis { lo, hi, is_log, label: label.into(), column: None, ticks }
     }
 
     /// Makes a logarithmic axis from 10^`lo` to 10^`hi`, labelled every `every` decades. If `every`
@@ -95,7 +88,7 @@ impl Axis {
                 ticks.extend((2..10).map(|m| Tick { at: decimal(m, exponent), label: None }));
             }
         }
-        Axis::new(Scale::Logarithm, [lo, hi].map(|end| decimal(1, end)), label, ticks)
+        Axis::new(true, [lo, hi].map(|end| decimal(1, end)), label, ticks)
     }
 
     /// Makes a logarithmic axis of the decades that hold all values, labelled every `every`.
@@ -139,19 +132,16 @@ impl Axis {
 
     /// Returns where a value lies on the scale: the value or its logarithm.
     pub fn position(&self, value: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => value,
-            Scale::Logarithm if value <= 0.0 => f64::NEG_INFINITY,
-            Scale::Logarithm => f_log10(value),
+        match self.is_log {
+            false => value,
+            true if value <= 0.0 => f64::NEG_INFINITY,
+            true => f_log10(value),
         }
     }
 
     /// Returns the value at a position.
     pub fn value(&self, position: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => position,
-            Scale::Logarithm => f_exp10(position),
-        }
+        if self.is_log { f_exp10(position) } else { position }
     }
 
     /// Returns the positions of both ends.
@@ -161,11 +151,7 @@ impl Axis {
 
     /// Tells whether a value lies on the axis; an end touched within rounding is inside.
     pub fn contains(&self, value: f64) -> bool {
-        self.contains_position(self.position(value))
-    }
-
-    /// Tells whether a position lies on the axis, within rounding.
-    pub(super) fn contains_position(&self, at: f64) -> bool {
+        let at = self.position(value);
         let (lo, hi) = self.ends();
         let slack = 1e-9 * (hi - lo);
         lo - slack <= at && at <= hi + slack

@@ -30,7 +30,7 @@ pub use svg::{escape, outlines};
 
 /// What a figure is drawn with, for one line of imports.
 pub mod prelude {
-    pub use super::axis::{Axis, Scale, Tick, number};
+    pub use super::axis::{Axis, Tick, number};
     pub use super::drawing::Frame;
     pub use super::elements::{Marker, arrow, line, markers};
     pub use super::helpers::*;

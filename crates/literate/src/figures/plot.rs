@@ -1,19 +1,5 @@
 //! Draws a plot of one panel whose ranges, ticks, frame and names at the ends of curves follow from
 //! its data; [`Sheet`] and [`Panel`] are for figures that place these by hand.
-//!
-//! ```
-//! use literate::prelude::*;
-//!
-//! let found = [(1.0, 0.26, 0.02), (2.0, 0.98, 0.05), (4.0, 4.1, 0.2)];
-//! let found = found.map(|(k, mean, error)| (k, with_error(mean, error)));
-//! let figure = Plot::new()
-//!     .x("*k*")
-//!     .log_y("mean square distance (1/s)")
-//!     .estimates("simulated", &found)
-//!     .curve("random phases", |k| k * k / 4.0)
-//!     .finish("Spread of the balls", describe!("Both rise as the square of k."))?;
-//! # Ok::<(), FigureError>(())
-//! ```
 
 use super::axis::{self, Axis};
 use super::drawing::Frame;

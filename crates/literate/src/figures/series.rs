@@ -229,6 +229,7 @@ mod tests {
     use crate::figures::drawing::Frame;
     use crate::figures::sheet::Sheet;
     use crate::figures::style::{GREEN, Symbol};
+    use impact_numerics::estimates::with_error;
 
     const FRAME: Frame = Frame::new(1000, 100, 2000, 1100);
     const LINE: Stroke = Stroke::solid(GREEN, 30);
@@ -265,9 +266,8 @@ mod tests {
         assert!(matches!(refused, Err(Error::Outside { x: 0.2, y: 0.0, .. })));
         panel.curve("cut", &points, LINE, Outside::Cut).unwrap();
         panel.markers("edge", &points[1..2], (Symbol::Disc, 30, LINE), Outside::Edge).unwrap();
-        let estimate = |value, error| Estimate { value, error, interval: [value; 2] };
-        let estimates =
-            [(0.5, estimate(0.1, 0.2)), (0.6, estimate(0.0, 0.1)), (0.7, estimate(2.0, 0.1))];
+        let estimates = [(0.5, 0.1, 0.2), (0.6, 0.0, 0.1), (0.7, 2.0, 0.1)];
+        let estimates = estimates.map(|(x, value, error)| (x, with_error(value, error)));
         panel.estimates("estimates", &estimates, (Symbol::Disc, 30, LINE)).unwrap();
         // Guides, grounds and what is quiet are no data.
         panel.level("level", 0.5, LINE).unwrap();
@@ -275,14 +275,8 @@ mod tests {
         panel.unrecorded().curve("rims", &points, LINE, Outside::Cut).unwrap();
         // In units of the data, and as they were given: the cut is the picture's.
         let file = &sheet.finish("", Default::default()).data[0];
-        let rows = [
-            "cut,0.1,0.5,",
-            "cut,0.3,0.001,",
-            "edge,0.2,0,",
-            "estimates,0.5,0.1,0.2",
-            "estimates,0.7,2,0.1",
-        ];
-        assert_eq!(file.name, "b.csv");
-        assert_eq!(file.csv().lines().skip(1).collect::<Vec<_>>(), rows);
+        let rows = "cut,0.1,0.5,\ncut,0.3,0.001,\nedge,0.2,0,\n\
+                    estimates,0.5,0.1,0.2\nestimates,0.7,2,0.1\n";
+        assert_eq!((&*file.name, file.csv().split_once('\n').unwrap().1), ("b.csv", rows));
     }
 }
