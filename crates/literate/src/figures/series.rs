@@ -35,7 +35,7 @@ pub enum Outside {
 
 impl Panel {
     /// Draws a series of plotters, or any elements, as a group of this name. What lies outside the
-    /// frame is not cut; see [`Panel::cut`].
+    /// frame is not cut, and nothing is recorded; see [`Panel::cut`] and [`Panel::record`].
     pub fn draw_series<S>(&self, name: &str, series: S) -> Drawn
     where
         S: IntoIterator,
