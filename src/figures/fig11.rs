@@ -1,8 +1,8 @@
 //! Draws Fig. 11: the impact probability p against the standard deviation σ of the forcing; on a
 //! logarithmic axis as well, which the paper does not have.
 
-use super::FORCING;
 use super::prelude::*;
+use super::simulated::FORCING;
 use crate::experiments::Results;
 
 /// Lowest decade of the logarithmic panel.

@@ -42,9 +42,6 @@ use crate::experiments::{
 };
 use literate::FigureSpec;
 
-/// The label of an axis of σ.
-const FORCING: &str = "*σ* (*d ω*^{2})";
-
 const fn drawing(
     name: &'static str,
     needs: &'static [&'static dyn AnyExperiment],

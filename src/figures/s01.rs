@@ -22,8 +22,8 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let impacts = points(run, 0.0, until);
     window(&whole, until)?;
     let row = (whole.frame.bottom - whole.frame.top) / (run.width() as i32 + 1);
-    whole.unrecorded().ticks("impacts", &impacts, 12, Stroke::solid(INK, row as u32))?;
     whole.record("impacts", impacts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
+    whole.draw_series("impacts", [ticks(impacts, 12, Stroke::solid(INK, row as u32))])?;
     starts(&whole, run, until)?;
 
     // From a round time before the first impact on.
@@ -31,7 +31,8 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let to = from + DETAIL;
     let near = Frame::new(1200, 5250, 8150, 8550);
     let near = sheet.lettered(LETTERS[1], near, time(from, to, DETAIL / 4.0), gaps())?.unrecorded();
-    near.ticks("first impacts", &points(run, from, to), 14, Stroke::solid(INK, 30))?;
+    let first = ticks(points(run, from, to), 14, Stroke::solid(INK, 30));
+    near.draw_series("first impacts", [first])?;
     starts(&near, run, to)?;
     if let Some((time, gap)) = run.times.first().zip(run.gaps.first()) {
         near.label("closes by itself", (*time, f64::from(*gap)), (2, 4), RED)?;
@@ -53,7 +54,7 @@ fn window(panel: &Panel, until: f64) -> Drawn {
     }
     let (low, high) = (panel.y.lo, panel.y.hi);
     let corners = [(from, low), (to, low), (to, high), (from, high)];
-    panel.filled_area("window", &corners, ORANGE.mix(0.3))?;
+    panel.draw_series("window", [Polygon::new(corners, ORANGE.mix(0.3))])?;
     panel.label("counting window", (from, high), (1, -1), ORANGE)
 }
 

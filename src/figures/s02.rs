@@ -1,7 +1,7 @@
 //! Fig. S2: gaps that close by themselves, and chains with one of them.
 
-use super::FORCING;
 use super::prelude::*;
+use super::simulated::FORCING;
 use crate::experiments::Results;
 use crate::experiments::theory::beside::at;
 use crate::params::{Chain, printed_threshold};

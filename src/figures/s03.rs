@@ -1,8 +1,7 @@
 //! Fig. S3: how impacts spread from one gap that closes by itself, and the mean count that follows.
 
-use super::FORCING;
 use super::prelude::*;
-use super::simulated::count_axis;
+use super::simulated::{FORCING, count_axis};
 use crate::experiments::Results;
 use crate::experiments::rise::Counted;
 use crate::experiments::sweep;

@@ -1,7 +1,7 @@
 //! Fig. S4: chains from rest and from above after several transients.
 
-use super::FORCING;
 use super::prelude::*;
+use super::simulated::FORCING;
 use crate::experiments::Results;
 use literate::table::Table;
 

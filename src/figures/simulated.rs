@@ -1,11 +1,13 @@
 //! What the figures of the simulations share: their rows, axes and marks.
 
-use super::FORCING;
 use super::prelude::*;
 use crate::experiments::rise::Counted;
 use crate::experiments::theory::beside;
 pub use crate::params::printed_threshold;
 use literate::table::Table;
+
+/// The label of an axis of σ.
+pub const FORCING: &str = "*σ* (*d ω*^{2})";
 
 /// Line of the simulation's marks.
 pub const CROSS: Stroke = Stroke::solid(RED, THIN);

@@ -2,7 +2,7 @@
 //! edge, dense ticks, and error bars of caps alone.
 
 use super::backend::Outcome;
-use super::drawing::{Drawing, Element, Frame};
+use super::drawing::Drawing;
 use super::path::{Point, Step, circle, polygon, polyline};
 use super::style::{Dash, Stroke, Symbol, WHITE};
 use plotters::element::{
@@ -15,44 +15,21 @@ use std::iter::once;
 /// Symbol, half its width, and the line of an open symbol, whose colour fills a closed one.
 pub type Marker = (Symbol, i32, Stroke);
 
-/// An element of the kinds that plotters lacks, drawn at or through points.
+type Draw = dyn Fn(&mut Drawing, Vec<Point>) -> Outcome;
+
+/// An element that plotters lacks: points, and how it is drawn at their places on the sheet.
 pub struct CustomElement<C> {
-    pub(super) points: Vec<C>,
-    pub(super) shape: Shape,
+    points: Vec<C>,
+    draw: Box<Draw>,
 }
 
-pub(super) enum Shape {
-    Dashed(Stroke),
-    Arrow(Stroke),
-    Markers(Marker),
-    /// A straight stroke from each first point to the second.
-    Segments(Stroke),
-    /// Upright ticks of a width, as high as the stroke is thick.
-    Ticks(i32, Stroke),
-    /// A bar with caps of half a width, none if it is zero.
-    ErrorBar(i32, Stroke),
-    /// What follows, up to the end, is the series of this name in this frame.
-    Start(String, Frame),
-    End,
-}
-
-/// Draws a line through points: an element of plotters if it is solid.
-pub fn line<C: Clone + 'static>(points: Vec<C>, stroke: Stroke) -> DynElement<'static, Drawing, C> {
-    if stroke.dash == Dash::Solid {
-        PathElement::new(points, stroke).into_dyn()
-    } else {
-        CustomElement { points, shape: Shape::Dashed(stroke) }.into_dyn()
+impl<C> CustomElement<C> {
+    pub(super) fn new(
+        points: Vec<C>,
+        draw: impl Fn(&mut Drawing, Vec<Point>) -> Outcome + 'static,
+    ) -> Self {
+        CustomElement { points, draw: Box::new(draw) }
     }
-}
-
-/// Draws a solid line that ends in an arrow head.
-pub fn arrow<C>(points: Vec<C>, stroke: Stroke) -> CustomElement<C> {
-    CustomElement { points, shape: Shape::Arrow(stroke) }
-}
-
-/// Draws equal symbols at points, as one shape.
-pub fn markers<C>(points: Vec<C>, marker: Marker) -> CustomElement<C> {
-    CustomElement { points, shape: Shape::Markers(marker) }
 }
 
 impl<'a, C> PointCollection<'a, C> for &'a CustomElement<C> {
@@ -71,46 +48,68 @@ impl<C> Drawable<Drawing> for CustomElement<C> {
         drawing: &mut Drawing,
         _: (u32, u32),
     ) -> Outcome {
-        let mut points: Vec<Point> = points.collect();
-        match &self.shape {
-            Shape::Dashed(stroke) => {
-                points.dedup();
-                drawing.shape(polyline(points), None, Some(*stroke));
-            }
-            Shape::Arrow(stroke) => draw_arrow(drawing, points, *stroke)?,
-            Shape::Markers(marker) => draw_markers(drawing, &points, *marker)?,
-            Shape::Segments(stroke) => {
-                for pair in points.chunks_exact(2) {
-                    drawing.draw_line(pair[0], pair[1], &ShapeStyle::from(*stroke))?;
-                }
-            }
-            Shape::Ticks(width, stroke) => draw_ticks(drawing, points, *width, *stroke)?,
-            Shape::ErrorBar(half, stroke) => {
-                let style = ShapeStyle::from(*stroke);
-                drawing.draw_path(points.iter().copied(), &style)?;
-                for (x, y) in points.into_iter().filter(|_| *half > 0) {
-                    drawing.draw_path([(x - half, y), (x + half, y)], &style)?;
-                }
-            }
-            Shape::Start(name, frame) => {
-                drawing.elements.push(Element::Open(name.clone(), *frame));
-            }
-            Shape::End => drawing.elements.push(Element::Close),
-        }
-        Ok(())
+        (self.draw)(drawing, points.collect())
     }
 }
 
-/// Draws ticks; those in one row that touch are one stroke.
-fn draw_ticks(drawing: &mut Drawing, points: Vec<Point>, width: i32, stroke: Stroke) -> Outcome {
-    let mut places: Vec<Point> = points.into_iter().map(|(x, y)| (y, x)).collect();
-    places.sort_unstable();
-    for run in places.chunk_by(|a, b| a.0 == b.0 && b.1 - a.1 <= width) {
-        let (y, left) = (run[0].0, run[0].1 - width / 2);
-        let right = run[run.len() - 1].1 - width / 2 + width;
-        drawing.draw_line((left, y), (right, y), &ShapeStyle::from(stroke))?;
+/// Draws a line through points: an element of plotters if it is solid.
+pub fn line<C: Clone + 'static>(points: Vec<C>, stroke: Stroke) -> DynElement<'static, Drawing, C> {
+    if stroke.dash == Dash::Solid {
+        return PathElement::new(points, stroke).into_dyn();
     }
-    Ok(())
+    let dashed = move |drawing: &mut Drawing, mut points: Vec<Point>| {
+        points.dedup();
+        drawing.shape(polyline(points), None, Some(stroke));
+        Ok(())
+    };
+    CustomElement::new(points, dashed).into_dyn()
+}
+
+/// Draws a straight stroke from each first point to the second.
+pub(super) fn segments<C>(points: Vec<C>, stroke: Stroke) -> CustomElement<C> {
+    CustomElement::new(points, move |drawing, points| {
+        for pair in points.chunks_exact(2) {
+            drawing.draw_line(pair[0], pair[1], &ShapeStyle::from(stroke))?;
+        }
+        Ok(())
+    })
+}
+
+/// Draws a bar between two points, with caps of half a width, none if it is zero.
+pub(super) fn error_bar<C>(ends: [C; 2], half: i32, stroke: Stroke) -> CustomElement<C> {
+    let style = ShapeStyle::from(stroke);
+    CustomElement::new(ends.into(), move |drawing, points| {
+        drawing.draw_path(points.iter().copied(), &style)?;
+        for (x, y) in points.into_iter().filter(|_| half > 0) {
+            drawing.draw_path([(x - half, y), (x + half, y)], &style)?;
+        }
+        Ok(())
+    })
+}
+
+/// Draws upright ticks of a width at points, as high as the stroke is thick; those in one row that
+/// touch are one stroke.
+pub fn ticks<C>(points: Vec<C>, width: i32, stroke: Stroke) -> CustomElement<C> {
+    CustomElement::new(points, move |drawing, points| {
+        let mut places: Vec<Point> = points.into_iter().map(|(x, y)| (y, x)).collect();
+        places.sort_unstable();
+        for run in places.chunk_by(|a, b| a.0 == b.0 && b.1 - a.1 <= width) {
+            let (y, left) = (run[0].0, run[0].1 - width / 2);
+            let right = run[run.len() - 1].1 - width / 2 + width;
+            drawing.draw_line((left, y), (right, y), &ShapeStyle::from(stroke))?;
+        }
+        Ok(())
+    })
+}
+
+/// Draws a solid line that ends in an arrow head.
+pub fn arrow<C>(points: Vec<C>, stroke: Stroke) -> CustomElement<C> {
+    CustomElement::new(points, move |drawing, points| draw_arrow(drawing, points, stroke))
+}
+
+/// Draws equal symbols at points, as one shape.
+pub fn markers<C>(points: Vec<C>, marker: Marker) -> CustomElement<C> {
+    CustomElement::new(points, move |drawing, points| draw_markers(drawing, &points, marker))
 }
 
 /// Ends the line inside the head. A short last stretch must not turn the head, so its direction is

@@ -69,26 +69,20 @@ fn font(face: Face) -> Result<&'static FontRef<'static>, Error> {
 /// [`Error::Glyph`] names a character that the face lacks: a figure with a missing letter is wrong.
 pub fn set(label: &str) -> Result<Line, Error> {
     let mut line = Line::default();
-    // `x` is the pen; `below` is where a lowered part began, for a raised part above it.
-    let (mut x, mut below, mut before) = (0, None, (Face::Regular, Level::Base));
-    let (mut end_of_scripts, mut lift) = (0, 0);
+    // `x` is the pen, `start` is where a raised part stands above a lowered one.
+    let (mut x, mut start, mut lift) = (0, 0, 0);
+    let mut before = (Face::Regular, Level::Base);
     for piece in markup::parse(label) {
         let face = font(piece.face)?;
         match (before.1, piece.level) {
-            (Level::Base, Level::Sub) => below = Some(x),
+            (Level::Base, _) => start = x,
             (Level::Sub, Level::Sup) => {
-                if let Some(start) = below.take() {
-                    let lowered = line.glyphs.iter_mut().rev().take_while(|g| g.y < 0);
-                    for glyph in lowered {
-                        glyph.y -= STACK_SHIFT;
-                    }
-                    (x, lift) = (start, STACK_SHIFT);
+                for glyph in line.glyphs.iter_mut().rev().take_while(|glyph| glyph.y < 0) {
+                    glyph.y -= STACK_SHIFT;
                 }
+                (x, lift) = (start, STACK_SHIFT);
             }
-            (Level::Sub | Level::Sup, Level::Base) => {
-                x = x.max(end_of_scripts) + SCRIPT_SPACE;
-                (below, end_of_scripts, lift) = (None, 0, 0);
-            }
+            (_, Level::Base) => (x, lift) = (line.width + SCRIPT_SPACE, 0),
             _ => {}
         }
         let slanted = before.0 == Face::Italic && piece.face == Face::Regular;
@@ -112,12 +106,9 @@ pub fn set(label: &str) -> Result<Line, Error> {
             }
             x += (face.h_advance_unscaled(id) * scale as f32 / EM as f32).round() as i32;
         }
-        if piece.level != Level::Base {
-            end_of_scripts = end_of_scripts.max(x);
-        }
+        line.width = line.width.max(x);
         before = (piece.face, piece.level);
     }
-    line.width = x.max(end_of_scripts);
     Ok(line)
 }
 

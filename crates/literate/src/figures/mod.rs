@@ -32,7 +32,7 @@ pub use svg::{escape, outlines};
 pub mod prelude {
     pub use super::axis::{Axis, Tick, number};
     pub use super::drawing::Frame;
-    pub use super::elements::{Marker, arrow, line, markers};
+    pub use super::elements::{Marker, arrow, line, markers, ticks};
     pub use super::helpers::*;
     pub use super::panel::Panel;
     pub use super::plot::Plot;
@@ -42,7 +42,7 @@ pub mod prelude {
     pub use super::text::{rimmed, words};
     pub use super::{DataFile, Description, Drawn, Error, Figure};
     pub use crate::describe;
-    pub use plotters::element::{EmptyElement, PathElement, Rectangle, Text};
+    pub use plotters::element::{EmptyElement, PathElement, Polygon, Rectangle, Text};
     pub use plotters::style::text_anchor::{HPos, VPos};
     pub use plotters::style::{Color, RGBColor};
 }

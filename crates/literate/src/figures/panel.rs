@@ -4,7 +4,7 @@
 
 use super::axis::Axis;
 use super::drawing::{Drawing, Frame};
-use super::elements::{CustomElement, Shape};
+use super::elements::segments;
 use super::error::{Drawn, Error};
 use super::font;
 use super::path::Point;
@@ -129,7 +129,7 @@ impl Panel {
         let hair = Stroke::solid(INK, HAIR);
         let corner = (self.x.lo, self.y.lo);
         let spines = vec![(self.x.lo, self.y.hi), corner, corner, (self.x.hi, self.y.lo)];
-        self.area.draw(&CustomElement { points: spines, shape: Shape::Segments(hair) })?;
+        self.area.draw(&segments(spines, hair))?;
         let tick = |axis: &Axis, value: f64| if axis.is_major(value) { TICK } else { MINOR_TICK };
         let draw_tick = |drawing: &mut Drawing, line: MeshLine<'_, Axis, Axis>| {
             let (from, to) = match line {

@@ -1,21 +1,21 @@
 //! Draws data in a panel: curves, symbols, areas and bars, as series of plotters elements.
 //!
 //! Each series is recorded as it was given, in its units, before anything is cut: curves, symbols,
-//! ticks, bars, estimates and columns. Guides and areas are no data.
+//! bars, estimates and columns. Guides are no data.
 //!
 //! All methods return [`Error::Outside`] for a number that is not finite, and for a point outside
 //! the frame where that is refused.
 
 use super::cut::cut;
-use super::drawing::Drawing;
-use super::elements::{CustomElement, Marker, Shape, line, markers};
+use super::drawing::{Drawing, Element};
+use super::elements::{CustomElement, Marker, error_bar, line, markers};
 use super::error::{Drawn, Error};
 use super::panel::Panel;
 use super::record::DataPoint;
 use super::style::Stroke;
 use impact_numerics::statistics::Estimate;
 use plotters::element::{Drawable, PointCollection, Polygon};
-use plotters::style::{Color, ShapeStyle};
+use plotters::style::Color;
 
 /// Points in units of the data.
 type Points<'a> = &'a [(f64, f64)];
@@ -42,16 +42,20 @@ impl Panel {
         S::Item: Drawable<Drawing>,
         for<'a> &'a S::Item: PointCollection<'a, (f64, f64)>,
     {
-        self.mark(Shape::Start(name.into(), self.frame))?;
+        self.push(Element::Open(name.into(), self.frame))?;
         for element in series {
             self.area.draw(&element)?;
         }
-        self.mark(Shape::End)
+        self.push(Element::Close)
     }
 
     /// Draws where a series starts or ends.
-    fn mark(&self, shape: Shape) -> Drawn {
-        Ok(self.area.draw(&CustomElement { points: Vec::new(), shape })?)
+    fn push(&self, element: Element) -> Drawn {
+        let mark = CustomElement::new(Vec::new(), move |drawing, _| {
+            drawing.elements.push(element.clone());
+            Ok(())
+        });
+        Ok(self.area.draw(&mark)?)
     }
 
     /// Keeps rows of a series for the data file, as a picture may show them in another way.
@@ -137,19 +141,6 @@ impl Panel {
         self.markers(name, points, marker, outside)
     }
 
-    /// Draws upright ticks of a width at many points, all inside the frame; the thickness of the
-    /// stroke is their height.
-    pub fn ticks(&self, name: &str, points: Points, width: i32, stroke: Stroke) -> Drawn {
-        let points = self.places(name, points, Outside::Refuse)?;
-        self.draw_series(name, [CustomElement { points, shape: Shape::Ticks(width, stroke) }])
-    }
-
-    /// Fills a polygon, all of it inside the frame; it is a ground, and no data.
-    pub fn filled_area(&self, name: &str, points: Points, fill: impl Into<ShapeStyle>) -> Drawn {
-        let places = self.unrecorded().places(name, points, Outside::Refuse)?;
-        self.draw_series(name, [Polygon::new(places, fill)])
-    }
-
     /// Draws columns of width 1 around 1, 2, …, which stand on zero: filled and with an outline;
     /// those outside the axis are left out.
     pub fn columns(&self, name: &str, values: &[f64], stroke: Stroke) -> Drawn {
@@ -165,7 +156,7 @@ impl Panel {
             outline.insert(0, left);
             outline.push(right);
         }
-        self.filled_area(name, &outline, stroke.colour.mix(0.45))?;
+        self.draw_series(name, [Polygon::new(outline.clone(), stroke.colour.mix(0.45))])?;
         self.unrecorded().curve(name, &outline, stroke, Outside::Refuse)
     }
 
@@ -188,10 +179,7 @@ impl Panel {
         let outside = if outside == Outside::Cut { Outside::Edge } else { outside };
         let ends = self.unrecorded().places(name, &ends, outside)?;
         self.record(name, bars.iter().copied());
-        let bars = ends.chunks_exact(2).map(|bar| CustomElement {
-            points: bar.to_vec(),
-            shape: Shape::ErrorBar(half, stroke),
-        });
+        let bars = ends.chunks_exact(2).map(|bar| error_bar([bar[0], bar[1]], half, stroke));
         self.draw_series(name, bars)
     }
 
@@ -249,7 +237,6 @@ mod tests {
         panel.curve("curve", &beyond, LINE, Outside::Cut).unwrap();
         let marks = panel.markers("marks", &beyond, (Symbol::Disc, 30, LINE), Outside::Refuse);
         assert!(matches!(marks, Err(Error::Outside { .. })));
-        assert!(panel.filled_area("area", &beyond, GREEN).is_err());
         assert!(panel.columns("columns", &[1.1], LINE).is_err());
         assert!(panel.curve("nan", &[(0.1, f64::NAN)], LINE, Outside::Cut).is_err());
         // A wall that is touched within rounding is inside.
@@ -271,7 +258,6 @@ mod tests {
         panel.estimates("estimates", &estimates, (Symbol::Disc, 30, LINE)).unwrap();
         // Guides, grounds and what is quiet are no data.
         panel.level("level", 0.5, LINE).unwrap();
-        panel.filled_area("area", &points[..1], GREEN).unwrap();
         panel.unrecorded().curve("rims", &points, LINE, Outside::Cut).unwrap();
         // In units of the data, and as they were given: the cut is the picture's.
         let file = &sheet.finish("", Default::default()).data[0];
