@@ -23,7 +23,11 @@ fn shard(folder: &Path, i: usize, results: &str) -> (String, String) {
 static SHARDS: LazyLock<[Files; 3]> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     for i in [3, 1, 2] {
-        shard(folder.path(), i, &i.to_string());
+        let (_, note) = shard(folder.path(), i, &i.to_string());
+        assert!(
+            note.starts_with(&format!("shard {i}/3: ")) && note.contains(" to run, "),
+            "{note}"
+        );
     }
     [1, 2, 3].map(|i| files(&folder.path().join(i.to_string())))
 });

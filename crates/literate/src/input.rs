@@ -2,6 +2,7 @@
 
 pub use crate::text::{count, is_control, one_line, plain};
 use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
@@ -57,7 +58,52 @@ fn bounded(file: impl Read, mib: u64) -> Result<Vec<u8>, Error> {
 
 /// SHA-256 in lower-case hexadecimal, by which files and results are known.
 pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(&Sha256::digest(bytes))
+}
+
+/// Bytes as hexadecimal digits.
+pub fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The paths of a file, or of all files below a folder, links followed, from the folder `top`.
+///
+/// # Errors
+/// With the path of what is missing, or is neither a folder nor a file that can be opened.
+pub fn files_in(top: &Path, place: &str) -> Result<Vec<String>, Error> {
+    let (mut files, mut open) = (Vec::new(), vec![place.to_string()]);
+    while let Some(path) = open.pop() {
+        let here = top.join(&path);
+        let named = |error: Error| Error::new(error.kind(), format!("{path}: {error}"));
+        if here.is_dir() {
+            for entry in here.read_dir().map_err(named)? {
+                open.push(format!("{path}/{}", entry?.file_name().to_string_lossy()));
+            }
+        } else if here.metadata().map_err(named)?.is_file() {
+            File::open(&here).map_err(named)?;
+            files.push(path);
+        } else {
+            return Err(named(Error::new(ErrorKind::InvalidInput, "not a regular file")));
+        }
+    }
+    Ok(files)
+}
+
+/// The same files with the SHA-256 of their bytes, however many these are.
+pub fn hashes(top: &Path, place: &str) -> Result<BTreeMap<String, String>, Error> {
+    let mut hashes = BTreeMap::new();
+    for path in files_in(top, place)? {
+        let (mut file, mut part) = (File::open(top.join(&path))?, vec![0; 1 << 16]);
+        let mut hash = Sha256::new();
+        loop {
+            match file.read(&mut part)? {
+                0 => break,
+                length => hash.update(&part[..length]),
+            }
+        }
+        hashes.insert(path, hexadecimal(&hash.finalize()));
+    }
+    Ok(hashes)
 }
 
 /// Whether there is no such file.

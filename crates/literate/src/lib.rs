@@ -43,6 +43,7 @@ pub mod cli;
 pub mod experiments;
 mod failure;
 pub mod figures;
+mod imports;
 pub mod input;
 #[doc = include_str!("manual.md")]
 pub mod manual {}

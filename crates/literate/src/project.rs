@@ -21,8 +21,15 @@ pub struct Project {
     pub copy: &'static [(&'static str, &'static str)],
     /// Folders and files on which every result depends; those of an experiment come to them.
     pub shared: &'static [&'static str],
-    /// Ends of paths that change no result.
-    pub left_out: &'static [&'static str],
+    /// What changes no result, by the beginning or the end of its path, each with the reason: it
+    /// counts only where an experiment lists that very file, and files may name it that are
+    /// listed.
+    pub left_out: &'static [(&'static str, &'static str)],
+}
+
+/// Whether a path is that of a file or folder, or of something in that folder.
+fn is_in(path: &str, place: &str) -> bool {
+    path.strip_prefix(place).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
 impl Project {
@@ -32,19 +39,81 @@ impl Project {
     }
 
     /// Path and hash of every file on which a result depends: those that all share, and those in
-    /// these files and folders; all if none is named.
+    /// these files and folders, of the source or not; all of the source if none is named.
     pub fn code(&self, files: &[&str]) -> BTreeMap<String, String> {
-        let is_in = |path: &str, place: &str| {
-            let rest = path.strip_prefix(place);
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        let mut found = BTreeMap::new();
+        for (path, text) in self.sources.files.iter().filter(|(path, _)| self.counts(path, files)) {
+            // The first 64 bits are enough.
+            found.insert(path.to_string(), sha256(text)[..16].to_string());
+        }
+        for place in files.iter().filter(|place| !self.is_source(place)) {
+            match (input::hashes(&self.folder(), place), self.copied(place)) {
+                (Ok(hashes), _) => found.extend(hashes),
+                (Err(_), Some(text)) => found.extend([(place.to_string(), sha256(text))]),
+                (Err(error), None) => found.extend([(place.to_string(), error.to_string())]),
+            }
+        }
+        found
+    }
+
+    fn is_left_out(&self, path: &str) -> bool {
+        self.left_out.iter().any(|(place, _)| path.ends_with(place) || is_in(path, place))
+    }
+
+    /// Whether a result of an experiment that lists these files depends on a file of the source.
+    fn counts(&self, path: &str, files: &[&str]) -> bool {
+        let places: Vec<&str> = self.shared.iter().chain(files).copied().collect();
+        let is_listed = files.is_empty() || places.iter().any(|place| is_in(path, place));
+        places.contains(&path) || is_listed && !self.is_left_out(path)
+    }
+
+    fn is_source(&self, place: &str) -> bool {
+        self.sources.files.iter().any(|(path, _)| is_in(path, place))
+    }
+
+    fn copied(&self, path: &str) -> Option<&'static str> {
+        let (_, text) = self.copy.iter().find(|(known, _)| *known == path)?;
+        Some(text)
+    }
+
+    /// Checks that files that an experiment lists are there.
+    ///
+    /// # Errors
+    /// A problem, and what to do about it.
+    pub fn check_listed(&self, files: &[&str]) -> Result<(), (String, &'static str)> {
+        let is_there = |place: &str| {
+            let copied = self.copied(place).is_some();
+            copied || self.is_source(place) || self.folder().join(place).exists()
         };
-        let counts = |path: &str| {
-            let named = self.shared.iter().chain(files).any(|place| is_in(path, place));
-            (files.is_empty() || named) && !self.left_out.iter().any(|end| path.ends_with(end))
-        };
-        let all = self.sources.files.iter().filter(|(path, _)| counts(path));
-        // The first 64 bits are enough.
-        all.map(|(path, text)| (path.to_string(), sha256(text)[..16].to_string())).collect()
+        match files.iter().find(|place| !is_there(place)) {
+            Some(lost) => {
+                Err((format!("`code` lists {lost}, which is not there"), "mend the path"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Checks that files that an experiment lists, or those that all share, name no module that
+    /// would change a result unnoticed.
+    ///
+    /// # Errors
+    /// A problem, and what to do about it.
+    pub fn check_named(&self, files: &[&str]) -> Result<(), (String, &'static str)> {
+        let remedy = "list that file too, or give the reason why it changes no result in \
+                      `project.left_out`";
+        let is_listed = |path: &str| files.iter().any(|place| is_in(path, place));
+        for (path, text) in self.sources.files.iter().filter(|(path, _)| is_listed(path)) {
+            if !self.counts(path, files) {
+                continue;
+            }
+            for named in self.sources.named_in(path, text) {
+                if !self.counts(named, files) && !self.is_left_out(named) {
+                    let problem = format!("{path} names {named}, which is not listed");
+                    return Err((problem, remedy));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Where a file or folder lies, by its path from the top of the project; none if only the copy
@@ -108,10 +177,9 @@ impl Project {
         if let Some(found) = self.find(path) {
             return input::regular_text(&found).map(Cow::Owned);
         }
-        let copy = self.copy.iter().find(|(known, _)| *known == path);
         let missing =
             || io::Error::new(io::ErrorKind::NotFound, "it is not there; run this in the project");
-        copy.map(|(_, text)| Cow::Borrowed(*text)).ok_or_else(missing)
+        self.copied(path).map(Cow::Borrowed).ok_or_else(missing)
     }
 }
 
@@ -124,20 +192,40 @@ mod tests {
     fn a_result_depends_on_what_is_shared_and_what_is_named() {
         let files = &[
             ("Cargo.lock", "0"),
-            ("src/a.rs", "1"),
-            ("src/b/c.rs", "2"),
-            ("src/b/tables.rs", "3"),
+            ("src/a.rs", "use crate::b::c;"),
+            ("src/b/c.rs", "use super::tables;"),
+            ("src/b/tables.rs", "use crate::a;"),
         ];
-        let mut project = Project::new(Sources { files, ..toy() });
-        let paths = |project: &Project, own: &[&str]| {
-            project.code(own).into_keys().collect::<Vec<String>>().join(" ")
+        let sources = Sources { files, crates: &[("", "src")], ..toy() };
+        let mut project = Project::new(sources);
+        let paths = |project: &Project, files: &[&str]| {
+            project.code(files).into_keys().collect::<Vec<String>>().join(" ")
         };
         assert_eq!(paths(&project, &[]).split(' ').count(), 4, "all of it");
-        (project.shared, project.left_out) = (&["Cargo.lock"], &["/tables.rs"]);
+        assert_eq!(project.check_named(&[]), Ok(()));
+        let problem = |project: &Project, files: &[&str]| project.check_named(files).unwrap_err().0;
+        let lost = problem(&project, &["src/b/c.rs"]);
+        assert_eq!(lost, "src/b/c.rs names src/b/tables.rs, which is not listed");
+        project.left_out = &[("/tables.rs", "made of results")];
         assert_eq!(paths(&project, &["src/b"]), "Cargo.lock src/b/c.rs");
+        assert_eq!(project.check_named(&["src/b"]), Ok(()));
+        assert_eq!(paths(&project, &["src/b/tables.rs"]), "Cargo.lock src/b/tables.rs");
         assert_eq!(paths(&project, &["src/a.rs"]), "Cargo.lock src/a.rs");
+        let lost = problem(&project, &["src/a.rs"]);
+        assert_eq!(lost, "src/a.rs names src/b/c.rs, which is not listed");
+        assert_eq!(project.check_named(&["src/a.rs", "src/b"]), Ok(()));
         let error = project.text("templates/no_such.md").unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::NotFound);
+    }
+
+    #[test]
+    fn what_is_listed_is_there_and_data_counts_as_bytes() {
+        let project = Project::new(toy());
+        assert_eq!(project.check_listed(&["src/flight.rs", "Cargo.toml"]), Ok(()));
+        let lost = project.check_listed(&["src/fligth.rs"]).unwrap_err().0;
+        assert_eq!(lost, "`code` lists src/fligth.rs, which is not there");
+        let code = project.code(&["fonts/OFL.txt"]);
+        assert_eq!(code["fonts/OFL.txt"], sha256(std::fs::read("fonts/OFL.txt").unwrap()));
     }
 
     #[test]

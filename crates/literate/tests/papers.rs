@@ -6,7 +6,9 @@ mod feigenbaum;
 
 use literate::cli::whole;
 use literate::experiments::{Profile, Progress, Store};
+use literate::input::sha256;
 use std::path::Path;
+use std::process::Command;
 
 #[test]
 fn the_second_paper_is_made_and_its_run_is_used_again() {
@@ -52,4 +54,45 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
     assert!((limit("delta") - 4.669_201_609_102_99).abs() < 1e-10, "{}", limit("delta"));
     assert!((limit("alpha") - 2.502_907_875_095_892).abs() < 1e-10, "{}", limit("alpha"));
     assert!((limit("onset") - 3.569_945_671_870_945).abs() < 1e-12, "{}", limit("onset"));
+}
+
+#[test]
+#[ignore = "is a program that the next test starts"]
+fn a_program() {
+    let Ok(line) = std::env::var("LITERATE_LINE") else { return };
+    let code = feigenbaum::paper().run(line.split(' ').map(Into::into).collect());
+    std::process::exit(code.into());
+}
+
+/// The example as a program in a folder: exit code, standard output and standard error.
+fn run(folder: &Path, line: &str) -> (i32, String, String) {
+    let mut program = Command::new(std::env::current_exe().unwrap());
+    program.args(["--ignored", "--exact", "a_program"]).current_dir(folder);
+    let output = program.env("LITERATE_LINE", format!("feigenbaum {line}")).output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
+}
+
+#[test]
+fn the_advice_of_verify_works_as_it_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let prose = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/feigenbaum");
+    let made = |line: &str| run(folder.path(), &format!("{line} --templates {prose}"));
+    assert_eq!(made("paper").0, 0);
+    // A saved result that is wrong, and looks fresh.
+    let saved = folder.path().join("target/results/cascade-full.json");
+    let text = std::fs::read_to_string(&saved).unwrap();
+    let [_, made_of, body, ""] = text.split('\n').collect::<Vec<_>>()[..] else { panic!("{text}") };
+    let made_of = format!("{made_of}\n{}\n", body.replacen("3.2", "3.3", 1));
+    std::fs::write(&saved, format!("{}\n{made_of}", sha256(&made_of))).unwrap();
+    assert_eq!(made("paper").0, 0);
+    let (code, out, note) = made("verify --rerun");
+    assert!(code == 1 && out.contains("rerun: "), "{out}{note}");
+    let advice = note.split('`').find(|part| part.starts_with("paper ")).unwrap();
+    let (code, _, note) = run(folder.path(), advice);
+    assert_eq!(code, 0, "{advice}: {note}");
+    let (code, out, note) = made("verify --rerun");
+    assert_eq!(code, 0, "{advice}: {out}{note}");
+    let (code, _, note) = made("paper --rerun cascades");
+    assert!(code == 2 && note.contains("no experiment \"cascades\"; nearest: cascade"), "{note}");
 }

@@ -67,6 +67,17 @@ impl Paper {
         progress: Progress,
     ) -> Result<Session<'_>, Failure> {
         let project = &self.project;
+        let shared = project.check_named(project.shared);
+        shared.map_err(|(problem, remedy)| Error::input("project.shared", problem, remedy))?;
+        for (at, experiment) in self.experiments.iter().enumerate() {
+            experiment.check(project)?;
+            let name = experiment.name();
+            if self.experiments[..at].iter().any(|other| other.name() == name) {
+                return Err(Failure::input(format!(
+                    "two experiments are called {name}; rename one"
+                )));
+            }
+        }
         let folder = prose.map(Path::to_path_buf).or_else(|| project.find(self.prose));
         let templates = match folder {
             Some(folder) => Templates::read(&folder)?,

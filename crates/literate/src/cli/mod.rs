@@ -12,10 +12,13 @@ mod verify;
 
 use crate::experiments::be_quiet;
 use crate::failure::Failure;
-use crate::input::{one_line, plain};
+use crate::input::plain;
 use crate::paper::Paper;
+use clap::error::ErrorKind;
 use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::ffi::OsString;
 use std::process::ExitCode;
+use std::thread::JoinHandle;
 
 pub use make::whole;
 
@@ -25,7 +28,7 @@ const EXIT_CODES: &str = "Exit codes:
        prose is broken (a hard-coded number, an unused value) or a run failed, and nothing was
        written; or `paper --dry-run` found stale results
   2    wrong usage or input, including broken prose, or a place that cannot be read or written
-  130  ended by Ctrl-C or SIGTERM";
+  130  ended by Ctrl-C, SIGTERM or SIGHUP";
 
 #[derive(Parser)]
 struct Cli<V: Subcommand> {
@@ -65,55 +68,63 @@ impl Paper {
     ) -> ExitCode {
         std::panic::set_hook(Box::new(terminal::report_panic));
         let thread = std::thread::Builder::new().stack_size(terminal::STACK);
-        let joined = thread.spawn(move || self.obey(more)).map(std::thread::JoinHandle::join);
-        // What went wrong in it was said by the hook.
-        joined.ok().and_then(Result::ok).unwrap_or(ExitCode::FAILURE)
+        let line: Vec<OsString> = std::env::args_os().collect();
+        let joined = thread.spawn(move || self.run_with(line, more)).map(JoinHandle::join);
+        // The hook has said what went wrong in it.
+        joined.ok().and_then(Result::ok).unwrap_or(1).into()
     }
 
-    fn obey<V: Subcommand>(&self, more: impl FnOnce(V) -> Result<(), Failure>) -> ExitCode {
+    /// Runs a command line, of which the first word is the name of the program, and returns its
+    /// exit code.
+    pub fn run(&self, line: Vec<OsString>) -> u8 {
+        self.run_with(line, |none: None| match none {})
+    }
+
+    fn run_with<V: Subcommand>(
+        &self,
+        line: Vec<OsString>,
+        more: impl FnOnce(V) -> Result<(), Failure>,
+    ) -> u8 {
         let crate::Sources { name, version, .. } = self.project.sources;
         let command: Command = Cli::<V>::command().name(name).bin_name(name).version(version);
         let command = command.about(self.edition.title).after_help(EXIT_CODES);
-        let parsed = command.try_get_matches().and_then(|all| Cli::<V>::from_arg_matches(&all));
-        let Cli { verb, quiet } = match parsed {
-            Ok(cli) => cli,
-            Err(error) => return usage(&error),
-        };
-        if quiet {
-            be_quiet();
-        }
-        terminal::obey_signals();
-        let result = match verb {
-            Verb::Paper(args) => paper::run(self, args),
-            Verb::Check(args) => check::run(self, args),
-            Verb::Explain(args) => explain::run(self, args),
-            Verb::Diff(args) => diff::run(args),
-            Verb::Verify(args) => verify::run(self, args),
-            Verb::Run(args) => run::run(self, args),
-            Verb::More(verb) => more(verb),
+        let parsed = command.try_get_matches_from(line);
+        let result = match parsed.and_then(|all| Cli::<V>::from_arg_matches(&all)) {
+            Ok(Cli { verb, quiet }) => {
+                if quiet {
+                    be_quiet();
+                }
+                terminal::install_signals();
+                match verb {
+                    Verb::Paper(args) => paper::run(self, args),
+                    Verb::Check(args) => check::run(self, args),
+                    Verb::Explain(args) => explain::run(self, args),
+                    Verb::Diff(args) => diff::run(args),
+                    Verb::Verify(args) => verify::run(self, args),
+                    Verb::Run(args) => run::run(self, args),
+                    Verb::More(verb) => more(verb),
+                }
+            }
+            Err(error) => usage(&error),
         };
         match result {
-            Ok(()) => ExitCode::SUCCESS,
+            Ok(()) => 0,
             Err(failure) => {
                 failure.message.lines().for_each(terminal::warn);
-                ExitCode::from(failure.code)
+                failure.code
             }
         }
     }
 }
 
-/// Help and version go to standard output; a wrong command line becomes one line, exit code 2.
-fn usage(error: &clap::Error) -> ExitCode {
-    use clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
-    if !error.use_stderr() || error.kind() == DisplayHelpOnMissingArgumentOrSubcommand {
-        let code = error.exit_code() as u8;
-        return match terminal::written(error.print()) {
-            Ok(()) => ExitCode::from(code),
-            Err(failure) => {
-                terminal::warn(&failure.message);
-                ExitCode::from(failure.code)
-            }
-        };
+/// Prints help and version on standard output; a wrong command line is one line and exit code 2.
+fn usage(error: &clap::Error) -> Result<(), Failure> {
+    if !error.use_stderr() {
+        return terminal::written(error.print());
+    }
+    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        terminal::written(error.print())?;
+        return Err(Failure { code: 2, message: String::new() });
     }
     let text = plain(&error.to_string());
     // No verb takes a value that looks like an option.
@@ -121,6 +132,5 @@ fn usage(error: &clap::Error) -> ExitCode {
     let is_what = |line: &&str| !line.starts_with("Usage: ") && !line.starts_with("For more ");
     let lines = text.lines().map(str::trim).filter(helps).take_while(is_what);
     let line = lines.chain(["--help explains"]).collect::<Vec<_>>().join("; ").replace(":; ", ": ");
-    terminal::warn(&one_line(line.strip_prefix("error: ").unwrap_or(&line), 4000));
-    ExitCode::from(2)
+    Err(Failure::input(line.strip_prefix("error: ").unwrap_or(&line)))
 }

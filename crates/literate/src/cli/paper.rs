@@ -4,10 +4,11 @@ use super::make::{self, Sources};
 use super::terminal::{print, shown};
 use crate::experiments::{AnyExperiment, Profile, Session};
 use crate::failure::Failure;
-use crate::input::count;
+use crate::input::{count, one_line};
 use crate::paper::{FigureSpec, Paper};
 use crate::report::values;
 use crate::report::{Files, Report, files_of, folder};
+use crate::table::nearest;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -18,6 +19,7 @@ use std::time::Instant;
 ///   paper --dry-run                          what would be run, and why
 ///   paper --profile quick                    small samples, into target/paper-quick/
 ///   paper --figure 3 --out target/figure     one figure and its data
+///   paper --rerun sweep                      with one result made anew, although it is fresh
 ///
 /// Stop it whenever you like: files are moved into place at the very end, results of long runs are
 /// saved, and used again as long as parameters and source are the same. Only files that an earlier
@@ -35,6 +37,10 @@ pub(super) struct Args {
     /// Say which experiments would be run, and why (exit code 1 if any), and run nothing.
     #[arg(long)]
     dry_run: bool,
+    /// Run this experiment again, although its saved result is fresh (may be repeated); `all` for
+    /// all of them.
+    #[arg(long, value_name = "NAME", conflicts_with = "dry_run")]
+    rerun: Vec<String>,
     /// Write over files that this program did not make, or that were edited since.
     #[arg(long)]
     force: bool,
@@ -65,6 +71,9 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     if !force {
         folder::refuse(&out, &Files::new(), whole).map_err(option)?;
     }
+    for name in &args.rerun {
+        forget(name, paper, &session)?;
+    }
     let (report, checks) = sources.threads.run(|| match whole {
         true => make::whole(paper, &session, &out),
         false => {
@@ -88,6 +97,23 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         Failure { message, ..failure }
     };
     make::verdict(&checks).map_err(more).and(printed)
+}
+
+/// Removes the saved result of an experiment by its name, or of all.
+fn forget(name: &str, paper: &Paper, session: &Session<'_>) -> Result<(), Failure> {
+    let names = || paper.experiments.iter().map(|experiment| experiment.name());
+    if name != "all" && !names().any(|other| other == name) {
+        let nearest = nearest(name, names()).join(", ");
+        let name = one_line(name, 60);
+        let what = format!("--rerun: there is no experiment {name:?}; nearest: {nearest}");
+        return Err(Failure::input(what));
+    }
+    for experiment in &paper.experiments {
+        if name == "all" || name == experiment.name() {
+            session.store.remove(&experiment.identity(session))?;
+        }
+    }
+    Ok(())
 }
 
 /// Lesser samples must not take the place of the committed report, and single figures not stand

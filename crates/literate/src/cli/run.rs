@@ -3,8 +3,7 @@
 
 use super::make::Sources;
 use super::terminal::{print, shown};
-use crate::experiments::cutting::Unit;
-use crate::experiments::{AnyExperiment, Error, Session};
+use crate::experiments::{AnyExperiment, Error, Session, announce};
 use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::Paper;
@@ -42,9 +41,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let saved: Vec<&'static dyn AnyExperiment> =
         paper.experiments.iter().copied().filter(|one| one.is_saved()).collect();
     let done = sources.threads.run(|| match shard {
-        Some(shard) => {
-            let [run, there] = run_shard(&saved, shard, &session)?;
-            let (i, of) = shard;
+        Some((i, of)) => {
+            let [run, there] = run_shard(&saved, (i, of), &session)?;
             Ok(format!("shard {i}/{of}: {} run, {there} already saved", count(run, "unit")))
         }
         None => {
@@ -66,15 +64,19 @@ fn run_shard(
     session: &Session<'_>,
 ) -> Result<[usize; 2], Error> {
     let mut shards = (1..=of).cycle();
-    let [mut run, mut all] = [0, 0];
+    let (mut shares, mut open) = (Vec::new(), Vec::new());
     for experiment in experiments {
+        let mut units = experiment.units(session.profile);
+        units.retain(|_| shards.next() == Some(shard));
+        open.extend(experiment.open(units.clone(), session));
+        shares.push((experiment, units));
+    }
+    announce(&format!("shard {shard}/{of}: {}", count(open.len(), "unit")), &open, session)?;
+    let [mut run, mut all] = [0, 0];
+    for (experiment, units) in shares.iter().filter(|(_, units)| !units.is_empty()) {
         session.progress.check()?;
-        let units = experiment.units(session.profile).into_iter();
-        let own: Vec<Unit> = units.filter(|_| shards.next() == Some(shard)).collect();
-        if !own.is_empty() {
-            all += own.len();
-            run += experiment.run_units(&own, session)?;
-        }
+        all += units.len();
+        run += experiment.run_units(units, session)?;
     }
     Ok([run, all - run])
 }

@@ -54,17 +54,20 @@ pub fn print(text: &str) -> Result<(), Failure> {
     written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }
 
-/// From now on Ctrl-C and SIGTERM end the program within a second, with exit code 130. Files that
-/// are being put into place are first all there.
+/// Makes Ctrl-C, SIGTERM and SIGHUP end the program and the programs that it runs within a second,
+/// with exit code 130. Files that are being put into place are first all there.
 #[cfg(unix)]
-pub(super) fn obey_signals() {
-    use signal_hook::consts::{SIGINT, SIGTERM};
+pub(super) fn install_signals() {
+    use crate::experiments::end_all;
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
     let follow = |mut signals: Signals| {
         let ended = move || {
             if signals.forever().next().is_some() {
                 STOP.store(true, std::sync::atomic::Ordering::Relaxed);
+                end_all("TERM");
                 std::thread::sleep(std::time::Duration::from_millis(700));
+                end_all("KILL");
                 let _moment = crate::input::WRITING.write();
                 warn("interrupted");
                 std::process::exit(i32::from(INTERRUPTED));
@@ -72,13 +75,23 @@ pub(super) fn obey_signals() {
         };
         std::thread::Builder::new().stack_size(1 << 20).spawn(ended)
     };
+    let signals = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
     // Without, such a signal just ends the program.
-    let _ = Signals::new([SIGINT, SIGTERM]).and_then(follow);
+    let _ = Signals::new(signals).and_then(follow);
+}
+
+/// Whether the program was started with this signal ignored, as by `nohup`: then it stays so.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
 /// Elsewhere the system ends the program.
 #[cfg(not(unix))]
-pub(super) fn obey_signals() {}
+pub(super) fn install_signals() {}
 
 /// Progress on standard error of work that a signal ends.
 pub fn progress() -> Progress {
@@ -115,5 +128,84 @@ impl Threads {
             Failure::input(format!("--threads: {error}; give a smaller number of threads"))
         })?;
         pool.install(work)
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use crate::experiments::{Command, Error, Experiment, Profile, Results, Session, Store};
+    use crate::project::Project;
+    use crate::prose::Templates;
+    use crate::source::toy;
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use std::process::{Child, Command as Program, Stdio};
+
+    /// Starts the test below as a program.
+    fn started(line: &str) -> Child {
+        let mut program = Program::new(std::env::current_exe().unwrap());
+        program.args(["--ignored", "--exact", "cli::terminal::tests::a_program"]);
+        program.env("LITERATE_LINE", line).stderr(Stdio::piped()).spawn().unwrap()
+    }
+
+    #[test]
+    #[ignore = "is a program that other tests start"]
+    fn a_program() {
+        let Ok(line) = std::env::var("LITERATE_LINE") else { return };
+        let line: &str = Box::leak(line.into_boxed_str());
+        const PANICS: Experiment<(), ()> =
+            Experiment::new("orbit", |_| (), |(), _| panic!("no orbit"), |()| Vec::new());
+        install_signals();
+        let project = Project::new(toy());
+        let (templates, store) = (Templates::of([]), Store::nowhere());
+        let (profile, progress) = (Profile::Quick, progress());
+        let session = Session { project: &project, templates, profile, store, progress };
+        if line.is_empty() {
+            let _ = Results::run(&[&PANICS], &[], &session);
+        }
+        let command = Box::leak(Box::new(Command::new("toy", line)));
+        let ended = Results::run(&[command], &[], &session).unwrap_err();
+        assert!(matches!(ended, Error::Interrupted), "{ended}");
+        std::thread::park();
+    }
+
+    #[test]
+    fn a_panic_names_its_experiment() {
+        let output = started("").wait_with_output().unwrap();
+        let words = String::from_utf8_lossy(&output.stderr);
+        assert!(words.contains("in the experiment orbit"), "{words}");
+    }
+
+    #[test]
+    fn a_signal_also_ends_the_programs_that_commands_started() {
+        let signals = [("INT", SIGINT), ("TERM", SIGTERM), ("HUP", SIGHUP)];
+        let signals = signals.into_iter().filter(|(_, number)| !is_ignored(*number));
+        let folder = tempfile::tempdir().unwrap();
+        let mut programs = Vec::new();
+        for (signal, _) in signals {
+            let place = folder.path().join(signal);
+            std::fs::create_dir(&place).unwrap();
+            let [outer, inner] = ["outer.sh", "inner.sh"].map(|name| place.join(name));
+            let ended = format!("trap 'touch {}/ended; exit' TERM\n", place.display());
+            let ready = format!("touch {}/ready\nsleep 600 & wait\n", place.display());
+            std::fs::write(&inner, ended + &ready).unwrap();
+            std::fs::write(&outer, format!("sh {} & wait\n", inner.display())).unwrap();
+            let line = format!("sh {} {}", outer.display(), inner.display());
+            programs.push((signal, place, started(&line)));
+        }
+        let nap = || std::thread::sleep(std::time::Duration::from_millis(20));
+        for (signal, place, program) in &mut programs {
+            while !place.join("ready").exists() {
+                assert_eq!(program.try_wait().unwrap(), None, "ended too early");
+                nap();
+            }
+            let line = format!("kill -s {signal} {}", program.id());
+            assert!(Program::new("sh").args(["-c", &line]).status().unwrap().success());
+        }
+        for (signal, place, program) in programs {
+            let output = program.wait_with_output().unwrap();
+            assert_eq!(output.status.code(), Some(INTERRUPTED.into()), "{signal}: {output:?}");
+            assert!(place.join("ended").exists(), "{signal}: {output:?}");
+        }
     }
 }

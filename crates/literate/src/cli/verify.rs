@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::Paper;
 use crate::report::folder;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Check a report against its SHA256SUMS, and with --rerun against what this program makes
 ///
@@ -47,19 +47,31 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     if faults.is_empty() {
         print(&format!("{place}: {files} files, all as {} lists them\n", folder::SUMS))?;
     }
+    let profile = profile_in(&folder);
+    let mut again = format!("paper --out {}", quoted(&folder));
+    if let Some(profile) = profile {
+        again += &format!(" --profile {}", profile.name());
+    }
+    if let Some(templates) = &templates {
+        again += &format!(" --templates {}", quoted(templates));
+    }
     if rerun {
         let none = || Failure::input(format!("{place}: values.json names no profile"));
-        let profile = profile_in(&folder).ok_or_else(none)?;
+        let profile = profile.ok_or_else(none)?;
         let store = results.as_deref().map_or(Store::nowhere(), Store::open);
+        again += &match &results {
+            Some(results) => format!(" --results {}", quoted(results)),
+            None => " --rerun all".into(),
+        };
         let session = paper.session(templates.as_deref(), profile, store, progress())?;
         let made = threads.run(|| make::whole(paper, &session, &folder))?.0;
-        let (files, again) = made.compare(&folder)?;
-        if again.is_empty() {
+        let (files, differences) = made.compare(&folder)?;
+        if differences.is_empty() {
             let name = profile.name();
             let fine = format!("made again with the {name} profile, the same bytes");
             print(&format!("{place}: {files} files {fine}\n"))?;
         }
-        faults.extend(again.into_iter().map(|fault| format!("rerun: {fault}")));
+        faults.extend(differences.into_iter().map(|fault| format!("rerun: {fault}")));
     }
     if faults.is_empty() {
         return Ok(());
@@ -67,7 +79,14 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     print(&(faults.join("\n") + "\n"))?;
     let number = count(faults.len(), "file");
     Err(Failure::check(format!(
-        "{place}: faults in {number}; `paper --out {place} --force` writes the report again; \
+        "{place}: faults in {number}; `{again} --force` writes the report again; \
          move unlisted files yourself"
     )))
+}
+
+/// A path as a shell reads it.
+fn quoted(path: &Path) -> String {
+    let path = shown(path);
+    let is_plain = |c: char| c.is_alphanumeric() || "/._-".contains(c);
+    if path.chars().all(is_plain) { path } else { format!("'{}'", path.replace('\'', r"'\''")) }
 }

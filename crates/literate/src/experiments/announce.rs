@@ -1,34 +1,27 @@
-//! Says how many experiments there are to run, and about how long that takes, before the first of
-//! them begins.
+//! Says how much there is to run, and about how long that takes, before the first run begins.
 
-use super::cutting::SECOND;
-use super::{AnyExperiment, Error, Profile, Session};
+use super::cutting::{SECOND, Unit};
+use super::{Error, Profile, Session};
 use crate::text::count;
 
-/// Prints one line if any of the experiments has no fresh result.
+/// Prints one line if some units are to be run: what they belong to, and about how long they take.
 ///
 /// # Errors
-/// If results cannot be saved.
-pub(super) fn announce(
-    experiments: &[&'static dyn AnyExperiment],
-    session: &Session<'_>,
-) -> Result<(), Error> {
-    let is_stale = |one: &&&dyn AnyExperiment| one.stale(session).is_some();
-    let stale: Vec<_> = experiments.iter().filter(is_stale).collect();
-    if stale.is_empty() {
+/// If their results cannot be saved.
+pub(crate) fn announce(what: &str, units: &[Unit], session: &Session<'_>) -> Result<(), Error> {
+    if units.is_empty() {
         return Ok(());
     }
     session.store.prepare()?;
-    let units = stale.iter().flat_map(|one| one.units(session.profile));
-    let work: u64 = units.map(|unit| unit.weight).sum();
+    let work: u64 = units.iter().map(|unit| unit.weight).sum();
     let threads = rayon::current_num_threads();
     let time = duration(work / SECOND / threads as u64);
     let quick = match session.profile {
         Profile::Full => "; `--profile quick` takes seconds",
         Profile::Quick => "",
     };
-    let (stale, threads) = (count(stale.len(), "experiment"), count(threads, "thread"));
-    session.progress.say(&format!("{stale} to run, {time} on {threads}{quick}"));
+    let threads = count(threads, "thread");
+    session.progress.say(&format!("{what} to run, {time} on {threads}{quick}"));
     Ok(())
 }
 

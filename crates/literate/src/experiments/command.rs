@@ -1,150 +1,188 @@
 //! An experiment that is a command in another language.
 //!
-//! It is started in the folder of the project. The manual ([`crate::manual`]) has the form of what
-//! it reads and prints.
+//! It runs in a folder of its own, with copies of the files that it names and nothing else, so that
+//! a file which it reads and does not name is missed at once. Links would not do: Python looks for
+//! modules where a link leads to. The manual ([`crate::manual`]) has the form of what it reads and
+//! prints.
 
-use super::store::Identity;
-use super::{AnyExperiment, Error, Found, Profile, Session};
-use crate::input::sha256;
+use super::printed::PrintedTable;
+use super::{AnyExperiment, Error, Found, Profile, Session, process};
+use crate::input;
 use crate::project::Project;
 use crate::table::Table;
-use crate::value::Origin;
-use impact_numerics::estimates::with_error;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
-use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write;
-use std::process::Stdio;
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A command as an experiment.
 #[derive(Clone, Copy, Debug)]
 pub struct Command {
     pub name: &'static str,
-    /// The program and its arguments, with blanks between. Those that are files belong to what a
-    /// saved result is known by.
+    /// The program and its arguments, with blanks between. A program is found in `PATH` unless it
+    /// has a slash. Arguments that are files or folders of the project, alone or behind `=`, are
+    /// copied to where the command runs, and belong to what a saved result is known by.
     pub line: &'static str,
     /// Its parameters in a profile: an object.
     pub parameters: fn(Profile) -> Json,
+    /// Files and folders that it reads besides.
+    pub reads: &'static [&'static str],
+    /// Files that it writes where it runs, such as pictures; they are saved with its tables.
+    pub writes: &'static [&'static str],
 }
 
-/// The tables that a command printed, by name.
-type Printed = BTreeMap<String, Rows>;
-
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Rows {
-    #[serde(default)]
-    keys: Vec<String>,
-    columns: Vec<String>,
-    #[serde(default)]
-    units: BTreeMap<String, String>,
-    rows: Vec<Vec<Json>>,
+/// The result of a command.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Output {
+    tables: BTreeMap<String, PrintedTable>,
+    /// The files that it wrote, in hexadecimal digits.
+    files: BTreeMap<String, String>,
 }
 
-impl Rows {
-    fn names(&self) -> impl Iterator<Item = &String> {
-        self.keys.iter().chain(&self.columns)
-    }
-
-    fn fault(&self) -> Option<String> {
-        let names = self.names().count();
-        let mut seen = BTreeSet::new();
-        self.rows.iter().zip(1..).find_map(|(row, at)| {
-            if row.len() != names {
-                return Some(format!("row {at} has {} cells for {names} names", row.len()));
-            }
-            let called = |key: &Json| key.as_f64().map_or(key.to_string(), |x| x.to_string());
-            let keys: Vec<String> = row[..self.keys.len()].iter().map(called).collect();
-            (!seen.insert(keys)).then(|| format!("row {at} has the keys of one before"))
-        })
-    }
-
-    fn table(&self, name: &str, command: &Command) -> Table {
-        let number = |at: usize| move |row: &Vec<Json>| row[at].as_f64();
-        let words = |at: usize| {
-            move |row: &Vec<Json>| row[at].as_str().map_or(row[at].to_string(), String::from)
-        };
-        let place = |name: String| self.names().position(|own| *own == name);
-        let name = leaked(&format!("{}.{name}", command.name));
-        let mut table = Table::of(name, &self.rows, |_| 0).computed_by(Origin::of(command.line));
-        for (at, name) in self.names().enumerate() {
-            let unit = self.units.get(name).map_or("1", |unit| leaked(unit));
-            let is_words = self.rows.iter().any(|row| row[at].is_string());
-            let name = leaked(name);
-            table = match place(format!("{name}_error")) {
-                _ if name.strip_suffix("_error").is_some_and(|of| place(of.into()).is_some()) => {
-                    table
-                }
-                _ if is_words && at < self.keys.len() => table.text_key(name, words(at)),
-                _ if is_words => table.words(name, "", words(at)),
-                _ if at < self.keys.len() => {
-                    table.key(name, unit, move |row| number(at)(row).unwrap_or(f64::NAN))
-                }
-                Some(error) => table.estimate(name, unit, "", move |row| {
-                    Some(with_error(number(at)(row)?, number(error)(row)?))
-                }),
-                None => table.chosen(name, unit, "", number(at)),
-            };
-        }
-        table.done()
-    }
-}
-
-/// Names of tables live as long as the program.
-fn leaked(text: &str) -> &'static str {
-    Box::leak(text.to_string().into_boxed_str())
-}
+/// Lines of an output that a message repeats.
+const FIRST_LINES: usize = 5;
 
 impl Command {
     /// A command without parameters.
     pub const fn new(name: &'static str, line: &'static str) -> Self {
-        Command { name, line, parameters: |_| Json::Null }
+        Command { name, line, parameters: |_| Json::Null, reads: &[], writes: &[] }
     }
 
-    fn identity(&self, session: &Session<'_>) -> Identity {
-        let code = self.code(session.project);
-        let parameters = AnyExperiment::parameters(self, session.profile);
-        Identity::new(self.name, session.profile, code, &parameters)
+    /// With further files and folders that it reads.
+    pub const fn reads(self, reads: &'static [&'static str]) -> Self {
+        Command { reads, ..self }
     }
 
-    /// Runs it. Ctrl-C in a terminal ends it too.
-    fn run(&self, session: &Session<'_>) -> Result<Printed, Error> {
+    /// With files that it writes.
+    pub const fn writes(self, writes: &'static [&'static str]) -> Self {
+        Command { writes, ..self }
+    }
+
+    /// The files and folders that it names, from the folder `top`.
+    ///
+    /// # Errors
+    /// A sentence about the first that is missing, or lies outside the project.
+    fn inputs(&self, top: &Path) -> Result<Vec<&'static str>, String> {
+        let mut inputs = Vec::new();
+        for (at, word) in self.line.split_whitespace().enumerate() {
+            let value = word.split_once('=').map_or(word, |(_, value)| value);
+            let is_option = value.starts_with('-') || value.contains("://");
+            let is_program_of_path = at == 0 && !word.contains('/');
+            let is_written = self.writes.contains(&value);
+            if is_option || is_program_of_path || is_written || ["", "."].contains(&value) {
+                continue;
+            }
+            if top.join(value).exists() || looks_like_a_file(value) {
+                inputs.push(value);
+            }
+        }
+        inputs.extend(self.reads);
+        for input in &mut inputs {
+            *input = input.trim_start_matches("./").trim_end_matches('/');
+            if input.split('/').any(|part| part == "..") {
+                return Err(format!("{input} lies outside the project; copy it into the project"));
+            }
+            input::files_in(top, input).map_err(|error| {
+                format!("{error}; restore it, or list it in `writes` if the command makes it")
+            })?;
+        }
+        Ok(inputs)
+    }
+
+    /// Path and hash of each file among its inputs.
+    fn hashes(&self, top: &Path) -> BTreeMap<String, String> {
+        let mut hashes = BTreeMap::new();
+        for input in self.inputs(top).unwrap_or_default() {
+            hashes.extend(input::hashes(top, input).unwrap_or_default());
+        }
+        hashes
+    }
+
+    /// Copies its inputs into a folder, and returns the path of the program.
+    fn prepare(&self, top: &Path, folder: &Path) -> io::Result<PathBuf> {
+        for input in self.inputs(top).map_err(io::Error::other)? {
+            if top.join(input).is_dir() {
+                std::fs::create_dir_all(folder.join(input))?;
+            }
+            for path in input::files_in(top, input)?.iter().filter(|path| !path.starts_with('/')) {
+                std::fs::create_dir_all(folder.join(path).parent().unwrap_or(folder))?;
+                std::fs::copy(top.join(path), folder.join(path))?;
+            }
+        }
+        let program = self.line.split_whitespace().next().unwrap_or_default();
+        let is_link = top.join(program).is_symlink();
+        match program.contains('/') {
+            // That of a virtual environment finds its modules from where its link lies.
+            true if is_link => std::path::absolute(top.join(program)),
+            true => Ok(folder.join(program)),
+            false => Ok(program.into()),
+        }
+    }
+
+    /// Runs it for the project in the folder `top`.
+    fn run(&self, top: &Path, session: &Session<'_>) -> Result<Output, Error> {
         let fail = |what: String| {
             let source = format!("`{}` {what}", self.line).into();
             Error::Failed { experiment: self.name, source }
         };
+        let cannot = |error: io::Error| {
+            fail(format!("cannot be started: {error}; install it, or mend the command"))
+        };
         let _stage = session.progress.stage(self.name, 1);
-        let mut words = self.line.split_whitespace();
-        let mut command = std::process::Command::new(words.next().unwrap_or_default());
-        command.args(words).current_dir(session.project.folder());
-        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let missing =
-            |error| fail(format!("cannot be started: {error}; install it, or mend the command"));
-        let mut child = command.spawn().map_err(missing)?;
+        let folder = tempfile::tempdir().map_err(cannot)?;
+        let program = self.prepare(top, folder.path()).map_err(cannot)?;
+        let mut command = std::process::Command::new(program);
+        command.args(self.line.split_whitespace().skip(1)).current_dir(folder.path());
         let parameters = (self.parameters)(session.profile);
-        if let Some(mut input) = child.stdin.take() {
-            let given = json!({"profile": session.profile, "parameters": parameters});
-            // A command that reads nothing has closed it.
-            let _ = writeln!(input, "{given}");
-        }
-        let output = child.wait_with_output().map_err(|error| fail(error.to_string()))?;
+        let given = json!({"profile": session.profile, "parameters": parameters});
+        let output = process::run(&mut command, format!("{given}\n")).map_err(cannot)?;
         session.progress.check()?;
         if !output.status.success() {
-            let told = String::from_utf8_lossy(&output.stderr);
-            let last = told.lines().last().unwrap_or("it said nothing");
-            return Err(fail(format!("ended with {}: {last}", output.status)));
+            let said = String::from_utf8_lossy(&output.stderr);
+            let said = if said.trim().is_empty() { "nothing" } else { said.trim_end() };
+            return Err(fail(format!("ended with {}; it said:\n{said}", output.status)));
         }
-        let wrong = |what| {
-            let form = "the manual of literate, *A new paper*, has the form";
-            fail(format!("printed {what}; {form}"))
-        };
-        let no_json = |error| wrong(format!("no tables in JSON, which has null for NaN: {error}"));
-        let printed: Printed = serde_json::from_slice(&output.stdout).map_err(no_json)?;
-        let fault = |(name, rows): (&String, &Rows)| Some(format!("{name}: {}", rows.fault()?));
-        printed.iter().find_map(fault).map_or(Ok(()), |fault| Err(wrong(fault)))?;
-        Ok(printed)
+        let tables = self.tables_in(&output.stdout).map_err(fail)?;
+        let mut files = BTreeMap::new();
+        for path in self.writes {
+            let bytes = std::fs::read(folder.path().join(path)).map_err(|error| {
+                fail(format!("did not write {path}, which its `writes` lists: {error}"))
+            })?;
+            files.insert(path.to_string(), input::hexadecimal(&bytes));
+        }
+        Ok(Output { tables, files })
     }
+
+    /// The tables that it printed: none are due from a command that writes files.
+    fn tables_in(&self, printed: &[u8]) -> Result<BTreeMap<String, PrintedTable>, String> {
+        if printed.trim_ascii().is_empty() && !self.writes.is_empty() {
+            return Ok(BTreeMap::new());
+        }
+        let form = "the manual of literate, *A new paper*, has the form";
+        let tables = serde_json::from_slice(printed).map_err(|error| {
+            let printed = String::from_utf8_lossy(printed);
+            let first: Vec<&str> = printed.lines().take(FIRST_LINES).collect();
+            let problem = format!("printed no tables in JSON, which has null for NaN: {error}");
+            format!("{problem}; {form}; it printed:\n{}", first.join("\n"))
+        })?;
+        for (name, table) in &tables {
+            if let Some(fault) = PrintedTable::fault(table) {
+                return Err(format!("printed {name}: {fault}; {form}"));
+            }
+        }
+        Ok(tables)
+    }
+}
+
+/// Whether a word that is no file was meant for one: it has a slash, or an ending of letters.
+fn looks_like_a_file(word: &str) -> bool {
+    let Some((name, ending)) = word.rsplit_once('.') else { return word.contains('/') };
+    let is_ending = ending.starts_with(char::is_alphabetic)
+        && ending.len() < 6
+        && ending.chars().all(char::is_alphanumeric);
+    word.contains('/') || is_ending && !name.is_empty() && word.parse::<f64>().is_err()
 }
 
 impl AnyExperiment for Command {
@@ -152,33 +190,43 @@ impl AnyExperiment for Command {
         self.name
     }
 
+    fn check(&self, project: &Project) -> Result<(), Error> {
+        let problem =
+            |problem: String| Error::input(self.name, format!("`{}`", self.line), problem);
+        self.inputs(&project.folder()).map(drop).map_err(problem)
+    }
+
     fn code(&self, project: &Project) -> BTreeMap<String, String> {
-        let top = project.folder();
-        let hash = |file: &str| Some(sha256(std::fs::read_to_string(top.join(file)).ok()?));
-        let files = self.line.split_whitespace();
-        files.filter_map(|file| Some((file.to_string(), hash(file)?))).collect()
+        self.hashes(&project.folder())
     }
 
     fn parameters(&self, profile: Profile) -> Json {
-        json!({"command": self.line, "parameters": (self.parameters)(profile)})
+        let mut all = json!({"command": self.line, "parameters": (self.parameters)(profile)});
+        if !self.writes.is_empty() {
+            all["writes"] = json!(self.writes);
+        }
+        all
     }
 
     fn item(&self) -> String {
         self.line.into()
     }
 
-    fn stale(&self, session: &Session<'_>) -> Option<String> {
-        let why = session.store.look::<Printed>(&self.identity(session)).err()?;
-        Some(format!("{}: {why}", self.name))
-    }
-
     fn found(&self, session: &Session<'_>) -> Result<Found, Error> {
-        Ok(Arc::new(session.saved(&self.identity(session), || self.run(session))?))
+        let run = || self.run(&session.project.folder(), session);
+        Ok(Arc::new(session.saved(&self.identity(session), run)?))
     }
 
     fn tables(&self, found: &Found) -> Vec<Table> {
-        let printed = found.downcast_ref::<Printed>().into_iter().flatten();
-        printed.map(|(name, rows)| rows.table(name, self)).collect()
+        let Some(output) = found.downcast_ref::<Output>() else { return Vec::new() };
+        let tables = output.tables.iter();
+        tables.map(|(name, table)| table.table(self.name, name, self.line)).collect()
+    }
+
+    fn file(&self, found: &Found, path: &str) -> Option<Vec<u8>> {
+        let digits = found.downcast_ref::<Output>()?.files.get(path)?;
+        let byte = |at: usize| u8::from_str_radix(digits.get(at..at + 2)?, 16).ok();
+        (0..digits.len()).step_by(2).map(byte).collect()
     }
 }
 
@@ -188,77 +236,122 @@ mod tests {
     use super::*;
     use crate::prose::Templates;
     use crate::source::toy;
-    use std::path::Path;
 
     const SCRIPT: &str = r#"read given
 case $given in *quick*) n=100 ;; *) n=1000 ;; esac
-echo '{"throws": {"keys": ["needles"], "columns": ["pi", "pi_error", "by", "seed"], "rows": '
-echo "[[$n, 3.125, 0.04, \"sh\", 7], [2, null, 0.1, \"sh\", null]]}}"
+echo '{"throws": {"keys": ["needles"], "columns": ["pi", "pi_error", "by", "seed", "ratio"],'
+echo '"digits": {"ratio": 3}, "units": {"pi": "m"}, "meanings": {"ratio": "of areas"}, "rows": '
+echo "[[$n, 3.125, 0.04, \"sh\", 7, 0.12345], [2, null, 0.1, null, null, null]]}}"
 "#;
 
-    fn with<T>(
-        script: &str,
-        look: impl Fn(&dyn Fn(&str) -> Result<Results, Error>, &Path) -> T,
-    ) -> T {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("toy.sh");
-        std::fs::write(&path, script).unwrap();
-        let store = Store::open(&folder.path().join("results"));
-        let run = |program: &str| {
-            let line = leaked(&format!("{program} {}", path.display()));
-            let project = Project::new(toy());
-            let command: &'static Command = Box::leak(Box::new(Command::new("toy", line)));
-            let (templates, progress) = (Templates::of([]), Progress::silent());
-            let (profile, store) = (Profile::Quick, store.clone());
-            let session = Session { project: &project, templates, profile, store, progress };
-            let found = Results::run(&[command], &[], &session);
-            assert_eq!(found.is_ok(), command.stale(&session).is_none());
-            found
-        };
-        look(&run, &path)
+    fn leaked(line: String) -> &'static str {
+        Box::leak(line.into_boxed_str())
+    }
+
+    /// Runs a command in the project of a folder, with a script in its file `toy.sh`.
+    fn run(top: &Path, script: &str, command: Command) -> Result<Output, Error> {
+        std::fs::write(top.join("toy.sh"), script).unwrap();
+        let (project, progress) = (Project::new(toy()), Progress::silent());
+        let (templates, store) = (Templates::of([]), Store::nowhere());
+        let profile = Profile::Quick;
+        command.run(top, &Session { project: &project, templates, profile, store, progress })
     }
 
     #[test]
     fn its_tables_are_those_of_any_experiment() {
-        with(SCRIPT, |run, path| {
-            let results = run("sh").unwrap();
-            assert_eq!(results.number("toy.throws[needles=100].pi").unwrap(), 3.125);
-            let throws = results.table("toy.throws").unwrap();
-            let shown = |address: &str| throws.at(address).unwrap().plain();
-            assert_eq!(shown("toy.throws[needles=100].pi"), "3.12(4)");
-            assert_eq!(shown("toy.throws[needles=100].by"), "sh");
-            assert_eq!(shown("toy.throws[needles=100].seed"), "7");
-            assert_eq!(shown("toy.throws[needles=2].pi"), "none");
-            assert!(throws.at("toy.throws[needles=100].pi_error").is_none());
-            // The script is part of what a result is known by.
-            std::fs::write(path, SCRIPT.replace("3.125", "3.25")).unwrap();
-            let results = run("sh").unwrap();
-            assert_eq!(results.number("toy.throws[needles=100].pi").unwrap(), 3.25);
-        });
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("toy.sh");
+        let (project, store) = (Project::new(toy()), Store::open(&folder.path().join("results")));
+        let (templates, progress) = (Templates::of([]), Progress::silent());
+        let profile = Profile::Quick;
+        let session = Session { project: &project, templates, profile, store, progress };
+        let line = leaked(format!("sh {}", path.display()));
+        let command: &'static Command = Box::leak(Box::new(Command::new("toy", line)));
+        std::fs::write(&path, SCRIPT).unwrap();
+        let results = Results::run(&[command], &[], &session).unwrap();
+        assert_eq!(results.number("toy.throws[needles=100].pi").unwrap(), 3.125);
+        let throws = results.table("toy.throws").unwrap();
+        let cell = |column: &str| throws.at(&format!("toy.throws[needles=100].{column}")).unwrap();
+        assert_eq!((cell("pi").plain().as_str(), cell("pi").unit.as_str()), ("3.12(4)", "$m$"));
+        assert_eq!((cell("by").plain().as_str(), cell("seed").plain().as_str()), ("sh", "7"));
+        let ratio = cell("ratio");
+        assert_eq!((ratio.plain().as_str(), ratio.note.as_str()), ("0.123", "of areas"));
+        for column in ["pi", "by", "seed", "ratio"] {
+            let cell = throws.at(&format!("toy.throws[needles=2].{column}")).unwrap();
+            assert_eq!(cell.plain(), "none");
+        }
+        assert!(throws.at("toy.throws[needles=100].pi_error").is_none());
+        let lost = results.table("toy.throw").unwrap_err().to_string();
+        assert!(lost.contains("toy.throw: there is no such table; nearest: toy.throws;"), "{lost}");
+        // The script is part of what a result is known by, also where it is no text.
+        assert_eq!(command.stale(&session), None);
+        std::fs::write(&path, [SCRIPT.as_bytes(), b"# \xff"].concat()).unwrap();
+        assert!(command.stale(&session).unwrap().contains("toy.sh changed"));
     }
 
     #[test]
-    fn what_goes_wrong_is_told_in_one_line() {
-        for (script, program, told) in [
-            (
-                "echo a >&2; echo no needle >&2; exit 3",
-                "sh",
-                "ended with exit status: 3: no needle",
-            ),
-            ("echo '{\"a\": NaN}'", "sh", "printed no tables in JSON"),
-            (
-                "echo '{\"a\": {\"columns\": [\"b\"], \"rows\": [[1, 2]]}}'",
-                "sh",
-                "row 1 has 2 cells",
-            ),
-            ("", "no-such-program", "cannot be started: "),
-        ] {
-            let error = with(script, |run, _| run(program).unwrap_err().to_string());
-            assert!(
-                error.starts_with(&format!("toy: `{program} ")) && error.contains(told),
-                "{error}"
-            );
-            assert!(!error.contains('\n'), "{error}");
+    fn it_sees_the_files_that_it_names_and_no_others() {
+        let folder = tempfile::tempdir().unwrap();
+        let top = folder.path();
+        std::fs::create_dir_all(top.join("data/deep")).unwrap();
+        for file in ["data/deep/a.bin", "b.csv", "c.csv", "hidden.csv"] {
+            std::fs::write(top.join(file), [0xff, 0]).unwrap();
         }
+        let command = Command::new("toy", "sh toy.sh data/ --table=./b.csv 0.5 -x n=3");
+        let command = command.reads(&["c.csv"]).writes(&["plot.png"]);
+        let script = "find . -type f | sort | tr -d '\\n' > plot.png; rm data/deep/a.bin";
+        let output = run(top, script, command).unwrap();
+        let found = "./b.csv./c.csv./data/deep/a.bin./plot.png./toy.sh";
+        assert_eq!(output.files["plot.png"], input::hexadecimal(found.as_bytes()));
+        let bytes = command.file(&(Arc::new(output) as Found), "plot.png");
+        assert_eq!(bytes.unwrap(), found.as_bytes());
+        let before = command.hashes(top);
+        assert_eq!(before.len(), 4, "{before:?}");
+        std::fs::write(top.join("data/deep/a.bin"), [0xfe, 0]).unwrap();
+        assert_ne!(command.hashes(top), before);
+    }
+
+    #[test]
+    fn a_file_that_is_missing_is_refused_before_it_runs() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("a.py"), "").unwrap();
+        let refused = |command: Command| command.inputs(folder.path()).unwrap_err();
+        for (line, file) in [
+            ("python3 a.py table.npz", "table.npz: No such file"),
+            ("python3 a.py --in=data/x", "data/x: No such file"),
+            ("./prog a.py", "prog: No such file"),
+            ("python3 a.py ../b.csv", "../b.csv lies outside"),
+        ] {
+            let error = refused(Command::new("toy", line));
+            assert!(error.starts_with(file), "{line}: {error}");
+        }
+        assert!(refused(Command::new("toy", "true").reads(&["x"])).starts_with("x: No such file"));
+    }
+
+    #[test]
+    fn what_goes_wrong_is_shown() {
+        let table = |fields: &str| format!("echo '{{\"a\": {{\"columns\": [\"b\"], {fields}}}}}'");
+        for (script, shown) in [
+            (
+                "echo a >&2; echo no needle >&2; exit 3".into(),
+                "toy: `sh toy.sh` ended with exit status: 3; it said:\na\nno needle",
+            ),
+            ("echo Hello; echo '{\"a\": NaN}'".into(), "it printed:\nHello\n{\"a\": NaN}"),
+            (table("\"rows\": [[1, 2]]"), "printed a: row 1 has 2 cells for 1 names"),
+            (table("\"rows\": [[[]]]"), "row 1 has more than a number or a word as b"),
+            (
+                table("\"rows\": [], \"units\": {\"B\": \"m\"}"),
+                "units: there is no column B; nearest: b",
+            ),
+        ] {
+            let folder = tempfile::tempdir().unwrap();
+            let error = run(folder.path(), &script, Command::new("toy", "sh toy.sh")).unwrap_err();
+            assert!(error.to_string().contains(shown), "{error}");
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let error = run(folder.path(), "", Command::new("toy", "no-such-program")).unwrap_err();
+        assert!(error.to_string().contains("cannot be started: "), "{error}");
+        let error = run(folder.path(), "", Command::new("toy", "sh toy.sh").writes(&["a.png"]));
+        assert!(error.unwrap_err().to_string().contains("did not write a.png"));
     }
 }

@@ -60,28 +60,21 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         if let How::Read(read) = &self.how {
             return read(session);
         }
-        let (parameters, identity) = self.known_by(session);
+        let parameters = (self.parameters)(session.profile);
+        let identity = self.identity(session);
         session.saved(&identity, || match &self.how {
             How::Read(read) => read(session),
             How::Whole(run, _) => run(&parameters, &session.progress),
             How::Cut(_, cutting) => {
-                let units = self.units(session.profile);
+                let units = cutting.units(&parameters);
                 let (parts, _) = self.parts(&units, &parameters, &identity, session)?;
                 cutting.joined(&parameters, &units, parts, &session.progress)
             }
         })
     }
 
-    /// Its parameters in a profile, and what its result depends on.
-    fn known_by(&self, session: &Session<'_>) -> (P, Identity) {
-        let parameters = (self.parameters)(session.profile);
-        let code = AnyExperiment::code(self, session.project);
-        let identity = Identity::new(self.name, session.profile, code, &parameters);
-        (parameters, identity)
-    }
-
-    /// What some units of one that is cut give, in their order, and how many of them were not in
-    /// the store and had to be run.
+    /// The results of some units of an experiment that is cut, in their order, and how many of
+    /// them were not in the store and had to be run.
     fn parts(
         &self,
         units: &[Unit],
@@ -91,11 +84,14 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     ) -> Result<(Vec<U>, usize), Error> {
         let How::Cut(words, cutting) = &self.how else { return Ok((Vec::new(), 0)) };
         let (store, progress, name) = (&session.store, &session.progress, self.name);
-        let look = |unit: &Unit| store.look::<U>(&identity.of_unit(unit));
-        let saved: Vec<_> = units.par_iter().map(look).collect();
-        let mut lost: BTreeMap<String, usize> = BTreeMap::new();
-        for why in saved.iter().filter_map(|found| found.as_ref().err()) {
-            *lost.entry(why.clone()).or_default() += 1;
+        let saved: Vec<Result<U, String>> =
+            units.par_iter().map(|unit| store.look(&identity.of_unit(unit))).collect();
+        let (mut lost, mut weight) = (BTreeMap::new(), 0);
+        for (unit, found) in units.iter().zip(&saved) {
+            if let Err(why) = found {
+                *lost.entry(why.clone()).or_insert(0) += 1;
+                weight += unit.weight;
+            }
         }
         let run: usize = lost.values().sum();
         if run < units.len() {
@@ -105,14 +101,14 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         for (why, number) in lost.iter().filter(|(why, _)| *why != "run") {
             progress.say(&format!("{name}: {} {why}", count(*number, "unit")));
         }
-        let open = units.iter().zip(&saved).filter(|(_, found)| found.is_err());
-        let stage = progress.stage(words, open.map(|(unit, _)| unit.weight).sum());
-        let part = |(unit, found): (&Unit, Result<U, _>)| {
-            found.or_else(|_| {
-                let part = (cutting.part)(parameters, unit, &stage, progress)?;
-                store.put(&identity.of_unit(unit), &part)?;
-                Ok(part)
-            })
+        let stage = progress.stage(words, weight);
+        let part = |(unit, found): (&Unit, Result<U, String>)| {
+            if let Ok(part) = found {
+                return Ok(part);
+            }
+            let part = (cutting.part)(parameters, unit, &stage, progress)?;
+            store.put(&identity.of_unit(unit), &part)?;
+            Ok(part)
         };
         // Units share the cores with the realisations inside them.
         let parts = units.par_iter().zip(saved).with_max_len(1).map(part);
@@ -124,6 +120,12 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
 pub trait AnyExperiment: Sync {
     /// Its name, as values and saved files carry it.
     fn name(&self) -> &'static str;
+
+    /// Checks that the files on which its result depends are there and are all declared.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with the experiment's name and that of the file.
+    fn check(&self, project: &Project) -> Result<(), Error>;
 
     /// Path and hash of every file on which its result depends.
     fn code(&self, project: &Project) -> BTreeMap<String, String>;
@@ -139,24 +141,56 @@ pub trait AnyExperiment: Sync {
         true
     }
 
+    /// What a saved result of it is known by.
+    fn identity(&self, session: &Session<'_>) -> Identity {
+        let code = self.code(session.project);
+        Identity::new(self.name(), session.profile, code, &self.parameters(session.profile))
+    }
+
     /// Its units of work: one if it is not cut.
     fn units(&self, _: Profile) -> Vec<Unit> {
         vec![Unit::whole(0)]
     }
 
-    /// Runs those of some of its units that are not in the store, and saves what each gives as soon
-    /// as it is there; none if the result is fresh. Returns how many were run.
+    /// Returns those of some of its units that are to be run: none if its result is fresh.
+    fn open(&self, mut units: Vec<Unit>, session: &Session<'_>) -> Vec<Unit> {
+        let (store, identity) = (&session.store, self.identity(session));
+        if !self.is_saved() || store.why_stale(&identity).is_none() {
+            return Vec::new();
+        }
+        units.retain(|unit| store.why_stale(&identity.of_unit(unit)).is_some());
+        units
+    }
+
+    /// Runs those of some of its units that are not in the store, and saves the result of each as
+    /// soon as it is there; none if the result is fresh. Returns how many were run.
     fn run_units(&self, _: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
         let stale = self.stale(session).is_some();
         self.found(session).map(|_| usize::from(stale))
     }
 
     /// What would be run, and why; none if the saved result is fresh.
-    fn stale(&self, session: &Session<'_>) -> Option<String>;
+    fn stale(&self, session: &Session<'_>) -> Option<String> {
+        let identity = self.identity(session);
+        let why = session.store.why_stale(&identity).filter(|_| self.is_saved())?;
+        let why = format!("{}: {why}", self.name());
+        let units = self.units(session.profile);
+        if let [_] = units[..] {
+            return Some(why);
+        }
+        let all = count(units.len(), "unit");
+        let there = units.len() - self.open(units, session).len();
+        Some(format!("{why}; {there} of {all} there"))
+    }
 
     fn found(&self, session: &Session<'_>) -> Result<Found, Error>;
 
     fn tables(&self, found: &Found) -> Vec<Table>;
+
+    /// The bytes of a file that a command wrote; none if it wrote no such file.
+    fn file(&self, _: &Found, _path: &str) -> Option<Vec<u8>> {
+        None
+    }
 }
 
 impl std::fmt::Debug for dyn AnyExperiment {
@@ -168,6 +202,14 @@ impl std::fmt::Debug for dyn AnyExperiment {
 impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
     fn name(&self) -> &'static str {
         self.name
+    }
+
+    fn check(&self, project: &Project) -> Result<(), Error> {
+        let mut checked = project.check_listed(self.code);
+        if self.is_saved() {
+            checked = checked.and_then(|()| project.check_named(self.code));
+        }
+        checked.map_err(|(problem, remedy)| Error::input(self.name, problem, remedy))
     }
 
     fn code(&self, project: &Project) -> BTreeMap<String, String> {
@@ -196,25 +238,14 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
     }
 
     fn run_units(&self, units: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
-        let (parameters, identity) = self.known_by(session);
+        let identity = self.identity(session);
         if session.store.look::<T>(&identity).is_ok() {
             return Ok(0);
         }
         let How::Cut(..) = self.how else { return self.get(session).map(|_| units.len()) };
         session.store.prepare()?;
+        let parameters = (self.parameters)(session.profile);
         Ok(self.parts(units, &parameters, &identity, session)?.1)
-    }
-
-    fn stale(&self, session: &Session<'_>) -> Option<String> {
-        let store = &session.store;
-        let (parameters, identity) = self.known_by(session);
-        let why = store.look::<T>(&identity).err().filter(|_| self.is_saved())?;
-        let why = format!("{}: {why}", self.name);
-        let How::Cut(_, cutting) = &self.how else { return Some(why) };
-        let units = cutting.units(&parameters);
-        let there = |unit: &&Unit| store.look::<U>(&identity.of_unit(unit)).is_ok();
-        let there = units.iter().filter(there).count();
-        Some(format!("{why}; {there} of {} there", count(units.len(), "unit")))
     }
 
     fn found(&self, session: &Session<'_>) -> Result<Found, Error> {

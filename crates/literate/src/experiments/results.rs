@@ -1,11 +1,14 @@
-//! All results derived.
+//! Runs experiments, and holds their results and the tables that follow from them.
 
 use super::announce::announce;
+use super::progress::say;
 use super::store::Json;
-use super::{AnyExperiment, Error, Experiment, Found, Profile, Session};
-use crate::table::{Table, Tables, number_at};
+use super::{AnyExperiment, Command, Error, Experiment, Found, Profile, Session};
+use crate::table::{Table, Tables, nearest, number_at};
+use crate::text::count;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, OnceLock};
 
 /// Makes tables of the results and tables of several experiments; none if one of these was not run.
@@ -59,12 +62,12 @@ impl Results {
 
     fn made(&self) -> Tables {
         let (experiments, derived) = &self.made_by;
-        let of = |experiment: &&dyn AnyExperiment| {
-            self.found
-                .get(experiment.name())
-                .map_or_else(Vec::new, |found| experiment.tables(found))
+        let tables = |experiment: &&dyn AnyExperiment| match self.found.get(experiment.name()) {
+            Some(found) => naming(experiment.name(), || experiment.tables(found)),
+            None => Vec::new(),
         };
-        let mut all = experiments.par_iter().with_max_len(1).map(of).collect::<Vec<_>>().concat();
+        let tables = experiments.par_iter().with_max_len(1).map(tables);
+        let mut all = tables.collect::<Vec<_>>().concat();
         for tables in derived {
             all.extend(tables(self, &all).into_iter().flatten());
         }
@@ -72,9 +75,26 @@ impl Results {
     }
 
     /// One of the tables.
-    pub fn table(&self, name: &'static str) -> Result<&Table, Error> {
-        let experiment = name.split('.').next().unwrap_or(name);
-        self.tables().get(name).map(Arc::as_ref).ok_or(Error::NotRun(experiment))
+    pub fn table(&self, name: &str) -> Result<&Table, Error> {
+        let missing = || {
+            let nearest = nearest(name, self.tables().keys().copied()).join(", ");
+            let remedy = "mend the name, or add its experiment to `needs`";
+            Error::input(name, format!("there is no such table; nearest: {nearest}"), remedy)
+        };
+        self.tables().get(name).map(Arc::as_ref).ok_or_else(missing)
+    }
+
+    /// The bytes of a file that a command wrote.
+    pub fn file(&self, command: &Command, path: &str) -> Result<Vec<u8>, Error> {
+        let found = self.found.get(command.name).ok_or(Error::NotRun(command.name))?;
+        let missing = || {
+            Error::input(
+                path,
+                format!("{} wrote no such file", command.name),
+                "add it to its `writes`",
+            )
+        };
+        command.file(found, path).ok_or_else(missing)
     }
 
     /// The number with this address: `theory.jump.p_jump`.
@@ -93,13 +113,28 @@ impl Results {
         derived: &[DerivedTables],
         session: &Session<'_>,
     ) -> Result<Self, Error> {
-        announce(experiments, session)?;
+        let (mut stale, mut open) = (0, Vec::new());
+        for experiment in experiments {
+            let units = experiment.open(experiment.units(session.profile), session);
+            stale += usize::from(!units.is_empty());
+            open.extend(units);
+        }
+        announce(&count(stale, "experiment"), &open, session)?;
         let mut found = BTreeMap::new();
         for experiment in experiments {
-            found.insert(experiment.name(), experiment.found(session)?);
+            let name = experiment.name();
+            found.insert(name, naming(name, || experiment.found(session))?);
         }
         session.progress.check()?;
         let made_by = (experiments.to_vec(), derived.to_vec());
         Ok(Results { profile: session.profile, made_by, found, tables: OnceLock::new() })
     }
+}
+
+/// Does a part of the work of an experiment. If that panics, says in which experiment it was.
+fn naming<T>(experiment: &str, work: impl FnOnce() -> T) -> T {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
+        say(&format!("the internal error was in the experiment {experiment}"));
+        resume_unwind(panic)
+    })
 }

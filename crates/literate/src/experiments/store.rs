@@ -120,7 +120,19 @@ impl Store {
     /// Returns the saved result, or why it must be run, in one line: `run`, `run
     /// again, Cargo.lock changed`.
     pub fn look<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
-        let again = |why: &str| format!("run again, {}", one_line(why, 1000));
+        let text = self.fresh(identity)?;
+        let body = text.split('\n').nth(2).unwrap_or_default();
+        serde_json::from_str(body).map_err(|_| again(OLDER_FORMAT))
+    }
+
+    /// Returns why a result must be run, as [`Store::look`] does, or none if the saved one is
+    /// whole and fresh. The result itself is not read.
+    pub fn why_stale(&self, identity: &Identity) -> Option<String> {
+        self.fresh(identity).err()
+    }
+
+    /// The text of a saved file that is whole and was made of the same.
+    fn fresh(&self, identity: &Identity) -> Result<String, String> {
         let text = match self.path(identity).map(|path| regular_text(&path)) {
             Some(Ok(text)) => text,
             Some(Err(error)) if !is_absent(&error) => {
@@ -128,12 +140,8 @@ impl Store {
             }
             _ => return Err("run".into()),
         };
-        let (saved, body) = parsed(&text).map_err(again)?;
-        let differences = identity.differences(&saved);
-        if !differences.is_empty() {
-            return Err(again(&differences));
-        }
-        serde_json::from_str(body).map_err(|_| again(OLDER_FORMAT))
+        let differences = identity.differences(&made_of(&text).map_err(again)?);
+        if differences.is_empty() { Ok(text) } else { Err(again(&differences)) }
     }
 
     /// Makes the folder.
@@ -154,34 +162,54 @@ impl Store {
         save(&path, &text).map_err(|source| Error::Store { path, source })
     }
 
+    /// Removes a saved result and those of its units, so that it is run again.
+    ///
+    /// # Errors
+    /// If a file is there and cannot be removed.
+    pub fn remove(&self, identity: &Identity) -> Result<(), Error> {
+        for path in self.units_of(identity).into_iter().chain(self.path(identity)) {
+            match std::fs::remove_file(&path) {
+                Err(source) if !is_absent(&source) => return Err(Error::Store { path, source }),
+                _ => (),
+            }
+        }
+        Ok(())
+    }
+
     /// Removes the files of the units of a result, which is joined.
     pub fn remove_units(&self, identity: &Identity) {
+        for path in self.units_of(identity) {
+            // One that stays does no harm: the joined result is looked for first.
+            let _ = std::fs::remove_file(path);
+        }
+    }
+
+    fn units_of(&self, identity: &Identity) -> Vec<PathBuf> {
         let stem = format!("{}-", identity.file_stem());
-        let unit = |path: &PathBuf| {
+        let is_unit = |path: &PathBuf| {
             let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
             let number = name.strip_prefix(&stem).and_then(|rest| rest.strip_suffix(".json"));
             number.is_some_and(|number| number.bytes().all(|b| b.is_ascii_digit()))
         };
-        let all = self.folder.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten();
-        for path in all.flatten().map(|entry| entry.path()).filter(unit) {
-            // One that stays is no fault: the joined result is looked for first.
-            let _ = std::fs::remove_file(path);
-        }
+        let files = self.folder.iter().filter_map(|folder| folder.read_dir().ok()).flatten();
+        files.flatten().map(|entry| entry.path()).filter(is_unit).collect()
     }
 }
 
-/// What a saved result was made of, and the result, as text.
-fn parsed(text: &str) -> Result<(Identity, &str), &'static str> {
-    let mut lines = text.split('\n');
-    let (Some(checksum), Some(found), Some(body), Some(""), None) =
-        (lines.next(), lines.next(), lines.next(), lines.next(), lines.next())
-    else {
+fn again(why: &str) -> String {
+    format!("run again, {}", one_line(why, 1000))
+}
+
+/// What the result in a saved file was made of.
+fn made_of(text: &str) -> Result<Identity, &'static str> {
+    let lines: Vec<&str> = text.split('\n').collect();
+    let [checksum, identity, body, ""] = lines[..] else {
         return Err("the saved result is cut short or has extra lines");
     };
-    if checksum != digest(&[found, body]) {
+    if checksum != digest(&[identity, body]) {
         return Err("the saved result was damaged or edited: its checksum is wrong");
     }
-    Ok((serde_json::from_str(found).map_err(|_| OLDER_FORMAT)?, body))
+    serde_json::from_str(identity).map_err(|_| OLDER_FORMAT)
 }
 
 /// A result as text that reads back to the same bits.

@@ -1,0 +1,175 @@
+//! Reads the tables that a command printed.
+
+use crate::table::{Building, Table, nearest};
+use crate::value::Origin;
+use impact_numerics::estimates::with_error;
+use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A table as a command prints it. The manual ([`crate::manual`]) explains the fields.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PrintedTable {
+    #[serde(default)]
+    keys: Vec<String>,
+    columns: Vec<String>,
+    #[serde(default)]
+    units: BTreeMap<String, String>,
+    #[serde(default)]
+    digits: BTreeMap<String, usize>,
+    #[serde(default)]
+    meanings: BTreeMap<String, String>,
+    rows: Vec<Vec<Json>>,
+}
+
+impl PrintedTable {
+    fn names(&self) -> impl Iterator<Item = &str> {
+        self.keys.iter().chain(&self.columns).map(String::as_str)
+    }
+
+    fn of_columns(&self) -> Vec<&str> {
+        self.columns.iter().map(String::as_str).collect()
+    }
+
+    fn place(&self, name: &str) -> Option<usize> {
+        self.names().position(|other| other == name)
+    }
+
+    /// The column of the standard errors of a column, if there is one.
+    fn error_of(&self, name: &str) -> Option<usize> {
+        self.place(&format!("{name}_error"))
+    }
+
+    /// Whether a column has the standard errors of another.
+    fn is_error(&self, name: &str) -> bool {
+        name.strip_suffix("_error").is_some_and(|other| self.place(other).is_some())
+    }
+
+    /// What is wrong with it, if anything: a name, a field for a column that is not there, a row.
+    pub(super) fn fault(&self) -> Option<String> {
+        let mut seen = BTreeSet::new();
+        for name in self.names() {
+            if name.is_empty() || !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
+                return Some(format!("{name:?} is not a name of letters, digits and `_`"));
+            }
+            if !seen.insert(name) {
+                return Some(format!("there are two columns {name}"));
+            }
+        }
+        for (field, columns, names) in [
+            ("units", self.units.keys().collect::<Vec<_>>(), self.names().collect::<Vec<_>>()),
+            ("digits", self.digits.keys().collect(), self.of_columns()),
+            ("meanings", self.meanings.keys().collect(), self.of_columns()),
+        ] {
+            if let Some(lost) = columns.into_iter().find(|column| !names.contains(&column.as_str()))
+            {
+                let nearest = nearest(lost, names.into_iter()).join(", ");
+                return Some(format!("{field}: there is no column {lost}; nearest: {nearest}"));
+            }
+        }
+        for (name, digits) in &self.digits {
+            if self.error_of(name).is_some() {
+                return Some(format!("digits: {name} has those that its error gives it"));
+            }
+            if !(1..=17).contains(digits) {
+                return Some(format!("digits: {name} has {digits}; give 1 to 17"));
+            }
+        }
+        let mut seen = BTreeSet::new();
+        for (row, at) in self.rows.iter().zip(1..) {
+            if let Some(fault) = self.fault_in(row) {
+                return Some(format!("row {at} {fault}"));
+            }
+            if !seen.insert(row[..self.keys.len()].iter().map(written).collect::<Vec<_>>()) {
+                return Some(format!("row {at} has the keys of one before"));
+            }
+        }
+        None
+    }
+
+    fn fault_in(&self, row: &[Json]) -> Option<String> {
+        let names: Vec<&str> = self.names().collect();
+        if row.len() != names.len() {
+            return Some(format!("has {} cells for {} names", row.len(), names.len()));
+        }
+        for (at, name) in names.iter().enumerate() {
+            let cell = &row[at];
+            if cell.is_array() || cell.is_object() {
+                return Some(format!("has more than a number or a word as {name}"));
+            }
+            if cell.is_null() && at < self.keys.len() {
+                return Some(format!("has no {name}, which is a key"));
+            }
+            if let Some(error) = self.error_of(name).filter(|_| !cell.is_null()) {
+                let valid = row[error].as_f64().is_some_and(|error| error >= 0.0);
+                if cell.as_f64().is_none() || !valid {
+                    return Some(format!(
+                        "needs numbers as {name} and {name}_error, or null as {name}"
+                    ));
+                }
+            }
+        }
+        None
+    }
+
+    /// The table `experiment.name` that it is, once it has no fault.
+    pub(super) fn table(&self, experiment: &str, name: &str, line: &'static str) -> Table {
+        let name = leaked(&format!("{experiment}.{name}"));
+        let mut table = Table::of(name, &self.rows, |_| 0).computed_by(Origin::of(line));
+        for (at, name) in self.names().enumerate() {
+            if !self.is_error(name) {
+                table = self.add(table, at, leaked(name));
+            }
+        }
+        table.done()
+    }
+
+    fn add<'a>(
+        &'a self,
+        table: Building<'a, Vec<Json>>,
+        at: usize,
+        name: &'static str,
+    ) -> Building<'a, Vec<Json>> {
+        let is_key = at < self.keys.len();
+        let unit = self.units.get(name).map_or("1", |unit| leaked(unit));
+        let meaning = self.meanings.get(name).map_or("", String::as_str);
+        let number = move |row: &Vec<Json>| row[at].as_f64();
+        if self.rows.iter().any(|row| row[at].is_string() || row[at].is_boolean()) {
+            let words = move |row: &Vec<Json>| written(&row[at]);
+            return match is_key {
+                true => table.text_key(name, words),
+                false => table.words(name, meaning, words),
+            };
+        }
+        if is_key {
+            return table.key(name, unit, move |row| number(row).unwrap_or(f64::NAN));
+        }
+        if let Some(error) = self.error_of(name) {
+            return table.estimate(name, unit, meaning, move |row| {
+                Some(with_error(number(row)?, row[error].as_f64()?))
+            });
+        }
+        match self.digits.get(name) {
+            Some(&digits) => {
+                table.real(name, unit, digits, meaning, move |row| number(row).unwrap_or(f64::NAN))
+            }
+            None => table.chosen(name, unit, meaning, number),
+        }
+    }
+}
+
+/// A cell as words; *none* for null.
+fn written(cell: &Json) -> String {
+    match cell {
+        Json::String(words) => words.clone(),
+        Json::Null => "none".into(),
+        Json::Number(number) => number.as_f64().map_or(number.to_string(), |x| x.to_string()),
+        _ => cell.to_string(),
+    }
+}
+
+/// Names of tables live as long as the program.
+fn leaked(text: &str) -> &'static str {
+    Box::leak(text.to_string().into_boxed_str())
+}

@@ -1,0 +1,42 @@
+//! Runs other programs, and ends them with this one.
+
+use std::io::{self, Write};
+use std::process::{Command, Output, Stdio};
+use std::sync::Mutex;
+
+/// The programs that run, each with its process group, which has its number.
+static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
+
+/// Starts a program, gives it a text to read, and waits for its end.
+///
+/// # Errors
+/// If it cannot be started.
+pub(super) fn run(command: &mut Command, text: String) -> io::Result<Output> {
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(command, 0);
+    let mut child = command.spawn()?;
+    let group = child.id();
+    running().push(group);
+    if let Some(mut input) = child.stdin.take() {
+        // Apart, for a program may write much before it reads; one that reads nothing closes it.
+        std::thread::spawn(move || drop(input.write_all(text.as_bytes())));
+    }
+    let output = child.wait_with_output();
+    running().retain(|other| *other != group);
+    output
+}
+
+fn running() -> std::sync::MutexGuard<'static, Vec<u32>> {
+    RUNNING.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+/// Sends a signal, such as TERM, to all programs that run and to those that they started.
+#[cfg(unix)]
+pub(crate) fn end_all(signal: &str) {
+    for group in running().iter() {
+        // The shell's `kill`, for not every system has a program of that name.
+        let line = format!("kill -s {signal} -- -{group}");
+        let _ = Command::new("sh").args(["-c", &line]).stderr(Stdio::null()).status();
+    }
+}
