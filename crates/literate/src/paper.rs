@@ -22,7 +22,8 @@ pub struct FigureSpec {
 impl FigureSpec {
     /// Draws it, and gives it its name.
     pub fn figure(&self, results: &Results) -> Result<Figure, figures::Error> {
-        let mut figure = (self.draw)(results)?;
+        let named = |error| figures::Error::Figure(self.name, Box::new(error));
+        let mut figure = (self.draw)(results).map_err(named)?;
         figure.data.iter_mut().for_each(|file| file.name.insert_str(0, self.name));
         let experiments = self.needs.iter().map(|need| need.name()).collect();
         // The item that draws it has its name.

@@ -4,10 +4,12 @@
 //! The logarithmic coordinate of plotters takes the platform's logarithm; ours is a linear one over
 //! log10 of the data, taken with a portable function.
 
+use super::error::Error;
 use super::markup::spelled;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use pxfm::{f_exp10, f_log10};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// A tick; minor ones have no label.
@@ -51,22 +53,69 @@ pub fn number(value: f64, decimals: usize) -> String {
 
 impl Axis {
     /// Makes a linear axis with labelled ticks every `step` and `minor` intervals between two of
-    /// them.
+    /// them. Labels are exact, for a step of up to twelve digits: in decimals, or with a power of
+    /// ten. Where they would be long they count from one of the ticks, as the axis label then says.
     pub fn linear(lo: f64, hi: f64, step: f64, minor: u32, label: &str) -> Self {
-        let minor = minor.max(1);
-        let fine = step / f64::from(minor);
-        let is_whole = |value: f64| (value - value.round()).abs() < 1e-6;
-        let decimals = (0..8).find(|&d| is_whole(step * decimal(1, d))).unwrap_or(8) as usize;
+        let minor = i64::from(minor.max(1));
+        let fine = step / minor as f64;
         let slack = 1e-9;
-        let (first, last) = ((lo / fine - slack).ceil() as i64, (hi / fine + slack).floor() as i64);
-        let ticks = (first..=last)
-            .map(|i| {
-                let major = i % i64::from(minor) == 0;
-                let at = if major { (i / i64::from(minor)) as f64 * step } else { i as f64 * fine };
-                Tick { at: at.clamp(lo, hi), label: major.then(|| number(at, decimals)) }
-            })
-            .collect();
-        Axis::new(false, [lo, hi], label, ticks)
+        let (first, last) = ((lo / fine - slack).ceil(), (hi / fine + slack).floor());
+        let mut axis = Axis::new(false, [lo, hi], label, Vec::new());
+        let (count, farthest) = (last - first, first.abs().max(last.abs()));
+        let Some((digits, power)) = decimal_of(step) else { return axis };
+        if !count.is_finite() || count > 1e4 || farthest > 1e15 {
+            return axis;
+        }
+        let mut numbers = Vec::new();
+        for i in first as i64..=last as i64 {
+            let mut at = i as f64 * fine;
+            if i % minor == 0 {
+                let number = digits * i128::from(i / minor);
+                at = format!("{number}e{power}").parse().unwrap_or(at);
+                numbers.push(number);
+            }
+            let label = (i % minor == 0).then(String::new);
+            axis.ticks.push(Tick { at: at.clamp(lo, hi), label });
+        }
+        if leading(&numbers) > 5 && !numbers.contains(&0) {
+            let from = numbers.iter().copied().max_by_key(|number| zeros(*number)).unwrap_or(0);
+            numbers.iter_mut().for_each(|number| *number -= from);
+            axis = axis.counted_from(from, power);
+        }
+        let most = leading(&numbers) + power;
+        let labels = axis.ticks.iter_mut().filter_map(|tick| tick.label.as_mut());
+        for (label, number) in labels.zip(numbers) {
+            *label = exact(number, power, most);
+        }
+        axis
+    }
+
+    /// Says in the label that the numbers count from n · 10^power, and in the column that data do
+    /// not.
+    fn counted_from(mut self, n: i128, power: i32) -> Self {
+        let (name, unit) = self.name_and_unit();
+        self.column = Some(format!("{name} ({unit})"));
+        let (n, power) = (n / 10_i128.pow(zeros(n)), power + zeros(n) as i32);
+        let from = exact(n, power, leading(&[n]) + power);
+        let sign = if n < 0 { '+' } else { '−' };
+        let from = format!(" {sign} {}", from.trim_start_matches('−'));
+        let unit = self.label.rfind(" (").filter(|_| self.label.ends_with(')'));
+        self.label.insert_str(unit.unwrap_or(self.label.len()), &from);
+        self
+    }
+
+    /// Checks that it has a range, and numbers that are exact and tell its values apart.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let (low, high) = self.ends();
+        let is_range = low < high && (high - low).is_finite();
+        let rises = self.ticks.windows(2).all(|pair| pair[0].at < pair[1].at);
+        let labels = self.ticks.iter().map(Tick::name).filter(|label| !label.is_empty());
+        let mut seen = BTreeSet::new();
+        let differ = labels.into_iter().all(|label| seen.insert(label));
+        if is_range && rises && differ && !self.ticks.is_empty() {
+            return Ok(());
+        }
+        Err(Error::Axis { label: spelled(&self.label), low: self.lo, high: self.hi })
     }
 
     fn new(is_log: bool, [lo, hi]: [f64; 2], label: &str, ticks: Vec<Tick>) -> Self {
@@ -82,8 +131,8 @@ impl Axis {
             if !labelled && every > 5 {
                 continue;
             }
-            let name = format!("10^{{{}}}", exponent.to_string().replace('-', "−"));
-            ticks.push(Tick { at: decimal(1, exponent), label: labelled.then_some(name) });
+            let label = labelled.then(|| power_of_ten(exponent));
+            ticks.push(Tick { at: decimal(1, exponent), label });
             if every == 1 && exponent < hi {
                 ticks.extend((2..10).map(|m| Tick { at: decimal(m, exponent), label: None }));
             }
@@ -91,8 +140,9 @@ impl Axis {
         Axis::new(true, [lo, hi].map(|end| decimal(1, end)), label, ticks)
     }
 
-    /// Makes a logarithmic axis of the decades that hold all values, labelled every `every`.
+    /// Makes a logarithmic axis of the decades that hold all positive values, labelled every `every`.
     pub fn decades_around(values: impl Iterator<Item = f64>, every: i32, label: &str) -> Self {
+        let values = values.filter(|value| *value > 0.0 && value.is_finite());
         let [low, high] = range(values.map(f_log10)).unwrap_or([0.0, 1.0]);
         let (low, high) = (low.floor() as i32, high.ceil() as i32);
         Axis::decades(low, high.max(low + 1), every, label)
@@ -108,9 +158,8 @@ impl Axis {
     /// Labels 1, 2 and 5 of each decade, for a short logarithmic axis.
     pub fn label_1_2_5(mut self) -> Self {
         for tick in &mut self.ticks {
-            let number = tick.at.to_string();
-            let round = number.trim_start_matches(['0', '.']).starts_with(['1', '2', '5']);
-            tick.label = round.then_some(number);
+            let (n, power) = decimal_of(tick.at).unwrap_or_default();
+            tick.label = [1, 2, 5].contains(&n).then(|| exact(n, power, power));
         }
         self
     }
@@ -208,6 +257,50 @@ pub(super) fn range(mut values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 /// Returns m · 10^exponent with the bits of the literal.
 fn decimal(m: i32, exponent: i32) -> f64 {
     format!("{m}e{exponent}").parse().unwrap_or(f64::MIN_POSITIVE)
+}
+
+/// Returns a number as n · 10^power, rounded to twelve digits; none if it is not finite.
+fn decimal_of(number: f64) -> Option<(i128, i32)> {
+    let shown = format!("{number:.11e}");
+    let (mantissa, power) = shown.split_once('e')?;
+    let n: i128 = mantissa.replace('.', "").parse().ok()?;
+    Some((n / 10_i128.pow(zeros(n)), power.parse::<i32>().ok()? - 11 + zeros(n) as i32))
+}
+
+/// Returns the number of zeros at the end of a number, none for zero.
+fn zeros(mut n: i128) -> u32 {
+    let mut zeros = 0;
+    while n != 0 && n % 10 == 0 {
+        (n, zeros) = (n / 10, zeros + 1);
+    }
+    zeros
+}
+
+/// Returns the power of ten of the first digit of the largest number.
+fn leading(numbers: &[i128]) -> i32 {
+    let largest = numbers.iter().map(|number| number.unsigned_abs()).max();
+    largest.and_then(u128::checked_ilog10).unwrap_or(0) as i32
+}
+
+/// Writes n · 10^power on an axis whose largest number has its first digit at 10^`most`.
+fn exact(n: i128, power: i32, most: i32) -> String {
+    let is_plain = power >= -5 && most <= 5;
+    let places = if is_plain { power } else { power - most };
+    let mut digits = n.unsigned_abs().to_string() + &"0".repeat(places.max(0) as usize);
+    if places < 0 {
+        digits = format!("{digits:0>width$}", width = 1 + places.unsigned_abs() as usize);
+        digits.insert(digits.len() - places.unsigned_abs() as usize, '.');
+    }
+    let sign = if n < 0 { "−" } else { "" };
+    match n {
+        0 => "0".into(),
+        _ if is_plain => format!("{sign}{digits}"),
+        _ => format!("{sign}{digits}·{}", power_of_ten(most)),
+    }
+}
+
+fn power_of_ten(exponent: i32) -> String {
+    format!("10^{{{}}}", exponent.to_string().replace('-', "−"))
 }
 
 #[cfg(test)]

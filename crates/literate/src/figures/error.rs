@@ -10,12 +10,27 @@ use thiserror::Error;
 pub enum Error {
     #[error("a figure lacks its data: {0}")]
     Data(#[from] experiments::Error),
-    #[error("{series}: the point ({x}, {y}) lies outside its frame")]
-    Outside { series: String, x: f64, y: f64 },
+    #[error("row {row} of the series {series:?}, ({x}, {y}), {}", outside(*x, *y))]
+    Outside { series: String, row: usize, x: f64, y: f64 },
+    #[error(
+        "the axis {label:?} from {low:e} to {high:e} has no numbers that are exact and differ; \
+         give it another range"
+    )]
+    Axis { label: String, low: f64, high: f64 },
+    #[error("the figure {0}: {1}")]
+    Figure(&'static str, Box<Error>),
     #[error("the shipped fonts have no glyph for {character:?} in the label {label:?}")]
     Glyph { character: char, label: String },
     #[error("drawing failed: {0}")]
     Drawing(String),
+}
+
+fn outside(x: f64, y: f64) -> &'static str {
+    if x.is_finite() && y.is_finite() {
+        "lies outside its frame; give the axes a wider range, or cut the series"
+    } else {
+        "is not finite; leave it out, or correct the table that it comes from"
+    }
 }
 
 /// Whether something could be drawn.

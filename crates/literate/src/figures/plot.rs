@@ -34,6 +34,7 @@ struct Series {
 struct AxisOptions {
     label: String,
     is_log: bool,
+    range: Option<[f64; 2]>,
 }
 
 /// A plot in the making. Series of one name have one colour and are named once, at their right end.
@@ -43,6 +44,7 @@ pub struct Plot {
     y: AxisOptions,
     names: Vec<String>,
     series: Vec<Series>,
+    mark_size: Option<i32>,
 }
 
 const COLOURS: [RGBColor; 6] = [INK, BLUE, RED, GREEN, ORANGE, PURPLE];
@@ -76,6 +78,24 @@ impl Plot {
     pub fn log_y(mut self, label: &str) -> Self {
         self.y.is_log = true;
         self.y(label)
+    }
+
+    /// Shows x from `low` to `high`, whatever the data; what lies outside is cut.
+    pub fn x_range(mut self, low: f64, high: f64) -> Self {
+        self.x.range = Some([low, high]);
+        self
+    }
+
+    /// Shows y from `low` to `high`.
+    pub fn y_range(mut self, low: f64, high: f64) -> Self {
+        self.y.range = Some([low, high]);
+        self
+    }
+
+    /// Sets half the width of marks, in hundredths of a millimetre; it is [`MEDIUM`] otherwise.
+    pub fn mark_size(mut self, half_width: i32) -> Self {
+        self.mark_size = Some(half_width);
+        self
     }
 
     fn add(mut self, name: &str, kind: SeriesKind, points: Vec<(f64, Estimate)>) -> Self {
@@ -166,7 +186,8 @@ impl Plot {
             let (name, named, colour) = &mut ends[*place];
             let places: Vec<(f64, f64)> = points.iter().map(|(x, y)| (*x, y.value)).collect();
             let stroke = Stroke::dashed(*colour, LINE, DASHES[place % DASHES.len()]);
-            let marker = |symbol| -> Marker { (symbol, MEDIUM, Stroke::solid(*colour, THIN)) };
+            let size = self.mark_size.unwrap_or(MEDIUM);
+            let marker = |symbol| -> Marker { (symbol, size, Stroke::solid(*colour, THIN)) };
             match kind {
                 SeriesKind::Line | SeriesKind::Curve(_) => {
                     panel.curve(name, &places, stroke, Outside::Cut)?;
@@ -192,22 +213,31 @@ fn without_errors(points: &[(f64, f64)]) -> Vec<(f64, Estimate)> {
 }
 
 impl AxisOptions {
-    /// Makes the axis that holds these values: whole decades, or a margin of a twenty-fifth and
-    /// ticks at 1, 2 or 5 times a power of ten.
+    /// Makes the axis of the range that was asked for, or the one that holds these values: whole
+    /// decades, or a margin of a twenty-fifth. A linear one has ticks at 1, 2 or 5 times a power of
+    /// ten, a logarithmic one of less than two decades labels 1, 2 and 5.
     fn axis(&self, values: impl Iterator<Item = f64>) -> Axis {
-        let ends = axis::range(values.filter(|value| value.is_finite()));
-        let [low, high] = ends.unwrap_or([0.1, 1.0]);
+        let found = axis::range(values.filter(|value| value.is_finite()));
+        let [low, high] = self.range.or(found).unwrap_or([0.1, 1.0]);
         if self.is_log {
-            let [low_power, high_power] = [low, high].map(f_log10);
-            let every = (high_power - low_power).ceil() as i32 / 8 + 1;
-            return Axis::decades_around([low, high].into_iter(), every, &self.label);
+            let decades = f_log10(high) - f_log10(low);
+            let every = decades.ceil() as i32 / 8 + 1;
+            let axis = Axis::decades_around([low, high].into_iter(), every, &self.label);
+            return match self.range {
+                None => axis,
+                Some(_) if decades < 2.0 => axis.between(low, high).label_1_2_5(),
+                Some(_) => axis.between(low, high),
+            };
         }
-        // A constant stands in the middle.
-        let (span, margin) = if high > low {
-            (high - low, (high - low) / 25.0)
-        } else {
-            (low.abs().max(1.0), low.abs().max(1.0) / 2.0)
+        let margin = match self.range {
+            Some(_) => 0.0,
+            None if high > low => (high - low) / 25.0,
+            // A constant stands in the middle.
+            None if low == 0.0 => 0.5,
+            None => low.abs() / 2.0,
         };
+        let (from, to) = (low - margin, high + margin);
+        let span = if high > low { high - low } else { 2.0 * margin };
         let rough = format!("{:e}", span / 5.0);
         let (digits, power) = rough.split_once('e').unwrap_or(("1", "0"));
         let (step, minor) = match digits.parse().unwrap_or(1.0) {
@@ -217,7 +247,7 @@ impl AxisOptions {
             _ => ("10", 5),
         };
         let step = format!("{step}e{power}").parse().unwrap_or(span);
-        Axis::linear(low - margin, high + margin, step, minor, &self.label)
+        Axis::linear(from, to, step, minor, &self.label)
     }
 }
 
@@ -252,6 +282,53 @@ mod tests {
     }
 
     #[test]
+    fn numbers_of_an_axis_are_exact_and_differ_or_the_range_is_refused() {
+        let linear = |low: f64, high: f64| {
+            let options = AxisOptions { label: "*x* (s)".into(), ..AxisOptions::default() };
+            options.axis([low, high].into_iter())
+        };
+        let shown = |low, high| {
+            let axis = linear(low, high);
+            axis.check().unwrap();
+            let labels: Vec<String> =
+                axis.ticks.into_iter().filter_map(|tick| tick.label).collect();
+            (axis.label, labels.join(" "))
+        };
+        let label = |label: &str, numbers: &str| (label.to_string(), numbers.to_string());
+        let tiny = "1·10^{−10} 2·10^{−10} 3·10^{−10} 4·10^{−10} 5·10^{−10}";
+        assert_eq!(shown(1e-10, 5e-10), label("*x* (s)", tiny));
+        let near = "0 0.2·10^{−11} 0.4·10^{−11} 0.6·10^{−11} 0.8·10^{−11} 1.0·10^{−11}";
+        assert_eq!(shown(1.0, 1.00000000001), label("*x* − 1 (s)", near));
+        assert_eq!(linear(1.0, 1.00000000001).name_and_unit(), ("x".into(), "s".into()));
+        let large = "1.0·10^{25} 1.5·10^{25} 2.0·10^{25} 2.5·10^{25} 3.0·10^{25}";
+        assert_eq!(shown(1e25, 3e25), label("*x* (s)", large));
+        for (low, high) in [(-1.7e308, 1.7e308), (1.0, 1.0 + f64::EPSILON), (1e17, 1e17 + 64.0)] {
+            assert!(matches!(linear(low, high).check(), Err(Error::Axis { .. })), "{low} {high}");
+        }
+        // Ranges of all sizes, some far from zero, against their labels read back.
+        let number = |text: &str| {
+            text.replace("·10^{", "e").replace('}', "").replace('−', "-").parse::<f64>().unwrap()
+        };
+        for power in -300..300 {
+            for (low, width) in [(0.0, 1.0), (-0.37, 0.9), (123.0, 4.5), (7e6, 3.0)] {
+                let size = format!("1e{power}").parse::<f64>().unwrap();
+                let axis = linear(low * size, (low + width) * size);
+                axis.check().unwrap();
+                let from = axis.label.replace("*x* − ", "").replace(" (s)", "");
+                let from = if from == "*x*" { 0.0 } else { number(&from) };
+                let labels =
+                    axis.ticks.iter().filter_map(|tick| Some((tick.at, tick.label.as_ref()?)));
+                let labels: Vec<(f64, &String)> = labels.collect();
+                assert!(labels.len() > 2, "{axis:?}");
+                for (at, label) in labels {
+                    let wrong = (from + number(label) - at).abs();
+                    assert!(wrong <= 4.0 * f64::EPSILON * at.abs(), "{at} {label}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn all_of_a_plot_lies_on_its_sheet() {
         let points = [(1.0, 0.5), (20.0, 3e4), (300.0, 0.0)];
         let plot = Plot::new().log_x("*k*").log_y("*D* (m²)").line("line", &points);
@@ -269,5 +346,11 @@ mod tests {
         }
         let wrong = Plot::new().line("a", &[(0.0, f64::NAN)]).finish("A", describe!("A"));
         assert!(matches!(wrong, Err(Error::Outside { .. })));
+        let wide = Plot::new().line("a", &[(0.0, -1.7e308), (1.0, 1.7e308)]);
+        assert!(matches!(wide.finish("A", describe!("A")), Err(Error::Axis { .. })));
+        let plot = Plot::new().log_x("*k*").x_range(2.0, 60.0).y_range(0.0, 1.0).mark_size(80);
+        let (_, panel) = plot.points("a", &[(5.0, 0.5), (70.0, 0.5)], Symbol::Ring).draw().unwrap();
+        assert_eq!((panel.x.lo, panel.x.hi, panel.y.lo, panel.y.hi), (2.0, 60.0, 0.0, 1.0));
+        assert_eq!(panel.x.ticks.iter().filter(|tick| tick.label.is_some()).count(), 5);
     }
 }

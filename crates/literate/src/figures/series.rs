@@ -10,6 +10,7 @@ use super::cut::cut;
 use super::drawing::{Drawing, Element};
 use super::elements::{CustomElement, Marker, error_bar, line, markers};
 use super::error::{Drawn, Error};
+use super::markup::spelled;
 use super::panel::Panel;
 use super::record::DataPoint;
 use super::style::Stroke;
@@ -83,10 +84,10 @@ impl Panel {
         outside: Outside,
     ) -> Result<Vec<(f64, f64)>, Error> {
         let (mut shown, mut places) = (Vec::new(), Vec::new());
-        for &(x, y) in points {
+        for (row, &(x, y)) in (1..).zip(points) {
             let is_refused = outside == Outside::Refuse && !self.contains((x, y));
             if is_refused || !x.is_finite() || !y.is_finite() {
-                return Err(Error::Outside { series: name.into(), x, y });
+                return Err(Error::Outside { series: spelled(name), row, x, y });
             }
             // Where points outside are refused, the edge takes away at most a rounding error.
             let place = match outside {
@@ -189,12 +190,15 @@ impl Panel {
         let shown = |(x, y): &&(f64, Estimate)| self.has_place((*x, y.value));
         self.record(name, estimates.iter().filter(shown).copied());
         let (mut bars, mut points) = (Vec::new(), Vec::new());
-        for (x, y) in estimates.iter().filter(|(x, y)| self.contains((*x, y.value))) {
-            bars.push((*x, y.value - y.error, y.value + y.error));
-            points.push((*x, y.value));
+        for &(x, y) in estimates {
+            points.push((x, y.value));
+            if self.contains((x, y.value)) {
+                bars.push((x, y.value - y.error, y.value + y.error));
+            }
         }
-        self.unrecorded().bars(name, &bars, 35, marker.2, Outside::Edge)?;
-        self.unrecorded().markers(name, &points, marker, Outside::Refuse)
+        let quiet = self.unrecorded();
+        quiet.bars(name, &bars, 35, marker.2, Outside::Edge)?;
+        quiet.markers(name, &points, marker, Outside::Cut)
     }
 
     /// Draws estimates with a line through them, cut at the frame.

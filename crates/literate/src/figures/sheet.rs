@@ -30,6 +30,8 @@ impl Sheet {
 
     /// Adds a panel and draws its axes.
     pub fn panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+        x.check()?;
+        y.check()?;
         let panel = Panel::new(&self.drawing, frame, x, y);
         self.records.borrow_mut().push(panel.record.clone());
         panel.draw_axes()?;
