@@ -2,11 +2,9 @@
 //! bytes each time.
 
 use crate::QUICK;
-use impact_paper::experiments::{Progress, Results, SEGMENTS, SPACE_TIME, Store};
+use impact_paper::experiments::{Progress, SEGMENTS, SPACE_TIME, Store};
 use impact_paper::figures;
 use impact_paper::params::{Profile, VERTICES};
-use literate::FigureSpec;
-use literate::figures::prelude::{Description, Plot};
 use roxmltree::{Document, Node};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -289,15 +287,4 @@ fn a_figure_needs_exactly_what_it_declares() {
             Err(_) => assert!(!figure.needs.is_empty(), "{} needs something", figure.name),
         }
     }
-}
-
-#[test]
-fn a_number_that_cannot_be_drawn_is_named_by_figure_series_and_row() {
-    let draw = |_: &Results| {
-        let plot = Plot::new().line("law", &[(4.0, 1.0), (5.0, f64::NAN)]);
-        plot.finish("Wrong", Description::default())
-    };
-    let figure = FigureSpec { name: "wrong", needs: &[], draw };
-    let message = figure.figure(&QUICK.results).unwrap_err().to_string();
-    assert!(message.starts_with("the figure wrong: row 2 of the series \"law\", (5, NaN),"));
 }

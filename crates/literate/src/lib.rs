@@ -61,6 +61,7 @@ pub mod prelude {
     };
     pub use impact_numerics::random::{NormalPairs, generator};
     pub use impact_numerics::statistics::Estimate;
+    pub use rand::RngExt;
 }
 mod print;
 pub mod project;

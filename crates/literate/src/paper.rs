@@ -22,8 +22,7 @@ pub struct FigureSpec {
 impl FigureSpec {
     /// Draws it, and gives it its name.
     pub fn figure(&self, results: &Results) -> Result<Figure, figures::Error> {
-        let named = |error| figures::Error::Figure(self.name, Box::new(error));
-        let mut figure = (self.draw)(results).map_err(named)?;
+        let mut figure = (self.draw)(results)?;
         figure.data.iter_mut().for_each(|file| file.name.insert_str(0, self.name));
         let experiments = self.needs.iter().map(|need| need.name()).collect();
         // The item that draws it has its name.

@@ -78,7 +78,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         true => make::whole(paper, &session, &out),
         false => {
             let results = paper.results(&needs, &session)?;
-            let figures = chosen.iter().map(|figure| Ok(files_of(&make::drawn(figure, &results)?)));
+            let figures =
+                chosen.iter().map(|figure| Ok(files_of(&make::drawn(figure, &results)?).committed));
             let files = figures.collect::<Result<Vec<Files>, Failure>>()?;
             let committed = files.into_iter().flatten().collect();
             Ok((Report { committed, generated: Files::new() }, Vec::new()))

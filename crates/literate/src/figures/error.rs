@@ -17,8 +17,8 @@ pub enum Error {
          give it another range"
     )]
     Axis { label: String, low: f64, high: f64 },
-    #[error("the figure {0}: {1}")]
-    Figure(&'static str, Box<Error>),
+    #[error("the picture {0}")]
+    Picture(String),
     #[error("the shipped fonts have no glyph for {character:?} in the label {label:?}")]
     Glyph { character: char, label: String },
     #[error("drawing failed: {0}")]

@@ -1,7 +1,9 @@
 //! Holds a finished figure: the picture, its description and its data.
 
 use super::drawing::Drawing;
+use super::error::Error;
 use super::record::DataFile;
+use super::svg::escape;
 
 /// A figure: the picture, what it shows in words, and its data.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,6 +14,8 @@ pub struct Figure {
     /// What readers see, for those who do not see it.
     pub description: Description,
     pub drawing: Drawing,
+    /// Files that are shown instead of the drawing: the ends of their names, and their bytes.
+    pub(crate) files: Vec<(&'static str, Vec<u8>)>,
     pub data: Vec<DataFile>,
     /// Path of the item that draws it.
     pub source: String,
@@ -20,9 +24,62 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// Makes a figure of a picture that is not drawn here, from the bytes of its file. A png or jpg
+    /// serves all formats; an svg needs a pdf or png for LaTeX besides, and a pdf one of the others
+    /// for pages.
+    pub fn picture(files: &[&[u8]], title: &str, description: Description) -> Result<Self, Error> {
+        let mut figure = Figure { title: title.into(), description, ..Figure::default() };
+        for bytes in files {
+            let is_svg = std::str::from_utf8(bytes).is_ok_and(|text| text.contains("<svg"));
+            let format = match bytes {
+                [0x89, b'P', b'N', b'G', ..] => "png",
+                [0xff, 0xd8, 0xff, ..] => "jpg",
+                [b'%', b'P', b'D', b'F', ..] => "pdf",
+                _ if is_svg => "svg",
+                _ => return Err(Error::Picture("is not a png, jpg, svg or pdf".into())),
+            };
+            figure.files.push((format, bytes.to_vec()));
+        }
+        let formats: Vec<&str> = figure.files.iter().map(|(format, _)| *format).collect();
+        if formats.iter().all(|format| *format == "pdf") {
+            return Err(Error::Picture("cannot be shown on pages; add an svg, png or jpg".into()));
+        }
+        if formats.iter().all(|format| *format == "svg") {
+            return Err(Error::Picture("cannot be shown in LaTeX; add a pdf, png or jpg".into()));
+        }
+        Ok(figure)
+    }
+
+    /// Returns the names of the files that pages and LaTeX show.
+    pub fn names(&self) -> [String; 2] {
+        [("pdf", "svg"), ("svg", "pdf")].map(|(not, drawn)| {
+            let file = self.files.iter().find(|(format, _)| *format != not);
+            format!("{}.{}", self.id, file.map_or(drawn, |(format, _)| format))
+        })
+    }
+
+    /// Returns the files of the picture by name.
+    pub fn files(&self) -> Vec<(String, Vec<u8>)> {
+        if self.files.is_empty() {
+            let [svg, pdf] = self.names();
+            return vec![(svg, self.svg().into_bytes()), (pdf, self.drawing.pdf(&self.title))];
+        }
+        let name = |format: &str| format!("{}.{format}", self.id);
+        self.files.iter().map(|(format, bytes)| (name(format), bytes.clone())).collect()
+    }
+
     /// Returns the picture as an SVG file.
     pub fn svg(&self) -> String {
         self.drawing.svg(&self.id, &self.title, &self.description.text)
+    }
+
+    /// Returns the picture as an element of a page.
+    pub fn on_page(&self) -> String {
+        if self.files.is_empty() {
+            return self.drawing.on_page(&self.id, &self.title, &self.description.text);
+        }
+        let [name, _] = self.names();
+        format!("<img src=\"figures/{name}\" alt=\"{}\"/>", escape(&self.description.text))
     }
 }
 
@@ -40,4 +97,33 @@ macro_rules! describe {
     ($words:literal $(, $value:expr)* $(,)?) => {
         $crate::figures::Description { text: format!($words $(, $value)*), typed: $words }
     };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_has_a_file_for_pages_and_one_for_print() {
+        let names = |files: &[&[u8]]| {
+            let figure = Figure::picture(files, "A", Description::default())?;
+            Ok::<_, Error>(Figure { id: "a".into(), ..figure }.names())
+        };
+        let (png, jpg, svg, pdf) = (b"\x89PNG...", b"\xff\xd8\xff...", b"<svg/>", b"%PDF-1.5");
+        for (files, shown) in [
+            (&[&png[..]][..], ["a.png", "a.png"]),
+            (&[jpg], ["a.jpg", "a.jpg"]),
+            (&[svg, pdf], ["a.svg", "a.pdf"]),
+            (&[pdf, png], ["a.png", "a.pdf"]),
+        ] {
+            assert_eq!(names(files).unwrap(), shown);
+        }
+        for (files, why) in [
+            (&[&svg[..]][..], "cannot be shown in LaTeX"),
+            (&[pdf], "cannot be shown on pages"),
+            (&[b"GIF89a"], "is not a png"),
+        ] {
+            assert!(names(files).unwrap_err().to_string().contains(why));
+        }
+    }
 }

@@ -344,8 +344,9 @@ mod tests {
             let high = figure.drawing.height as i32;
             assert!((1..WIDTH as i32).contains(&x) && (1..high).contains(&y), "{}", label.words);
         }
-        let wrong = Plot::new().line("a", &[(0.0, f64::NAN)]).finish("A", describe!("A"));
-        assert!(matches!(wrong, Err(Error::Outside { .. })));
+        let plot = Plot::new().line("*σ*", &[(0.0, 1.0), (5.0, f64::NAN)]);
+        let wrong = plot.finish("A", describe!("A")).unwrap_err().to_string();
+        assert!(wrong.starts_with("row 2 of the series \"sigma\", (5, NaN), is not finite"));
         let wide = Plot::new().line("a", &[(0.0, -1.7e308), (1.0, 1.7e308)]);
         assert!(matches!(wide.finish("A", describe!("A")), Err(Error::Axis { .. })));
         let plot = Plot::new().log_x("*k*").x_range(2.0, 60.0).y_range(0.0, 1.0).mark_size(80);

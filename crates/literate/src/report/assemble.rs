@@ -161,13 +161,11 @@ fn data_files(
         let json = json.map_err(|error| Error::Template(format!("{name}: {error}")))? + "\n";
         report.committed.insert(name.into(), json.into_bytes());
     }
-    for figure in input.figures {
-        report.committed.extend(files_of(figure));
+    for files in input.figures.par_iter().map(files_of).collect::<Vec<_>>() {
+        report.committed.extend(files.committed);
+        report.generated.extend(files.generated);
     }
     report.committed.extend(values.tables().map(|table| data(&DataFile::of(table))));
-    let pdf =
-        |figure: &Figure| (format!("figures/{}.pdf", figure.id), figure.drawing.pdf(&figure.title));
-    report.generated.extend(input.figures.par_iter().map(pdf).collect::<Vec<_>>());
     Ok(())
 }
 
@@ -223,10 +221,17 @@ fn write_documents(
     Ok(shown)
 }
 
-/// Returns the picture of a figure and its data.
-pub fn files_of(figure: &Figure) -> Files {
-    let picture = (format!("figures/{}.svg", figure.id), figure.svg().into_bytes());
-    std::iter::once(picture).chain(figure.data.iter().map(data)).collect()
+/// Returns the files of the picture of a figure, and its data.
+pub fn files_of(figure: &Figure) -> Report {
+    let mut report = Report::default();
+    for (name, bytes) in figure.files() {
+        let path = format!("figures/{name}");
+        let is_generated = folder::is_generated(&path);
+        let files = if is_generated { &mut report.generated } else { &mut report.committed };
+        files.insert(path, bytes);
+    }
+    report.committed.extend(figure.data.iter().map(data));
+    report
 }
 
 fn data(file: &DataFile) -> (String, Vec<u8>) {
@@ -270,8 +275,13 @@ fn check_links(
 fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Result<Vec<String>, Error> {
     let mut shown = Vec::new();
     for block in blocks.iter_mut() {
-        if let Block::Figure { name, alt, origin, .. } = block {
+        if let Block::Figure { name, files, alt, origin, .. } = block {
             let figure = input.figure(name)?;
+            let names = figure.names();
+            if files[0] != names[0] {
+                return Err(Error::Picture(files[0].clone()));
+            }
+            *files = names;
             *alt = figure.description.text.clone();
             let words = |words: &str| Inline::Text(words.into());
             let data: Vec<String> =

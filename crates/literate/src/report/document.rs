@@ -22,11 +22,13 @@ pub enum Block {
     },
     /// A paragraph; displayed equations stand inside it.
     Paragraph(Vec<Inline>),
-    /// A figure, whose picture is `figures/NAME.svg`; the origin says where its data and code are.
+    /// A figure, with the names of its files for pages and for LaTeX; the origin says where its
+    /// data and code are.
     Figure {
         id: String,
         number: String,
         name: String,
+        files: [String; 2],
         alt: String,
         origin: Vec<Inline>,
         caption: Vec<Inline>,

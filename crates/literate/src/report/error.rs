@@ -27,7 +27,7 @@ pub enum Error {
     #[error("a link to {}: there is no such file or place; correct or remove it", one_line(.0, 200))]
     NoFile(String),
     #[error(
-        "there is no figure {:?}; use figures/NAME.svg, which the program draws; other image files are not supported",
+        "there is no figure {:?}; use figures/NAME.svg of a figure of the paper; a file becomes one by Figure::picture",
         one_line(.0, 200)
     )]
     Picture(String),

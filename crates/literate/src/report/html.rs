@@ -112,16 +112,14 @@ impl Page<'_> {
                 format!("<h{level} id=\"{id}\"><a href=\"#{id}\">{words}</a></h{level}>\n")
             }
             Block::Paragraph(text) => self.paragraph(text)?,
-            Block::Figure { id, number, name, origin, caption, .. } => {
+            Block::Figure { id, number, name, files: [file, _], origin, caption, .. } => {
                 let figure = self.input.figure(name)?;
                 self.glyphs.borrow_mut().extend(figure.drawing.glyphs.clone());
-                let svg =
-                    figure.drawing.on_page(&figure.id, &figure.title, &figure.description.text);
                 format!(
                     "<figure id=\"{}\">{}<figcaption><strong>Figure {number}.</strong> {} <span class=\"origin\">\
-                     Picture: <a href=\"figures/{name}.svg\">{name}.svg</a>. {}</span></figcaption></figure>\n",
+                     Picture: <a href=\"figures/{file}\">{file}</a>. {}</span></figcaption></figure>\n",
                     place_on_page(Some(id), &[]),
-                    scroll(&format!("Figure {number}"), &svg),
+                    scroll(&format!("Figure {number}"), &figure.on_page()),
                     self.inlines(caption)?,
                     self.inlines(origin)?
                 )

@@ -95,9 +95,9 @@ fn write_block(block: &Block) -> Result<String, Error> {
             }
         }
         Block::Paragraph(text) => inlines(text)?.trim_end().to_string(),
-        Block::Figure { id, number, name, caption, .. } => format!(
+        Block::Figure { id, number, files: [_, file], caption, .. } => format!(
             "\\begin{{figure}}[htbp]\n\\centering\n\
-             \\includegraphics[width=0.8\\linewidth,height=0.62\\textheight,keepaspectratio]{{figures/{name}.pdf}}\n\
+             \\includegraphics[width=0.8\\linewidth,height=0.62\\textheight,keepaspectratio]{{figures/{file}}}\n\
              \\renewcommand{{\\thefigure}}{{{number}}}\n\\caption{{{}}}\\label{{{id}}}\n\\end{{figure}}",
             inlines(caption)?
         ),

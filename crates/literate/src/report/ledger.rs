@@ -50,7 +50,7 @@ pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
         number: String::new(),
         title: figure.title.clone(),
         description: figure.description.text.clone(),
-        picture: format!("figures/{}.svg", figure.id),
+        picture: format!("figures/{}", figure.names()[0]),
         data: figure.data.iter().map(|data| format!("data/{}", data.name)).collect(),
         source: figure.source.clone(),
         experiments: figure.experiments.iter().copied().map(String::from).collect(),

@@ -33,11 +33,11 @@ fn block(block: &Block) -> String {
             format!("{hashes} {}{number}{}", id.unwrap_or_default(), inlines(text))
         }
         Block::Paragraph(text) => inlines(text),
-        Block::Figure { id, number, name, alt, origin, caption } => {
+        Block::Figure { id, number, files: [file, _], alt, origin, caption, .. } => {
             let (caption, origin) = (inlines(caption), inlines(origin));
             let origin = if origin.is_empty() { origin } else { format!("\n<sub>{origin}</sub>") };
             let (id, alt) = (anchor(id), alternative(alt));
-            format!("{id}\n![{alt}](figures/{name}.svg)\n\n**Figure {number}.** {caption}{origin}")
+            format!("{id}\n![{alt}](figures/{file})\n\n**Figure {number}.** {caption}{origin}")
         }
         Block::Table { id, number, caption, columns, head, rows } => {
             let mut text = id.as_deref().map_or(String::new(), anchor);

@@ -274,7 +274,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads a figure, which stands alone in its paragraph, followed by its id; without one the id
-    /// of `figures/NAME.svg` is `fig:NAME`. The id may give the number, as `fig:3` and `fig:S1` do.
+    /// of `figures/NAME.svg`, or `.png`, is `fig:NAME`. The id may give the number, as `fig:3` and `fig:S1` do.
     fn figure(&mut self, path: &str, at: usize, id: Option<String>) -> Result<Block, Error> {
         let caption = self.line()?;
         self.next();
@@ -283,16 +283,19 @@ impl<'a> Reader<'a> {
         if !plain(&behind).trim().is_empty() {
             return Err(markup(ALONE));
         }
-        let name = path.strip_prefix("figures/").and_then(|name| name.strip_suffix(".svg"));
-        let name = name.ok_or_else(|| Error::Picture(path.into()))?.to_string();
+        let file = path.strip_prefix("figures/").unwrap_or_default();
+        let (name, _) = file.rsplit_once('.').ok_or_else(|| Error::Picture(path.into()))?;
+        let (name, files) = (name.to_string(), [file.to_string(), format!("{name}.pdf")]);
         let id = id.unwrap_or_else(|| format!("fig:{name}"));
         self.id("fig", &id, at)?;
         self.places.add(format!("({name}"), at);
+        self.places.add(format!("({}", files[0]), at);
         let given = id.trim_start_matches("fig:");
         let digits = given.trim_start_matches(|c: char| c.is_ascii_uppercase());
         let is_number = !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit());
         let number = if is_number { given.into() } else { String::new() };
-        Ok(Block::Figure { id, number, name, alt: String::new(), origin: Vec::new(), caption })
+        let (alt, origin) = Default::default();
+        Ok(Block::Figure { id, number, name, files, alt, origin, caption })
     }
 
     /// A block of code, or the listing of an item of the source.

@@ -31,7 +31,8 @@ Seen [@eq:a, @eq:b] => 14:6 => nothing in the report
 [mice](javascript://x) => 14:1 => a link to javascript://x
 Seen [@mice1945] => 14:6 => [@mice1945]: nothing
 ![Words.](figures/fig09.svg) => 14:1 => there is no figure "fig09"
-![Words.](photo.png) => 14:1 => other image files are not supported
+![Words.](figures/fig03.png) => 14:1 => there is no figure "fig03.png"
+![Words.](photo.png) => 14:1 => a file becomes one by Figure::picture
 ![Words.](figures/fig03.svg){#eq:a} => 14:1 => write fig: followed by
 $$ x $$ {#fig:a} => 14:1 => write eq: followed by
 ## A {#sec:a}⏎⏎## B {#sec:a} => 16:1 => have this id

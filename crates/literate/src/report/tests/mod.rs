@@ -282,6 +282,29 @@ fn a_report_is_all_its_files() {
     assert_eq!(assembled(PROSE).unwrap(), report);
 }
 
+#[test]
+fn a_picture_from_a_file_is_shown_in_all_formats() {
+    let [svg, pdf] = [&b"<svg/>"[..], b"%PDF-1.5"];
+    let description = crate::describe!("Balls on [rods].");
+    let picture = Figure::picture(&[svg, pdf], "The set-up", description).unwrap();
+    let prose = PROSE.replace("figures/fig03.svg", "figures/photo.svg");
+    let report = made_of(&prose, None, Figure { id: "photo".into(), ..picture }, claim()).unwrap();
+    assert_eq!(report.committed["figures/photo.svg"], svg);
+    assert_eq!(report.generated["figures/photo.pdf"], pdf);
+    for (file, part) in [
+        (&report.committed["report.md"], r"![Balls on \[rods\].](figures/photo.svg)"),
+        (&report.committed["report.tex"], "{figures/photo.pdf}"),
+        (&report.committed["SHA256SUMS"], "  figures/photo.svg\n"),
+        (
+            &report.generated["report.html"],
+            r#"<img src="figures/photo.svg" alt="Balls on [rods]."/>"#,
+        ),
+    ] {
+        let text = String::from_utf8_lossy(file);
+        assert!(text.contains(part), "{part} is not in {text}");
+    }
+}
+
 /// A title is plain text where no markup is read, and markup of each format else.
 #[test]
 fn titles_are_clean() {
