@@ -140,7 +140,8 @@ impl Axis {
         Axis::new(true, [lo, hi].map(|end| decimal(1, end)), label, ticks)
     }
 
-    /// Makes a logarithmic axis of the decades that hold all positive values, labelled every `every`.
+    /// Makes a logarithmic axis of the decades that hold all positive values, labelled every
+    /// `every`.
     pub fn decades_around(values: impl Iterator<Item = f64>, every: i32, label: &str) -> Self {
         let values = values.filter(|value| *value > 0.0 && value.is_finite());
         let [low, high] = range(values.map(f_log10)).unwrap_or([0.0, 1.0]);

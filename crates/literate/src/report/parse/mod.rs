@@ -274,7 +274,8 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads a figure, which stands alone in its paragraph, followed by its id; without one the id
-    /// of `figures/NAME.svg`, or `.png`, is `fig:NAME`. The id may give the number, as `fig:3` and `fig:S1` do.
+    /// of `figures/NAME.svg`, or `.png`, is `fig:NAME`. The id may give the number, as `fig:3` and
+    /// `fig:S1` do.
     fn figure(&mut self, path: &str, at: usize, id: Option<String>) -> Result<Block, Error> {
         let caption = self.line()?;
         self.next();
