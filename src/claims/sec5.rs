@@ -2,14 +2,12 @@
 
 use super::shared::*;
 use crate::experiments::SEGMENTS;
-use crate::experiments::segments::Segment;
-use crate::params::VERTICES;
 use std::collections::BTreeSet;
 
 pub fn rules() -> Vec<Rule> {
     vec![
-        Rule::new("sec5_fig5", |e| motion(e, &e.results.of(&SEGMENTS)?.fig05)).on(OurMeasure),
-        Rule::new("sec5_fig6", |e| motion(e, &e.results.of(&SEGMENTS)?.fig06)).on(OurMeasure),
+        Rule::new("sec5_fig5", |e| orbit(e, 5)).on(Rounding),
+        Rule::new("sec5_fig6", |e| orbit(e, 6)).on(Rounding),
         Rule::new("sec5_masses_of_circuit", masses_of_circuit).reads("k + 1"),
         cases("sec5_eq6", ENUMERATION).reads("(N − 1)!/(N − k)!"),
         cases("sec5_eq7", ENUMERATION).reads("N!/(k (N − k)!)"),
@@ -20,59 +18,86 @@ pub fn rules() -> Vec<Rule> {
 
 const ENUMERATION: &str = "Formula against enumeration on graphs of one to six vertices.";
 
-fn motion(e: &Evidence<'_>, segment: &Segment) -> Judged {
-    let found = segment.names();
+/// A periodic orbit, replayed over two periods, and the segment of a motion that the figure draws.
+fn orbit(e: &Evidence<'_>, figure: usize) -> Judged {
+    let segments = e.results.of(&SEGMENTS)?;
+    let (drawn, periodic) = match figure {
+        5 => (&segments.fig05, &segments.periodic[0]),
+        _ => (&segments.fig06, &segments.periodic[1]),
+    };
+    let found = periodic.first_period().names();
     // The statement names the sequence at its end, after "as".
     let asked = e.statement.statement.rsplit_once(" as ").map_or("", |(_, names)| names);
     let asked: Vec<&str> = asked.trim_end_matches('.').split(", ").collect();
     let different = found.iter().collect::<BTreeSet<_>>().len();
     let reads =
         [found.join(", "), format!("{} impacts, {different} of them different", found.len())];
-    let agrees = segment.impacts.windows(2).all(|w| w[0].time < w[1].time)
+    let row = format!("segments.orbits[figure={figure}]");
+    let [period, apart] = e.numbers(&row, ["period", "apart"])?;
+    let allowed = 1e-9;
+    let agrees = apart <= allowed
         && found == asked
+        && drawn.names() == asked
         && reads.contains(&e.statement.printed)
         && found.len() as f64 == e.statement.number()?;
-    Ok(e.found(found.join(", "), agrees)
-        .within("none", "ours: the circuit as a segment of a motion; the same impacts in the same order")
-        .note(Text::of(
-            "A segment of a solution of the equations of motion, from time {} to {}, with the first impact again at its \
-             end. The paper speaks of periodic orbits. We did not search for one, and do not know that one with these \
-             impacts exists.",
-            [significant(segment.from, 4), significant(segment.until, 4)],
-        )))
+    let text = Text::from(found.join(", ")).then(Text::of(
+        "; after a period of {} again, to {}",
+        [significant(period, 4), significant(apart, 1)],
+    ));
+    Ok(e.found(text, agrees)
+        .within(significant(allowed, 1), "rounding, which the impacts of a period enlarge")
+        .note("A solution of the equations of motion with the period of the forces, which were chosen for it; the figure draws \
+               another, which is not periodic. How likely such forces are is not said."))
 }
 
+/// Returns how many bodies the impacts in some gaps of a chain involve, both walls being one body.
+fn bodies(gaps: &BTreeSet<usize>, masses: usize) -> usize {
+    let sides = gaps.iter().flat_map(|gap| [*gap, (gap + 1) % (masses + 1)]);
+    sides.collect::<BTreeSet<_>>().len()
+}
+
+/// The walls are one body, and their gaps neighbours, as on a ring.
 fn masses_of_circuit(e: &Evidence<'_>) -> Judged {
     let segment = &e.results.of(&SEGMENTS)?.fig05;
-    let gaps: BTreeSet<usize> = segment.impacts.iter().map(|i| i.gap).collect();
-    let found = segment.masses_hit();
-    // Each run of neighbouring gaps has one body more than gaps; walls are bodies but no masses.
-    let runs = gaps.iter().filter(|&&gap| gap == 0 || !gaps.contains(&(gap - 1))).count();
-    let walls = gaps.iter().filter(|&&gap| gap == 0 || gap == segment.masses).count();
-    let printed = e.statement.number()?;
-    Ok(e.found(integer(found), found as f64 == printed)
-        .within("none", "an integer is exact")
-        .explained(Text::of(
-            "k different gaps in {} runs of neighbours touch k + {} bodies, of which {} are walls; k + 1 masses need one \
-             run without walls.",
-            [integer(runs), integer(runs), integer(walls)],
-        ), found == gaps.len() + runs - walls && printed == (gaps.len() + 1) as f64))
+    let gaps: BTreeSet<usize> = segment.impacts.iter().map(|impact| impact.gap).collect();
+    let all = segment.masses + 1;
+    let (mut right, mut as_predicted, mut sets) = (0, true, 0);
+    for set in 1_u32..1 << all {
+        let set: BTreeSet<usize> = (0..all).filter(|gap| set >> gap & 1 == 1).collect();
+        let holds = bodies(&set, segment.masses) == set.len() + 1;
+        // A gap begins a run of neighbours if the one before it is not in the set.
+        let before = |gap: &&usize| !set.contains(&((**gap + all - 1) % all));
+        as_predicted &= holds == (set.iter().filter(before).count() == 1);
+        right += usize::from(holds);
+        sets += 1;
+    }
+    let found = bodies(&gaps, segment.masses);
+    let printed = found as f64 == e.statement.number()?;
+    let text = Text::of(
+        "{} for Fig. 5; k + 1 for {} of {} sets of gaps",
+        [found, right, sets].map(integer),
+    );
+    Ok(e.found(text, printed && right == sets).within("none", "integers are exact").explained(
+        "A circuit whose gaps are neighbours, as on a ring, has k + 1 bodies, and the printed example is one. A gap apart from \
+         the others brings two bodies, and the last gap of the whole ring none.",
+        printed && as_predicted,
+    ))
 }
 
+/// Lengths that are about N, here as in the next statement: the largest, and three below it.
 fn eq8(e: &Evidence<'_>) -> Judged {
-    let n = VERTICES as f64;
-    let [ratio, exceptions, first] =
-        e.numbers("theory.lengths", ["before_last", "exceptions", "first_exception"])?;
-    Ok(e.found(Text::of("at k = N − 1: {}", [significant(ratio, 4)]), exceptions == 0.0)
+    let columns = ["before_last", "largest_far", "from", "exceptions"];
+    let [ratio, far, from, exceptions] = e.numbers("theory.lengths", columns)?;
+    let found = Text::of("at most {} for k < {}", [significant(far, 2), integer(from as usize)]);
+    Ok(e.found(found, far <= 0.1)
         .within(
             Text::of("at most {}", [significant(0.1, 1)]),
-            "ours: “far below one” as at most a tenth",
+            "ours: “far below one” as at most a tenth; “about N” as within three of it",
         )
-        .explained(Text::of(
-            "The ratio at k = N − 1 is N/(N − 1), above one. Above a tenth are the {} lengths next to N, where most \
-             circuits are; below them Eq. (8) holds.",
-            [integer(exceptions as usize)],
-        ), (ratio * (n - 1.0) / n - 1.0).abs() < 1e-13 && first + 4.0 > n))
+        .note(Text::of(
+            "The {} lengths next to N have more than a tenth: at k = N − 1 the ratio is N/(N − 1), {}. Most circuits are there.",
+            [integer(exceptions as usize), significant(ratio, 4)],
+        )))
 }
 
 fn majority(e: &Evidence<'_>) -> Judged {

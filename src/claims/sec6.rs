@@ -61,19 +61,14 @@ fn mean_zero(e: &Evidence<'_>) -> Judged {
     let found = Text::of("μ = {} as p → 0+", [significant(least, 1)]);
     Ok(e.found(found, least == e.statement.number()?).within("none", "an integer is exact").explained(
         "At p = 0 Eq. (9) is 0/0. As p goes to zero the circuits of one edge hold all the weight, and μ goes to one; zero \
-         is the number of a graph without edges.",
+         is the number of a graph without edges. The mode at p = 0 is read in the same way.",
         least == 1.0,
     ))
 }
 
-/// Returns whether shares rise from below a quarter to above nine tenths.
-pub(super) fn rises([low, high]: [f64; 2]) -> bool {
-    low < 0.25 && high > 0.9
-}
-
 /// Returns the least and the largest mean of the simulation, over all gaps, and those of the
 /// theory, over N.
-pub(super) fn ends(e: &Evidence<'_>) -> Result<[[f64; 2]; 2], Error> {
+fn ends(e: &Evidence<'_>) -> Result<[[f64; 2]; 2], Error> {
     let points = e.results.table("sweep.rows")?.points(&[], "sigma", "mean");
     let means = || points.iter().map(|(_, mean)| *mean);
     let least = means().reduce(f64::min).ok_or(Undecided)?;
@@ -83,17 +78,12 @@ pub(super) fn ends(e: &Evidence<'_>) -> Result<[[f64; 2]; 2], Error> {
     Ok([[least, most].map(|mean| mean / gaps), theory.map(|mean| mean / VERTICES as f64)])
 }
 
-pub(super) const RISES: &str = "both from below a quarter to above nine tenths";
-
 fn like_simulation(e: &Evidence<'_>) -> Judged {
-    let both = ends(e)?;
-    let shares = both.iter().flatten().map(|share| significant(*share, 2));
-    let text = "simulated from {} to {} of N, theory from {} to {}; k* jumps";
-    let jumps = compared(e)?[1] == 0 && e.number("theory.jump.k_after")? > 1.0;
-    Ok(e.found(Text::of(text, shares), both.into_iter().all(rises) && jumps)
-        .within(RISES, "ours: the least that a common rise must do")
-        .note(
-            "Simulated is the mean of the realisations with at least one impact. What agrees beyond this is judged in \
-             Section 8.",
-        ))
+    let [simulated, theory] = ends(e)?;
+    let shares = [simulated[0], simulated[1], theory[0], theory[1]];
+    let text = "simulated from {} to {} of N as σ grows, theory from {} to {} as p grows";
+    Ok(e.open(Text::of(text, shares.map(|share| significant(share, 2)))).note(
+        "The paper names a likeness of curves over different axes, and no quantity. Any two curves that rise from few \
+         to all would have it. With the relation of σ and p they can be compared, in Section 8.",
+    ))
 }

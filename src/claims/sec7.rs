@@ -29,7 +29,8 @@ const INTEGER: &str = "an integer is exact";
 fn start(e: &Evidence<'_>) -> Judged {
     let first = e.number("theory.jump.k_at_zero")?;
     let found = Text::of("k* = {} as p → 0+", [integer(first as usize)]);
-    Ok(e.found(found, first == e.statement.number()?).within("none", INTEGER))
+    let note = "At p = 0 itself Eq. (9) is 0/0; the mean there is read in the same way.";
+    Ok(e.found(found, first == e.statement.number()?).within("none", INTEGER).note(note))
 }
 
 fn through_zero(e: &Evidence<'_>) -> Judged {

@@ -1,4 +1,5 @@
-//! The motions of Figs. 5(b) and 6(b): saved scenarios, replayed by the engine.
+//! Replays saved scenarios: the motions of Figs. 5(b) and 6(b), and a periodic orbit for each of
+//! their circuits.
 
 use crate::experiments::prelude::*;
 use literate::experiments::Experiment;
@@ -15,13 +16,15 @@ pub const SEGMENTS: Experiment<(), Segments> = Experiment {
     tables,
 };
 
-/// The two segments.
+/// The two segments, and periodic orbits with the same impacts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Segments {
     /// Fig. 5(b): L-1, 1-2, 3-R.
     pub fig05: Segment,
     /// Fig. 6(b): L-1, L-1, 1-2, L-1, 2-3, 1-2, 3-R, 3-R.
     pub fig06: Segment,
+    /// Periodic orbits with the impacts of Fig. 5 and of Fig. 6, each over two periods.
+    pub periodic: [Segment; 2],
 }
 
 /// A stretch of a motion.
@@ -89,6 +92,29 @@ impl Segment {
         repeated
     }
 
+    /// Of a segment over two periods: the impacts of the first.
+    pub fn first_period(&self) -> Segment {
+        let impacts = self.impacts[..self.impacts.len() / 2].to_vec();
+        Segment { impacts, ..self.clone() }
+    }
+
+    /// Of a segment over two periods: the largest distance between positions, and between impacts
+    /// in time, one period apart; infinite if the second period has other impacts.
+    fn apart(&self) -> f64 {
+        let half = self.impacts.len() / 2;
+        let (first, second) = self.impacts.split_at(half);
+        let same = first.iter().map(|impact| impact.gap).eq(second.iter().map(|impact| impact.gap));
+        if !same || self.times.len().is_multiple_of(2) {
+            return f64::INFINITY;
+        }
+        let period = 0.5 * (self.until - self.from);
+        let times = first.iter().zip(second).map(|(a, b)| (b.time - a.time - period).abs());
+        let positions = self.positions.iter().flat_map(|track| {
+            track.iter().zip(&track[track.len() / 2..]).map(|(a, b)| (a - b).abs())
+        });
+        times.chain(positions).fold(0.0, f64::max)
+    }
+
     /// How many masses take part in its impacts.
     pub fn masses_hit(&self) -> usize {
         let both_sides = self.impacts.iter().flat_map(|impact| [impact.gap, impact.gap + 1]);
@@ -113,11 +139,26 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
         .count("distinct", "different impacts", |(_, one)| one.gaps().len() as u64)
         .count("repeated", "of them repeated", |(_, one)| one.repeats().len() as u64)
         .done();
-    vec![table]
+    let orbits = [(5.0, &segments.periodic[0]), (6.0, &segments.periodic[1])];
+    let orbits = Table::of("segments.orbits", &orbits, |_| 1)
+        .key("figure", "1", |(figure, _)| *figure)
+        .computed_by(origin(record))
+        .real("period", "1/omega", 4, "of the orbit", |(_, one)| 0.5 * (one.until - one.from))
+        .computed_by(origin(Segment::apart))
+        .real("apart", "1", 1, "largest distance between two periods, in d and 1/ω", |(_, one)| {
+            one.apart()
+        })
+        .done();
+    vec![table, orbits]
 }
 
 /// The files of the saved scenarios, below the templates directory.
-pub const FILES: [&str; 2] = ["scenarios/fig05.json", "scenarios/fig06.json"];
+pub const FILES: [&str; 4] = [
+    "scenarios/fig05.json",
+    "scenarios/fig06.json",
+    "scenarios/fig05-periodic.json",
+    "scenarios/fig06-periodic.json",
+];
 
 #[derive(Deserialize)]
 struct Saved {
@@ -135,7 +176,9 @@ pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
             Error::input(file, one_line(&problem, 500), remedy)
         })
     };
-    Ok(Segments { fig05: one(FILES[0])?, fig06: one(FILES[1])? })
+    let [fig05, fig06, first, second] = FILES;
+    let periodic = [one(first)?, one(second)?];
+    Ok(Segments { fig05: one(fig05)?, fig06: one(fig06)?, periodic })
 }
 
 fn replay(text: &str) -> Result<Segment, String> {

@@ -70,6 +70,21 @@ fn the_readme_has_the_score() {
     let readme = fs::read_to_string(root().join("README.md")).unwrap();
     let line = readme.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(line.contains(&score), "the README does not say: {score}");
+    let by = |bases: &[&str]| {
+        let on = rows.iter().filter(|row| bases.iter().any(|basis| row["basis"] == *basis));
+        [on.clone().count(), on.filter(|row| row["verdict"] == "reproduced").count()]
+    };
+    let [theory, measures] = [by(&["exact", "rounding"]), by(&["our measure"])];
+    let split = format!(
+        "decide {} of them, and {} are reproduced; measures of ours for statements in words decide {}, and {} are; none of the {} numbers",
+        theory[0],
+        theory[1],
+        measures[0],
+        measures[1],
+        by(&["printed digit"])[0]
+    );
+    assert!(line.contains(&split), "the README does not say: {split}");
+    assert_eq!(by(&["printed digit"])[1], 0);
 }
 
 /// Links of the README lead to files of the project.

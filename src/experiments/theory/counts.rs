@@ -36,16 +36,18 @@ pub fn shares() -> [Vec<f64>; 2] {
 fn lengths() -> Table {
     let (shares, _) = known(counting::shares(VERTICES));
     let ratio = |k| counting::ratio_to_longest(VERTICES, k);
-    let exceptions = || (1..VERTICES).filter(|&k| ratio(k) > 0.1).map(|k| k as u64);
+    let exceptions = || (1..VERTICES).filter(|&k| ratio(k) > 0.1);
     let peak = (1..=VERTICES).max_by(|a, b| shares[a - 1].total_cmp(&shares[b - 1]));
     one("theory.lengths", origin(counting::ratio_to_longest))
         .real("before_last", "1", 4, "Eq. (8) at k = N − 1", |()| ratio(VERTICES - 1))
+        .real("largest_far", "1", 2, "the largest for k < N − 3", |()| {
+            (1..VERTICES - 3).map(ratio).fold(0.0, f64::max)
+        })
         .count(
             "exceptions",
             "lengths k < N with more than a tenth of the circuits of length N",
             |()| exceptions().count() as u64,
         )
-        .count("first_exception", "the shortest of them", |()| exceptions().min().unwrap_or(0))
         .computed_by(origin(counting::shares))
         .count("peak", "the most frequent length", |()| peak.unwrap_or(VERTICES) as u64)
         .count("from", "N − 3", |()| VERTICES as u64 - 3)
@@ -60,7 +62,14 @@ fn commuting_circuits() -> Table {
     let [circuits, classes] = commuting::simple_classes(ENUMERATED);
     one("theory.commuting", origin(commuting::simple_classes))
         .count("gaps", "gaps of a chain", |()| ENUMERATED as u64)
-        .count("circuits", "simple circuits", |()| circuits as u64)
+        .count("circuits", "simple circuits, each cyclic order of impacts once", |()| {
+            circuits as u64
+        })
+        .computed_by(origin(counting::phi))
+        .count("by_eq7", "the same by Eq. (7)", |()| {
+            (1..=ENUMERATED).filter_map(|k| counting::phi(ENUMERATED, k)).sum::<u128>() as u64
+        })
+        .computed_by(origin(commuting::simple_classes))
         .count("classes", "of them that a mass tells apart", |()| classes as u64)
         .computed_by(origin(commuting::mean_without_orders))
         .real("mean", "1", 2, "mean number at the jump, each class with p^k once", |()| {

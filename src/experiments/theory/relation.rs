@@ -130,6 +130,16 @@ pub(super) fn relation() -> Table {
         .real("sigma_kept_onset", SIGMA, 3, "σ at which enough have one for the onset", |()| {
             sigma_kept(ONSET)
         })
+        .computed_by(origin(reaches))
+        .real(
+            "alone_quarter",
+            SIGMA,
+            3,
+            "σ at which a quarter of the gaps close by themselves",
+            |()| reaches(p_rest_of, 0.25),
+        )
+        .real("alone_half", SIGMA, 3, "half of them", |()| reaches(p_rest_of, 0.5))
+        .real("alone_three_quarters", SIGMA, 3, "three quarters", |()| reaches(p_rest_of, 0.75))
         .computed_by(origin(overlap))
         .chosen("overlap_sigma", SIGMA, "of random starts", |()| Some(OVERLAP))
         .real("overlap_share", "1", 2, "starts that overlap, over p", |()| overlap(OVERLAP))
