@@ -39,7 +39,7 @@ impl Sources {
     }
 }
 
-/// A file without comments and without modules of tests.
+/// A file without comments and without modules of tests; `mod name;` is the path `self::name`.
 fn code(text: &str) -> String {
     let mut code = String::new();
     let mut lines = text.lines();
@@ -51,29 +51,25 @@ fn code(text: &str) -> String {
                 continue;
             }
         }
-        if !line.trim_start().starts_with("//") {
-            code += line.split(" //").next().unwrap_or_default();
-            code.push('\n');
+        if line.trim_start().starts_with("//") {
+            continue;
+        }
+        let line = line.split(" //").next().unwrap_or_default();
+        match line.rsplit_once("mod ") {
+            Some((_, name)) if name.ends_with(';') => code += &format!("self::{name}\n"),
+            _ => code += &format!("{line}\n"),
         }
     }
     code
 }
 
-/// All paths of more than one name, those in the braces of imports written out, and `mod` as a path
-/// from `self`.
+/// All paths of more than one name, with those in the braces of imports written out.
 fn paths(code: &str) -> Vec<Vec<&str>> {
     let mut found = Vec::new();
     for (at, _) in code.match_indices("::") {
         let head = code[..at].rsplit(|c| !is_word(c)).next().unwrap_or_default();
         if !head.is_empty() && !code[..at - head.len()].ends_with([':', '.']) {
             read_path(&code[at + 2..], vec![head], &mut found);
-        }
-    }
-    for (at, _) in code.match_indices("mod ") {
-        let rest = &code[at + 4..];
-        let end = rest.find(|c| !is_word(c)).unwrap_or_default();
-        if rest[end..].starts_with(';') && !code[..at].ends_with(is_word) {
-            found.push(vec!["self", &rest[..end]]);
         }
     }
     found

@@ -8,12 +8,8 @@ use std::io::{Error, ErrorKind, Read};
 use std::path::Path;
 use std::sync::RwLock;
 
-/// MiB at most of a text that somebody names: it is kept in memory. A scenario of a million masses
-/// has less.
-const NAMED: u64 = 64;
-
-/// MiB at most of a file that is found in a folder: four times the largest that the program writes.
-pub const FOUND: u64 = 8;
+/// MiB at most of a file that is read whole. A scenario of a million masses has less.
+const MOST: u64 = 64;
 
 /// Reads a text that somebody names: a file, or a pipe whose other end they hold.
 pub fn read(path: &Path) -> Result<String, Error> {
@@ -22,7 +18,7 @@ pub fn read(path: &Path) -> Result<String, Error> {
 
 /// The same of anything that can be read.
 pub fn read_from(file: impl Read) -> Result<String, Error> {
-    text(bounded(file, NAMED)?)
+    text(bounded(file)?)
 }
 
 /// A file that is found in a folder, whole. Nothing but a regular file is opened: whoever opens a
@@ -31,7 +27,7 @@ pub fn regular(path: &Path) -> Result<Vec<u8>, Error> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(Error::new(ErrorKind::InvalidInput, "not a regular file"));
     }
-    bounded(File::open(path)?, FOUND)
+    bounded(File::open(path)?)
 }
 
 /// The same as text.
@@ -47,11 +43,11 @@ fn text(bytes: Vec<u8>) -> Result<String, Error> {
     Ok(text.trim_start_matches('\u{feff}').replace("\r\n", "\n"))
 }
 
-fn bounded(file: impl Read, mib: u64) -> Result<Vec<u8>, Error> {
-    let (mut bytes, most) = (Vec::new(), mib << 20);
+fn bounded(file: impl Read) -> Result<Vec<u8>, Error> {
+    let (mut bytes, most) = (Vec::new(), MOST << 20);
     file.take(most + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
-        return Err(Error::new(ErrorKind::InvalidInput, format!("it is longer than {mib} MiB")));
+        return Err(Error::new(ErrorKind::InvalidInput, format!("it is longer than {MOST} MiB")));
     }
     Ok(bytes)
 }
@@ -129,13 +125,6 @@ pub const STAGING: &str = ".staging-literate-";
 /// Held for reading while files are put into place, so that who ends the program waits for that by
 /// holding it for writing.
 pub static WRITING: RwLock<()> = RwLock::new(());
-
-/// Is the character none of a text: one that controls a terminal, or one for private use, which
-/// frames values in filled prose?
-pub fn is_no_text(c: char) -> bool {
-    let controls = c.is_control() && !matches!(c, '\n' | '\t');
-    controls || ('\u{e000}'..='\u{f8ff}').contains(&c)
-}
 
 /// A fault of TOML with its line, from 1, and a remedy: `12: missing field …; mend …`.
 pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {

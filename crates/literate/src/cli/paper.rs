@@ -111,7 +111,7 @@ fn forget(name: &str, paper: &Paper, session: &Session<'_>) -> Result<(), Failur
     }
     for experiment in &paper.experiments {
         if name == "all" || name == experiment.name() {
-            session.store.remove(&experiment.identity(session))?;
+            session.store.remove(&experiment.identity(session), true)?;
         }
     }
     Ok(())

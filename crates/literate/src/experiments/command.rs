@@ -50,16 +50,6 @@ impl Command {
         Command { name, line, parameters: |_| Json::Null, reads: &[], writes: &[] }
     }
 
-    /// With further files and folders that it reads.
-    pub const fn reads(self, reads: &'static [&'static str]) -> Self {
-        Command { reads, ..self }
-    }
-
-    /// With files that it writes.
-    pub const fn writes(self, writes: &'static [&'static str]) -> Self {
-        Command { writes, ..self }
-    }
-
     /// The files and folders that it names, from the folder `top`.
     ///
     /// # Errors
@@ -234,8 +224,6 @@ impl AnyExperiment for Command {
 mod tests {
     use super::super::{Progress, Results, Store};
     use super::*;
-    use crate::prose::Templates;
-    use crate::source::toy;
 
     const SCRIPT: &str = r#"read given
 case $given in *quick*) n=100 ;; *) n=1000 ;; esac
@@ -244,39 +232,32 @@ echo '"digits": {"ratio": 3}, "units": {"pi": "m"}, "meanings": {"ratio": "of ar
 echo "[[$n, 3.125, 0.04, \"sh\", 7, 0.12345], [2, null, 0.1, null, null, null]]}}"
 "#;
 
-    fn leaked(line: String) -> &'static str {
-        Box::leak(line.into_boxed_str())
-    }
-
     /// Runs a command in the project of a folder, with a script in its file `toy.sh`.
     fn run(top: &Path, script: &str, command: Command) -> Result<Output, Error> {
         std::fs::write(top.join("toy.sh"), script).unwrap();
-        let (project, progress) = (Project::new(toy()), Progress::silent());
-        let (templates, store) = (Templates::of([]), Store::nowhere());
-        let profile = Profile::Quick;
-        command.run(top, &Session { project: &project, templates, profile, store, progress })
+        command.run(top, &Session::toy(Store::nowhere(), Progress::silent()))
     }
 
     #[test]
     fn its_tables_are_those_of_any_experiment() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("toy.sh");
-        let (project, store) = (Project::new(toy()), Store::open(&folder.path().join("results")));
-        let (templates, progress) = (Templates::of([]), Progress::silent());
-        let profile = Profile::Quick;
-        let session = Session { project: &project, templates, profile, store, progress };
-        let line = leaked(format!("sh {}", path.display()));
+        let session = Session::toy(Store::open(&folder.path().join("saved")), Progress::silent());
+        let line = Box::leak(format!("sh {}", path.display()).into_boxed_str());
         let command: &'static Command = Box::leak(Box::new(Command::new("toy", line)));
         std::fs::write(&path, SCRIPT).unwrap();
         let results = Results::run(&[command], &[], &session).unwrap();
         assert_eq!(results.number("toy.throws[needles=100].pi").unwrap(), 3.125);
         let throws = results.table("toy.throws").unwrap();
-        let cell = |column: &str| throws.at(&format!("toy.throws[needles=100].{column}")).unwrap();
-        assert_eq!((cell("pi").plain().as_str(), cell("pi").unit.as_str()), ("3.12(4)", "$m$"));
-        assert_eq!((cell("by").plain().as_str(), cell("seed").plain().as_str()), ("sh", "7"));
-        let ratio = cell("ratio");
-        assert_eq!((ratio.plain().as_str(), ratio.note.as_str()), ("0.123", "of areas"));
-        for column in ["pi", "by", "seed", "ratio"] {
+        for (column, shown, unit, meaning) in [
+            ("pi", "3.12(4)", "$m$", ""),
+            ("by", "sh", "", ""),
+            ("seed", "7", "", ""),
+            ("ratio", "0.123", "", "of areas"),
+        ] {
+            let cell = throws.at(&format!("toy.throws[needles=100].{column}")).unwrap();
+            let found = (cell.plain(), cell.unit.as_str(), cell.note.as_str());
+            assert_eq!(found, (shown.into(), unit, meaning));
             let cell = throws.at(&format!("toy.throws[needles=2].{column}")).unwrap();
             assert_eq!(cell.plain(), "none");
         }
@@ -298,13 +279,11 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7, 0.12345], [2, null, 0.1, null, null, null]]}
             std::fs::write(top.join(file), [0xff, 0]).unwrap();
         }
         let command = Command::new("toy", "sh toy.sh data/ --table=./b.csv 0.5 -x n=3");
-        let command = command.reads(&["c.csv"]).writes(&["plot.png"]);
+        let command = Command { reads: &["c.csv"], writes: &["plot.png"], ..command };
         let script = "find . -type f | sort | tr -d '\\n' > plot.png; rm data/deep/a.bin";
-        let output = run(top, script, command).unwrap();
-        let found = "./b.csv./c.csv./data/deep/a.bin./plot.png./toy.sh";
-        assert_eq!(output.files["plot.png"], input::hexadecimal(found.as_bytes()));
-        let bytes = command.file(&(Arc::new(output) as Found), "plot.png");
-        assert_eq!(bytes.unwrap(), found.as_bytes());
+        let output: Found = Arc::new(run(top, script, command).unwrap());
+        let written = String::from_utf8(command.file(&output, "plot.png").unwrap()).unwrap();
+        assert_eq!(written, "./b.csv./c.csv./data/deep/a.bin./plot.png./toy.sh");
         let before = command.hashes(top);
         assert_eq!(before.len(), 4, "{before:?}");
         std::fs::write(top.join("data/deep/a.bin"), [0xfe, 0]).unwrap();
@@ -315,43 +294,45 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7, 0.12345], [2, null, 0.1, null, null, null]]}
     fn a_file_that_is_missing_is_refused_before_it_runs() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("a.py"), "").unwrap();
-        let refused = |command: Command| command.inputs(folder.path()).unwrap_err();
-        for (line, file) in [
+        for (line, fault) in [
             ("python3 a.py table.npz", "table.npz: No such file"),
             ("python3 a.py --in=data/x", "data/x: No such file"),
             ("./prog a.py", "prog: No such file"),
             ("python3 a.py ../b.csv", "../b.csv lies outside"),
+            ("true", "x: No such file"),
         ] {
-            let error = refused(Command::new("toy", line));
-            assert!(error.starts_with(file), "{line}: {error}");
+            let reads: &[&str] = if line == "true" { &["x"] } else { &[] };
+            let command = Command { reads, ..Command::new("toy", line) };
+            let error = command.inputs(folder.path()).unwrap_err();
+            assert!(error.starts_with(fault), "{line}: {error}");
         }
-        assert!(refused(Command::new("toy", "true").reads(&["x"])).starts_with("x: No such file"));
     }
 
     #[test]
     fn what_goes_wrong_is_shown() {
+        let folder = tempfile::tempdir().unwrap();
         let table = |fields: &str| format!("echo '{{\"a\": {{\"columns\": [\"b\"], {fields}}}}}'");
-        for (script, shown) in [
+        for (script, line, shown) in [
             (
-                "echo a >&2; echo no needle >&2; exit 3".into(),
+                "echo a >&2; echo no needle >&2; exit 3",
+                "sh toy.sh",
                 "toy: `sh toy.sh` ended with exit status: 3; it said:\na\nno needle",
             ),
-            ("echo Hello; echo '{\"a\": NaN}'".into(), "it printed:\nHello\n{\"a\": NaN}"),
-            (table("\"rows\": [[1, 2]]"), "printed a: row 1 has 2 cells for 1 names"),
-            (table("\"rows\": [[[]]]"), "row 1 has more than a number or a word as b"),
+            ("echo Hello; echo '{}]'", "sh toy.sh", "it printed:\nHello\n{}]"),
+            (&table("\"rows\": [[1, 2]]"), "sh toy.sh", "a: row 1 has 2 cells for 1 names"),
+            (&table("\"rows\": [[[]]]"), "sh toy.sh", "row 1 has more than a number"),
             (
-                table("\"rows\": [], \"units\": {\"B\": \"m\"}"),
+                &table("\"rows\": [], \"units\": {\"B\": \"m\"}"),
+                "sh toy.sh",
                 "units: there is no column B; nearest: b",
             ),
+            ("", "no-such-program", "cannot be started: "),
+            ("", "sh toy.sh a.png", "did not write a.png"),
         ] {
-            let folder = tempfile::tempdir().unwrap();
-            let error = run(folder.path(), &script, Command::new("toy", "sh toy.sh")).unwrap_err();
-            assert!(error.to_string().contains(shown), "{error}");
+            let writes: &[&str] = if line.ends_with("png") { &["a.png"] } else { &[] };
+            let command = Command { writes, ..Command::new("toy", line) };
+            let error = run(folder.path(), script, command).unwrap_err().to_string();
+            assert!(error.contains(shown), "{error}");
         }
-        let folder = tempfile::tempdir().unwrap();
-        let error = run(folder.path(), "", Command::new("toy", "no-such-program")).unwrap_err();
-        assert!(error.to_string().contains("cannot be started: "), "{error}");
-        let error = run(folder.path(), "", Command::new("toy", "sh toy.sh").writes(&["a.png"]));
-        assert!(error.unwrap_err().to_string().contains("did not write a.png"));
     }
 }

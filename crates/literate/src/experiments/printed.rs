@@ -28,10 +28,6 @@ impl PrintedTable {
         self.keys.iter().chain(&self.columns).map(String::as_str)
     }
 
-    fn of_columns(&self) -> Vec<&str> {
-        self.columns.iter().map(String::as_str).collect()
-    }
-
     fn place(&self, name: &str) -> Option<usize> {
         self.names().position(|other| other == name)
     }
@@ -57,23 +53,21 @@ impl PrintedTable {
                 return Some(format!("there are two columns {name}"));
             }
         }
-        for (field, columns, names) in [
-            ("units", self.units.keys().collect::<Vec<_>>(), self.names().collect::<Vec<_>>()),
-            ("digits", self.digits.keys().collect(), self.of_columns()),
-            ("meanings", self.meanings.keys().collect(), self.of_columns()),
+        for (field, columns) in [
+            ("units", self.units.keys().collect::<Vec<_>>()),
+            ("digits", self.digits.keys().collect()),
+            ("meanings", self.meanings.keys().collect()),
         ] {
-            if let Some(lost) = columns.into_iter().find(|column| !names.contains(&column.as_str()))
-            {
-                let nearest = nearest(lost, names.into_iter()).join(", ");
+            if let Some(lost) = columns.into_iter().find(|name| self.place(name).is_none()) {
+                let nearest = nearest(lost, self.names()).join(", ");
                 return Some(format!("{field}: there is no column {lost}; nearest: {nearest}"));
             }
         }
         for (name, digits) in &self.digits {
-            if self.error_of(name).is_some() {
-                return Some(format!("digits: {name} has those that its error gives it"));
-            }
-            if !(1..=17).contains(digits) {
-                return Some(format!("digits: {name} has {digits}; give 1 to 17"));
+            if self.error_of(name).is_some() || !(1..=17).contains(digits) {
+                return Some(format!(
+                    "digits: give {name} 1 to 17, or an error, which decides them"
+                ));
             }
         }
         let mut seen = BTreeSet::new();

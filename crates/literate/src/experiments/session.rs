@@ -24,19 +24,26 @@ impl Session<'_> {
         identity: &Identity,
         run: impl FnOnce() -> Result<T, Error>,
     ) -> Result<T, Error> {
-        let say = |why| self.progress.say(&format!("{}: {why}", identity.experiment));
-        let why = match self.store.look(identity) {
-            Ok(found) => {
-                say("fresh");
-                return Ok(found);
-            }
-            Err(why) => why,
-        };
+        let found = self.store.look(identity);
+        let why = found.as_ref().err().map_or("fresh", String::as_str);
+        self.progress.say(&format!("{}: {why}", identity.experiment));
+        if let Ok(found) = found {
+            return Ok(found);
+        }
         self.store.prepare()?;
-        say(&why);
         let result = run()?;
         self.store.put(identity, &result)?;
-        self.store.remove_units(identity);
+        // Units that stay do no harm: the joined result is looked for first.
+        let _ = self.store.remove(identity, false);
         Ok(result)
+    }
+}
+
+#[cfg(test)]
+impl Session<'_> {
+    /// A session of a project of three files, with small samples and without prose.
+    pub(crate) fn toy(store: Store, progress: Progress) -> Self {
+        let project = Box::leak(Box::new(Project::new(crate::source::toy())));
+        Session { project, templates: Templates::of([]), profile: Profile::Quick, store, progress }
     }
 }

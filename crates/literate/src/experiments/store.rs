@@ -162,29 +162,12 @@ impl Store {
         save(&path, &text).map_err(|source| Error::Store { path, source })
     }
 
-    /// Removes a saved result and those of its units, so that it is run again.
+    /// Removes the files of the units of a result, and that of the result too if it is to be run
+    /// again.
     ///
     /// # Errors
     /// If a file is there and cannot be removed.
-    pub fn remove(&self, identity: &Identity) -> Result<(), Error> {
-        for path in self.units_of(identity).into_iter().chain(self.path(identity)) {
-            match std::fs::remove_file(&path) {
-                Err(source) if !is_absent(&source) => return Err(Error::Store { path, source }),
-                _ => (),
-            }
-        }
-        Ok(())
-    }
-
-    /// Removes the files of the units of a result, which is joined.
-    pub fn remove_units(&self, identity: &Identity) {
-        for path in self.units_of(identity) {
-            // One that stays does no harm: the joined result is looked for first.
-            let _ = std::fs::remove_file(path);
-        }
-    }
-
-    fn units_of(&self, identity: &Identity) -> Vec<PathBuf> {
+    pub fn remove(&self, identity: &Identity, is_to_run: bool) -> Result<(), Error> {
         let stem = format!("{}-", identity.file_stem());
         let is_unit = |path: &PathBuf| {
             let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -192,7 +175,14 @@ impl Store {
             number.is_some_and(|number| number.bytes().all(|b| b.is_ascii_digit()))
         };
         let files = self.folder.iter().filter_map(|folder| folder.read_dir().ok()).flatten();
-        files.flatten().map(|entry| entry.path()).filter(is_unit).collect()
+        let units = files.flatten().map(|entry| entry.path()).filter(is_unit);
+        for path in units.chain(self.path(identity).filter(|_| is_to_run)) {
+            match std::fs::remove_file(&path) {
+                Err(source) if !is_absent(&source) => return Err(Error::Store { path, source }),
+                _ => (),
+            }
+        }
+        Ok(())
     }
 }
 
