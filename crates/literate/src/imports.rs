@@ -17,6 +17,7 @@ impl Sources {
             module.pop();
         }
         let program = self.name.replace('-', "_");
+        let has_library = self.file("").is_some_and(|file| file.ends_with("/lib.rs"));
         let mut found = BTreeSet::new();
         for named in paths(&code(text)) {
             let (head, mut rest) = (named[0], &named[1..]);
@@ -24,7 +25,7 @@ impl Sources {
                 "crate" => (*name, Vec::new()),
                 "self" => (*name, module.clone()),
                 "super" => (*name, module[..module.len().saturating_sub(1)].to_vec()),
-                _ if head == program => ("", Vec::new()),
+                _ if head == program && has_library => ("", Vec::new()),
                 _ if self.crates.iter().any(|(other, _)| *other == head) => (head, Vec::new()),
                 _ => continue,
             };
@@ -112,7 +113,7 @@ mod tests {
     #[test]
     fn modules_are_found_wherever_a_path_names_them() {
         let files = &[
-            ("src/main.rs", ""),
+            ("src/lib.rs", ""),
             ("src/physics.rs", ""),
             ("src/runs/mod.rs", ""),
             ("src/runs/walk.rs", ""),
@@ -133,7 +134,7 @@ mod tests {
             ("use super::super::physics::*;", "src/physics.rs"),
             ("use super::Walk;", "src/runs/mod.rs"),
             ("use toy_paper::physics::g;", "src/physics.rs"),
-            ("use crate::START;", "src/main.rs"),
+            ("use crate::START;", "src/lib.rs"),
             ("use engine::Engine;", "engine/lib.rs"),
             ("// crate::physics\nlet x = 1; // super::jump\nstd::crate::physics();", ""),
             (
