@@ -167,11 +167,9 @@ fn outputs_that_cannot_be_written() {
 fn files_without_end_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    for (path, verb, most) in [
-        ("s.json", "trace s.json --until 5", "64 MiB"),
-        ("values.json", "explain --paper .", "8 MiB"),
-    ] {
+    for (path, verb) in [("s.json", "trace s.json --until 5"), ("values.json", "explain --paper .")]
+    {
         fs::File::create(folder.join(path)).unwrap().set_len((64 << 20) + 1).unwrap();
-        crate::refused(folder, verb, &[path, most]);
+        crate::refused(folder, verb, &[path, "64 MiB"]);
     }
 }

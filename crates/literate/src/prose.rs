@@ -38,8 +38,8 @@ pub struct Templates {
 impl Templates {
     /// Templates from texts.
     pub fn of<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
-        let own = |(path, text): (&str, &str)| (path.to_string(), text.to_string());
-        let files = SKIN.into_iter().chain(files).map(own).collect();
+        let files = SKIN.into_iter().chain(files);
+        let files = files.map(|(path, text)| (path.to_string(), text.to_string())).collect();
         Templates { files, ..Templates::default() }
     }
 

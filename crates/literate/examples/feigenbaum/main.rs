@@ -67,8 +67,9 @@ fn tables(cascade: &[Orbit]) -> Vec<Table> {
     let of = |n: u32| cascade.iter().find(|orbit| orbit.n == n);
     let before = |orbit: &Orbit| orbit.n.checked_sub(1).and_then(of);
     let ratio = |a: Option<f64>, b: Option<f64>| a.zip(b).map_or(f64::NAN, |(a, b)| a / b);
-    let delta = |orbit: &Orbit| ratio(before(orbit).and_then(|own| own.step), orbit.step);
-    let alpha = |orbit: &Orbit| -ratio(before(orbit).and_then(|own| own.distance), orbit.distance);
+    let delta = |orbit: &Orbit| ratio(before(orbit).and_then(|before| before.step), orbit.step);
+    let alpha =
+        |orbit: &Orbit| -ratio(before(orbit).and_then(|before| before.distance), orbit.distance);
     let orbits = Table::of("cascade.orbits", cascade, |_| 1)
         .key("n", "1", |orbit| orbit.n.into())
         .real("parameter", "1", 10, "The parameter $R_n$.", |orbit| orbit.parameter)

@@ -6,7 +6,9 @@ use crate::claims::{Check, Kind, Published, Verdict, score};
 use crate::failure::Failure;
 use crate::input::one_line;
 use crate::paper::Paper;
-use serde_json::{Value, json};
+use crate::table::nearest;
+use serde_json::json;
+use std::collections::BTreeMap;
 
 /// Judge the statements of the paper, and relations between its numbers
 ///
@@ -46,12 +48,12 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let session = args.sources.session(paper)?;
     let published = paper.published(&session)?;
     for asked in &args.ids {
-        let number = asked.parse().is_ok_and(|n| (1..=published.statements.len()).contains(&n));
-        if !number && !published.statements.iter().any(|own| own.id == *asked) {
-            let asked = one_line(asked, 60);
-            return Err(Failure::input(format!(
-                "there is no statement {asked}; `check -v` lists all"
-            )));
+        let is_number = asked.parse().is_ok_and(|n| (1..=published.statements.len()).contains(&n));
+        if !is_number && !published.statements.iter().any(|statement| statement.id == *asked) {
+            let ids = published.statements.iter().map(|statement| statement.id.as_str());
+            let (asked, nearest) = (one_line(asked, 60), nearest(asked, ids).join(", "));
+            let what = format!("there is no statement {asked}; nearest: {nearest}");
+            return Err(Failure::input(format!("{what}; `check -v` lists all")));
         }
     }
     let mut checks = args.sources.threads.run(|| {
@@ -59,17 +61,17 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         paper.checks(&results, &published)
     })?;
     let printed = checks.iter().filter(|check| check.kind.is_printed());
-    let order: Vec<String> = printed.map(|check| check.id.clone()).collect();
-    let number = |id: &str| order.iter().position(|own| own == id).map(|i| i + 1);
+    let numbers: BTreeMap<String, String> =
+        printed.zip(1..).map(|(check, number)| (check.id.clone(), number.to_string())).collect();
     if !args.ids.is_empty() {
-        checks.retain(|Check { id, .. }| {
-            let number = number(id).map(|number| number.to_string());
-            args.ids.iter().any(|asked| asked == id || Some(asked) == number.as_ref())
-        });
+        let is_asked = |id: &String| {
+            args.ids.contains(id) || numbers.get(id).is_some_and(|number| args.ids.contains(number))
+        };
+        checks.retain(|check| is_asked(&check.id));
     }
     let file = session.templates.place("published.toml");
     print(&match args.format {
-        Format::Text => text(&checks, &args, number),
+        Format::Text => text(&checks, &args, &numbers),
         Format::Json => json(&checks, &published, &file),
         Format::Github => github(&checks, &published, &file),
     })?;
@@ -77,23 +79,24 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
 }
 
 /// What is known of a check, by names.
-fn fields(check: &Check) -> impl Iterator<Item = (&'static str, String)> {
-    let tolerance = match check.reason.as_str() {
-        "" => check.tolerance.to_string(),
-        reason => format!("{} ({reason})", check.tolerance),
-    };
-    let fields = [
+fn fields(check: &Check) -> Vec<(&'static str, String)> {
+    let mut tolerance = check.tolerance.to_string();
+    if !check.reason.is_empty() {
+        tolerance += &format!(" ({})", check.reason);
+    }
+    let mut fields = vec![
         ("printed", check.expected.clone()),
         ("found", check.found.to_string()),
         ("tolerance", tolerance),
         ("note", check.note.to_string()),
     ];
-    fields.into_iter().filter(|(_, text)| !text.is_empty())
+    fields.retain(|(_, text)| !text.is_empty());
+    fields
 }
 
 /// A line for each check that is not simply reproduced or holds, what fails first, and the scores;
-/// of those that were asked for, and with -v, all lines of all.
-fn text(checks: &[Check], args: &Args, number: impl Fn(&str) -> Option<usize>) -> String {
+/// with -v, or of those that were asked for, all that is known.
+fn text(checks: &[Check], args: &Args, numbers: &BTreeMap<String, String>) -> String {
     let all = args.verbose || !args.ids.is_empty();
     let mut listed: Vec<&Check> =
         checks.iter().filter(|check| all || check.verdict != Verdict::Reproduced).collect();
@@ -101,47 +104,53 @@ fn text(checks: &[Check], args: &Args, number: impl Fn(&str) -> Option<usize>) -
     let mut out = String::new();
     for check in listed {
         let sign = if check.fails() { "FAILS" } else { &check.verdict.sign().to_string() };
-        let number = number(&check.id).map_or_else(String::new, |number| number.to_string());
-        let (id, words) = (&check.id, check.words());
-        let why = check.difference().map_or_else(String::new, |why| format!(" ({why})"));
-        out += &format!("{sign:5} {number:>2} {id}: {words}{why}");
-        if !all {
-            let sides = [("paper", check.expected.clone()), ("here", check.found.to_string())];
-            let sides = sides.into_iter().filter(|(_, text)| !["", "–"].contains(&text.as_str()));
-            sides.for_each(|(side, text)| out += &format!("; {side}: {text}"));
-            out += "\n";
-            continue;
+        let number = numbers.get(&check.id).map_or("", String::as_str);
+        out += &format!("{sign:5} {number:>2} {}: {}", check.id, check.words());
+        if let Some(why) = check.difference() {
+            out += &format!(" ({why})");
         }
-        let place = if check.place.is_empty() { "" } else { &format!("{}, ", check.place) };
-        out += &format!(" ({place}{})\n         {}\n", check.basis.words(), check.statement);
-        fields(check).for_each(|(name, text)| out += &format!("         {name:10} {text}\n"));
+        if all {
+            let place = if check.place.is_empty() { "" } else { &format!("{}, ", check.place) };
+            out += &format!(" ({place}{})\n         {}\n", check.basis.words(), check.statement);
+            for (name, text) in fields(check) {
+                out += &format!("         {name:10} {text}\n");
+            }
+        } else {
+            for (side, text) in [("paper", &check.expected), ("here", &check.found.to_string())] {
+                if !["", "–"].contains(&text.as_str()) {
+                    out += &format!("; {side}: {text}");
+                }
+            }
+            out += "\n";
+        }
     }
-    scores(checks).iter().for_each(|line| out += &format!("{line}\n"));
+    for line in scores(checks) {
+        out += &format!("{line}\n");
+    }
     if !all {
         out += "`check -v` prints all, `check ID` all of one\n";
     }
     out
 }
+
 /// All that is known, as JSON: checks as ledger.json has them, and the line of each statement.
 fn json(checks: &[Check], published: &Published, file: &str) -> String {
-    let one = |check: &Check| {
-        let mut own = json!(check);
-        own["fails"] = check.fails().into();
-        own["words"] = check.words().into();
+    let (mut claims, mut relations) = (Vec::new(), Vec::new());
+    for check in checks {
+        let mut fields = json!(check);
+        fields["fails"] = check.fails().into();
+        fields["words"] = check.words().into();
         if check.kind.is_printed() {
-            (own["file"], own["line"]) = (file.into(), published.line(&check.id).into());
+            fields["file"] = file.into();
+            fields["line"] = published.line(&check.id).into();
+            claims.push(fields);
+        } else {
+            relations.push(fields);
         }
-        own
-    };
-    let list = |kind| of(checks, kind).map(one).collect::<Vec<Value>>();
-    let printed = checks.iter().filter(|check| check.kind.is_printed());
+    }
     let counts = Verdict::ALL.iter().zip(score(of(checks, Kind::Statement)));
-    let counts = counts.map(|(verdict, count)| (verdict.words().into(), count.into()));
-    let all = json!({
-        "score": counts.collect::<serde_json::Map<String, Value>>(),
-        "claims": printed.map(one).collect::<Vec<Value>>(),
-        "relations": list(Kind::Relation),
-    });
+    let counts: BTreeMap<_, _> = counts.map(|(verdict, count)| (verdict.words(), count)).collect();
+    let all = json!({ "score": counts, "claims": claims, "relations": relations });
     format!("{all:#}\n")
 }
 
@@ -157,20 +166,24 @@ fn github(checks: &[Check], published: &Published, file: &str) -> String {
         Verdict::DiffersAndExplained => Some("notice"),
         _ => None,
     };
-    let mut worst: Vec<(&str, &Check)> =
-        checks.iter().filter_map(|check| Some((kind(check)?, check))).collect();
-    let order = ["error", "warning", "notice"];
-    worst.sort_by_key(|(kind, _)| order.iter().position(|own| own == kind));
+    let worst = ["error", "warning", "notice"].into_iter().flat_map(|worst| {
+        checks
+            .iter()
+            .filter(move |check| kind(check) == Some(worst))
+            .map(move |check| (worst, check))
+    });
     let mut out = String::new();
-    for (kind, check) in worst.into_iter().take(ANNOTATIONS) {
-        let place = match check.kind.is_printed() {
-            true => format!("file={},line={},", property(file), published.line(&check.id)),
-            false => String::new(),
-        };
+    for (kind, check) in worst.take(ANNOTATIONS) {
+        let mut place = String::new();
+        if check.kind.is_printed() {
+            place = format!("file={},line={},", property(file), published.line(&check.id));
+        }
         let title = property(&format!("{}: {}", check.id, check.words()));
-        let more: String = fields(check).map(|(name, text)| format!("; {name}: {text}")).collect();
-        let text = data(&format!("{}{more}", check.statement));
-        out += &format!("::{kind} {place}title={title}::{text}\n");
+        let mut text = check.statement.clone();
+        for (name, field) in fields(check) {
+            text += &format!("; {name}: {field}");
+        }
+        out += &format!("::{kind} {place}title={title}::{}\n", data(&text));
     }
     out
 }

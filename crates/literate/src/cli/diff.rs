@@ -39,7 +39,7 @@ pub(super) fn run(args: Args) -> Result<(), Failure> {
     let numbers = numbers(&before.values, &after.values);
     let counts = [count(checks.len(), "check"), count(numbers.len(), "number")];
     let all = [checks, numbers, files(&before.files, &after.files)].concat();
-    // A report, and the name of a file, may hold what a terminal obeys.
+    // A report, and the name of a file, may hold commands of a terminal.
     let lines = all.iter().map(|line| line.replace(is_control, " ") + "\n");
     print(&match all.is_empty() {
         true => format!("{old} and {new}: nothing differs\n"),
@@ -129,59 +129,69 @@ fn files(before: &Files, after: &Files) -> Vec<String> {
 fn checks(before: &Ledger, after: &Ledger) -> Vec<String> {
     let ids: BTreeSet<&String> =
         before.claims.iter().chain(&after.claims).map(|check| &check.id).collect();
-    let fields = |check: &Check| {
-        let (found, tolerance) = (check.found.to_string(), check.tolerance.to_string());
-        [("expected", check.expected.clone()), ("found", found), ("tolerance", tolerance)]
-    };
-    let line = |id: &String| {
-        let both = [before, after].map(|own| own.claims.iter().find(|check| check.id == *id));
-        let words = both.map(|check| check.map(Check::words));
-        let [old, new] = both.map(|check| check.map(fields).into_iter().flatten());
+    let mut lines = Vec::new();
+    for id in ids {
+        let find = |ledger: &'_ Ledger| ledger.claims.iter().find(|check| check.id == *id).cloned();
+        let (old, new) = (find(before), find(after));
+        let words = [&old, &new].map(|check| check.as_ref().map(Check::words));
         let moved = words[0] != words[1];
-        let also = old
-            .zip(new)
-            .filter(|((name, old), (_, new))| old != new && (moved || *name != "found"));
-        let also: String =
-            also.map(|((name, old), (_, new))| format!("; {name}: {old} -> {new}")).collect();
-        (moved || !also.is_empty()).then(|| fate(id, words) + &also)
-    };
-    ids.into_iter().filter_map(line).collect()
+        let mut also = String::new();
+        if let (Some(old), Some(new)) = (&old, &new) {
+            for (name, [old, new]) in [
+                ("expected", [old, new].map(|check| check.expected.clone())),
+                ("found", [old, new].map(|check| check.found.to_string())),
+                ("tolerance", [old, new].map(|check| check.tolerance.to_string())),
+            ] {
+                if old != new && (moved || name != "found") {
+                    also += &format!("; {name}: {old} -> {new}");
+                }
+            }
+        }
+        if moved || !also.is_empty() {
+            lines.push(fate(id, words) + &also);
+        }
+    }
+    lines
 }
 
-/// Changes of numbers and units, a line each; other fields (notes, sources) do not count. What is a
-/// number no more comes first, then the largest differences in standard errors, and last what only
-/// one report has.
+/// Changes of numbers and units, a line each; other fields (notes, sources) do not count. What is
+/// no longer a number comes first, then the largest differences in standard errors, and last what
+/// only one report has.
 fn numbers(before: &Registry, after: &Registry) -> Vec<String> {
     let ids: BTreeSet<&str> = before.iter().chain(after.iter()).map(|v| v.id.as_str()).collect();
-    let change = |id: &str| {
-        let both = [before, after].map(|own| own.get(id));
-        let [old, new] = both.map(|value| value.map(|v| (&v.number, &v.unit)));
-        if old == new {
-            return None;
+    let mut changes = Vec::new();
+    for id in ids {
+        let both = [before.get(id), after.get(id)];
+        let [old, new] = both.map(|value| value.map(|value| (&value.number, &value.unit)));
+        if old != new {
+            changes.push(change(id, both));
         }
-        // In full where their digits do not show the difference.
-        let [old, new] = both.map(|value| value.map(Value::plain));
-        let style = Style { digits: (old == new).then_some(Digits::Full), ..Style::default() };
-        let shown = |value: &Value| tex::spelt(&printed(&value.number, style).plain());
-        let [old, new] = both.map(|value| value.map(shown));
-        let mut line = fate(id, [old.as_deref(), new.as_deref()]);
-        let [Some(old), Some(new)] = both else { return Some((-1.0, line)) };
-        let Some((old_number, new_number)) = number(old).zip(number(new)) else {
-            return Some((f64::INFINITY, line));
-        };
-        let difference = new_number - old_number;
-        line += &format!("; Δ {}", signed(difference));
-        // Runs with the same seed share their chance, and then this overrates the error.
-        let [a, b] = [old, new].map(Value::standard_error);
-        let error = (a * a + b * b).sqrt();
-        if error > 0.0 {
-            line += &format!(", {} σ", signed(difference / error));
-        }
-        Some((if error > 0.0 { (difference / error).abs() } else { 0.0 }, line))
-    };
-    let mut changes: Vec<(f64, String)> = ids.into_iter().filter_map(change).collect();
+    }
     changes.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     changes.into_iter().map(|(_, line)| line).collect()
+}
+
+/// The line of a number that changed, and by how many standard errors: infinitely many if it is no
+/// longer a number, and below 0 if only one report has it.
+fn change(id: &str, both: [Option<&Value>; 2]) -> (f64, String) {
+    let [old, new] = both.map(|value| value.map(Value::plain));
+    // In full where their digits do not show the difference.
+    let style = Style { digits: (old == new).then_some(Digits::Full), ..Style::default() };
+    let shown = |value: &Value| tex::spelt(&printed(&value.number, style).plain());
+    let [old, new] = both.map(|value| value.map(shown));
+    let mut line = fate(id, [old.as_deref(), new.as_deref()]);
+    let [Some(old), Some(new)] = both else { return (-1.0, line) };
+    let Some((before, after)) = number(old).zip(number(new)) else { return (f64::INFINITY, line) };
+    let difference = after - before;
+    line += &format!("; Δ {}", signed(difference));
+    // Runs with the same seed share their chance, and then this overrates the error.
+    let [a, b] = [old, new].map(Value::standard_error);
+    let error = (a * a + b * b).sqrt();
+    if error > 0.0 {
+        line += &format!(", {} σ", signed(difference / error));
+        return ((difference / error).abs(), line);
+    }
+    (0.0, line)
 }
 
 fn signed(value: f64) -> String {

@@ -81,7 +81,7 @@ fn shown(card: &Card) -> String {
     out
 }
 
-/// Words of a report, without what a terminal would obey.
+/// Words of a report, without commands of a terminal.
 fn words(text: &[Inline]) -> String {
     clean(&spelt(text))
 }

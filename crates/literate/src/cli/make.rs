@@ -203,21 +203,24 @@ pub(super) fn scores(checks: &[Check]) -> Vec<String> {
     let statements = of(checks, Kind::Statement);
     let number = statements.clone().count();
     if number > 0 {
-        let counts = Verdict::ALL.iter().zip(score(statements.clone()));
-        let counts: Vec<_> =
-            counts.map(|(own, count)| format!("{} {count}", own.words())).collect();
+        let mut counts = Vec::new();
+        for (verdict, count) in Verdict::ALL.iter().zip(score(statements.clone())) {
+            counts.push(format!("{} {count}", verdict.words()));
+        }
         lines.push(format!("{} of the paper: {}", count(number, "statement"), counts.join(", ")));
-        let bases = Basis::ALL.iter().filter_map(|basis| {
-            let counts = score(statements.clone().filter(|check| check.basis == *basis));
+        let mut bases = Vec::new();
+        for basis in Basis::ALL {
+            let counts = score(statements.clone().filter(|check| check.basis == basis));
             let all: usize = counts.iter().sum();
-            (all > 0).then(|| format!("{} of {all} {}", counts[0], basis.words()))
-        });
-        let bases: Vec<String> = bases.collect();
+            if all > 0 {
+                bases.push(format!("{} of {all} {}", counts[0], basis.words()));
+            }
+        }
         lines.push(format!("reproduced, by what the verdict rests on: {}", bases.join(", ")));
     }
     let [held, _, broken, open] = score(of(checks, Kind::Relation));
-    if held + broken + open > 0 {
-        let all = held + broken + open;
+    let all = held + broken + open;
+    if all > 0 {
         lines.push(format!("our own checks: {held} of {all} relations between numbers hold"));
     }
     lines
@@ -225,19 +228,17 @@ pub(super) fn scores(checks: &[Check]) -> Vec<String> {
 
 /// Exit code 1, with names, for what does not hold.
 pub(super) fn verdict(checks: &[Check]) -> Result<(), Failure> {
-    let faults = [
-        (Kind::Statement, "statements have no rule or differ without an explanation that holds"),
-        (Kind::Relation, "relations between numbers of the report do not hold"),
-    ];
-    let found = faults.into_iter().filter_map(|(kind, what)| {
-        let own = |check: &&Check| {
-            check.kind == kind || kind == Kind::Statement && check.kind.is_printed()
-        };
-        let names = checks.iter().filter(own).filter(|check| check.fails());
-        let names = names.map(|check| check.id.as_str());
-        let names: Vec<&str> = names.collect();
-        (!names.is_empty()).then(|| format!("{what}: {}", names.join(", ")))
-    });
-    let found: Vec<String> = found.collect();
-    if found.is_empty() { Ok(()) } else { Err(Failure::check(found.join("; "))) }
+    let mut faults = Vec::new();
+    for (is_printed, what) in [
+        (true, "statements have no rule or differ without an explanation that holds"),
+        (false, "relations between numbers of the report do not hold"),
+    ] {
+        let failed = |check: &&Check| check.fails() && check.kind.is_printed() == is_printed;
+        let failed = checks.iter().filter(failed).map(|check| check.id.as_str());
+        let ids: Vec<&str> = failed.collect();
+        if !ids.is_empty() {
+            faults.push(format!("{what}: {}", ids.join(", ")));
+        }
+    }
+    if faults.is_empty() { Ok(()) } else { Err(Failure::check(faults.join("; "))) }
 }

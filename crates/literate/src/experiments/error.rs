@@ -15,9 +15,7 @@ pub enum Error {
     Failed { experiment: &'static str, source: Box<dyn std::error::Error + Send + Sync> },
     #[error("the results of {0} were not run; add it to `needs`")]
     NotRun(&'static str),
-    #[error(
-        "{experiment}: a result is not finite, so it was not saved; internal error; please report"
-    )]
+    #[error("{experiment}: a result is not finite, so it was not saved; use `None` for no number")]
     NotFinite { experiment: String },
     #[error("--results: {path}: {source}; {}", remedy(source, "choose another folder"))]
     Store { path: PathBuf, source: std::io::Error },

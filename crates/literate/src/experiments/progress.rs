@@ -54,7 +54,8 @@ impl Progress {
         let position = Arc::clone(&done);
         // By the clock and not by what is done: the first unit may be a long one.
         let lines = (!self.quiet).then(|| {
-            let share = move || told(position.load(Ordering::Relaxed), total, began.elapsed());
+            let share =
+                move || progress_text(position.load(Ordering::Relaxed), total, began.elapsed());
             alive(move || Some(format!("{name}: {}", share())))
         });
         Stage { done, _lines: lines }
@@ -113,7 +114,7 @@ impl Stage {
 
 /// `40 %, about 12 s left`. The last units may be the longest: what is not done is not at 100 %,
 /// and no time below a second is promised.
-fn told(done: u64, total: u64, elapsed: Duration) -> String {
+fn progress_text(done: u64, total: u64, elapsed: Duration) -> String {
     let share = if total == 0 { 1.0 } else { done as f64 / total as f64 };
     let percent = (100.0 * share).floor();
     let left = elapsed.as_secs_f64() * (1.0 - share) / share;

@@ -39,7 +39,7 @@ impl Results {
         Arc::get_mut(self.found.get_mut(experiment.name)?)?.downcast_mut()
     }
 
-    /// The tables of the theory and of all results that there are, by name.
+    /// The tables of all results, by name.
     pub fn tables(&self) -> &Tables {
         // Made before the lock is taken: a thread that waits in it for others may begin something
         // else that looks here.
