@@ -280,7 +280,8 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7, 0.12345], [2, null, 0.1, null, null, null]]}
         }
         let command = Command::new("toy", "sh toy.sh data/ --table=./b.csv 0.5 -x n=3");
         let command = Command { reads: &["c.csv"], writes: &["plot.png"], ..command };
-        let script = "find . -type f | sort | tr -d '\\n' > plot.png; rm data/deep/a.bin";
+        let script =
+            "touch plot.png; find . -type f | sort | tr -d '\\n' > plot.png; rm data/deep/a.bin";
         let output: Found = Arc::new(run(top, script, command).unwrap());
         let written = String::from_utf8(command.file(&output, "plot.png").unwrap()).unwrap();
         assert_eq!(written, "./b.csv./c.csv./data/deep/a.bin./plot.png./toy.sh");
