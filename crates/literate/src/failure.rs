@@ -1,4 +1,4 @@
-//! Why something ended without success: a message of one line, and an exit code.
+//! Turns any error into a message and an exit code.
 
 use crate::claims::{self, PublishedError};
 use crate::experiments::Error;
@@ -8,7 +8,7 @@ use crate::report::{self, folder};
 use std::fmt::Display;
 use std::io;
 
-/// What a shell calls a program that Ctrl-C ended: 128 + SIGINT.
+/// The exit code of a program that a signal ended: 128 + SIGINT.
 pub const INTERRUPTED: u8 = 130;
 
 /// Characters of a message at most.
@@ -25,22 +25,22 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// Wrong usage or input: exit code 2.
+    /// Makes a failure by wrong usage or input: exit code 2.
     pub fn input(message: impl Into<String>) -> Self {
         Failure { code: 2, message: one_line(&message.into(), LONGEST) }
     }
 
-    /// Something does not hold, is stale, or failed: exit code 1.
+    /// Makes a failure by what does not hold, is stale, or failed: exit code 1.
     pub fn check(message: impl Into<String>) -> Self {
         Failure { code: 1, message: one_line(&message.into(), LONGEST) }
     }
 
-    /// The system refused to read or write `what`: exit code 2.
+    /// Makes a failure to read or write `what`: exit code 2.
     pub fn io(error: &io::Error, what: impl Display, otherwise: &str) -> Self {
         Failure::input(format!("{what}: {error}; {}", remedy(error, otherwise)))
     }
 
-    /// The same with a place or an option before it.
+    /// Puts a place or an option before the message.
     pub fn of(self, place: impl Display) -> Self {
         Failure { message: format!("{place}: {}", self.message), ..self }
     }

@@ -1,4 +1,4 @@
-//! Files: they are read up to a bound, what is wrong with them is one line, and they appear whole.
+//! Reads files up to a bounded size, computes their hashes, and describes their faults.
 
 pub use crate::text::{count, is_control, one_line, plain};
 use sha2::{Digest, Sha256};
@@ -11,18 +11,18 @@ use std::sync::RwLock;
 /// MiB at most of a file that is read whole. A scenario of a million masses has less.
 const MOST: u64 = 64;
 
-/// Reads a text that somebody names: a file, or a pipe whose other end they hold.
+/// Reads a text from a file or a pipe that the user names.
 pub fn read(path: &Path) -> Result<String, Error> {
     read_from(File::open(path)?)
 }
 
-/// The same of anything that can be read.
+/// Reads a text from anything that can be read.
 pub fn read_from(file: impl Read) -> Result<String, Error> {
     text(bounded(file)?)
 }
 
-/// A file that is found in a folder, whole. Nothing but a regular file is opened: whoever opens a
-/// pipe waits for its other end.
+/// Reads a whole file that was found in a folder. Only a regular file is opened, for opening a pipe
+/// waits for its other end.
 pub fn regular(path: &Path) -> Result<Vec<u8>, Error> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(Error::new(ErrorKind::InvalidInput, "not a regular file"));
@@ -30,13 +30,13 @@ pub fn regular(path: &Path) -> Result<Vec<u8>, Error> {
     bounded(File::open(path)?)
 }
 
-/// The same as text.
+/// Reads a text that was found in a folder.
 pub fn regular_text(path: &Path) -> Result<String, Error> {
     text(regular(path)?)
 }
 
-/// Bytes as text, without a byte-order mark. Lines end in `\n` however they end in the file, so
-/// that what is made of them has the same bytes.
+/// Reads bytes as text, without a byte-order mark. Lines end in `\n` however they end in the file,
+/// so that all that is made of them has the same bytes.
 fn text(bytes: Vec<u8>) -> Result<String, Error> {
     let wrong = |_| Error::new(ErrorKind::InvalidData, "not valid UTF-8");
     let text = String::from_utf8(bytes).map_err(wrong)?;
@@ -52,17 +52,18 @@ fn bounded(file: impl Read) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
-/// SHA-256 in lower-case hexadecimal, by which files and results are known.
+/// Computes the SHA-256 of bytes, in lower-case hexadecimal digits.
 pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
     hexadecimal(&Sha256::digest(bytes))
 }
 
-/// Bytes as hexadecimal digits.
+/// Writes bytes as hexadecimal digits.
 pub fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The paths of a file, or of all files below a folder, links followed, from the folder `top`.
+/// Lists a file, or all files below a folder, by their paths from the folder `top`. Links are
+/// followed.
 ///
 /// # Errors
 /// With the path of what is missing, or is neither a folder nor a file that can be opened.
@@ -85,7 +86,7 @@ pub fn files_in(top: &Path, place: &str) -> Result<Vec<String>, Error> {
     Ok(files)
 }
 
-/// The same files with the SHA-256 of their bytes, however many these are.
+/// Computes the SHA-256 of the files that [`files_in`] lists, of whatever size.
 pub fn hashes(top: &Path, place: &str) -> Result<BTreeMap<String, String>, Error> {
     let mut hashes = BTreeMap::new();
     for path in files_in(top, place)? {
@@ -102,12 +103,12 @@ pub fn hashes(top: &Path, place: &str) -> Result<BTreeMap<String, String>, Error
     Ok(hashes)
 }
 
-/// Whether there is no such file.
+/// Returns whether the error says that there is no such file.
 pub fn is_absent(error: &Error) -> bool {
     [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind())
 }
 
-/// What to do about what the system said: `otherwise`, unless it is not the place that is at fault.
+/// Returns the remedy for an error of the system: `otherwise` where the place is at fault.
 pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::WriteZero => "make room",
@@ -119,26 +120,26 @@ pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
     }
 }
 
-/// Files and folders that wait until they are complete begin with this.
+/// How the names of files and folders begin that are not yet complete.
 pub const STAGING: &str = ".staging-literate-";
 
-/// Held for reading while files are put into place, so that who ends the program waits for that by
+/// Held for reading while files are put into place; whoever ends the program waits for that by
 /// holding it for writing.
 pub static WRITING: RwLock<()> = RwLock::new(());
 
-/// A fault of TOML with its line, from 1, and a remedy: `12: missing field …; mend …`.
+/// Describes a fault of TOML with its line, from 1, and a remedy: `12: missing field …; mend …`.
 pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {
     let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
     let what = one_line(&plain(error.message()), 300);
     format!("{}: {what}; mend this line, or restore the file", line(before))
 }
 
-/// The line that a text ends in, from 1.
+/// Returns the number of the line that a text ends in, from 1.
 pub fn line(before: &str) -> usize {
     before.matches('\n').count() + 1
 }
 
-/// Line and column in characters, from 1, of an offset in a text: `12:5`.
+/// Returns line and column in characters, from 1, of an offset in a text: `12:5`.
 pub fn line_and_column(text: &str, offset: usize) -> String {
     let before = text.get(..offset).unwrap_or(text);
     let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;

@@ -1,4 +1,4 @@
-//! A paper: what it is made of. [`Paper::cli`] gives it a command line.
+//! Defines a paper: its experiments, figures, checks and documents.
 
 use crate::claims::{Check, Evidence, Judged, Published, Rule};
 use crate::experiments::{AnyExperiment, DerivedTables, Results, Session};
@@ -20,7 +20,6 @@ pub struct FigureSpec {
 }
 
 impl FigureSpec {
-    /// Draws it, and gives it its name.
     pub fn figure(&self, results: &Results) -> Result<Figure, figures::Error> {
         let mut figure = (self.draw)(results)?;
         figure.data.iter_mut().for_each(|file| file.name.insert_str(0, self.name));
@@ -30,7 +29,7 @@ impl FigureSpec {
         Ok(Figure { id: self.name.into(), source, experiments, ..figure })
     }
 
-    /// Whether it is asked for by `text`: its name, or `3` for `fig03`.
+    /// Returns whether `text` means it: its name, or `3` for `fig03`.
     fn is(&self, text: &str) -> bool {
         let lower = text.to_lowercase();
         let digits = lower.trim_start_matches(char::is_alphabetic);
@@ -39,19 +38,17 @@ impl FigureSpec {
     }
 }
 
-/// Values with names, which the prose may use like the cells of tables.
+/// Makes values that the prose may use like the cells of tables.
 pub type Values = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
 
-/// Rows of tables in the prose that are neither values nor checks, by the names that the prose
-/// uses.
+/// Makes rows of tables that are neither values nor checks, by the names that the prose uses.
 pub type Rows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure>;
 
 /// Makes the text of `lab.js`, which a page loads when a reader asks it to compute; none if it
-/// cannot be had here.
+/// cannot be made here.
 pub type Lab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
 
-/// A paper: its description, its experiments, figures and checks, and the documents that are
-/// written.
+/// A paper. [`Paper::cli`] gives it a command line.
 pub struct Paper {
     pub edition: Edition,
     pub project: Project,
@@ -77,8 +74,7 @@ impl std::fmt::Debug for Paper {
 }
 
 impl Paper {
-    /// A paper with this title and source, one document `report`, and its prose in the folder
-    /// `prose`.
+    /// Makes a paper with one document, `report`, and its prose in the folder `prose`.
     pub fn new(title: &'static str, sources: Sources) -> Self {
         Paper {
             edition: Edition::new(title),
@@ -94,19 +90,19 @@ impl Paper {
         }
     }
 
-    /// With one author more.
+    /// Adds an author.
     pub fn author(mut self, name: &'static str, affiliation: &'static str) -> Self {
         self.edition.authors.push((name, affiliation));
         self
     }
 
-    /// With one experiment more.
+    /// Adds an experiment.
     pub fn experiment(mut self, experiment: &'static dyn AnyExperiment) -> Self {
         self.experiments.push(experiment);
         self
     }
 
-    /// With a rule that judges the statement with this id.
+    /// Adds a rule that judges the statement with this id.
     pub fn check<C: Into<Judged>>(
         self,
         id: &'static str,
@@ -115,13 +111,13 @@ impl Paper {
         self.rule(Rule::new(id, judge))
     }
 
-    /// With one rule more.
+    /// Adds a rule.
     pub fn rule(mut self, rule: Rule) -> Self {
         self.rules.push(rule);
         self
     }
 
-    /// With one figure more, which shows results of these experiments.
+    /// Adds a figure, which shows results of these experiments.
     pub fn figure(
         mut self,
         name: &'static str,
@@ -132,7 +128,7 @@ impl Paper {
         self
     }
 
-    /// The figure that is asked for by its name or number: `spread`, `3`, `s1`.
+    /// Finds a figure by its name or number: `spread`, `3`, `s1`.
     pub fn find_figure(&self, text: &str) -> Result<&FigureSpec, Failure> {
         self.figures.iter().find(|figure| figure.is(text)).ok_or_else(|| {
             let names: Vec<&str> = self.figures.iter().map(|figure| figure.name).collect();
@@ -144,6 +140,7 @@ impl Paper {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::experiments::{Experiment, Profile, Progress, Store};
     use crate::source::toy;
 
     #[test]
@@ -161,5 +158,13 @@ mod tests {
             assert_eq!(paper.find_figure(text).map(|own| own.name).unwrap(), name);
         }
         assert!(paper.find_figure("16").err().unwrap().message.contains("fig03, s01, spread"));
+    }
+    #[test]
+    fn two_experiments_of_one_name_are_refused() {
+        const WALK: Experiment<(), ()> =
+            Experiment::new("walk", |_| (), |(), _| Ok(()), |()| Vec::new());
+        let paper = Paper::new("toy", toy()).experiment(&WALK).experiment(&WALK);
+        let session = paper.session(None, Profile::Quick, Store::nowhere(), Progress::silent());
+        assert_eq!(session.unwrap_err().message, "two experiments are called walk; rename one");
     }
 }

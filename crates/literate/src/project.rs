@@ -1,9 +1,8 @@
-//! The files of a project: its source, by which saved results are known, and what the program reads
-//! when it runs: prose, printed numbers, data.
+//! Finds the files of a project: its source, on which saved results depend, and what the program
+//! reads when it runs (prose, printed numbers, data).
 //!
-//! What is read is looked for below the current folder, then in the folders above the program
-//! itself, one of which is the checkout in which it was built. A program that is to travel alone
-//! has a copy inside instead.
+//! These are looked for below the current folder, then in the folders above the program, one of
+//! which is the checkout in which it was built. A program that travels alone has a copy inside.
 
 use crate::input::{self, sha256};
 use crate::source::Sources;
@@ -14,32 +13,31 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug)]
 pub struct Project {
-    /// Its source.
     pub sources: Sources,
-    /// A copy of what it reads when it runs: path from the top of the project, and text; empty
-    /// unless it travels alone.
+    /// Paths, from the top of the project, and texts of what it reads when it runs; empty unless it
+    /// travels alone.
     pub copy: &'static [(&'static str, &'static str)],
-    /// Folders and files on which every result depends; those of an experiment come to them.
+    /// Folders and files on which every result depends, besides those that its experiment lists.
     pub shared: &'static [&'static str],
-    /// What changes no result, by the beginning or the end of its path, each with the reason: it
-    /// counts only where an experiment lists that very file, and files may name it that are
-    /// listed.
+    /// Files that change no result, by the beginning or the end of their paths, each with the
+    /// reason. A file that is listed may name them. They count only for an experiment that lists
+    /// them by their whole path.
     pub left_out: &'static [(&'static str, &'static str)],
 }
 
-/// Whether a path is that of a file or folder, or of something in that folder.
+/// Returns whether a path is `place`, or lies below it.
 fn is_in(path: &str, place: &str) -> bool {
     path.strip_prefix(place).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
 impl Project {
-    /// A project with this source, of which each result depends on all.
+    /// Makes a project with this source.
     pub fn new(sources: Sources) -> Self {
         Project { sources, copy: &[], shared: &["Cargo.lock"], left_out: &[] }
     }
 
-    /// Path and hash of every file on which a result depends: those that all share, and those in
-    /// these files and folders, of the source or not; all of the source if none is named.
+    /// Returns path and hash of every file on which a result depends: of what all results share,
+    /// and of these files and folders, source or data; of the whole source if none is given.
     pub fn code(&self, files: &[&str]) -> BTreeMap<String, String> {
         let mut found = BTreeMap::new();
         for (path, text) in self.sources.files.iter().filter(|(path, _)| self.counts(path, files)) {
@@ -60,7 +58,7 @@ impl Project {
         self.left_out.iter().any(|(place, _)| path.ends_with(place) || is_in(path, place))
     }
 
-    /// Whether a result of an experiment that lists these files depends on a file of the source.
+    /// Returns whether a result depends on a file of the source, if its experiment lists these.
     fn counts(&self, path: &str, files: &[&str]) -> bool {
         let places: Vec<&str> = self.shared.iter().chain(files).copied().collect();
         let is_listed = files.is_empty() || places.iter().any(|place| is_in(path, place));
@@ -116,8 +114,8 @@ impl Project {
         Ok(())
     }
 
-    /// Where a file or folder lies, by its path from the top of the project; none if only the copy
-    /// inside has it.
+    /// Finds a file or folder by its path from the top of the project; none if only the copy inside
+    /// has it.
     pub fn find(&self, path: &str) -> Option<PathBuf> {
         let here = Path::new(path);
         if here.exists() {
@@ -130,19 +128,19 @@ impl Project {
         program.ancestors().skip(1).map(|above| above.join(path)).find(|path| path.exists())
     }
 
-    /// The top of the checkout, if there is one.
+    /// Finds the top of the checkout, if there is one.
     fn top(&self) -> Option<PathBuf> {
         let (path, _) = self.sources.files.iter().find(|(path, _)| path.contains('/'))?;
         let found = self.find(path)?.canonicalize().ok()?;
         found.ancestors().nth(path.split('/').count()).map(Path::to_path_buf)
     }
 
-    /// The folder in which commands run: the top of the checkout, or the current one.
+    /// Returns the top of the checkout, or else the current folder.
     pub fn folder(&self) -> PathBuf {
         self.top().unwrap_or_else(|| ".".into())
     }
 
-    /// The first file of the source that is not what it was when the program was built.
+    /// Returns the first file of the source that has changed since the program was built.
     pub fn changed(&self) -> Option<&'static str> {
         let top = self.top()?;
         let differs = |path: &str, text: &str| {
@@ -152,13 +150,13 @@ impl Project {
         file.map(|(path, _)| *path)
     }
 
-    /// Whether a file or folder of the project is there. Without a checkout it counts as there.
+    /// Returns whether a file or folder of the project exists; without a checkout all do.
     pub fn exists(&self, path: &str) -> bool {
         self.top().is_none_or(|top| top.join(path).exists())
     }
 
-    /// The way from a folder, which may not be there yet, up to the checkout, as `../`; none if it
-    /// lies outside.
+    /// Returns the way from a folder, which need not exist, up to the top of the checkout: `../`.
+    /// None if the folder lies outside.
     pub fn way_up(&self, folder: &Path) -> Option<String> {
         let folder = std::path::absolute(folder).ok()?;
         let real =
@@ -168,7 +166,7 @@ impl Project {
         Some(if below == 0 { "./".into() } else { "../".repeat(below) })
     }
 
-    /// The text of a file, by its path from the top of the project.
+    /// Reads a file by its path from the top of the project.
     ///
     /// # Errors
     /// As [`input::regular_text`]; [`io::ErrorKind::NotFound`] with what to do if there is no such

@@ -1,4 +1,4 @@
-//! Reads people's prose, the templates, at run time.
+//! Reads the prose, which is templates, at run time.
 
 use crate::input::{self, remedy};
 use std::collections::BTreeMap;
@@ -31,12 +31,12 @@ pub enum Error {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Templates {
     files: BTreeMap<String, String>,
-    /// What messages write before a path: `prose/`.
+    /// Where they lie, as messages show it: `prose/`.
     folder: String,
 }
 
 impl Templates {
-    /// Templates from texts.
+    /// Makes templates from texts.
     pub fn of<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let files = SKIN.into_iter().chain(files);
         let files = files.map(|(path, text)| (path.to_string(), text.to_string())).collect();
@@ -56,7 +56,7 @@ impl Templates {
         let fail = |path: &Path, source| Error::Read { path: path.display().to_string(), source };
         for entry in std::fs::read_dir(folder).map_err(|e| fail(folder, e))? {
             let path = entry.map_err(|e| fail(folder, e))?.path();
-            // Locks and copies of editors are hidden.
+            // Hidden files are locks and copies of editors.
             let name = path.file_name().and_then(|name| name.to_str());
             let Some(name) = name.filter(|name| !name.starts_with('.')) else { continue };
             if path.is_dir() && !path.is_symlink() {
@@ -69,18 +69,18 @@ impl Templates {
         Ok(())
     }
 
-    /// The text of one file.
+    /// Returns the text of one file.
     pub fn text(&self, path: &str) -> Result<&str, Error> {
         let missing = || Error::Missing(path.to_string());
         self.files.get(path).map(String::as_str).ok_or_else(missing)
     }
 
-    /// A path as messages show it, from where the program runs.
+    /// Returns a path as messages show it, from the current folder.
     pub(crate) fn place(&self, path: &str) -> String {
         format!("{}{path}", self.folder)
     }
 
-    /// Paths and texts, sorted.
+    /// Returns paths and texts, sorted.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
         self.files.iter().map(|(path, text)| (path.as_str(), text.as_str()))
     }

@@ -3,25 +3,24 @@
 /// The source of a program, as the macro [`sources!`](crate::sources) gives it.
 #[derive(Clone, Copy, Debug)]
 pub struct Sources {
-    /// Name of the crate.
     pub name: &'static str,
     pub version: &'static str,
     /// Path of each file from the folder of its Cargo.toml, and its text.
     pub files: &'static [(&'static str, &'static str)],
-    /// Crates as paths of items name them, and the folders of their source; an empty name for the
-    /// program.
+    /// Names of crates in paths of items, and the folders of their source; the name of the program
+    /// is empty.
     pub crates: &'static [(&'static str, &'static str)],
 }
 
 impl Sources {
-    /// A path as the documents show it, from that of the compiler.
+    /// Shortens a path of the compiler as documents show it.
     pub(crate) fn short<'a>(&self, path: &'a str) -> &'a str {
         let (first, rest) = path.split_once("::").unwrap_or(("", path));
         if first == self.name.replace('-', "_") { rest } else { path }
     }
 
-    /// The listing of an item: what stands in its file between the lines `// listing: NAME`, with
-    /// the last name of its path, and `// end`, moved to the left edge.
+    /// Returns the listing of an item: the lines of its file between `// listing: NAME`, with the
+    /// last name of its path, and `// end`, moved to the left edge.
     pub fn listing(&self, item: &str) -> Result<String, String> {
         let file = self.file(item);
         let text = self.files.iter().find(|(path, _)| Some(*path) == file);
@@ -39,8 +38,8 @@ impl Sources {
         Ok(lines.collect::<Vec<_>>().join("\n"))
     }
 
-    /// The file of an item or a module, by its path: `impact_circuits::jump::p_jump` is in
-    /// `crates/circuits/src/jump.rs`. None if the program has no such file.
+    /// Finds the file of an item or a module by its path: `crates/circuits/src/jump.rs` for
+    /// `impact_circuits::jump::p_jump`. None if the program has no such file.
     pub fn file(&self, item: &str) -> Option<&'static str> {
         let inside =
             |(name, folder): &(&str, &'static str)| Some((*folder, item.strip_prefix(name)?));

@@ -27,7 +27,7 @@ pub fn count(number: usize, noun: &str) -> String {
 const NUMBER: &str = "not a number; write one such as 0.12";
 const WHOLE: &str = "not a whole number of 0 or more; write one such as 1000";
 
-/// What parsers say to programmers, and what users of the program read instead.
+/// Words of parsers, and those that users read instead.
 const PLAIN: [(&str, &str); 11] = [
     (" as i128", ""),
     ("`usize`", "a whole number"),
@@ -49,7 +49,7 @@ pub fn plain(message: &str) -> String {
         .fold(message.into(), |line: String, (technical, plain)| line.replace(technical, plain))
 }
 
-/// Whether a terminal or an editor treats a character as a command, or hides it.
+/// Returns whether a terminal or an editor treats a character as a command, or hides it.
 pub fn is_control(c: char) -> bool {
     let invisible = [
         '\u{200b}'..='\u{200f}',

@@ -78,7 +78,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     verdict(&checks)
 }
 
-/// What is known of a check, by names.
+/// Returns what is known of a check, by names.
 fn fields(check: &Check) -> Vec<(&'static str, String)> {
     let mut tolerance = check.tolerance.to_string();
     if !check.reason.is_empty() {
@@ -94,8 +94,8 @@ fn fields(check: &Check) -> Vec<(&'static str, String)> {
     fields
 }
 
-/// A line for each check that is not simply reproduced or holds, what fails first, and the scores;
-/// with -v, or of those that were asked for, all that is known.
+/// Prints a line for each check that is not reproduced, failed ones first, and the scores; with -v,
+/// or if some were asked for, all that is known of each.
 fn text(checks: &[Check], args: &Args, numbers: &BTreeMap<String, String>) -> String {
     let all = args.verbose || !args.ids.is_empty();
     let mut listed: Vec<&Check> =
@@ -133,7 +133,7 @@ fn text(checks: &[Check], args: &Args, numbers: &BTreeMap<String, String>) -> St
     out
 }
 
-/// All that is known, as JSON: checks as ledger.json has them, and the line of each statement.
+/// Prints JSON: each check as ledger.json has it, with the line of a statement.
 fn json(checks: &[Check], published: &Published, file: &str) -> String {
     let (mut claims, mut relations) = (Vec::new(), Vec::new());
     for check in checks {
@@ -154,10 +154,10 @@ fn json(checks: &[Check], published: &Published, file: &str) -> String {
     format!("{all:#}\n")
 }
 
-/// Most annotations that are worth a reader's time.
+/// How many annotations are printed at most.
 const ANNOTATIONS: usize = 10;
 
-/// Commands of GitHub's log: what fails, and the worst statements, each at its line.
+/// Prints commands of GitHub's log: what fails, then the worst statements, each at its line.
 fn github(checks: &[Check], published: &Published, file: &str) -> String {
     let kind = |check: &Check| match check.verdict {
         _ if check.fails() => Some("error"),
@@ -188,12 +188,12 @@ fn github(checks: &[Check], published: &Published, file: &str) -> String {
     out
 }
 
-/// Text of a workflow command.
+/// Escapes the text of a workflow command.
 fn data(text: &str) -> String {
     text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
 }
 
-/// A property of a workflow command.
+/// Escapes a property of a workflow command.
 fn property(text: &str) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
 }

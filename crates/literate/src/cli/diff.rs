@@ -1,4 +1,4 @@
-//! The verb `diff`: what changed between two reports, in verdicts, numbers and files.
+//! The verb `diff`.
 
 use super::terminal::{print, shown};
 use crate::claims::{Check, Text, significant};
@@ -47,14 +47,14 @@ pub(super) fn run(args: Args) -> Result<(), Failure> {
     })
 }
 
-/// A report, with the parts that are compared as what they mean.
+/// The parts of a report that are compared.
 struct Parts {
     files: Files,
     values: Registry,
     ledger: Ledger,
 }
 
-/// A report by its folder or revision, without the files that are never committed.
+/// Reads a report from a folder or a revision, without the files that are never committed.
 fn parts(name: &str) -> Result<Parts, Failure> {
     let files = if Path::new(name).is_dir() { standing(name)? } else { committed(name)? };
     let fault = |what: String| Failure::input(format!("{name}: {what}; is it a report?"));
@@ -86,7 +86,7 @@ fn git(arguments: &[&str]) -> Result<Vec<u8>, String> {
     if output.status.success() { Ok(output.stdout) } else { Err(words.into_owned()) }
 }
 
-/// The files of a revision below paper/, from where the program runs, as git has stored them.
+/// Reads the files of `./paper` in a revision of git.
 fn committed(name: &str) -> Result<Files, Failure> {
     let neither = |reason: String| {
         let what = "neither a folder nor a revision of git with a report in ./paper here";
@@ -95,7 +95,7 @@ fn committed(name: &str) -> Result<Files, Failure> {
         Failure::input(format!("{name}: {what} ({reason}); {remedy}"))
     };
     let git = |arguments: &[&str]| git(arguments).map_err(neither);
-    // What git would take for an option, a path or a range is no revision.
+    // git takes these for options, paths or ranges.
     let odd = |c: char| c.is_control() || c.is_whitespace() || c == ':';
     if name.is_empty() || name.starts_with('-') || name.contains(odd) || name.contains("..") {
         return Err(neither("not a valid revision".into()));
@@ -110,7 +110,7 @@ fn committed(name: &str) -> Result<Files, Failure> {
     paths.map(read).collect()
 }
 
-/// Files that one report lacks, and files with other bytes, a line each.
+/// Lists files that one report lacks, and files that differ.
 fn files(before: &Files, after: &Files) -> Vec<String> {
     let paths: BTreeSet<&String> = before.keys().chain(after.keys()).collect();
     let line = |path: &String| {
@@ -125,7 +125,7 @@ fn files(before: &Files, after: &Files) -> Vec<String> {
     paths.into_iter().filter(|path| *path != SUMS).filter_map(line).collect()
 }
 
-/// Checks with another verdict, or held against something else, a line each.
+/// Lists checks of which the verdict, the expected number or the tolerance changed.
 fn checks(before: &Ledger, after: &Ledger) -> Vec<String> {
     let ids: BTreeSet<&String> =
         before.claims.iter().chain(&after.claims).map(|check| &check.id).collect();
@@ -154,9 +154,8 @@ fn checks(before: &Ledger, after: &Ledger) -> Vec<String> {
     lines
 }
 
-/// Changes of numbers and units, a line each; other fields (notes, sources) do not count. What is
-/// no longer a number comes first, then the largest differences in standard errors, and last what
-/// only one report has.
+/// Lists numbers that changed, or changed their units: first what is no longer a number, then the
+/// others by the difference in standard errors, and last what only one report has.
 fn numbers(before: &Registry, after: &Registry) -> Vec<String> {
     let ids: BTreeSet<&str> = before.iter().chain(after.iter()).map(|v| v.id.as_str()).collect();
     let mut changes = Vec::new();
@@ -171,8 +170,8 @@ fn numbers(before: &Registry, after: &Registry) -> Vec<String> {
     changes.into_iter().map(|(_, line)| line).collect()
 }
 
-/// The line of a number that changed, and by how many standard errors: infinitely many if it is no
-/// longer a number, and below 0 if only one report has it.
+/// Returns by how many standard errors a number changed (infinitely many if it is no longer a
+/// number, below 0 if only one report has it), and its line.
 fn change(id: &str, both: [Option<&Value>; 2]) -> (f64, String) {
     let [old, new] = both.map(|value| value.map(Value::plain));
     // In full where their digits do not show the difference.

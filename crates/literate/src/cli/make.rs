@@ -1,4 +1,4 @@
-//! The whole report, from experiments to files in memory, and what holds in it.
+//! Makes a whole report, from experiments to files in memory, and judges it.
 
 use super::terminal::{Threads, progress, warn};
 use crate::claims::{Basis, Check, Kind, Published, Verdict, judge_all, score};
@@ -41,7 +41,7 @@ fn profile() -> impl TypedValueParser<Value = Profile> {
 }
 
 impl Sources {
-    /// The run that is asked for.
+    /// Returns the run that is asked for.
     pub fn session<'a>(&self, paper: &'a Paper) -> Result<Session<'a>, Failure> {
         if let Some(file) = paper.project.changed() {
             warn(&format!(
@@ -54,11 +54,12 @@ impl Sources {
 }
 
 impl Paper {
-    /// A run with the prose of a folder, or else that of the project, or the copy inside the
-    /// program.
+    /// Returns a run with the prose of a folder, or else that of the project, or the copy inside
+    /// the program.
     ///
     /// # Errors
-    /// If there is no prose, or it cannot be read.
+    /// If a file of an experiment is missing or not declared, if two experiments have one name, or
+    /// if there is no prose that can be read.
     pub fn session(
         &self,
         prose: Option<&Path>,
@@ -111,7 +112,7 @@ impl Paper {
         Results::run(&experiments, &self.derived, session)
     }
 
-    /// What was printed; nothing without a file `published.toml`.
+    /// Returns what was printed; nothing without a file `published.toml`.
     pub fn published(&self, session: &Session<'_>) -> Result<Published, Failure> {
         let read = Published::parse(session.templates.text("published.toml")?);
         read.map_err(|error| {
@@ -120,7 +121,7 @@ impl Paper {
         })
     }
 
-    /// All checks: the statements, those that rest on a measure of the author first, then
+    /// Returns all checks: statements, those that rest on a measure of the author first, then
     /// relations.
     pub fn checks(&self, results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
         let mut checks = judge_all(published, &self.rules, results)?;
@@ -129,7 +130,7 @@ impl Paper {
         Ok(checks)
     }
 
-    /// All values that the prose may name.
+    /// Returns all values that the prose may name.
     pub fn registry(&self, results: &Results, published: &Published) -> Result<Registry, Failure> {
         let mut registry = Registry::default();
         registry.extend(printed(published))?;
@@ -187,7 +188,7 @@ pub fn whole(
     Ok((report, checks))
 }
 
-/// A figure of the results; a fault names it.
+/// Draws a figure of the results; an error names it.
 pub(super) fn drawn(drawing: &FigureSpec, results: &Results) -> Result<Figure, Failure> {
     let named = |error| Failure::from(error).of(format!("figure {}", drawing.name));
     drawing.figure(results).map_err(named)
@@ -197,7 +198,7 @@ pub(super) fn of(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> +
     checks.iter().filter(move |check| check.kind == kind)
 }
 
-/// The scores, a line each: of the statements of the paper, and of relations where there are any.
+/// Returns the scores, a line each: of statements, and of relations where there are any.
 pub(super) fn scores(checks: &[Check]) -> Vec<String> {
     let mut lines = Vec::new();
     let statements = of(checks, Kind::Statement);
@@ -226,7 +227,7 @@ pub(super) fn scores(checks: &[Check]) -> Vec<String> {
     lines
 }
 
-/// Exit code 1, with names, for what does not hold.
+/// Returns a failure that names all that does not hold.
 pub(super) fn verdict(checks: &[Check]) -> Result<(), Failure> {
     let mut faults = Vec::new();
     for (is_printed, what) in [

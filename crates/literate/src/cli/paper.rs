@@ -91,7 +91,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let number = count(report.committed.len() + report.generated.len(), "file");
     let scores: String = make::scores(&checks).into_iter().map(|line| line + "\n").collect();
     let time = began.elapsed().as_secs_f64();
-    // It is said also where a check fails.
+    // Printed also if a check fails.
     let printed = print(&format!("{}: {number} in {time:.1} s{documents}\n{scores}", shown(&out)));
     let more = |failure: Failure| {
         let message = format!("{}; `check` says more", failure.message);
@@ -117,8 +117,8 @@ fn forget(name: &str, paper: &Paper, session: &Session<'_>) -> Result<(), Failur
     Ok(())
 }
 
-/// Lesser samples must not take the place of the committed report, and single figures not stand
-/// among those of other samples.
+/// Refuses to write small samples over the full report, or single figures among those of another
+/// profile.
 fn refuse_over_other(profile: Profile, out: &Path, whole: bool) -> Result<(), Failure> {
     match profile_in(out) {
         Some(there) if there != profile && (!whole || there == Profile::Full) => {
@@ -130,7 +130,7 @@ fn refuse_over_other(profile: Profile, out: &Path, whole: bool) -> Result<(), Fa
     }
 }
 
-/// The profile that a report names, if there is one in a folder.
+/// Returns the profile of the report in a folder; none if there is no report.
 pub(super) fn profile_in(root: &Path) -> Option<Profile> {
     let text = String::from_utf8(folder::read(root, "values.json").ok()?).ok()?;
     values::read(&text).ok()?.profile()

@@ -1,5 +1,4 @@
-//! The verb `run`, which may share the units of work of all experiments out to machines that save
-//! what they give in one store.
+//! The verb `run`, which may run the experiments' units of work on several machines.
 
 use super::make::Sources;
 use super::terminal::{print, shown};
@@ -53,11 +52,11 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     print(&format!("{}: {done}\n", shown(&sources.results)))
 }
 
-/// Into so many shards a profile may be divided; more would have nothing to do.
+/// How many shards there can be at most; more would have nothing to do.
 const MOST: usize = 100_000;
 
-/// Runs the units of one shard that are not in the store: of all units in their order, each N-th.
-/// Returns how many were run, and how many were there.
+/// Runs the units of one shard, each N-th of all units, that are not in the store. Returns how many
+/// were run, and how many were there.
 fn run_shard(
     experiments: &[&'static dyn AnyExperiment],
     (shard, of): (usize, usize),

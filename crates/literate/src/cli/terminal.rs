@@ -1,4 +1,4 @@
-//! Standard output and error, signals, threads: for verbs that a paper adds too.
+//! Writes to the terminal, ends on signals, and starts threads; verbs that a paper adds use it too.
 
 use crate::experiments::{Progress, say};
 use crate::failure::{Failure, INTERRUPTED};
@@ -8,15 +8,15 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, LazyLock};
 
-/// Stack of a thread that works, in bytes: the system, or RUST_MIN_STACK, may give less.
+/// The stack of a working thread in bytes; the default of a system may be less.
 pub(super) const STACK: usize = 8 << 20;
 
-/// More threads than any machine of today has cores.
+/// How many threads can be asked for.
 const MOST: usize = 1024;
 
 static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 
-/// Says one line on standard error, behind the name of the program.
+/// Prints one line on standard error, after the name of the program.
 pub fn warn(line: &str) {
     let program = std::env::current_exe().unwrap_or_default();
     let name = program.file_stem().unwrap_or_default().to_string_lossy();
@@ -33,12 +33,12 @@ pub(super) fn report_panic(fault: &std::panic::PanicHookInfo<'_>) {
     warn(&one_line(&line, 4000));
 }
 
-/// A path as messages on standard output show it, in one line.
+/// Returns a path as messages show it.
 pub(super) fn shown(path: &Path) -> String {
     one_line(&path.display().to_string(), 500)
 }
 
-/// What became of writing to standard output: who closed the pipe has read enough.
+/// Turns the outcome of writing to standard output into a failure. A broken pipe is not an error.
 pub fn written(result: io::Result<()>) -> Result<(), Failure> {
     match result {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -76,11 +76,11 @@ pub(super) fn install_signals() {
         std::thread::Builder::new().stack_size(1 << 20).spawn(ended)
     };
     let signals = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_ignored(*signal));
-    // Without, such a signal just ends the program.
+    // If this fails, the system ends the program.
     let _ = Signals::new(signals).and_then(follow);
 }
 
-/// Whether the program was started with this signal ignored, as by `nohup`: then it stays so.
+/// Returns whether the program was started with this signal ignored, as by `nohup`.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -89,11 +89,11 @@ fn is_ignored(signal: i32) -> bool {
     mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
-/// Elsewhere the system ends the program.
+/// Leaves it to the system to end the program.
 #[cfg(not(unix))]
 pub(super) fn install_signals() {}
 
-/// Progress on standard error of work that a signal ends.
+/// Returns the progress of work that a signal ends.
 pub fn progress() -> Progress {
     Progress::on_stderr(Arc::clone(&STOP))
 }
@@ -112,13 +112,12 @@ fn threads(text: &str) -> Result<usize, String> {
 }
 
 impl Threads {
-    /// How many there will be.
+    /// Returns how many there will be.
     pub fn number(&self) -> usize {
         self.asked.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
     }
 
-    /// Runs `work` on them: all cores, or as many as RAYON_NUM_THREADS sets, if none were asked
-    /// for.
+    /// Runs `work` on them; by default on all cores, or as many as RAYON_NUM_THREADS says.
     pub fn run<T: Send>(
         &self,
         work: impl FnOnce() -> Result<T, Failure> + Send,

@@ -84,7 +84,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     )))
 }
 
-/// A path as a shell reads it.
+/// Quotes a path for a shell.
 fn quoted(path: &Path) -> String {
     let path = shown(path);
     let is_plain = |c: char| c.is_alphanumeric() || "/._-".contains(c);

@@ -22,7 +22,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// An [`Error::Failed`] of an experiment.
+    /// Makes an [`Error::Failed`].
     pub fn failed(
         experiment: &'static str,
         source: impl std::error::Error + Send + Sync + 'static,
@@ -30,7 +30,7 @@ impl Error {
         Error::Failed { experiment, source: Box::new(source) }
     }
 
-    /// An [`Error::Input`] from its three parts.
+    /// Makes an [`Error::Input`].
     pub fn input(
         field: impl Into<String>,
         problem: impl Into<String>,

@@ -1,4 +1,4 @@
-//! An experiment: a name, parameters, a way to run it, and the tables that follow.
+//! Defines an experiment: its name, its parameters, how it is run, and the tables of its result.
 
 use super::cutting::{Cutting, Unit};
 use super::store::{Identity, Json};
@@ -14,33 +14,33 @@ use std::sync::Arc;
 
 /// An experiment with parameters P and result T; U is what a unit of one that is cut gives.
 pub struct Experiment<P: 'static, T: 'static, U: 'static = ()> {
-    /// Its name, as values and saved files carry it.
+    /// The name that values and saved files carry.
     pub name: &'static str,
-    /// The files and folders of its source, from the top of the project, the main one first: a
-    /// saved result is fresh as long as they, and what all experiments share, are the same. None:
-    /// as long as the whole source is.
+    /// The files and folders on which the result depends, from the top of the project, the main one
+    /// first. A saved result is fresh as long as these, and those that all experiments share, are
+    /// the same; if none is listed, as long as the whole source is.
     pub code: &'static [&'static str],
     pub parameters: fn(Profile) -> P,
     pub how: How<P, T, U>,
-    /// What follows from its result.
     pub tables: fn(&T) -> Vec<Table>,
 }
 
-/// Estimates the work of a run with some parameters, so that people know how long they will wait: a
-/// core does [`SECOND`](super::cutting::SECOND) in about a second. No result depends on it.
+/// Estimates the work of a run, of which a core does [`SECOND`](super::cutting::SECOND) in about a
+/// second, so that people know how long they will wait. No result depends on it.
 pub type Work<P> = fn(&P) -> u64;
 
 pub enum How<P, T, U> {
     /// Read from a file that is committed, or known without a run; never saved.
     Read(fn(&Session<'_>) -> Result<T, Error>),
-    /// As one unit of work.
+    /// Run as one unit of work.
     Whole(fn(&P, &Progress) -> Result<T, Error>, Work<P>),
-    /// Cut into units; the name is for people who wait.
+    /// Cut into units; progress is shown under the name.
     Cut(&'static str, Cutting<P, U, T>),
 }
 
 impl<P, T> Experiment<P, T> {
-    /// An experiment that is run as a whole, and again whenever the source of the paper changes.
+    /// Makes an experiment that is run as a whole, and again whenever the source of the paper
+    /// changes.
     pub const fn new(
         name: &'static str,
         parameters: fn(Profile) -> P,
@@ -54,8 +54,8 @@ impl<P, T> Experiment<P, T> {
 pub type Found = Arc<dyn Any + Send + Sync>;
 
 impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
-    /// The result: the saved one if it is fresh, else that of a run, which is then saved. Units
-    /// that are in the store are not run again; each of the others is saved as soon as it is there.
+    /// Returns the saved result if it is fresh, else that of a run, which is then saved. Units in
+    /// the store are not run again; each of the others is saved as soon as it is done.
     pub fn get(&self, session: &Session<'_>) -> Result<T, Error> {
         if let How::Read(read) = &self.how {
             return read(session);
@@ -73,8 +73,8 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         })
     }
 
-    /// The results of some units of an experiment that is cut, in their order, and how many of
-    /// them were not in the store and had to be run.
+    /// Returns the results of some units of an experiment that is cut, in their order, and how many
+    /// of them had to be run because they were not in the store.
     fn parts(
         &self,
         units: &[Unit],
@@ -118,7 +118,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
 
 /// What is known of every experiment, whatever its parameters and result are.
 pub trait AnyExperiment: Sync {
-    /// Its name, as values and saved files carry it.
+    /// Returns the name that values and saved files carry.
     fn name(&self) -> &'static str;
 
     /// Checks that the files on which its result depends are there and are all declared.
@@ -127,32 +127,32 @@ pub trait AnyExperiment: Sync {
     /// [`Error::Input`] with the experiment's name and that of the file.
     fn check(&self, project: &Project) -> Result<(), Error>;
 
-    /// Path and hash of every file on which its result depends.
+    /// Returns path and hash of every file on which its result depends.
     fn code(&self, project: &Project) -> BTreeMap<String, String>;
 
-    /// With which parameters it is run in a profile.
+    /// Returns the parameters with which it is run in a profile.
     fn parameters(&self, profile: Profile) -> serde_json::Value;
 
-    /// Path of the item that is its code: `src/experiments/sweep` is `experiments::sweep`.
+    /// Returns the path of its module: `experiments::sweep` for `src/experiments/sweep.rs`.
     fn item(&self) -> String;
 
-    /// Whether its result is saved; else it is read from a committed file.
+    /// Returns whether its result is saved; if not, it is read or computed each time.
     fn is_saved(&self) -> bool {
         true
     }
 
-    /// What a saved result of it is known by.
+    /// Returns everything that its result depends on.
     fn identity(&self, session: &Session<'_>) -> Identity {
         let code = self.code(session.project);
         Identity::new(self.name(), session.profile, code, &self.parameters(session.profile))
     }
 
-    /// Its units of work: one if it is not cut.
+    /// Returns its units of work: one if it is not cut.
     fn units(&self, _: Profile) -> Vec<Unit> {
         vec![Unit::whole(0)]
     }
 
-    /// Returns those of some of its units that are to be run: none if its result is fresh.
+    /// Returns those of the given units that must be run: none if its result is fresh.
     fn open(&self, mut units: Vec<Unit>, session: &Session<'_>) -> Vec<Unit> {
         let (store, identity) = (&session.store, self.identity(session));
         if !self.is_saved() || store.why_stale(&identity).is_none() {
@@ -162,14 +162,14 @@ pub trait AnyExperiment: Sync {
         units
     }
 
-    /// Runs those of some of its units that are not in the store, and saves the result of each as
-    /// soon as it is there; none if the result is fresh. Returns how many were run.
+    /// Runs those of the given units that are not in the store, and saves each as soon as it is
+    /// done; none if its result is fresh. Returns how many were run.
     fn run_units(&self, _: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
         let stale = self.stale(session).is_some();
         self.found(session).map(|_| usize::from(stale))
     }
 
-    /// What would be run, and why; none if the saved result is fresh.
+    /// Returns what would be run, and why; none if the saved result is fresh.
     fn stale(&self, session: &Session<'_>) -> Option<String> {
         let identity = self.identity(session);
         let why = session.store.why_stale(&identity).filter(|_| self.is_saved())?;
@@ -187,7 +187,7 @@ pub trait AnyExperiment: Sync {
 
     fn tables(&self, found: &Found) -> Vec<Table>;
 
-    /// The bytes of a file that a command wrote; none if it wrote no such file.
+    /// Returns the bytes of a file that a command wrote; none if there is no such file.
     fn file(&self, _: &Found, _path: &str) -> Option<Vec<u8>> {
         None
     }

@@ -6,14 +6,12 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Profile {
-    /// To try out: small samples.
     Quick,
-    /// The committed report.
     Full,
 }
 
 impl Profile {
-    /// Its name on the command line, in reports and in names of files.
+    /// Returns its name on the command line, in reports and in names of files.
     pub fn name(self) -> &'static str {
         match self {
             Profile::Quick => "quick",

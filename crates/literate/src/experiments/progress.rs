@@ -1,7 +1,5 @@
-//! Progress for the person who waits, and the flag by which that person ends the wait.
-//!
-//! Plain lines, seconds apart, with the time left. All of it goes to stderr, and nothing of it into
-//! a result.
+//! Shows progress as plain lines on standard error, a few seconds apart, and has the flag that ends
+//! a run. Nothing of it goes into a result.
 
 use super::Error;
 use std::io::Write;
@@ -15,12 +13,12 @@ const LINE_EVERY: u64 = 5;
 
 static QUIET: AtomicBool = AtomicBool::new(false);
 
-/// From now on no progress is shown.
+/// Shows no progress from now on.
 pub fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// Handed to every experiment: shows its progress, and has the flag that ends it.
+/// Shows the progress of an experiment, and has the flag that ends it.
 #[derive(Clone, Debug)]
 pub struct Progress {
     quiet: bool,
@@ -28,22 +26,22 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Shows nothing and is never stopped: for tests and callers inside the program.
+    /// Makes one that shows nothing and is never stopped: for tests.
     pub fn silent() -> Self {
         Progress { quiet: true, stop: Arc::default() }
     }
 
-    /// Lines on stderr; `stop` ends the work.
+    /// Makes one that prints on standard error; `stop` ends the work.
     pub fn on_stderr(stop: Arc<AtomicBool>) -> Self {
         Progress { quiet: QUIET.load(Ordering::Relaxed), stop }
     }
 
-    /// Whether the work was asked to end. Cheap: one relaxed load.
+    /// Returns whether the work was asked to end. This costs one relaxed load.
     pub fn stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// [`Error::Interrupted`] if the work was asked to end.
+    /// Returns [`Error::Interrupted`] if the work was asked to end.
     pub fn check(&self) -> Result<(), Error> {
         if self.stopped() { Err(Error::Interrupted) } else { Ok(()) }
     }
@@ -52,7 +50,7 @@ impl Progress {
     pub fn stage(&self, name: &str, total: u64) -> Stage {
         let (name, began, done) = (name.to_string(), Instant::now(), Arc::new(AtomicU64::new(0)));
         let position = Arc::clone(&done);
-        // By the clock and not by what is done: the first unit may be a long one.
+        // At equal times, for the first unit may be a long one.
         let lines = (!self.quiet).then(|| {
             let share =
                 move || progress_text(position.load(Ordering::Relaxed), total, began.elapsed());
@@ -61,7 +59,7 @@ impl Progress {
         Stage { done, _lines: lines }
     }
 
-    /// Says one plain line, unless quiet.
+    /// Prints one line unless quiet.
     pub fn say(&self, line: &str) {
         if !self.quiet {
             say(line);
@@ -69,19 +67,18 @@ impl Progress {
     }
 }
 
-/// Says one line on standard error. If it cannot be written (a full disk, a closed pipe), no work
-/// ends for that.
+/// Prints one line on standard error. A full disk or a closed pipe is not an error.
 pub fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// Ends the lines of [`alive`] where it ends itself.
+/// Ends the lines of [`alive`] when it is dropped.
 #[derive(Debug)]
 pub struct Alive {
     _ends: Sender<()>,
 }
 
-/// A line every few seconds, with the time that passed; none as long as there is nothing to say.
+/// Prints a line every few seconds, with the time that passed, while there is one to print.
 pub fn alive(line: impl Fn() -> Option<String> + Send + 'static) -> Alive {
     let (ends, ended) = channel();
     let began = Instant::now();
@@ -93,12 +90,12 @@ pub fn alive(line: impl Fn() -> Option<String> + Send + 'static) -> Alive {
             }
         }
     };
-    // Without a thread nothing is said.
+    // Without a thread nothing is printed.
     let _ = std::thread::Builder::new().stack_size(1 << 20).spawn(speak);
     Alive { _ends: ends }
 }
 
-/// One stage of an experiment. Shared by the threads that work on it.
+/// One stage of an experiment, shared by the threads that work on it.
 #[derive(Debug)]
 pub struct Stage {
     done: Arc<AtomicU64>,
@@ -112,8 +109,8 @@ impl Stage {
     }
 }
 
-/// `40 %, about 12 s left`. The last units may be the longest: what is not done is not at 100 %,
-/// and no time below a second is promised.
+/// Returns `40 %, about 12 s left`: 100 % only when all is done, and no time below a second, for
+/// the last units may be the longest.
 fn progress_text(done: u64, total: u64, elapsed: Duration) -> String {
     let share = if total == 0 { 1.0 } else { done as f64 / total as f64 };
     let percent = (100.0 * share).floor();

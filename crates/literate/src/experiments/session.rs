@@ -7,7 +7,7 @@ use super::store::{Identity, Json, Store};
 use crate::project::Project;
 use crate::prose::Templates;
 
-/// A run: of which project, with which samples and prose, and where results are kept.
+/// A run: which project, prose and samples it takes, and where it keeps results.
 #[derive(Debug)]
 pub struct Session<'a> {
     pub project: &'a Project,
@@ -18,7 +18,7 @@ pub struct Session<'a> {
 }
 
 impl Session<'_> {
-    /// The saved result if it is fresh, else that of a run, which is then saved.
+    /// Returns the saved result if it is fresh, else that of a run, which is then saved.
     pub(super) fn saved<T: Json>(
         &self,
         identity: &Identity,
@@ -41,7 +41,7 @@ impl Session<'_> {
 
 #[cfg(test)]
 impl Session<'_> {
-    /// A session of a project of three files, with small samples and without prose.
+    /// Makes a session of a project of three files, with small samples and without prose.
     pub(crate) fn toy(store: Store, progress: Progress) -> Self {
         let project = Box::leak(Box::new(Project::new(crate::source::toy())));
         Session { project, templates: Templates::of([]), profile: Profile::Quick, store, progress }

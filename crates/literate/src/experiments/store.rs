@@ -1,9 +1,9 @@
-//! Results of long runs, saved and reused.
+//! Saves results of long runs, and reads those that are fresh.
 //!
-//! A saved result is a file, named by experiment and profile, and so has a unit of one that is not
-//! yet joined, named by its number too. It has three lines of text: a checksum of the other two,
-//! what the result was made of, and the result. It is reused if all of that is as it would be made
-//! of now; whatever is not whole or not known is run again, and the reason is said.
+//! A result is a file that is named by experiment and profile, and a unit of work by its number
+//! too, until all units are joined. The file has three lines: a checksum of the other two, what the
+//! result was made of, and the result. It is used again if a run would be made of the same now; if
+//! not, or if the file is damaged, the experiment is run again, and the reason is printed.
 
 use super::cutting::Unit;
 use super::{Error, Profile};
@@ -13,12 +13,12 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// What is saved as JSON.
+/// A result that can be saved as JSON.
 pub trait Json: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static {}
 
 impl<T: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static> Json for T {}
 
-/// The form of saved files; a change of it makes all of them unknown.
+/// The version of the format of saved files; others are not read.
 const SCHEMA: u32 = 3;
 
 const OLDER_FORMAT: &str = "saved in an older format";
@@ -39,7 +39,6 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// Of an experiment with these parameters and this code.
     pub fn new(
         experiment: &str,
         profile: Profile,
@@ -56,12 +55,12 @@ impl Identity {
         }
     }
 
-    /// Of one unit of the experiment.
+    /// Returns that of one unit of the experiment.
     pub fn of_unit(&self, unit: &Unit) -> Self {
         Identity { unit: Some(unit.clone()), ..self.clone() }
     }
 
-    /// Name of its file, without the ending: `sweep-full`, of a unit `sweep-full-0012`.
+    /// Returns the name of its file without the ending: `sweep-full`, of a unit `sweep-full-0012`.
     pub fn file_stem(&self) -> String {
         let (experiment, profile) = (&self.experiment, self.profile.name());
         match &self.unit {
@@ -70,8 +69,7 @@ impl Identity {
         }
     }
 
-    /// In which respects a result that was made of `saved` is not the one that would be made of
-    /// this, in one line; empty if it is.
+    /// Says in one line what differs from what a saved result was made of; empty if nothing does.
     fn differences(&self, saved: &Identity) -> String {
         if saved.schema != self.schema || saved.experiment != self.experiment {
             return OLDER_FORMAT.into();
@@ -102,12 +100,12 @@ pub struct Store {
 }
 
 impl Store {
-    /// A store in a folder, which is made when something has to be saved.
+    /// Opens a store in a folder, which is made when a result has to be saved.
     pub fn open(folder: &Path) -> Self {
         Store { folder: Some(folder.into()) }
     }
 
-    /// A store that keeps nothing.
+    /// Makes a store that keeps nothing.
     pub fn nowhere() -> Self {
         Store { folder: None }
     }
@@ -131,7 +129,7 @@ impl Store {
         self.fresh(identity).err()
     }
 
-    /// The text of a saved file that is whole and was made of the same.
+    /// Returns the text of a saved file if it is whole and was made of the same.
     fn fresh(&self, identity: &Identity) -> Result<String, String> {
         let text = match self.path(identity).map(|path| regular_text(&path)) {
             Some(Ok(text)) => text,
@@ -144,14 +142,12 @@ impl Store {
         if differences.is_empty() { Ok(text) } else { Err(again(&differences)) }
     }
 
-    /// Makes the folder.
     pub fn prepare(&self) -> Result<(), Error> {
         let Some(folder) = &self.folder else { return Ok(()) };
         let failed = |source| Error::Store { path: folder.clone(), source };
         std::fs::create_dir_all(folder).map_err(failed)
     }
 
-    /// Saves a result.
     pub fn put<T>(&self, identity: &Identity, result: &T) -> Result<(), Error>
     where
         T: Serialize + DeserializeOwned + PartialEq,
@@ -190,7 +186,7 @@ fn again(why: &str) -> String {
     format!("run again, {}", one_line(why, 1000))
 }
 
-/// What the result in a saved file was made of.
+/// Reads what the result in a saved file was made of.
 fn made_of(text: &str) -> Result<Identity, &'static str> {
     let lines: Vec<&str> = text.split('\n').collect();
     let [checksum, identity, body, ""] = lines[..] else {
@@ -202,11 +198,11 @@ fn made_of(text: &str) -> Result<Identity, &'static str> {
     serde_json::from_str(identity).map_err(|_| OLDER_FORMAT)
 }
 
-/// A result as text that reads back to the same bits.
+/// Writes a result as text that reads back to the same bits.
 ///
 /// # Errors
-/// [`Error::NotFinite`]: JSON has no NaN and no infinity, and serde_json writes null. Reading back
-/// finds all such losses.
+/// [`Error::NotFinite`]: JSON has neither NaN nor infinity, and serde_json writes null instead.
+/// Reading it back finds all such losses.
 fn written<T>(identity: &Identity, result: &T) -> Result<String, Error>
 where
     T: Serialize + DeserializeOwned + PartialEq,
@@ -219,7 +215,7 @@ where
     }
 }
 
-/// Writes a temporary file and renames it: at no time is there half a result under the name.
+/// Writes a temporary file and renames it, so that no file ever has half a result.
 fn save(path: &Path, text: &str) -> std::io::Result<()> {
     let _moment = WRITING.read();
     let waiting = path.with_extension(format!("json.{}", std::process::id()));
