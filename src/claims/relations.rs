@@ -154,7 +154,7 @@ fn no_rise_before_seeds(e: &Evidence<'_>) -> Departures {
         places.extend(rise.kept_half.map(|place| (place, half)));
         places.extend(rise.onset.map(|place| (place, onset)));
     }
-    let restitutions = e.results.table("restitution.curves")?.estimates(&[], "r", "half_height");
+    let restitutions = e.results.table("restitution.curves")?.series(&[], "r", "half_height")?;
     places.extend(restitutions.into_iter().map(|(_, place)| (place, half)));
     let quantile = e.level()?.quantile;
     let early = |(place, bound): (Estimate, f64)| over(bound - place.value, quantile * place.error);
@@ -167,13 +167,13 @@ fn over(excess: f64, allowed: f64) -> f64 {
 }
 
 fn above_stays_above(e: &Evidence<'_>) -> Departures {
-    let excesses = e.results.table("branches.shares")?.estimates(&[], "sigma", "excess");
+    let excesses = e.results.table("branches.shares")?.series(&[], "sigma", "excess")?;
     Ok(excesses.iter().map(|(_, excess)| over(-excess.value, 5.0 * excess.error)).collect())
 }
 
 fn branches_approach(e: &Evidence<'_>) -> Departures {
     let table = e.results.table("branches.half_heights")?;
-    let changes = table.estimates(&[], "transient", "change_of_distance");
+    let changes = table.series(&[], "transient", "change_of_distance")?;
     let quantile = e.level()?.quantile;
     let part = |(_, change): &(f64, Estimate)| over(change.value, quantile * change.error);
     Ok(changes.iter().map(part).collect())
@@ -181,9 +181,10 @@ fn branches_approach(e: &Evidence<'_>) -> Departures {
 
 fn seeds_before_circuits(e: &Evidence<'_>) -> Departures {
     let scores = e.results.table("seeds.scores")?;
-    let column = |name| scores.points(&[], "transient", name).into_iter().map(|point| point.1);
-    let circuits = column("eq25").zip(column("from_rest")).map(|(a, b)| a.min(b));
-    Ok(column("grown").zip(circuits).map(|(grown, circuits)| grown / circuits).collect())
+    let column = |name| scores.curve(&[], "transient", name);
+    let (grown, eq25, from_rest) = (column("grown")?, column("eq25")?, column("from_rest")?);
+    let circuits = eq25.iter().zip(&from_rest).map(|(a, b)| a.1.min(b.1));
+    Ok(grown.iter().zip(circuits).map(|(grown, circuits)| grown.1 / circuits).collect())
 }
 
 /// The error of the formula, times n: a clump excludes others from the gaps next to it, which
@@ -197,7 +198,7 @@ fn first_impacts_as_expected(e: &Evidence<'_>) -> Departures {
     let mut departures = Vec::new();
     for (masses, n) in &e.results.of(&NUCLEATION)?.parameters.lengths {
         let (masses, n) = (*masses as f64, *n as f64);
-        for (expected, found) in chains.points(&[("masses", masses)], "clumps", "found") {
+        for (expected, found) in chains.curve(&[("masses", masses)], "clumps", "found")? {
             let error = (expected * (1.0 - expected) / n).sqrt();
             let room = LEFT_OUT / masses + 5.0 * error + 5.0 / n;
             departures.push((found - expected).abs() / room);

@@ -55,7 +55,8 @@ fn realised(e: &Evidence<'_>) -> Judged {
 /// Different impacts of a chain in the window, as Sec. 6 counts them.
 fn few_and_many(e: &Evidence<'_>) -> Judged {
     let low = small_force(e)?.sigma;
-    let high = e.results.table("sweep.rows")?.values("sigma").last().copied().ok_or(Undecided)?;
+    let high =
+        e.results.table("sweep.rows")?.distinct("sigma")?.last().copied().ok_or(Undecided)?;
     let mean = |sigma: f64| e.estimate(&format!("sweep.rows[sigma={sigma}].mean"));
     let (few, many) = (mean(low)?, mean(high)?);
     let found = Text::of(

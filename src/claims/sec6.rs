@@ -69,7 +69,7 @@ fn mean_zero(e: &Evidence<'_>) -> Judged {
 /// Returns the least and the largest mean of the simulation, over all gaps, and those of the
 /// theory, over N.
 fn ends(e: &Evidence<'_>) -> Result<[[f64; 2]; 2], Error> {
-    let points = e.results.table("sweep.rows")?.points(&[], "sigma", "mean");
+    let points = e.results.table("sweep.rows")?.curve(&[], "sigma", "mean")?;
     let means = || points.iter().map(|(_, mean)| *mean);
     let least = means().reduce(f64::min).ok_or(Undecided)?;
     let most = means().fold(0.0, f64::max);

@@ -137,10 +137,11 @@ fn p_poor(e: &Evidence<'_>) -> Judged {
     let sigma = e.published.statement("sec2_half_height")?.number()?;
     let p = e.number(&format!("theory.gap[sigma={sigma}].p"))?;
     let curve = e.results.table("theory.curve")?;
-    let [mean, relation] = ["simple", "p"].map(|column| curve.points(&[], "sigma", column));
+    let column = |name| curve.curve(&[], "sigma", name);
+    let (mean, relation) = (column("simple")?, column("p")?);
     let inverse: Vec<(f64, f64)> = mean.iter().zip(&relation).map(|(a, b)| (a.1, b.1)).collect();
     let needed = |means: &[(f64, f64)]| beside::at(&inverse, beside::at(means, sigma)?);
-    let means = e.results.table("sweep.rows")?.points(&[], "sigma", "mean");
+    let means = e.results.table("sweep.rows")?.curve(&[], "sigma", "mean")?;
     let ours = needed(&means).ok_or(Undecided)?;
     let windows = windows(e)?;
     let times: Vec<f64> = windows.iter().filter_map(|means| Some(needed(means)? / p)).collect();
@@ -175,8 +176,8 @@ fn large_sigma(e: &Evidence<'_>) -> Judged {
     let [distance, at, mean, theory] = e.numbers("sweep.beside_theory", columns)?;
     let gaps = e.number("sweep.run.gaps")?;
     let limit = gaps / 10.0;
-    let curve = e.results.table("theory.curve")?.points(&[], "sigma", "simple");
-    let means = e.results.table("sweep.rows")?.points(&[], "sigma", "mean");
+    let curve = e.results.table("theory.curve")?.curve(&[], "sigma", "simple")?;
+    let means = e.results.table("sweep.rows")?.curve(&[], "sigma", "mean")?;
     let all = VERTICES as f64;
     let constant = largest_distance(&means, &[(0.0, all), (1.0, all)]).ok_or(Undecided)?[0];
     let windows = windows(e)?;
@@ -282,7 +283,7 @@ fn half_heights_of_starts(e: &Evidence<'_>) -> Result<Vec<(f64, Estimate, Estima
 fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     let theory = e.number("theory.relation.sigma_half")?;
     let share = e.estimate("starts.beside_theory.share")?;
-    let halves = e.results.table("restitution.curves")?.estimates(&[], "r", "half_height");
+    let halves = e.results.table("restitution.curves")?.series(&[], "r", "half_height")?;
     let [Some((lowest, _)), Some((highest, _))] = [halves.first(), halves.last()] else {
         return Err(Undecided);
     };
@@ -318,10 +319,10 @@ fn share_at(found: &[Counted], [r, sigma]: [f64; 2], pick: fn(&Total) -> u64) ->
 /// Returns the restitutions that were run, from the lowest, and the σ of the sweep that were run
 /// with each.
 fn restitutions(e: &Evidence<'_>) -> Result<(Vec<f64>, Vec<f64>), Error> {
-    let restitutions = e.results.table("restitution.curves")?.values("r");
+    let restitutions = e.results.table("restitution.curves")?.distinct("r")?;
     let lowest = restitutions.first().ok_or(Undecided)?;
     let lowest = ensemble(e.results.of(&RESTITUTION)?, &format!("r = {lowest}"))?;
-    let swept = e.results.table("sweep.rows")?.values("sigma");
+    let swept = e.results.table("sweep.rows")?.distinct("sigma")?;
     let largest = swept.last().copied().unwrap_or(0.0);
     let sigmas = lowest.ensemble.sigmas.iter().copied().filter(|sigma| *sigma <= largest);
     Ok((restitutions, sigmas.collect()))

@@ -246,7 +246,8 @@ fn improves(e: &Evidence<'_>) -> Judged {
     );
     let improved = |[simple, higher]: [f64; 2]| higher < simple && higher >= 0.8 * simple;
     let table = e.results.table("theory.curve")?;
-    let curves = ["simple", "higher"].map(|column| table.points(&[], "sigma", column));
+    let column = |name| table.curve(&[], "sigma", name);
+    let curves = [column("simple")?, column("higher")?];
     let windows = windows(e)?;
     let mut better = 0;
     for means in &windows {

@@ -168,7 +168,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
     let one = |row: &&Measurement| row.n == 100 && row.chains == 1;
     let engine =
         measured.of(What::Engine).filter(one).filter_map(|row| row.microseconds_per_impact);
-    let engine = engine.last().unwrap_or(f64::NAN);
+    let engine = engine.last();
     let impact = Table::of("measured.impact", &[()], |()| 1)
         .computed_by(origin(Measured::committed))
         .real("engine", "us", 2, "time of an impact in the engine, one chain of 100 masses", |()| {
@@ -177,14 +177,15 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         .measured();
     let rows: Vec<&Measurement> = measured.of(What::Method).collect();
     let methods = Table::of("measured.methods", &rows, |row| row.chains as usize)
-        .text_key("setting", |row| format!("{}-{}", row.name, row.value.unwrap_or(f64::NAN)))
+        .text_key("setting", |row| match row.value {
+            Some(value) => format!("{}-{value}", row.name),
+            None => row.name.clone(),
+        })
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(Measured::committed))
-        .real("thousand", "s", 2, "time of one core for a thousand chains", |row| {
-            row.thousand().unwrap_or(f64::NAN)
-        })
+        .real("thousand", "s", 2, "time of one core for a thousand chains", |row| row.thousand())
         .real("over_engine", "1", 2, "time over the engine's on the same chains", |row| {
-            row.over_engine().unwrap_or(f64::NAN)
+            row.over_engine()
         })
         .measured();
     vec![machine.done(), impact.done(), methods.done()]

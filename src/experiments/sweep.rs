@@ -109,7 +109,7 @@ fn rows(sweep: &Counted) -> Table {
 }
 
 fn rise_table(sweep: &Counted) -> Table {
-    let end = |rise: &Rise, at: usize| rise.half_height.map_or(f64::NAN, |half| half.interval[at]);
+    let end = |rise: &Rise, at: usize| rise.half_height.map(|half| half.interval[at]);
     Table::of("sweep.rise", &[&sweep.first().rise], |_| sweep.ensemble.realisations)
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, OF_ACTIVE, |rise| rise.half_height)

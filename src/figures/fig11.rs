@@ -11,7 +11,8 @@ const LOWEST: i32 = -8;
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8350);
     let theory = results.table("theory.curve")?;
-    let [from_rest, p] = ["p_rest", "p"].map(|column| theory.points(&[], "sigma", column));
+    let column = |name| theory.curve(&[], "sigma", name);
+    let (from_rest, p) = (column("p_rest")?, column("p")?);
     let end = p.last().map_or(0.4, |point| point.0);
     let sigma = || Axis::linear(0.0, end, 0.1, 5, FORCING);
     let y = upwards_from_zero(p.iter().chain(&from_rest).map(|p| p.1).fold(0.0, f64::max), "*p*");

@@ -12,7 +12,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let threshold = printed_threshold();
     let panel = sheet.panel(MAIN, sigma_axis(), count_axis(n, "expected number of impacts"))?;
     printed(&panel, 0.0)?;
-    let simple = curve(results.table("theory.curve")?, sweep, "simple");
+    let simple = curve(results.table("theory.curve")?, sweep, "simple")?;
     panel.curve("theory", &simple, Stroke::solid(GREEN, LINE), Outside::Cut)?;
     let simulated = means(sweep);
     panel.markers("simulation", &simulated, CROSSES, Outside::Cut)?;

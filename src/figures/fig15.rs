@@ -12,7 +12,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let threshold = printed_threshold();
     let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
     let panel = sheet.lettered(LETTERS[0], MAIN, x, y)?;
-    let [simple, higher] = ["simple", "higher"].map(|column| curve(theory, sweep, column));
+    let (simple, higher) = (curve(theory, sweep, "simple")?, curve(theory, sweep, "higher")?);
     panel.curve("simple circuits", &simple, Stroke::solid(GREEN, LINE), Outside::Cut)?;
     let blue = Stroke::dashed(BLUE, LINE, Dash::Long);
     panel.curve("five classes", &higher, blue, Outside::Cut)?;

@@ -16,26 +16,26 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8600);
     chains(&sheet, table("nucleation.chains")?, shares, table("sweep.rows")?)?;
     times(&sheet, missing)?;
-    Ok(sheet.finish("Gaps that close by themselves", description(missing)))
+    Ok(sheet.finish("Gaps that close by themselves", description(missing)?))
 }
 
 fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
-    let mut kept = sweep.points(&[], "sigma", "kept");
+    let mut kept = sweep.curve(&[], "sigma", "kept")?;
     kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
     let ring = (Symbol::Ring, LARGE, Stroke::solid(INK, THIN));
     panel.markers("kept", &kept, ring, Outside::Refuse)?;
-    let last = found.values("time").last().copied().unwrap_or_default();
-    let lengths = found.values("masses");
+    let last = found.distinct("time")?.last().copied().unwrap_or_default();
+    let lengths = found.distinct("masses")?;
     for (place, &masses) in lengths.iter().enumerate() {
         let is_ours = masses == Chain::default().masses as f64;
         let colour = if is_ours { RED } else { ordered(place, lengths.len()) };
         let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
-        let curve = shares.points(&keys[..1], "sigma", "clumps");
+        let curve = shares.curve(&keys[..1], "sigma", "clumps")?;
         panel.curve(&name, &curve, Stroke::solid(colour, LINE), Outside::Refuse)?;
-        let marks = found.estimates(&keys, "sigma", "found");
+        let marks = found.series(&keys, "sigma", "found")?;
         panel.record(&format!("{name}, simulation"), marks.iter().copied());
         let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
         panel.unrecorded().estimates(&name, &marks, disc)?;
@@ -51,12 +51,12 @@ fn times(sheet: &Sheet, found: &Table) -> Drawn {
     let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").between(8.0, 9e3);
     let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*_{rest}");
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
-    let sigmas = found.values("sigma");
+    let sigmas = found.distinct("sigma")?;
     let three = [sigmas.first().copied(), Some(printed_threshold()), sigmas.last().copied()];
     let mut drawn = Vec::new();
     for (place, sigma) in three.into_iter().flatten().enumerate() {
         let colour = [GREEN, PURPLE, ORANGE][place];
-        let points = found.points(&[("sigma", sigma)], "time", "missing");
+        let points = found.curve(&[("sigma", sigma)], "time", "missing")?;
         let thin = Stroke::solid(colour, THIN);
         let name = format!("*σ* = {sigma}");
         panel.marked_curve(&name, &points, (thin, (Symbol::Disc, LARGE, thin)), Outside::Cut)?;
@@ -70,12 +70,12 @@ fn times(sheet: &Sheet, found: &Table) -> Drawn {
     panel.label("∝ *T*^{ −2}", (60.0, 2.8e-3), (-1, 1), INK)
 }
 
-fn description(missing: &Table) -> Description {
-    let sigmas = missing.values("sigma");
-    describe!(
+fn description(missing: &Table) -> Result<Description, Error> {
+    let sigmas = missing.distinct("sigma")?;
+    Ok(describe!(
         "(a) Share of chains with an impact against σ: measured points on steep curves, farther left for longer chains. (b) What is \
          missing of p after T, for σ from {} to {}: lines like 1/T².",
         sigmas.first().copied().unwrap_or_default(),
         sigmas.last().copied().unwrap_or_default(),
-    )
+    ))
 }

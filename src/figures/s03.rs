@@ -21,7 +21,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let advance = table("seeds.advance")?;
     advances(&sheet, advance)?;
     halves(&sheet, table("seeds.rise")?, table("seeds.scores")?)?;
-    Ok(sheet.finish("From one gap to many: nucleation and growth", description(advance)))
+    Ok(sheet.finish("From one gap to many: nucleation and growth", description(advance)?))
 }
 
 fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Drawn {
@@ -34,14 +34,14 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Draw
         ("circuits, from rest", "rest", Stroke::dashed(PURPLE, LINE, Dash::Long), 62.0),
     ];
     for (name, column, stroke, height) in lines {
-        let mut curve = theory.points(&[], "sigma", column);
+        let mut curve = theory.curve(&[], "sigma", column)?;
         curve.retain(|(sigma, _)| *sigma >= SIGMAS.0 && *sigma <= SIGMAS.1);
         panel.curve(name, &curve, stroke, Outside::Refuse)?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, mean)| (mean, sigma)).collect();
         let place = (at(&rising, height).unwrap_or(SIGMAS.0), height);
         panel.label(name, place, (-2, 0), stroke.colour)?;
     }
-    let grown = means.estimates(&transient, "sigma", "grown");
+    let grown = means.series(&transient, "sigma", "grown")?;
     panel.joined_estimates(GROWN.0, &grown, GROWN.1)?;
     if let Some((sigma, mean)) = grown.iter().find(|(_, mean)| mean.value > 85.0) {
         panel.label(GROWN.0, (*sigma, mean.value), (-1, -1), INK)?;
@@ -72,10 +72,10 @@ fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "time since first impact (1/*ω*)").between(20.0, 7000.0);
     let y = Axis::decades(-1, 2, 1, "advance (gaps)").between(0.3, 80.0);
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4100, 7650), x, y)?;
-    let sigmas = spread(&advance.values("sigma"));
+    let sigmas = spread(&advance.distinct("sigma")?);
     let mut drawn = Vec::new();
     for (place, sigma) in sigmas.iter().enumerate() {
-        let points = advance.points(&[("sigma", *sigma)], "time", "advance");
+        let points = advance.curve(&[("sigma", *sigma)], "time", "advance")?;
         let (name, colour) = (format!("*σ* = {sigma}"), ordered(place, sigmas.len()));
         panel.curve(&name, &points, Stroke::solid(colour, LINE), Outside::Cut)?;
         drawn.push((name, points, colour));
@@ -91,20 +91,20 @@ fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Drawn {
     let y = Axis::linear(0.1, 0.14, 0.01, 2, "half height (*d ω*^{2})")
         .column("half_height (d omega^2)");
     let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
-    let grown = rise.points(&[], "transient", "half_height");
+    let grown = rise.curve(&[], "transient", "half_height")?;
     panel.marked_curve(GROWN.0, &grown, (GROWN.1.2, GROWN.1), Outside::Edge)?;
     let look = (Symbol::Disc, LARGE, Stroke::solid(RED, THIN));
-    let found = scores.estimates(&[], "transient", "half_height");
+    let found = scores.series(&[], "transient", "half_height")?;
     panel.estimates("simulation", &found, look)?;
     panel.label("simulation", (150.0, 0.1355), (1, 0), RED)?;
     panel.label("from seeds", (300.0, 0.109), (-1, 0), INK)
 }
 
-fn description(advance: &Table) -> Description {
-    let sigmas = advance.values("sigma");
+fn description(advance: &Table) -> Result<Description, Error> {
+    let sigmas = advance.distinct("sigma")?;
     let [low, high] = [sigmas.first(), sigmas.last()].map(|end| end.copied().unwrap_or_default());
-    describe!(
+    Ok(describe!(
         "(a) Mean count of all against σ: simulated points along the prediction from seeds; circuits steeper. (b) Advance \
          against time at σ from {low} to {high}: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.",
-    )
+    ))
 }

@@ -14,12 +14,12 @@ const BRANCHES: [(&str, &str, RGBColor); 2] =
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let halves = results.table("branches.half_heights")?;
-    let lengths = halves.values("masses");
+    let lengths = halves.distinct("masses")?;
     let longest = lengths.iter().copied().fold(0.0, f64::max);
     let sheet = Sheet::new(8800);
     half_heights(&sheet, results, halves, &lengths)?;
     shares(&sheet, results.table("branches.shares")?, longest)?;
-    Ok(sheet.finish("Chains from rest and from above", description(halves, longest)))
+    Ok(sheet.finish("Chains from rest and from above", description(halves, longest)?))
 }
 
 fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64]) -> Drawn {
@@ -31,14 +31,14 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
     panel.level("bound by seeds", bound, Stroke::dashed(INK, THIN, Dash::Dotted))?;
     panel.label("bound from rest, *n* = 100", (10.0, bound), (1, 1), INK)?;
     let map = results.table("protocol.cells")?;
-    let map = map.points(&[("window", WINDOW)], "transient", "half_height_all");
+    let map = map.curve(&[("window", WINDOW)], "transient", "half_height_all")?;
     panel.curve("from rest, n = 100", &map, Stroke::solid(GREY, LINE), Outside::Cut)?;
     for (place, masses) in lengths.iter().enumerate() {
         let longest = place + 1 == lengths.len();
         for (column, name, colour) in BRANCHES {
             let (mark, dash) =
                 if longest { (Symbol::Disc, Dash::Solid) } else { (Symbol::Ring, Dash::Short) };
-            let points = halves.estimates(&[("masses", *masses)], "transient", column);
+            let points = halves.series(&[("masses", *masses)], "transient", column)?;
             let look = (mark, MEDIUM, Stroke::dashed(colour, THIN, dash));
             panel.joined_estimates(&format!("{name}, n = {masses}"), &points, look)?;
             if let Some((time, half)) = points.last().filter(|_| longest) {
@@ -53,13 +53,13 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
 
 /// Shares after the first transient and after the last.
 fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
-    let sigmas = shares.values("sigma");
+    let sigmas = shares.distinct("sigma")?;
     let least = sigmas.iter().copied().fold(f64::INFINITY, f64::min);
     let most = sigmas.iter().copied().fold(0.0, f64::max);
     let x = Axis::linear(least - 0.005, most + 0.005, 0.01, 2, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of active gaps");
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
-    let transients = shares.values("transient");
+    let transients = shares.distinct("transient")?;
     let ends = [transients.first(), transients.last()];
     let mut labels = Vec::new();
     for (place, transient) in ends.into_iter().flatten().enumerate() {
@@ -67,7 +67,7 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
             if place == 0 { (Symbol::Ring, Dash::Short) } else { (Symbol::Disc, Dash::Solid) };
         for (column, name, colour) in BRANCHES {
             let points =
-                shares.estimates(&[("masses", masses), ("transient", *transient)], "sigma", column);
+                shares.series(&[("masses", masses), ("transient", *transient)], "sigma", column)?;
             let name = format!("{name}, *T* = {}", time(*transient));
             panel.joined_estimates(
                 &name,
@@ -100,18 +100,18 @@ fn time(transient: f64) -> String {
     }
 }
 
-fn description(halves: &Table, masses: f64) -> Description {
-    let ends = |column| {
-        let places = halves.points(&[("masses", masses)], "transient", column);
+fn description(halves: &Table, masses: f64) -> Result<Description, Error> {
+    let ends = |column| -> Result<String, Error> {
+        let places = halves.curve(&[("masses", masses)], "transient", column)?;
         let ends = places.first().zip(places.last());
-        ends.map_or("none".into(), |(first, last)| {
+        Ok(ends.map_or("none".into(), |(first, last)| {
             format!("from {} to {}", short(first.1, 3), short(last.1, 3))
-        })
+        }))
     };
-    describe!(
+    Ok(describe!(
         "(a) Half height against T: from rest it falls, {}; from above it rises, {}. (b) Share of gaps with an impact against σ, \
          early and late: two curves far apart that approach.",
-        ends("from_rest"),
-        ends("from_above"),
-    )
+        ends("from_rest")?,
+        ends("from_above")?,
+    ))
 }

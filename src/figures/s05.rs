@@ -52,11 +52,11 @@ fn jumps(sheet: &Sheet, table: &Table) -> Drawn {
     let x = Axis::decades(1, 6, 1, "*N*");
     let y = Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump");
     let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7550), x, y)?;
-    let rule = table.points(&[], "n", "rule");
+    let rule = table.curve(&[], "n", "rule")?;
     let rule: Vec<_> = rule.into_iter().map(|(n, k)| (n, k / n)).collect();
     let line = Stroke::solid(INK, THIN);
     panel.curve("rule", &rule, line, Outside::Refuse)?;
-    let exact = table.points(&[], "n", "share");
+    let exact = table.curve(&[], "n", "share")?;
     let disc = (Symbol::Disc, 55, Stroke::solid(RED, THIN));
     panel.markers("exact", &exact, disc, Outside::Refuse)?;
     if let Some(place) = exact.get(4) {

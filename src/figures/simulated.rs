@@ -46,11 +46,11 @@ pub fn means(sweep: &Counted) -> Vec<(f64, f64)> {
 }
 
 /// A theory curve up to the largest σ of a sweep.
-pub fn curve(table: &Table, sweep: &Counted, column: &str) -> Vec<(f64, f64)> {
+pub fn curve(table: &Table, sweep: &Counted, column: &str) -> Result<Vec<(f64, f64)>, Error> {
     let end = sweep.first().rows.last().map_or(0.0, |row| row.sigma);
-    let mut points = table.points(&[], "sigma", column);
+    let mut points = table.curve(&[], "sigma", column)?;
     points.retain(|(sigma, _)| *sigma <= end);
-    points
+    Ok(points)
 }
 
 /// The first point of a curve at or above some height, for its name.

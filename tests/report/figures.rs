@@ -213,7 +213,7 @@ fn cells_of(line: &str) -> Vec<String> {
 #[test]
 fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
     let results = &QUICK.results;
-    let curve = results.table("theory.curve").unwrap().points(&[], "sigma", "p_rest");
+    let curve = results.table("theory.curve").unwrap().curve(&[], "sigma", "p_rest").unwrap();
     let mut rows = BTreeMap::new();
     for figure in &QUICK.figures {
         let schematic = ["fig01", "fig04"].contains(&figure.id.as_str());

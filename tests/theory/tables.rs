@@ -77,7 +77,7 @@ fn gaps_that_close_by_themselves_have_their_known_values() {
 #[test]
 fn large_graphs_go_on_from_the_paper() {
     let table = RESULTS.table("theory.large").unwrap();
-    let share = table.points(&[], "n", "share");
+    let share = table.curve(&[], "n", "share").unwrap();
     assert_eq!(number("theory.large[n=100].share"), number("theory.jump.k_after") / 100.0);
     assert!(share.windows(2).all(|w| w[1].1 < w[0].1));
     // At a step both ends are drawn.

@@ -10,8 +10,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Number {
-    /// An exact integer.
-    Integer(i64),
+    /// No number: nothing was found. Tables show a dash; prose must say what stands there.
+    None,
+    /// An exact integer of at most 64 bits, with a sign or without.
+    Integer(i128),
     Real {
         /// The number, to full precision.
         value: f64,
@@ -20,6 +22,40 @@ pub enum Number {
     },
     /// Words, for the few values that are not numbers (a version, a profile, a list).
     Text(String),
+}
+
+/// A number that was chosen, with all its digits: an integer where it is one.
+impl From<f64> for Number {
+    fn from(value: f64) -> Number {
+        match value.fract() == 0.0 && value.abs() < 1e15 {
+            true => Number::Integer(value as i128),
+            false => Number::Real { value, digits: Digits::Full },
+        }
+    }
+}
+
+macro_rules! from_integers {
+    ($($integer:ty)*) => {
+        $(impl From<$integer> for Number {
+            fn from(number: $integer) -> Number {
+                Number::Integer(number as i128)
+            }
+        })*
+    };
+}
+
+from_integers!(i32 i64 u32 u64 usize);
+
+impl From<String> for Number {
+    fn from(words: String) -> Number {
+        Number::Text(words)
+    }
+}
+
+impl<T: Into<Number>> From<Option<T>> for Number {
+    fn from(number: Option<T>) -> Number {
+        number.map_or(Number::None, T::into)
+    }
 }
 
 /// What decides how many digits of a real number are printed.
@@ -34,15 +70,6 @@ pub enum Digits {
     Decimals(usize),
     /// All: the shortest decimal that reads back to the same double.
     Full,
-}
-
-impl Digits {
-    /// Those of the shortest decimal that reads back to the same double.
-    pub fn of(value: f64) -> Digits {
-        let text = format!("{:e}", value.abs());
-        let mantissa = text.split('e').next().unwrap_or_default();
-        Digits::Significant(mantissa.bytes().filter(u8::is_ascii_digit).count())
-    }
 }
 
 /// Where a number comes from, and so how far it can be trusted.
@@ -109,10 +136,9 @@ impl Value {
     }
 
     /// An exact integer.
-    pub fn integer(id: impl Into<String>, n: impl TryInto<i64>) -> Self {
-        // A count beyond i64 cannot arise: nothing here counts for 10^18 steps.
-        let n = n.try_into().unwrap_or(i64::MAX);
-        Value::new(id, Number::Integer(n), Kind::Exact)
+    pub fn integer(id: impl Into<String>, n: impl TryInto<i128>) -> Self {
+        let n = n.try_into().map_or(Number::None, Number::Integer);
+        Value::new(id, n, Kind::Exact)
     }
 
     /// A real number that was computed without chance, printed with `significant` digits.
@@ -146,7 +172,7 @@ impl Value {
         place: impl Into<String>,
     ) -> Self {
         let number = match decimals == 0 && value.fract() == 0.0 {
-            true => Number::Integer(value as i64),
+            true => Number::Integer(value as i128),
             false => Number::Real { value, digits: Digits::Decimals(decimals) },
         };
         Value::new(id, number, Kind::Printed { place: place.into() })
@@ -184,10 +210,10 @@ impl Value {
         }
     }
 
-    /// All finite? JSON and readers know no NaN.
+    /// Returns whether neither number nor error is infinite or NaN.
     pub(crate) fn is_finite(&self) -> bool {
         match self.number {
-            Number::Integer(_) | Number::Text(_) => true,
+            Number::None | Number::Integer(_) | Number::Text(_) => true,
             Number::Real { value, digits: Digits::Error(e) } => value.is_finite() && e.is_finite(),
             Number::Real { value, .. } => value.is_finite(),
         }

@@ -30,10 +30,6 @@ fn power(value: f64) -> String {
     }
 }
 
-fn or_nan(value: Option<f64>) -> f64 {
-    value.unwrap_or(f64::NAN)
-}
-
 /// Figs. S6 and S7.
 pub fn race(race: &Race) -> Vec<Table> {
     let by = |method| race.entries.iter().filter(move |entry| entry.setting.method == method);
@@ -51,23 +47,21 @@ fn entries(name: &'static str, entries: &[&Entry]) -> Table {
         .computed_by(origin(race::run))
         .count("misses", "states from which the next impact is missed", |entry| entry.misses)
         .real("error", TIME, 1, "median error of its time", |entry| {
-            or_nan(entry.errors.map(|errors| errors[0]))
+            entry.errors.map(|errors| errors[0])
         })
-        .real("units", "1", 2, "largest error over what rounding the gap does", |entry| {
-            or_nan(entry.units)
-        })
-        .real("work", "1", 2, "evaluations per impact", |entry| or_nan(entry.work))
+        .real("units", "1", 2, "largest error over what rounding the gap does", |entry| entry.units)
+        .real("work", "1", 2, "evaluations per impact", |entry| entry.work)
         .estimate("horizon", TIME, "time up to which a run is true", |entry| entry.horizon())
         .done()
 }
 
 fn all(race: &Race) -> Table {
-    let cost = |entry: &&Entry| or_nan(entry.work);
     let faultless = race
         .entries
         .iter()
         .filter(|entry| entry.setting.method != MethodName::Certified && entry.misses == 0);
-    let best = faultless.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+    let costs = faultless.filter_map(|entry| Some((entry, entry.work?)));
+    let best = costs.min_by(|a, b| a.1.total_cmp(&b.1));
     let tried = race.entries.iter().map(|entry| entry.tried).max();
     // ln of a displacement over the rounding of one.
     let folds = pxfm::f_log(DISPLACED / (f64::EPSILON / 2.0));
@@ -89,11 +83,9 @@ fn all(race: &Race) -> Table {
             growth.map(|g| with_error(folds / g.value, folds / g.value * g.error / g.value))
         })
         .words("best", "the cheapest rival without a miss", |()| {
-            best.map_or("none".into(), |entry| titled(&[entry.setting]).replace(", $", " with $"))
+            best.map(|(entry, _)| titled(&[entry.setting]).replace(", $", " with $"))
         })
-        .real("best_work", "1", 2, "its evaluations per impact", |()| {
-            best.map_or(f64::NAN, |entry| cost(&entry))
-        })
+        .real("best_work", "1", 2, "its evaluations per impact", |()| best.map(|(_, work)| work))
         .done()
 }
 
@@ -148,7 +140,7 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
         .key("sigma", SIGMA, |(chains, _)| chains.sigma)
         .computed_by(origin(bias::run))
         .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |(_, counts)| {
-            or_nan(mean(counts))
+            mean(counts)
         })
         .done();
     vec![cells, means]

@@ -172,12 +172,10 @@ fn exponent(pairs: &[Pair], without: Option<usize>) -> Option<f64> {
 }
 
 /// The interval of an estimate from independent chains, with Student's t.
-fn interval(estimate: Option<Estimate>, chains: usize) -> [f64; 2] {
-    let quantile = student_quantile(LEVEL, chains.saturating_sub(1));
-    let Some((Estimate { value, error, .. }, quantile)) = estimate.zip(quantile) else {
-        return [f64::NAN; 2];
-    };
-    [value - quantile * error, value + quantile * error]
+fn interval(estimate: Option<Estimate>, chains: usize) -> Option<[f64; 2]> {
+    let quantile = student_quantile(LEVEL, chains.saturating_sub(1))?;
+    let Estimate { value, error, .. } = estimate?;
+    Some([value - quantile * error, value + quantile * error])
 }
 
 /// How the distance falls with T, as a power law over the first two transients and over the last
@@ -188,7 +186,7 @@ fn laws(pairs: &[Pair]) -> Table {
     let late = |pairs: &[Pair], without| exponent(&pairs[pairs.len().saturating_sub(3)..], without);
     let end = |pairs: &[Pair], end: usize| {
         let chains = pairs[0].chains();
-        interval(jackknife(chains, |without| late(pairs, without)), chains)[end]
+        Some(interval(jackknife(chains, |without| late(pairs, without)), chains)?[end])
     };
     const LAW: &str = "d ln(distance)/d ln T by least squares over the last three transients";
     Table::of("branches.laws", &lengths, |pairs| pairs[0].chains())
@@ -373,7 +371,7 @@ mod tests {
             let pair = pair(500.0, &rest, &above);
             let found = jackknife(pair.chains(), |without| pair.distance(without)).unwrap();
             squares += found.error * found.error / SAMPLES as f64;
-            let [from, to] = interval(Some(found), CHAINS);
+            let [from, to] = interval(Some(found), CHAINS).unwrap();
             inside += u64::from((from..to).contains(&0.2));
         }
         // 4000 mean squares with 11 degrees of freedom: known to √(2/11/4000) = 0.7 %. Resampling

@@ -109,7 +109,7 @@ type Formula = fn(usize, usize) -> Option<Fraction>;
 /// Of each printed formula for a class of circuits: its equation, the smallest length from which on
 /// it is right in every case, the cases from there on, and what it gives and enumeration finds one
 /// length below, on three vertices.
-pub(super) fn class_ranges(census: &Census) -> Vec<(f64, usize, Cases, f64, u128)> {
+pub(super) fn class_ranges(census: &Census) -> Vec<(f64, usize, Cases, Option<f64>, u128)> {
     let formulas: [Formula; 4] = [doubled, three_visits, four_visits, two_doubled];
     let range = |(class, formula): (&Class, Formula)| {
         let agrees = |&(n, k): &(usize, usize)| {
@@ -120,7 +120,7 @@ pub(super) fn class_ranges(census: &Census) -> Vec<(f64, usize, Cases, f64, u128
             enumerated().filter(|&(n, k)| class.different(k).is_some_and(|d| d <= n)).collect();
         let below = possible.iter().filter(|at| !agrees(at)).map(|at| at.1).max().unwrap_or(0);
         let cases = cases(possible.iter().filter(|at| at.1 > below).map(agrees));
-        let found = formula(3, below).map_or(f64::NAN, Fraction::to_f64);
+        let found = formula(3, below).map(Fraction::to_f64);
         let counted = counted(census, 3, below, class.repeats);
         (class.equation.into(), below + 1, cases, found, counted)
     };

@@ -180,7 +180,7 @@ mod tests {
         assert_eq!(columns.map(|column| at(50.0, column)), [2.5, 2.5]);
         assert_eq!(columns.map(|column| at(100.0, column)), [2.5, 0.5]);
         // To each side there are two neighbours, of which three of four are hit.
-        let advance = advance.points(&[], "time", "advance");
+        let advance = advance.curve(&[], "time", "advance").unwrap();
         assert_eq!(advance, [(25.0, 0.0), (50.0, 0.75), (75.0, 0.75), (100.0, 0.75)]);
         // Waits of 30, 30 and 40, and one that is cut off at 100: of four fronts one stands.
         let beat = std::f64::consts::TAU / (std::f64::consts::SQRT_2 - 1.0);

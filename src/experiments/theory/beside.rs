@@ -48,9 +48,8 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let sweep = sweep::main(results).ok()?;
     let table = |name| all.iter().find(|table| table.name() == name);
     let (curve, relation) = (table("theory.curve")?, table("theory.relation")?);
-    let curves = ["simple", "higher"].map(|column| curve.points(&[], "sigma", column));
-    let [simple, higher] = &curves;
-    let found = |number: Option<f64>| number.unwrap_or(f64::NAN);
+    let column = |name| curve.curve(&[], "sigma", name).ok();
+    let (simple, higher) = (&column("simple")?, &column("higher")?);
     let rows = &sweep.first().rows;
     let means_by = |mean: fn(&RisePoint) -> Option<Mean>| -> Vec<(f64, f64)> {
         rows.iter().filter_map(|row| Some((row.sigma, mean(row)?.value))).collect()
@@ -64,31 +63,29 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let table = Table::of("sweep.beside_theory", &[()], |()| 0)
         .computed_by(origin(largest_distance))
         .chosen("large_sigma", SIGMA, "from here on σ is called large", |()| Some(LARGE_SIGMA))
-        .real("large_distance", "1", 2, "largest distance of both means at large σ", |()| {
-            found(far(0))
-        })
+        .real("large_distance", "1", 2, "largest distance of both means at large σ", |()| far(0))
         .chosen("large_distance_at", SIGMA, "σ of it", |()| far(1))
-        .real("large_theory", "1", 3, "μ there", |()| found(far(2)))
-        .real("large_mean", "1", 3, "simulated mean there", |()| found(far(3)))
+        .real("large_theory", "1", 3, "μ there", |()| far(2))
+        .real("large_mean", "1", 3, "simulated mean there", |()| far(3))
         .computed_by(origin(increases))
         .real("largest_increase", "1", 2, "of the simulated mean in one step of σ", |()| {
-            found(kept.map(|[one, _]| one))
+            kept.map(|[one, _]| one)
         })
-        .real("increase_of_two", "1", 2, "in two steps", |()| found(kept.map(|[_, two]| two)))
+        .real("increase_of_two", "1", 2, "in two steps", |()| kept.map(|[_, two]| two))
         .real("increase_of_all", "1", 2, "of the mean of all in one step", |()| {
-            found(increases(&means_by(|row| row.mean_all), finest).map(|[one, _]| one))
+            increases(&means_by(|row| row.mean_all), finest).map(|[one, _]| one)
         })
         .chosen("step", SIGMA, "the finest of the grid", |()| Some(finest))
         .computed_by(origin(impact_chain::rise::Curve::new))
         .real("half_gap", SIGMA, 2, "half height of the theory less that of the simulation", |()| {
             let half = sweep.first().rise.half_height.zip(relation.number(&[], "sigma_half").ok());
-            found(half.map(|(half, theory)| theory - half.value))
+            half.map(|(half, theory)| theory - half.value)
         })
         .computed_by(origin(distance))
         .real("simple", "1", 3, "root mean square distance of the means, simple circuits", |()| {
-            found(distance(&means, simple))
+            distance(&means, simple)
         })
-        .real("higher", "1", 3, "the same with five classes", |()| found(distance(&means, higher)))
+        .real("higher", "1", 3, "the same with five classes", |()| distance(&means, higher))
         .done();
     Some(vec![table])
 }

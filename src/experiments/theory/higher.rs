@@ -65,7 +65,8 @@ fn means_apart() -> [f64; 3] {
 
 /// The largest change of μ(p(σ)) by higher orders, and the σ where it is.
 fn largest_change(curve: &Table) -> [f64; 2] {
-    let [simple, higher] = ["simple", "higher"].map(|column| curve.points(&[], "sigma", column));
+    let column = |name| curve.curve(&[], "sigma", name).unwrap_or_default();
+    let [simple, higher] = ["simple", "higher"].map(column);
     simple.iter().zip(higher).fold([0.0, 0.0], |most, ((sigma, simple), (_, higher))| {
         let change = (higher - simple).abs();
         if change > most[0] { [change, *sigma] } else { most }
@@ -112,7 +113,7 @@ fn largest_step() -> u64 {
 /// belong there.
 pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     let sigma = SIGMA;
-    let eq30 = doubled_as_printed(3, 3).map_or(f64::NAN, Fraction::to_f64);
+    let eq30 = doubled_as_printed(3, 3).map(Fraction::to_f64);
     let jump = |space| known(jump::p_jump(space, VERTICES));
     let (leap, shifted) = (jump(FiveClasses), jump(FiveClassesPrinted).p);
     let [first, _, last] = HIGHER_P;

@@ -26,9 +26,7 @@ pub(super) fn tables() -> Vec<Table> {
         .key("n", "1", |(n, _)| *n)
         .real("vertices", "1", 1, "N", |(n, _)| *n)
         .real("share", "1", 2, "k*/N after the jump", share)
-        .real("rule", "1", 4, "root of k² = 2 N (ln k − 1)", |(n, _)| {
-            jump_rule(*n as usize).unwrap_or(f64::NAN)
-        })
+        .real("rule", "1", 4, "root of k² = 2 N (ln k − 1)", |(n, _)| jump_rule(*n as usize))
         .done();
     vec![table]
 }

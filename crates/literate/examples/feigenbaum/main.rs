@@ -66,22 +66,20 @@ fn cascade(depth: &Depth, progress: &Progress) -> Result<Vec<Orbit>, Error> {
 fn tables(cascade: &[Orbit]) -> Vec<Table> {
     let of = |n: u32| cascade.iter().find(|orbit| orbit.n == n);
     let before = |orbit: &Orbit| orbit.n.checked_sub(1).and_then(of);
-    let ratio = |a: Option<f64>, b: Option<f64>| a.zip(b).map_or(f64::NAN, |(a, b)| a / b);
-    let delta = |orbit: &Orbit| ratio(before(orbit).and_then(|before| before.step), orbit.step);
-    let alpha =
-        |orbit: &Orbit| -ratio(before(orbit).and_then(|before| before.distance), orbit.distance);
+    // The first orbits have no step or distance before theirs, and so no ratio.
+    let delta = |orbit: &Orbit| Some(before(orbit)?.step? / orbit.step?);
+    let alpha = |orbit: &Orbit| Some(-before(orbit)?.distance? / orbit.distance?);
     let orbits = Table::of("cascade.orbits", cascade, |_| 1)
-        .key("n", "1", |orbit| orbit.n.into())
+        .key("n", "1", |orbit| orbit.n)
         .real("parameter", "1", 10, "The parameter $R_n$.", |orbit| orbit.parameter)
         .real("delta", "1", 8, "Ratio of neighbouring steps.", delta)
         .real("alpha", "1", 8, "Ratio of neighbouring distances.", alpha)
         .done();
     let last = cascade.last().into_iter().cloned().collect::<Vec<_>>();
     // The steps that are left are a geometric series.
-    let onset =
-        |orbit: &Orbit| orbit.parameter + orbit.step.unwrap_or(f64::NAN) / (delta(orbit) - 1.0);
+    let onset = |orbit: &Orbit| Some(orbit.parameter + orbit.step? / (delta(orbit)? - 1.0));
     let limit = Table::of("cascade.limit", &last, |_| 1)
-        .chosen("n", "1", "The last orbit.", |orbit| Some(orbit.n.into()))
+        .chosen("n", "1", "The last orbit.", |orbit| orbit.n)
         .real("delta", "1", 8, "Its ratio of steps.", delta)
         .real("alpha", "1", 9, "Its ratio of distances.", alpha)
         .real("onset", "1", 8, "Where the periods are infinite.", onset)
@@ -110,7 +108,7 @@ fn diagram(results: &Results) -> Result<Figure, FigureError> {
         }
     }
     panel.markers("orbits", &points, (Symbol::Disc, 9, Stroke::solid(INK, 4)), Outside::Refuse)?;
-    let onset = limit.number(&[], "onset").unwrap_or(f64::NAN);
+    let onset = limit.number(&[], "onset")?;
     let line = [(onset, 0.0), (onset, 1.0)];
     panel.guide("onset", &line, Stroke::solid(BLUE, THIN))?;
     let words = describe!(
@@ -123,12 +121,12 @@ fn diagram(results: &Results) -> Result<Figure, FigureError> {
 /// Fig. 2: how fast the two ratios settle.
 fn convergence(results: &Results) -> Result<Figure, FigureError> {
     let [orbits, limit] = [results.table("cascade.orbits")?, results.table("cascade.limit")?];
-    let last = orbits.values("n").last().copied().unwrap_or(1.0);
+    let last = orbits.distinct("n")?.last().copied().unwrap_or(1.0);
     let mut plot = Plot::new().x("*n*").log_y("distance from the last ratio");
     for (column, mark) in [("delta", Symbol::Disc), ("alpha", Symbol::Ring)] {
-        let end = limit.number(&[], column).unwrap_or(f64::NAN);
+        let end = limit.number(&[], column)?;
         let far = |(n, ratio): (f64, f64)| (n, (ratio - end).abs());
-        let points: Vec<_> = orbits.points(&[], "n", column).into_iter().map(far).collect();
+        let points: Vec<_> = orbits.curve(&[], "n", column)?.into_iter().map(far).collect();
         plot = plot.line(column, &points).points(column, &points, mark);
     }
     let words = describe!(

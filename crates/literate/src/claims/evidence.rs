@@ -75,7 +75,7 @@ impl Evidence<'_> {
     /// [`Error::Undecided`] if the sample is too small for this number.
     #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
-        let cell = table::cell(self.results.tables(), address)?;
+        let cell = table::cell(self.results.tables()?, address)?;
         table::number(cell).ok_or(Error::Undecided)
     }
 
@@ -98,7 +98,7 @@ impl Evidence<'_> {
     #[track_caller]
     pub fn estimate(&self, address: &str) -> Result<Estimate, Error> {
         let value = self.number(address)?;
-        let error = table::cell(self.results.tables(), address)?.standard_error();
+        let error = table::cell(self.results.tables()?, address)?.standard_error();
         Ok(Estimate { value, error, interval: [value - error, value + error] })
     }
 
@@ -108,9 +108,11 @@ impl Evidence<'_> {
     #[track_caller]
     pub fn cell(&self, address: &str) -> Check {
         let statement = self.statement;
-        let (cell, missing) = match table::cell(self.results.tables(), address) {
-            Ok(cell) => (Some(cell), None),
-            Err(missing) => (None, Some(missing)),
+        let (cell, missing) = match self.results.tables().map(|all| table::cell(all, address)) {
+            Ok(Ok(cell)) => (Some(cell), None),
+            Ok(Err(missing)) => (None, Some(missing)),
+            // `judge_all` has refused such tables.
+            Err(_) => (None, None),
         };
         let standard_error = cell.map_or(0.0, Value::standard_error);
         let found = match cell.map(|cell| cell.number.clone()) {

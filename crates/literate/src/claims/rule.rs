@@ -105,6 +105,7 @@ pub fn judge_all(
     for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
         published.statement(rule.id)?;
     }
+    results.tables()?;
     let level = level_of(rules);
     let mut checks = Vec::new();
     for statement in &published.statements {

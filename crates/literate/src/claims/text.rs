@@ -51,11 +51,11 @@ pub fn significant(value: f64, digits: usize) -> Number {
 
 /// Makes a number that was chosen, with all its digits.
 pub fn chosen(value: f64) -> Number {
-    Number::Real { value, digits: Digits::of(value) }
+    Number::Real { value, digits: Digits::Full }
 }
 
 pub fn integer(value: usize) -> Number {
-    Number::Integer(value as i64)
+    Number::Integer(value as i128)
 }
 
 impl From<Number> for Text {

@@ -141,7 +141,7 @@ impl Paper {
                 registry.put(value);
             }
         }
-        results.tables().values().try_for_each(|table| registry.add_table(Arc::clone(table)))?;
+        results.tables()?.values().try_for_each(|table| registry.add_table(Arc::clone(table)))?;
         Ok(registry)
     }
 }
@@ -157,7 +157,7 @@ pub fn whole(
     Filler::new(templates)?;
     let published = paper.published(session)?;
     let results = paper.results(&paper.experiments, session)?;
-    results.tables();
+    results.tables()?;
     let figure = |drawing: &FigureSpec| {
         progress.check()?;
         drawn(drawing, &results)

@@ -259,11 +259,11 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7, 0.12345], [2, null, 0.1, null, null, null]]}
             let found = (cell.plain(), cell.unit.as_str(), cell.note.as_str());
             assert_eq!(found, (shown.into(), unit, meaning));
             let cell = throws.at(&format!("toy.throws[needles=2].{column}")).unwrap();
-            assert_eq!(cell.plain(), "none");
+            assert_eq!(cell.plain(), "–");
         }
         assert!(throws.at("toy.throws[needles=100].pi_error").is_none());
         let lost = results.table("toy.throw").unwrap_err().to_string();
-        assert!(lost.contains("toy.throw: there is no such table; nearest: toy.throws;"), "{lost}");
+        assert!(lost.contains("there is no table toy.throw; nearest: toy.throws; "), "{lost}");
         // The script is part of what a result is known by, also where it is no text.
         assert_eq!(command.stale(&session), None);
         std::fs::write(&path, [SCRIPT.as_bytes(), b"# \xff"].concat()).unwrap();

@@ -11,6 +11,8 @@ pub enum Error {
     Input { field: String, problem: String, remedy: String },
     #[error(transparent)]
     Missing(#[from] crate::table::Missing),
+    #[error("{0}")]
+    Table(String),
     #[error("{experiment}: {source}")]
     Failed { experiment: &'static str, source: Box<dyn std::error::Error + Send + Sync> },
     #[error("the results of {0} were not run; add it to `needs`")]

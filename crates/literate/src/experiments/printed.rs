@@ -1,7 +1,7 @@
 //! Reads the tables that a command printed.
 
-use crate::table::{Building, Table, nearest};
-use crate::value::Origin;
+use crate::table::{Building, Table, called, nearest};
+use crate::value::{Number, Origin};
 use impact_numerics::estimates::with_error;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
@@ -75,7 +75,8 @@ impl PrintedTable {
             if let Some(fault) = self.fault_in(row) {
                 return Some(format!("row {at} {fault}"));
             }
-            if !seen.insert(row[..self.keys.len()].iter().map(written).collect::<Vec<_>>()) {
+            let keys = row[..self.keys.len()].iter().map(|key| format!("{:?}", exact(key)));
+            if !seen.insert(keys.collect::<Vec<_>>()) {
                 return Some(format!("row {at} has the keys of one before"));
             }
         }
@@ -129,15 +130,17 @@ impl PrintedTable {
         let unit = self.units.get(name).map_or("1", |unit| leaked(unit));
         let meaning = self.meanings.get(name).map_or("", String::as_str);
         let number = move |row: &Vec<Json>| row[at].as_f64();
+        let exact = move |row: &Vec<Json>| exact(&row[at]);
         if self.rows.iter().any(|row| row[at].is_string() || row[at].is_boolean()) {
-            let words = move |row: &Vec<Json>| written(&row[at]);
+            let words = move |row: &Vec<Json>| called(&exact(row));
+            let cell = move |row: &Vec<Json>| (!row[at].is_null()).then(|| words(row));
             return match is_key {
                 true => table.text_key(name, words),
-                false => table.words(name, meaning, words),
+                false => table.words(name, meaning, cell),
             };
         }
         if is_key {
-            return table.key(name, unit, move |row| number(row).unwrap_or(f64::NAN));
+            return table.key(name, unit, exact);
         }
         if let Some(error) = self.error_of(name) {
             return table.estimate(name, unit, meaning, move |row| {
@@ -145,21 +148,23 @@ impl PrintedTable {
             });
         }
         match self.digits.get(name) {
-            Some(&digits) => {
-                table.real(name, unit, digits, meaning, move |row| number(row).unwrap_or(f64::NAN))
-            }
-            None => table.chosen(name, unit, meaning, number),
+            Some(&digits) => table.real(name, unit, digits, meaning, number),
+            None => table.chosen(name, unit, meaning, exact),
         }
     }
 }
 
-/// A cell as words; *none* for null.
-fn written(cell: &Json) -> String {
+/// Returns a cell with all its digits, or its words; none for null.
+fn exact(cell: &Json) -> Number {
     match cell {
-        Json::String(words) => words.clone(),
-        Json::Null => "none".into(),
-        Json::Number(number) => number.as_f64().map_or(number.to_string(), |x| x.to_string()),
-        _ => cell.to_string(),
+        Json::Null => Number::None,
+        Json::String(words) => Number::Text(words.clone()),
+        Json::Number(number) => match (number.as_i64(), number.as_u64()) {
+            (Some(integer), _) => integer.into(),
+            (_, Some(integer)) => integer.into(),
+            _ => number.as_f64().into(),
+        },
+        _ => Number::Text(cell.to_string()),
     }
 }
 

@@ -4,7 +4,7 @@ use super::announce::announce;
 use super::progress::say;
 use super::store::Json;
 use super::{AnyExperiment, Command, Error, Experiment, Found, Profile, Session};
-use crate::table::{Table, Tables, nearest, number_at};
+use crate::table::{Table, Tables, number_at, table};
 use crate::text::count;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -23,7 +23,8 @@ pub struct Results {
     made_by: (Vec<&'static dyn AnyExperiment>, Vec<DerivedTables>),
     /// Of each experiment that was run, by its name.
     found: BTreeMap<&'static str, Found>,
-    tables: OnceLock<Tables>,
+    /// Or why they are refused.
+    tables: OnceLock<Result<Tables, String>>,
 }
 
 impl Results {
@@ -39,17 +40,21 @@ impl Results {
         Arc::get_mut(self.found.get_mut(experiment.name)?)?.downcast_mut()
     }
 
-    /// The tables of all results, by name.
-    pub fn tables(&self) -> &Tables {
+    /// Returns the tables of all results, by name.
+    ///
+    /// # Errors
+    /// If two have the same name, and for the first table with a fault of its own.
+    pub fn tables(&self) -> Result<&Tables, Error> {
         // Made before the lock is taken: a thread that waits in it for others may begin something
         // else that looks here.
-        match self.tables.get() {
+        let tables = match self.tables.get() {
             Some(tables) => tables,
             None => {
                 let made = self.made();
                 self.tables.get_or_init(|| made)
             }
-        }
+        };
+        tables.as_ref().map_err(|fault| Error::Table(fault.clone()))
     }
 
     #[cfg(test)]
@@ -57,10 +62,10 @@ impl Results {
         let tables: Tables =
             tables.into_iter().map(|table| (table.name(), Arc::new(table))).collect();
         let (made_by, found) = (Default::default(), BTreeMap::new());
-        Results { profile: Profile::Full, made_by, found, tables: OnceLock::from(tables) }
+        Results { profile: Profile::Full, made_by, found, tables: OnceLock::from(Ok(tables)) }
     }
 
-    fn made(&self) -> Tables {
+    fn made(&self) -> Result<Tables, String> {
         let (experiments, derived) = &self.made_by;
         let tables = |experiment: &&dyn AnyExperiment| match self.found.get(experiment.name()) {
             Some(found) => naming(experiment.name(), || experiment.tables(found)),
@@ -71,17 +76,24 @@ impl Results {
         for tables in derived {
             all.extend(tables(self, &all).into_iter().flatten());
         }
-        all.into_iter().map(|table| (table.name(), Arc::new(table))).collect()
+        let mut tables = Tables::new();
+        for table in all {
+            if let Some(fault) = table.fault() {
+                return Err(fault.into());
+            }
+            let place = table.place();
+            if let Some(before) = tables.insert(table.name(), Arc::new(table)) {
+                let (name, before) = (before.name(), before.place());
+                return Err(format!("{place}: the table {name} was made at {before}; rename one"));
+            }
+        }
+        Ok(tables)
     }
 
-    /// One of the tables.
+    /// Returns one of the tables.
+    #[track_caller]
     pub fn table(&self, name: &str) -> Result<&Table, Error> {
-        let missing = || {
-            let nearest = nearest(name, self.tables().keys().copied()).join(", ");
-            let remedy = "mend the name, or add its experiment to `needs`";
-            Error::input(name, format!("there is no such table; nearest: {nearest}"), remedy)
-        };
-        self.tables().get(name).map(Arc::as_ref).ok_or_else(missing)
+        Ok(table(self.tables()?, name)?)
     }
 
     /// The bytes of a file that a command wrote.
@@ -100,7 +112,7 @@ impl Results {
     /// The number with this address: `theory.jump.p_jump`.
     #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
-        Ok(number_at(self.tables(), address)?)
+        Ok(number_at(self.tables()?, address)?)
     }
 
     /// Runs experiments in this order, and returns their results: saved ones where they are fresh,

@@ -1,6 +1,7 @@
 //! Says why a figure cannot be drawn.
 
 use crate::experiments;
+use crate::table::Missing;
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters_backend::DrawingErrorKind;
 use thiserror::Error;
@@ -35,6 +36,12 @@ fn outside(x: f64, y: f64) -> &'static str {
 
 /// Whether something could be drawn.
 pub type Drawn = Result<(), Error>;
+
+impl From<Missing> for Error {
+    fn from(missing: Missing) -> Self {
+        experiments::Error::from(missing).into()
+    }
+}
 
 impl From<Error> for DrawingErrorKind<Error> {
     fn from(error: Error) -> Self {

@@ -130,7 +130,7 @@ impl Cards<'_> {
             title.extend(words_and_maths(&value.unit));
         }
         let mut card = Card { lead: lead(value), ..Card::of(value.id.clone(), title) };
-        if !matches!(value.number, Number::Text(_) | Number::Integer(_)) {
+        if matches!(value.number, Number::Real { .. }) {
             let full = Style { digits: Some(Digits::Full), ..Style::default() };
             card.words("in full", print(&value.number, full).plain());
         }

@@ -222,7 +222,8 @@ fn source((path, text): (&str, &str)) -> Option<(String, String)> {
 
 fn raw(value: &Value) -> Json {
     match &value.number {
-        Number::Integer(n) => (*n).into(),
+        Number::None => Json::Null,
+        Number::Integer(n) => serde_json::json!(n),
         Number::Real { value, .. } => (*value).into(),
         Number::Text(text) => text.clone().into(),
     }

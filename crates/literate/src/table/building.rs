@@ -1,15 +1,17 @@
 //! A table that is being made: each call adds a column, keys first.
 
 use super::rows::{Column, Table, called};
-use crate::value::{Digits, Kind, Number, Origin, Value, origin_of};
+use crate::value::{Kind, Number, Origin, Value, origin_of};
 use impact_numerics::statistics::Estimate;
+use std::collections::BTreeSet;
+use std::panic::Location;
 use std::rc::Rc;
 
 /// A table that is being made, of rows R.
 pub struct Building<'a, R> {
     rows: &'a [R],
     experiment: &'static str,
-    /// Realisations of a row.
+    /// Returns the realisations behind a row.
     number: Rc<dyn Fn(&R) -> usize + 'a>,
     /// What computed the cells, if that is not the code of their column.
     origin: Option<Origin>,
@@ -18,6 +20,7 @@ pub struct Building<'a, R> {
 
 impl Table {
     /// Begins a table `experiment.what` with one row for each of `rows`, of so many realisations.
+    #[track_caller]
     pub fn of<'a, R>(
         name: &'static str,
         rows: &'a [R],
@@ -25,7 +28,8 @@ impl Table {
     ) -> Building<'a, R> {
         let experiment = name.split('.').next().unwrap_or_default();
         let empty = rows.iter().map(|_| (String::new(), Vec::new())).collect();
-        let table = Table { name, columns: Vec::new(), keys: 0, rows: empty };
+        let place = Location::caller();
+        let table = Table { name, columns: Vec::new(), keys: 0, rows: empty, place, fault: None };
         Building { rows, experiment, number: Rc::new(number), origin: None, table }
     }
 }
@@ -38,18 +42,14 @@ fn markdown(unit: &str) -> String {
     }
 }
 
-/// A number that was chosen, with all its digits: an integer where it is one.
-fn as_chosen(value: f64) -> Value {
-    let whole = value.fract() == 0.0 && value.abs() < 1e15;
-    let number = match whole {
-        true => Number::Integer(value as i64),
-        false => Number::Real { value, digits: Digits::of(value) },
-    };
-    Value { number, ..Value::real("", value, 1) }
+/// Makes a cell of what was chosen or counted, or without a number.
+fn as_chosen(number: impl Into<Number>) -> Value {
+    Value { number: number.into(), ..Value::real("", 0.0, 1) }
 }
 
-fn none() -> Value {
-    Value::text("", "none")
+/// Makes a cell of words, or without a number.
+fn as_text(words: impl Into<Number>) -> Value {
+    Value { number: words.into(), ..Value::text("", "") }
 }
 
 /// Adds a column of cells, each finished in the same way.
@@ -89,12 +89,25 @@ impl<'a, R> Building<'a, R> {
     }
 
     fn one_key_more(&mut self, name: &str) {
-        assert_eq!(self.table.keys, self.table.columns.len(), "{name}: keys come first");
+        if self.table.keys < self.table.columns.len() {
+            self.fault(format!("the key {name} stands after other columns; put keys first"));
+        }
         self.table.keys += 1;
     }
 
+    /// Notes what is wrong with the table, unless something was noted before.
+    fn fault(&mut self, what: String) {
+        let what = format!("{}: the table {}: {what}", self.table.place(), self.table.name);
+        self.table.fault.get_or_insert(what);
+    }
+
     /// A key: a parameter by which rows are found.
-    pub fn key<F: Fn(&R) -> f64>(mut self, name: &'static str, unit: &'static str, of: F) -> Self {
+    pub fn key<K: Into<Number>, F: Fn(&R) -> K>(
+        mut self,
+        name: &'static str,
+        unit: &'static str,
+        of: F,
+    ) -> Self {
         self.one_key_more(name);
         self.put((name, unit), "", origin_of::<F>(), |row: &R| as_chosen(of(row)))
     }
@@ -105,8 +118,7 @@ impl<'a, R> Building<'a, R> {
         self.put((name, "text"), "", origin_of::<F>(), |row: &R| Value::text("", of(row)))
     }
 
-    /// A number from chance with its standard error, or the word *none* where the sample decides
-    /// nothing.
+    /// A number from chance with its standard error; none where the sample decides nothing.
     pub fn estimate<F: Fn(&R) -> Option<Estimate>>(
         self,
         name: &'static str,
@@ -115,15 +127,17 @@ impl<'a, R> Building<'a, R> {
         of: F,
     ) -> Self {
         let number = self.number.clone();
-        let value =
-            |row: &R, own: Estimate| Value::ensemble("", own.value, own.error, number(row) as u64);
-        let cell = |row: &R| of(row).map_or_else(none, |own| value(row, own));
+        let cell = |row: &R| match of(row) {
+            Some(Estimate { value, error, .. }) => {
+                Value::ensemble("", value, error, number(row) as u64)
+            }
+            None => as_text(Number::None),
+        };
         self.put((name, unit), meaning, origin_of::<F>(), cell)
     }
 
-    /// A number that no chance has part in, with so many significant digits; *none* if it is not
-    /// finite.
-    pub fn real<F: Fn(&R) -> f64>(
+    /// A number that no chance has part in, with so many significant digits, or none.
+    pub fn real<V: Into<Option<f64>>, F: Fn(&R) -> V>(
         self,
         name: &'static str,
         unit: &'static str,
@@ -131,14 +145,21 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         of: F,
     ) -> Self {
-        let real = |value: f64| value.is_finite().then(|| Value::real("", value, digits));
-        let cell = |row: &R| real(of(row)).unwrap_or_else(none);
+        let cell = |row: &R| match of(row).into() {
+            Some(value) => Value::real("", value, digits),
+            None => as_text(Number::None),
+        };
         self.put((name, unit), meaning, origin_of::<F>(), cell)
     }
 
-    /// Words that were computed.
-    pub fn words<F: Fn(&R) -> String>(self, name: &'static str, meaning: &str, of: F) -> Self {
-        self.put((name, "text"), meaning, origin_of::<F>(), |row: &R| Value::text("", of(row)))
+    /// Words that were computed, or none.
+    pub fn words<W: Into<Number>, F: Fn(&R) -> W>(
+        self,
+        name: &'static str,
+        meaning: &str,
+        of: F,
+    ) -> Self {
+        self.put((name, "text"), meaning, origin_of::<F>(), |row: &R| as_text(of(row)))
     }
 
     /// All cells so far were measured, and are an input.
@@ -149,16 +170,15 @@ impl<'a, R> Building<'a, R> {
         self
     }
 
-    /// A parameter, with all its digits, or *none*.
-    pub fn chosen<F: Fn(&R) -> Option<f64>>(
+    /// A parameter, with all its digits, or none.
+    pub fn chosen<K: Into<Number>, F: Fn(&R) -> K>(
         self,
         name: &'static str,
         unit: &'static str,
         meaning: &str,
         of: F,
     ) -> Self {
-        let cell = |row: &R| of(row).map_or_else(none, as_chosen);
-        self.put((name, unit), meaning, origin_of::<F>(), cell)
+        self.put((name, unit), meaning, origin_of::<F>(), |row: &R| as_chosen(of(row)))
     }
 
     /// A count, shown as an integer up to a million and with its leading digits beyond.
@@ -173,35 +193,51 @@ impl<'a, R> Building<'a, R> {
     /// Gives cells of a column the id of the number that they are: one that another table or a
     /// value has already.
     pub fn same(mut self, column: &str, of: impl Fn(&R) -> Option<String>) -> Self {
-        if let Some(at) = self.table.column(column) {
-            for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
-                cells[at].id = of(row).unwrap_or_default();
+        match self.table.column(column) {
+            Ok(at) => {
+                for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
+                    cells[at].id = of(row).unwrap_or_default();
+                }
             }
+            Err(missing) => self.fault(missing.to_string()),
         }
         self
     }
 
-    /// The table.
+    /// Names the rows by their keys, and notes what is wrong: [`Results::tables`] refuses the
+    /// table for two columns or rows of one name, and for numbers that are not finite.
     ///
-    /// # Panics
-    /// If two rows have the same keys.
-    pub fn done(self) -> Table {
-        let mut table = self.table;
-        let columns = table.columns.clone();
-        let mut seen = std::collections::BTreeSet::new();
-        for (name, cells) in &mut table.rows {
-            let keys = columns.iter().zip(&*cells).take(table.keys);
-            let keys: Vec<String> =
-                keys.map(|(key, cell)| format!("{}={}", key.name, called(cell))).collect();
-            *name = keys.join(",");
-            assert!(seen.insert(name.clone()), "{}: two rows with {name}", table.name);
-            let row = if name.is_empty() { String::new() } else { format!("[{name}]") };
+    /// [`Results::tables`]: crate::experiments::Results::tables
+    pub fn done(mut self) -> Table {
+        let columns = self.table.columns.clone();
+        for (at, column) in columns.iter().enumerate() {
+            if columns[..at].iter().any(|before| before.name == column.name) {
+                self.fault(format!("two columns have the name {}; rename one", column.name));
+            }
+        }
+        let (name, keys) = (self.table.name, self.table.keys);
+        let (mut seen, mut faults) = (BTreeSet::new(), Vec::new());
+        for (row, cells) in &mut self.table.rows {
+            let named = columns.iter().zip(&*cells).take(keys);
+            let named: Vec<String> =
+                named.map(|(key, cell)| format!("{}={}", key.name, called(&cell.number))).collect();
+            *row = named.join(",");
+            if !seen.insert(row.clone()) {
+                faults.push(format!("two rows have the keys [{row}]; add a key that differs"));
+            }
+            let brackets = if row.is_empty() { String::new() } else { format!("[{row}]") };
             for (column, cell) in columns.iter().zip(cells) {
+                let address = format!("{name}{brackets}.{}", column.name);
+                if !cell.is_finite() {
+                    let remedy = "correct it, or return None where there is no number";
+                    faults.push(format!("{address} is {}; {remedy}", cell.plain()));
+                }
                 if cell.id.is_empty() {
-                    cell.id = format!("{}{row}.{}", table.name, column.name);
+                    cell.id = address;
                 }
             }
         }
-        table
+        faults.into_iter().for_each(|fault| self.fault(fault));
+        self.table
     }
 }

@@ -12,4 +12,5 @@ mod building;
 mod rows;
 
 pub use building::Building;
-pub use rows::{Keys, Missing, Table, Tables, cell, nearest, number, number_at, table_of};
+pub(crate) use rows::called;
+pub use rows::{Keys, Missing, Table, Tables, cell, nearest, number, number_at, table, table_of};

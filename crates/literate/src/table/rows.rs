@@ -3,6 +3,7 @@
 use crate::value::{Kind, Number, Value};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
+use std::panic::Location;
 use std::sync::Arc;
 
 /// Rows with keys, and columns.
@@ -14,6 +15,10 @@ pub struct Table {
     pub(super) keys: usize,
     /// For each row its address within the table (`r=0.8,sigma=0.3`), and its cells.
     pub(super) rows: Vec<(String, Vec<Value>)>,
+    /// Where the source makes it.
+    pub(super) place: &'static Location<'static>,
+    /// Why it is refused.
+    pub(super) fault: Option<String>,
 }
 
 /// What all cells below one another are.
@@ -24,48 +29,74 @@ pub(super) struct Column {
     pub(super) unit: &'static str,
 }
 
-/// There is no such cell, or it has no number.
+/// There is no such table, row, column or cell, or the cell has no number.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{address}: {what}; run a fuller profile, or mend the address in {place}")]
+#[error("{address}: {what}; {remedy}, or correct it in {place}")]
 pub struct Missing {
     address: String,
     /// What is missing, and the nearest names that there are.
     what: String,
+    /// What to do if the address is right.
+    remedy: &'static str,
     place: String,
 }
 
 impl Missing {
     #[track_caller]
     fn new(address: impl Into<String>, what: impl Into<String>) -> Missing {
-        let place = std::panic::Location::caller();
+        let place = Location::caller();
         let place = format!("{}:{}", place.file(), place.line());
-        Missing { address: address.into(), what: what.into(), place }
+        let remedy = "run a fuller profile";
+        Missing { address: address.into(), what: what.into(), remedy, place }
     }
 }
 
 /// Tables by their names.
 pub type Tables = BTreeMap<&'static str, Arc<Table>>;
 
-/// The cell with an address, `cascade.orbits[n=3].delta`.
+/// Finds a table by its name.
+#[track_caller]
+pub fn table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missing> {
+    match tables.get(name) {
+        Some(table) => Ok(table),
+        None => {
+            let missing = Missing::new(name, no_such("table", name, tables.keys().copied()));
+            Err(Missing { remedy: "add its experiment to `needs`", ..missing })
+        }
+    }
+}
+
+/// Finds the cell with an address, `cascade.orbits[n=3].delta`.
 #[track_caller]
 pub fn cell<'a>(tables: &'a Tables, address: &str) -> Result<&'a Value, Missing> {
-    let name = table_of(address).unwrap_or(address);
-    let Some(table) = tables.get(name) else {
-        let names = nearest(name, tables.keys().copied()).join(", ");
-        return Err(Missing::new(address, format!("there is no table {name}; nearest: {names}")));
-    };
-    table.at(address).ok_or_else(|| Missing::new(address, table.nearest(address)))
+    let table = table(tables, table_of(address).unwrap_or(address))?;
+    match table.at(address) {
+        Some(cell) => Ok(cell),
+        None => Err(Missing::new(address, table.what_is_missing(address))),
+    }
 }
 
 #[track_caller]
 pub fn number_at(tables: &Tables, address: &str) -> Result<f64, Missing> {
-    number(cell(tables, address)?).ok_or_else(|| Missing::new(address, NO_NUMBER))
+    match number(cell(tables, address)?) {
+        Some(number) => Ok(number),
+        None => Err(Missing::new(address, NO_NUMBER)),
+    }
 }
 
 const NO_NUMBER: &str = "this cell has no number";
 
-/// The three names that are most like one: with the most characters alike at their beginnings and
-/// ends.
+/// Says that there is nothing of this name, with the nearest names that there are.
+fn no_such<'a>(kind: &str, name: &str, names: impl Iterator<Item = &'a str>) -> String {
+    let nearest = nearest(name, names);
+    match nearest.is_empty() {
+        true => format!("there is no {kind} {name}, nor any other"),
+        false => format!("there is no {kind} {name}; nearest: {}", nearest.join(", ")),
+    }
+}
+
+/// Returns the three names that are most like one: with the most characters alike at their
+/// beginnings and ends.
 pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let begin = |own: &str| own.chars().zip(name.chars()).take_while(|(a, b)| a == b).count();
     let ends =
@@ -95,6 +126,16 @@ impl Table {
         self.name
     }
 
+    /// Returns where the source makes it: `src/file.rs:12`.
+    pub fn place(&self) -> String {
+        format!("{}:{}", self.place.file(), self.place.line())
+    }
+
+    /// Returns why it is refused, with its place.
+    pub(crate) fn fault(&self) -> Option<&str> {
+        self.fault.as_deref()
+    }
+
     /// The cell with this address; `first` and `last` stand for values of a key.
     pub fn at(&self, address: &str) -> Option<&Value> {
         if ["=first", "=last"].iter().any(|end| address.contains(end)) {
@@ -105,80 +146,98 @@ impl Table {
         cells.find(|cell| cell.id == address)
     }
 
-    /// What an address has that is not there, with the nearest that is.
-    fn nearest(&self, address: &str) -> String {
+    /// Says which part of an address is not there, with the nearest that is.
+    fn what_is_missing(&self, address: &str) -> String {
         let rest = address.strip_prefix(self.name).unwrap_or(address);
         let (row, column) = rest.rsplit_once('.').unwrap_or(("", rest));
         let row = row.trim_start_matches('[').trim_end_matches(']');
-        let (kind, nearest) = match self.rows().any(|name| name == row) {
-            true => ("column", nearest(column, self.columns.iter().map(|column| column.name))),
-            false => ("row", nearest(row, self.rows())),
-        };
-        format!("there is no such {kind}; nearest: {}", nearest.join(", "))
-    }
-
-    pub(super) fn column(&self, name: &str) -> Option<usize> {
-        self.columns.iter().position(|column| column.name == name)
-    }
-
-    /// Rows with these keys, in order: all that agree where keys are left out.
-    fn select<'a>(&'a self, keys: Keys<'a>) -> impl Iterator<Item = &'a [Value]> {
-        let is = |cells: &[Value], (name, wanted): &(&str, f64)| {
-            self.column(name).and_then(|at| number(&cells[at])) == Some(*wanted)
-        };
-        let rows = self.rows.iter().map(|(_, cells)| cells.as_slice());
-        rows.filter(move |cells| keys.iter().all(|key| is(cells, key)))
-    }
-
-    /// The number in the row with these keys.
-    #[track_caller]
-    pub fn number<'a>(&'a self, keys: Keys<'a>, column: &str) -> Result<f64, Missing> {
-        let cell = self.column(column).and_then(|at| self.select(keys).next()?.get(at));
-        if let Some(number) = cell.and_then(number) {
-            return Ok(number);
+        match self.rows().any(|name| name == row) {
+            true => no_such("column", column, self.columns.iter().map(|column| column.name)),
+            false => no_such("row", row, self.rows()),
         }
-        let keys: Vec<String> = keys.iter().map(|(name, key)| format!("{name}={key}")).collect();
-        let address = format!("{}[{}].{column}", self.name, keys.join(","));
-        let what = cell.map_or_else(|| self.nearest(&address), |_| NO_NUMBER.into());
-        Err(Missing::new(address, what))
     }
 
-    /// The numbers of a column where there are any, each with that of another column.
-    pub fn points(&self, keys: Keys<'_>, x: &str, y: &str) -> Vec<(f64, f64)> {
-        self.estimates(keys, x, y).into_iter().map(|(x, own)| (x, own.value)).collect()
-    }
-
-    /// The same with standard errors, zero where a number has none; the interval is one error to
-    /// each side.
-    pub fn estimates(&self, keys: Keys<'_>, x: &str, y: &str) -> Vec<(f64, Estimate)> {
-        let Some((x, y)) = self.column(x).zip(self.column(y)) else { return Vec::new() };
-        let estimate = |cell: &Value| {
-            let (value, error) = (number(cell)?, cell.standard_error());
-            Some(Estimate { value, error, interval: [value - error, value + error] })
-        };
-        let point = |cells: &[Value]| Some((number(&cells[x])?, estimate(&cells[y])?));
-        self.select(keys).filter_map(point).collect()
-    }
-
-    /// The different values of a column, in order of the rows.
-    pub fn values(&self, column: &str) -> Vec<f64> {
-        self.different(column, number)
-    }
-
-    /// The different values of a key as addresses write them, in order of the rows.
-    pub fn called(&self, key: &str) -> Vec<String> {
-        self.different(key, |cell| Some(called(cell)))
-    }
-
-    fn different<T: PartialEq>(&self, column: &str, of: impl Fn(&Value) -> Option<T>) -> Vec<T> {
-        let Some(at) = self.column(column) else { return Vec::new() };
-        let mut found = Vec::new();
-        for value in self.rows.iter().filter_map(|(_, cells)| of(&cells[at])) {
-            if !found.contains(&value) {
-                found.push(value);
+    /// Finds the place of a column.
+    #[track_caller]
+    pub(super) fn column(&self, name: &str) -> Result<usize, Missing> {
+        match self.columns.iter().position(|column| column.name == name) {
+            Some(at) => Ok(at),
+            None => {
+                let what = no_such("column", name, self.columns.iter().map(|column| column.name));
+                Err(Missing::new(self.name, what))
             }
         }
-        found
+    }
+
+    /// Finds the rows with these keys, in order: all that agree where keys are left out.
+    #[track_caller]
+    fn select(&self, keys: Keys<'_>) -> Result<Vec<&[Value]>, Missing> {
+        let mut found: Vec<&[Value]> = self.rows.iter().map(|(_, cells)| &cells[..]).collect();
+        for (name, wanted) in keys {
+            let at = self.column(name)?;
+            found.retain(|cells| is_number(&cells[at], *wanted));
+        }
+        if found.is_empty() && !keys.is_empty() {
+            let keys: Vec<String> = keys.iter().map(|(key, x)| format!("{key}={x}")).collect();
+            return Err(Missing::new(self.name, no_such("row", &keys.join(","), self.rows())));
+        }
+        Ok(found)
+    }
+
+    /// Returns the number in the row with these keys.
+    #[track_caller]
+    pub fn number(&self, keys: Keys<'_>, column: &str) -> Result<f64, Missing> {
+        let (rows, at) = (self.select(keys)?, self.column(column)?);
+        let [row] = rows[..] else {
+            let what = format!("{} rows have these keys; give more of them", rows.len());
+            return Err(Missing::new(self.name, what));
+        };
+        match number(&row[at]) {
+            Some(number) => Ok(number),
+            None => Err(Missing::new(&row[at].id, NO_NUMBER)),
+        }
+    }
+
+    /// Returns the numbers of a column where there are any, each with that of another column.
+    #[track_caller]
+    pub fn curve(&self, keys: Keys<'_>, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Missing> {
+        let series = self.series(keys, x, y)?;
+        Ok(series.into_iter().map(|(x, estimate)| (x, estimate.value)).collect())
+    }
+
+    /// Returns the same with standard errors, zero where a number has none; the interval is one
+    /// error to each side.
+    #[track_caller]
+    pub fn series(
+        &self,
+        keys: Keys<'_>,
+        x: &str,
+        y: &str,
+    ) -> Result<Vec<(f64, Estimate)>, Missing> {
+        let (x, y) = (self.column(x)?, self.column(y)?);
+        let mut series = Vec::new();
+        for cells in self.select(keys)? {
+            if let Some((x, value)) = number(&cells[x]).zip(number(&cells[y])) {
+                let error = cells[y].standard_error();
+                let interval = [value - error, value + error];
+                series.push((x, Estimate { value, error, interval }));
+            }
+        }
+        Ok(series)
+    }
+
+    /// Returns the different numbers of a column, in order of the rows.
+    #[track_caller]
+    pub fn distinct(&self, column: &str) -> Result<Vec<f64>, Missing> {
+        let at = self.column(column)?;
+        Ok(different(self.rows.iter().filter_map(|(_, cells)| number(&cells[at]))))
+    }
+
+    /// Returns the different values of a key as addresses write them, in order of the rows.
+    pub fn called(&self, key: &str) -> Vec<String> {
+        let at = self.keys().position(|name| name == key);
+        let cells = self.rows.iter().filter_map(|(_, cells)| cells.get(at?));
+        different(cells.map(|cell| called(&cell.number)))
     }
 
     /// Names of the keys.
@@ -199,7 +258,7 @@ impl Table {
         for (_, cells) in &self.rows {
             let mut names = vec![String::new()];
             for ((key, all), cell) in keys.iter().zip(cells) {
-                let written = called(cell);
+                let written = called(&cell.number);
                 let mut ways = Vec::new();
                 if all.first() == Some(&written) {
                     ways.push("first");
@@ -245,28 +304,50 @@ impl Table {
     }
 }
 
-/// A key as addresses write it.
-pub(super) fn called(cell: &Value) -> String {
-    match &cell.number {
+/// Returns each of several things once, in their order.
+fn different<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
+    let mut found = Vec::new();
+    for one in all {
+        if !found.contains(&one) {
+            found.push(one);
+        }
+    }
+    found
+}
+
+/// Writes a key as addresses have it.
+pub(crate) fn called(key: &Number) -> String {
+    match key {
+        Number::None => "none".into(),
+        Number::Integer(n) => n.to_string(),
+        Number::Real { value, .. } => value.to_string(),
         Number::Text(words) => words.clone(),
-        _ => number(cell).unwrap_or(f64::NAN).to_string(),
     }
 }
 
-/// The number of a cell; none of words.
+/// Returns whether a cell is this number, to the last digit.
+fn is_number(cell: &Value, wanted: f64) -> bool {
+    match cell.number {
+        Number::Integer(n) => n as f64 == wanted && wanted as i128 == n,
+        _ => number(cell) == Some(wanted),
+    }
+}
+
+/// Returns the number of a cell; none of words.
 pub fn number(cell: &Value) -> Option<f64> {
     match cell.number {
         Number::Integer(n) => Some(n as f64),
         Number::Real { value, .. } => Some(value),
-        Number::Text(_) => None,
+        Number::None | Number::Text(_) => None,
     }
 }
 
+/// Writes a number as data files have it.
 fn written(number: &Number) -> String {
     match number {
+        Number::None => String::new(),
         Number::Integer(n) => n.to_string(),
         Number::Real { value, .. } => format!("{value:?}"),
-        Number::Text(words) if words == "none" => String::new(),
         Number::Text(words) => words.clone(),
     }
 }
@@ -292,7 +373,7 @@ mod tests {
             .key("sigma", "d omega^2", |row| row.1)
             .estimate("mean", "1", "the mean", mean)
             .count("runs", "how many", |row| row.2.len() as u64)
-            .real("inverse", "1/omega", 3, "one over r", |row| 1.0 / row.0)
+            .real("inverse", "1/omega", 3, "one over r", |row| (row.0 > 0.0).then(|| 1.0 / row.0))
             .same("inverse", |row| (row.1 == 0.3).then(|| "other".into()))
             .done()
     }
@@ -320,19 +401,24 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_is_an_error_with_the_place_that_asks() {
+    fn what_is_not_there_is_an_error_with_the_place_that_asks_and_the_nearest_names() {
         let table = table();
         let keys = [("r", 0.8), ("sigma", 0.30000000000000004)];
         let lost = table.number(&keys, "mean").unwrap_err();
-        assert_eq!(lost.address, "test.rise[r=0.8,sigma=0.30000000000000004].mean");
         assert!(lost.place.starts_with("crates/literate/src/table/rows.rs:"), "{}", lost.place);
-        assert!(
-            lost.what.ends_with("row; nearest: r=0.8,sigma=0.3, r=0.8,sigma=0.1, r=0,sigma=0.1")
-        );
+        let nearest = "row r=0.8,sigma=0.30000000000000004; nearest: r=0.8,sigma=0.3, r=0.8,";
+        assert!(lost.what.contains(nearest), "{}", lost.what);
         let tables = Tables::from([(table.name(), Arc::new(table.clone()))]);
         let what = |address| cell(&tables, address).unwrap_err().what;
-        assert!(what("test.rise[r=0,sigma=0.1].meen").contains("no such column; nearest: mean"));
+        assert!(what("test.rise[r=0,sigma=0.1].meen").contains("no column meen; nearest: mean"));
         assert!(what("test.ris.mean").ends_with("no table test.ris; nearest: test.rise"));
+        // Nothing is drawn of a column, a key or a row that is not there.
+        let column = table.series(&[], "sigma", "meen").unwrap_err();
+        assert!(column.to_string().contains("test.rise: there is no column meen; nearest: mean"));
+        for keys in [[("sigmas", 0.1)], [("r", 0.5)]] {
+            assert!(table.curve(&keys, "sigma", "mean").is_err(), "{keys:?}");
+        }
+        assert!(table.distinct("rr").is_err() && table.number(&[("r", 0.8)], "mean").is_err());
         // There is a cell, and it has no number.
         assert!(table.number(&[("r", 0.0), ("sigma", 0.3)], "mean").is_err());
         assert!(table.number(&[("r", 0.0), ("sigma", 0.1)], "inverse").is_err());
@@ -350,7 +436,7 @@ mod tests {
             assert_eq!(named[name]["mean"].id, "test.rise[r=0.8,sigma=0.3].mean", "{name}");
         }
         assert_eq!(named["r=first,sigma=0.1"]["mean"].id, "test.rise[r=0,sigma=0.1].mean");
-        assert_eq!(table.values("r"), [0.0, 0.8]);
+        assert_eq!(table.distinct("r").unwrap(), [0.0, 0.8]);
         let last = table.at("test.rise[r=last,sigma=first].mean");
         assert_eq!(last.unwrap().id, "test.rise[r=0.8,sigma=0.1].mean");
     }
@@ -358,8 +444,8 @@ mod tests {
     #[test]
     fn figures_and_data_take_columns() {
         let table = table();
-        assert_eq!(table.points(&[("r", 0.0)], "sigma", "mean"), [(0.1, 1.5)]);
-        let found = table.estimates(&[("r", 0.8)], "sigma", "mean");
+        assert_eq!(table.curve(&[("r", 0.0)], "sigma", "mean").unwrap(), [(0.1, 1.5)]);
+        let found = table.series(&[("r", 0.8)], "sigma", "mean").unwrap();
         assert_eq!((found.len(), found[1].0, found[1].1.error), (2, 0.3, 0.5));
         let (header, rows) = table.data();
         assert_eq!(header[1..4], ["sigma (d omega^2)", "mean (1)", "mean_error (1)"]);
@@ -367,9 +453,43 @@ mod tests {
         assert_eq!(rows[3], ["0.8", "0.3", "7.5", "0.5", "2", "1.25"]);
     }
 
+    /// Every fault that a table itself can have is noted with its table, row and column.
     #[test]
-    #[should_panic(expected = "two rows with r=1")]
-    fn no_two_rows_have_the_same_keys() {
-        Table::of("test.twice", &[1.0, 1.0], |_| 1).key("r", "1", |row| *row).done();
+    fn a_wrong_table_says_what_is_wrong_and_where() {
+        let one =
+            |rows: &'static [f64]| Table::of("test.bad", rows, |_| 1).key("r", "1", |row| *row);
+        let twice = one(&[1.0, 1.0]).done();
+        let columns = one(&[1.0]).chosen("x", "1", "", |_| 1.0).count("x", "", |_| 2).done();
+        let late = one(&[1.0]).chosen("x", "1", "", |_| 1.0).key("s", "1", |row| *row).done();
+        let nan = one(&[1.0, 0.0]).real("x", "1", 3, "", |row| 1.0 / row).done();
+        let error = Estimate { value: 1.0, error: f64::NAN, interval: [0.0; 2] };
+        let error = one(&[1.0]).estimate("x", "1", "", |_| Some(error)).done();
+        let same = one(&[1.0]).same("y", |_| None).done();
+        for (table, what) in [
+            (twice, "two rows have the keys [r=1]"),
+            (columns, "two columns have the name x"),
+            (late, "the key s stands after other columns"),
+            (nan, "test.bad[r=0].x is inf; "),
+            (error, "test.bad[r=1].x is 1"),
+            (same, "there is no column y; nearest: r"),
+        ] {
+            let fault = table.fault.unwrap_or_default();
+            let place = format!("{}:{}: the table test.bad: ", file!(), table.place.line());
+            assert!(fault.starts_with(&place) && fault.contains(what), "{fault}");
+        }
+    }
+
+    /// Keys are integers of up to 64 bits, also where doubles have no such integer.
+    #[test]
+    fn neighbouring_integers_beyond_doubles_are_two_keys() {
+        let seeds = [9_007_199_254_740_992_u64, 9_007_199_254_740_993, u64::MAX];
+        let table = Table::of("test.seeds", &seeds, |_| 1).key("seed", "1", |seed| *seed);
+        let table = table.chosen("same", "1", "", |seed| *seed).done();
+        assert_eq!(table.fault, None);
+        let odd = table.at("test.seeds[seed=9007199254740993].same").unwrap();
+        assert_eq!(odd.plain(), "9007199254740993");
+        assert_eq!(table.data().1[2], ["18446744073709551615"; 2]);
+        let even = table.select(&[("seed", 9_007_199_254_740_992.0)]).unwrap();
+        assert_eq!((even.len(), called(&even[0][0].number)), (1, "9007199254740992".into()));
     }
 }
