@@ -16,7 +16,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let intervals: Vec<_> = intervals.collect();
     let modes: Vec<_> =
         sweep.comparable().filter_map(|row| Some((row.sigma, row.mode? as f64))).collect();
-    panel.bars("mode", &intervals, 0, INTERVAL, Outside::Cut)?;
+    panel.bars("mode", &intervals, 40, INTERVAL, Outside::Cut)?;
     printed(&panel, 0.0)?;
     panel.markers("mode", &modes, CROSSES, Outside::Cut)?;
     panel.label("most likely number", (panel.x.hi, n as f64), (-1, 3), RED)?;
@@ -24,7 +24,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     panel.label("its 95 % interval", (last, 0.7 * n as f64), (2, 0), GREY)?;
 
     let description = describe!(
-        "Most likely number of different gaps that impact against σ, simulated with {} masses; pale bars are 95 % \
+        "Most likely number of different gaps that impact against σ, simulated with {} masses; grey bars are 95 % \
          bootstrap intervals. Below the rise the mode is small and badly determined, beyond it nearly all {n} gaps \
          impact. A dotted line stands at the printed σ = {threshold}.",
         sweep.ensemble.chain.masses

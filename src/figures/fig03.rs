@@ -47,7 +47,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
     let description = describe!(
         "(a) Mean number of different gaps that impact against σ, simulated with {} masses: of the realisations with an impact \
-         (crosses, pale 95 % intervals) it {}; of all realisations (broken line) it starts near zero. (b) The share with an \
+         (crosses, grey 95 % intervals) it {}; of all realisations (broken line) it starts near zero. (b) The share with an \
          impact rises from {} to {}.",
         sweep.ensemble.chain.masses,
         half_height

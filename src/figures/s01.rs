@@ -1,11 +1,18 @@
-//! Fig. S1: one long run, gap against time, a tick for each impact.
+//! Draws Fig. S1: one long run, gap against time: how many impacts, and a tick for each at first.
 
 use super::prelude::*;
 use crate::experiments::spacetime::SpaceTime;
 use crate::params::Protocol;
+use std::collections::BTreeMap;
 
 /// How much of the run the second panel shows.
 const DETAIL: f64 = 400.0;
+
+/// The intervals of time in which the first panel counts.
+const INTERVALS: f64 = 200.0;
+
+/// Numbers of impacts that have one shade.
+const SHADES: [&str; 4] = ["1", "2–3", "4–7", "8 or more"];
 
 /// A gap at which impacts start.
 const START: Marker = (Symbol::Disc, 62, Stroke::solid(RED, HAIR));
@@ -20,10 +27,9 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let whole = time(0.0, until, until / 4.0).column("time_to_thousandths (1/omega)");
     let whole = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
     let impacts = points(run, 0.0, until);
-    window(&whole, until)?;
-    let row = (whole.frame.bottom - whole.frame.top) / (run.width() as i32 + 1);
     whole.record("impacts", impacts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
-    whole.draw_series("impacts", [ticks(impacts, 12, Stroke::solid(INK, row as u32))])?;
+    shades(&sheet, &whole, run, until / INTERVALS)?;
+    window(&whole, until)?;
     starts(&whole, run, until)?;
 
     // From a round time before the first impact on.
@@ -43,6 +49,33 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
 fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {
     let all = run.times.iter().zip(&run.gaps).map(|(&time, &gap)| (time, f64::from(gap)));
     all.filter(|(time, _)| (from..=to).contains(time)).collect()
+}
+
+/// Shades each gap by the number of its impacts in intervals of this length, and says how.
+fn shades(sheet: &Sheet, panel: &Panel, run: &SpaceTime, length: f64) -> Drawn {
+    let mut counts: BTreeMap<(u64, u16), u64> = BTreeMap::new();
+    for (time, gap) in points(run, 0.0, panel.x.hi) {
+        let interval = (time / length).min(INTERVALS - 1.0);
+        *counts.entry((interval as u64, gap as u16)).or_default() += 1;
+    }
+    let Frame { left, top, right, bottom } = panel.frame;
+    let row = (bottom - top) as u32 / (run.width() as u32 + 1);
+    let width = (right - left) / INTERVALS as i32 + 1;
+    let style = |colour| words(SMALL, colour, HPos::Left, VPos::Bottom);
+    let title = format!("impacts in {}/*ω*:", short(length, 2));
+    sheet.area.draw_text(&title, &style(INK), (left + 2870, top - 80))?;
+    for (shade, name) in SHADES.into_iter().enumerate() {
+        let colour = ordered(shade, SHADES.len());
+        let with_shade = counts.iter().filter(|(_, count)| count.ilog2().min(3) == shade as u32);
+        let places = with_shade
+            .map(|((interval, gap), _)| ((*interval as f64 + 0.5) * length, f64::from(*gap)));
+        let places =
+            ticks(places.collect(), width, Stroke::solid(colour, row * (shade as u32 + 1) / 4));
+        panel.draw_series("impacts", [places])?;
+        let x = left + [4670, 4920, 5420, 5920][shade];
+        sheet.area.draw_text(name, &style(colour), (x, top - 80))?;
+    }
+    Ok(())
 }
 
 /// The window in which gaps are counted, as a ground, if the run is that long.
@@ -70,8 +103,8 @@ fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Drawn {
 
 fn description(run: &SpaceTime) -> Description {
     describe!(
-        "Gap against time, a tick for each of {} impacts of one run of {} masses at σ = {}. Impacts form horizontal bands that \
-         begin at {} red discs and widen in bursts; {} of {} gaps are reached by the end. (b) A part of it, finer.",
+        "(a) Gap against time for {} impacts of one run of {} masses at σ = {}: the darker, the more impacts. They form horizontal \
+         bands that begin at {} red discs and widen in bursts; {} of {} gaps are reached by the end. (b) Its beginning, a tick for each.",
         run.times.len(),
         run.parameters.chain.masses,
         run.parameters.sigma,

@@ -4,7 +4,7 @@ use super::prelude::*;
 use super::simulated::FORCING;
 use crate::experiments::Results;
 use crate::experiments::theory::beside::at;
-use crate::params::{Chain, printed_threshold};
+use crate::params::printed_threshold;
 use literate::table::Table;
 
 /// The σ of (a).
@@ -30,8 +30,7 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn 
     let last = found.distinct("time")?.last().copied().unwrap_or_default();
     let lengths = found.distinct("masses")?;
     for (place, &masses) in lengths.iter().enumerate() {
-        let is_ours = masses == Chain::default().masses as f64;
-        let colour = if is_ours { RED } else { ordered(place, lengths.len()) };
+        let colour = ordered(place, lengths.len());
         let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
         let curve = shares.curve(&keys[..1], "sigma", "clumps")?;
         panel.curve(&name, &curve, Stroke::solid(colour, LINE), Outside::Refuse)?;
@@ -55,7 +54,7 @@ fn times(sheet: &Sheet, found: &Table) -> Drawn {
     let three = [sigmas.first().copied(), Some(printed_threshold()), sigmas.last().copied()];
     let mut drawn = Vec::new();
     for (place, sigma) in three.into_iter().flatten().enumerate() {
-        let colour = [GREEN, PURPLE, ORANGE][place];
+        let colour = ordered(place, 3);
         let points = found.curve(&[("sigma", sigma)], "time", "missing")?;
         let thin = Stroke::solid(colour, THIN);
         let name = format!("*σ* = {sigma}");

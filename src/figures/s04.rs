@@ -23,16 +23,17 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 }
 
 fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64]) -> Drawn {
-    let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 7e5);
+    let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 1.1e5);
     let y = Axis::linear(0.06, 0.14, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
         .column("half_height (d omega^2)");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3930), x, y)?;
+    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 6000, 3930), x, y)?;
     let bound = results.number("theory.relation.sigma_kept_half")?;
     panel.level("bound by seeds", bound, Stroke::dashed(INK, THIN, Dash::Dotted))?;
     panel.label("bound from rest, *n* = 100", (10.0, bound), (1, 1), INK)?;
     let map = results.table("protocol.cells")?;
     let map = map.curve(&[("window", WINDOW)], "transient", "half_height_all")?;
     panel.curve("from rest, n = 100", &map, Stroke::solid(GREY, LINE), Outside::Cut)?;
+    let mut ends = Vec::new();
     for (place, masses) in lengths.iter().enumerate() {
         let longest = place + 1 == lengths.len();
         for (column, name, colour) in BRANCHES {
@@ -40,12 +41,13 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
                 if longest { (Symbol::Disc, Dash::Solid) } else { (Symbol::Ring, Dash::Short) };
             let points = halves.series(&[("masses", *masses)], "transient", column)?;
             let look = (mark, MEDIUM, Stroke::dashed(colour, THIN, dash));
-            panel.joined_estimates(&format!("{name}, n = {masses}"), &points, look)?;
-            if let Some((time, half)) = points.last().filter(|_| longest) {
-                panel.label(name, (*time, half.value), (2, 0), colour)?;
-            }
+            let name = format!("{name}, *n* = {masses}");
+            panel.joined_estimates(&name, &points, look)?;
+            let points: Vec<_> = points.iter().map(|(time, half)| (*time, half.value)).collect();
+            ends.push((name, points, colour));
         }
     }
+    panel.label_ends(&ends)?;
     let start = map.get(3).copied().unwrap_or((10.0, bound));
     panel.label_nearby("from rest, *n* = 100", start, (1, -1), GREY)?;
     Ok(())

@@ -29,6 +29,11 @@ fn shares(sheet: &Sheet) -> Drawn {
     let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
     let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
     let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
+    // Wide, with a rim of the page's colour for the curves that lie on it.
+    let limit = large::limit();
+    panel.curve("limit", &limit, Stroke::solid(GREY, 130), Outside::Cut)?;
+    panel.guide("rim", &limit, Stroke::solid(WHITE, 76))?;
+    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), GREY)?;
     for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
         let colour = ordered(place, DRAWN_VERTICES.len());
         let stroke = Stroke::solid(colour, LINE);
@@ -42,10 +47,7 @@ fn shares(sheet: &Sheet) -> Drawn {
         let start = (RANGE.0, 1.0 / vertices as f64);
         panel.label(&format!("*N* = {}", power(vertices)), start, (1, -1), colour)?;
     }
-    let limit = large::limit();
-    let stroke = Stroke::dashed(RED, LINE, Dash::Short);
-    panel.curve("limit", &limit, stroke, Outside::Cut)?;
-    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), RED)
+    Ok(())
 }
 
 fn jumps(sheet: &Sheet, table: &Table) -> Drawn {

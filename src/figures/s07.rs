@@ -125,7 +125,7 @@ fn chaos(panel: &Panel, race: &Race) -> Drawn {
     let cut = |t: f64| t.min(panel.y.hi);
     let below = grid.iter().map(|(x, t)| (*x, cut(t[0])));
     let above = grid.iter().rev().map(|(x, t)| (*x, cut(t[2])));
-    let band = Polygon::new(below.chain(above).collect::<Vec<_>>(), PALE);
+    let band = Polygon::new(below.chain(above).collect::<Vec<_>>(), GREY.mix(0.35));
     panel.draw_series("interval of the growth", [band])?;
     let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
     let stroke = Stroke::dashed(GREY, LINE, Dash::Short);

@@ -1,114 +1,132 @@
-//! Fig. S8: the error of a mean against the time that it takes, by every method.
+//! Draws Fig. S8: the difference of a mean by each method from that of the engine, with its
+//! interval; methods are sorted by the time that they take.
 
 use super::prelude::*;
-use super::rivals::{self, FINEST, Place, by_method, look};
 use crate::experiments::Measured;
 use crate::experiments::accuracy::bias::Biases;
 use crate::experiments::accuracy::tables::{Compared, compared};
-use crate::params::MethodName::{self, *};
-use crate::params::Setting;
+use crate::params::{MethodName::Certified, Setting};
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 
-/// Errors below this many standard errors are drawn as bounds: among all points, one exceeds two
-/// standard errors by chance.
+/// Differences of more standard errors are clear: among all of them, one exceeds two by chance.
 const CLEAR: f64 = 3.0;
 
-/// Standard errors from the value up to such a bound.
-const BOUND: f64 = 2.0;
+/// Standard errors from the value to the end of a 95 % interval.
+const BOUND: f64 = 1.96;
 
-const NAMES: [Place; 6] = [
-    (Verlet, 0, (-2, 0), None),
-    (Advancement, FINEST, (0, 5), None),
-    (Sampled, 0, (0, 4), None),
-    (RungeKutta, 0, (-1, -1), None),
-    (MoreauJean, 0, (1, -1), None),
-    (Penalty, 0, (2, -1), None),
-];
+/// The differences in the panels, in per cent.
+const RANGE: f64 = 40.0;
+
+/// From one row to the next.
+const ROW: i32 = 255;
+
+/// A method with its time and its difference, in per cent.
+type Row = (f64, Setting, Estimate);
 
 pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
-    const HEIGHT: i32 = 2950;
-    let sheet = Sheet::new(11_400);
     let rows = compared(biases);
-    let last = biases.parameters.chains.len() - 1;
-    for (i, chains) in biases.parameters.chains.iter().enumerate() {
-        let top = 430 + i as i32 * (HEIGHT + 420);
-        let x = Axis::decades(0, 2, 1, "seconds of one core for a thousand chains")
-            .between(0.8, 200.0)
-            .column("time of one core for a thousand chains (s)");
-        let x = if i == last { x } else { x.without_numbers() };
-        let y = Axis::decades(-1, 2, 1, "error of the mean (%)").between(0.2, 400.0);
-        let y = if i == last / 2 {
-            y
-        } else {
-            Axis { label: String::new(), ..y.column("error of the mean (%)") }
-        };
-        let frame = Frame::new(1150, top, 8250, top + HEIGHT);
-        let panel = sheet.lettered(LETTERS[i], frame, x, y)?;
-        let corner = (panel.x.hi, panel.y.hi);
-        panel.label(&format!("*σ* = {}", chains.sigma), corner, (-1, -1), INK)?;
-        let time = |setting: Setting| {
-            measured.method(setting, chains.chain.masses, chains.sigma)?.thousand()
-        };
+    let (sigmas, number) = (&biases.parameters.chains, biases.parameters.settings.len() as i32);
+    let height = number * ROW;
+    let sheet = Sheet::new((sigmas.len() as i32 * (height + 450) + 1000) as u32);
+    for (i, chains) in sigmas.iter().enumerate() {
+        let time =
+            |setting| measured.method(setting, chains.chain.masses, chains.sigma)?.thousand();
+        let mut found: Vec<Row> = Vec::new();
+        for row in rows.iter().filter(|row| row.sigma == chains.sigma) {
+            if let Some((time, share)) = time(row.setting).zip(row.share) {
+                let percent = with_error(100.0 * share.value, 100.0 * share.error);
+                found.push((time, row.setting, percent));
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let top = 500 + i as i32 * (height + 450);
+        let frame = Frame::new(2550, top, 5750, top + height);
         let engine = Setting { method: Certified, value: 0.0 };
-        if let Some(at) = time(engine).filter(|at| panel.x.contains(*at)) {
-            panel.guide("engine", &[(at, panel.y.lo), (at, panel.y.hi)], look(Certified).2)?;
-            panel.label_nearby("engine", (at, panel.y.hi), (1, 1), RED)?;
-        }
-        let all = rows.iter().filter(|row| row.sigma == chains.sigma);
-        let all: Vec<&Compared> = all.collect();
-        let found =
-            by_method(&all, |row| Some((row.setting.method, (time(row.setting)?, row.share?))));
-        let mut curves = Vec::new();
-        for (method, found) in found {
-            curves.push((method, shown(&panel, method, &found)?));
-        }
-        if i == 0 {
-            panel.label("black: clear errors", (panel.x.hi, panel.y.lo), (-1, -6), INK)?;
-            panel.label_nearby("grey: upper bounds", (panel.x.hi, panel.y.lo), (-1, -1), GREY)?;
-        }
-        rivals::names(&panel, &curves, &NAMES)?;
+        let heading = format!("{} *σ* = {}", LETTERS[i], chains.sigma);
+        let style = words(TEXT, INK, HPos::Left, VPos::Bottom);
+        sheet.area.draw_text(&heading, &style, (260, top - 80))?;
+        let is_last = i + 1 == sigmas.len();
+        let panel = rows_of(&sheet, frame, &found, time(engine), is_last)?;
+        panel.with_suffix(LETTERS[i].trim_matches(['(', ')']));
     }
-    Ok(sheet.finish("Error of a mean against its time", description(biases, &rows)))
+    let style = words(SMALL, INK, HPos::Right, VPos::Bottom);
+    for (name, right) in [("difference (%)", 7200), ("time (s)", 8250)] {
+        sheet.area.draw_text(name, &style, (right, 420))?;
+    }
+    Ok(sheet.finish("Error of a mean, by method", description(biases, &rows)))
 }
 
-/// Draws the settings of a method: an error with its standard error, or an arrow down from where it
-/// may be at most. Returns where they stand.
-fn shown(
-    panel: &Panel,
-    method: MethodName,
-    found: &[(f64, Estimate)],
-) -> Result<Vec<(f64, f64)>, Error> {
-    let (mark, size, grey) = look(method);
-    let title = method.title();
-    let percent = |bias: &Estimate| with_error(100.0 * bias.value, 100.0 * bias.error);
-    let found: Vec<_> = found.iter().map(|(x, bias)| (*x, percent(bias))).collect();
-    panel.record(title, found.iter().copied());
-    let panel = panel.unrecorded();
-    let clear = |bias: &Estimate| bias.value.abs() > CLEAR * bias.error;
-    let height =
-        |bias: &Estimate| bias.value.abs() + if clear(bias) { 0.0 } else { BOUND * bias.error };
-    let places: Vec<_> = found.iter().map(|(x, bias)| (*x, height(bias))).collect();
-    for (setting, ((x, y), (_, bias))) in places.iter().zip(&found).enumerate() {
-        // The first is the coarse one.
-        let size = size + if setting == 0 { 22 } else { -8 };
-        let stroke = if clear(bias) { Stroke { colour: INK, ..grey } } else { grey };
-        if clear(bias) {
-            let bar = [(*x, y - bias.error, y + bias.error)];
-            panel.bars(title, &bar, 0, stroke, Outside::Edge)?;
-        } else {
-            panel.area.draw(&arrow(vec![(*x, *y), (*x, 0.5 * y)], stroke))?;
-        }
-        panel.markers(title, &[(*x, *y)], (mark, size, stroke), Outside::Edge)?;
+/// Draws a row for the engine, if its time is known, and one for each method below it. Returns the
+/// panel, whose data are times and differences.
+fn rows_of(
+    sheet: &Sheet,
+    frame: Frame,
+    found: &[Row],
+    engine: Option<f64>,
+    is_last: bool,
+) -> Result<Panel, Error> {
+    let x = Axis::linear(-RANGE, RANGE, 20.0, 4, "difference from the engine’s mean (%)");
+    let x = x.column("time of one core for a thousand chains (s)");
+    let x = if is_last { x } else { x.without_numbers() };
+    let y = Axis::linear(-0.6 - found.len() as f64, 0.6, 1.0, 1, "");
+    let mut y = y.column("error of the mean (%)");
+    let names = std::iter::once("engine".to_string()).chain(found.iter().map(|row| named(row.1)));
+    y.ticks =
+        names.zip(0..).map(|(name, i)| Tick { at: -f64::from(i), label: Some(name) }).collect();
+    y.ticks.reverse();
+    let panel = sheet.panel(frame, x, y)?;
+    panel.guide("engine", &[(0.0, panel.y.lo), (0.0, 0.0)], Stroke::solid(RED, THIN))?;
+    let disc = (Symbol::Disc, LARGE + 12, Stroke::solid(RED, THIN));
+    panel.unrecorded().markers("engine", &[(0.0, 0.0)], disc, Outside::Refuse)?;
+    let style = words(SMALL, INK, HPos::Right, VPos::Center);
+    let write = |words: &str, right: i32, row: f64| {
+        let at = panel.area.map_coordinate(&(0.0, row));
+        sheet.area.draw_text(words, &style, (right, at.1))
+    };
+    if let Some(time) = engine {
+        write(&short(time, 2), 8250, 0.0)?;
     }
-    Ok(places)
+    for (row, (time, setting, difference)) in (1..).map(|i| -f64::from(i)).zip(found) {
+        let Estimate { value, error, .. } = *difference;
+        panel.record(setting.method.title(), [(*time, *difference)]);
+        let is_clear = value.abs() > CLEAR * error;
+        let stroke = Stroke::solid(INK, if is_clear { LINE } else { HAIR });
+        let ends = [value - BOUND * error, value + BOUND * error].map(|end| (end, row));
+        panel.guide(setting.method.title(), &ends, stroke)?;
+        let symbol = if is_clear { Symbol::Disc } else { Symbol::Ring };
+        if value.abs() < RANGE {
+            let mark = (symbol, MEDIUM, Stroke::solid(INK, THIN));
+            panel.unrecorded().markers("difference", &[(value, row)], mark, Outside::Refuse)?;
+        } else {
+            let (from, to) = (0.8 * RANGE * value.signum(), RANGE * value.signum());
+            panel.area.draw(&arrow(vec![(from, row), (to, row)], stroke))?;
+        }
+        let half = BOUND * error;
+        let decimals = if half < 10.0 { 1 } else { 0 };
+        let shown = format!("{} ± {}", number(value, decimals), number(half, decimals));
+        write(&shown, 7200, row)?;
+        write(&short(*time, 2), 8250, row)?;
+    }
+    Ok(panel)
+}
+
+/// A method with its step or tolerance.
+fn named(setting: Setting) -> String {
+    let value = format!("{:e}", setting.value).replace("e-", "·10^{−").replace("e0", "");
+    let value = if setting.value < 0.01 {
+        value.replace("1·", "") + "}"
+    } else {
+        setting.value.to_string()
+    };
+    format!("{}, {value}", setting.method.title())
 }
 
 fn description(biases: &Biases, rows: &[Compared]) -> Description {
     let clear = |row: &&Compared| row.share.is_some_and(|off| off.value.abs() > CLEAR * off.error);
     describe!(
-        "Error of the mean number of impacting gaps against time, a panel for each of {} σ, the engine as a line at the left: {} of \
-         {} points are clear errors, the others upper bounds.",
+        "Difference of the mean number of impacting gaps from the engine's, with 95 % intervals, at {} σ; rows are methods with a step or \
+         tolerance, by rising time. {} of {} differences are clear (discs).",
         biases.parameters.chains.len(),
         rows.iter().filter(clear).count(),
         rows.len(),

@@ -16,7 +16,7 @@ pub const CROSS: Stroke = Stroke::solid(RED, THIN);
 pub const CROSSES: Marker = (Symbol::Cross, 56, CROSS);
 
 /// Bars of intervals, which stay behind the marks.
-pub const INTERVAL: Stroke = Stroke::solid(PALE, 70);
+pub const INTERVAL: Stroke = Stroke::solid(GREY, 30);
 
 /// Makes the axis of σ around the rise. Beyond its end nothing changes any more; the data files
 /// have all σ.

@@ -5,8 +5,10 @@ use crate::QUICK;
 use impact_paper::experiments::{Progress, SEGMENTS, SPACE_TIME, Store};
 use impact_paper::figures;
 use impact_paper::params::{Profile, VERTICES};
+use literate::figures::Figure;
 use roxmltree::{Document, Node};
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 /// Numbers of a list such as `1,2 3,4`.
 fn numbers(list: &str) -> Vec<f64> {
@@ -93,6 +95,17 @@ fn label(group: &Node) -> Label {
     }
 }
 
+/// All pictures with their ids: of the quick profile, and those that are committed.
+fn pictures() -> Vec<(String, String)> {
+    let mut pictures = Vec::new();
+    for Figure { id, .. } in &QUICK.figures {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("paper/figures/{id}.svg"));
+        pictures.push((id.clone(), std::fs::read_to_string(file).unwrap()));
+    }
+    pictures.extend(QUICK.figures.iter().map(|figure| (figure.id.clone(), figure.svg())));
+    pictures
+}
+
 #[test]
 fn every_figure_is_a_titled_and_described_picture() {
     assert_eq!(QUICK.figures.len(), figures::ALL.len());
@@ -148,17 +161,16 @@ fn all_coordinates_are_finite_and_on_the_sheet() {
 
 #[test]
 fn labels_are_on_the_sheet_and_overlap_with_nothing() {
-    for figure in &QUICK.figures {
-        let svg = figure.svg();
+    for (id, svg) in pictures() {
         let document = Document::parse(&svg).unwrap();
         let (width, height) = view(&document);
         let labels = labels(&document);
         for (i, a) in labels.iter().enumerate() {
             let inside = a.x.0 >= 0.0 && a.x.1 <= width && a.y.0 >= 0.0 && a.y.1 <= height;
-            assert!(inside, "{}: {a:?} is cut", figure.id);
+            assert!(inside, "{}: {a:?} is cut", id);
             for b in &labels[i + 1..] {
                 let apart = a.x.1 <= b.x.0 || b.x.1 <= a.x.0 || a.y.1 <= b.y.0 || b.y.1 <= a.y.0;
-                assert!(apart, "{}: {a:?} and {b:?} overlap", figure.id);
+                assert!(apart, "{}: {a:?} and {b:?} overlap", id);
             }
         }
         // No curve runs through one.
@@ -175,28 +187,91 @@ fn labels_are_on_the_sheet_and_overlap_with_nothing() {
                 let (x, y) = (x0 + share * (x1 - x0), y0 + share * (y1 - y0));
                 let through =
                     labels.iter().find(|l| l.x.0 < x && x < l.x.1 && l.y.0 < y && y < l.y.1);
-                assert!(through.is_none(), "{}: a curve through {through:?}", figure.id);
+                assert!(through.is_none(), "{}: a curve through {through:?}", id);
             }
         }
         // Axes say what they show and how much of it; the schematic figures name their parts.
-        let parts: &[&str] = match figure.id.as_str() {
+        let parts: &[&str] = match id.as_str() {
             "fig01" => &["d", "nd", "(n+1)d", "Δ_1(t)"],
             "fig04" => &["L–1", "1–2", "2–3", "3–R"],
             _ => {
                 let ticks =
                     |l: &&Label| l.words.chars().all(|c| c.is_ascii_digit() || "−.^".contains(c));
                 let ticks = labels.iter().filter(ticks).count();
-                assert!(ticks >= 4 && labels.len() >= ticks + 2, "{}: {labels:?}", figure.id);
+                assert!(ticks >= 4 && labels.len() >= ticks + 2, "{}: {labels:?}", id);
                 &[]
             }
         };
         for part in parts {
-            assert!(labels.iter().any(|l| l.words == *part), "{} lacks {part:?}", figure.id);
+            assert!(labels.iter().any(|l| l.words == *part), "{} lacks {part:?}", id);
         }
     }
 }
 
-/// A series that is drawn as a curve, as marks and as bars stands there once.
+/// The lightness of a colour `#rrggbb`, from 0 to 1, as the WCAG define it.
+fn luminance(colour: &str) -> f64 {
+    let part = |at: usize| {
+        let part = f64::from(u8::from_str_radix(&colour[at..at + 2], 16).unwrap()) / 255.0;
+        if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
+    };
+    0.2126 * part(1) + 0.7152 * part(3) + 0.0722 * part(5)
+}
+
+/// Words are at least nine pixels high on a phone, what carries data has a contrast of three, and
+/// no mark stands under a word.
+#[test]
+fn every_figure_can_be_read() {
+    const PHONE: f64 = 360.0;
+    // Lines that carry no data.
+    const GUIDES: [&str; 1] = ["equilibrium"];
+    for (id, svg) in pictures() {
+        let document = Document::parse(&svg).unwrap();
+        let labels = labels(&document);
+        for group in document.descendants().filter(|n| n.attribute("aria-label").is_some()) {
+            let scale = group.attribute("transform").unwrap().rsplit_once("scale(").unwrap().1;
+            let size = 1000.0 * numbers(scale.trim_end_matches(')'))[0] * PHONE / view(&document).0;
+            assert!(size >= 9.0, "{}: {group:?} is {size} pixels high", id);
+        }
+        let contrast = |class: &str| {
+            let rule = svg.split(&format!(".{class}{{")).nth(1).unwrap();
+            1.05 / (luminance(&rule[rule.find('#').unwrap()..][..7]) + 0.05)
+        };
+        let data = document.descendants().filter(|n| n.attribute("class") == Some("data"));
+        for group in data.filter(|n| !GUIDES.contains(&n.attribute("data-name").unwrap())) {
+            for path in group.descendants().filter(|n| n.attribute("d").is_some()) {
+                let classes = path.attribute("class").unwrap();
+                let shown = classes.split(' ').find(|class| class.starts_with("stroke"));
+                let is_ground =
+                    path.attribute("fill-opacity").is_some() || classes.contains("page");
+                if !is_ground || shown.is_some_and(|class| class != "stroke-page") {
+                    let class = shown.unwrap_or(classes);
+                    assert!(contrast(class) >= 3.0, "{}: {group:?}: {class}", id);
+                }
+                let is_mark = shown.is_some() && path.attribute("fill") != Some("none");
+                for mark in strokes(path.attribute("d").unwrap()).iter().filter(|_| is_mark) {
+                    let under = |label: &&Label| {
+                        let [left, right, top, bottom] = bounds(mark);
+                        let across = left < label.x.1 && right > label.x.0;
+                        across && top < label.y.1 && bottom > label.y.0
+                    };
+                    let label = labels.iter().find(under);
+                    assert!(label.is_none(), "{}: {group:?} under {label:?}", id);
+                }
+            }
+        }
+    }
+}
+
+/// The least and largest x and y of points.
+fn bounds(points: &[(f64, f64)]) -> [f64; 4] {
+    let ends = |places: &mut dyn Iterator<Item = f64>| {
+        places.fold((f64::MAX, f64::MIN), |(low, high), at| (low.min(at), high.max(at)))
+    };
+    let x = ends(&mut points.iter().map(|point| point.0));
+    let y = ends(&mut points.iter().map(|point| point.1));
+    [x.0, x.1, y.0, y.1]
+}
+
 /// The cells of a line of CSV, of which some may be quoted.
 fn cells_of(line: &str) -> Vec<String> {
     let (mut cells, mut quoted) = (vec![String::new()], false);
@@ -255,7 +330,7 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
     for (name, expected) in [
         ("fig05b.csv", 3 * results.of(&SEGMENTS).unwrap().fig05.times.len() + 4),
         ("fig07.csv", VERTICES),
-        ("fig08d.csv", VERTICES),
+        ("fig08.csv", 4 * VERTICES),
         ("fig09b.csv", 592),
         ("fig14b.csv", 2 * VERTICES),
         ("fig15b.csv", curve.iter().filter(|(sigma, _)| *sigma <= 0.4).count()),

@@ -42,7 +42,7 @@ pub const FOUR: [Frame; 4] = [
 ];
 
 /// The letters of panels.
-pub const LETTERS: [&str; 4] = ["(a)", "(b)", "(c)", "(d)"];
+pub const LETTERS: [&str; 6] = ["(a)", "(b)", "(c)", "(d)", "(e)", "(f)"];
 
 /// Formats a number with about `digits` significant digits, for notes and descriptions; a tiny one
 /// as a multiple of a power of ten.
