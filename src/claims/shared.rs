@@ -43,11 +43,13 @@ pub fn largest_difference(e: &Evidence<'_>) -> Result<f64, Error> {
 }
 
 /// Makes the rule of a definition, which this edition uses as it stands: nothing is computed.
+#[track_caller]
 pub fn defined(id: &'static str) -> Rule {
     Rule::new(id, |e| e.found("used as it stands", e.statement.kind == Kind::Definition))
 }
 
 /// Makes the rule of a statement about the theory that fails in none of the compared cases.
+#[track_caller]
 pub fn cases(id: &'static str, note: &'static str) -> Rule {
     Rule::new(id, move |e| {
         let [all, failed] = compared(e)?;
@@ -56,6 +58,7 @@ pub fn cases(id: &'static str, note: &'static str) -> Rule {
 }
 
 /// Makes the rule of a statement about the theory that is an equality of real numbers.
+#[track_caller]
 pub fn equality(id: &'static str, allowed: f64, note: &'static str) -> Rule {
     let judge =
         move |e: &Evidence<'_>| Judged::Ok(e.rounding(largest_difference(e)?, allowed).note(note));

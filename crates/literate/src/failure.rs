@@ -49,7 +49,8 @@ impl Failure {
 impl<E: std::error::Error + 'static> From<E> for Failure {
     fn from(error: E) -> Self {
         let any = &error as &(dyn std::error::Error + 'static);
-        let run = match any.downcast_ref::<claims::Error>() {
+        let judged = any.downcast_ref::<claims::Error>().map(claims::Error::cause);
+        let run = match judged {
             Some(claims::Error::Experiment(error)) => Some(error),
             _ => any.downcast_ref::<Error>(),
         };
@@ -62,7 +63,7 @@ impl<E: std::error::Error + 'static> From<E> for Failure {
             {
                 2
             }
-            _ if matches!(any.downcast_ref(), Some(claims::Error::Published(_))) => 2,
+            _ if matches!(judged, Some(claims::Error::Published(_))) => 2,
             _ if any.downcast_ref().is_some_and(|error: &report::Error| !error.is_of_rules()) => 2,
             _ => 1,
         };

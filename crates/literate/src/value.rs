@@ -24,6 +24,17 @@ pub enum Number {
     Text(String),
 }
 
+impl Number {
+    /// Returns whether neither number nor error is infinite or NaN.
+    pub(crate) fn is_finite(&self) -> bool {
+        match *self {
+            Number::Real { value, digits: Digits::Error(e) } => value.is_finite() && e.is_finite(),
+            Number::Real { value, .. } => value.is_finite(),
+            _ => true,
+        }
+    }
+}
+
 /// A number that was chosen, with all its digits: an integer where it is one.
 impl From<f64> for Number {
     fn from(value: f64) -> Number {
@@ -212,11 +223,7 @@ impl Value {
 
     /// Returns whether neither number nor error is infinite or NaN.
     pub(crate) fn is_finite(&self) -> bool {
-        match self.number {
-            Number::None | Number::Integer(_) | Number::Text(_) => true,
-            Number::Real { value, digits: Digits::Error(e) } => value.is_finite() && e.is_finite(),
-            Number::Real { value, .. } => value.is_finite(),
-        }
+        self.number.is_finite()
     }
 }
 

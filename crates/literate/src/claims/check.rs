@@ -145,7 +145,8 @@ pub struct Check {
 pub(super) struct Compared {
     /// Why there is no such cell.
     pub missing: Option<Missing>,
-    pub value: f64,
+    /// The number, if the cell has one.
+    pub value: Option<f64>,
     pub standard_error: f64,
     pub printed: Option<f64>,
     /// How many standard errors are allowed; none in a rule that is not statistical.
@@ -175,12 +176,11 @@ impl Check {
         compared.lacks_quantile = error > 0.0 && compared.quantile.is_none();
         let room = room + compared.quantile.unwrap_or(0.0) * error;
         let tolerance = Text::of("± {}", [significant(shown.unwrap_or(room), 1)]);
-        // The last bit may be rounded.
-        let agrees = |printed: f64| (compared.value - printed).abs() <= room * (1.0 + 1e-9);
-        let agrees = compared.printed.map(agrees);
+        let numbers = compared.value.zip(compared.printed);
         let check = Check { tolerance, compared: Some(compared), ..self };
-        match agrees {
-            Some(agrees) => check.judged(agrees),
+        match numbers {
+            // The last bit may be rounded.
+            Some((value, printed)) => check.judged((value - printed).abs() <= room * (1.0 + 1e-9)),
             None => check,
         }
     }

@@ -30,9 +30,25 @@ pub enum Error {
     /// The samples are too small for what is asked: the statement cannot be judged.
     #[error("the results do not decide it")]
     Undecided,
+    #[error("check {id}: {error}")]
+    Check { id: String, error: Box<Error> },
+    #[error("a number of it is {0}; correct it, or return `Undecided` where there is none")]
+    NotFinite(f64),
+    #[error("{place}: the rule {id} was made at {before}; rename or remove one")]
+    Twice { id: &'static str, place: String, before: String },
     /// A rule that needs the number of statistical checks does not count as one of them.
     #[error("the rule of {0} allows for standard errors; add `.statistical()` to it")]
     NotStatistical(String),
+}
+
+impl Error {
+    /// Returns what went wrong in a check.
+    pub(crate) fn cause(&self) -> &Error {
+        match self {
+            Error::Check { error, .. } => error,
+            error => error,
+        }
+    }
 }
 
 impl From<Missing> for Error {
@@ -119,7 +135,8 @@ impl Evidence<'_> {
             Some(Number::Real { value, .. })
                 if standard_error == 0.0 && statement.value.is_some() =>
             {
-                decimals(value, usize::from(statement.decimals) + 2).into()
+                let places = statement.decimals.unwrap_or(0) + 2;
+                decimals(value, places.max(0) as usize).into()
             }
             Some(number) => Text::from(number),
             None => "–".into(),
@@ -131,7 +148,7 @@ impl Evidence<'_> {
         };
         let compared = Compared {
             missing,
-            value: cell.and_then(table::number).unwrap_or(f64::NAN),
+            value: cell.and_then(table::number),
             standard_error,
             printed: statement.value,
             quantile: self.level.map(|level| level.quantile),

@@ -4,6 +4,7 @@
 mod check;
 mod evidence;
 mod level;
+mod numeral;
 mod published;
 mod rule;
 mod text;
@@ -12,5 +13,5 @@ pub use check::{Basis, Check, Kind, Verdict, score};
 pub use evidence::{Error, Evidence, Judged};
 pub use level::{FAMILY_LEVEL, Level};
 pub use published::{Parameter, Published, PublishedError, Statement};
-pub use rule::{Rule, judge_all, level_of};
+pub use rule::{Rule, blind_to_their_number, judge_all, level_of};
 pub use text::{Text, chosen, decimals, integer, significant, with_error};

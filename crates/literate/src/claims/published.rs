@@ -1,6 +1,7 @@
 //! Reads what the paper printed from `published.toml`.
 
 use super::check::Kind;
+use super::numeral::{MAX_PLACES, number_alone, with_other_digit, written};
 use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -49,9 +50,9 @@ pub struct Statement {
     pub printed: String,
     /// The number in it, if there is one; that of `printed`, where this is a number alone.
     pub value: Option<f64>,
-    /// Decimals that were printed; an integer has none.
+    /// The place of its last printed digit: its decimals, and −3 if it was printed in thousands.
     #[serde(default)]
-    pub decimals: u8,
+    pub decimals: Option<i32>,
 }
 
 /// What is wrong with a file of published statements.
@@ -61,38 +62,54 @@ pub enum PublishedError {
     Line(String),
     #[error("published.toml: no {what} {id:?}; add it, or remove the check that asks for it")]
     Missing { what: &'static str, id: String },
+    #[error(
+        "published.toml: {id:?}: its check needs the number in printed = {printed:?}; write it as `value`, with \
+         `decimals`, as many as were printed"
+    )]
+    NoNumber { id: String, printed: String },
 }
 
 impl Published {
     /// Reads the file.
     ///
     /// # Errors
-    /// If it has another form, or an id stands twice, with the line.
+    /// If it has another form, an id stands twice, or a number is not what was printed, with the
+    /// line.
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
         let mut published: Published =
             toml::from_str(text).map_err(|error| PublishedError::Line(toml_fault(text, &error)))?;
         published.text = text.into();
         for at in 0..published.statements.len() {
-            let statement = &mut published.statements[at];
-            let Ok(number) = statement.printed.parse::<f64>() else { continue };
-            let decimals = statement.printed.split_once('.').map_or(0, |(_, after)| after.len());
-            let decimals = decimals as u8;
-            if statement.value.is_none() && number.is_finite() {
-                (statement.value, statement.decimals) = (Some(number), decimals);
-            } else if statement.value != Some(number) || statement.decimals != decimals {
-                let what = "printed and value are not one number; leave value out";
-                let id = statement.id.clone();
-                return Err(published.fault(&id, what));
+            if let Err(what) = published.statements[at].read_number() {
+                return Err(published.fault(&published.statements[at].id, what));
+            }
+        }
+        for Parameter { id, value, .. } in &published.parameters {
+            if !value.is_finite() {
+                return Err(published.fault(id, "value is not a finite number"));
             }
         }
         let mut seen = BTreeSet::new();
         let parameters = published.parameters.iter().map(|parameter| &parameter.id);
         for id in parameters.chain(published.statements.iter().map(|statement| &statement.id)) {
             if !seen.insert(id) {
-                return Err(published.fault(id, "it stands twice; give each entry its own"));
+                let first = published.lines(id).next().unwrap_or(1);
+                let what = format!("it stands on line {first} too; give each entry its own");
+                return Err(published.fault(id, &what));
             }
         }
         Ok(published)
+    }
+
+    /// Returns all that was printed with another first digit in the number of one statement.
+    pub(super) fn misprinted(&self, id: &str) -> Published {
+        let mut published = self.clone();
+        for statement in &mut published.statements {
+            if statement.id == id {
+                statement.misprint();
+            }
+        }
+        published
     }
 
     /// Makes an error of the entry with this id, with its line.
@@ -117,14 +134,16 @@ impl Published {
 
     /// Finds the last line of the file, from 1, that gives an entry this id; 1 if there is none.
     pub fn line(&self, id: &str) -> usize {
+        self.lines(id).last().unwrap_or(1)
+    }
+
+    /// Finds the lines that give an entry this id.
+    fn lines(&self, id: &str) -> impl Iterator<Item = usize> {
         let ways = ['"', '\''].map(|quote| format!("id={quote}{id}{quote}"));
-        let mut found = 1;
-        for (number, line) in (1..).zip(self.text.lines()) {
-            if ways.contains(&line.split_whitespace().collect()) {
-                found = number;
-            }
-        }
-        found
+        let lines = (1..).zip(self.text.lines());
+        lines.filter_map(move |(number, line)| {
+            ways.contains(&line.split_whitespace().collect()).then_some(number)
+        })
     }
 
     /// Returns the number that the paper chose under this id.
@@ -142,14 +161,67 @@ impl Statement {
         Statement { kind, id, statement, ..Statement::default() }
     }
 
+    /// Reads the number from `printed` if this is a number alone, and checks the place of its last
+    /// digit.
+    fn read_number(&mut self) -> Result<(), &'static str> {
+        let given = self.value.zip(self.decimals);
+        match (number_alone(&self.printed), self.value) {
+            (Some((value, decimals)), None) => {
+                (self.value, self.decimals) = (Some(value), Some(decimals));
+            }
+            (Some((number, decimals)), Some(value)) => {
+                let whole = value.fract() == 0.0 && self.decimals.is_none();
+                if number != value || !whole && self.decimals != Some(decimals) {
+                    return Err("printed and value are not one number; leave value out");
+                }
+                self.decimals = Some(decimals);
+            }
+            (None, Some(value)) if !value.is_finite() => {
+                return Err("value is not a finite number");
+            }
+            (None, Some(value)) if given.is_none() && value.fract() != 0.0 => {
+                return Err("value needs `decimals`: write as many as were printed");
+            }
+            (None, Some(value)) => {
+                let decimals = self.decimals.unwrap_or(0);
+                if !(-MAX_PLACES..=MAX_PLACES).contains(&decimals) {
+                    return Err("decimals are not a number of decimals");
+                }
+                if decimals >= 0 && written(value, decimals).parse() != Ok(value) {
+                    return Err("value has more decimals than `decimals`");
+                }
+                self.decimals = Some(decimals);
+            }
+            (None, None) => {}
+        }
+        Ok(())
+    }
+
+    /// Changes the first digit of the printed number, also where it stands in the printed words.
+    fn misprint(&mut self) {
+        let Some(shown) = self.shown() else { return };
+        self.printed = match number_alone(&self.printed) {
+            Some(_) => with_other_digit(&self.printed),
+            None => self.printed.replacen(&shown, &with_other_digit(&shown), 1),
+        };
+        self.value = with_other_digit(&shown).parse().ok();
+    }
+
+    /// Returns the number with its printed decimals.
+    pub(super) fn shown(&self) -> Option<String> {
+        Some(written(self.value?, self.decimals?))
+    }
+
     /// Returns the printed number.
     pub fn number(&self) -> Result<f64, PublishedError> {
-        self.value.ok_or_else(|| PublishedError::Missing { what: "value of", id: self.id.clone() })
+        let (id, printed) = (self.id.clone(), self.printed.clone());
+        self.value.ok_or(PublishedError::NoNumber { id, printed })
     }
 
     /// Returns half a unit of the last printed digit.
     pub fn half_unit(&self) -> f64 {
-        (0..self.decimals).fold(1.0, |unit, _| unit / 10.0) / 2.0
+        let decimals = self.decimals.unwrap_or(0);
+        format!("0.5e{}", -decimals).parse().unwrap_or(f64::NAN)
     }
 
     /// Returns the ends of the numbers that round to the printed one: half a unit of its last digit
@@ -157,5 +229,68 @@ impl Statement {
     pub fn interval(&self) -> Result<[f64; 2], PublishedError> {
         let value = self.number()?;
         Ok([value - self.half_unit(), value + self.half_unit()])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entry(fields: &str) -> String {
+        format!("[[statement]]\nid = \"a\"\nplace = \"b\"\nstatement = \"c\"\n{fields}\n")
+    }
+
+    fn parse(fields: &str) -> Result<Statement, String> {
+        let published = Published::parse(&entry(fields)).map_err(|error| error.to_string())?;
+        Ok(published.statements[0].clone())
+    }
+
+    #[test]
+    fn the_tolerance_is_half_a_unit_of_the_last_digit_of_the_mantissa() {
+        for (printed, value, half_unit, misprint) in [
+            ("0.12", 0.12, 5e-3, "0.22"),
+            ("1e-3", 1e-3, 5e-4, "2e-3"),
+            ("1.2e5", 1.2e5, 5e3, "2.2e5"),
+            ("3·10⁻⁴", 3e-4, 5e-5, "4·10⁻⁴"),
+            ("−9.50 × 10¹²", -9.5e12, 5e9, "-8.50 × 10¹²"),
+            ("10⁻⁹", 1e-9, 5e-10, "20⁻⁹"),
+            ("12 %", 0.12, 5e-3, "22 %"),
+            ("0.5 ‰", 5e-4, 5e-5, "0.6 ‰"),
+            ("0", 0.0, 0.5, "1"),
+        ] {
+            let mut read = parse(&format!("printed = \"{printed}\"")).unwrap();
+            assert_eq!((read.value, read.half_unit()), (Some(value), half_unit), "{printed}");
+            read.misprint();
+            assert_eq!(read.printed.replace('−', "-"), misprint);
+        }
+        let mut read = parse("printed = \"σ ≈ 0.12\"\nvalue = 0.12\ndecimals = 2").unwrap();
+        assert_eq!(read.half_unit(), 5e-3);
+        read.misprint();
+        assert_eq!((read.value, read.printed.as_str()), (Some(0.22), "σ ≈ 0.22"));
+        for words in ["about 2.094", "1 2", "e5", "·10⁻⁴", "3 10⁻⁴", "inf", "1e999", "1e-99999999"]
+        {
+            assert_eq!(number_alone(words), None, "{words}");
+        }
+    }
+
+    #[test]
+    fn a_number_that_is_not_what_was_printed_is_refused_with_its_line() {
+        for (fields, what) in [
+            ("printed = \"x\"\nvalue = 0.12", "value needs `decimals`"),
+            ("printed = \"x\"\nvalue = 0.125\ndecimals = 2", "value has more decimals"),
+            ("printed = \"x\"\nvalue = 1\ndecimals = 99999", "decimals are not"),
+            ("printed = \"x\"\nvalue = nan", "value is not a finite number"),
+            ("printed = \"12 %\"\nvalue = 12", "printed and value are not one number"),
+            ("printed = \"1e-3\"\nvalue = 1e-3\ndecimals = 0", "printed and value are not"),
+        ] {
+            let error = parse(fields).unwrap_err();
+            assert!(error.starts_with("published.toml:2: the id \"a\": "), "{error}");
+            assert!(error.contains(what), "{error}");
+        }
+        let twice = entry("printed = \"x\"") + &entry("printed = \"y\"");
+        let error = Published::parse(&twice).unwrap_err().to_string();
+        assert!(error.contains("toml:7: the id \"a\": it stands on line 2 too"), "{error}");
+        let error = parse("printed = \"about 2.094\"").unwrap().number().unwrap_err().to_string();
+        assert!(error.contains("\"about 2.094\"; write it as `value`, with `decimals`"), "{error}");
     }
 }

@@ -1,10 +1,13 @@
 //! Judges every statement and relation by its rule.
 
-use super::check::{Basis, Check, Kind};
+use super::check::{Basis, Check, Kind, Verdict};
 use super::evidence::{Error, Evidence, Judged};
 use super::level::Level;
 use super::published::{Published, Statement};
 use crate::experiments::Results;
+use crate::value::Number;
+use std::collections::BTreeMap;
+use std::panic::Location;
 
 /// How one statement or relation is judged.
 pub struct Rule {
@@ -15,17 +18,21 @@ pub struct Rule {
     reads: Option<&'static str>,
     basis: Option<Basis>,
     statistical: bool,
+    /// Where the source makes it.
+    place: &'static Location<'static>,
     judge: Box<dyn Fn(&Evidence<'_>) -> Judged + Send + Sync>,
 }
 
 impl Rule {
     /// Makes a rule for the statement of `published.toml` with this id.
+    #[track_caller]
     pub fn new<C: Into<Judged>>(
         id: &'static str,
         judge: impl Fn(&Evidence<'_>) -> C + Send + Sync + 'static,
     ) -> Rule {
         let judge = Box::new(move |evidence: &Evidence<'_>| judge(evidence).into());
-        Rule { id, relation: None, reads: None, basis: None, statistical: false, judge }
+        let place = Location::caller();
+        Rule { id, relation: None, reads: None, basis: None, statistical: false, place, judge }
     }
 
     /// Makes it the rule of a relation between numbers that must hold, and of nothing that was
@@ -61,9 +68,7 @@ impl Rule {
     fn check(&self, evidence: &Evidence<'_>) -> Judged {
         let Evidence { statement, published, .. } = evidence;
         if let Some(words) = self.reads {
-            let number =
-                statement.value.map(|x| format!("{x:.*}", usize::from(statement.decimals)));
-            let words = words.replace("{}", &number.unwrap_or_default());
+            let words = words.replace("{}", &statement.shown().unwrap_or_default());
             if words != statement.printed {
                 return Err(published.unread(self.id, &words).into());
             }
@@ -81,9 +86,31 @@ impl Rule {
             if compared.lacks_quantile {
                 return Err(Error::NotStatistical(self.id.into()));
             }
+            // A comparison needs both numbers.
+            statement.number()?;
+            if compared.value.is_none() {
+                check.verdict = Verdict::CannotBeJudged;
+                check = check.note("The results have no number for it.");
+            }
+        }
+        for number in
+            [&check.found, &check.tolerance, &check.note].into_iter().flat_map(|text| &text.0)
+        {
+            if let Number::Real { value, .. } = number
+                && !number.is_finite()
+            {
+                return Err(Error::NotFinite(*value));
+            }
         }
         check.basis = self.basis.unwrap_or(check.basis);
         Ok(check)
+    }
+
+    /// Computes the check of a statement.
+    fn check_statement(&self, published: &Published, results: &Results, level: Level) -> Judged {
+        let statement = published.statement(self.id)?;
+        let level = self.statistical.then_some(level);
+        self.check(&Evidence { statement, results, published, level })
     }
 }
 
@@ -102,33 +129,67 @@ pub fn judge_all(
     rules: &[Rule],
     results: &Results,
 ) -> Result<Vec<Check>, Error> {
-    for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
-        published.statement(rule.id)?;
+    let mut places = BTreeMap::new();
+    for rule in rules {
+        if rule.is_of_statement() {
+            published.statement(rule.id)?;
+        }
+        if let Some(before) = places.insert(rule.id, rule.place) {
+            let [place, before] =
+                [rule.place, before].map(|at| format!("{}:{}", at.file(), at.line()));
+            return Err(Error::Twice { id: rule.id, place, before });
+        }
     }
     results.tables()?;
     let level = level_of(rules);
+    let named = |id: &str, error| Error::Check { id: id.into(), error: Box::new(error) };
     let mut checks = Vec::new();
     for statement in &published.statements {
-        let rule = rules.iter().find(|rule| rule.is_of_statement() && rule.id == statement.id);
-        let level = rule.filter(|rule| rule.statistical).map(|_| level);
-        let evidence = Evidence { statement, results, published, level };
-        checks.push(match rule {
-            Some(rule) => rule.check(&evidence)?,
-            None => evidence.open("–"),
+        let id = &statement.id;
+        checks.push(match rules.iter().find(|rule| rule.is_of_statement() && rule.id == *id) {
+            Some(rule) => {
+                let judged = rule.check_statement(published, results, level);
+                judged.map_err(|error| named(id, error))?
+            }
+            None => Evidence { statement, results, published, level: None }.open("–"),
         });
     }
     for rule in rules {
         let Some(relation) = rule.relation else { continue };
         let statement = &Statement::new(Kind::Relation, rule.id, relation);
         let evidence = Evidence { statement, results, published, level: Some(level) };
-        checks.push(rule.check(&evidence)?);
+        checks.push(rule.check(&evidence).map_err(|error| named(rule.id, error))?);
     }
     Ok(checks)
 }
 
+/// Judges each statement with a printed number once more, with another first digit in it. Returns
+/// the ids of those that are still reproduced or explained: their verdicts say nothing about the
+/// number.
+pub fn blind_to_their_number(
+    published: &Published,
+    rules: &[Rule],
+    results: &Results,
+) -> Vec<&'static str> {
+    let level = level_of(rules);
+    let mut blind = Vec::new();
+    for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
+        if published.statement(rule.id).is_ok_and(|statement| statement.value.is_some()) {
+            let misprinted = published.misprinted(rule.id);
+            let judged = rule.check_statement(&misprinted, results, level);
+            use Verdict::{DiffersAndExplained, Reproduced};
+            if judged.is_ok_and(|check| [Reproduced, DiffersAndExplained].contains(&check.verdict))
+            {
+                blind.push(rule.id);
+            }
+        }
+    }
+    blind
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::{Verdict, integer};
+    use super::super::integer;
     use super::*;
     use crate::table::Table;
     use impact_numerics::statistics::Estimate;
@@ -140,17 +201,25 @@ mod tests {
         { id = \"words\", place = \"a\", statement = \"b\", printed = \"steep\" },
         { id = \"without\", place = \"a\", statement = \"b\", printed = \"c\" }]";
 
-    fn judged(rules: &[Rule]) -> Result<Vec<Check>, Error> {
+    fn results() -> Results {
         let mean = |x: &f64| Some(Estimate { value: *x, error: 0.002, interval: [0.0; 2] });
         let table = Table::of("toy.all", &[0.1152], |_| 9).real("rise", "1", 6, "A.", |x| *x);
-        let table = table.estimate("mean", "1", "A mean.", mean).done();
-        judge_all(&Published::parse(PUBLISHED).unwrap(), rules, &Results::made_up(vec![table]))
+        let table = table.estimate("mean", "1", "A mean.", mean).real("none", "1", 2, "", |_| None);
+        Results::made_up(vec![table.done()])
+    }
+
+    fn judged(rules: &[Rule]) -> Result<Vec<Check>, Error> {
+        judge_all(&Published::parse(PUBLISHED).unwrap(), rules, &results())
+    }
+
+    fn refused(id: &'static str, judge: fn(&Evidence<'_>) -> Judged) -> String {
+        judged(&[Rule::new(id, judge)]).unwrap_err().to_string()
     }
 
     #[test]
     fn a_cell_is_compared_with_what_was_printed() {
         let judge = |judge: fn(&Evidence<'_>) -> Check| {
-            let rules = ["rise", "mean", "words"].map(|id| Rule::new(id, judge).statistical());
+            let rules = ["rise", "mean"].map(|id| Rule::new(id, judge).statistical());
             let checks = judged(&rules).unwrap();
             (checks.iter().map(|check| check.verdict).collect::<Vec<_>>(), checks)
         };
@@ -174,7 +243,7 @@ mod tests {
         let (verdicts, _) = judge(|e| e.cell("toy.all.rise").explained("why", true));
         assert_eq!(verdicts, [Yes, Why, Open, Open]);
         let (verdicts, checks) = judge(|e| e.cell("toy.all.rise").explained("why", false));
-        assert_eq!(verdicts, [No, No, No, Open]);
+        assert_eq!(verdicts, [No, No, Open, Open]);
         assert!(checks.iter().all(Check::fails), "a statement without a rule fails too");
         assert!(!checks[3].clone().note("It is a likeness in words.").fails());
     }
@@ -195,12 +264,46 @@ mod tests {
         assert_eq!((RUNS.load(Relaxed), checks.len()), (2, 5));
         assert_eq!(checks[0].found, checks[4].found, "relations do not count");
         assert_eq!((checks[0].found.to_string(), checks[4].kind), ("2".into(), Kind::Relation));
-        let refused = |judge: fn(&Evidence<'_>) -> Judged| judged(&[Rule::new("mean", judge)]);
         for judge in [counted, |e: &Evidence<'_>| e.cell("toy.all.mean").into()] {
-            assert!(matches!(refused(judge), Err(Error::NotStatistical(id)) if id == "mean"));
+            let error = refused("mean", judge);
+            assert!(error.starts_with("check mean: the rule of mean allows for"), "{error}");
         }
-        assert!(refused(|e| e.cell("toy.all.mean").near(0.1, "ours").into()).is_ok());
-        assert!(matches!(refused(|e| e.cell("toy.all.lost").into()), Err(Error::Experiment(_))));
+        let near = |e: &Evidence<'_>| e.cell("toy.all.mean").near(0.1, "ours");
+        assert!(judged(&[Rule::new("mean", near)]).is_ok());
+    }
+
+    #[test]
+    fn a_check_needs_both_numbers() {
+        let open = |e: &Evidence<'_>| e.cell("toy.all.none").explained("why", true);
+        let check = &judged(&[Rule::new("rise", open)]).unwrap()[0];
+        assert_eq!((check.verdict, check.found.to_string()), (Verdict::CannotBeJudged, "–".into()));
+        assert_eq!(check.note.to_string(), "The results have no number for it.");
+        let error = refused("words", |e| e.cell("toy.all.rise").into());
+        assert!(
+            error.contains("the number in printed = \"steep\"; write it as `value`"),
+            "{error}"
+        );
+        let error = refused("mean", |e| e.cell("toy.all.maen").into());
+        assert!(
+            error.starts_with("check mean: toy.all.maen: there is no column maen; "),
+            "{error}"
+        );
+        let error = refused("mean", |e| e.found(super::super::chosen(f64::NAN), true).into());
+        assert!(error.starts_with("check mean: a number of it is NaN; "), "{error}");
+        let twice = judged(&[Rule::new("rise", open), Rule::new("rise", open)]).unwrap_err();
+        let twice = twice.to_string();
+        assert_eq!(twice.matches("src/claims/rule.rs:").count(), 2, "{twice}");
+    }
+
+    #[test]
+    fn verdicts_that_another_number_would_have_too_are_named() {
+        let rules = [
+            Rule::new("rise", |e| e.cell("toy.all.rise")),
+            Rule::new("mean", |e| e.found("always", true)),
+            Rule::new("words", |e| e.found("always", true)),
+        ];
+        let published = Published::parse(PUBLISHED).unwrap();
+        assert_eq!(blind_to_their_number(&published, &rules, &results()), ["mean"]);
     }
 
     #[test]
@@ -210,6 +313,7 @@ mod tests {
         let check = &checks[0];
         assert_eq!((check.verdict, check.basis), (Verdict::CannotBeJudged, Basis::OurMeasure));
         assert!(!check.fails(), "{}", check.note);
-        assert!(matches!(judged(&[rule("{} or so")]), Err(Error::Published(_))));
+        let error = judged(&[rule("{} or so")]).unwrap_err();
+        assert!(matches!(error.cause(), Error::Published(_)), "{error}");
     }
 }

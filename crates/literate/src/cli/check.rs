@@ -2,7 +2,7 @@
 
 use super::make::{Sources, of, scores, verdict};
 use super::terminal::print;
-use crate::claims::{Check, Kind, Published, Verdict, score};
+use crate::claims::{Check, Kind, Published, Verdict, blind_to_their_number, score};
 use crate::failure::Failure;
 use crate::input::one_line;
 use crate::paper::Paper;
@@ -20,7 +20,8 @@ use std::collections::BTreeMap;
 ///
 /// Saved results are used where they are fresh; what is missing is run. Exit code 1 says that a
 /// statement differs without an explanation that holds, or that a relation between numbers does not
-/// hold.
+/// hold. Each statement with a printed number is judged once more with another first digit in it;
+/// those that are still reproduced or explained are named.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
@@ -56,9 +57,10 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
             return Err(Failure::input(format!("{what}; `check -v` lists all")));
         }
     }
-    let mut checks = args.sources.threads.run(|| {
+    let (mut checks, mut blind) = args.sources.threads.run(|| -> Result<_, Failure> {
         let results = paper.results(&paper.experiments, &session)?;
-        paper.checks(&results, &published)
+        let blind = blind_to_their_number(&published, &paper.rules, &results);
+        Ok((paper.checks(&results, &published)?, blind))
     })?;
     let printed = checks.iter().filter(|check| check.kind.is_printed());
     let numbers: BTreeMap<String, String> =
@@ -69,10 +71,11 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         };
         checks.retain(|check| is_asked(&check.id));
     }
+    blind.retain(|id| checks.iter().any(|check| check.id == *id));
     let file = session.templates.place("published.toml");
     print(&match args.format {
-        Format::Text => text(&checks, &args, &numbers),
-        Format::Json => json(&checks, &published, &file),
+        Format::Text => text(&checks, &blind, &args, &numbers),
+        Format::Json => json(&checks, &blind, &published, &file),
         Format::Github => github(&checks, &published, &file),
     })?;
     verdict(&checks)
@@ -96,7 +99,12 @@ fn fields(check: &Check) -> Vec<(&'static str, String)> {
 
 /// Prints a line for each check that is not reproduced, failed ones first, and the scores; with -v,
 /// or if some were asked for, all that is known of each.
-fn text(checks: &[Check], args: &Args, numbers: &BTreeMap<String, String>) -> String {
+fn text(
+    checks: &[Check],
+    blind: &[&str],
+    args: &Args,
+    numbers: &BTreeMap<String, String>,
+) -> String {
     let all = args.verbose || !args.ids.is_empty();
     let mut listed: Vec<&Check> =
         checks.iter().filter(|check| all || check.verdict != Verdict::Reproduced).collect();
@@ -127,6 +135,10 @@ fn text(checks: &[Check], args: &Args, numbers: &BTreeMap<String, String>) -> St
     for line in scores(checks) {
         out += &format!("{line}\n");
     }
+    if !blind.is_empty() {
+        let what = "reproduced or explained also with another first digit in the printed number";
+        out += &format!("{what}: {}\n", blind.join(", "));
+    }
     if !all {
         out += "`check -v` prints all, `check ID` all of one\n";
     }
@@ -134,12 +146,13 @@ fn text(checks: &[Check], args: &Args, numbers: &BTreeMap<String, String>) -> St
 }
 
 /// Prints JSON: each check as ledger.json has it, with the line of a statement.
-fn json(checks: &[Check], published: &Published, file: &str) -> String {
+fn json(checks: &[Check], blind: &[&str], published: &Published, file: &str) -> String {
     let (mut claims, mut relations) = (Vec::new(), Vec::new());
     for check in checks {
         let mut fields = json!(check);
         fields["fails"] = check.fails().into();
         fields["words"] = check.words().into();
+        fields["blind_to_its_number"] = blind.contains(&check.id.as_str()).into();
         if check.kind.is_printed() {
             fields["file"] = file.into();
             fields["line"] = published.line(&check.id).into();

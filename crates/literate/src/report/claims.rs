@@ -72,8 +72,8 @@ pub fn printed(published: &Published) -> Vec<Value> {
         Value::printed(format!("paper.{}", p.id), p.value, decimals, &p.place).data_only()
     });
     let stated = published.statements.iter().filter_map(|s| {
-        let id = format!("printed.{}", s.id);
-        Some(Value::printed(id, s.value?, s.decimals.into(), &s.place).data_only())
+        let decimals = s.decimals.unwrap_or(0).max(0) as usize;
+        Some(Value::printed(format!("printed.{}", s.id), s.value?, decimals, &s.place).data_only())
     });
     chosen.chain(stated).collect()
 }
