@@ -18,7 +18,7 @@ pub fn draw() -> Result<Figure, Error> {
             let axis = Axis::linear(0.0, shown, 10.0, 2, "*k*");
             if last { axis } else { axis.without_numbers() }
         };
-        let letter = LETTERS[i].trim_matches(['(', ')']);
+        let letter = LETTERS[i];
         let left = sheet.panel(Frame::new(1000, edge, 4000, edge + 1700), k(), signs(at))?;
         let left = left.with_suffix(&format!("{letter}-f"));
         let p = match i {

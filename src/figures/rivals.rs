@@ -30,22 +30,13 @@ pub type Place = (MethodName, usize, (i32, i32), Option<&'static str>);
 /// The finest setting.
 pub const FINEST: usize = usize::MAX;
 
-/// Draws the settings of each method as marks on a line, and the names of some.
+/// Draws the settings of each method as marks on a line, and the names of some next to their marks.
 pub fn draw(panel: &Panel, curves: &Curves, places: &[Place], outside: Outside) -> Drawn {
     for (method, points) in curves {
         let look = look(*method);
-        panel.marked_curve(
-            method.title(),
-            points,
-            (Stroke { width: THIN, ..look.2 }, look),
-            outside,
-        )?;
+        let line = Stroke { width: THIN, ..look.2 };
+        panel.marked_curve(method.title(), points, (line, look), outside)?;
     }
-    names(panel, curves, places)
-}
-
-/// Writes the names of methods next to their marks.
-pub fn names(panel: &Panel, curves: &Curves, places: &[Place]) -> Drawn {
     for (method, setting, offset, name) in places {
         let curve = curves.iter().find(|curve| curve.0 == *method).map(|curve| &curve.1);
         if let Some(at) = curve.and_then(|curve| curve.get(*setting).or(curve.last())) {

@@ -70,7 +70,7 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
         for (column, name, colour) in BRANCHES {
             let points =
                 shares.series(&[("masses", masses), ("transient", *transient)], "sigma", column)?;
-            let name = format!("{name}, *T* = {}", time(*transient));
+            let name = format!("{name}, *T* = {}", in_powers(*transient));
             panel.joined_estimates(
                 &name,
                 &points,
@@ -91,15 +91,6 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
         panel.label_nearby(&name, at, side, colour)?;
     }
     Ok(())
-}
-
-/// A time as the names of curves have it: powers of ten from 10 000 on.
-fn time(transient: f64) -> String {
-    let digits = transient.to_string();
-    match digits.strip_prefix('1').filter(|rest| rest.len() > 4) {
-        Some(zeros) if zeros.trim_matches('0').is_empty() => format!("10^{{{}}}", zeros.len()),
-        _ => digits,
-    }
 }
 
 fn description(halves: &Table, masses: f64) -> Result<Description, Error> {

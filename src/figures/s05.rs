@@ -20,11 +20,6 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     Ok(sheet.finish("The theory at large N", description))
 }
 
-/// A power of ten as the figures write it.
-fn power(vertices: usize) -> String {
-    format!("10^{{{}}}", vertices.ilog10())
-}
-
 fn shares(sheet: &Sheet) -> Drawn {
     let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
     let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
@@ -45,7 +40,12 @@ fn shares(sheet: &Sheet) -> Drawn {
         let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
         panel.guide("jump", &jump, Stroke::dashed(colour, THIN, Dash::Dotted))?;
         let start = (RANGE.0, 1.0 / vertices as f64);
-        panel.label(&format!("*N* = {}", power(vertices)), start, (1, -1), colour)?;
+        panel.label(
+            &format!("*N* = {}", power_of_ten(vertices.ilog10() as i32)),
+            start,
+            (1, -1),
+            colour,
+        )?;
     }
     Ok(())
 }

@@ -43,12 +43,9 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
         let top = 500 + i as i32 * (height + 450);
         let frame = Frame::new(2550, top, 5750, top + height);
         let engine = Setting { method: Certified, value: 0.0 };
-        let heading = format!("{} *σ* = {}", LETTERS[i], chains.sigma);
-        let style = words(TEXT, INK, HPos::Left, VPos::Bottom);
-        sheet.area.draw_text(&heading, &style, (260, top - 80))?;
         let is_last = i + 1 == sigmas.len();
         let panel = rows_of(&sheet, frame, &found, time(engine), is_last)?;
-        panel.with_suffix(LETTERS[i].trim_matches(['(', ')']));
+        panel.heading(LETTERS[i], &format!("*σ* = {}", chains.sigma))?;
     }
     let style = words(SMALL, INK, HPos::Right, VPos::Bottom);
     for (name, right) in [("difference (%)", 7200), ("time (s)", 8250)] {
@@ -71,10 +68,11 @@ fn rows_of(
     let x = if is_last { x } else { x.without_numbers() };
     let y = Axis::linear(-0.6 - found.len() as f64, 0.6, 1.0, 1, "");
     let mut y = y.column("error of the mean (%)");
-    let names = std::iter::once("engine".to_string()).chain(found.iter().map(|row| named(row.1)));
-    y.ticks =
-        names.zip(0..).map(|(name, i)| Tick { at: -f64::from(i), label: Some(name) }).collect();
-    y.ticks.reverse();
+    y.ticks = vec![Tick { at: 0.0, label: Some("engine".into()) }];
+    for (_, setting, _) in found {
+        let name = format!("{}, {}", setting.method.title(), in_powers(setting.value));
+        y.ticks.insert(0, Tick { at: -(y.ticks.len() as f64), label: Some(name) });
+    }
     let panel = sheet.panel(frame, x, y)?;
     panel.guide("engine", &[(0.0, panel.y.lo), (0.0, 0.0)], Stroke::solid(RED, THIN))?;
     let disc = (Symbol::Disc, LARGE + 12, Stroke::solid(RED, THIN));
@@ -109,17 +107,6 @@ fn rows_of(
         write(&short(*time, 2), 8250, row)?;
     }
     Ok(panel)
-}
-
-/// A method with its step or tolerance.
-fn named(setting: Setting) -> String {
-    let value = format!("{:e}", setting.value).replace("e-", "·10^{−").replace("e0", "");
-    let value = if setting.value < 0.01 {
-        value.replace("1·", "") + "}"
-    } else {
-        setting.value.to_string()
-    };
-    format!("{}, {value}", setting.method.title())
 }
 
 fn description(biases: &Biases, rows: &[Compared]) -> Description {

@@ -93,8 +93,7 @@ impl Axis {
     /// Says in the label that the numbers count from n · 10^power, and in the column that data do
     /// not.
     fn counted_from(mut self, n: i128, power: i32) -> Self {
-        let (name, unit) = self.name_and_unit();
-        self.column = Some(format!("{name} ({unit})"));
+        self.column = Some(self.column_name());
         let (n, power) = (n / 10_i128.pow(zeros(n)), power + zeros(n) as i32);
         let from = exact(n, power, leading(&[n]) + power);
         let sign = if n < 0 { '+' } else { '−' };
@@ -171,13 +170,11 @@ impl Axis {
         self
     }
 
-    /// Returns the name and the unit of its column in data files: as given, or from the label in
-    /// plain text. A unit stands in brackets at the end; without one the unit is `1`.
-    pub fn name_and_unit(&self) -> (String, String) {
+    /// Returns the name of its column in data files, with the unit in brackets at the end: as given,
+    /// or from the label in plain text. Without one the unit is `1`.
+    pub fn column_name(&self) -> String {
         let words = self.column.clone().unwrap_or_else(|| spelled(&self.label));
-        let unit = words.strip_suffix(')').and_then(|words| words.rsplit_once(" ("));
-        let (name, unit) = unit.unwrap_or((&words, "1"));
-        (name.into(), unit.into())
+        if words.ends_with(')') && words.contains(" (") { words } else { words + " (1)" }
     }
 
     /// Returns where a value lies on the scale: the value or its logarithm.
@@ -214,8 +211,7 @@ impl Axis {
 
     /// Removes label and numbers, for a panel that shares the axis of the panel below.
     pub fn without_numbers(mut self) -> Self {
-        let (name, unit) = self.name_and_unit();
-        self.column = Some(format!("{name} ({unit})"));
+        self.column = Some(self.column_name());
         self.label.clear();
         for tick in &mut self.ticks {
             tick.label = tick.label.take().map(|_| String::new());
@@ -300,7 +296,16 @@ fn exact(n: i128, power: i32, most: i32) -> String {
     }
 }
 
-fn power_of_ten(exponent: i32) -> String {
+/// Writes a number exactly, with a power of ten where it would be long.
+pub fn in_powers(number: f64) -> String {
+    match decimal_of(number) {
+        Some((1, power)) if !(-2..4).contains(&power) => power_of_ten(power),
+        Some((n, power)) if !(-2..4).contains(&power) => format!("{n}·{}", power_of_ten(power)),
+        _ => number.to_string(),
+    }
+}
+
+pub fn power_of_ten(exponent: i32) -> String {
     format!("10^{{{}}}", exponent.to_string().replace('-', "−"))
 }
 

@@ -1,8 +1,7 @@
-//! Helps figures with what many of them need: columns over integers, round ends of axes, frames,
-//! letters, short numbers.
+//! Helps figures with what many of them need: columns over integers, round ends of axes, letters,
+//! short numbers.
 
 use super::axis::{Axis, number};
-use super::drawing::Frame;
 
 /// Returns the points (k, value) of a series whose first value belongs to k = 1.
 pub fn over_k(values: &[f64]) -> Vec<(f64, f64)> {
@@ -32,14 +31,6 @@ pub fn upwards_from_zero(largest: f64, label: &str) -> Axis {
 pub fn largest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
 }
-
-/// Four panels, two by two, on a sheet 6750 high.
-pub const FOUR: [Frame; 4] = [
-    Frame::new(1080, 480, 4050, 2580),
-    Frame::new(5230, 480, 8200, 2580),
-    Frame::new(1080, 3780, 4050, 5880),
-    Frame::new(5230, 3780, 8200, 5880),
-];
 
 /// The letters of panels.
 pub const LETTERS: [&str; 6] = ["(a)", "(b)", "(c)", "(d)", "(e)", "(f)"];

@@ -30,7 +30,7 @@ pub use svg::{escape, outlines};
 
 /// What a figure is drawn with, for one line of imports.
 pub mod prelude {
-    pub use super::axis::{Axis, Tick, number};
+    pub use super::axis::{Axis, Tick, in_powers, number, power_of_ten};
     pub use super::drawing::Frame;
     pub use super::elements::{Marker, arrow, line, markers, ticks};
     pub use super::helpers::*;

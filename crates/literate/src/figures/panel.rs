@@ -104,8 +104,8 @@ impl Panel {
     /// Returns the panel with a file of its data whose name ends in `suffix`, after the id of the
     /// figure.
     pub fn with_suffix(self, suffix: &str) -> Self {
-        self.record.borrow_mut().suffix = suffix.into();
-        Panel { recorded: true, ..self }
+        self.record.borrow_mut().suffix = suffix.replace(['(', ')'], "");
+        self
     }
 
     /// Returns the panel without a record, for what is no data: repeated outlines, details.
@@ -161,7 +161,7 @@ impl Panel {
     /// Writes the letter of a panel, "(a)", above its upper left corner, and ends the name of its
     /// file with it.
     pub fn letter(&self, text: &str) -> Drawn {
-        self.record.borrow_mut().suffix = text.trim_matches(['(', ')']).into();
+        self.clone().with_suffix(text);
         let at = (self.frame.left + 60, self.frame.top - 80);
         self.text_on_sheet(text, at, words(TEXT, INK, HPos::Left, VPos::Bottom))
     }

@@ -299,7 +299,7 @@ mod tests {
         assert_eq!(shown(1e-10, 5e-10), label("*x* (s)", tiny));
         let near = "0 0.2·10^{−11} 0.4·10^{−11} 0.6·10^{−11} 0.8·10^{−11} 1.0·10^{−11}";
         assert_eq!(shown(1.0, 1.00000000001), label("*x* − 1 (s)", near));
-        assert_eq!(linear(1.0, 1.00000000001).name_and_unit(), ("x".into(), "s".into()));
+        assert_eq!(linear(1.0, 1.00000000001).column_name(), "x (s)");
         let large = "1.0·10^{25} 1.5·10^{25} 2.0·10^{25} 2.5·10^{25} 3.0·10^{25}";
         assert_eq!(shown(1e25, 3e25), label("*x* (s)", large));
         for (low, high) in [(-1.7e308, 1.7e308), (1.0, 1.0 + f64::EPSILON), (1e17, 1e17 + 64.0)] {

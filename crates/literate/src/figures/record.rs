@@ -55,19 +55,15 @@ impl DataPoint {
 pub(super) struct Record {
     /// The end of the file's name, after the figure's id: the panel's letter, or nothing.
     pub(super) suffix: String,
-    x: (String, String),
-    y: (String, String),
+    x: String,
+    y: String,
     series: Vec<(String, Vec<DataPoint>)>,
 }
 
 impl Record {
     pub(super) fn new(x: &Axis, y: &Axis) -> Self {
-        Record {
-            suffix: String::new(),
-            x: x.name_and_unit(),
-            y: y.name_and_unit(),
-            series: Vec::new(),
-        }
+        let (x, y) = (x.column_name(), y.column_name());
+        Record { suffix: String::new(), x, y, series: Vec::new() }
     }
 
     /// Adds rows to a series: bars, symbols and curves of one name are one set of rows, by rising
@@ -98,10 +94,9 @@ impl Record {
         }
         let is_known = |i: usize| points.iter().any(|(_, row)| row.known[i].is_some());
         let columns: Vec<usize> = (0..KNOWN.len()).filter(|&i| i == 0 || is_known(i)).collect();
-        let unit = &self.y.1;
-        let mut header = vec!["series (text)".to_string()];
-        header.extend([&self.x, &self.y].map(|(name, unit)| format!("{name} ({unit})")));
-        header.extend(columns.iter().skip(1).map(|&i| format!("{} ({unit})", KNOWN[i])));
+        let mut header = vec!["series (text)".to_string(), self.x.clone(), self.y.clone()];
+        let unit = self.y.rfind(" (").map_or("", |at| &self.y[at..]);
+        header.extend(columns.iter().skip(1).map(|&i| format!("{}{unit}", KNOWN[i])));
         let mut rows = Vec::new();
         for (name, point) in points {
             let mut cells = vec![name.clone(), shortest(point.x)];
