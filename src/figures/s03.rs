@@ -71,7 +71,7 @@ fn spread<T: Copy>(all: &[T]) -> Vec<T> {
 fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "time since first impact (1/*ω*)").between(20.0, 7000.0);
     let y = Axis::decades(-1, 2, 1, "advance (gaps)").between(0.3, 80.0);
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 4100, 7650), x, y)?;
+    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 3850, 7650), x, y)?;
     let sigmas = spread(&advance.distinct("sigma")?);
     let mut drawn = Vec::new();
     for (place, sigma) in sigmas.iter().enumerate() {
@@ -90,7 +90,7 @@ fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").between(20.0, 2000.0);
     let y = Axis::linear(0.1, 0.14, 0.01, 2, "half height (*d ω*^{2})")
         .column("half_height (d omega^2)");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(5350, 5250, 8150, 7650), x, y)?;
+    let panel = sheet.lettered(LETTERS[2], Frame::new(5600, 5250, 8150, 7650), x, y)?;
     let grown = rise.curve(&[], "transient", "half_height")?;
     panel.marked_curve(GROWN.0, &grown, (GROWN.1.2, GROWN.1), Outside::Edge)?;
     let look = (Symbol::Disc, LARGE, Stroke::solid(RED, THIN));

@@ -252,7 +252,7 @@ pub(super) fn range(mut values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 }
 
 /// Returns m · 10^exponent with the bits of the literal.
-fn decimal(m: i32, exponent: i32) -> f64 {
+pub(super) fn decimal(m: i32, exponent: i32) -> f64 {
     format!("{m}e{exponent}").parse().unwrap_or(f64::MIN_POSITIVE)
 }
 

@@ -110,20 +110,13 @@ mod tests {
             Ok::<_, Error>(Figure { id: "a".into(), ..figure }.names())
         };
         let (png, jpg, svg, pdf) = (b"\x89PNG...", b"\xff\xd8\xff...", b"<svg/>", b"%PDF-1.5");
-        for (files, shown) in [
-            (&[&png[..]][..], ["a.png", "a.png"]),
-            (&[jpg], ["a.jpg", "a.jpg"]),
-            (&[svg, pdf], ["a.svg", "a.pdf"]),
-            (&[pdf, png], ["a.png", "a.pdf"]),
-        ] {
-            assert_eq!(names(files).unwrap(), shown);
-        }
-        for (files, why) in [
-            (&[&svg[..]][..], "cannot be shown in LaTeX"),
-            (&[pdf], "cannot be shown on pages"),
-            (&[b"GIF89a"], "is not a png"),
-        ] {
-            assert!(names(files).unwrap_err().to_string().contains(why));
-        }
+        assert_eq!(names(&[png]).unwrap(), ["a.png", "a.png"]);
+        assert_eq!(names(&[jpg]).unwrap(), ["a.jpg", "a.jpg"]);
+        assert_eq!(names(&[svg, pdf]).unwrap(), ["a.svg", "a.pdf"]);
+        assert_eq!(names(&[pdf, png]).unwrap(), ["a.png", "a.pdf"]);
+        let fails = |files: &[&[u8]], why| names(files).unwrap_err().to_string().contains(why);
+        assert!(fails(&[svg], "cannot be shown in LaTeX"));
+        assert!(fails(&[pdf], "cannot be shown on pages"));
+        assert!(fails(&[b"GIF89a"], "is not a png"));
     }
 }

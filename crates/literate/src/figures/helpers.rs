@@ -1,7 +1,7 @@
 //! Helps figures with what many of them need: columns over integers, round ends of axes, letters,
 //! short numbers.
 
-use super::axis::{Axis, number};
+use super::axis::{Axis, decimal, number};
 
 /// Returns the points (k, value) of a series whose first value belongs to k = 1.
 pub fn over_k(values: &[f64]) -> Vec<(f64, f64)> {
@@ -10,13 +10,7 @@ pub fn over_k(values: &[f64]) -> Vec<(f64, f64)> {
 
 /// Makes an axis from zero to a round number at or above `largest`, with about four labelled steps.
 pub fn upwards_from_zero(largest: f64, label: &str) -> Axis {
-    let mut unit = 1.0;
-    while unit > largest {
-        unit /= 10.0;
-    }
-    while unit * 10.0 <= largest {
-        unit *= 10.0;
-    }
+    let unit = decimal(1, power(largest));
     for step in [0.2, 0.25, 0.5, 1.0, 2.0, 2.5] {
         let step = step * unit;
         let steps = (largest / step - 1e-9).ceil();
@@ -42,20 +36,17 @@ pub fn short(value: f64, digits: usize) -> String {
         let shown = format!("{:.*e}", digits.saturating_sub(1), value);
         return shown.replace('-', "−").replace('e', "·10^");
     }
-    let mut decimals = digits.saturating_sub(1);
-    let mut size = value.abs();
-    while size >= 10.0 && decimals > 0 {
-        size /= 10.0;
-        decimals -= 1;
-    }
-    while size > 0.0 && size < 1.0 && decimals < 12 {
-        size *= 10.0;
-        decimals += 1;
-    }
+    let decimals = (digits as i32 - 1 - power(value)).max(0) as usize;
     let shown = number(value, decimals);
     if shown.contains('.') {
         shown.trim_end_matches('0').trim_end_matches('.').to_string()
     } else {
         shown
     }
+}
+
+/// Returns the power of ten of the first digit of a number, zero for zero.
+fn power(number: f64) -> i32 {
+    let shown = format!("{number:e}");
+    shown.split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or_default()
 }

@@ -44,7 +44,7 @@ pub struct Plot {
     y: AxisOptions,
     names: Vec<String>,
     series: Vec<Series>,
-    mark_size: Option<i32>,
+    mark_size: i32,
 }
 
 const COLOURS: [RGBColor; 6] = [INK, BLUE, RED, GREEN, ORANGE, PURPLE];
@@ -52,7 +52,7 @@ const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Alternate
 
 impl Plot {
     pub fn new() -> Self {
-        Plot::default()
+        Plot { mark_size: MEDIUM, ..Plot::default() }
     }
 
     /// Labels the horizontal axis, with its unit in brackets at the end: `*σ* (N/kg)`.
@@ -94,7 +94,7 @@ impl Plot {
 
     /// Sets half the width of marks, in hundredths of a millimetre; it is [`MEDIUM`] otherwise.
     pub fn mark_size(mut self, half_width: i32) -> Self {
-        self.mark_size = Some(half_width);
+        self.mark_size = half_width;
         self
     }
 
@@ -186,8 +186,8 @@ impl Plot {
             let (name, named, colour) = &mut ends[*place];
             let places: Vec<(f64, f64)> = points.iter().map(|(x, y)| (*x, y.value)).collect();
             let stroke = Stroke::dashed(*colour, LINE, DASHES[place % DASHES.len()]);
-            let size = self.mark_size.unwrap_or(MEDIUM);
-            let marker = |symbol| -> Marker { (symbol, size, Stroke::solid(*colour, THIN)) };
+            let marker =
+                |symbol| -> Marker { (symbol, self.mark_size, Stroke::solid(*colour, THIN)) };
             match kind {
                 SeriesKind::Line | SeriesKind::Curve(_) => {
                     panel.curve(name, &places, stroke, Outside::Cut)?;
@@ -255,74 +255,67 @@ impl AxisOptions {
 mod tests {
     use super::*;
     use crate::describe;
+    use crate::figures::axis::Tick;
     use crate::figures::drawing::Element;
 
-    fn labels(options: &AxisOptions, values: &[f64]) -> (f64, f64, Vec<String>) {
+    /// The axis of these values, with its numbers.
+    fn axis(is_log: bool, values: &[f64]) -> (Axis, String) {
+        let options = AxisOptions { label: "*x* (s)".into(), is_log, range: None };
         let axis = options.axis(values.iter().copied());
-        (axis.lo, axis.hi, axis.ticks.into_iter().filter_map(|tick| tick.label).collect())
+        let labels: Vec<&str> =
+            axis.ticks.iter().filter_map(|tick| tick.label.as_deref()).collect();
+        (axis.clone(), labels.join(" "))
     }
 
     #[test]
-    fn ranges_and_ticks_follow_from_the_data() {
-        let [linear, log] =
-            [false, true].map(|is_log| AxisOptions { is_log, ..AxisOptions::default() });
-        let (low, high, ticks) = labels(&linear, &[0.3, 12.8, f64::NAN]);
-        assert_eq!((low, high), (0.3 - 0.5, 12.8 + 0.5));
-        assert_eq!(ticks, ["0", "2", "4", "6", "8", "10", "12"]);
-        assert_eq!(labels(&linear, &[1e-2, 9e-2]).2, ["0.02", "0.04", "0.06", "0.08"]);
-        assert_eq!(
-            labels(&linear, &[3.0, 3.0]).2,
-            ["1.5", "2.0", "2.5", "3.0", "3.5", "4.0", "4.5"]
-        );
-        assert_eq!(
-            labels(&log, &[0.02, 30.0]).2,
-            ["10^{−2}", "10^{−1}", "10^{0}", "10^{1}", "10^{2}"]
-        );
-        assert_eq!(labels(&log, &[1e-20, 1.0]).2.len(), 7);
-    }
-
-    #[test]
-    fn numbers_of_an_axis_are_exact_and_differ_or_the_range_is_refused() {
-        let linear = |low: f64, high: f64| {
-            let options = AxisOptions { label: "*x* (s)".into(), ..AxisOptions::default() };
-            options.axis([low, high].into_iter())
-        };
-        let shown = |low, high| {
-            let axis = linear(low, high);
+    fn numbers_of_an_axis_are_exact_and_differ_or_its_range_is_refused() {
+        for (is_log, values, label, numbers) in [
+            (false, &[0.3, 12.8, f64::NAN][..], "*x* (s)", "0 2 4 6 8 10 12"),
+            (false, &[1e-2, 9e-2], "*x* (s)", "0.02 0.04 0.06 0.08"),
+            (false, &[3.0, 3.0], "*x* (s)", "1.5 2.0 2.5 3.0 3.5 4.0 4.5"),
+            (
+                false,
+                &[1e-10, 5e-10],
+                "*x* (s)",
+                "1·10^{−10} 2·10^{−10} 3·10^{−10} 4·10^{−10} 5·10^{−10}",
+            ),
+            (
+                false,
+                &[1.0, 1.00000000001],
+                "*x* − 1 (s)",
+                "0 0.2·10^{−11} 0.4·10^{−11} 0.6·10^{−11} 0.8·10^{−11} 1.0·10^{−11}",
+            ),
+            (
+                false,
+                &[1e25, 3e25],
+                "*x* (s)",
+                "1.0·10^{25} 1.5·10^{25} 2.0·10^{25} 2.5·10^{25} 3.0·10^{25}",
+            ),
+            (true, &[0.02, 30.0], "*x* (s)", "10^{−2} 10^{−1} 10^{0} 10^{1} 10^{2}"),
+        ] {
+            let (axis, shown) = axis(is_log, values);
             axis.check().unwrap();
-            let labels: Vec<String> =
-                axis.ticks.into_iter().filter_map(|tick| tick.label).collect();
-            (axis.label, labels.join(" "))
-        };
-        let label = |label: &str, numbers: &str| (label.to_string(), numbers.to_string());
-        let tiny = "1·10^{−10} 2·10^{−10} 3·10^{−10} 4·10^{−10} 5·10^{−10}";
-        assert_eq!(shown(1e-10, 5e-10), label("*x* (s)", tiny));
-        let near = "0 0.2·10^{−11} 0.4·10^{−11} 0.6·10^{−11} 0.8·10^{−11} 1.0·10^{−11}";
-        assert_eq!(shown(1.0, 1.00000000001), label("*x* − 1 (s)", near));
-        assert_eq!(linear(1.0, 1.00000000001).column_name(), "x (s)");
-        let large = "1.0·10^{25} 1.5·10^{25} 2.0·10^{25} 2.5·10^{25} 3.0·10^{25}";
-        assert_eq!(shown(1e25, 3e25), label("*x* (s)", large));
-        for (low, high) in [(-1.7e308, 1.7e308), (1.0, 1.0 + f64::EPSILON), (1e17, 1e17 + 64.0)] {
-            assert!(matches!(linear(low, high).check(), Err(Error::Axis { .. })), "{low} {high}");
+            assert_eq!((axis.label.as_str(), shown.as_str()), (label, numbers));
+            assert_eq!(axis.column_name(), "x (s)");
         }
-        // Ranges of all sizes, some far from zero, against their labels read back.
+        for ends in [[-1.7e308, 1.7e308], [1.0, 1.0 + f64::EPSILON], [1e17, 1e17 + 64.0]] {
+            assert!(matches!(axis(false, &ends).0.check(), Err(Error::Axis { .. })), "{ends:?}");
+        }
+        // Ranges of all sizes, some far from zero, against their numbers read back.
         let number = |text: &str| {
             text.replace("·10^{", "e").replace('}', "").replace('−', "-").parse::<f64>().unwrap()
         };
         for power in -300..300 {
             for (low, width) in [(0.0, 1.0), (-0.37, 0.9), (123.0, 4.5), (7e6, 3.0)] {
-                let size = format!("1e{power}").parse::<f64>().unwrap();
-                let axis = linear(low * size, (low + width) * size);
+                let size = number(&format!("1e{power}"));
+                let (axis, _) = axis(false, &[low * size, (low + width) * size]);
                 axis.check().unwrap();
                 let from = axis.label.replace("*x* − ", "").replace(" (s)", "");
                 let from = if from == "*x*" { 0.0 } else { number(&from) };
-                let labels =
-                    axis.ticks.iter().filter_map(|tick| Some((tick.at, tick.label.as_ref()?)));
-                let labels: Vec<(f64, &String)> = labels.collect();
-                assert!(labels.len() > 2, "{axis:?}");
-                for (at, label) in labels {
-                    let wrong = (from + number(label) - at).abs();
-                    assert!(wrong <= 4.0 * f64::EPSILON * at.abs(), "{at} {label}");
+                assert!(axis.ticks.len() > 2, "{axis:?}");
+                for Tick { at, label } in axis.ticks {
+                    let wrong = label.map_or(0.0, |label| (from + number(&label) - at).abs());
+                    assert!(wrong <= 4.0 * f64::EPSILON * at.abs(), "{at}");
                 }
             }
         }
