@@ -170,8 +170,8 @@ impl Axis {
         self
     }
 
-    /// Returns the name of its column in data files, with the unit in brackets at the end: as given,
-    /// or from the label in plain text. Without one the unit is `1`.
+    /// Returns the name of its column in data files, with the unit in brackets at the end: as
+    /// given, or from the label in plain text. Without one the unit is `1`.
     pub fn column_name(&self) -> String {
         let words = self.column.clone().unwrap_or_else(|| spelled(&self.label));
         if words.ends_with(')') && words.contains(" (") { words } else { words + " (1)" }
