@@ -135,7 +135,7 @@ mod tests {
     use super::*;
     use crate::experiments::{Command, Experiment, Results, Session, Store};
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    use std::fs::{create_dir, write};
+    use std::fs::write;
     use std::process::{Child, Command as Program, Stdio};
 
     /// Starts the test below as a program, which runs a command.
@@ -172,31 +172,28 @@ mod tests {
     #[test]
     fn a_signal_also_ends_the_programs_that_commands_started() {
         let folder = tempfile::tempdir().unwrap();
-        let mut programs = Vec::new();
-        for (signal, number) in [("INT", SIGINT), ("TERM", SIGTERM), ("HUP", SIGHUP)] {
-            if is_ignored(number) {
-                continue;
-            }
-            let place = folder.path().join(signal);
-            create_dir(&place).unwrap();
-            let here = place.display();
-            let trap = format!("trap 'touch {here}/ended; exit' TERM\ntouch {here}/ready\n");
-            write(place.join("inner.sh"), trap + "sleep 600 & wait\n").unwrap();
-            write(place.join("outer.sh"), format!("sh {here}/inner.sh & wait\n")).unwrap();
-            programs.push((signal, place.clone(), started(&format!("sh {here}/outer.sh"))));
-        }
-        for (signal, place, program) in &mut programs {
-            while !place.join("ready").exists() {
+        let here = folder.path().display();
+        let wait = format!("touch {here}/$1-ready; sleep 600 & wait");
+        let inner = format!("trap 'touch {here}/$1-ended; exit' TERM; {wait}");
+        write(folder.path().join("inner.sh"), inner).unwrap();
+        write(folder.path().join("outer.sh"), format!("sh {here}/inner.sh $1 & wait")).unwrap();
+        let exists = |mark: String| folder.path().join(mark).exists();
+        let mut programs = vec![("INT", SIGINT), ("TERM", SIGTERM), ("HUP", SIGHUP)];
+        programs.retain(|(_, number)| !is_ignored(*number));
+        let start = |(signal, _)| (signal, started(&format!("sh {here}/outer.sh {signal}")));
+        let mut programs: Vec<(&str, Child)> = programs.into_iter().map(start).collect();
+        for (signal, program) in &mut programs {
+            while !exists(format!("{signal}-ready")) {
                 assert_eq!(program.try_wait().unwrap(), None, "ended too early");
                 std::thread::sleep(std::time::Duration::from_millis(20));
             }
             let line = format!("kill -s {signal} {}", program.id());
             assert!(Program::new("sh").args(["-c", &line]).status().unwrap().success());
         }
-        for (signal, place, program) in programs {
+        for (signal, program) in programs {
             let output = program.wait_with_output().unwrap();
             assert_eq!(output.status.code(), Some(INTERRUPTED.into()), "{signal}: {output:?}");
-            assert!(place.join("ended").exists(), "{signal}: {output:?}");
+            assert!(exists(format!("{signal}-ended")), "{signal}: {output:?}");
         }
     }
 }
