@@ -190,7 +190,7 @@ fn a_rerun_finds_what_the_list_cannot() {
     let (code, told, note) =
         crate::run(here, &format!("verify r --rerun --results saved {templates}"));
     assert_eq!(code, 1, "{told}{note}");
-    assert!(note.contains("4 files; `paper --out r --force`"), "{note}");
+    assert!(note.contains("4 files; `paper --out r --force --profile quick "), "{note}");
     let lines: Vec<&str> = told.lines().skip(1).collect();
     let names = ["differs  SHA256SUMS", "differs  data/fig02.csv", "differs  report.html"];
     let names = names.into_iter().chain(["unlisted data/more.csv"]);

@@ -38,6 +38,7 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+mod build;
 pub mod claims;
 pub mod cli;
 pub mod experiments;
@@ -72,6 +73,7 @@ pub mod table;
 mod text;
 pub mod value;
 
+pub use build::make_report;
 pub use failure::{Failure, INTERRUPTED};
 pub use impact_numerics::{double_double, estimates, random, statistics};
 pub use literate_sources::{sources, texts};

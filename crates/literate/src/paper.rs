@@ -20,8 +20,13 @@ pub struct FigureSpec {
 }
 
 impl FigureSpec {
-    pub fn figure(&self, results: &Results) -> Result<Figure, figures::Error> {
-        let mut figure = (self.draw)(results)?;
+    /// Draws it from results.
+    ///
+    /// # Errors
+    /// With its name.
+    pub fn figure(&self, results: &Results) -> Result<Figure, Failure> {
+        let named = |error| Failure::from(error).of(format!("figure {}", self.name));
+        let mut figure = (self.draw)(results).map_err(named)?;
         figure.data.iter_mut().for_each(|file| file.name.insert_str(0, self.name));
         let experiments = self.needs.iter().map(|need| need.name()).collect();
         // The item that draws it has its name.

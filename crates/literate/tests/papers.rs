@@ -4,9 +4,9 @@
 #[path = "../examples/feigenbaum/main.rs"]
 mod feigenbaum;
 
-use literate::cli::whole;
 use literate::experiments::{Profile, Progress, Store};
 use literate::input::sha256;
+use literate::make_report;
 use std::path::Path;
 use std::process::Command;
 
@@ -18,12 +18,12 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
     let prose = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/feigenbaum"));
     let quiet = Progress::silent();
     let session = paper.session(prose.as_deref(), Profile::Full, store, quiet).unwrap();
-    let (report, checks) = whole(&paper, &session, Path::new("paper")).unwrap();
+    let (report, checks) = make_report(&paper, &session, Path::new("paper")).unwrap();
     assert!(checks.iter().all(|check| !check.fails()));
     let saved = folder.path().join("cascade-full.json");
     let written = || std::fs::metadata(&saved).unwrap().modified().unwrap();
     let first = written();
-    assert!(report == whole(&paper, &session, Path::new("paper")).unwrap().0);
+    assert!(report == make_report(&paper, &session, Path::new("paper")).unwrap().0);
     assert_eq!(written(), first, "it is run once");
 
     let text = |path: &str| String::from_utf8(report.committed[path].clone()).unwrap();

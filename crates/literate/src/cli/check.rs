@@ -1,6 +1,6 @@
 //! The verb `check`.
 
-use super::make::{Sources, of, scores, verdict};
+use super::common::{Sources, of, scores, verdict};
 use super::terminal::print;
 use crate::claims::{Check, Kind, Published, Verdict, blind_to_their_number, score};
 use crate::failure::Failure;

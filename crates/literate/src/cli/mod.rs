@@ -2,9 +2,9 @@
 //! paper adds.
 
 mod check;
+mod common;
 mod diff;
 mod explain;
-mod make;
 mod paper;
 mod run;
 pub mod terminal;
@@ -19,8 +19,6 @@ use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
 use std::thread::JoinHandle;
-
-pub use make::whole;
 
 const EXIT_CODES: &str = "Exit codes:
   0    fine

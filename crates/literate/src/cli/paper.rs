@@ -1,7 +1,8 @@
 //! The verb `paper`.
 
-use super::make::{self, Sources};
+use super::common::{Sources, scores, verdict};
 use super::terminal::{print, shown};
+use crate::build::make_report;
 use crate::experiments::{AnyExperiment, Profile, Session};
 use crate::failure::Failure;
 use crate::input::{count, one_line};
@@ -56,61 +57,61 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         Profile::Quick => "target/paper-quick".into(),
     });
     let find = |text: &String| paper.find_figure(text).map_err(|error| error.of("--figure"));
-    let chosen = args.figure.iter().map(find).collect::<Result<Vec<&FigureSpec>, Failure>>()?;
-    let whole = chosen.is_empty();
-    let needs: Vec<&'static dyn AnyExperiment> = match whole {
-        true => paper.experiments.clone(),
-        false => chosen.iter().flat_map(|figure| figure.needs).copied().collect(),
-    };
+    let figures = args.figure.iter().map(find).collect::<Result<Vec<&FigureSpec>, Failure>>()?;
+    let is_whole = figures.is_empty();
+    let mut needs = paper.experiments.clone();
+    if !is_whole {
+        needs = figures.iter().flat_map(|figure| figure.needs).copied().collect();
+    }
     let session = sources.session(paper)?;
     if args.dry_run {
         return dry_run(&session, &needs);
     }
-    refuse_over_other(sources.profile, &out, whole)?;
+    refuse_over_other(sources.profile, &out, is_whole)?;
     let option = |error: folder::Error| Failure::from(error).of("--out");
     if !force {
-        folder::refuse(&out, &Files::new(), whole).map_err(option)?;
+        folder::refuse(&out, &Files::new(), is_whole).map_err(option)?;
     }
-    for name in &args.rerun {
-        forget(name, paper, &session)?;
-    }
-    let (report, checks) = sources.threads.run(|| match whole {
-        true => make::whole(paper, &session, &out),
-        false => {
-            let results = paper.results(&needs, &session)?;
-            let figures =
-                chosen.iter().map(|figure| Ok(files_of(&make::drawn(figure, &results)?).committed));
-            let files = figures.collect::<Result<Vec<Files>, Failure>>()?;
-            let committed = files.into_iter().flatten().collect();
-            Ok((Report { committed, generated: Files::new() }, Vec::new()))
+    forget(&args.rerun, paper, &session)?;
+    let (report, checks) = sources.threads.run(|| {
+        if is_whole {
+            return make_report(paper, &session, &out);
         }
+        let (results, mut report) = (paper.results(&needs, &session)?, Report::default());
+        for figure in figures {
+            report.committed.extend(files_of(&figure.figure(&results)?).committed);
+        }
+        Ok((report, Vec::new()))
     })?;
     report.write(&out, force).map_err(option)?;
-    let pages: Vec<&str> = paper.edition.documents.iter().map(|document| document.page).collect();
-    let documents = if whole { format!(": {}", pages.join(", ")) } else { String::new() };
     let number = count(report.committed.len() + report.generated.len(), "file");
-    let scores: String = make::scores(&checks).into_iter().map(|line| line + "\n").collect();
-    let time = began.elapsed().as_secs_f64();
+    let mut line = format!("{}: {number} in {:.1} s", shown(&out), began.elapsed().as_secs_f64());
+    if is_whole {
+        let pages: Vec<&str> = paper.edition.documents.iter().map(|one| one.page).collect();
+        line += &format!(": {}", pages.join(", "));
+    }
+    let lines: Vec<String> = [line].into_iter().chain(scores(&checks)).collect();
     // Printed also if a check fails.
-    let printed = print(&format!("{}: {number} in {time:.1} s{documents}\n{scores}", shown(&out)));
+    let printed = print(&(lines.join("\n") + "\n"));
     let more = |failure: Failure| {
         let message = format!("{}; `check` says more", failure.message);
         Failure { message, ..failure }
     };
-    make::verdict(&checks).map_err(more).and(printed)
+    verdict(&checks).map_err(more).and(printed)
 }
 
-/// Removes the saved result of an experiment by its name, or of all.
-fn forget(name: &str, paper: &Paper, session: &Session<'_>) -> Result<(), Failure> {
-    let names = || paper.experiments.iter().map(|experiment| experiment.name());
-    if name != "all" && !names().any(|other| other == name) {
-        let nearest = nearest(name, names()).join(", ");
-        let name = one_line(name, 60);
-        let what = format!("--rerun: there is no experiment {name:?}; nearest: {nearest}");
-        return Err(Failure::input(what));
+/// Removes the saved results of experiments by their names, or of `all`.
+fn forget(names: &[String], paper: &Paper, session: &Session<'_>) -> Result<(), Failure> {
+    let known: Vec<&str> = paper.experiments.iter().map(|experiment| experiment.name()).collect();
+    for name in names {
+        if name != "all" && !known.contains(&name.as_str()) {
+            let nearest = nearest(name, known.into_iter()).join(", ");
+            let what = format!("there is no experiment {:?}", one_line(name, 60));
+            return Err(Failure::input(format!("--rerun: {what}; nearest: {nearest}")));
+        }
     }
     for experiment in &paper.experiments {
-        if name == "all" || name == experiment.name() {
+        if names.iter().any(|name| name == "all" || name == experiment.name()) {
             session.store.remove(&experiment.identity(session), true)?;
         }
     }
@@ -119,9 +120,9 @@ fn forget(name: &str, paper: &Paper, session: &Session<'_>) -> Result<(), Failur
 
 /// Refuses to write small samples over the full report, or single figures among those of another
 /// profile.
-fn refuse_over_other(profile: Profile, out: &Path, whole: bool) -> Result<(), Failure> {
+fn refuse_over_other(profile: Profile, out: &Path, is_whole: bool) -> Result<(), Failure> {
     match profile_in(out) {
-        Some(there) if there != profile && (!whole || there == Profile::Full) => {
+        Some(there) if there != profile && (!is_whole || there == Profile::Full) => {
             let (place, name) = (out.display(), there.name());
             let what = format!("--out: {place} holds a report of the {name} profile");
             Err(Failure::input(format!("{what}; give another folder")))

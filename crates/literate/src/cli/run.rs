@@ -1,6 +1,6 @@
 //! The verb `run`, which may run the experiments' units of work on several machines.
 
-use super::make::Sources;
+use super::common::Sources;
 use super::terminal::{print, shown};
 use crate::experiments::{AnyExperiment, Error, Session, announce};
 use crate::failure::Failure;

@@ -1,8 +1,8 @@
 //! The verb `verify`.
 
-use super::make;
 use super::paper::profile_in;
 use super::terminal::{Threads, print, progress, shown};
+use crate::build::make_report;
 use crate::experiments::Store;
 use crate::failure::Failure;
 use crate::input::count;
@@ -48,7 +48,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         print(&format!("{place}: {files} files, all as {} lists them\n", folder::SUMS))?;
     }
     let profile = profile_in(&folder);
-    let mut again = format!("paper --out {}", quoted(&folder));
+    let mut again = format!("paper --out {} --force", quoted(&folder));
     if let Some(profile) = profile {
         again += &format!(" --profile {}", profile.name());
     }
@@ -64,7 +64,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
             None => " --rerun all".into(),
         };
         let session = paper.session(templates.as_deref(), profile, store, progress())?;
-        let made = threads.run(|| make::whole(paper, &session, &folder))?.0;
+        let made = threads.run(|| make_report(paper, &session, &folder))?.0;
         let (files, differences) = made.compare(&folder)?;
         if differences.is_empty() {
             let name = profile.name();
@@ -79,7 +79,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     print(&(faults.join("\n") + "\n"))?;
     let number = count(faults.len(), "file");
     Err(Failure::check(format!(
-        "{place}: faults in {number}; `{again} --force` writes the report again; \
+        "{place}: faults in {number}; `{again}` writes the report again; \
          move unlisted files yourself"
     )))
 }

@@ -1,0 +1,96 @@
+//! Options, scores and the verdict that several verbs share.
+
+use super::terminal::{Threads, progress, warn};
+use crate::claims::{Basis, Check, Kind, Verdict, score};
+use crate::experiments::{Profile, Session, Store};
+use crate::failure::Failure;
+use crate::input::count;
+use crate::paper::Paper;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::path::PathBuf;
+
+/// Options of verbs that make a report or judge it.
+#[derive(clap::Args)]
+pub(super) struct Sources {
+    /// Take these sample sizes.
+    #[arg(long, default_value = "full", value_parser = profile())]
+    pub profile: Profile,
+    #[command(flatten)]
+    pub threads: Threads,
+    /// Read the prose from this folder [default: that of the project, or the copy inside the
+    /// program].
+    #[arg(long, value_name = "DIR")]
+    pub templates: Option<PathBuf>,
+    /// Keep results of long runs in this folder.
+    #[arg(long, value_name = "DIR", default_value = "target/results")]
+    pub results: PathBuf,
+}
+
+fn profile() -> impl TypedValueParser<Value = Profile> {
+    let quick = PossibleValue::new("quick").help("To try out: small samples");
+    let full = PossibleValue::new("full").help("The committed report");
+    PossibleValuesParser::new([quick, full]).try_map(|name| name.parse::<Profile>())
+}
+
+impl Sources {
+    /// Returns the run that is asked for.
+    pub fn session<'a>(&self, paper: &'a Paper) -> Result<Session<'a>, Failure> {
+        if let Some(file) = paper.project.changed() {
+            warn(&format!(
+                "{file} has changed since this program was built; build it again to see the change"
+            ));
+        }
+        let store = Store::open(&self.results);
+        paper.session(self.templates.as_deref(), self.profile, store, progress())
+    }
+}
+
+pub(super) fn of(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> + Clone {
+    checks.iter().filter(move |check| check.kind == kind)
+}
+
+/// Returns the scores, a line each: of statements, and of relations where there are any.
+pub(super) fn scores(checks: &[Check]) -> Vec<String> {
+    let mut lines = Vec::new();
+    let statements = of(checks, Kind::Statement);
+    let number = statements.clone().count();
+    if number > 0 {
+        let mut counts = Vec::new();
+        for (verdict, count) in Verdict::ALL.iter().zip(score(statements.clone())) {
+            counts.push(format!("{} {count}", verdict.words()));
+        }
+        lines.push(format!("{} of the paper: {}", count(number, "statement"), counts.join(", ")));
+        let mut bases = Vec::new();
+        for basis in Basis::ALL {
+            let counts = score(statements.clone().filter(|check| check.basis == basis));
+            let all: usize = counts.iter().sum();
+            if all > 0 {
+                bases.push(format!("{} of {all} {}", counts[0], basis.words()));
+            }
+        }
+        lines.push(format!("reproduced, by what the verdict rests on: {}", bases.join(", ")));
+    }
+    let [held, _, broken, open] = score(of(checks, Kind::Relation));
+    let all = held + broken + open;
+    if all > 0 {
+        lines.push(format!("our own checks: {held} of {all} relations between numbers hold"));
+    }
+    lines
+}
+
+/// Returns a failure that names all that does not hold.
+pub(super) fn verdict(checks: &[Check]) -> Result<(), Failure> {
+    let mut faults = Vec::new();
+    for (is_printed, what) in [
+        (true, "statements have no rule or differ without an explanation that holds"),
+        (false, "relations between numbers of the report do not hold"),
+    ] {
+        let failed = |check: &&Check| check.fails() && check.kind.is_printed() == is_printed;
+        let failed = checks.iter().filter(failed).map(|check| check.id.as_str());
+        let ids: Vec<&str> = failed.collect();
+        if !ids.is_empty() {
+            faults.push(format!("{what}: {}", ids.join(", ")));
+        }
+    }
+    if faults.is_empty() { Ok(()) } else { Err(Failure::check(faults.join("; "))) }
+}
