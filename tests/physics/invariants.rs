@@ -74,7 +74,7 @@ fn orbits_that_repeat_themselves_keep_their_times() {
         let period = first + first + rest;
         let free = parts.iter().map(|b| [0.0, *b]).collect();
         let scenario = Scenario { restitution: 1.0, ..given(free, vec![[0.0; 2]; parts.len()]) };
-        let last = if parts == [2.3] { 3e6 } else { 2e5 };
+        let last = if parts == [2.3] { 1e6 } else { 1e5 };
         let mut k = 0.0;
         let see = |impact: Impact| {
             let number = ((impact.time - first.near()) / period.near()).round();

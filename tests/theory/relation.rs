@@ -77,10 +77,7 @@ const SETTINGS: [(f64, f64, f64); 7] = [
 fn closed_forms_agree_with_quadrature_to_the_last_digits() {
     let gauss = Gauss::new(20);
     for (d, omega, forcing) in SETTINGS {
-        for over_d in [
-            1e-25, 1e-20, 1e-5, 1e-3, 0.01, 0.0135, 0.02, 0.03, 0.05, 0.12, 0.15, 0.2, 0.4, 0.5,
-            1.0, 3.0, 10.0, 1e6,
-        ] {
+        for over_d in [1e-25, 1e-20, 1e-3, 0.0135, 0.02, 0.05, 0.15, 0.4, 0.5, 1.0, 10.0, 1e6] {
             let sigma = over_d * d;
             let at = format!("d {d} ω {omega} Ω {forcing} σ {sigma}");
             let law = ImpactProbability::new(sigma, d, omega, forcing).unwrap();

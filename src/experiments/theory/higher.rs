@@ -81,29 +81,29 @@ fn doubling(p: f64) -> f64 {
     weight(&CLASSES[1]) / weight(&CLASSES[0])
 }
 
-/// P(X = k) of five classes, k = 1..=N, if a circuit weighs p^k by its k different vertices and not
-/// by its length.
-fn by_different(p: f64) -> Vec<f64> {
-    let more = |k| multiplicity(FiveClasses, DoubleDouble::ONE, k).to_f64();
-    let weights: Vec<f64> = (1..).zip(simple(p)).map(|(k, q)| q * more(k)).collect();
-    let total = sum(weights.iter().copied());
-    weights.into_iter().map(|weight| weight / total).collect()
+/// Circuits of five classes with k different vertices for each simple one, k = 1..=N, if a circuit
+/// weighs p^k by its different vertices and not by its length.
+fn multiplicities() -> Vec<f64> {
+    (1..=VERTICES).map(|k| multiplicity(FiveClasses, DoubleDouble::ONE, k).to_f64()).collect()
+}
+
+/// Weights of k = 1..=N in proportion to P(X = k) of five classes, with such a p.
+fn by_different(p: f64, more: &[f64]) -> Vec<f64> {
+    simple(p).iter().zip(more).map(|(q, more)| q * more).collect()
 }
 
 /// Of the same: share of simple circuits, which are all of those that have no vertex twice.
 fn simple_by_different(p: f64) -> f64 {
-    let share = |(k, q)| {
-        q * f64::from(SHARED as u32) / multiplicity(FiveClasses, DoubleDouble::ONE, k).to_f64()
-    };
-    sum((1..).zip(by_different(p)).map(share))
+    let all = sum(by_different(p, &multiplicities()));
+    f64::from(SHARED as u32) * sum(simple(p)) / all
 }
 
 /// Of the same: the largest step of k* between neighbouring p of a grid of 1/100 000 up to 0.04.
 fn largest_step() -> u64 {
+    let more = multiplicities();
     let top = |p: f64| {
-        let (k, _) =
-            (1..).zip(by_different(p)).fold((1, 0.0), |a, b| if b.1 > a.1 { b } else { a });
-        k
+        let weights = (1..).zip(by_different(p, &more));
+        weights.fold((1, 0.0), |most, one| if one.1 > most.1 { one } else { most }).0
     };
     let ks: Vec<u64> = (0..=4000).map(|i| top(f64::from(i) / 1e5)).collect();
     ks.windows(2).map(|w| w[1].abs_diff(w[0])).max().unwrap_or(0)
