@@ -127,11 +127,11 @@ pub const STAGING: &str = ".staging-literate-";
 /// holding it for writing.
 pub static WRITING: RwLock<()> = RwLock::new(());
 
-/// Describes a fault of TOML with its line, from 1, and a remedy: `12: missing field …; mend …`.
+/// Describes a fault of TOML with its line, from 1, and a remedy: `12: missing field …; correct …`.
 pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {
     let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
     let what = one_line(&plain(error.message()), 300);
-    format!("{}: {what}; mend this line, or restore the file", line(before))
+    format!("{}: {what}; correct this line, or restore the file", line(before))
 }
 
 /// Returns the number of the line that a text ends in, from 1.

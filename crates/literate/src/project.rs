@@ -27,6 +27,7 @@ pub struct Project {
 
 /// Returns whether a path is `place`, or lies below it.
 fn is_in(path: &str, place: &str) -> bool {
+    let place = place.trim_start_matches("./").trim_end_matches('/');
     path.strip_prefix(place).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
@@ -83,12 +84,9 @@ impl Project {
             let copied = self.copied(place).is_some();
             copied || self.is_source(place) || self.folder().join(place).exists()
         };
-        match files.iter().find(|place| !is_there(place)) {
-            Some(lost) => {
-                Err((format!("`code` lists {lost}, which is not there"), "mend the path"))
-            }
-            None => Ok(()),
-        }
+        let lost = files.iter().find(|place| !is_there(place));
+        let problem = lost.map(|lost| format!("`code` lists {lost}, which is not there"));
+        problem.map_or(Ok(()), |problem| Err((problem, "correct the path")))
     }
 
     /// Checks that files that an experiment lists, or those that all share, name no module that
@@ -100,14 +98,13 @@ impl Project {
         let remedy = "list that file too, or give the reason why it changes no result in \
                       `project.left_out`";
         let is_listed = |path: &str| files.iter().any(|place| is_in(path, place));
-        for (path, text) in self.sources.files.iter().filter(|(path, _)| is_listed(path)) {
-            if !self.counts(path, files) {
-                continue;
-            }
-            for named in self.sources.named_in(path, text) {
-                if !self.counts(named, files) && !self.is_left_out(named) {
-                    let problem = format!("{path} names {named}, which is not listed");
-                    return Err((problem, remedy));
+        for (path, text) in self.sources.files {
+            if is_listed(path) && self.counts(path, files) {
+                for named in self.sources.named_in(path, text) {
+                    if !self.counts(named, files) && !self.is_left_out(named) {
+                        let problem = format!("{path} names {named}, which is not listed");
+                        return Err((problem, remedy));
+                    }
                 }
             }
         }
@@ -211,7 +208,7 @@ mod tests {
         assert_eq!(paths(&project, &["src/a.rs"]), "Cargo.lock src/a.rs");
         let lost = problem(&project, &["src/a.rs"]);
         assert_eq!(lost, "src/a.rs names src/b/c.rs, which is not listed");
-        assert_eq!(project.check_named(&["src/a.rs", "src/b"]), Ok(()));
+        assert_eq!(project.check_named(&["./src/a.rs", "src/b/"]), Ok(()));
         let error = project.text("templates/no_such.md").unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::NotFound);
     }

@@ -118,7 +118,7 @@ impl Command {
             Error::Failed { experiment: self.name, source }
         };
         let cannot = |error: io::Error| {
-            fail(format!("cannot be started: {error}; install it, or mend the command"))
+            fail(format!("cannot be started: {error}; install it, or correct the command"))
         };
         let _stage = session.progress.stage(self.name, 1);
         let folder = tempfile::tempdir().map_err(cannot)?;

@@ -165,8 +165,8 @@ pub trait AnyExperiment: Sync {
     /// Runs those of the given units that are not in the store, and saves each as soon as it is
     /// done; none if its result is fresh. Returns how many were run.
     fn run_units(&self, _: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
-        let stale = self.stale(session).is_some();
-        self.found(session).map(|_| usize::from(stale))
+        let is_stale = self.stale(session).is_some();
+        self.found(session).map(|_| usize::from(is_stale))
     }
 
     /// Returns what would be run, and why; none if the saved result is fresh.
@@ -239,7 +239,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
 
     fn run_units(&self, units: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
         let identity = self.identity(session);
-        if session.store.look::<T>(&identity).is_ok() {
+        if session.store.why_stale(&identity).is_none() {
             return Ok(0);
         }
         let How::Cut(..) = self.how else { return self.get(session).map(|_| units.len()) };
