@@ -103,7 +103,7 @@ fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Drawn {
 
 fn description(run: &SpaceTime) -> Description {
     describe!(
-        "(a) Gap against time for {} impacts of one run of {} masses at σ = {}: the darker, the more impacts. They form horizontal \
+        "(a) Gap against time for {} impacts of one run of {} masses at σ = {}: the thicker, the more impacts. They form horizontal \
          bands that begin at {} red discs and widen in bursts; {} of {} gaps are reached by the end. (b) Its beginning, a tick for each.",
         run.times.len(),
         run.parameters.chain.masses,

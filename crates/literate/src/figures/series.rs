@@ -75,19 +75,21 @@ impl Panel {
         self.x.contains(x) && self.y.contains(y)
     }
 
-    /// Records points and returns those that can be drawn. Of those to be cut, the ones that the
-    /// axes have no place for are left out of both.
+    /// Records points, so many a row, and returns those that can be drawn. Of those to be cut, the
+    /// ones that the axes have no place for are left out of both.
     fn places(
         &self,
         name: &str,
         points: Points,
         outside: Outside,
+        in_row: usize,
     ) -> Result<Vec<(f64, f64)>, Error> {
         let (mut shown, mut places) = (Vec::new(), Vec::new());
-        for (row, &(x, y)) in (1..).zip(points) {
+        for (i, &(x, y)) in points.iter().enumerate() {
             let is_refused = outside == Outside::Refuse && !self.contains((x, y));
             if is_refused || !x.is_finite() || !y.is_finite() {
-                return Err(Error::Outside { series: spelled(name), row, x, y });
+                let (series, row) = (spelled(name), 1 + i / in_row);
+                return Err(Error::Outside { series, row, x, y });
             }
             // Where points outside are refused, the edge takes away at most a rounding error.
             let place = match outside {
@@ -109,7 +111,7 @@ impl Panel {
 
     /// Draws a curve.
     pub fn curve(&self, name: &str, points: Points, stroke: Stroke, outside: Outside) -> Drawn {
-        let parts = self.cut(&self.places(name, points, outside)?);
+        let parts = self.cut(&self.places(name, points, outside, 1)?);
         self.draw_series(name, parts.into_iter().map(|part| line(part, stroke)))
     }
 
@@ -125,7 +127,7 @@ impl Panel {
 
     /// Draws symbols; those outside the frame are left out if `outside` cuts.
     pub fn markers(&self, name: &str, points: Points, marker: Marker, outside: Outside) -> Drawn {
-        let mut places = self.places(name, points, outside)?;
+        let mut places = self.places(name, points, outside, 1)?;
         places.retain(|p| self.contains(*p));
         self.draw_series(name, [markers(places, marker)])
     }
@@ -171,17 +173,14 @@ impl Panel {
         stroke: Stroke,
         outside: Outside,
     ) -> Drawn {
-        let mut ends = Vec::new();
-        for &(x, low, high) in bars {
-            if outside != Outside::Cut || self.x.contains(x) {
-                ends.extend([(x, low), (x, high)]);
-            }
-        }
-        let outside = if outside == Outside::Cut { Outside::Edge } else { outside };
-        let ends = self.unrecorded().places(name, &ends, outside)?;
+        let ends: Vec<_> =
+            bars.iter().flat_map(|(x, low, high)| [(*x, *low), (*x, *high)]).collect();
+        let at_edge = if outside == Outside::Cut { Outside::Edge } else { outside };
+        let ends = self.unrecorded().places(name, &ends, at_edge, 2)?;
         self.record(name, bars.iter().copied());
-        let bars = ends.chunks_exact(2).map(|bar| error_bar([bar[0], bar[1]], half, stroke));
-        self.draw_series(name, bars)
+        let shown = |x: f64| outside != Outside::Cut || self.x.contains(x);
+        let bars = ends.chunks_exact(2).zip(bars).filter(|(_, bar)| shown(bar.0));
+        self.draw_series(name, bars.map(|(ends, _)| error_bar([ends[0], ends[1]], half, stroke)))
     }
 
     /// Draws estimates with bars of one standard error. What lies outside the frame is left out,
@@ -242,6 +241,9 @@ mod tests {
         let marks = panel.markers("marks", &beyond, (Symbol::Disc, 30, LINE), Outside::Refuse);
         assert!(matches!(marks, Err(Error::Outside { .. })));
         assert!(panel.columns("columns", &[1.1], LINE).is_err());
+        let bars = [(0.5, 0.1, 0.2), (0.5, 0.1, f64::NAN)];
+        let drawn = panel.bars("bars", &bars, 0, LINE, Outside::Cut);
+        assert!(matches!(drawn, Err(Error::Outside { row: 2, .. })));
         assert!(panel.curve("nan", &[(0.1, f64::NAN)], LINE, Outside::Cut).is_err());
         // A wall that is touched within rounding is inside.
         panel.curve("wall", &[(0.0, -1e-17), (1.0, 1.0 + 1e-15)], LINE, Outside::Refuse).unwrap();
