@@ -42,12 +42,13 @@ use crate::experiments::{
 };
 use literate::FigureSpec;
 
+#[track_caller]
 const fn drawing(
     name: &'static str,
     needs: &'static [&'static dyn AnyExperiment],
     draw: fn(&Results) -> Result<Figure, Error>,
 ) -> FigureSpec {
-    FigureSpec { name, needs, draw }
+    FigureSpec::new(name, needs, draw)
 }
 
 /// All figures: first the paper's, then those of this edition.

@@ -19,8 +19,8 @@ impl Paper {
     /// the program.
     ///
     /// # Errors
-    /// If a file of an experiment is missing or not declared, if two experiments have one name, or
-    /// if there is no prose that can be read.
+    /// If two things have one name, if a file of an experiment is missing or not declared, or if
+    /// there is no prose that can be read.
     pub fn session(
         &self,
         prose: Option<&Path>,
@@ -31,15 +31,8 @@ impl Paper {
         let project = &self.project;
         let shared = project.check_named(project.shared);
         shared.map_err(|(problem, remedy)| Error::input("project.shared", problem, remedy))?;
-        for (at, experiment) in self.experiments.iter().enumerate() {
-            experiment.check(project)?;
-            let name = experiment.name();
-            if self.experiments[..at].iter().any(|other| other.name() == name) {
-                return Err(Failure::input(format!(
-                    "two experiments are called {name}; rename one"
-                )));
-            }
-        }
+        self.check_names()?;
+        self.experiments.iter().try_for_each(|experiment| experiment.check(project))?;
         let folder = prose.map(Path::to_path_buf).or_else(|| project.find(self.prose));
         let templates = match folder {
             Some(folder) => Templates::read(&folder)?,
@@ -99,7 +92,7 @@ impl Paper {
         registry.add(profile.source(crate::value::origin(Paper::registry), "").data_only())?;
         for values in &self.values {
             for value in values(results, published)? {
-                registry.put(value);
+                registry.add(value)?;
             }
         }
         results.tables()?.values().try_for_each(|table| registry.add_table(Arc::clone(table)))?;
@@ -130,7 +123,11 @@ pub fn make_report(
     let values = paper.registry(&results, &published)?;
     let mut rows = BTreeMap::new();
     for more in &paper.rows {
-        rows.extend(more(&results, &statements)?);
+        for (name, row) in more(&results, &statements)? {
+            if rows.insert(name, row).is_some() {
+                return Err(Failure::input(format!("rows {name} are made twice; rename one")));
+            }
+        }
     }
     let lab = paper.lab.map(|lab| lab(session, &results)).transpose()?.flatten();
     progress.check()?;

@@ -9,6 +9,7 @@ use crate::report::{Edition, Value};
 use crate::source::Sources;
 use serde_json::Value as Json;
 use std::collections::BTreeMap;
+use std::panic::Location;
 
 /// A figure of a paper: its name, the experiments whose results it shows, and how it is drawn.
 #[derive(Clone, Copy)]
@@ -17,9 +18,21 @@ pub struct FigureSpec {
     pub name: &'static str,
     pub needs: &'static [&'static dyn AnyExperiment],
     pub draw: fn(&Results) -> Result<Figure, figures::Error>,
+    /// Where the source lists it.
+    place: &'static Location<'static>,
 }
 
 impl FigureSpec {
+    /// Makes a figure that shows results of these experiments.
+    #[track_caller]
+    pub const fn new(
+        name: &'static str,
+        needs: &'static [&'static dyn AnyExperiment],
+        draw: fn(&Results) -> Result<Figure, figures::Error>,
+    ) -> Self {
+        FigureSpec { name, needs, draw, place: Location::caller() }
+    }
+
     /// Draws it from results.
     ///
     /// # Errors
@@ -108,6 +121,7 @@ impl Paper {
     }
 
     /// Adds a rule that judges the statement with this id.
+    #[track_caller]
     pub fn check<C: Into<Judged>>(
         self,
         id: &'static str,
@@ -123,14 +137,40 @@ impl Paper {
     }
 
     /// Adds a figure, which shows results of these experiments.
+    #[track_caller]
     pub fn figure(
         mut self,
         name: &'static str,
         needs: &'static [&'static dyn AnyExperiment],
         draw: fn(&Results) -> Result<Figure, figures::Error>,
     ) -> Self {
-        self.figures.push(FigureSpec { name, needs, draw });
+        self.figures.push(FigureSpec::new(name, needs, draw));
         self
+    }
+
+    /// Refuses two experiments, figures or documents of one name, with the places of both.
+    pub(crate) fn check_names(&self) -> Result<(), Failure> {
+        let mut named = Vec::new();
+        for (experiment, number) in self.experiments.iter().zip(1..) {
+            let item = experiment.item();
+            let place = if item.is_empty() { format!("number {number}") } else { item };
+            named.push(("experiments", experiment.name(), place));
+        }
+        for FigureSpec { name, place, .. } in &self.figures {
+            named.push(("figures", name, format!("{}:{}", place.file(), place.line())));
+        }
+        for document in &self.edition.documents {
+            named.push(("documents", document.markdown, format!("of {}", document.prose)));
+            named.push(("documents", document.page, format!("of {}", document.prose)));
+        }
+        let mut places = BTreeMap::new();
+        for (kind, name, place) in named {
+            if let Some(before) = places.insert((kind, name), place.clone()) {
+                let what = format!("two {kind} have the name {name}: {before} and {place}");
+                return Err(Failure::input(format!("{what}; rename one")));
+            }
+        }
+        Ok(())
     }
 
     /// Finds a figure by its name or number: `spread`, `3`, `s1`.
@@ -150,26 +190,28 @@ mod tests {
 
     #[test]
     fn a_figure_is_found_by_its_name_and_its_number() {
-        let named = |name| FigureSpec {
-            name,
-            needs: &[],
-            draw: |_| Err(figures::Error::Drawing(String::new())),
-        };
-        let figures = ["fig03", "s01", "spread"].map(named).to_vec();
-        let paper = Paper { figures, ..Paper::new("toy", toy()) };
+        let draw = |_: &Results| Err(figures::Error::Drawing(String::new()));
+        let paper = Paper::new("toy", toy()).figure("fig03", &[], draw);
+        let paper = paper.figure("s01", &[], draw).figure("spread", &[], draw);
+        paper.check_names().unwrap();
         for (text, name) in
             [("3", "fig03"), ("fig03", "fig03"), ("S1", "s01"), ("spread", "spread")]
         {
             assert_eq!(paper.find_figure(text).map(|own| own.name).unwrap(), name);
         }
         assert!(paper.find_figure("16").err().unwrap().message.contains("fig03, s01, spread"));
+        let twice = paper.figure("s01", &[], draw).check_names().unwrap_err().message;
+        assert!(twice.starts_with("two figures have the name s01: "), "{twice}");
+        assert_eq!(twice.matches("src/paper.rs:").count(), 2, "{twice}");
     }
+
     #[test]
     fn two_experiments_of_one_name_are_refused() {
         const WALK: Experiment<(), ()> =
             Experiment::new("walk", |_| (), |(), _| Ok(()), |()| Vec::new());
         let paper = Paper::new("toy", toy()).experiment(&WALK).experiment(&WALK);
         let session = paper.session(None, Profile::Quick, Store::nowhere(), Progress::silent());
-        assert_eq!(session.unwrap_err().message, "two experiments are called walk; rename one");
+        let what = "two experiments have the name walk: number 1 and number 2; rename one";
+        assert_eq!(session.unwrap_err().message, what);
     }
 }

@@ -8,8 +8,10 @@ const MAX_LENGTH: usize = 1000;
 /// What is wrong with a report, with the place where it can be corrected.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    #[error("value {0}: the id is taken; give one of the two values another id")]
-    DuplicateId(String),
+    #[error("{id}: {first} and {second} have this id; give one of them another")]
+    DuplicateId { id: String, first: String, second: String },
+    #[error("{0} has no number; say what stands there, by «… | otherwise(words=\"…\")»")]
+    NoNumber(String),
     #[error(
         "value {0}: not a finite number; leave the value out or say why there is none in words"
     )]
@@ -62,6 +64,12 @@ pub enum Error {
 }
 
 impl Error {
+    /// Makes the error of an id that two items give to what they compute.
+    pub(crate) fn twice(id: &str, first: &str, second: &str) -> Error {
+        let item = |item: &str| if item.is_empty() { "a value".into() } else { item.into() };
+        Error::DuplicateId { id: id.into(), first: item(first), second: item(second) }
+    }
+
     pub(crate) fn at(self, place: String) -> Error {
         match self {
             Error::At { .. } => self,

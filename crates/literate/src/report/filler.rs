@@ -12,7 +12,8 @@ use crate::print::MAX_DIGITS;
 use crate::prose::Templates;
 use crate::table::{Table, nearest};
 use serde_json::Value as Json;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Arc, OnceLock};
 use tera::{Context, Delimiters, ErrorKind, Kwargs, State, Tera};
 
 /// Tera, set up with the templates, and the names that they may use.
@@ -23,6 +24,8 @@ pub struct Filler {
     /// Phrases with numbers that the prose may have.
     pub declared: Declared,
     context: Context,
+    /// Ids of the values and cells that have no number.
+    empty: Arc<OnceLock<BTreeSet<String>>>,
     /// Values and tables, as the context has them.
     names: Json,
 }
@@ -41,12 +44,13 @@ impl Filler {
         };
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
-        register(&mut tera);
+        let empty = Arc::default();
+        register(&mut tera, &empty);
         let declared = Declared::read(templates.text("literals.toml")?)
             .map_err(|error| Error::Template(templates.place(&error.to_string())))?;
         let (context, names) = (Context::new(), Json::Null);
         let templates = templates.clone();
-        let mut filler = Filler { tera, templates, declared, context, names };
+        let mut filler = Filler { tera, templates, declared, context, empty, names };
         set.map_err(|error| filler.failure(&error))?;
         let sources: Vec<(String, String)> = filler.templates.iter().filter_map(source).collect();
         filler.tera.add_raw_templates(sources).map_err(|error| filler.failure(&error))?;
@@ -61,6 +65,9 @@ impl Filler {
         let named =
             |table: &&Table| self.templates.iter().any(|(_, text)| text.contains(table.name()));
         let (mut marks, mut numbers, mut keys) = (Json::Null, Json::Null, Json::Null);
+        let cells = values.tables().filter(named).flat_map(Table::cells);
+        let empty = values.iter().chain(cells).filter(|value| value.number == Number::None);
+        let _ = self.empty.set(empty.map(|value| value.id.clone()).collect());
         for value in values.iter() {
             let name = &value.id;
             let group = if name.contains('.') { "" } else { "v." };
@@ -239,9 +246,10 @@ fn put(tree: &mut Json, name: &str, thing: Json) {
     *place = thing;
 }
 
-/// The filters on values; `literal` for a number that the prose may type with a reason; and `code`
-/// for an item of the source, which [`super::parse`] makes a listing.
-fn register(tera: &mut Tera) {
+/// Registers the filters on values, of which `otherwise` has words in place of no number;
+/// `literal` for a number that the prose may type with a reason; and `code` for an item of the
+/// source, which [`super::parse`] makes a listing.
+fn register(tera: &mut Tera, empty: &Arc<OnceLock<BTreeSet<String>>>) {
     let with = |text: &str, word: &str| {
         let what =
             || tera::Error::message(format!("`{word}` is a filter for values such as v.name"));
@@ -255,6 +263,12 @@ fn register(tera: &mut Tera) {
                 "`significant` needs a number of digits, as in significant(digits=2)",
             )),
         }
+    });
+    let empty = empty.clone();
+    tera.register_filter("otherwise", move |text: &str, arguments: Kwargs, _: &State| {
+        let words: String = arguments.must_get("words")?;
+        let is_empty = |id| empty.get().is_some_and(|empty| empty.contains(&id));
+        Ok::<_, tera::Error>(if mark::ids(text).any(is_empty) { words } else { text.into() })
     });
     tera.register_function("literal", |arguments: Kwargs, _: &State| {
         let text: String = arguments.must_get("text")?;

@@ -23,8 +23,8 @@ impl Registry {
         if !value.is_finite() {
             return Err(Error::NotFinite(value.id));
         }
-        if self.values.contains_key(&value.id) {
-            return Err(Error::DuplicateId(value.id));
+        if let Some(before) = self.values.get(&value.id) {
+            return Err(Error::twice(&value.id, &before.source, &value.source));
         }
         self.put(value);
         Ok(())
@@ -32,8 +32,11 @@ impl Registry {
 
     /// Adds a table: its cells are found by their addresses.
     pub fn add_table(&mut self, table: Arc<Table>) -> Result<(), Error> {
+        if let Some(value) = self.values.get(table.name()) {
+            return Err(Error::twice(&value.id, &value.source, &table.place()));
+        }
         match self.tables.insert(table.name().to_string(), table) {
-            Some(before) => Err(Error::DuplicateId(before.name().to_string())),
+            Some(before) => Err(Error::twice(before.name(), &before.place(), "another table")),
             None => Ok(()),
         }
     }
@@ -109,7 +112,10 @@ mod tests {
     fn an_id_has_one_owner_and_a_number_is_finite() {
         let mut registry = Registry::default();
         registry.add(Value::integer("edges", 16)).unwrap();
-        assert!(matches!(registry.add(Value::integer("edges", 17)), Err(Error::DuplicateId(_))));
+        assert!(matches!(
+            registry.add(Value::integer("edges", 17)),
+            Err(Error::DuplicateId { .. })
+        ));
         assert!(registry.add(Value::real("x", f64::NAN, 2)).is_err());
     }
 }

@@ -142,8 +142,7 @@ impl Table {
             let (row, column) = address.strip_prefix(self.name)?.rsplit_once("].")?;
             return self.named().get(row.strip_prefix('[')?)?.get(column).copied();
         }
-        let mut cells = self.rows.iter().flat_map(|(_, cells)| cells);
-        cells.find(|cell| cell.id == address)
+        self.cells().find(|cell| cell.id == address)
     }
 
     /// Says which part of an address is not there, with the nearest that is.
@@ -238,6 +237,11 @@ impl Table {
         let at = self.keys().position(|name| name == key);
         let cells = self.rows.iter().filter_map(|(_, cells)| cells.get(at?));
         different(cells.map(|cell| called(&cell.number)))
+    }
+
+    /// Returns all cells, row by row.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = &Value> {
+        self.rows.iter().flat_map(|(_, cells)| cells)
     }
 
     /// Names of the keys.

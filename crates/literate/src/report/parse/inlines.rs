@@ -6,7 +6,9 @@ use super::super::lint;
 use super::super::mark::{self, Piece, pieces};
 use super::super::tex;
 use super::{ALONE, ELSE, Reader, is_block, markup};
+use crate::experiments::Profile;
 use crate::print::{Shown, print};
+use crate::value::Number;
 use pulldown_cmark::{Event, LinkType, Tag};
 use std::ops::Range;
 
@@ -239,6 +241,11 @@ impl Reader<'_> {
     fn printed(&self, id: &str, filters: &str) -> Result<Shown, Error> {
         let unknown = || Error::Template(format!("there is no value {id}"));
         let value = self.values.get(id).ok_or_else(unknown)?;
+        // The samples of a quick profile may be too small for any number.
+        let is_dash = self.in_cell || self.values.profile() == Some(Profile::Quick);
+        if value.number == Number::None && !is_dash {
+            return Err(Error::NoNumber(id.into()));
+        }
         Ok(print(&value.number, mark::style(filters)))
     }
 }

@@ -56,6 +56,7 @@ pub fn parse<'a>(
         within: 0,
         hides: 0,
         titled: false,
+        in_cell: false,
         places: Places::of(filled),
         found: Vec::new(),
     };
@@ -84,6 +85,8 @@ struct Reader<'a> {
     /// Emphasis and links around it, in which GitHub renders no formula.
     hides: usize,
     titled: bool,
+    /// Whether it is a cell of a table, where a dash stands for no number.
+    in_cell: bool,
     places: Places<'a>,
     found: Vec<Error>,
 }
@@ -340,7 +343,9 @@ impl<'a> Reader<'a> {
             let mut cells = Vec::new();
             while let Some(Event::Start(Tag::TableCell)) = self.peek() {
                 self.next();
+                self.in_cell = true;
                 cells.push(self.line()?);
+                self.in_cell = false;
                 self.next();
             }
             self.next();

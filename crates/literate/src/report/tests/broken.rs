@@ -13,6 +13,8 @@ at «nothing.at_all» => 14:5 => nothing
 a <% if raw.half_height > 1 %>b => 1 => nexpected end
 «v.half_height | nofilter» => 14: => nofilter
 «literal(text="2007", why=" ")» => 14:2 => `literal` needs a number in `text` and its reason
+at «v.empty» => 14: => empty has no number; say what stands there, by «… | otherwise(words=
+at $x = «v.empty»$ => 14:4 => empty has no number
 A hard-coded number.
 at 0.12, so => 14:4 => hard-coded number 0.12;
 a tenfold rise => 14:3 => hard-coded number tenfold;
@@ -103,8 +105,10 @@ fn good_prose_passes() {
     let good = "Words \\*, \\_, \\$, me@x.org: C#, \\@sec:a, \\#, a * b, a_b, \\[a, b\\], a < b, \\^, \\~, \\-- and\n\n\
         [data](data), [code](../src/lib.rs), [out](https://x.org/10), `*` and $a_b * c^*$.\n\n\
         «literal(text=\"2007\", why=\"the year\")», two-sided, `f64`, $k = 3$, $x_{12} = «v.half_height»$\n\n```\n12\n```\n\n\
-        $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>";
-    assembled(&format!("{PROSE}\n\n{good}\n")).unwrap();
+        $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n«v.empty | otherwise(words=\"nothing\")», «v.spare | otherwise(words=\"nothing\")»\n\n| a |\n|---|\n| «v.empty» |\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>";
+    let report = assembled(&format!("{PROSE}\n\n{good}\n")).unwrap();
+    let text = String::from_utf8_lossy(&report.committed["report.md"]).into_owned();
+    assert!(text.contains("nothing, 3") && text.contains("| – |"), "{text}");
 }
 
 /// Faults that only a writer can see have places too, those of several blocks at once.

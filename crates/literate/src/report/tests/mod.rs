@@ -220,6 +220,8 @@ fn made(
     let mut values = Registry::default();
     values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000))?;
     values.add(Value::integer("spare", 3).data_only())?;
+    let empty = Value::real("empty", 0.0, 1).data_only();
+    values.add(Value { number: values::Number::None, ..empty })?;
     let (templates, rows) = (&Templates::of(files.iter().copied()), &Default::default());
     let (values, claims, figures, top) = (&values, &[claim], &[figure], Some("../"));
     let (project, experiments) = (&Project::new(toy()), &[][..]);
