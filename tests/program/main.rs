@@ -33,7 +33,7 @@ fn program(folder: &Path, arguments: &str) -> Command {
     let mut command = Command::new(PROGRAM);
     let arguments = arguments.replace(TEMPLATES, "\u{1}");
     let words = arguments.split(' ').map(|word| word.replace('\u{1}', TEMPLATES));
-    command.current_dir(folder).args(words);
+    command.current_dir(folder).env("LITERATE_PROJECT", env!("CARGO_MANIFEST_DIR")).args(words);
     command
 }
 

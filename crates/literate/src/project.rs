@@ -1,8 +1,9 @@
 //! Finds the files of a project: its source, on which saved results depend, and what the program
 //! reads when it runs (prose, printed numbers, data).
 //!
-//! These are looked for below the current folder, then in the folders above the program, one of
-//! which is the checkout in which it was built. A program that travels alone has a copy inside.
+//! The project is the first folder from the current one upwards that has its source, or else the
+//! folder that the environment variable `LITERATE_PROJECT` names. A program that travels alone has a
+//! copy of what it reads inside.
 
 use crate::input::{self, sha256};
 use crate::source::Sources;
@@ -29,6 +30,11 @@ pub struct Project {
 fn is_in(path: &str, place: &str) -> bool {
     let place = place.trim_start_matches("./").trim_end_matches('/');
     path.strip_prefix(place).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+}
+
+/// Returns the folder that the environment names for the project.
+fn named() -> Option<PathBuf> {
+    std::env::var_os("LITERATE_PROJECT").map(PathBuf::from)
 }
 
 impl Project {
@@ -84,9 +90,12 @@ impl Project {
             let copied = self.copied(place).is_some();
             copied || self.is_source(place) || self.folder().join(place).exists()
         };
-        let lost = files.iter().find(|place| !is_there(place));
-        let problem = lost.map(|lost| format!("`code` lists {lost}, which is not there"));
-        problem.map_or(Ok(()), |problem| Err((problem, "correct the path")))
+        let Some(lost) = files.iter().find(|place| !is_there(place)) else { return Ok(()) };
+        let remedy = match self.top() {
+            Some(_) => "correct the path",
+            None => "run this in the project, or name its folder in LITERATE_PROJECT",
+        };
+        Err((format!("`code` lists {lost}, which is not there"), remedy))
     }
 
     /// Checks that files that an experiment lists, or those that all share, name no module that
@@ -118,21 +127,32 @@ impl Project {
         if here.exists() {
             return Some(here.into());
         }
-        if !self.copy.is_empty() {
-            return None;
-        }
-        let program = std::env::current_exe().ok()?;
-        program.ancestors().skip(1).map(|above| above.join(path)).find(|path| path.exists())
+        let found = self.around().or_else(named)?.join(path);
+        found.exists().then_some(found)
     }
 
-    /// Finds the top of the checkout, if there is one.
-    fn top(&self) -> Option<PathBuf> {
+    /// Returns the way from the current folder up to the top of the project, if it lies in it:
+    /// empty, or `../`.
+    fn around(&self) -> Option<PathBuf> {
         let (path, _) = self.sources.files.iter().find(|(path, _)| path.contains('/'))?;
-        let found = self.find(path)?.canonicalize().ok()?;
-        found.ancestors().nth(path.split('/').count()).map(Path::to_path_buf)
+        let here = std::env::current_dir().ok()?;
+        let above = here.ancestors().position(|folder| folder.join(path).is_file())?;
+        Some("../".repeat(above).into())
     }
 
-    /// Returns the top of the checkout, or else the current folder.
+    /// Returns where a file or folder of the project is written that is given by its path from the
+    /// top: below the current folder, unless this lies in the project.
+    pub fn place(&self, path: &str) -> PathBuf {
+        self.around().unwrap_or_default().join(path)
+    }
+
+    /// Finds the top of the project, as an absolute path.
+    fn top(&self) -> Option<PathBuf> {
+        let found = self.around().or_else(named)?;
+        std::env::current_dir().ok()?.join(found).canonicalize().ok()
+    }
+
+    /// Returns the top of the project, or else the current folder.
     pub fn folder(&self) -> PathBuf {
         self.top().unwrap_or_else(|| ".".into())
     }

@@ -21,9 +21,9 @@ pub(super) struct Sources {
     /// program].
     #[arg(long, value_name = "DIR")]
     pub templates: Option<PathBuf>,
-    /// Keep results of long runs in this folder.
-    #[arg(long, value_name = "DIR", default_value = "target/results")]
-    pub results: PathBuf,
+    /// Keep results of long runs in this folder [default: target/results in the project].
+    #[arg(long, value_name = "DIR")]
+    results: Option<PathBuf>,
 }
 
 fn profile() -> impl TypedValueParser<Value = Profile> {
@@ -33,6 +33,11 @@ fn profile() -> impl TypedValueParser<Value = Profile> {
 }
 
 impl Sources {
+    /// Returns the folder of the saved results.
+    pub fn results(&self, paper: &Paper) -> PathBuf {
+        self.results.clone().unwrap_or_else(|| paper.project.place("target/results"))
+    }
+
     /// Returns the run that is asked for.
     pub fn session<'a>(&self, paper: &'a Paper) -> Result<Session<'a>, Failure> {
         if let Some(file) = paper.project.changed() {
@@ -40,7 +45,7 @@ impl Sources {
                 "{file} has changed since this program was built; build it again to see the change"
             ));
         }
-        let store = Store::open(&self.results);
+        let store = Store::open(&self.results(paper));
         paper.session(self.templates.as_deref(), self.profile, store, progress())
     }
 }

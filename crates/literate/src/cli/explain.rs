@@ -24,14 +24,15 @@ pub(super) struct Args {
     /// Explain these; without any, list all.
     #[arg(value_name = "ID")]
     ids: Vec<String>,
-    /// Read the report in this folder.
-    #[arg(long, value_name = "DIR", default_value = "paper")]
-    paper: PathBuf,
+    /// Read the report in this folder [default: paper in the project].
+    #[arg(long, value_name = "DIR")]
+    paper: Option<PathBuf>,
 }
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
-    let values = values::read(&read(&args.paper, "values.json")?).map_err(fault)?;
-    let ledger = ledger::read(&read(&args.paper, "ledger.json")?).map_err(fault)?;
+    let folder = args.paper.unwrap_or_else(|| paper.project.place("paper"));
+    let values = values::read(&read(&folder, "values.json")?).map_err(fault)?;
+    let ledger = ledger::read(&read(&folder, "ledger.json")?).map_err(fault)?;
     let Paper { edition, project, experiments, .. } = paper;
     let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
     let mut found = if args.ids.is_empty() { cards.ids() } else { Vec::new() };

@@ -26,7 +26,10 @@ const EXIT_CODES: &str = "Exit codes:
        prose is broken (a hard-coded number, an unused value) or a run failed, and nothing was
        written; or `paper --dry-run` found stale results
   2    wrong usage or input, including broken prose, or a place that cannot be read or written
-  130  ended by Ctrl-C, SIGTERM or SIGHUP";
+  130  ended by Ctrl-C, SIGTERM or SIGHUP
+
+The project is the first folder from the current one upwards that has the source of this program;
+elsewhere the environment variable LITERATE_PROJECT can name it.";
 
 #[derive(Parser)]
 struct Cli<V: Subcommand> {

@@ -32,7 +32,8 @@ pub(super) struct Args {
     /// Draw this figure only, by name or number (may be repeated), and write its SVG and CSV.
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     figure: Vec<String>,
-    /// Write into this folder [default: paper for the full profile, else target/paper-PROFILE].
+    /// Write into this folder [default: paper in the project for the full profile, else
+    /// target/paper-PROFILE].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Say which experiments would be run, and why (exit code 1 if any), and run nothing.
@@ -53,8 +54,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let began = Instant::now();
     let Args { sources, force, .. } = args;
     let out = args.out.unwrap_or_else(|| match sources.profile {
-        Profile::Full => "paper".into(),
-        Profile::Quick => "target/paper-quick".into(),
+        Profile::Full => paper.project.place("paper"),
+        Profile::Quick => paper.project.place("target/paper-quick"),
     });
     let find = |text: &String| paper.find_figure(text).map_err(|error| error.of("--figure"));
     let figures = args.figure.iter().map(find).collect::<Result<Vec<&FigureSpec>, Failure>>()?;

@@ -49,7 +49,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
             Ok(format!("results of {}", count(saved.len(), "experiment")))
         }
     })?;
-    print(&format!("{}: {done}\n", shown(&sources.results)))
+    print(&format!("{}: {done}\n", shown(&sources.results(paper))))
 }
 
 /// How many shards there can be at most; more would have nothing to do.

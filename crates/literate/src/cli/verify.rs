@@ -22,9 +22,9 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
-    /// Folder of the report.
-    #[arg(value_name = "DIR", default_value = "paper")]
-    folder: PathBuf,
+    /// Folder of the report [default: paper in the project].
+    #[arg(value_name = "DIR")]
+    folder: Option<PathBuf>,
     /// Make the report again, with the profile that it has and without saved results, and compare
     /// byte by byte.
     #[arg(long)]
@@ -42,6 +42,7 @@ pub(super) struct Args {
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let Args { folder, rerun, results, templates, threads } = args;
+    let folder = folder.unwrap_or_else(|| paper.project.place("paper"));
     let place = shown(&folder);
     let (files, mut faults) = folder::verify(&folder)?;
     if faults.is_empty() {
