@@ -2,8 +2,8 @@
 //! reads when it runs (prose, printed numbers, data).
 //!
 //! The project is the first folder from the current one upwards that has its source, or else the
-//! folder that the environment variable `LITERATE_PROJECT` names. A program that travels alone has a
-//! copy of what it reads inside.
+//! folder that the environment variable `LITERATE_PROJECT` names. A program that travels alone has
+//! a copy of what it reads inside.
 
 use crate::input::{self, sha256};
 use crate::source::Sources;
