@@ -20,11 +20,12 @@ const NAMES: [Place; 4] = [
 ];
 
 /// The same for other programs: name of the row, name here.
-const PROGRAMS: [(&str, &str, usize, (i32, i32)); 4] = [
+const PROGRAMS: [(&str, &str, usize, (i32, i32)); 5] = [
     ("heyoka", "heyoka", FINEST, (0, -2)),
     ("SUNDIALS CVODE", "CVODE", FINEST, (2, 0)),
     ("SciPy DOP853", "SciPy", FINEST, (-2, 0)),
     ("pymunk", "pymunk", FINEST, (0, -2)),
+    ("diffsol tsit45", "diffsol", 0, (-1, 1)),
 ];
 
 /// The same for (b).
@@ -92,14 +93,6 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     for (program, points) in &others {
         let look = (Symbol::OpenDiamond, MEDIUM, Stroke::solid(GREY, THIN));
         by_time.markers(program, points, look, Outside::Edge)?;
-    }
-    let tsit = others.iter().find(|program| program.0 == "diffsol tsit45");
-    let tsit = tsit.filter(|program| program.1.iter().all(|point| point.1 < top));
-    if let Some([first, middle, ..]) = tsit.map(|program| &program.1[..]) {
-        // With a leader, since other curves are as near.
-        by_time.label("diffsol", *first, (3, -3), GREY)?;
-        let leader = PathElement::new([(15, 65), (60, 260)], Stroke::solid(GREY, HAIR));
-        by_time.area.draw(&(EmptyElement::at(*middle) + leader))?;
     }
     for (program, points) in others {
         let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };
