@@ -45,12 +45,12 @@ struct Output {
 const FIRST_LINES: usize = 5;
 
 impl Command {
-    /// A command without parameters.
+    /// Makes a command without parameters.
     pub const fn new(name: &'static str, line: &'static str) -> Self {
         Command { name, line, parameters: |_| Json::Null, reads: &[], writes: &[] }
     }
 
-    /// The files and folders that it names, from the folder `top`.
+    /// Lists the files and folders that it names, from the folder `top`.
     ///
     /// # Errors
     /// A sentence about the first that is missing, or lies outside the project.
@@ -81,13 +81,10 @@ impl Command {
         Ok(inputs)
     }
 
-    /// Path and hash of each file among its inputs.
+    /// Returns path and hash of each file among its inputs.
     fn hashes(&self, top: &Path) -> BTreeMap<String, String> {
-        let mut hashes = BTreeMap::new();
-        for input in self.inputs(top).unwrap_or_default() {
-            hashes.extend(input::hashes(top, input).unwrap_or_default());
-        }
-        hashes
+        let inputs = self.inputs(top).unwrap_or_default().into_iter();
+        inputs.filter_map(|input| input::hashes(top, input).ok()).flatten().collect()
     }
 
     /// Copies its inputs into a folder, and returns the path of the program.
@@ -96,19 +93,22 @@ impl Command {
             if top.join(input).is_dir() {
                 std::fs::create_dir_all(folder.join(input))?;
             }
-            for path in input::files_in(top, input)?.iter().filter(|path| !path.starts_with('/')) {
-                std::fs::create_dir_all(folder.join(path).parent().unwrap_or(folder))?;
-                std::fs::copy(top.join(path), folder.join(path))?;
+            for path in input::files_in(top, input)? {
+                let copy = folder.join(&path);
+                // Absolute paths, and those that two inputs have, are there.
+                if !copy.exists() {
+                    std::fs::create_dir_all(copy.parent().unwrap_or(folder))?;
+                    std::fs::copy(top.join(path), copy)?;
+                }
             }
         }
         let program = self.line.split_whitespace().next().unwrap_or_default();
-        let is_link = top.join(program).is_symlink();
-        match program.contains('/') {
-            // That of a virtual environment finds its modules from where its link lies.
-            true if is_link => std::path::absolute(top.join(program)),
-            true => Ok(folder.join(program)),
-            false => Ok(program.into()),
+        if !program.contains('/') {
+            return Ok(program.into());
         }
+        // That of a virtual environment finds its modules from where its link lies.
+        let is_link = top.join(program).is_symlink();
+        if is_link { std::path::absolute(top.join(program)) } else { Ok(folder.join(program)) }
     }
 
     /// Runs it for the project in the folder `top`.
@@ -145,7 +145,7 @@ impl Command {
         Ok(Output { tables, files })
     }
 
-    /// The tables that it printed: none are due from a command that writes files.
+    /// Reads the tables that it printed; a command that writes files need not print any.
     fn tables_in(&self, printed: &[u8]) -> Result<BTreeMap<String, PrintedTable>, String> {
         if printed.trim_ascii().is_empty() && !self.writes.is_empty() {
             return Ok(BTreeMap::new());
@@ -166,7 +166,7 @@ impl Command {
     }
 }
 
-/// Whether a word that is no file was meant for one: it has a slash, or an ending of letters.
+/// Returns whether a word looks like the name of a file: it has a slash, or an ending of letters.
 fn looks_like_a_file(word: &str) -> bool {
     let Some((name, ending)) = word.rsplit_once('.') else { return word.contains('/') };
     let is_ending = ending.starts_with(char::is_alphabetic)
