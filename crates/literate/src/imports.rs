@@ -69,7 +69,9 @@ fn paths(code: &str) -> Vec<Vec<&str>> {
     let mut found = Vec::new();
     for (at, _) in code.match_indices("::") {
         let head = code[..at].rsplit(|c| !is_word(c)).next().unwrap_or_default();
-        if !head.is_empty() && !code[..at - head.len()].ends_with([':', '.']) {
+        let before = code[..at - head.len()].trim_end_matches("::");
+        let is_inside = before.len() + head.len() < at && before.ends_with(is_word);
+        if !head.is_empty() && !is_inside {
             read_path(&code[at + 2..], vec![head], &mut found);
         }
     }
@@ -136,6 +138,8 @@ mod tests {
             ("use toy_paper::physics::g;", "src/physics.rs"),
             ("use crate::START;", "src/lib.rs"),
             ("use engine::Engine;", "engine/lib.rs"),
+            ("::engine::run(x)", "engine/lib.rs"),
+            ("a::b::engine::run(x)", ""),
             ("// crate::physics\nlet x = 1; // super::jump\nstd::crate::physics();", ""),
             (
                 "#[cfg(test)]\nmod tests {\n    use crate::physics;\n}\nuse super::jump;",
