@@ -93,6 +93,8 @@ fn the_advice_of_verify_works_as_it_is_printed() {
     assert_eq!(code, 0, "{advice}: {note}");
     let (code, out, note) = made("verify --rerun");
     assert_eq!(code, 0, "{advice}: {out}{note}");
+    let (code, _, note) = made("paper --rerun cascade");
+    assert!(code == 0 && note.contains("cascade: run\n"), "{note}");
     let (code, _, note) = made("paper --rerun cascades");
     assert!(code == 2 && note.contains("no experiment \"cascades\"; nearest: cascade"), "{note}");
 }

@@ -33,8 +33,7 @@ impl Results {
         found.ok_or(Error::NotRun(experiment.name))
     }
 
-    /// The result of an experiment, to be changed where nobody else holds it; its tables are made
-    /// anew.
+    /// Returns the result of an experiment for a test to change; tables are made anew.
     pub fn of_mut<P, T: Json, U>(&mut self, experiment: &Experiment<P, T, U>) -> Option<&mut T> {
         self.tables = OnceLock::new();
         Arc::get_mut(self.found.get_mut(experiment.name)?)?.downcast_mut()
@@ -96,7 +95,7 @@ impl Results {
         Ok(table(self.tables()?, name)?)
     }
 
-    /// The bytes of a file that a command wrote.
+    /// Returns the bytes of a file that a command wrote.
     pub fn file(&self, command: &Command, path: &str) -> Result<Vec<u8>, Error> {
         let found = self.found.get(command.name).ok_or(Error::NotRun(command.name))?;
         let missing = || {
@@ -109,7 +108,7 @@ impl Results {
         command.file(found, path).ok_or_else(missing)
     }
 
-    /// The number with this address: `theory.jump.p_jump`.
+    /// Returns the number with this address: `theory.jump.p_jump`.
     #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
         Ok(number_at(self.tables()?, address)?)
@@ -143,7 +142,7 @@ impl Results {
     }
 }
 
-/// Does a part of the work of an experiment. If that panics, says in which experiment it was.
+/// Does a part of the work of an experiment; if that panics, says which experiment it was.
 fn naming<T>(experiment: &str, work: impl FnOnce() -> T) -> T {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
         say(&format!("the internal error was in the experiment {experiment}"));
