@@ -340,6 +340,8 @@ mod tests {
         let plot = Plot::new().line("*σ*", &[(0.0, 1.0), (5.0, f64::NAN)]);
         let wrong = plot.finish("A", describe!("A")).unwrap_err().to_string();
         assert!(wrong.starts_with("row 2 of the series \"sigma\", (5, NaN), is not finite"));
+        let small = Plot::new().line("a", &[(1.0, 1e-10), (1.00000000001, 5e-10)]);
+        small.finish("A", describe!("A")).unwrap();
         let wide = Plot::new().line("a", &[(0.0, -1.7e308), (1.0, 1.7e308)]);
         assert!(matches!(wide.finish("A", describe!("A")), Err(Error::Axis { .. })));
         let plot = Plot::new().log_x("*k*").x_range(2.0, 60.0).y_range(0.0, 1.0).mark_size(80);
