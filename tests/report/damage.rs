@@ -88,8 +88,8 @@ fn prose(text: &str) -> Result<(), Error> {
     let (values, templates) = (&QUICK.values, Templates::of([("report.md", text)]));
     let filler = Filler::new(&templates)?.with(values);
     let filled = filler.prose(&Document::REPORT)?;
-    let (mut blocks, _) =
-        parse::parse(&filled, values, &filler.declared, &QUICK.paper.project.sources)?;
+    let sources = &QUICK.paper.project.sources;
+    let (mut blocks, _) = parse::parse(&filled, values, &filler.declared, sources).whole()?;
     let (here, mut labels) = (Document::REPORT, Labels::default());
     labels.number_all(&mut blocks, here)?;
     labels.resolve(&mut blocks, here, &LIBRARY)?;

@@ -14,6 +14,7 @@ use super::labels::Labels;
 use super::ledger::{EquationEntry, Ledger};
 use super::lint::Declared;
 use super::mark::ids;
+use super::parse::Parsed;
 use super::values::{Registry, Value};
 use super::{html, latex, ledger, lint, markdown, parse, search, tex};
 use crate::figures::{DataFile, Figure};
@@ -27,32 +28,36 @@ struct Part<'a> {
     places: Places<'a>,
 }
 
-/// Makes the whole report in memory.
+/// Makes the whole report in memory. What is wrong with the prose of all documents is reported at
+/// once: first what Tera says, then what can be read and resolved, then what can be written.
 pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let (mut values, mut filler, filled) = fill(input)?;
     let used: BTreeSet<String> = filled.iter().flat_map(|filled| ids(&filled.text)).collect();
     let is_unused = |value: &&Value| !value.for_data_only && !used.contains(&value.id);
     let unused: Vec<&str> = values.iter().filter(is_unused).map(|v| v.id.as_str()).collect();
+    let mut errors = Vec::new();
     if !unused.is_empty() {
-        return Err(Error::Unused(unused.join(", ")));
+        errors.push(Error::Unused(unused.join(", ")));
     }
     values.keep_cells(used.iter().map(String::as_str));
     values.shorten(&input.project.sources);
 
     let declared = filler.declared.clone();
-    let (parts, labels) = parts(input, &filled, &values, &declared)?;
+    let (parts, labels) = parts(input, &filled, &values, &declared, errors)?;
     let ledger = ledger_of(input, &parts);
     let mut report = Report::default();
     data_files(input, &values, &ledger, &mut report)?;
-    let shown = write_documents(input, &parts, &mut filler, &mut report)?;
+    let mut errors = Vec::new();
+    let shown = write_documents(input, &parts, &mut filler, &mut report, &mut errors)?;
+    report.committed.insert(SUMS.into(), folder::sums(&report.committed).into_bytes());
+    for Part { document, blocks, places } in &parts {
+        let links = check_links(blocks, *document, &labels, &report.committed, input.edition);
+        errors.extend(links.into_iter().map(|error| places.locate(error)));
+    }
+    all_in_order(errors)?;
     let Input { edition, project, experiments, .. } = *input;
     let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
     report.generated.extend(html::shared::files(&shown, cards, input, &labels)?);
-    report.committed.insert(SUMS.into(), folder::sums(&report.committed).into_bytes());
-    for Part { document, blocks, places } in &parts {
-        check_links(blocks, *document, &labels, &report.committed, edition)
-            .map_err(|error| places.locate(error))?;
-    }
     Ok(report)
 }
 
@@ -69,9 +74,30 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     for (name, rows) in input.rows {
         filler.insert(name, rows);
     }
-    let filled = input.edition.documents.iter().map(|document| filler.prose(document));
-    let filled = filled.collect::<Result<_, _>>()?;
+    let (mut filled, mut errors) = (Vec::new(), Vec::new());
+    for document in &input.edition.documents {
+        match filler.prose(document) {
+            Ok(prose) => filled.push(prose),
+            Err(error) => errors.push(error),
+        }
+    }
+    all_in_order(errors)?;
     Ok((values, filler, filled))
+}
+
+/// Returns all errors, each once, in the order of their lines.
+fn all_in_order(errors: Vec<Error>) -> Result<(), Error> {
+    let mut errors: Vec<Error> = errors.into_iter().flat_map(Error::each).collect();
+    errors.sort_by_cached_key(|error| {
+        let text = error.to_string();
+        let mut parts = text.splitn(4, ':');
+        let (file, line) = (parts.next().unwrap_or_default(), parts.next().unwrap_or_default());
+        let column = parts.next().unwrap_or_default();
+        let number = |text: &str| text.parse().unwrap_or(usize::MAX);
+        (file.to_string(), number(line), number(column))
+    });
+    errors.dedup_by_key(|error| error.to_string());
+    Error::all(errors)
 }
 
 /// Refuses hard-coded numbers in the reasons of checks and the descriptions of figures.
@@ -91,45 +117,64 @@ fn check_texts(input: &Input<'_>, declared: &Declared) -> Result<(), Error> {
     Error::all(errors)
 }
 
-/// Reads all documents into trees, with their figures, numbers and references.
+/// Reads all documents into trees, with their figures, numbers and references. Returns all errors,
+/// and those that there are already.
 fn parts<'a>(
     input: &Input<'a>,
     filled: &'a [Filled],
     values: &'a Registry,
     declared: &'a Declared,
+    mut errors: Vec<Error>,
 ) -> Result<(Vec<Part<'a>>, Labels), Error> {
     let library = Library::read(input.templates.text("references.bib")?)
         .map_err(|error| Error::Template(input.templates.place(&error.to_string())))?;
     let (mut labels, mut shown) = (Labels::default(), BTreeSet::new());
-    let mut parts = Vec::new();
+    let mut parts: Vec<Part<'_>> = Vec::new();
     let read = |filled| parse::parse(filled, values, declared, &input.project.sources);
     let read = filled.par_iter().with_max_len(1).map(read).collect::<Vec<_>>();
-    let (read, errors): (Vec<_>, Vec<_>) = read.into_iter().partition(Result::is_ok);
-    Error::all(errors.into_iter().filter_map(Result::err).collect())?;
-    for ((document, filled), read) in input.edition.documents.iter().zip(filled).zip(read) {
-        let (mut blocks, places) = read?;
-        document::title(&blocks).map_err(|error| error.at(filled.place(0)))?;
-        let locate = |error| places.locate(error);
-        let figures = illustrate(&mut blocks, input).map_err(locate)?;
-        labels.number_all(&mut blocks, *document).map_err(locate)?;
+    let is_broken = read.iter().any(|parsed| !parsed.errors.is_empty());
+    for ((document, filled), parsed) in input.edition.documents.iter().zip(filled).zip(read) {
+        let Parsed { mut blocks, places, errors: found } = parsed;
+        errors.extend(found);
+        if let Some(error) = document::title(&blocks).err().filter(|_| !is_broken) {
+            errors.push(error.at(filled.place(0)));
+        }
+        let (figures, found) = illustrate(&mut blocks, input);
+        errors.extend(found.into_iter().map(|error| places.locate(error)));
+        let numbered = labels.number_all(&mut blocks, *document);
+        errors.extend(numbered.err().map(|error| places.locate(error)));
         if !document.repeats {
             shown.extend(figures);
         }
         parts.push(Part { document: *document, blocks, places });
     }
-    if let Some(figure) = input.figures.iter().find(|figure| !shown.contains(&figure.id)) {
-        return Err(Error::NotShown(figure.id.clone()));
+    // What a block with an error shows or names is not known.
+    if !is_broken {
+        let figures = input.figures.iter().filter(|figure| !shown.contains(&figure.id));
+        errors.extend(figures.map(|figure| Error::NotShown(figure.id.clone())));
+        for EquationEntry { number, .. } in &input.edition.equations {
+            if labels.get(&format!("eq:{number}")).is_none() {
+                errors.push(Error::NoEquation(number.to_string()));
+            }
+        }
     }
-    let missing = |entry: &&EquationEntry| labels.get(&format!("eq:{}", entry.number)).is_none();
-    if let Some(entry) = input.edition.equations.iter().find(missing) {
-        return Err(Error::NoEquation(entry.number.to_string()));
+    if let Err(error) = labels.add_verdicts(input.claims) {
+        errors.push(parts.iter().fold(error, |error, part| part.places.locate(error)));
     }
-    labels.add_verdicts(input.claims).map_err(|error| {
-        parts.iter().fold(error, |error, part: &Part<'_>| part.places.locate(error))
-    })?;
+    let mut found = Vec::new();
     for Part { document, blocks, places } in &mut parts {
-        labels.resolve(blocks, *document, &library).map_err(|error| places.locate(error))?;
+        if let Err(error) = labels.resolve(blocks, *document, &library) {
+            found.extend(error.each().into_iter().map(|error| places.locate(error)));
+        }
     }
+    // What stands in a block with an error has an id that no label has.
+    let is_there = |thing: &str| {
+        let id = thing.replacen('@', "#", 1);
+        parts.iter().any(|part| part.places.knows(&id))
+    };
+    found.retain(|error| !(is_broken && error.thing().is_some_and(is_there)));
+    errors.extend(found);
+    all_in_order(errors)?;
     Ok((parts, labels))
 }
 
@@ -169,13 +214,14 @@ fn data_files(
     Ok(())
 }
 
-/// Adds each document in its formats, and what its pages load; returns the ids of all values and
-/// statements of which a page opens the card.
+/// Adds each document in its formats, and what its pages load, and the errors of those that cannot
+/// be written; returns the ids of all values and statements of which a page opens the card.
 fn write_documents(
     input: &Input<'_>,
     parts: &[Part<'_>],
     filler: &mut Filler,
     report: &mut Report,
+    errors: &mut Vec<Error>,
 ) -> Result<BTreeSet<String>, Error> {
     let edition = input.edition;
     let write = |part: &Part<'_>| {
@@ -192,7 +238,13 @@ fn write_documents(
     filler.insert("date", &edition.date);
     let (mut shown, mut texts) = (BTreeSet::new(), Vec::new());
     for (Part { document, blocks, places }, written) in parts.iter().zip(written) {
-        let (print, (page, values)) = written.map_err(|error| places.locate(error))?;
+        let (print, (page, values)) = match written {
+            Ok(written) => written,
+            Err(error) => {
+                errors.push(places.locate(error));
+                continue;
+            }
+        };
         let mut text = markdown::write(blocks);
         if document.is_signed(edition) {
             let byline = format!("\n\n*{}*\n\n", markdown::escaped(&edition.byline()));
@@ -238,15 +290,15 @@ fn data(file: &DataFile) -> (String, Vec<u8>) {
     (format!("data/{}", file.name), file.csv().into_bytes())
 }
 
-/// Checks that each link leads to a place of its document, to a file or folder of the report or of
-/// the project, or to the web.
+/// Returns an error for each link that leads neither to a place of its document, nor to a file or
+/// folder of the report or of the project, nor to the web.
 fn check_links(
     blocks: &[Block],
     here: Document,
     labels: &Labels,
     files: &Files,
     edition: &Edition,
-) -> Result<(), Error> {
+) -> Vec<Error> {
     let is_page = |to: &str| edition.documents.iter().any(|document| document.page == to);
     let leads = |to: &str| match (to.split_once("://"), to.strip_prefix('#')) {
         (Some((scheme, _)), _) => ["https", "http"].contains(&scheme),
@@ -258,52 +310,65 @@ fn check_links(
         _ if to.starts_with('.') || to.starts_with("mailto:") || is_page(to) => true,
         _ => files.keys().any(|path| path == to || path.starts_with(&format!("{to}/"))),
     };
-    let mut result = Ok(());
+    let mut errors = Vec::new();
     document::visit(blocks, &mut |inline| {
         if let Inline::Link { to, .. } = inline
-            && result.is_ok()
             && !leads(to)
         {
-            result = Err(Error::NoFile(to.clone()));
+            errors.push(no_file(to, files.keys().map(String::as_str)));
         }
     });
-    result
+    errors
+}
+
+fn no_file<'a>(to: &str, files: impl Iterator<Item = &'a str>) -> Error {
+    let what = format!("a link to {to}: there is no such file or place; correct or remove it");
+    Error::unknown(format!("({to}"), what, files)
 }
 
 /// Adds alternative texts, data and code to the figures of a document, and makes links to files of
-/// the project relative to the folder of the report; returns the names of the figures.
-fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Result<Vec<String>, Error> {
-    let mut shown = Vec::new();
+/// the project relative to the folder of the report; returns the names of the figures, and errors.
+fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> (Vec<String>, Vec<Error>) {
+    let (mut shown, mut errors) = (Vec::new(), Vec::new());
     for block in blocks.iter_mut() {
-        if let Block::Figure { name, files, alt, origin, .. } = block {
-            let figure = input.figure(name)?;
-            let names = figure.names();
-            if files[0] != names[0] {
-                return Err(Error::Picture(files[0].clone()));
+        let Block::Figure { name, files, alt, origin, .. } = block else { continue };
+        let figure = match input.figure(name) {
+            Ok(figure) => figure,
+            Err(error) => {
+                errors.push(error);
+                continue;
             }
-            *files = names;
-            *alt = figure.description.text.clone();
-            let words = |words: &str| Inline::Text(words.into());
-            let data: Vec<String> =
-                figure.data.iter().map(|file| format!("data/{}", file.name)).collect();
-            let code = input.project.sources.file(&figure.source).map(|file| format!("../{file}"));
-            for (name, files) in [("Data: ", data), ("Code: ", code.into_iter().collect())] {
-                if !files.is_empty() {
-                    origin.push(words(if origin.is_empty() { "" } else { " " }));
-                    origin.push(words(name));
-                    origin.extend(links(&files));
-                    origin.push(words("."));
-                }
-            }
-            shown.push(figure.id.clone());
+        };
+        let names = figure.names();
+        if files[0] != names[0] {
+            let what = Error::Picture(files[0].clone()).to_string();
+            errors.push(Error::Named { thing: format!("({name}"), what });
         }
+        *files = names;
+        *alt = figure.description.text.clone();
+        let words = |words: &str| Inline::Text(words.into());
+        let data: Vec<String> =
+            figure.data.iter().map(|file| format!("data/{}", file.name)).collect();
+        let code = input.project.sources.file(&figure.source).map(|file| format!("../{file}"));
+        for (name, files) in [("Data: ", data), ("Code: ", code.into_iter().collect())] {
+            if !files.is_empty() {
+                origin.push(words(if origin.is_empty() { "" } else { " " }));
+                origin.push(words(name));
+                origin.extend(links(&files));
+                origin.push(words("."));
+            }
+        }
+        shown.push(figure.id.clone());
     }
-    document::rewrite(blocks, &mut |inline| match &inline {
-        Inline::Link { to, .. } => match to.strip_prefix("../") {
-            Some(path) if !input.project.exists(path) => Err(Error::NoFile(to.clone())),
-            _ => Ok(document::relative_link(inline, input.top)),
-        },
-        _ => Ok(vec![inline]),
-    })?;
-    Ok(shown)
+    document::rewrite(blocks, &mut |inline| {
+        let Inline::Link { to, .. } = &inline else { return vec![inline] };
+        match to.strip_prefix("../") {
+            Some(path) if !input.project.exists(path) => {
+                errors.push(no_file(to, std::iter::empty()));
+                vec![inline]
+            }
+            _ => document::relative_link(inline, input.top),
+        }
+    });
+    (shown, errors)
 }

@@ -1,126 +1,321 @@
-//! Reads `references.bib` into labels and entries of the list of references.
+//! Reads `references.bib` into the list of references and the labels of citations.
 //!
 //! Articles, books, doctoral theses and software; entries of other kinds are refused.
 
-use super::document::{Inline, Reference, plain, words_and_maths};
+use super::document::{Inline, Reference, plain};
 use super::error::Error;
 use crate::input::line_and_column;
-use biblatex::{Bibliography, ChunksExt, EntryType, Person};
+use biblatex::{Bibliography, Chunk, Entry, EntryType, Person};
+use std::collections::BTreeSet;
 use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};
 
 /// All entries of a .bib file, in the order in which a list shows them.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Library(Vec<Reference>);
+pub struct Library(Vec<Work>);
+
+/// An entry as a list shows it: authors, year in brackets, and the rest.
+#[derive(Clone, Debug, PartialEq)]
+struct Work {
+    key: String,
+    /// Who a citation names: "Homer & Hogan", "van der Berg et al.".
+    names: String,
+    year: String,
+    authors: String,
+    rest: Vec<Inline>,
+}
 
 impl Library {
-    /// Reads BibTeX.
+    /// Reads BibTeX. All entries that cannot be shown are reported at once.
     pub fn read(text: &str) -> Result<Self, Error> {
         let fault = |what: String| Error::Template(format!("references.bib:{what}"));
-        let form = |error: biblatex::ParseError| {
+        let read = Bibliography::parse(text).map_err(|error| {
             let place = line_and_column(text, error.span.start);
             fault(format!("{place}: {}; is a brace or a comma missing before?", error.kind))
-        };
-        let read = Bibliography::parse(text).map_err(form)?;
-        let shown = |entry| shown(entry).map_err(|what| fault(format!(" {} {what}", entry.key)));
-        let mut entries = read.iter().map(shown).collect::<Result<Vec<_>, _>>()?;
-        entries.sort_by_cached_key(|entry| collated(&plain(&entry.text)));
-        Ok(Library(entries))
+        })?;
+        let (mut works, mut errors) = (Vec::new(), Vec::new());
+        for entry in read.iter() {
+            match work(entry) {
+                Ok(work) => works.push(work),
+                Err(what) => errors.push(fault(format!(" {} {what}", entry.key))),
+            }
+        }
+        Error::all(errors)?;
+        works.sort_by_cached_key(|work| {
+            collated(&format!("{} {} {}", work.authors, work.year, plain(&work.rest)))
+        });
+        Ok(Library(works))
     }
 
-    fn entry(&self, key: &str) -> Result<&Reference, Error> {
-        let unknown = || Error::Reference(key.to_string());
-        self.0.iter().find(|entry| entry.key == key).ok_or_else(unknown)
+    /// The keys of all entries.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|work| work.key.as_str())
     }
 
-    /// The label of a citation: "Rice, 1945", "Homer & Hogan, 2007", "Kowalczyk et al., 2006".
-    pub fn label(&self, key: &str) -> Result<String, Error> {
-        Ok(self.entry(key)?.label.clone())
-    }
-
-    /// The entries with these keys, as a list shows them.
-    pub fn entries(&self, keys: &[String]) -> Result<Vec<Reference>, Error> {
-        keys.iter().try_for_each(|key| self.entry(key).map(drop))?;
-        Ok(self.0.iter().filter(|entry| keys.contains(&entry.key)).cloned().collect())
+    /// Returns the list of the entries with these keys. Those that citations would not tell apart
+    /// have a letter behind the year: 1954a, 1954b.
+    pub fn list(&self, keys: &BTreeSet<String>) -> Vec<Reference> {
+        let cited: Vec<&Work> = self.0.iter().filter(|work| keys.contains(&work.key)).collect();
+        let mut list = Vec::new();
+        for (at, work) in cited.iter().enumerate() {
+            let is_like = |other: &&&Work| (&other.names, &other.year) == (&work.names, &work.year);
+            let mut year = work.year.clone();
+            if cited.iter().filter(is_like).count() > 1 {
+                let before = cited[..at].iter().filter(is_like).count();
+                let letter = char::from(b'a' + (before % 26) as u8);
+                year.extend(std::iter::repeat_n(letter, before / 26 + 1));
+            }
+            let mut text = vec![Inline::Text(format!("{} ({year}). ", work.authors))];
+            text.extend(work.rest.iter().cloned());
+            let (key, names) = (work.key.clone(), work.names.clone());
+            list.push(Reference { key, names, year, text });
+        }
+        list
     }
 }
 
-/// Formats an entry for the list; the error is a message that follows its key.
-fn shown(entry: &biblatex::Entry) -> Result<Reference, String> {
-    let field = |name: &str| {
-        let words = entry.get(name)?.format_verbatim().replace("---", "—").replace("--", "–");
-        let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
-        (!words.is_empty()).then_some(words)
-    };
+/// Reads an entry; the error is a message that follows its key.
+fn work(entry: &Entry) -> Result<Work, String> {
+    let field = |name: &str| field(entry, name);
     let either = |names: [&str; 2]| {
-        let found = names.into_iter().find_map(field);
-        found.ok_or_else(|| format!("lacks its {}; give it", names.join(" or ")))
+        for name in names {
+            let found = field(name)?;
+            if !found.is_empty() {
+                return Ok(found);
+            }
+        }
+        Err(format!("lacks its {}; give it", names.join(" or ")))
     };
-    let people = |name: &str| entry.get_as::<Vec<Person>>(name).ok().filter(|all| !all.is_empty());
-    let authors = people("author").or_else(|| people("editor"));
-    let authors = authors.ok_or("lacks its author or editor; give it")?;
-    let (title, date) = (either(["title", "booktitle"])?, either(["year", "date"])?);
-    let year = date.split('-').next().unwrap_or_default();
-    let names: Vec<&str> = authors.iter().map(|author| author.name.as_str()).collect();
-    let label = match names.as_slice() {
-        [one, two] if *two != "others" => format!("{one} & {two}, {year}"),
-        [one, _, ..] => format!("{one} et al., {year}"),
-        one => format!("{}, {year}", one.concat()),
-    };
-    let words = |words: String| Inline::Text(words);
-    let slanted = |words: String| Inline::Emphasis(vec![Inline::Text(words)]);
-    let ending = |words: String| format!("{}.", words.trim_end_matches('.'));
-    let and = |before: &str, name: &str, after: &str| {
-        field(name).map_or(String::new(), |words| format!("{before}{words}{after}"))
-    };
-    let mut text = vec![words(format!("{} ({year}). ", listed(&authors)))];
-    text.extend(match entry.entry_type {
-        EntryType::Article => vec![
-            words(ending(title) + " "),
-            slanted(either(["journal", "journaltitle"])?),
-            words(field("volume").map_or(String::new(), |_| ", ".into())),
-            slanted(field("volume").unwrap_or_default()),
-            words(and("(", "number", ")") + &and(", ", "pages", "") + "."),
-        ],
+    let people = |name: &str| entry.get_as::<Vec<Person>>(name).unwrap_or_default();
+    let mut people = [people("author"), people("editor")].into_iter();
+    let is_named = |all: &Vec<Person>| all.iter().any(|person| !family(person).is_empty());
+    let people = people.find(is_named).ok_or("lacks its author or editor; give it")?;
+    let title = either(["title", "booktitle"])?;
+    let mut rest = Sentences::default();
+    match entry.entry_type {
+        EntryType::Article => {
+            rest.add(title);
+            rest.end();
+            rest.add(slanted(either(["journal", "journaltitle"])?));
+            let (volume, number, pages) = (field("volume")?, field("number")?, field("pages")?);
+            rest.add_between(", ", slanted(volume), "");
+            rest.add_between("(", number, ")");
+            rest.add_between(", ", pages, "");
+        }
         EntryType::Book => {
-            let edition =
-                and(" (", "edition", " ed.)").replace("(2 ", "(2nd ").replace("(3 ", "(3rd ");
-            vec![slanted(title), words(ending(edition + &and(". ", "publisher", "")))]
+            rest.add(slanted(title));
+            let edition = ordinal(&plain(&field("edition")?));
+            rest.add_between(" (", edition, " ed.)");
+            rest.end();
+            rest.add(field("publisher")?);
         }
         EntryType::PhdThesis => {
-            let school = ending(either(["school", "institution"])?);
-            vec![slanted(title), words(format!(" [Doctoral dissertation]. {school}"))]
+            rest.add(slanted(title));
+            rest.words(" [Doctoral dissertation].");
+            rest.end();
+            rest.add(either(["school", "institution"])?);
         }
-        EntryType::Software => vec![slanted(title), words(" [Computer software].".into())],
+        EntryType::Software => {
+            rest.add(slanted(title));
+            rest.words(" [Computer software].");
+        }
         ref other => {
             let kinds = "@article, @book, @phdthesis or @software";
             return Err(format!("has the type @{other}, which is not supported; use {kinds}"));
         }
-    });
-    text.retain(|piece| !plain(std::slice::from_ref(piece)).is_empty());
-    let formulas = |piece: Inline| match piece {
-        Inline::Text(words) => words_and_maths(&words),
-        Inline::Emphasis(inner) => vec![Inline::Emphasis(words_and_maths(&plain(&inner)))],
-        other => vec![other],
-    };
-    text = text.into_iter().flat_map(formulas).collect();
-    let doi = field("doi").map(|doi| format!("https://doi.org/{doi}"));
-    if let Some(to) = doi.or_else(|| field("url")) {
-        text.extend([words(" ".into()), Inline::Link { to: to.clone(), shown: vec![words(to)] }]);
     }
-    Ok(Reference { key: entry.key.clone(), label, text })
+    rest.end();
+    if let Some(to) = address(entry)? {
+        rest.add(vec![Inline::Link { to: to.clone(), shown: vec![Inline::Text(to)] }]);
+    }
+    let year = year(&plain(&either(["year", "date"])?));
+    let authors = listed(&people);
+    Ok(Work { key: entry.key.clone(), names: names(&people), year, authors, rest: rest.finish() })
 }
 
-/// All authors as `Rice, S. O.`, with a full stop at the end.
+/// Sentences of an entry that are being written.
+#[derive(Default)]
+struct Sentences(Vec<Inline>);
+
+impl Sentences {
+    fn add(&mut self, more: Vec<Inline>) {
+        for piece in more {
+            match (self.0.last_mut(), piece) {
+                (Some(Inline::Text(before)), Inline::Text(words)) => before.push_str(&words),
+                (_, piece) => self.0.push(piece),
+            }
+        }
+    }
+
+    fn words(&mut self, words: &str) {
+        self.add(vec![Inline::Text(words.into())]);
+    }
+
+    /// Adds something between two marks, unless it is empty.
+    fn add_between(&mut self, before: &str, more: Vec<Inline>, after: &str) {
+        if !more.is_empty() {
+            self.words(before);
+            self.add(more);
+            self.words(after);
+        }
+    }
+
+    /// Ends a sentence, by a full stop if it has no mark at its end.
+    fn end(&mut self) {
+        let text = plain(&self.0);
+        match text.trim_end() {
+            end if end.len() < text.len() || end.is_empty() => (),
+            end if end.ends_with(['.', '?', '!']) => self.words(" "),
+            _ => self.words(". "),
+        }
+    }
+
+    /// Returns all, without the blank after the last sentence.
+    fn finish(mut self) -> Vec<Inline> {
+        if let Some(Inline::Text(last)) = self.0.last_mut() {
+            last.truncate(last.trim_end().len());
+        }
+        self.0
+    }
+}
+
+/// Reads a field into text; empty if the entry has none.
+fn field(entry: &Entry, name: &str) -> Result<Vec<Inline>, String> {
+    let mut out = Sentences::default();
+    for chunk in entry.get(name).unwrap_or_default() {
+        out.add(match &chunk.v {
+            Chunk::Math(tex) => vec![Inline::Maths(tex.as_str().into())],
+            Chunk::Normal(text) | Chunk::Verbatim(text) => {
+                macros(text).map_err(|what| format!("has {what} in its {name}; {REMEDY}"))?
+            }
+        });
+    }
+    if let Some(Inline::Text(first)) = out.0.first_mut() {
+        *first = first.trim_start().into();
+    }
+    let mut all = out.finish();
+    all.retain(|piece| !matches!(piece, Inline::Text(words) if words.is_empty()));
+    Ok(all)
+}
+
+const REMEDY: &str = "which not every format can show; write it in plain words";
+
+/// Reads text in which macros stand that the reader of BibTeX does not know.
+fn macros(text: &str) -> Result<Vec<Inline>, String> {
+    let words = |text: &str| Inline::Text(text.replace('~', "\u{a0}"));
+    let Some((before, after)) = text.split_once('\\') else { return Ok(vec![words(text)]) };
+    let name = &after[..after.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(after.len())];
+    let inside = after[name.len()..].strip_prefix('{').and_then(|rest| rest.split_once('}'));
+    let Some((inside, behind)) = inside.filter(|(inside, _)| !inside.contains('{')) else {
+        return Err(format!("\\{name}"));
+    };
+    let shown = macros(inside)?;
+    let mut out = vec![words(before)];
+    match name {
+        "emph" | "textit" | "textsl" => out.push(Inline::Emphasis(shown)),
+        "textbf" => out.push(Inline::Strong(shown)),
+        "textsuperscript" => out.push(Inline::Raised(shown)),
+        "textrm" | "textsc" | "textup" | "text" | "mbox" => out.extend(shown),
+        "url" => out.push(Inline::Link { to: inside.into(), shown }),
+        _ => return Err(format!("\\{name}")),
+    }
+    out.extend(macros(behind)?);
+    Ok(out)
+}
+
+/// Emphasises text. What is emphasised within stands upright, and a formula is not in emphasis, in
+/// which GitHub renders none.
+fn slanted(text: Vec<Inline>) -> Vec<Inline> {
+    let mut out = Vec::new();
+    for piece in text {
+        match piece {
+            Inline::Text(words) => {
+                let inner = words.trim();
+                let (begin, end) = words.split_once(inner).unwrap_or(("", ""));
+                out.push(Inline::Text(begin.into()));
+                if !inner.is_empty() {
+                    out.push(Inline::Emphasis(vec![Inline::Text(inner.into())]));
+                }
+                out.push(Inline::Text(end.into()));
+            }
+            Inline::Emphasis(inner) => out.extend(inner),
+            other => out.push(other),
+        }
+    }
+    out.retain(|piece| !matches!(piece, Inline::Text(words) if words.is_empty()));
+    out
+}
+
+/// The year of a date, `2025-03-01` or `2025/2026`; of `-0300` it is 300 BC.
+fn year(date: &str) -> String {
+    let (date, era) = match date.strip_prefix(['-', '−', '–']) {
+        Some(before) => (before.trim_start_matches('0'), " BC"),
+        None => (date, ""),
+    };
+    format!("{}{era}", date.split(['-', '/']).next().unwrap_or_default())
+}
+
+/// An edition as a list shows it before "ed.": `11th` for 11, and words as they are.
+fn ordinal(edition: &str) -> Vec<Inline> {
+    let words = edition.trim_end_matches("edition").trim_end_matches("ed.").trim();
+    let end = match words.parse::<u32>() {
+        Err(_) => "",
+        Ok(n) if (11..=13).contains(&(n % 100)) => "th",
+        Ok(n) => ["th", "st", "nd", "rd"].get(n as usize % 10).unwrap_or(&"th"),
+    };
+    if words.is_empty() { Vec::new() } else { vec![Inline::Text(format!("{words}{end}"))] }
+}
+
+/// Where the work can be read: its DOI in any spelling as an address, or its URL.
+fn address(entry: &Entry) -> Result<Option<String>, String> {
+    // These fields keep their backslashes.
+    let bare = |name| -> String {
+        let chunks = entry.get(name).unwrap_or_default();
+        let text: String = chunks.iter().map(|chunk| chunk.v.get()).collect();
+        text.trim()
+            .replace(['\\', '{', '}'], "")
+            .replace(' ', "%20")
+            .replace('<', "%3C")
+            .replace('>', "%3E")
+    };
+    let doi = bare("doi");
+    if doi.is_empty() {
+        return Ok(Some(bare("url")).filter(|url| !url.is_empty()));
+    }
+    match doi.find("10.").map(|at| (doi[..at].to_lowercase(), &doi[at..])) {
+        Some((before, number)) if before.is_empty() || before.contains("doi") => {
+            Ok(Some(format!("https://doi.org/{number}")))
+        }
+        _ => Err(format!("has the doi {doi:?}; a DOI begins with 10.")),
+    }
+}
+
+/// Family name with its particle: `van der Berg`.
+fn family(person: &Person) -> String {
+    format!("{} {}", person.prefix, person.name).trim().to_string()
+}
+
+/// The names of a citation: "Rice", "Homer & Hogan", "Kowalczyk et al.".
+fn names(people: &[Person]) -> String {
+    let names: Vec<String> = people.iter().map(family).collect();
+    match names.as_slice() {
+        [one, two] if two != "others" => format!("{one} & {two}"),
+        [one, _, ..] => format!("{one} et al."),
+        one => one.concat(),
+    }
+}
+
+/// All authors as `Rice, S. O.` and `Knuth, D. E., III`, with a full stop at the end.
 fn listed(people: &[Person]) -> String {
     let initial = |word: &str| word.chars().next().map(|c| format!("{c}."));
     let tied = |word: &str| word.split('-').filter_map(initial).collect::<Vec<_>>().join("-");
-    let inverted = |person: &Person| {
+    let mut names = Vec::new();
+    for person in people {
         let given = person.given_name.replace('.', ". ");
         let given = given.split_whitespace().map(tied).collect::<Vec<_>>().join(" ");
-        let family = format!("{} {}", person.prefix, person.name);
-        format!("{}, {given}", family.trim()).trim_end_matches(", ").to_string()
-    };
-    let names: Vec<String> = people.iter().map(inverted).collect();
+        let mut parts = vec![family(person), given, person.suffix.clone()];
+        parts.retain(|part| !part.is_empty());
+        names.push(parts.join(", "));
+    }
     let list = match names.as_slice() {
         [first @ .., last] if last == "others" => format!("{}, et al", first.join(", ")),
         [first @ .., last] if !first.is_empty() => format!("{}, & {last}", first.join(", ")),
@@ -140,25 +335,29 @@ fn collated(text: &str) -> String {
 mod tests {
     use super::*;
 
-    /// The list, with emphasis between stars; or the fault.
+    /// The list of all entries, each after what a citation shows, with emphasis between stars; or
+    /// the fault.
     fn list(text: &str) -> Result<Vec<String>, String> {
         let library = Library::read(text).map_err(|error| error.to_string())?;
+        let keys = library.keys().map(String::from).collect();
         let piece = |part: &Inline| match part {
             Inline::Emphasis(inner) => format!("*{}*", plain(inner)),
             Inline::Link { to, .. } => format!("<{to}>"),
+            Inline::Maths(tex) => format!("${}$", tex.digits()),
             other => plain(std::slice::from_ref(other)),
         };
         let entry = |entry: &Reference| {
-            format!("{}: {}", entry.label, entry.text.iter().map(piece).collect::<String>())
+            let text: String = entry.text.iter().map(piece).collect();
+            format!("{}, {}: {text}", entry.names, entry.year)
         };
-        Ok(library.0.iter().map(entry).collect())
+        Ok(library.list(&keys).iter().map(entry).collect())
     }
 
     #[test]
     fn each_kind_is_shown() {
-        let text = "@article{a, author={Šidák, Zbyněk}, title={Rectangles}, journal={J. {S}tat.}, year={1967}, volume={62},
+        let text = r"@article{a, author={Šidák, Zbyněk}, title={Rectangles}, journal={J. {S}tat.}, year={1967}, volume={62},
               number={3--4}, pages={626--633}, doi={10.1/x(2)}}
-            @book{b, author={Rice, Stephen O. and {di Bernardo}, Mario}, title={Noise \\& $x_1$}, edition={2},
+            @book{b, author={Rice, Stephen O. and {di Bernardo}, Mario}, title={Noise \& $x_1$}, edition={2},
               publisher={Dover, New York}, year={1954}}
             @book{c, author={Rice, S.O. and A, Jean-Marc and others}, title={Whole}, year={1955}, publisher={P}}
             @phdthesis{d, author={Rice, Stephen O. and {di Bernardo}, Mario}, title={T}, school={U of B}, year={1954}}
@@ -168,12 +367,62 @@ mod tests {
             "A Group, 2025: A Group. (2025). *Code* [Computer software]. <https://x.org/>",
             "Rice, 1960: Rice, S. O. (1960). *Alone*.",
             "Rice et al., 1955: Rice, S. O., A, J.-M., et al. (1955). *Whole*. P.",
-            "Rice & di Bernardo, 1954: Rice, S. O., & di Bernardo, M. (1954). *Noise & x_1* (2nd ed.). Dover, New York.",
-            "Rice & di Bernardo, 1954: Rice, S. O., & di Bernardo, M. (1954). *T* [Doctoral dissertation]. U of B.",
+            "Rice & di Bernardo, 1954a: Rice, S. O., & di Bernardo, M. (1954a). *Noise &* $x_1$ (2nd ed.). Dover, New York.",
+            "Rice & di Bernardo, 1954b: Rice, S. O., & di Bernardo, M. (1954b). *T* [Doctoral dissertation]. U of B.",
             "Šidák, 1967: Šidák, Z. (1967). Rectangles. *J. Stat.*, *62*(3–4), 626–633. <https://doi.org/10.1/x(2)>",
         ];
         // Who stands alone comes first, and accents are sorted as letters.
         assert_eq!(list(text).unwrap(), expected);
+    }
+
+    #[test]
+    fn names_titles_dates_and_addresses_are_shown_as_they_are_meant() {
+        let article = "title={T}, journal={J}, year={1}";
+        let book = "author={A}, year={2000}";
+        for (text, shown) in [
+            (
+                format!("@article{{k, author={{van der Berg, Jan}}, {article}}}"),
+                "van der Berg, 1: van der Berg, J. (1). T. *J*.",
+            ),
+            (
+                format!("@article{{k, author={{Jan van der Berg}}, {article}}}"),
+                "van der Berg, 1: van der Berg, J. (1). T. *J*.",
+            ),
+            (
+                format!("@article{{k, author={{Knuth, III, Donald E.}}, {article}}}"),
+                "Knuth, 1: Knuth, D. E., III. (1). T. *J*.",
+            ),
+            (
+                "@article{k, author={A}, title={Why?}, journal={Phys. Lett.}, year={-300}}".into(),
+                "A, 300 BC: A. (300 BC). Why? *Phys. Lett.*",
+            ),
+            (
+                format!("@book{{k, title={{Why?}}, edition={{11}}, {book}}}"),
+                "A, 2000: A. (2000). *Why?* (11th ed.).",
+            ),
+            (
+                format!(
+                    "@book{{k, title={{Really!}}, publisher={{P.}}, edition={{Revised ed.}}, {book}}}"
+                ),
+                "A, 2000: A. (2000). *Really!* (Revised ed.). P.",
+            ),
+            (
+                format!(r"@book{{k, title={{On \emph{{E. coli}} and~\$5, 50\%}}, {book}}}"),
+                "A, 2000: A. (2000). *On* E. coli *and\u{a0}$5, 50%*.",
+            ),
+            (
+                format!(
+                    "@book{{k, title={{T}}, doi={{https://dx.doi.org/10.1/a\\_b}}, url={{https://doi.org/10.1/a}}, {book}}}"
+                ),
+                "A, 2000: A. (2000). *T*. <https://doi.org/10.1/a_b>",
+            ),
+            (
+                format!("@book{{k, title={{T}}, doi={{DOI: 10.1/a}}, {book}}}"),
+                "A, 2000: A. (2000). *T*. <https://doi.org/10.1/a>",
+            ),
+        ] {
+            assert_eq!(list(&text).unwrap(), [shown], "{text}");
+        }
     }
 
     #[test]
@@ -184,8 +433,10 @@ mod tests {
                 "references.bib: a has the type @misc",
             ),
             ("@book{a, author={B}, title={c}}", "references.bib: a lacks its year or date"),
-            ("@book{a, title={c}, year={1}}", "references.bib: a lacks its author"),
+            ("@book{a, author={}, title={c}, year={1}}", "references.bib: a lacks its author"),
             ("@article{a, author={B}, title={c}, year={1}}", "a lacks its journal or journaltitle"),
+            (r"@book{a, author={B}, title={c \foo{d}}, year={1}}", r"a has \foo in its title"),
+            ("@book{a, author={B}, title={c}, year={1}, doi={x}}", "a has the doi"),
             ("@book{a, author={B}, title={c, year={1}}", "references.bib:1:"),
         ] {
             let found = list(text).unwrap_err();

@@ -86,8 +86,7 @@ impl Cards<'_> {
             Some(("fig", _)) => self.figure(&lower),
             Some(("eq", number)) => self.equation(number.parse().ok()?),
             Some(("claim", name)) => self.claim(name),
-            Some(_) => None,
-            None => self.value(id.strip_prefix("v.").unwrap_or(id)).or_else(|| self.claim(id)),
+            _ => self.value(id.strip_prefix("v.").unwrap_or(id)).or_else(|| self.claim(id)),
         }
     }
 

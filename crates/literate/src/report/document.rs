@@ -78,8 +78,10 @@ pub enum Block {
 pub struct Reference {
     /// Key as in references.bib.
     pub key: String,
-    /// Label as "Rice, 1945".
-    pub label: String,
+    /// Whom a citation names, as "Homer & Hogan".
+    pub names: String,
+    /// Year of a citation, with a letter where several would look alike: "1954a".
+    pub year: String,
     pub text: Vec<Inline>,
 }
 
@@ -110,8 +112,12 @@ pub enum Inline {
         to: String,
         shown: Vec<Inline>,
     },
-    /// References `[@fig:3; @eq:18]` and citations `[@rice1945]`, until they are resolved.
-    Unresolved(Vec<String>),
+    /// References `[@fig:3; @fig:8]` and citations `[@rice1945]`, or one of them without brackets
+    /// in a sentence, until they are resolved.
+    Unresolved {
+        ids: Vec<String>,
+        in_sentence: bool,
+    },
     /// A resolved reference to `fig:3` or `ref:rice1945`, and the document that has it if it is not
     /// this.
     Reference {
@@ -161,11 +167,11 @@ impl From<&str> for Formula {
     }
 }
 
-/// Returns a printed value as text, or as a formula where it has a power of ten. Words may have
-/// formulas between dollar signs.
+/// Returns a printed value as text, or as a formula where it has a power of ten. Words are data:
+/// whatever signs they have, they are text in one line.
 pub fn printed(shown: &Shown) -> Vec<Inline> {
     let numeral = match shown {
-        Shown::Words(words) => return words_and_maths(words),
+        Shown::Words(words) => return vec![Inline::Text(in_one_line(words))],
         Shown::Number(numeral) => numeral,
     };
     let Some(power) = numeral.tex_power() else { return vec![Inline::Text(shown.markdown())] };
@@ -176,15 +182,35 @@ pub fn printed(shown: &Shown) -> Vec<Inline> {
     out
 }
 
-/// Splits a text at its dollar signs, `3 $\times$ 4`, into words and formulas.
+/// Replaces each end of a line and each tab by a blank.
+pub fn in_one_line(words: &str) -> String {
+    words.replace("\r\n", " ").replace(['\n', '\r', '\t'], " ")
+}
+
+/// Splits a text of an author, `3 $\times$ 4`, into words and formulas. A dollar sign alone, and
+/// one
+/// that Markdown would not take for mathematics, as in `$5 and $6`, is a word.
 pub fn words_and_maths(text: &str) -> Vec<Inline> {
-    let mut out = Vec::new();
-    for (i, piece) in text.split('$').enumerate() {
-        match piece {
-            "" => (),
-            tex if i % 2 == 1 => out.push(Inline::Maths(tex.into())),
-            words => out.push(Inline::Text(words.into())),
+    let (mut out, mut words, mut rest) = (Vec::new(), String::new(), text);
+    while let Some((before, after)) = rest.split_once('$') {
+        words += before;
+        let formula = after.split_once('$').filter(|(tex, beyond)| {
+            let fits = !tex.is_empty() && tex.trim() == *tex;
+            fits && !beyond.starts_with(|c: char| c.is_ascii_digit())
+        });
+        let Some((tex, beyond)) = formula else {
+            (words, rest) = (words + "$", after);
+            continue;
+        };
+        if !words.is_empty() {
+            out.push(Inline::Text(std::mem::take(&mut words)));
         }
+        out.push(Inline::Maths(tex.into()));
+        rest = beyond;
+    }
+    words += rest;
+    if !words.is_empty() {
+        out.push(Inline::Text(words));
     }
     out
 }
@@ -216,7 +242,16 @@ pub fn place_on_page(id: Option<&str>, words: &[Inline]) -> String {
         let words = words.split(|c: char| !c.is_ascii_alphanumeric());
         return words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-");
     };
-    id.replace([':', '.', '[', ']', '=', ','], "-")
+    let mut place = String::new();
+    for c in id.chars() {
+        match c {
+            ':' | '.' => place.push('-'),
+            c if c.is_alphanumeric() || "-_".contains(c) => place.push(c),
+            // A key of references.bib may have any sign.
+            c => place += &format!("-{:x}", u32::from(c)),
+        }
+    }
+    place
 }
 
 /// Whether a paragraph continues the sentence before it.
@@ -282,33 +317,25 @@ fn inner(inline: &Inline) -> &[Inline] {
 }
 
 /// Replaces each piece of running text of the blocks by what `change` returns for it.
-pub fn rewrite<E>(
-    blocks: &mut [Block],
-    change: &mut impl FnMut(Inline) -> Result<Vec<Inline>, E>,
-) -> Result<(), E> {
+pub fn rewrite(blocks: &mut [Block], change: &mut impl FnMut(Inline) -> Vec<Inline>) {
     for text in blocks.iter_mut().flat_map(texts_mut) {
-        rewrite_inlines(text, change)?;
+        rewrite_inlines(text, change);
     }
-    Ok(())
 }
 
-fn rewrite_inlines<E>(
-    inlines: &mut Vec<Inline>,
-    change: &mut impl FnMut(Inline) -> Result<Vec<Inline>, E>,
-) -> Result<(), E> {
+fn rewrite_inlines(inlines: &mut Vec<Inline>, change: &mut impl FnMut(Inline) -> Vec<Inline>) {
     let mut out = Vec::with_capacity(inlines.len());
     for mut inline in std::mem::take(inlines) {
         match &mut inline {
             Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => {
-                rewrite_inlines(inner, change)?;
+                rewrite_inlines(inner, change);
             }
-            Inline::Link { shown, .. } => rewrite_inlines(shown, change)?,
+            Inline::Link { shown, .. } => rewrite_inlines(shown, change),
             _ => {}
         }
-        out.extend(change(inline)?);
+        out.extend(change(inline));
     }
     *inlines = out;
-    Ok(())
 }
 
 /// Makes a link to a file of the project, `../src/main.rs`, relative to the folder of the report,

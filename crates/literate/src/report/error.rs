@@ -1,6 +1,7 @@
 //! Names what can be wrong with a report, with the place where it can be corrected.
 
 use crate::input::one_line;
+use crate::table::nearest;
 
 /// The largest number of characters of a message.
 const MAX_LENGTH: usize = 1000;
@@ -16,6 +17,11 @@ pub enum Error {
         "value {0}: not a finite number; leave the value out or say why there is none in words"
     )]
     NotFinite(String),
+    #[error(
+        "value {}: its words have the character U+{:04X}, which no format can show; leave it out where they come from",
+        one_line(.0, 200), u32::from(*.1)
+    )]
+    Unshowable(String, char),
     #[error("{}", one_line(.0, MAX_LENGTH))]
     Template(String),
     #[error(transparent)]
@@ -24,19 +30,15 @@ pub enum Error {
     Markup(String),
     #[error("{place}: {error}")]
     At { place: String, error: Box<Error> },
-    #[error("[!claim:{}]: there is no claim with this id; correct or remove it", one_line(.0, 200))]
-    Claim(String),
-    #[error("a link to {}: there is no such file or place; correct or remove it", one_line(.0, 200))]
-    NoFile(String),
+    /// Something that the prose names, by which its place is found: `#fig:3` an id, `@fig:3` a
+    /// reference, `(path` a link or a picture.
+    #[error("{}", one_line(what, MAX_LENGTH))]
+    Named { thing: String, what: String },
     #[error(
         "there is no figure {:?}; use figures/NAME.svg of a figure of the paper; a file becomes one by Figure::picture",
         one_line(.0, 200)
     )]
     Picture(String),
-    #[error("{}: two things in the report have this id; give one of them another", one_line(.0, 200))]
-    Label(String),
-    #[error("[@{}]: nothing in the report has this id; correct or remove the reference", one_line(.0, 200))]
-    Reference(String),
     #[error(
         "the character '{}' (U+{:04X}) is not known in LaTeX; write it as TeX between $ signs, or in words",
         one_line(&.0.to_string(), 1), u32::from(*.0)
@@ -55,7 +57,7 @@ pub enum Error {
          by «literal(text=…, why=…)» or by its phrase in literals.toml"
     )]
     HardCoded(String),
-    #[error("{0} is not shown; put ![caption](figures/{0}.svg) into the prose")]
+    #[error("figure {0} is not shown; put ![caption](figures/{0}.svg) into the prose")]
     NotShown(String),
     #[error("equation ({0}) is not shown; add \\tag{{{0}}} to it in the prose")]
     NoEquation(String),
@@ -68,6 +70,27 @@ impl Error {
     pub(crate) fn twice(id: &str, first: &str, second: &str) -> Error {
         let item = |item: &str| if item.is_empty() { "a value".into() } else { item.into() };
         Error::DuplicateId { id: id.into(), first: item(first), second: item(second) }
+    }
+
+    /// Something that the prose names and that is not there, with the names that are most like it.
+    pub(crate) fn unknown<'a>(
+        thing: String,
+        what: String,
+        names: impl IntoIterator<Item = &'a str>,
+    ) -> Error {
+        let name = thing.trim_start_matches(['#', '@', '(']);
+        let nearest = nearest(name, names.into_iter()).join(", ");
+        let nearest = if nearest.is_empty() { nearest } else { format!("; nearest: {nearest}") };
+        Error::Named { thing, what: what + &nearest }
+    }
+
+    /// Returns what the prose names that is wrong, as `@fig:3`.
+    pub(crate) fn thing(&self) -> Option<&str> {
+        match self {
+            Error::Named { thing, .. } => Some(thing),
+            Error::At { error, .. } => error.thing(),
+            _ => None,
+        }
     }
 
     pub(crate) fn at(self, place: String) -> Error {
@@ -85,6 +108,14 @@ impl Error {
         }
     }
 
+    /// Returns the errors of which it is made, one by one.
+    pub(crate) fn each(self) -> Vec<Error> {
+        match self {
+            Error::Several(errors) => errors.into_iter().flat_map(Error::each).collect(),
+            error => vec![error],
+        }
+    }
+
     /// Whether the prose can be read but breaks a rule about its numbers and figures.
     pub fn is_of_rules(&self) -> bool {
         match self {
@@ -94,4 +125,12 @@ impl Error {
             _ => false,
         }
     }
+}
+
+/// The error of a reference that was not resolved before a document is written.
+pub(super) fn unresolved(ids: &[String]) -> Error {
+    Error::Template(format!(
+        "internal error: [@{}] is not resolved; please report it",
+        ids.join("; ")
+    ))
 }

@@ -86,30 +86,30 @@ impl<'a> Places<'a> {
         self.found.push((thing, offset));
     }
 
+    /// Whether something noted has this name.
+    pub fn knows(&self, thing: &str) -> bool {
+        self.found.iter().any(|(noted, _)| noted == thing)
+    }
+
     /// Adds to an error the place of what it names. Of two things with one id the second is meant.
     pub fn locate(&self, error: Error) -> Error {
-        let thing = match error {
-            Error::Several(errors) => {
-                return Error::Several(
-                    errors.into_iter().map(|error| self.locate(error)).collect(),
-                );
+        let offset = match &error {
+            Error::Several(_) => {
+                let errors = error.each().into_iter().map(|error| self.locate(error));
+                return Error::Several(errors.collect());
             }
-            Error::Label(ref id) => format!("#{id}"),
-            Error::Reference(ref id) => format!("@{id}"),
-            Error::Claim(ref id) => format!("#claim:{id}"),
-            Error::NoFile(ref path) | Error::Picture(ref path) => format!("({path}"),
-            Error::Maths { ref tex, .. } => format!("${tex}"),
-            Error::NoLatex(c) => {
-                return match self.filled.text.find(c) {
-                    Some(offset) => error.at(self.filled.place(offset)),
-                    None => error,
-                };
-            }
-            _ => return error,
+            Error::Named { thing, .. } => self.offset(thing),
+            Error::Maths { tex, .. } => self.offset(&format!("${tex}")),
+            Error::NoLatex(c) => self.filled.text.find(*c),
+            _ => None,
         };
-        match self.found.iter().rev().find(|(noted, _)| *noted == thing) {
-            Some((_, offset)) => error.at(self.filled.place(*offset)),
+        match offset {
+            Some(offset) => error.at(self.filled.place(offset)),
             None => error,
         }
+    }
+
+    fn offset(&self, thing: &str) -> Option<usize> {
+        self.found.iter().rev().find(|(noted, _)| noted == thing).map(|(_, offset)| *offset)
     }
 }

@@ -128,16 +128,29 @@ impl Filler {
         Ok(filled)
     }
 
-    /// Checks the names of numbers in conditions, since Tera takes an unknown name for *false*.
+    /// Checks the names of numbers in conditions, since Tera takes an unknown name for *false*, and
+    /// that no plain number is shown.
     fn conditions(&self, path: &str, text: &str) -> Result<(), Error> {
+        let fault = |at, what: String| {
+            let place = line_and_column(text, at);
+            Err(Error::Template(self.templates.place(&format!("{path}:{place}: {what}"))))
+        };
+        for (at, _) in text.match_indices('«') {
+            let inside = text[at..].trim_start_matches(['«', '-', ' ']);
+            if let Some(rest) = inside.strip_prefix("raw.") {
+                let end = steps(rest).last().map_or(0, |step| step.end);
+                let (name, group) =
+                    (&rest[..end], if rest[..end].contains('.') { "" } else { "v." });
+                let what = "is a plain number, for conditions";
+                let what = format!("raw.{name} {what}; write «{group}{name}» to show it");
+                return fault(text.len() - inside.len(), what);
+            }
+        }
         let uses = |group| text.match_indices(group).map(|(at, _)| at);
         for at in uses("raw.").chain(uses("keys.")) {
             let begins = !text[..at].ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
             if let Some(what) = self.missing(&text[at..]).filter(|_| begins) {
-                let place = line_and_column(text, at);
-                return Err(Error::Template(
-                    self.templates.place(&format!("{path}:{place}: {what}")),
-                ));
+                return fault(at, what);
             }
         }
         Ok(())
@@ -146,36 +159,36 @@ impl Filler {
     /// Returns which part of a name, `table["row"].column`, does not exist, with the nearest that
     /// does; none if the name is right or names no value. A computed row may be any row.
     fn missing(&self, expression: &str) -> Option<String> {
-        let (mut here, mut rest) = (&self.names, expression);
-        loop {
-            let (row, key, after) = match rest.strip_prefix('[') {
-                Some(inner) => inner.split_once(']').map(|(key, after)| (true, key, after))?,
-                None => {
-                    let name = rest.strip_prefix('.').unwrap_or(rest);
-                    let other = |c: char| !(c.is_alphanumeric() || c == '_');
-                    let (key, after) = name.split_at(name.find(other).unwrap_or(name.len()));
-                    (false, key, after)
-                }
-            };
+        let mut here = &self.names;
+        for (at, Step { key, is_row, end }) in steps(expression).into_iter().enumerate() {
             let names = here.as_object()?;
-            let quoted = key.strip_prefix('"').and_then(|key| key.strip_suffix('"'));
-            let key = if row { quoted.filter(|key| !key.contains('"')) } else { Some(key) };
             match key.map_or(names.values().next(), |key| names.get(key)) {
-                Some(next) => (here, rest) = (next, after),
+                Some(next) => here = next,
                 // A name of Tera, as a variable of a loop.
-                None if rest.len() == expression.len() => return None,
+                None if at == 0 => return None,
                 None => {
                     let key = key.filter(|key| !key.is_empty())?;
-                    let whole = &expression[..expression.len() - after.len()];
-                    let kind = if row { "row" } else { "name" };
+                    let (whole, kind) = (&expression[..end], if is_row { "row" } else { "name" });
                     let nearest = nearest(key, names.keys().map(String::as_str)).join(", ");
                     return Some(format!("{whole}: there is no such {kind}; nearest: {nearest}"));
                 }
             }
-            if !after.starts_with(['.', '[']) {
-                return None;
+        }
+        None
+    }
+
+    /// Lists the plain numbers that an expression names: `raw.a is 0.12, raw.b is 0.11`.
+    fn numbers(&self, expression: &str) -> String {
+        let mut found = Vec::new();
+        for (at, _) in expression.match_indices("raw.") {
+            let steps = steps(&expression[at..]);
+            let Some(Step { end, .. }) = steps.last() else { continue };
+            let number = steps.iter().try_fold(&self.names, |here, step| here.get(step.key?));
+            if let Some(number) = number {
+                found.push(format!("{} is {number}", &expression[at..at + end]));
             }
         }
+        found.join(", ")
     }
 
     /// An error of Tera in one line: file, line, column, what is wrong.
@@ -204,10 +217,24 @@ impl Filler {
         };
         let at = begun + pieces(&before.collect::<String>()).into_iter().map(typed).sum::<usize>();
         let place = line_and_column(text, at);
-        let tag =
-            text.get(..at).and_then(|before| before.rfind('«')).map(|tag| tag + '«'.len_utf8());
-        let name = tag.and_then(|tag| text.get(tag..)).unwrap_or_default();
-        let what = self.missing(name.trim_start_matches(['-', ' '])).unwrap_or_else(|| {
+        let tag = text.get(..at).and_then(|before| before.rfind('«')).unwrap_or(at);
+        let inside = text[tag..].trim_start_matches(['«', '-', ' ']);
+        let (inside, closed) = match inside.find(['«', '»', '\n']) {
+            Some(end) => (&inside[..end], inside[end..].starts_with('»')),
+            None => (inside, false),
+        };
+        if text[tag..].starts_with('«') && !closed {
+            let place = line_and_column(text, tag);
+            let what = "this « has no » on its line; close it";
+            return Error::Template(self.templates.place(&format!("{path}:{place}: {what}")));
+        }
+        let what = self.missing(inside).unwrap_or_else(|| {
+            if report.message().contains(NOT_TRUE) {
+                return format!(
+                    "{NOT_TRUE}: {inside}, where {}; correct the sentence",
+                    self.numbers(inside)
+                );
+            }
             let what =
                 plain(report.message().split(" Available fields: ").next().unwrap_or_default());
             // Tera names its usual signs.
@@ -217,6 +244,40 @@ impl Filler {
         Error::Template(self.templates.place(&format!("{path}:{place}: {what}")))
     }
 }
+
+/// A part of a name: `table`, `["row"]`, `.column`.
+struct Step<'a> {
+    /// None of a row that is computed.
+    key: Option<&'a str>,
+    is_row: bool,
+    /// Where it ends in the expression.
+    end: usize,
+}
+
+/// Reads the parts of the name with which an expression begins.
+fn steps(expression: &str) -> Vec<Step<'_>> {
+    let (mut steps, mut rest) = (Vec::new(), expression);
+    loop {
+        let (key, is_row, after) = if let Some(inner) = rest.strip_prefix('[') {
+            let Some((key, after)) = inner.split_once(']') else { return steps };
+            let quoted = key.strip_prefix('"').and_then(|key| key.strip_suffix('"'));
+            (quoted.filter(|key| !key.contains('"')), true, after)
+        } else {
+            let name = rest.strip_prefix('.').unwrap_or(rest);
+            let other = |c: char| !(c.is_alphanumeric() || c == '_');
+            let (key, after) = name.split_at(name.find(other).unwrap_or(name.len()));
+            (Some(key), false, after)
+        };
+        steps.push(Step { key, is_row, end: expression.len() - after.len() });
+        if !after.starts_with(['.', '[']) {
+            return steps;
+        }
+        rest = after;
+    }
+}
+
+/// What `holds` says when the words that it stands behind are no longer true.
+const NOT_TRUE: &str = "the words before are no longer true";
 
 /// A file that Tera fills; prose with its place marks.
 fn source((path, text): (&str, &str)) -> Option<(String, String)> {
@@ -247,8 +308,8 @@ fn put(tree: &mut Json, name: &str, thing: Json) {
 }
 
 /// Registers the filters on values, of which `otherwise` has words in place of no number;
-/// `literal` for a number that the prose may type with a reason; and `code` for an item of the
-/// source, which [`super::parse`] makes a listing.
+/// `literal` for a number that the prose may type with a reason; `holds` for a condition on which
+/// words rest; and `code` for an item of the source, which [`super::parse`] makes a listing.
 fn register(tera: &mut Tera, empty: &Arc<OnceLock<BTreeSet<String>>>) {
     let with = |text: &str, word: &str| {
         let what =
@@ -278,6 +339,12 @@ fn register(tera: &mut Tera, empty: &Arc<OnceLock<BTreeSet<String>>>) {
                 "`literal` needs a number in `text` and its reason in `why`",
             )),
             false => Ok(text),
+        }
+    });
+    tera.register_function("holds", |arguments: Kwargs, _: &State| {
+        match arguments.must_get::<bool>("that")? {
+            true => Ok(String::new()),
+            false => Err(tera::Error::message(NOT_TRUE)),
         }
     });
     tera.register_function("code", |arguments: Kwargs, _: &State| {

@@ -8,7 +8,7 @@ mod table;
 
 use super::document::{self, Block, Formula, Inline, place_on_page, printed, spelt};
 use super::edition::Document;
-use super::error::Error;
+use super::error::{Error, unresolved};
 use super::input::Input;
 use super::{latex, mathml};
 use crate::claims::Verdict;
@@ -302,7 +302,7 @@ impl Page<'_> {
             Inline::Anchor { id, number } => {
                 format!("<span id=\"{}\">{number}</span>", place_on_page(Some(id), &[]))
             }
-            Inline::Unresolved(ids) => return Err(Error::Reference(ids.join("; "))),
+            Inline::Unresolved { ids, .. } => return Err(unresolved(ids)),
         })
     }
 
@@ -322,7 +322,8 @@ impl Page<'_> {
     /// within text.)
     fn value(&self, id: &str, shown: &str) -> String {
         self.values.borrow_mut().insert(id.to_string());
-        let id = text(id);
+        // A line that ends in an attribute would be read as a blank.
+        let id = text(id).replace('\n', "&#10;");
         format!(
             "<span role=\"button\" tabindex=\"0\" class=\"value\" data-card=\"{id}\">{shown}</span>"
         )

@@ -37,6 +37,12 @@ impl<'a> Input<'a> {
     /// Returns the figure of this name.
     pub(super) fn figure(&self, name: &str) -> Result<&'a Figure, Error> {
         let found = self.figures.iter().find(|figure| figure.id == name);
-        found.ok_or_else(|| Error::Picture(name.into()))
+        found.ok_or_else(|| {
+            let what = format!(
+                "the paper draws no figure {name:?}; use figures/NAME.svg of one that it draws"
+            );
+            let names = self.figures.iter().map(|figure| figure.id.as_str());
+            Error::unknown(format!("({name}"), what, names)
+        })
     }
 }

@@ -1,11 +1,11 @@
 //! Numbers sections, figures, tables, equations and statements, and resolves references to them.
 
 use super::bibliography::Library;
-use super::document::{Block, Inline, rewrite, visit};
+use super::document::{Block, Inline, Reference, rewrite, visit};
 use super::edition::Document;
 use super::error::Error;
 use crate::claims::Check;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What can be referred to by an id.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,12 +27,11 @@ pub struct Labels {
 }
 
 impl Labels {
-    fn add(&mut self, id: &str, shown: &str, document: Document, to: &str) -> Result<(), Error> {
+    fn add(&mut self, id: &str, shown: &str, document: Document, to: &str) -> Option<Error> {
         let label = Label { shown: shown.into(), document, to: to.into() };
-        match self.labels.insert(id.to_string(), label) {
-            None => Ok(()),
-            Some(_) => Err(Error::Label(id.to_string())),
-        }
+        self.labels.insert(id.to_string(), label)?;
+        let what = format!("{id}: two things in the report have this id; give one of them another");
+        Some(Error::Named { thing: format!("#{id}"), what })
     }
 
     /// Returns the label with this id.
@@ -63,6 +62,7 @@ impl Labels {
             }
         };
         let (mut section, mut subsection) = (format!("{}0", document.letter), 0);
+        let mut errors = Vec::new();
         for block in blocks.iter_mut() {
             let (id, number) = match block {
                 Block::Heading { level, number, id, .. } => {
@@ -93,7 +93,7 @@ impl Labels {
                 _ => continue,
             };
             if let Some(id) = id {
-                self.add(&id, &number, document, &id)?;
+                errors.extend(self.add(&id, &number, document, &id));
             }
         }
         rewrite(blocks, &mut |mut inline| {
@@ -101,26 +101,31 @@ impl Labels {
                 Inline::Anchor { id, number } => {
                     self.statements += 1;
                     *number = self.statements.to_string();
-                    self.add(id, number, document, id)?;
+                    errors.extend(self.add(id, number, document, id));
                 }
                 Inline::Display { id: Some(id), number, .. } => {
                     if number.is_empty() {
                         *number = next("eq");
                     }
-                    self.add(id, &format!("({number})"), document, id)?;
+                    errors.extend(self.add(id, &format!("({number})"), document, id));
                 }
                 _ => {}
             }
-            Ok(vec![inline])
-        })
+            vec![inline]
+        });
+        Error::all(errors)
     }
 
     /// Adds labels for the verdict of each statement that has a place: `row:id` and `mark:id` show
     /// its sign and number, `sign:id` its sign alone.
     pub fn add_verdicts(&mut self, claims: &[Check]) -> Result<(), Error> {
-        let mut placed = self.labels.keys().filter_map(|id| id.strip_prefix("claim:"));
-        if let Some(id) = placed.find(|id| !claims.iter().any(|claim| claim.id == *id)) {
-            return Err(Error::Claim(id.to_string()));
+        let mut errors = Vec::new();
+        for id in self.labels.keys().filter_map(|id| id.strip_prefix("claim:")) {
+            if !claims.iter().any(|claim| claim.id == id) {
+                let what = format!("[!claim:{id}]: there is no statement with this id");
+                let ids = claims.iter().map(|claim| claim.id.as_str());
+                errors.push(Error::unknown(format!("#claim:{id}"), what, ids));
+            }
         }
         for Check { id, verdict, .. } in claims {
             let to = format!("claim:{id}");
@@ -129,11 +134,12 @@ impl Labels {
             };
             let sign = verdict.sign();
             for kind in ["row", "mark"] {
-                self.add(&format!("{kind}:{id}"), &format!("{sign}\u{a0}{shown}"), document, &to)?;
+                let words = format!("{sign}\u{a0}{shown}");
+                errors.extend(self.add(&format!("{kind}:{id}"), &words, document, &to));
             }
-            self.add(&format!("sign:{id}"), &sign.to_string(), document, &to)?;
+            errors.extend(self.add(&format!("sign:{id}"), &sign.to_string(), document, &to));
         }
-        Ok(())
+        Error::all(errors)
     }
 
     /// Resolves all references of a document, and fills its list of references with what it cites.
@@ -143,68 +149,64 @@ impl Labels {
         here: Document,
         library: &Library,
     ) -> Result<(), Error> {
+        let mut errors = Vec::new();
         for block in blocks.iter_mut() {
             // A repeated figure has the number that another document gives it.
             if let Block::Figure { id, number, .. } = block {
-                let label = self.get(id).ok_or_else(|| Error::Reference(id.clone()))?;
-                *number = label.shown.clone();
+                match self.get(id) {
+                    Some(label) => *number = label.shown.clone(),
+                    None => errors.push(self.unknown(id, id)),
+                }
             }
         }
-        let mut cited = Vec::new();
-        rewrite(blocks, &mut |inline| match inline {
-            Inline::Unresolved(ids) => self.refer(&ids, here, library, &mut cited),
-            other => Ok(vec![other]),
-        })?;
-        cited.sort();
-        cited.dedup();
-        let lists = blocks.iter_mut().filter_map(|block| match block {
-            Block::Bibliography(entries) => Some(entries),
-            _ => None,
+        let mut cited = BTreeSet::new();
+        visit(blocks, &mut |inline| {
+            if let Inline::Unresolved { ids, .. } = inline {
+                cited.extend(ids.iter().filter(|id| is_key(id)).cloned());
+            }
         });
-        let lists: Vec<_> = lists.collect();
-        if let (Some(key), true) = (cited.first(), lists.is_empty()) {
-            let what = format!(
-                "cites {key} but has no list of references; add a paragraph [@bibliography]"
-            );
-            return Err(Error::Template(format!("{}: {what}", here.prose)));
+        let list = library.list(&cited);
+        rewrite(blocks, &mut |inline| {
+            let Inline::Unresolved { ids, in_sentence } = inline else { return vec![inline] };
+            let keys = ids.iter().filter(|id| is_key(id)).count();
+            let found = match keys {
+                0 => self.refer(&ids, here),
+                _ if keys == ids.len() => cite(&ids, in_sentence, &list, library),
+                _ => Err(mixed(&ids)),
+            };
+            found.unwrap_or_else(|error| {
+                errors.push(error);
+                Vec::new()
+            })
+        });
+        let mut has_list = false;
+        for block in blocks {
+            if let Block::Bibliography(entries) = block {
+                (*entries, has_list) = (list.clone(), true);
+            }
         }
-        for entries in lists {
-            *entries = library.entries(&cited)?;
+        if let (Some(first), false) = (list.first(), has_list) {
+            let what = "the document cites this and has no list of references; add a paragraph [@bibliography]";
+            let (thing, what) = (format!("@{}", first.key), format!("[@{}]: {what}", first.key));
+            errors.push(Error::Named { thing, what });
         }
-        Ok(())
+        Error::all(errors)
     }
 
-    /// Writes citations, `[@rice1945; @toda1989]`, or references of one kind, `[@fig:3; @fig:8a]`.
-    fn refer(
-        &self,
-        ids: &[String],
-        here: Document,
-        library: &Library,
-        cited: &mut Vec<String>,
-    ) -> Result<Vec<Inline>, Error> {
+    /// References of one kind, `[@fig:3; @fig:8a]`.
+    fn refer(&self, ids: &[String], here: Document) -> Result<Vec<Inline>, Error> {
         let words = |text: &str| Inline::Text(text.to_string());
-        let mut out = Vec::new();
-        if ids.iter().all(|id| !id.contains(':')) {
-            for key in ids {
-                out.push(words(if out.is_empty() { "[" } else { "; " }));
-                let (to, shown) = (format!("ref:{key}"), library.label(key)?);
-                out.push(Inline::Reference { to, within: None, shown });
-                cited.push(key.clone());
-            }
-            out.push(words("]"));
-            return Ok(out);
-        }
-        let kind = |id: &String| id.split(':').next().unwrap_or_default().to_string();
         let (asked, several) = (kind(&ids[0]), ids.len() > 1);
         let lower = asked.to_lowercase();
         let name = Name::of(&lower).filter(|_| ids.iter().all(|id| kind(id) == asked));
-        let name = name.ok_or_else(|| Error::Reference(ids.join("; ")))?;
+        let name = name.ok_or_else(|| mixed(ids))?;
         let name = match (asked == lower, several) {
             (true, false) => name.short,
             (true, true) => name.plural,
             (false, false) => name.long,
             (false, true) => name.long_plural,
         };
+        let mut out = Vec::new();
         let is_verdict = name.is_empty();
         if several && !is_verdict {
             out.push(words(&format!("{name}\u{a0}")));
@@ -212,8 +214,7 @@ impl Labels {
         for (i, id) in ids.iter().enumerate() {
             let lower_id = format!("{lower}{}", &id[asked.len()..]);
             let label = self.get(&lower_id).filter(|label| !label.shown.is_empty());
-            let Label { shown, document, to } =
-                label.ok_or_else(|| Error::Reference(id.clone()))?;
+            let Label { shown, document, to } = label.ok_or_else(|| self.unknown(id, &lower_id))?;
             if i > 0 {
                 let last = i + 1 == ids.len() && !is_verdict;
                 out.push(words(if last { " and " } else { ", " }));
@@ -227,6 +228,63 @@ impl Labels {
         }
         Ok(if lower == "row" { vec![Inline::Raised(out)] } else { out })
     }
+
+    /// The error of a reference to what has no number: a thing without an id, or none.
+    fn unknown(&self, asked: &str, id: &str) -> Error {
+        let what = match self.get(id) {
+            Some(_) => "this section has no number to refer to; link to it by [words](#sec-id)",
+            None => "nothing in the report has this id; correct or remove the reference",
+        };
+        let numbered = self.labels.iter().filter(|(_, label)| !label.shown.is_empty());
+        let alike = numbered.map(|(known, _)| known.as_str());
+        let alike = alike.filter(|known| kind(known) == kind(id));
+        Error::unknown(format!("@{asked}"), format!("[@{asked}]: {what}"), alike)
+    }
+}
+
+/// The kind of an id, `fig` of `fig:3`; all of it if it has none.
+fn kind(id: &str) -> &str {
+    id.split(':').next().unwrap_or_default()
+}
+
+/// Whether an id is a key of references.bib, which may have a colon too, and no kind of id.
+fn is_key(id: &str) -> bool {
+    !id.contains(':') || Name::of(&kind(id).to_lowercase()).is_none()
+}
+
+fn mixed(ids: &[String]) -> Error {
+    let ids = ids.join("; ");
+    let what = format!("[@{ids}]: references of different kinds; give each kind its own brackets");
+    Error::Named { thing: format!("@{ids}"), what }
+}
+
+/// Citations, `[@rice1945; @toda1989]` as "[Rice, 1945; Toda, 1989]", and `@rice1945` in a sentence
+/// as "Rice (1945)".
+fn cite(
+    keys: &[String],
+    in_sentence: bool,
+    list: &[Reference],
+    library: &Library,
+) -> Result<Vec<Inline>, Error> {
+    let mut out = Vec::new();
+    for key in keys {
+        let Some(Reference { names, year, .. }) = list.iter().find(|entry| entry.key == *key)
+        else {
+            let what = format!(
+                "[@{key}]: nothing in the report and no entry of references.bib has this id"
+            );
+            return Err(Error::unknown(format!("@{key}"), what, library.keys()));
+        };
+        let (to, within) = (format!("ref:{key}"), None);
+        if in_sentence {
+            let shown = format!("{names} ({year})");
+            return Ok(vec![Inline::Reference { to, within, shown }]);
+        }
+        out.push(Inline::Text(if out.is_empty() { "[" } else { "; " }.into()));
+        out.push(Inline::Reference { to, within, shown: format!("{names}, {year}") });
+    }
+    out.push(Inline::Text("]".into()));
+    Ok(out)
 }
 
 /// Refuses an id that does not begin with the kind of what it names: a table with the id of a

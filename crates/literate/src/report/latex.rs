@@ -3,7 +3,7 @@
 use super::document::{Block, Formula, Inline, title};
 use super::document::{continues, is_abstract, is_equation, plain, printed, spelt};
 use super::edition::Document;
-use super::error::Error;
+use super::error::{Error, unresolved};
 use super::tex;
 use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};
@@ -152,7 +152,19 @@ const HANGING: &str = "\\begin{list}{}{\\leftmargin=1.5em\\itemindent=-1.5em\\it
 
 /// A place that `\hyperref[…]` finds.
 fn label(id: &str) -> String {
-    format!("\\phantomsection\\label{{{id}}}")
+    format!("\\phantomsection\\label{{{}}}", place(id))
+}
+
+/// An id without signs that TeX would read, which a key of references.bib may have.
+fn place(id: &str) -> String {
+    let mut place = String::new();
+    for c in id.chars() {
+        match c {
+            c if c.is_ascii_alphanumeric() || ":-_.".contains(c) => place.push(c),
+            c => place += &format!("-{:x}", u32::from(c)),
+        }
+    }
+    place
 }
 
 /// Running text.
@@ -207,12 +219,12 @@ fn inline(inline: &Inline) -> Result<String, Error> {
         // A PDF is read without the files of the report, so only the words are shown.
         Inline::Link { shown, .. } => inlines(shown)?,
         Inline::Reference { to, within: None, shown } => {
-            format!("\\hyperref[{to}]{{{}}}", tex::text(shown)?)
+            format!("\\hyperref[{}]{{{}}}", place(to), tex::text(shown)?)
         }
         // A PDF is read without the other documents.
         Inline::Reference { shown, .. } => tex::text(shown)?,
         Inline::Anchor { id, number } => format!("{}{number}", label(id)),
-        Inline::Unresolved(ids) => return Err(Error::Reference(ids.join("; "))),
+        Inline::Unresolved { ids, .. } => return Err(unresolved(ids)),
     })
 }
 

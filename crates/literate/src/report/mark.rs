@@ -12,13 +12,24 @@ pub(super) const OPEN: char = '\u{e000}';
 const NEXT: char = '\u{e001}';
 pub(super) const CLOSE: char = '\u{e002}';
 
+/// An id has words from data in it, whose signs Markdown would read: all of ASCII but letters and
+/// digits is moved to private-use characters from here on.
+const MOVED: u32 = 0xe100;
+
 /// Whether a character is one of those that make a mark.
 pub(super) fn is_sign(c: char) -> bool {
-    (OPEN..='\u{e004}').contains(&c)
+    (OPEN..=CLOSE).contains(&c) || moved_back(c) != c
 }
 
-/// Brackets of an address, into which Markdown would read a link.
-const BRACKETS: [(&str, &str); 2] = [("[", "\u{e003}"), ("]", "\u{e004}")];
+fn moved(c: char) -> char {
+    let moved = char::from_u32(MOVED + u32::from(c));
+    moved.filter(|_| c.is_ascii() && !c.is_ascii_alphanumeric()).unwrap_or(c)
+}
+
+fn moved_back(c: char) -> char {
+    let ascii = u32::from(c).checked_sub(MOVED).and_then(|code| u8::try_from(code).ok());
+    ascii.filter(u8::is_ascii).map_or(c, char::from)
+}
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Piece<'a> {
@@ -32,7 +43,7 @@ pub enum Piece<'a> {
 
 /// A mark with an id and what is shown.
 pub fn framed(id: &str, shown: &str) -> String {
-    let id = BRACKETS.iter().fold(id.to_string(), |id, (bracket, kept)| id.replace(bracket, kept));
+    let id: String = id.chars().map(moved).collect();
     format!("{OPEN}{id}{NEXT}{shown}{CLOSE}")
 }
 
@@ -42,8 +53,7 @@ pub fn pieces(text: &str) -> Vec<Piece<'_>> {
     while let Some((before, mark)) = rest.split_once(OPEN) {
         let Some((mark, after)) = mark.split_once(CLOSE) else { break };
         let Some((id, shown)) = mark.split_once(NEXT) else { break };
-        let id =
-            BRACKETS.iter().fold(id.to_string(), |id, (bracket, kept)| id.replace(kept, bracket));
+        let id = id.chars().map(moved_back).collect();
         out.extend((!before.is_empty()).then_some(Piece::Text(before)));
         out.push(Piece::Value { id, shown });
         rest = after;

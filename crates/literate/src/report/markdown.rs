@@ -110,7 +110,7 @@ fn fence(code: &str, least: usize) -> String {
 
 /// Returns an HTML anchor, `fig-3` for `fig:3`.
 fn anchor(id: &str) -> String {
-    format!("<a id=\"{}\"></a>", id.replace(':', "-"))
+    format!("<a id=\"{}\"></a>", document::place_on_page(Some(id), &[]))
 }
 
 /// Alternative text: one line, without characters that Markdown would read.
@@ -119,15 +119,14 @@ fn alternative(text: &str) -> String {
     line.replace('\\', r"\\").replace('[', r"\[").replace(']', r"\]").replace('_', r"\_")
 }
 
-/// Words as Markdown that shows just these words; mathematics between dollars stays.
+/// Returns a text of an author as Markdown that shows just its words and formulas.
 pub fn escaped(text: &str) -> String {
     let mut out = String::new();
-    for (i, piece) in text.split('$').enumerate() {
-        if i % 2 == 1 {
+    for piece in document::words_and_maths(text) {
+        match piece {
             // A bar would end a cell.
-            out.push_str(&format!("${}$", piece.replace('|', r"\vert{}")));
-        } else {
-            Writer { in_table: true }.text(piece, &mut out);
+            Inline::Maths(tex) => out += &format!("${}$", tex.digits().replace('|', r"\vert{}")),
+            words => Writer { in_table: true }.text(&document::plain(&[words]), &mut out),
         }
     }
     out
@@ -205,10 +204,13 @@ impl Writer {
             Inline::Link { to, shown } => out.push_str(&format!("[{}]({to})", self.all(shown))),
             Inline::Reference { to, within, shown } => {
                 let file = within.map_or("", |document| document.markdown);
-                out.push_str(&format!("[{shown}]({file}#{})", to.replace(':', "-")));
+                let place = document::place_on_page(Some(to), &[]);
+                out.push('[');
+                self.text(shown, out);
+                out.push_str(&format!("]({file}#{place})"));
             }
             Inline::Anchor { id, number } => out.push_str(&format!("{}{number}", anchor(id))),
-            Inline::Unresolved(ids) => out.push_str(&ids.join("; ")),
+            Inline::Unresolved { ids, .. } => out.push_str(&ids.join("; ")),
         }
     }
 

@@ -7,6 +7,7 @@
 //! list of macros that are known there, to LaTeX with amsmath, and to math-core.
 
 use super::error::Error;
+use crate::table::nearest;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -164,9 +165,8 @@ pub fn refused(tex: &str) -> Option<String> {
         } else if name == "operatorname" {
             return Some(r"\operatorname is not rendered by GitHub; write \mathrm{…}".into());
         } else if !ALLOWED.split_whitespace().any(|macro_name| macro_name == name) {
-            return Some(format!(
-                r"\{name} is not supported by every format (the manual lists the macros that are)"
-            ));
+            let nearest = nearest(name, ALLOWED.split_whitespace()).join(r", \");
+            return Some(format!(r"\{name} is not supported by every format; nearest: \{nearest}"));
         } else if name == "begin"
             && !ENVIRONMENTS.iter().any(|known| rest.starts_with(&format!("{{{known}}}")))
         {

@@ -20,9 +20,7 @@ pub struct Registry {
 
 impl Registry {
     pub fn add(&mut self, value: Value) -> Result<(), Error> {
-        if !value.is_finite() {
-            return Err(Error::NotFinite(value.id));
-        }
+        showable(&value)?;
         if let Some(before) = self.values.get(&value.id) {
             return Err(Error::twice(&value.id, &before.source, &value.source));
         }
@@ -35,6 +33,7 @@ impl Registry {
         if let Some(value) = self.values.get(table.name()) {
             return Err(Error::twice(&value.id, &value.source, &table.place()));
         }
+        table.cells().try_for_each(showable)?;
         match self.tables.insert(table.name().to_string(), table) {
             Some(before) => Err(Error::twice(before.name(), &before.place(), "another table")),
             None => Ok(()),
@@ -91,6 +90,22 @@ impl Registry {
     /// All values, sorted by id.
     pub fn iter(&self) -> impl Iterator<Item = &Value> {
         self.values.values()
+    }
+}
+
+/// Refuses a number that is not finite, and words with a character that no format can show.
+fn showable(value: &Value) -> Result<(), Error> {
+    let words = if let Number::Text(words) = &value.number { words } else { "" };
+    // Characters for private use frame values in filled prose.
+    let hidden = |c: &char| match c {
+        '\n' | '\r' | '\t' => false,
+        '\u{e000}'..='\u{f8ff}' | '\u{fffe}' | '\u{ffff}' => true,
+        c => c.is_control(),
+    };
+    match value.id.chars().chain(words.chars()).find(hidden) {
+        Some(c) => Err(Error::Unshowable(value.id.clone(), c)),
+        None if !value.is_finite() => Err(Error::NotFinite(value.id.clone())),
+        None => Ok(()),
     }
 }
 

@@ -1,12 +1,13 @@
 //! Reads running text: words, formulas, code, references and values.
 
-use super::super::document::{Formula, Inline, Part};
+use super::super::document::{Formula, Inline, Part, in_one_line};
 use super::super::error::Error;
 use super::super::lint;
 use super::super::mark::{self, Piece, pieces};
 use super::super::tex;
 use super::{ALONE, ELSE, Reader, is_block, markup};
 use crate::experiments::Profile;
+use crate::input::one_line;
 use crate::print::{Shown, print};
 use crate::value::Number;
 use pulldown_cmark::{Event, LinkType, Tag};
@@ -80,7 +81,8 @@ impl Reader<'_> {
         let begin = range.end - tex.len();
         let tex = tex.trim_end_matches('$').split(r"\tag").next().unwrap_or_default();
         let typed = |(i, c)| if self.filled.is_typed(begin + i) { c } else { 'x' };
-        let found = lint::formula(&tex.char_indices().map(typed).collect::<String>());
+        let tex: String = tex.char_indices().map(typed).collect();
+        let found = lint::formula(&lint::without_literals(&tex));
         self.hard_coded(found.map(|numeral| (range.start, numeral)));
     }
 
@@ -102,6 +104,12 @@ impl Reader<'_> {
             while !matches!(self.next(), None | Some((Event::End(_), _))) {}
             return self.reference(dest_url, range.start);
         }
+        // An address between < and > is its own words.
+        if let Tag::Link { link_type: LinkType::Autolink, dest_url, .. } = &tag {
+            while !matches!(self.next(), None | Some((Event::End(_), _))) {}
+            let to = self.plain(dest_url)?;
+            return Ok(Inline::Link { to: to.clone(), shown: vec![Inline::Text(to)] });
+        }
         let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
         self.hides += usize::from(hides);
         let shown = self.line()?;
@@ -121,19 +129,27 @@ impl Reader<'_> {
         })
     }
 
-    /// `@fig:2; @fig:3` or `!claim:rise`.
+    /// Reads what stands between brackets: `@fig:2; @fig:3` or `!claim:rise`.
     fn reference(&mut self, reference: &str, at: usize) -> Result<Inline, Error> {
         if let Some(id) = reference.strip_prefix('!') {
             self.id("claim", id, at)?;
             return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
         }
-        let one = |id: &str| id.trim().strip_prefix('@').map(str::to_string);
-        let ids: Option<Vec<String>> = reference.split(';').map(one).collect();
-        let ids = ids.ok_or_else(|| Error::Reference(reference.trim_start_matches('@').into()))?;
+        let mut ids = Vec::new();
+        for one in reference.split(';') {
+            let id = one.trim().strip_prefix('@').filter(|id| !id.contains([',', ' ', '\n', '@']));
+            let Some(id) = id.filter(|id| !id.is_empty()) else {
+                self.at = at;
+                let what = "ids alone stand in these brackets, with `;` between them, as in \
+                            [@fig:2; @fig:3]; write a page or section into the sentence";
+                return Err(markup(format!("[{}]: {what}", one.trim())));
+            };
+            ids.push(id.to_string());
+        }
         for id in ids.iter().cloned().chain([ids.join("; ")]) {
             self.places.add(format!("@{id}"), at);
         }
-        Ok(Inline::Unresolved(ids))
+        Ok(Inline::Unresolved { ids, in_sentence: false })
     }
 
     /// Text with marks → words and values.
@@ -154,13 +170,25 @@ impl Reader<'_> {
             self.text(first, begin..begin + before, out)?;
             return self.text(last, begin + after..range.end, out);
         }
+        if *text == source[range.clone()]
+            && let Some((at, id)) = mentioned(source, range.clone())
+        {
+            let (begin, end) = (at - range.start, at - range.start + 1 + id.len());
+            self.text(&text[..begin], range.start..at, out)?;
+            self.places.add(format!("@{id}"), at);
+            out.push(Inline::Unresolved { ids: vec![id.into()], in_sentence: true });
+            return self.text(&text[end..], range.start + end..range.end, out);
+        }
         if let Some((at, what)) = leftover(source, range.start, text)
             && at >= self.quiet
         {
             (self.at, self.quiet) = (at, at + source[at..].find("\n\n").unwrap_or(source.len()));
-            return Err(markup(what));
+            return Err(markup(if self.filled.is_typed(at) { what } else { GROUP }));
         }
         self.hard_coded(lint::words(source, range.clone(), self.declared));
+        // A backslash before a backslash is meant.
+        let escaped = usize::from(source[..range.start].ends_with('\\') && text.starts_with('\\'));
+        let text = &(text[..escaped].to_string() + &lint::literal(&text[escaped..]));
         for piece in pieces(text) {
             match piece {
                 Piece::Text(words) if words.contains(mark::is_sign) => {
@@ -184,11 +212,15 @@ impl Reader<'_> {
         let mut formula = Formula::default();
         for piece in pieces(tex) {
             formula.0.push(match piece {
-                Piece::Value { id, shown } => {
-                    let shown = self.printed(&id, shown)?;
-                    Part::Value { id, shown }
-                }
-                Piece::Text(text) => Part::Tex(text.to_string()),
+                Piece::Value { id, shown } => match self.printed(&id, shown)? {
+                    Shown::Words(words) => {
+                        let words = one_line(&words, 40);
+                        let what = "are words, which a formula cannot show; move them out of it";
+                        return Err(markup(format!("«{id}»: {words:?} {what}")));
+                    }
+                    shown => Part::Value { id, shown },
+                },
+                Piece::Text(text) => Part::Tex(lint::literal(text)),
             });
         }
         let tex = formula.digits();
@@ -232,7 +264,7 @@ impl Reader<'_> {
     /// Text in which values are digits alone: code, targets of links.
     pub(super) fn plain(&self, text: &str) -> Result<String, Error> {
         let one = |piece| match piece {
-            Piece::Value { id, shown } => Ok(self.printed(&id, shown)?.plain()),
+            Piece::Value { id, shown } => Ok(in_one_line(&self.printed(&id, shown)?.plain())),
             Piece::Text(text) => Ok(text.to_string()),
         };
         pieces(text).into_iter().map(one).collect()
@@ -250,11 +282,30 @@ impl Reader<'_> {
     }
 }
 
-const LEFTOVER: &str = "unclosed markup, or a row where a cell is meant (table[\"row\"].column); \
-     complete it, or write a backslash before a sign that is meant literally";
+const LEFTOVER: &str = "unclosed markup; complete it, or write a backslash before a sign that is \
+     meant literally";
+
+const GROUP: &str = "a group or a row is named where a value is meant; name the value whole, as \
+     table[\"row\"].column";
 
 const CUT: &str = "an unclosed formula: Markdown ends it at an empty line, and at a line that begins \
      with +, -, *, #, >, = or 1.; move the sign to the end of the line before";
+
+/// What is wrong where a sign of markup is left over in the text, by how the rest begins.
+const LEFT: [(&str, &str); 6] = [
+    ("|", "a table needs a line of dashes below its head with as many columns"),
+    ("[^", "footnotes are not supported by every format; write the note into the sentence"),
+    (
+        "{#",
+        "an id stands right behind a heading, a caption, a picture or an equation only; move or remove it",
+    ),
+    (
+        "{",
+        "braces hold an id, as {#sec:id}, and nothing else, such as a width; remove them, or write \\{",
+    ),
+    ("$", "a dollar sign alone; close the formula before the end of the paragraph, or write \\$"),
+    ("@", "a citation is @key, after a space or a bracket; write \\@ for the sign"),
+];
 
 /// Finds the first sign of markup that Markdown took for text because it is not closed, and says
 /// what is wrong. The text stands at `start`; after a backslash a sign is meant literally.
@@ -274,17 +325,34 @@ fn leftover(source: &str, start: usize, text: &str) -> Option<(usize, &'static s
             _ => false,
         }
     };
-    let (i, sign) = text.char_indices().skip(usize::from(escaped)).find(left)?;
-    let what = match sign {
-        '|' => "a table needs a line of dashes below its head with as many columns",
-        '$' if source[start + i..].starts_with("$$") => {
-            let lines = source[start + i..].match_indices('\n').map(|(at, _)| start + i + at + 1);
-            let ends = |c: char| "+-*#>=".contains(c) || c.is_ascii_digit();
-            let mut lines = lines.take_while(|at| !source[*at..].starts_with(['\n', '$']));
-            let cut = lines.find(|at| source[*at..].starts_with(ends));
-            return Some((cut.unwrap_or(start + i), CUT));
+    let (i, _) = text.char_indices().skip(usize::from(escaped)).find(left)?;
+    let rest = &source[start + i..];
+    if rest.starts_with("$$") {
+        let lines = rest.match_indices('\n').map(|(at, _)| start + i + at + 1);
+        let ends = |c: char| "+-*#>=".contains(c) || c.is_ascii_digit();
+        let mut lines = lines.take_while(|at| !source[*at..].starts_with(['\n', '$']));
+        let cut = lines.find(|at| source[*at..].starts_with(ends));
+        return Some((cut.unwrap_or(start + i), CUT));
+    }
+    let what = LEFT.iter().find(|(sign, _)| rest.starts_with(sign));
+    Some((start + i, what.map_or(LEFTOVER, |(_, what)| what)))
+}
+
+/// Finds the first citation or reference without brackets, `@rice1945`, in a part of the text:
+/// where its `@` stands, and the id behind it.
+fn mentioned(source: &str, part: Range<usize>) -> Option<(usize, &str)> {
+    for (at, _) in source[part.clone()].match_indices('@') {
+        let at = part.start + at;
+        let free = source[..at].chars().next_back();
+        let rest = &source[at + 1..part.end];
+        let ends = |c: char| c.is_whitespace() || ",;{}[]|".contains(c) || mark::is_sign(c);
+        let id = rest.split(ends).next().unwrap_or_default();
+        let id = id.trim_end_matches(|c: char| ".:?!()'\"’”".contains(c));
+        if free.is_none_or(|c| c.is_whitespace() || "(“‘–—".contains(c))
+            && id.starts_with(char::is_alphanumeric)
+        {
+            return Some((at, id));
         }
-        _ => LEFTOVER,
-    };
-    Some((start + i, what))
+    }
+    None
 }

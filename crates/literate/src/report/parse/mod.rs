@@ -18,14 +18,30 @@ use pulldown_cmark::{
 };
 use std::ops::Range;
 
-/// Parses filled Markdown, in which `values` replace marks and `declared` phrases may have numbers;
-/// returns the tree, and the places of all ids and references. All errors are reported at once.
+/// What was read of a document.
+#[derive(Debug)]
+pub struct Parsed<'a> {
+    /// The tree, without the blocks that have an error.
+    pub blocks: Vec<Block>,
+    /// Where all ids and references stand.
+    pub places: Places<'a>,
+    pub errors: Vec<Error>,
+}
+
+impl<'a> Parsed<'a> {
+    /// Returns the tree if all of the document could be read.
+    pub fn whole(self) -> Result<(Vec<Block>, Places<'a>), Error> {
+        Error::all(self.errors).map(|()| (self.blocks, self.places))
+    }
+}
+
+/// Parses filled Markdown, in which `values` replace marks and `declared` phrases may have numbers.
 pub fn parse<'a>(
     filled: &'a Filled,
     values: &'a Registry,
     declared: &'a Declared,
     sources: &'a Sources,
-) -> Result<(Vec<Block>, Places<'a>), Error> {
+) -> Parsed<'a> {
     let options =
         Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_HEADING_ATTRIBUTES;
     let callback = |link: BrokenLink<'_>| {
@@ -42,7 +58,9 @@ pub fn parse<'a>(
         depth > 40
     });
     if let Some((_, range)) = deep {
-        return Err(markup("lists or emphasis are nested too deeply").at(filled.place(range.start)));
+        let error = markup("lists or emphasis are nested too deeply");
+        let errors = vec![error.at(filled.place(range.start))];
+        return Parsed { blocks: Vec::new(), places: Places::of(filled), errors };
     }
     let mut reader = Reader {
         events: events.into_iter().peekable(),
@@ -60,8 +78,11 @@ pub fn parse<'a>(
         places: Places::of(filled),
         found: Vec::new(),
     };
-    let blocks = reader.blocks()?;
-    Error::all(reader.found).map(|()| (blocks, reader.places))
+    let blocks = reader.blocks().unwrap_or_else(|error| {
+        reader.found.push(error);
+        Vec::new()
+    });
+    Parsed { blocks, places: reader.places, errors: reader.found }
 }
 
 fn markup(what: impl Into<String>) -> Error {
@@ -192,8 +213,9 @@ impl<'a> Reader<'a> {
                 }
                 let text = self.line()?;
                 self.at = range.start;
-                let leads =
-                    |inline: &Inline| matches!(inline, Inline::Link { .. } | Inline::Unresolved(_));
+                let leads = |inline: &Inline| {
+                    matches!(inline, Inline::Link { .. } | Inline::Unresolved { .. })
+                };
                 if text.is_empty() || text.iter().any(leads) {
                     return Err(markup("a heading needs words, and may have no link or reference"));
                 }
@@ -260,7 +282,7 @@ impl<'a> Reader<'a> {
             }
             return Ok(block);
         }
-        if let [Inline::Unresolved(ids)] = inlines.as_slice()
+        if let [Inline::Unresolved { ids, .. }] = inlines.as_slice()
             && ids == &["bibliography"]
         {
             return Ok(Block::Bibliography(Vec::new()));

@@ -8,7 +8,10 @@ const BROKEN: &str = r##"
 A name that there is not.
 a⏎«v.half_heigth» => 15:4 => v.half_heigth: there is no such name; nearest: half_height
 <% if raw.half_heigth != 1 %>a<% endif %> => 14:7 => nearest: half_height
-at «v.half_height now => 14: => »
+at «v.half_height now => 14:4 => this « has no » on its line
+rises«holds(that=raw.half_height > 0.2)», so => 14:7 => the words before are no longer true: holds(that=raw.half_height > 0.2), where raw.half_height is 0.11652
+rises«holds(that=raw.half_heigth > 0.2)» => 14:18 => nearest: half_height
+at «raw.half_height» => 14:5 => raw.half_height is a plain number, for conditions; write «v.half_height»
 at «nothing.at_all» => 14:5 => nothing
 a <% if raw.half_height > 1 %>b => 1 => nexpected end
 «v.half_height | nofilter» => 14: => nofilter
@@ -18,22 +21,23 @@ at $x = «v.empty»$ => 14:4 => empty has no number
 A hard-coded number.
 at 0.12, so => 14:4 => hard-coded number 0.12;
 a tenfold rise => 14:3 => hard-coded number tenfold;
-at «raw.half_height» => 14:4 => hard-coded number 0.11652;
 at «"3.14"» => 14:4 => hard-coded number 3.14;
 We find $\sigma_{1/2} = 0.1159$ here. => 14:9 => hard-coded number 0.1159;
 by `0.1159` => 14:5 => hard-coded number 0.1159;
 | a |⏎|---|⏎| 12 | => 16:3 => hard-coded number 12;
 A reference to what there is not.
-see [@fig:9] or => 14:5 => [@fig:9]: nothing
-see [@fig:fig03; @rice1945] => 14:5 => nothing in the report
-Seen [@eq:a, @eq:b] => 14:6 => nothing in the report
-[data](data/no.csv) => 14:1 => a link to data/no.csv
+see [@fig:9] or => 14:5 => [@fig:9]: nothing in the report has this id; correct or remove the reference; nearest: fig:fig03
+see [@fig:fig03; @rice1945] => 14:5 => different kinds
+as @rise1945 showed => 14:4 => [@rise1945]: nothing in the report and no entry of references.bib has this id; nearest: rice1945
+Seen [@eq:a, @eq:b] => 14:6 => ids alone
+Seen [@rice1945, Sec. 3] => 14:6 => ids alone
+[data](data/fig3.csv) => 14:1 => a link to data/fig3.csv: there is no such file or place; correct or remove it; nearest: data/fig03.csv
 [place](#sec-no) => 14:1 => a link to #sec-no
-[!claim:rise2] => 14:1 => there is no claim with this id
+[!claim:rise2] => 14:1 => there is no statement with this id; nearest: rise
 [mice](javascript://x) => 14:1 => a link to javascript://x
 Seen [@mice1945] => 14:6 => [@mice1945]: nothing
-![Words.](figures/fig09.svg) => 14:1 => there is no figure "fig09"
-![Words.](figures/fig03.png) => 14:1 => there is no figure "fig03.png"
+![Words.](figures/fig09.svg) => 14:1 => the paper draws no figure "fig09"; use figures/NAME.svg of one that it draws; nearest: fig03
+![Words.](figures/fig03.png){#fig:x} => 14:1 => there is no figure "fig03.png"
 ![Words.](photo.png) => 14:1 => a file becomes one by Figure::picture
 ![Words.](figures/fig03.svg){#eq:a} => 14:1 => write fig: followed by
 $$ x $$ {#fig:a} => 14:1 => write eq: followed by
@@ -52,7 +56,8 @@ $$⏎a = b⏎+ c⏎$$ => 16:1 => an unclosed formula
 A macro that GitHub refuses, and what it renders differently.
 at $\operatorname{erf} x$ => 14:4 => write \mathrm
 at $\newcommand{\a}{b}$ => 14:4 => \newcommand is not
-at $\,\sigmma$ => 14:4 => \sigmma is not
+at $\,\sigmma$ => 14:4 => \sigmma is not supported by every format; nearest: \sigma
+at $a \mod b$ => 14:4 => nearest: \bmod
 at $\alpha % x$ => 14:4 => write \%
 at $a \\ b$ => 14:4 => \begin{aligned}
 at $\begin{align} a \end{align}$ => 14:4 => an environment must be one of aligned, 
@@ -60,20 +65,23 @@ at $x^«v.half_height»$ => 14:4 => a value used as an index
 at «v.half_height»$x$ => 14:19 => right after a word or a number
 a *word with $x$* => 14:14 => inside emphasis
 A delimiter that is not closed.
-at $\frac{1}{2$ of => 14:4 => unclosed markup
+at $\frac{1}{2$ of => 14:4 => a dollar sign alone
 a *word => 14:3 => unclosed markup
 a «v.half_height»» b => 14:18 => unclosed markup
 - item⏎⏎  - a *b => 16:7 => unclosed markup
 See [it] (data) now => 14:5 => unclosed markup
-words {#sec:b} => 14:7 => unclosed markup
-«v» => 14:1 => unclosed markup
+words {#sec:b} => 14:7 => an id stands right behind
+![The rise.](figures/fig03.svg){width=50%} => 14:32 => such as a width
+at $5, with => 14:4 => a dollar sign alone
+a @ b => 14:3 => a citation is @key
+«v» => 14:1 => a group or a row
 ```⏎code => 14:1 => between two lines ```
 > ## Words => 14:3 => cannot stand in a list
 What not every format supports.
 <b>bold</b> => 14:1 => not supported by every format
 --- => 14:1 => not supported by every format
 <!-- a comment --> => 14:1 => not supported by every format
-a[^1] => 14:2 => unclosed markup
+a[^1] => 14:2 => footnotes are not supported
 # Another title => 14:1 => one title
 - ![Words.](figures/fig03.svg) => 14:3 => cannot stand in a list
 words ![Words.](figures/fig03.svg) => 14:7 => a figure must stand alone

@@ -10,6 +10,8 @@ use crate::figures::{DataFile, Figure};
 use crate::project::Project;
 use crate::prose::Templates;
 use crate::source::toy;
+use crate::table::Table;
+use std::sync::Arc;
 
 const SAMPLE: &str = r#"# A title
 
@@ -88,7 +90,9 @@ fn tree(text: &str) -> Vec<document::Block> {
     let templates = Templates::of([("report.md", text), ("literals.toml", literals)]);
     let filler = filler::Filler::new(&templates).unwrap().with(&values());
     let filled = filler.prose(&Document::REPORT).unwrap();
-    let (mut blocks, _) = parse::parse(&filled, &values(), &filler.declared, &toy()).unwrap();
+    let (values, sources) = (values(), toy());
+    let parsed = parse::parse(&filled, &values, &filler.declared, &sources);
+    let mut blocks = parsed.whole().unwrap().0;
     let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
     let library = bibliography::Library::read(bib).unwrap();
     let mut labels = labels::Labels::default();
@@ -200,9 +204,13 @@ fn assembled(prose: &str) -> Result<Report, Error> {
 fn made_of(prose: &str, lab: Option<&str>, figure: Figure, claim: Check) -> Result<Report, Error> {
     let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
     let files = [("report.md", prose), ("references.bib", bib)];
+    made(&files, &with_equation(), lab, figure, claim)
+}
+
+fn with_equation() -> Edition {
     let (what, home) = ("the jump".into(), "toy::flight".into());
     let equation = ledger::EquationEntry { number: 18, section: 7, what, home, step_towards: None };
-    made(&files, &Edition { equations: vec![equation], ..edition() }, lab, figure, claim)
+    Edition { equations: vec![equation], ..edition() }
 }
 
 fn edition() -> Edition {
@@ -217,11 +225,25 @@ fn made(
     figure: Figure,
     claim: Check,
 ) -> Result<Report, Error> {
+    made_with(files, edition, lab, figure, claim, None)
+}
+
+fn made_with(
+    files: &[(&str, &str)],
+    edition: &Edition,
+    lab: Option<&str>,
+    figure: Figure,
+    claim: Check,
+    table: Option<Table>,
+) -> Result<Report, Error> {
     let mut values = Registry::default();
     values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000))?;
     values.add(Value::integer("spare", 3).data_only())?;
     let empty = Value::real("empty", 0.0, 1).data_only();
     values.add(Value { number: values::Number::None, ..empty })?;
+    if let Some(table) = table {
+        values.add_table(Arc::new(table))?;
+    }
     let (templates, rows) = (&Templates::of(files.iter().copied()), &Default::default());
     let (values, claims, figures, top) = (&values, &[claim], &[figure], Some("../"));
     let (project, experiments) = (&Project::new(toy()), &[][..]);
@@ -348,6 +370,75 @@ fn what_is_not_shown_is_refused() {
     assert!(matches!(fails("«v.half_height»", "half"), Error::Unused(id) if id == "half_height"));
     assert!(matches!(fails("![The rise.](figures/fig03.svg)", ""), Error::NotShown(_)));
     assert!(matches!(fails("\\tag{18}", ""), Error::NoEquation(number) if number == "18"));
+}
+
+/// Whatever signs words from data have, as cells and as names of rows, each format shows them.
+#[test]
+fn words_of_data_are_data() {
+    let shown = |words: &str| {
+        let rows = [words];
+        let table = Table::of("toy.words", &rows, |_| 1)
+            .text_key("name", |word| word.to_string())
+            .words("word", "", |word| word.to_string())
+            .done();
+        let cell = "«toy.words[row].word»";
+        let prose = format!(
+            "{PROSE}\n\n{cell} and <% for row in keys.toy.words.rows %>{cell}<% endfor %>.\n\n\
+             | Name | Word |\n|---|---|\n<% for row in keys.toy.words.rows -%>\n\
+             | «toy.words[row].name» | {cell} |\n<% endfor %>"
+        );
+        let prose = prose.replacen(cell, "«toy.words[keys.toy.words.rows[0]].word»", 1);
+        let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
+        let files = [("report.md", prose.as_str()), ("references.bib", bib)];
+        made_with(&files, &with_equation(), None, figure(), claim(), Some(table))
+    };
+    for words in [
+        "US$",
+        "cost $5 and $6",
+        "a|b",
+        r"C:\new{x}",
+        "<b>&amp;</b>",
+        "*a* _b_ `c`",
+        "[x](y)",
+        "one\ntwo\r\nthree",
+        "\"quoted\" ~ ^ #1 @a 50 %",
+        "1. a",
+        "null",
+    ] {
+        let report = shown(words).unwrap();
+        let line = words.replace("\r\n", " ").replace('\n', " ");
+        // Another reader of Markdown finds the words, in a sentence and in two cells.
+        let markdown = String::from_utf8(report.committed["report.md"].clone()).unwrap();
+        let options = pulldown_cmark::Options::ENABLE_TABLES | pulldown_cmark::Options::ENABLE_MATH;
+        let mut read = String::new();
+        for event in pulldown_cmark::Parser::new_ext(&markdown, options) {
+            match event {
+                pulldown_cmark::Event::Text(text) => read += &text,
+                pulldown_cmark::Event::End(_) => read += "⏎",
+                _ => (),
+            }
+        }
+        for place in [format!("{line} and {line}.⏎"), format!("⏎{line}⏎{line}⏎")] {
+            assert!(read.contains(&place), "{words:?}: {place:?} is not in {read}");
+        }
+        let tex = String::from_utf8(report.committed["report.tex"].clone()).unwrap();
+        let tex_line = tex::text(&line).unwrap();
+        assert!(tex.contains(&format!("{{{tex_line}}} \\\\\n")), "{words:?}: {tex}");
+        let page = String::from_utf8(report.generated["report.html"].clone()).unwrap();
+        let id = format!("toy.words[name={words}].word");
+        let [escaped, escaped_id] = [&line, &id].map(|text| crate::figures::escape(text));
+        let value = format!("\"{}\">{escaped}</span>", escaped_id.replace('\n', "&#10;"));
+        assert_eq!(page.matches(&value).count(), 3, "{words:?}");
+        let cards = String::from_utf8(report.generated["cards.js"].clone()).unwrap();
+        let cards: serde_json::Value =
+            serde_json::from_str(cards.trim_start_matches("CARDS = ").trim_end_matches(";\n"))
+                .unwrap();
+        assert_eq!(cards[1][&id][0], escaped, "{words:?}");
+    }
+    for words in ["a\u{7}b", "\0", "a\u{e000}b"] {
+        let error = shown(words).unwrap_err().to_string();
+        assert!(error.contains("which no format can show"), "{error}");
+    }
 }
 
 /// Signs that another reader of Markdown, or TeX, would take for markup are escaped.
