@@ -15,6 +15,7 @@ mod linear;
 pub mod local_frame;
 mod nodes;
 pub mod outcome;
+mod pair;
 pub mod screen;
 mod stepping;
 pub mod trig;
