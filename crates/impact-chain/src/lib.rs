@@ -66,5 +66,5 @@ pub use error::Error;
 pub use impact::{Impact, Sink};
 pub use scenario::{Initial, Overtone, Scenario};
 pub use search::clock::LATEST;
-pub use search::outcome::Counters;
+pub use search::outcome::{Counters, Graze};
 pub use state::State;

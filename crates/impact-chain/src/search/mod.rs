@@ -17,6 +17,6 @@ mod nodes;
 pub mod outcome;
 mod pair;
 pub mod screen;
-mod stepping;
+pub mod stepping;
 pub mod trig;
 pub mod window;
