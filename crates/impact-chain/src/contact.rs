@@ -22,6 +22,7 @@ use crate::search::local_frame::ROUNDING;
 use crate::search::outcome::Next;
 use crate::search::window::next_window;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
 pub(super) const CONTACT_SPEED: f64 = 1e-10;
@@ -73,12 +74,12 @@ impl<const M: usize> Simulation<M> {
         }
         changed.insert(k, Changed { width: 0.0, rate, settled: self.is_settled(0.0, rate) });
         for near in self.topology.adjacent(k).into_iter().flatten() {
-            if !changed.contains_key(&near) {
+            if let Entry::Vacant(place) = changed.entry(near) {
                 let jump = self.jump_of_gap(near, k, jumps);
                 let mut gap = self.changed(near, phases, jump);
                 let joined = inelastic && self.joined.1.contains(&near);
                 gap.settled |= joined && self.is_settled(gap.width, gap.rate - jump);
-                changed.insert(near, gap);
+                place.insert(gap);
             }
         }
         if inelastic {

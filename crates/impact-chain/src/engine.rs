@@ -115,8 +115,8 @@ impl Engine {
         call!(&self.0, simulation => simulation.work)
     }
 
-    /// Returns the first dip of a gap of which rounding could not tell whether it reaches zero; none
-    /// if all were decided.
+    /// Returns the first dip of a gap of which rounding could not tell whether it reaches zero;
+    /// none if all were decided.
     pub fn first_graze(&self) -> Option<Graze> {
         call!(&self.0, simulation => simulation.first_graze)
     }

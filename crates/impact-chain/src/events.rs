@@ -229,8 +229,8 @@ impl<const M: usize> Simulation<M> {
         Ok(None)
     }
 
-    /// Passes a dip of gap k of which the rounding of its new frame hides whether it closes; returns
-    /// the key of its next search, or none if there is no such dip.
+    /// Passes a dip of gap k of which the rounding of its new frame hides whether it closes;
+    /// returns the key of its next search, or none if there is no such dip.
     #[inline(always)]
     fn pass_dip(&mut self, k: usize) -> Option<Instant> {
         let frame = &self.gaps[k].frame;
