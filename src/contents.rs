@@ -6,9 +6,9 @@
 //! that the paper chose) and `printed` (numbers in its statements).
 
 use crate::claims::{self, Basis, Check, FAMILY_LEVEL, Kind, Published, Verdict};
-use crate::experiments::accuracy::case;
+use crate::experiments::accuracy::case::Outcome;
 use crate::experiments::accuracy::tables::titled;
-use crate::experiments::accuracy::trials::{Trial, right, trouble};
+use crate::experiments::accuracy::trials::{Trial, Trials, right, trouble};
 use crate::experiments::{Results, TRIALS};
 use literate::Failure;
 use literate::report::framed;
@@ -50,7 +50,7 @@ pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str
         ("basis_table", Basis::ALL.iter().filter_map(|basis| split(*basis, &statements)).collect()),
         ("strip", by_section.chunk_by(|a, b| section(a) == section(b)).map(strip).collect()),
         ("scene_heads", json!(heads)),
-        ("scene_table", trials.scenes.iter().map(|(what, all)| scene(what, all, &sizes)).collect()),
+        ("scene_table", scene_table(trials, &sizes)),
     ]))
 }
 
@@ -87,12 +87,17 @@ fn mark(name: &str) -> String {
     framed(&format!("score.{}", name.replace(' ', "_")), "")
 }
 
+/// The rows of the table of scenes.
+fn scene_table(trials: &Trials, sizes: &[usize]) -> Json {
+    let scenes = trials.parameters.scenes.iter().zip(&trials.found);
+    scenes.map(|(all, found)| scene(&all.what, found, sizes)).collect()
+}
+
 /// What goes wrong most often in a scene with each method, at its settings from coarse to fine, and
 /// in how many cases; and whether failures end with an error or with a wrong result that looks like
 /// a right one. No method here warns of a result that it gives. `sizes` are the numbers of settings
 /// of the methods.
 fn scene(what: &str, trials: &[Trial], sizes: &[usize]) -> Json {
-    use case::Verdict::{GaveUp, Right};
     let outcome = |trial: &Trial| match (trouble(trial), trial.len() - right(trial), trial.len()) {
         (None, ..) => "right".to_string(),
         (Some(trouble), _, 1) => trouble.words().to_string(),
@@ -115,8 +120,10 @@ fn scene(what: &str, trials: &[Trial], sizes: &[usize]) -> Json {
         cells.push(outcomes.join("; "));
     }
     let mut all = trials.iter().flatten();
-    let refused = all.clone().any(|verdict| *verdict == GaveUp);
-    let silent = all.any(|verdict| !matches!(verdict, Right | GaveUp));
+    let said =
+        |outcome: &Outcome| matches!(outcome, Outcome::GaveUp | Outcome::Refused | Outcome::Warned);
+    let refused = all.clone().any(said);
+    let silent = all.any(|outcome| *outcome != Outcome::Right && !said(outcome));
     let failure = match (refused, silent) {
         (false, false) => "–",
         (true, false) => "refused",

@@ -13,7 +13,7 @@ mod nucleation;
 mod printed;
 mod runs;
 
-pub use accuracy::{BENCH, BiasParams, RaceParams, ScaleParams, TrialParams};
+pub use accuracy::{BENCH, BiasParams, RaceParams, ScaleParams, trial_settings};
 pub use chosen::*;
 pub use ensembles::*;
 pub use grid::Grid;

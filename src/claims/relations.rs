@@ -3,7 +3,7 @@
 //! promises about the engine.
 
 use super::shared::*;
-use crate::experiments::accuracy::trials::right;
+use crate::experiments::accuracy::case::Outcome;
 use crate::experiments::rise::{Curve, RisePoint};
 use crate::experiments::{
     LENGTHS, NUCLEATION, PROTOCOL, RACE, SCALE, SECOND_SEED, TRIALS, lengths, sweep,
@@ -213,13 +213,14 @@ const WAITING: f64 = 8.0;
 
 /// What was promised before it was measured: no miss, waiting times to some units of rounding,
 /// evaluations per impact in the largest chain at most twice those at a hundred masses, and no
-/// scene of failure with another outcome than expected.
+/// scene of failure with a wrong outcome.
 fn engine_as_promised(e: &Evidence<'_>) -> Departures {
     let mut departures = Vec::new();
     // The engine is the first of the methods.
-    let trials = e.results.of(&TRIALS)?.scenes.iter().map(|(_, trials)| &trials[0]);
-    let wrong: usize = trials.map(|trial| trial.len() - right(trial)).sum();
-    departures.push(2.0 * wrong as f64);
+    let trials = e.results.of(&TRIALS)?.found.iter().map(|trials| &trials[0]);
+    let wrong =
+        trials.flatten().filter(|found| !matches!(found, Outcome::Right | Outcome::Refused));
+    departures.push(2.0 * wrong.count() as f64);
     let race = e.results.of(&RACE)?.entries.iter();
     if let Some(engine) = race.clone().find(|entry| entry.setting.method == MethodName::Certified) {
         departures.push(2.0 * engine.misses as f64);

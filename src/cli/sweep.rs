@@ -1,10 +1,10 @@
 //! The verb `sweep`: runs an ensemble and prints a row for each σ.
 
 use super::range::within;
-use impact_chain::LATEST;
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
 use impact_chain::rise;
 use impact_chain::{Boundary, Chain, Counts, Engine, Ensemble, Protocol, Start};
+use impact_chain::{Graze, LATEST};
 use impact_paper::experiments::Progress;
 use impact_paper::experiments::ensembles::CUTTING;
 use impact_paper::params::SEED;
@@ -185,8 +185,22 @@ fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Row {
              comparable with others"
         ));
     }
-    let (row, total) =
-        (rise::RisePoint::new(sigma, counts, 0, ensemble.chain.gaps(), [None; 2]), &counts.total);
+    let total = &counts.total;
+    if total.simultaneous > total.impacts / 100 {
+        warn(&format!(
+            "sigma {sigma:?}: {} of {} impacts came at exactly the same instant as one in a neighbouring gap; \
+             their order is a choice (fastest first), which may matter",
+            total.simultaneous, total.impacts
+        ));
+    }
+    if let Some((realisation, Graze { time, gap })) = total.first_graze {
+        warn(&format!(
+            "sigma {sigma:?}: rounding could not decide {} grazes, the first in realisation {realisation}, of \
+             gap {gap} at t = {time:?}; each was taken for a miss",
+            total.undecided
+        ));
+    }
+    let row = rise::RisePoint::new(sigma, counts, 0, ensemble.chain.gaps(), [None; 2]);
     Row {
         sigma,
         realisations: all,

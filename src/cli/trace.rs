@@ -4,7 +4,8 @@ use super::range::within;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use impact_chain::LATEST;
 use impact_chain::State;
-use impact_chain::{Error, Impact, Scenario, rounding};
+use impact_chain::methods::Cost;
+use impact_chain::{Error, Graze, Impact, Scenario, rounding};
 use impact_paper::experiments::alive;
 use impact_paper::params::MethodName;
 use literate::Failure;
@@ -25,8 +26,8 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 ///
 /// Count gaps from the left wall: gap 0 lies between it and mass 1, gap j between masses j and j +
 /// 1; on a ring gap n lies between masses n and 1. Of neighbouring gaps that close at exactly the
-/// same instant the lowest is taken first; of the method certified, standard error reports how
-/// often.
+/// same instant the fastest is hit first. Standard error reports how many impacts are so, and how
+/// often rounding could not decide whether a gap closes (method certified).
 ///
 /// Do not trust single impacts far into a chaotic run: errors grow about tenfold in a dozen units
 /// of time. Compare with --method truth to see from where on a run is off. The truth has every
@@ -175,14 +176,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
     {
         return printed(Err(error));
     }
-    if let Ok(cost) = &ran
-        && cost.simultaneous > 0
-    {
-        warn(&format!(
-            "impacts at exactly the same instant as one in a neighbouring gap: {}; they were taken one after \
-             the other, lowest gap first",
-            cost.simultaneous
-        ));
+    if let Ok(cost) = &ran {
+        warn_of_doubts(cost);
     }
     let width = rounding::width(&scenario);
     let closed = matches!(args.method, MethodName::Certified | MethodName::Sampled);
@@ -196,6 +191,24 @@ pub fn run(args: Args) -> Result<(), Failure> {
         ));
     }
     ran.map(drop).map_err(|error| in_file(&name, error))
+}
+
+/// Reports impacts whose order is a choice, and grazes that rounding hides.
+fn warn_of_doubts(cost: &Cost) {
+    if cost.simultaneous > 0 {
+        warn(&format!(
+            "impacts at exactly the same instant as one in a neighbouring gap: {} of {}; they were taken \
+             one after the other, fastest first",
+            cost.simultaneous, cost.impacts
+        ));
+    }
+    if let Some(Graze { time, gap }) = cost.first_graze {
+        warn(&format!(
+            "grazes that rounding could not decide: {}, the first of gap {gap} at t = {time:?}; each was \
+             taken for a miss, and the run may be wrong from there on",
+            cost.undecided
+        ));
+    }
 }
 
 /// Reads a scenario, with the name of its file for messages.

@@ -99,21 +99,9 @@ impl RaceParams {
     }
 }
 
-/// Every method on every scene in which methods fail.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TrialParams {
-    /// The methods.
-    pub settings: Vec<Setting>,
-    /// Whether the scenes that take long (waits, many impacts) are cut short.
-    pub short: bool,
-}
-
-impl TrialParams {
-    /// The sizes of each profile.
-    pub fn new(profile: Profile) -> Self {
-        let settings = settings(&SCENES);
-        TrialParams { settings, short: profile == Profile::Quick }
-    }
+/// Returns the methods that run the scenes in which methods fail.
+pub fn trial_settings() -> Vec<Setting> {
+    settings(&SCENES)
 }
 
 /// Counted work of an impact against the number of masses.

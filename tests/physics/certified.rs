@@ -209,3 +209,31 @@ fn components_that_nearly_cancel_are_soon_passed() {
     println!("t = {}: {error:e}, {rate:.1} evaluations a unit of time", hit.time);
     assert!(hit.gap == sum.gap && error < 1e-6 && rate < 20.0, "{error:e}, {rate}");
 }
+
+/// One mass at 1 + A sin 2t touches walls at 0 and 2 for A = 1. A graze that rounding hides is a
+/// miss and is reported; what doubles can decide is right.
+#[test]
+fn a_graze_is_a_miss_where_rounding_hides_it_and_is_reported() {
+    let engine = |amplitude: f64, phase: [f64; 2]| {
+        let forcing = vec![phase.map(|x| -3.0 * amplitude * x)];
+        let scenario = Scenario { forcing_frequency: 2.0, ..given(vec![[0.0; 2]], forcing) };
+        Engine::new(&scenario).unwrap()
+    };
+    // The second starts on a wall.
+    for (phase, quarters) in [([0.0, 1.0], 0.5), ([-1.0, 0.0], 1.0)] {
+        let mut exact = engine(1.0, phase);
+        assert_eq!(exact.impacts(2000.0).unwrap(), []);
+        assert!(exact.counters().undecided > 1200, "{:?}", exact.counters());
+        let graze = exact.first_graze().unwrap();
+        let number = graze.time / std::f64::consts::FRAC_PI_2 - quarters;
+        assert!(number < 4.0 && (number - number.round()).abs() < 1e-8, "{graze:?}");
+        assert_eq!(graze.gap, [1, 0][number.round() as usize % 2], "{graze:?}");
+    }
+    for depth in [1e-13, 1e-10, 1e-6] {
+        for (sign, expected) in [(-1.0, 0), (1.0, 1)] {
+            let mut near = engine(1.0 + sign * depth, [0.0, 1.0]);
+            assert_eq!(near.impacts(0.8).unwrap().len(), expected, "{sign} {depth}");
+            assert_eq!(near.first_graze(), None);
+        }
+    }
+}

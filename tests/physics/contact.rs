@@ -230,17 +230,95 @@ fn mirror(masses: usize, sigma: f64, index: u64) -> Scenario {
     scenario
 }
 
-/// Newton's law one gap after the other, lowest gap first, until none closes: the declared law.
-fn sequential(mut v: [f64; 3], r: f64) -> Vec<(usize, f64)> {
+/// Newton's law one gap after the other, fastest first, until none closes: the declared law.
+/// Returns the gaps with their speeds; gap k lies left of mass k, gap 0 at a wall.
+fn sequential(v: &mut [f64], r: f64) -> Vec<(usize, f64)> {
     let mut hits = Vec::new();
-    while let Some(gap) = (1..=2).find(|&gap| v[gap] < v[gap - 1] - 1e-12) {
-        let closing = v[gap - 1] - v[gap];
-        v[gap - 1] -= 0.5 * (1.0 + r) * closing;
-        v[gap] += 0.5 * (1.0 + r) * closing;
-        hits.push((gap, closing));
-        assert!(hits.len() < 100);
+    loop {
+        let closing = |k: usize, v: &[f64]| if k == 0 { -v[0] } else { v[k - 1] - v[k] };
+        let gap = (0..v.len()).rev().max_by(|&a, &b| closing(a, v).total_cmp(&closing(b, v)));
+        let gap = gap.unwrap();
+        let speed = closing(gap, v);
+        if speed < 1e-12 {
+            return hits;
+        }
+        let jump = (1.0 + r) * speed;
+        if gap == 0 {
+            v[0] += jump;
+        } else {
+            v[gap - 1] -= 0.5 * jump;
+            v[gap] += 0.5 * jump;
+        }
+        hits.push((gap, speed));
+        assert!(hits.len() < 1_000_000);
     }
-    hits
+}
+
+/// The complementarity problem of r = 0 between a wall and masses in one point: of all velocities
+/// that rise along the row from 0 or more, those nearest to `v`. Runs that fall are averaged.
+fn inelastic(v: &[f64]) -> Vec<f64> {
+    let mut runs: Vec<(f64, usize)> = Vec::new();
+    for &velocity in v {
+        let mut run = (velocity, 1);
+        while let Some(&(mean, count)) = runs.last().filter(|(mean, _)| *mean >= run.0) {
+            let all = (count + run.1) as f64;
+            run = ((mean * count as f64 + run.0 * run.1 as f64) / all, count + run.1);
+            runs.pop();
+        }
+        runs.push(run);
+    }
+    runs.iter().flat_map(|&(mean, count)| vec![mean.max(0.0); count]).collect()
+}
+
+/// Masses at a wall, all in one point, with random velocities: many gaps close at one instant.
+#[test]
+fn velocities_after_a_collective_hit_are_those_of_the_law() {
+    for n in [2, 5, 12] {
+        for index in 0..10 {
+            let random = draw(n, 1.0, index).forcing;
+            for r in [0.0, 0.1, 0.5, 0.9, 1.0] {
+                let mut v: Vec<f64> = random.iter().map(|pair| pair[0]).collect();
+                let masses: Vec<(f64, f64)> = v.iter().map(|&v| (0.0, v)).collect();
+                let mut engine = Engine::new(&scene(&masses, &vec![0.0; n], r)).unwrap();
+                let found = run(&mut engine, 1e-11);
+                let expected = match r == 0.0 {
+                    true => inelastic(&v),
+                    false => {
+                        let hits = sequential(&mut v, r);
+                        let alike = hits.iter().zip(&found).filter(|(a, b)| a.0 == b.gap).count();
+                        assert!(alike >= hits.len().min(10), "{r}: {hits:?} {found:?}");
+                        v
+                    }
+                };
+                for (a, b) in engine.velocities(1e-11).iter().zip(&expected) {
+                    assert!((a - b).abs() < 3e-8, "n = {n}, r = {r}: {a} for {b}");
+                }
+            }
+        }
+    }
+}
+
+/// Masses in contact, pressed against a wall, and one that arrives: impacts at that instant.
+#[test]
+fn a_collective_hit_takes_a_small_power_of_the_masses() {
+    for r in [0.0, 0.1, 0.5, 0.9] {
+        for n in [3, 10, 30] {
+            let mut masses = vec![(0.0, 0.0); n];
+            masses.push((1e-3, -1.0));
+            let mut engine = Engine::new(&scene(&masses, &vec![-100.0; n + 1], r)).unwrap();
+            assert_eq!(engine.contacts(0.0).len(), n);
+            let hits = run(&mut engine, 2e-3);
+            let first = hits.iter().take_while(|hit| hit.time == hits[0].time).count();
+            println!(
+                "r = {r}, n = {n}: {first} at the instant of the first, {} in all",
+                hits.len()
+            );
+            assert!(first <= 10 * (n + 1).pow(3), "r = {r}, n = {n}: {first}");
+            assert!(r > 0.0 || first == n + 1, "without rebound each gap is hit once: {first}");
+            let ties = engine.counters().simultaneous as usize;
+            assert!((first - 1..=hits.len()).contains(&ties), "{ties} of {first}");
+        }
+    }
 }
 
 #[test]
@@ -256,11 +334,14 @@ fn a_three_way_impact() {
         let mut block = vec![first];
         block.extend(run(&mut engine, first.time + 1e-13));
         let closing = first.closing_speed;
-        assert_eq!(engine.counters().simultaneous, 1, "r = {r}");
+        assert!(engine.counters().simultaneous > 0, "r = {r}");
         let gaps: Vec<usize> = block.iter().map(|hit| hit.gap).collect();
         assert!(gaps.starts_with(&[1, 2]), "r = {r}: {gaps:?}");
         if r > 0.5 {
-            let expected = sequential([closing, 0.0, -closing], r);
+            // All move to the right, away from a first mass at rest.
+            let mut velocities = [0.0, 3.0, 2.0, 1.0].map(|times| times * closing);
+            let expected = sequential(&mut velocities, r);
+            let expected: Vec<_> = expected.into_iter().map(|(gap, v)| (gap - 1, v)).collect();
             assert!(gaps.iter().eq(expected.iter().map(|(gap, _)| gap)), "r = {r}: {gaps:?}");
             for (hit, (_, speed)) in block.iter().zip(expected) {
                 assert!((hit.closing_speed - speed).abs() < 1e-13, "r = {r}: {hit:?} {speed}");
@@ -270,8 +351,8 @@ fn a_three_way_impact() {
             let theirs = Reference::<Dd>::new(&scene).run(first.time + 0.1).unwrap();
             assert!(ours.iter().map(|hit| hit.gap).eq(theirs.iter().map(|hit| hit.gap)));
         } else {
-            // With less restitution the three collapse into contact.
-            assert!(gaps.len() > 2, "r = {r}: {gaps:?}");
+            // With less restitution the three collapse into contact: without any, in two impacts.
+            assert!(gaps.len() > if r > 0.0 { 2 } else { 1 }, "r = {r}: {gaps:?}");
         }
     }
 }

@@ -7,6 +7,7 @@ mod ensembles;
 mod invariants;
 mod methods;
 mod reference;
+mod scenes;
 mod starts;
 mod traces;
 

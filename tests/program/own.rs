@@ -177,7 +177,7 @@ fn the_method_that_is_named_is_run() {
 fn what_was_done_with_ties_is_said() {
     let folder = folder(r#"{"forcing":[[0.9,0.8],[0,0],[-0.9,-0.8]]}"#);
     let (code, _, note) = run(folder.path(), "trace s.json --until 12");
-    assert!(code == 0 && note.contains("lowest gap first") && note.lines().count() == 1, "{note}");
+    assert!(code == 0 && note.contains(": 3 of 15; ") && note.lines().count() == 1, "{note}");
 }
 
 #[test]

@@ -5,7 +5,7 @@
 use crate::QUICK;
 use impact_chain::rise::Mean;
 use impact_paper::claims::{self, Published, Verdict};
-use impact_paper::experiments::accuracy::case::Verdict::Missed;
+use impact_paper::experiments::accuracy::case::Outcome::Missed;
 use impact_paper::experiments::{PROTOCOL, RACE, REPLAY, Results, SCALE, SWEEP, TRIALS};
 use impact_paper::figures;
 use impact_paper::params::MethodName;
@@ -123,7 +123,7 @@ fn the_promise_of_the_engine_follows_the_numbers() {
     let worse: [fn(&mut Results); 4] = [
         |results| results.of_mut(&RACE).unwrap().entries[0].misses += 1,
         |results| results.of_mut(&RACE).unwrap().entries[0].units = Some(9.0),
-        |results| results.of_mut(&TRIALS).unwrap().scenes[0].1[0][0] = Missed,
+        |results| results.of_mut(&TRIALS).unwrap().found[0][0][0] = Missed,
         |results| {
             let ours = |m: MethodName| m == MethodName::Certified;
             let scale = results.of_mut(&SCALE).unwrap();

@@ -1,10 +1,9 @@
 //! Defines the error of the theory, and the range checks that raise it.
 
-use std::fmt::Debug;
+use std::fmt::{self, Debug};
 
 /// An argument outside the theory, or a value outside the range of doubles.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{field}: {problem}; {remedy}")]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
     /// The field: `vertices`, `p`, `k`, `sigma`, `omega`, `forcing-frequency` or `spacing`.
     pub field: &'static str,
@@ -13,6 +12,14 @@ pub struct Error {
     /// What to give instead.
     pub remedy: String,
 }
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}; {}", self.field, self.problem, self.remedy)
+    }
+}
+
+impl std::error::Error for Error {}
 
 impl Error {
     pub(crate) fn new(field: &'static str, problem: String, remedy: impl Into<String>) -> Self {

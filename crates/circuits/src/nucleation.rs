@@ -51,7 +51,6 @@
 use impact_chain::{Boundary, Chain};
 use impact_numerics::quadrature::GaussLegendre;
 use impact_numerics::roots::crossing;
-use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the
@@ -215,7 +214,8 @@ fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
 }
 
 /// The probabilities that single gaps and neighbours of a chain from rest close by themselves.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct Chances {
     /// A gap between masses.
     pub p: f64,

@@ -1,10 +1,12 @@
 //! Describes the chain of Sec. 2: its masses, its ends and its start, without the forcing.
 
-use serde::{Deserialize, Serialize};
-
 /// The two ends of the row of masses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "ensembles",
+    derive(serde::Deserialize, serde::Serialize),
+    serde(rename_all = "lowercase")
+)]
 pub enum Boundary {
     /// Rigid walls at 0 and (n + 1) d: n + 1 gaps (Fig. 1).
     Walls,
@@ -23,8 +25,12 @@ impl Boundary {
 }
 
 /// The start of a realisation (Sec. 2 leaves it open; Sec. 8 assumes [`Start::Random`]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "ensembles",
+    derive(serde::Deserialize, serde::Serialize),
+    serde(rename_all = "lowercase")
+)]
 pub enum Start {
     /// At rest at equilibrium, when the forcing sets in.
     Rest,
@@ -37,7 +43,8 @@ pub enum Start {
 /// The chain of Sec. 2, without the amplitudes of its forcing.
 ///
 /// **Eq. (4)** (step towards (2)): the scaling d = m = ω = 1 is this type's default.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "ensembles", derive(serde::Deserialize, serde::Serialize))]
 pub struct Chain {
     /// Number of masses n (Sec. 2: 100).
     pub masses: usize,

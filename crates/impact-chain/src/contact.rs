@@ -9,7 +9,9 @@
 //!
 //! In a cluster each contact force is L + C cos Ωt + S sin Ωt exactly, so its first zero is
 //! found by the same certified search as an impact. A hit from outside frees the masses of the
-//! cluster, is carried through it by the impact law, and slow gaps are settled again.
+//! cluster, is carried through it by the impact law, and slow gaps are settled again. Masses that
+//! an impact without rebound has joined move as one until the next instant, so without restitution
+//! each gap of a cluster is hit once.
 
 use super::complementarity::contact_forces;
 use super::flight::{Motion, Phases};
@@ -20,6 +22,7 @@ use crate::search::local_frame::ROUNDING;
 use crate::search::outcome::Next;
 use crate::search::window::next_window;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
 pub(super) const CONTACT_SPEED: f64 = 1e-10;
@@ -28,10 +31,16 @@ pub(super) const CONTACT_SPEED: f64 = 1e-10;
 const SETTLED_RATE: f64 = 10.0 * CONTACT_SPEED;
 const SETTLED_WIDTH: f64 = 1e-16;
 
-/// A gap that may be settled: (gap, [width, rate]).
-type Resting = (usize, [f64; 2]);
+/// A gap whose state has changed.
+#[derive(Clone, Copy)]
+struct Changed {
+    width: f64,
+    rate: f64,
+    /// Whether it is shut and slow, so that its run takes a common velocity.
+    settled: bool,
+}
 
-const STILL: [f64; 2] = [0.0; 2];
+const STILL: Changed = Changed { width: 0.0, rate: 0.0, settled: true };
 
 impl<const M: usize> Simulation<M> {
     /// Decides whether the impact of gap k at `speed` is so slow that contact may begin, or hits a
@@ -50,19 +59,33 @@ impl<const M: usize> Simulation<M> {
                 freed.extend(self.free_cluster(near, phases));
             }
         }
+        let rate = self.restitution * speed;
+        let inelastic = rate <= CONTACT_SPEED * self.spacing * self.search.frequencies.omega;
+        if self.joined.0 != self.now {
+            self.joined = (self.now, Vec::new());
+        }
         let jumps = self.kick_neighbours(k, speed, phases);
-        let mut resting: Vec<Resting> = freed
-            .into_iter()
-            .map(|near| (near, [0.0, self.jump_of_gap(near, k, jumps)]))
-            .chain([(k, [0.0, self.restitution * speed])])
-            .collect();
+        let mut changed = BTreeMap::new();
+        for near in freed {
+            let rate = self.jump_of_gap(near, k, jumps);
+            let joined = inelastic && self.joined.1.contains(&near);
+            let settled = joined || self.is_settled(0.0, rate);
+            changed.insert(near, Changed { width: 0.0, rate, settled });
+        }
+        changed.insert(k, Changed { width: 0.0, rate, settled: self.is_settled(0.0, rate) });
         for near in self.topology.adjacent(k).into_iter().flatten() {
-            if resting.iter().all(|(known, _)| *known != near) {
+            if let Entry::Vacant(place) = changed.entry(near) {
                 let jump = self.jump_of_gap(near, k, jumps);
-                resting.push((near, self.resting(near, phases, jump)));
+                let mut gap = self.changed(near, phases, jump);
+                let joined = inelastic && self.joined.1.contains(&near);
+                gap.settled |= joined && self.is_settled(gap.width, gap.rate - jump);
+                place.insert(gap);
             }
         }
-        self.settle_runs(resting, phases, None);
+        if inelastic {
+            self.joined.1.push(k);
+        }
+        self.settle_runs(changed, phases, None);
     }
 
     /// Releases gap k, whose contact force has come to zero, and settles its cluster without it.
@@ -76,47 +99,55 @@ impl<const M: usize> Simulation<M> {
         self.settle_runs(shut.iter().map(|&k| (k, STILL)).collect(), p, released);
     }
 
-    /// Returns width and rate of gap k now, after a jump of its rate.
-    fn resting(&self, k: usize, phases: &Phases<M>, jump: f64) -> [f64; 2] {
+    /// Returns the state of gap k now, after a jump of its rate.
+    fn changed(&self, k: usize, phases: &Phases<M>, jump: f64) -> Changed {
         let frame = self.frame_of(k, phases);
-        self.carried(k, &frame, jump).unwrap_or([frame.f0, frame.g0])
+        let [width, rate] = self.carried(k, &frame, jump).unwrap_or([frame.f0, frame.g0]);
+        Changed { width, rate, settled: self.is_settled(width, rate) }
     }
 
-    fn is_settled(&self, [width, rate]: [f64; 2]) -> bool {
+    fn is_settled(&self, width: f64, rate: f64) -> bool {
         width <= SETTLED_WIDTH * self.spacing
             && rate.abs() <= SETTLED_RATE * self.spacing * self.search.frequencies.omega
     }
 
     /// Takes the gaps whose state has just changed, grows them to whole runs of shut and slow
     /// gaps, settles each run, and takes new frames of all gaps that were touched.
-    fn settle_runs(&mut self, changed: Vec<Resting>, p: &Phases<M>, released: Option<usize>) {
+    fn settle_runs(
+        &mut self,
+        changed: BTreeMap<usize, Changed>,
+        p: &Phases<M>,
+        released: Option<usize>,
+    ) {
         // Grow by neighbours of settled gaps that are shut and slow too, or in contact.
-        let mut order: Vec<usize> = changed.iter().map(|(k, _)| *k).collect();
-        let mut known: BTreeMap<usize, [f64; 2]> = changed.into_iter().collect();
+        let mut order: Vec<usize> = changed.keys().copied().collect();
+        let mut known = changed;
         let mut next = 0;
         while let Some(&k) = order.get(next) {
             next += 1;
-            if !self.is_settled(known[&k]) {
+            if !known[&k].settled {
                 continue;
             }
             for near in self.topology.adjacent(k).into_iter().flatten() {
                 if known.contains_key(&near) {
                     continue;
                 }
-                let more: Vec<Resting> = if self.gaps[near].in_contact {
+                if self.gaps[near].in_contact {
                     // Settling moves its masses, so its cluster is freed first.
-                    self.free_cluster(near, p).into_iter().map(|k| (k, STILL)).collect()
+                    for freed in self.free_cluster(near, p) {
+                        known.insert(freed, STILL);
+                        order.push(freed);
+                    }
                 } else {
-                    vec![(near, self.resting(near, p, 0.0))]
-                };
-                order.extend(more.iter().map(|(k, _)| *k));
-                known.extend(more);
+                    known.insert(near, self.changed(near, p, 0.0));
+                    order.push(near);
+                }
             }
         }
         // The jumps of the rates of the gaps next to the runs.
         let mut jumps: BTreeMap<usize, f64> = BTreeMap::new();
         for run in self.runs(&known) {
-            let rates: Vec<f64> = run.iter().map(|k| known[k][1]).collect();
+            let rates: Vec<f64> = run.iter().map(|k| known[k].rate).collect();
             let [first, last] = self.settle_run(&run, &rates, p, released);
             let [before, _] = self.topology.adjacent(run[0]);
             let [_, after] = self.topology.adjacent(run[run.len() - 1]);
@@ -132,9 +163,9 @@ impl<const M: usize> Simulation<M> {
         }
         let jump = |k: usize| jumps.get(&k).copied().unwrap_or(0.0);
         // The motions are final now: take the frames of all other gaps that were touched.
-        for (&k, [width, rate]) in &known {
+        for (&k, gap) in &known {
             if !self.gaps[k].in_contact {
-                self.set_and_search(k, p, *width, rate + jump(k));
+                self.set_and_search(k, p, gap.width, gap.rate + jump(k));
             }
         }
         for &k in known.keys() {
@@ -148,12 +179,12 @@ impl<const M: usize> Simulation<M> {
 
     /// Lists the maximal runs of adjacent settled gaps, from left to right. On a ring a run may
     /// pass from the last gap to the first.
-    fn runs(&self, known: &BTreeMap<usize, [f64; 2]>) -> Vec<Vec<usize>> {
+    fn runs(&self, known: &BTreeMap<usize, Changed>) -> Vec<Vec<usize>> {
         let follows = |run: &[usize], k: usize| {
             run.last().is_some_and(|last| self.topology.adjacent(*last)[1] == Some(k))
         };
         let mut runs: Vec<Vec<usize>> = Vec::new();
-        for (&k, _) in known.iter().filter(|(_, state)| self.is_settled(**state)) {
+        for (&k, _) in known.iter().filter(|(_, gap)| gap.settled) {
             match runs.last_mut() {
                 Some(run) if follows(run, k) => run.push(k),
                 _ => runs.push(vec![k]),

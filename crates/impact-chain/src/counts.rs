@@ -3,7 +3,7 @@
 //! is compiled for speed with the engine.
 
 use crate::ensemble::{Ensemble, Protocol};
-use crate::search::outcome::Counters;
+use crate::search::outcome::{Counters, Graze};
 use crate::topology::Topology;
 use crate::{Boundary, Engine, Error, Impact};
 use serde::{Deserialize, Serialize};
@@ -46,12 +46,21 @@ pub struct Total {
     pub slow: [u64; SLOW_DECADES.len()],
     /// Contact phases begun.
     pub contact_phases: u64,
+    /// Impacts at exactly the same instant as one of a neighbouring gap.
+    pub simultaneous: u64,
+    /// Dips of gaps of which rounding cannot tell whether they reach zero.
+    pub undecided: u64,
+    /// The first of these, with the number of its realisation.
+    pub first_graze: Option<(u64, Graze)>,
 }
 
 impl Total {
     pub fn add(&mut self, other: &Total) {
         self.impacts += other.impacts;
         self.contact_phases += other.contact_phases;
+        self.simultaneous += other.simultaneous;
+        self.undecided += other.undecided;
+        self.first_graze = self.first_graze.or(other.first_graze);
         for (sum, n) in self.near.iter_mut().zip(other.near) {
             *sum += n;
         }
@@ -107,6 +116,9 @@ impl FromIterator<Counts> for Counts {
         whole
     }
 }
+
+/// Whether the caller wants a run to end early.
+pub(crate) type Stopped<'a> = &'a dyn Fn() -> bool;
 
 /// Counts the impacts of one realisation while it runs.
 pub(crate) struct Watch {
@@ -184,7 +196,7 @@ impl Watch {
         &mut self,
         engine: &mut Engine,
         until: f64,
-        stopped: impl Fn() -> bool,
+        stopped: Stopped,
     ) -> Result<(), Error> {
         while let Some(&edge) = self.edges.get(self.at_edges.len()).filter(|edge| **edge <= until) {
             engine.run(edge, |impact| {
@@ -196,14 +208,19 @@ impl Watch {
         Ok(())
     }
 
-    /// Returns the counts of the realisation; `ended` is the outcome of its run.
+    /// Returns the counts of realisation `index`; `ended` is the outcome of its run.
     pub fn counts(
         mut self,
         ensemble: &Ensemble,
+        index: u64,
         engine: &Engine,
         ended: Result<(), Error>,
     ) -> Result<Counts, Error> {
-        self.total.contact_phases = engine.counters().contact_phases;
+        let counters = engine.counters();
+        self.total.contact_phases = counters.contact_phases;
+        self.total.simultaneous = counters.simultaneous;
+        self.total.undecided = counters.undecided;
+        self.total.first_graze = engine.first_graze().map(|graze| (index, graze));
         let mut counts = match ended {
             Ok(()) => Counts::empty(ensemble),
             Err(Error::Work { .. }) => {

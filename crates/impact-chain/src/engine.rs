@@ -7,7 +7,7 @@ use super::scenario::COMPONENTS;
 use super::simulation::{Gap, Simulation};
 use super::{Error, Scenario};
 use crate::search::earliest::Earliest;
-use crate::search::outcome::Counters;
+use crate::search::outcome::{Counters, Graze};
 
 /// The simulation of one scenario.
 #[derive(Clone, Debug)]
@@ -113,6 +113,12 @@ impl Engine {
     /// Returns the counted work so far.
     pub fn counters(&self) -> Counters {
         call!(&self.0, simulation => simulation.work)
+    }
+
+    /// Returns the first dip of a gap of which rounding could not tell whether it reaches zero;
+    /// none if all were decided.
+    pub fn first_graze(&self) -> Option<Graze> {
+        call!(&self.0, simulation => simulation.first_graze)
     }
 }
 

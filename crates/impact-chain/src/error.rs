@@ -1,10 +1,11 @@
 //! Defines the errors of the dynamics, and the range checks that raise them.
 
+use std::fmt;
+
 /// An error of the dynamics.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Error {
     /// A field of the scenario has a value that the model does not allow.
-    #[error("{field}: {problem}; {remedy}")]
     Input {
         /// Name of the field, as in the scenario file.
         field: String,
@@ -14,7 +15,6 @@ pub enum Error {
         remedy: String,
     },
     /// The start has masses in reversed order; ensembles count it as rejected.
-    #[error("initial: gap {gap} starts overlapped by {depth:e}; give a start with all gaps ≥ 0")]
     Overlap {
         /// The first overlapped gap.
         gap: usize,
@@ -22,10 +22,6 @@ pub enum Error {
         depth: f64,
     },
     /// The bound on work was exceeded.
-    #[error(
-        "the chain has more than {bound} events within one unit of time, the last at gap {gap}; \
-         the run was stopped at t = {time}; give an earlier end or weaker forces"
-    )]
     Work {
         /// The gap of the last event.
         gap: usize,
@@ -35,6 +31,25 @@ pub enum Error {
         bound: u64,
     },
 }
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::Input { field, problem, remedy } => write!(f, "{field}: {problem}; {remedy}"),
+            Error::Overlap { gap, depth } => write!(
+                f,
+                "initial: gap {gap} starts overlapped by {depth:e}; give a start with all gaps ≥ 0"
+            ),
+            Error::Work { gap, time, bound } => write!(
+                f,
+                "the chain has more than {bound} events within one unit of time, the last at gap \
+                 {gap}; the run was stopped at t = {time}; give an earlier end or weaker forces"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
 
 impl Error {
     /// Creates an [`Error::Input`] from its three parts.

@@ -2,9 +2,10 @@
 //!
 //! Nothing is integrated. A certified search in the local frame of each gap finds the instant of
 //! its next impact; the earliest is taken from a winner tree, two masses are kicked, and the three
-//! gaps next to them get new frames. Of several gaps that close at the same instant the lowest
-//! comes first, each by the law for two bodies, until none closes. Instants are whole numbers of
-//! ticks, so "the same" is exact; such ties come from symmetries, and are counted.
+//! gaps next to them get new frames. Of several gaps that close at the same instant the fastest
+//! comes first (the lowest of equally fast ones), each by the law for two bodies, until none
+//! closes. Instants are whole numbers of ticks, so "the same" is exact. Such ties come from
+//! symmetries and from hits of masses in contact, and are counted.
 
 use super::flight::{Motion, Phases, Rates, response};
 use super::force::Force;
@@ -16,7 +17,8 @@ use crate::search::clock::Instant;
 use crate::search::earliest::Earliest;
 use crate::search::first_root::Search;
 use crate::search::local_frame::{Frame, Frequencies};
-use crate::search::outcome::Counters;
+use crate::search::outcome::{Counters, Graze};
+use crate::search::stepping::{SHALLOW, hidden_dip};
 
 /// The largest mean number of events per gap within one unit of time 1/ω; beyond it a run is given
 /// up. A hot chain has about one impact per gap; a chatter with r = 0.99 takes some 2500.
@@ -73,12 +75,14 @@ impl<const M: usize> Simulation<M> {
             forces: vec![Force::ZERO; gaps],
             queue: Earliest::new(gaps),
             now: Instant::ZERO,
+            joined: (Instant::NEVER, Vec::new()),
             work: Counters::default(),
-            tied: None,
+            first_graze: None,
             budget_end: Instant::ZERO.after(1.0 / w),
             budget_left: EVENTS_PER_GAP * gaps as u64,
         };
         simulation.start()?;
+        simulation.note_graze();
         Ok(simulation)
     }
 
@@ -119,13 +123,34 @@ impl<const M: usize> Simulation<M> {
     pub fn run(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
         let end = Instant::at(until);
         while let Some(k) = self.next_event(end) {
-            if let Some(impact) = self.step(k)?
-                && !sink(impact)
-            {
+            let impact = self.step(k)?;
+            if self.work.undecided > 0 {
+                self.note_graze();
+            }
+            if impact.is_some_and(|impact| !sink(impact)) {
                 return Ok(());
             }
         }
         Ok(())
+    }
+
+    /// Keeps the first dip that rounding could not decide, by searching again the gaps whose frames
+    /// are new.
+    #[cold]
+    fn note_graze(&mut self) {
+        if self.work.undecided == 0 || self.first_graze.is_some() {
+            return;
+        }
+        for (k, gap) in self.gaps.iter().enumerate().filter(|(_, gap)| gap.origin == self.now) {
+            let mut work = Counters::default();
+            self.search.first_root(&gap.frame, &mut work);
+            let hidden = hidden_dip(&gap.frame, &self.search.frequencies).is_some();
+            if work.undecided > 0 || hidden {
+                let time = self.now.after(self.work.dip).time();
+                self.first_graze = Some(Graze { time, gap: self.topology.label(k) });
+                return;
+            }
+        }
     }
 
     /// Goes to the next event up to `end`; returns its gap, or none if there is no event.
@@ -135,7 +160,11 @@ impl<const M: usize> Simulation<M> {
         // A search has no effect on other gaps, so its order among equal events does not matter.
         let order_matters = !matches!(self.gaps[k].awaits, Awaits::Search { .. });
         if (at > end || order_matters) && self.queue.is_close(k) {
-            (k, at) = self.queue.first_in_full();
+            let speed = |k: usize| match self.gaps[k].awaits {
+                Awaits::Impact(speed) => speed,
+                _ => 0.0,
+            };
+            (k, at) = self.queue.first_in_full(speed);
         }
         if at > end {
             return None;
@@ -157,7 +186,7 @@ impl<const M: usize> Simulation<M> {
             Awaits::Impact(speed) => {
                 let impact = self.count_impact(k, speed)?;
                 let phases = Phases::at(&self.rates, self.now);
-                if self.queue.ties_with_neighbour(k) {
+                if (self.gaps[k].origin == self.now) | self.queue.ties_with_neighbour(k) {
                     self.count_tie(k);
                 }
                 self.collide(k, speed, &phases);
@@ -168,8 +197,10 @@ impl<const M: usize> Simulation<M> {
                 // comes from the motions, which do not drift, and a longer wait is tried.
                 let gap = &mut self.gaps[k];
                 gap.frame = gap.frame.advanced(&self.search.frequencies);
-                clamp_width(&mut gap.frame);
-                let key = self.search_gap(k, false);
+                let key = self.pass_dip(k).unwrap_or_else(|| {
+                    clamp_width(&mut self.gaps[k].frame);
+                    self.search_gap(k, false)
+                });
                 self.queue.set(k, [key]);
             }
             Awaits::Search { .. } => {
@@ -181,7 +212,11 @@ impl<const M: usize> Simulation<M> {
                 if self.gaps[k].in_contact {
                     self.watch_contact(k, &phases);
                 } else if !self.try_long_wait(k, &phases) {
-                    self.renew_and_search(k, &phases, 0.0);
+                    self.gaps[k].frame = self.frame_of(k, &phases);
+                    match self.pass_dip(k) {
+                        Some(key) => self.queue.set(k, [key]),
+                        None => self.renew_and_search(k, &phases, 0.0),
+                    }
                 }
             }
             Awaits::Release => {
@@ -194,16 +229,35 @@ impl<const M: usize> Simulation<M> {
         Ok(None)
     }
 
-    /// Counts this instant, once, if a gap next to gap k closes now as well.
+    /// Passes a dip of gap k of which the rounding of its new frame hides whether it closes;
+    /// returns the key of its next search, or none if there is no such dip.
+    #[inline(always)]
+    fn pass_dip(&mut self, k: usize) -> Option<Instant> {
+        let frame = &self.gaps[k].frame;
+        if frame.f0 > SHALLOW * frame.size {
+            return None;
+        }
+        let [dip, after] = hidden_dip(frame, &self.search.frequencies)?;
+        self.work.undecided += 1;
+        self.work.dip = dip;
+        self.gaps[k].origin = self.now;
+        self.gaps[k].awaits = Awaits::Search { whole_reach: false };
+        Some(self.now.after(after))
+    }
+
+    /// Counts the impact of gap k if one of a neighbouring gap is due at this instant, or was
+    /// carried out at it.
     #[cold]
     fn count_tie(&mut self, k: usize) {
-        let is_due = |near: usize| {
-            matches!(self.gaps[near].awaits, Awaits::Impact(_)) && self.queue.key(near) == self.now
-        };
-        let ties = self.topology.adjacent(k).into_iter().flatten().any(is_due);
-        if ties && self.tied != Some(self.now) {
-            self.work.simultaneous += 1;
-            self.tied = Some(self.now);
+        let renewed = self.gaps[k].origin == self.now;
+        for near in self.topology.adjacent(k).into_iter().flatten() {
+            let gap = &self.gaps[near];
+            let is_due =
+                matches!(gap.awaits, Awaits::Impact(_)) && self.queue.key(near) == self.now;
+            if is_due || renewed && gap.origin == self.now && gap.frame.f0 == 0.0 {
+                self.work.simultaneous += 1;
+                return;
+            }
         }
     }
 

@@ -18,10 +18,11 @@ pub fn response_at_zero(scenario: &Scenario) -> Vec<[f64; 2]> {
 
 /// Rotates the phases of the forcing by those at the instant `at`, which becomes t = 0.
 pub fn rotate_phases(scenario: &mut Scenario, at: Instant) {
-    let first = (scenario.forcing_frequency, &mut scenario.forcing);
-    let further = scenario.overtones.iter_mut().map(|o| (o.frequency, &mut o.amplitudes));
-    for (big_w, amplitudes) in std::iter::once(first).chain(further) {
-        let (sin, cos) = sin_cos_turn(Rate::new(big_w).turn(at));
+    let forces = Component::forces(scenario);
+    let further = scenario.overtones.iter_mut().map(|overtone| &mut overtone.amplitudes);
+    let amplitudes = std::iter::once(&mut scenario.forcing).chain(further);
+    for (component, amplitudes) in forces.iter().zip(amplitudes) {
+        let (sin, cos) = component.phase(at);
         for [alpha, beta] in amplitudes {
             (*alpha, *beta) = (*alpha * cos + *beta * sin, *beta * cos - *alpha * sin);
         }

@@ -25,9 +25,11 @@
 mod chain;
 mod complementarity;
 mod contact;
+#[cfg(feature = "ensembles")]
 pub mod counts;
 mod elastic;
 mod engine;
+#[cfg(feature = "ensembles")]
 mod ensemble;
 mod error;
 mod events;
@@ -35,13 +37,18 @@ mod flight;
 mod force;
 mod forcing;
 mod impact;
+#[cfg(feature = "ensembles")]
 pub mod methods;
+#[cfg(feature = "ensembles")]
 mod realisation;
 pub mod replay;
+#[cfg(feature = "ensembles")]
 mod resampling;
+#[cfg(feature = "ensembles")]
 pub mod rise;
 pub mod rounding;
 mod scenario;
+#[cfg(feature = "ensembles")]
 mod scenario_file;
 mod search;
 mod simulation;
@@ -50,12 +57,14 @@ mod topology;
 mod validation;
 
 pub use chain::{Boundary, Chain, Start};
+#[cfg(feature = "ensembles")]
 pub use counts::Counts;
 pub use engine::Engine;
+#[cfg(feature = "ensembles")]
 pub use ensemble::{Beyond, Ensemble, Heating, Protocol};
 pub use error::Error;
 pub use impact::{Impact, Sink};
 pub use scenario::{Initial, Overtone, Scenario};
 pub use search::clock::LATEST;
-pub use search::outcome::Counters;
+pub use search::outcome::{Counters, Graze};
 pub use state::State;

@@ -1,6 +1,6 @@
 //! Runs one realisation of an ensemble and counts its impacts.
 
-use crate::counts::{Counts, Watch};
+use crate::counts::{Counts, Stopped, Watch};
 use crate::ensemble::{Ensemble, Heating};
 use crate::{Engine, Error, Scenario};
 use impact_numerics::random::NormalPairs;
@@ -18,24 +18,24 @@ impl Ensemble {
         index: u64,
         stopped: impl Fn() -> bool,
     ) -> Result<Counts, Error> {
-        let mut engine = match self.started(sigma, index, &stopped) {
+        self.counted(sigma, index, &stopped)
+    }
+
+    /// Not generic: generic code would be compiled with the caller's crate.
+    fn counted(&self, sigma: f64, index: u64, stopped: Stopped) -> Result<Counts, Error> {
+        let mut engine = match self.started(sigma, index, stopped) {
             Ok(engine) => engine,
             Err(Error::Overlap { .. }) => return Ok(Counts::rejected(self)),
             Err(Error::Work { .. }) => return Ok(Counts::failed(self)),
             Err(error) => return Err(error),
         };
         let mut watch = Watch::new(self);
-        let ended = watch.follow(&mut engine, self.until(sigma), &stopped);
-        watch.counts(self, &engine, ended)
+        let ended = watch.follow(&mut engine, self.until(sigma), stopped);
+        watch.counts(self, index, &engine, ended)
     }
 
     /// Returns an engine at the time from which transients are measured.
-    fn started(
-        &self,
-        sigma: f64,
-        index: u64,
-        stopped: &impl Fn() -> bool,
-    ) -> Result<Engine, Error> {
+    fn started(&self, sigma: f64, index: u64, stopped: Stopped) -> Result<Engine, Error> {
         let mut normals = NormalPairs::new(&self.stream, self.seed, index);
         let Some(Heating { sigma: hot, time }) = self.heating else {
             return Engine::new(&Scenario::draw(&self.chain, sigma, &mut normals));

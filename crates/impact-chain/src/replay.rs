@@ -5,11 +5,11 @@ use crate::error::{Error, within};
 use crate::search::clock::LATEST;
 use crate::{Chain, Engine, Impact, Scenario};
 use impact_numerics::random::NormalPairs;
-use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 /// The input of a run: all that determines its bits.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "ensembles", derive(serde::Deserialize, serde::Serialize))]
 pub struct Request {
     pub chain: Chain,
     pub forces: Forces,
@@ -20,8 +20,12 @@ pub struct Request {
 }
 
 /// The source of the amplitudes of the forcing.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "ensembles",
+    derive(serde::Deserialize, serde::Serialize),
+    serde(rename_all = "lowercase")
+)]
 pub enum Forces {
     /// A realisation of an ensemble.
     Drawn {

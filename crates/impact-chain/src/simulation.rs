@@ -7,8 +7,8 @@ use super::topology::Topology;
 use crate::search::clock::Instant;
 use crate::search::earliest::Earliest;
 use crate::search::first_root::Search;
-use crate::search::local_frame::Frame;
-use crate::search::outcome::{Counters, Next};
+use crate::search::local_frame::{Frame, NEARLY_SHUT};
+use crate::search::outcome::{Counters, Graze, Next};
 use crate::search::window::next_window;
 
 /// The next event of a gap.
@@ -34,10 +34,6 @@ pub(super) struct Gap<const M: usize> {
     pub in_contact: bool,
 }
 
-/// Below this fraction of d a gap keeps its width and rate from its last frame when a neighbour is
-/// hit: as a difference of two positions it would have lost its digits.
-pub(super) const NEARLY_SHUT: f64 = 1e-9;
-
 /// The simulation of one scenario with `M` components of the forcing.
 #[derive(Clone, Debug)]
 pub(super) struct Simulation<const M: usize> {
@@ -57,9 +53,11 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) forces: Vec<Force<M>>,
     pub(super) queue: Earliest,
     pub(super) now: Instant,
+    /// The last instant at which contact was involved, and the gaps hit then without rebound.
+    pub(super) joined: (Instant, Vec<usize>),
     pub(super) work: Counters,
-    /// The last instant at which neighbouring gaps closed together.
-    pub(super) tied: Option<Instant>,
+    /// The first dip that rounding could not decide.
+    pub(super) first_graze: Option<Graze>,
     pub(super) budget_end: Instant,
     pub(super) budget_left: u64,
 }

@@ -8,11 +8,14 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+#[cfg(feature = "statistics")]
 pub mod bootstrap;
 pub mod double_double;
+#[cfg(feature = "statistics")]
 pub mod estimates;
 pub mod quadrature;
 pub mod random;
 pub mod roots;
 pub mod scaled;
+#[cfg(feature = "statistics")]
 pub mod statistics;

@@ -1,149 +1,308 @@
-//! A run, its expected outcome, and the verdict on a method.
+//! Reads the scenes of `scenes/scenes.json`, runs a method on a case, and judges what it finds.
+//! `scenes/README.md` describes the fields and the rules for authors of other programs.
 
 use crate::experiments::prelude::*;
+use impact_chain::Error as Failure;
 use impact_chain::methods::Method;
+use serde_json::Value as Json;
+
+/// Cases of one kind of difficulty.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Short name: `grazing-hits`.
+    pub id: String,
+    /// What happens in it.
+    pub what: String,
+    /// Why the outcome is what it is.
+    pub why: String,
+    pub cases: Vec<Case>,
+}
 
 /// One run and its expected outcome.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Case {
-    /// The chain.
-    pub scenario: Scenario,
-    pub start: State,
-    /// When it ends.
+    /// The smaller, the harder.
+    pub difficulty: f64,
+    /// The chain and its forcing, as [`Scenario::parse_json`] reads them.
+    pub scenario: Json,
+    pub start: Start,
+    /// Time at which the run ends.
     pub until: f64,
-    /// The expected outcome.
     pub expected: Expected,
 }
 
-/// How far off a time may be in most scenes, in units of 1/ω: coarse enough for every method at
-/// its usual step.
-pub const NEAR: f64 = 1e-2;
+/// The state of the masses at the start.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Start {
+    pub time: f64,
+    pub positions: Vec<f64>,
+    pub velocities: Vec<f64>,
+}
 
-/// How far off a speed may be that should not change, relative to it.
-pub const STEADY: f64 = 1e-6;
-
-/// The expected outcome of a case.
-#[derive(Clone, Debug, PartialEq)]
+/// What must come out of a case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Expected {
-    /// The impacts that count, in order. The last bounces of a chatter and those within a cluster
-    /// do not: they depend on the method.
+    /// The impacts that count, in the order of time.
     Impacts {
         /// Time and gap of each.
         impacts: Vec<(f64, usize)>,
-        /// Slower impacts do not count.
-        faster: f64,
-        /// Impacts of other gaps do not count either; all gaps do if this is empty.
-        among: Vec<usize>,
-        /// Whether none may follow to the end of the run.
-        all: bool,
         /// How far off a time may be.
         within: f64,
+        /// Slower impacts do not count: the last bounces of a chatter depend on the method.
+        #[serde(default = "all_speeds")]
+        faster: f64,
+        /// Only impacts of these gaps count; those of all gaps if it is empty.
+        #[serde(default)]
+        among: Vec<usize>,
+        /// Whether no other impact may follow to the end of the run.
+        #[serde(default)]
+        only: bool,
     },
-    /// At least `impacts` impacts, the first of them all at this closing speed.
+    /// That many impacts, all at this closing speed.
     Speed {
-        /// How many.
         impacts: usize,
-        /// The closing speed.
         speed: f64,
         /// How far off it may be, relative to it.
         within: f64,
     },
+    /// From that time on no impact with more than this closing speed.
+    Rest { since: f64, slower: f64 },
+    /// Of three masses that meet in one point: no mass passes another, momentum is kept, and energy
+    /// does not grow, by the first impacts with the walls.
+    Law,
 }
 
-impl Expected {
-    /// The first impact.
-    pub fn first(gap: usize, time: f64, within: f64) -> Expected {
-        let (impacts, faster, among) = (vec![(time, gap)], -1.0, Vec::new());
-        Expected::Impacts { impacts, faster, among, all: false, within }
-    }
-
-    /// No impact at all.
-    pub fn nothing() -> Expected {
-        let (impacts, faster, among) = (Vec::new(), -1.0, Vec::new());
-        Expected::Impacts { impacts, faster, among, all: true, within: 0.0 }
-    }
+fn all_speeds() -> f64 {
+    -1.0
 }
+
+/// How far off the velocities of [`Expected::Law`] may be.
+const LAWFUL: f64 = 0.02;
+
+/// Impacts within this time of each other may come in any order.
+const TIE: f64 = 1e-9;
 
 /// An outcome in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Verdict {
+pub enum Outcome {
     /// As expected.
     Right,
-    /// An impact was not found, or far too late.
+    /// An impact was not found, or another gap was hit before it.
     Missed,
     /// An impact where there is none, or one too early.
     Ghost,
     /// The right impact at a wrong time.
-    Displaced,
-    /// Another gap.
-    WrongGap,
+    Late,
     /// Another closing speed.
     WrongSpeed,
-    /// The method gave up, with an error.
+    /// Motion where there should be rest.
+    WrongRest,
+    /// The bound on work was passed.
     GaveUp,
+    /// The method does not support the case, and says so.
+    Refused,
+    /// Not as expected, but the method reported that it could not decide an impact.
+    Warned,
 }
 
-impl Verdict {
-    /// The verdict in words, as a table gives it.
+impl Outcome {
+    /// Returns the outcome in words, as a table gives it.
     pub fn words(self) -> &'static str {
         match self {
-            Verdict::Right => "right",
-            Verdict::Missed => "missed",
-            Verdict::Ghost => "ghosts",
-            Verdict::Displaced => "late or early",
-            Verdict::WrongGap => "wrong gap",
-            Verdict::WrongSpeed => "wrong speed",
-            Verdict::GaveUp => "gave up",
+            Outcome::Right => "right",
+            Outcome::Missed => "missed",
+            Outcome::Ghost => "ghosts",
+            Outcome::Late => "late or early",
+            Outcome::WrongSpeed => "wrong speed",
+            Outcome::WrongRest => "wrong rest",
+            Outcome::GaveUp => "gave up",
+            Outcome::Refused => "refused",
+            Outcome::Warned => "warned",
         }
     }
+}
+
+/// Returns all scenes.
+pub fn scenes() -> Vec<Scene> {
+    let read = serde_json::from_str(include_str!("../../../scenes/scenes.json"));
+    read.unwrap_or_else(|error| panic!("scenes/scenes.json: {error}; mend it and build again"))
 }
 
 impl Case {
-    /// Runs a method on this case and judges its impacts.
-    pub fn judge(&self, method: &dyn Method) -> Verdict {
+    /// Returns the chain of the case; the engine may refuse to run it.
+    ///
+    /// # Errors
+    /// As [`Scenario::parse_json`].
+    pub fn chain(&self) -> Result<Scenario, Failure> {
+        Scenario::parse_json(&self.scenario.to_string())
+    }
+
+    /// Returns the state from which it starts.
+    pub fn state(&self) -> State {
+        let Start { time, positions, velocities } = self.start.clone();
+        State { time, positions, velocities }
+    }
+
+    /// Returns both as a method takes them: from t = 0 it is a first start and not a restart, which
+    /// takes slow gaps to be at rest.
+    fn task(&self) -> Result<(Scenario, State), Failure> {
+        let (chain, start) = (self.chain()?, self.state());
+        Ok((if start.time == 0.0 { start.as_scenario(&chain)? } else { chain }, start))
+    }
+
+    /// Runs a method and judges its impacts. The run ends as soon as the outcome is known.
+    pub fn run(&self, method: &dyn Method) -> Outcome {
+        let Ok((scenario, start)) = self.task() else { return Outcome::Refused };
         let mut seen = Vec::new();
-        let ran = method.run((&self.scenario, &self.start, self.until), &mut |impact| {
-            if self.counts(&impact) {
+        let ran = method.run((&scenario, &start, self.until), &mut |impact| {
+            if self.expected.counts(&impact) {
                 seen.push(impact);
             }
-            match &self.expected {
-                Expected::Impacts { impacts, all, .. } => {
-                    seen.len() < impacts.len() + usize::from(*all)
-                }
-                Expected::Speed { impacts, .. } => seen.len() < *impacts,
-            }
+            seen.len() < self.expected.enough()
         });
-        ran.map_or(Verdict::GaveUp, |_| self.judged(&seen))
+        match ran.map(|cost| (self.judge(&seen), cost.undecided)) {
+            Ok((Outcome::Right, _)) => Outcome::Right,
+            Ok((_, undecided)) if undecided > 0 => Outcome::Warned,
+            Ok((outcome, _)) => outcome,
+            Err(Failure::Work { .. }) => Outcome::GaveUp,
+            Err(_) => Outcome::Refused,
+        }
     }
 
-    fn counts(&self, impact: &Impact) -> bool {
-        let Expected::Impacts { faster, among, .. } = &self.expected else { return true };
-        impact.closing_speed > *faster && (among.is_empty() || among.contains(&impact.gap))
-    }
-
-    fn judged(&self, seen: &[Impact]) -> Verdict {
+    /// Judges all impacts of a run, in the order of time.
+    pub fn judge(&self, impacts: &[Impact]) -> Outcome {
+        let counted = impacts.iter().copied().filter(|impact| self.expected.counts(impact));
+        let seen: Vec<Impact> = counted.take(self.expected.enough()).collect();
         match &self.expected {
-            Expected::Impacts { impacts, within, .. } => in_order(impacts, *within, seen),
-            Expected::Speed { impacts, .. } if seen.len() < *impacts => Verdict::Missed,
+            Expected::Impacts { impacts, within, .. } => in_order(impacts, *within, &seen),
+            Expected::Speed { impacts, .. } if seen.len() < *impacts => Outcome::Missed,
             Expected::Speed { speed, within, .. } => {
                 let off = |impact: &Impact| (impact.closing_speed / speed - 1.0).abs() > *within;
-                if seen.iter().any(off) { Verdict::WrongSpeed } else { Verdict::Right }
+                if seen.iter().any(off) { Outcome::WrongSpeed } else { Outcome::Right }
             }
+            Expected::Rest { .. } if seen.is_empty() => Outcome::Right,
+            Expected::Rest { .. } => Outcome::WrongRest,
+            Expected::Law => lawful(&self.start.velocities, &seen),
         }
     }
 }
 
-/// Impacts one after the other, and no more.
-fn in_order(expected: &[(f64, usize)], within: f64, seen: &[Impact]) -> Verdict {
-    for (i, (time, gap)) in expected.iter().enumerate() {
-        let Some(seen) = seen.get(i) else { return Verdict::Missed };
-        match (seen.gap == *gap, seen.time - time) {
-            (false, late) if late < -within => return Verdict::Ghost,
-            (false, _) => return Verdict::WrongGap,
-            (true, late) if late.abs() > within => return Verdict::Displaced,
-            _ => (),
+impl Expected {
+    fn counts(&self, impact: &Impact) -> bool {
+        match self {
+            Expected::Impacts { faster, among, .. } => {
+                impact.closing_speed > *faster && (among.is_empty() || among.contains(&impact.gap))
+            }
+            Expected::Rest { since, slower } => {
+                impact.time >= *since && impact.closing_speed > *slower
+            }
+            Expected::Speed { .. } | Expected::Law => true,
         }
     }
-    if seen.len() > expected.len() { Verdict::Ghost } else { Verdict::Right }
+
+    /// The number of impacts that decide the outcome.
+    fn enough(&self) -> usize {
+        match self {
+            Expected::Impacts { impacts, only, .. } => impacts.len() + usize::from(*only),
+            Expected::Speed { impacts, .. } => *impacts,
+            Expected::Rest { .. } => 1,
+            Expected::Law => usize::MAX,
+        }
+    }
+}
+
+/// Compares impacts one after the other; those of one instant may come in any order.
+fn in_order(expected: &[(f64, usize)], within: f64, seen: &[Impact]) -> Outcome {
+    let mut seen = seen.to_vec();
+    let mut from = 0;
+    for tied in expected.chunk_by(|a, b| b.0 - a.0 <= TIE) {
+        let to = (from + tied.len()).min(seen.len());
+        seen[from..to].sort_by_key(|impact| tied.iter().position(|(_, gap)| *gap == impact.gap));
+        from = to;
+    }
+    for (i, (time, gap)) in expected.iter().enumerate() {
+        let Some(impact) = seen.get(i) else { return Outcome::Missed };
+        let late = impact.time - time;
+        if impact.gap != *gap {
+            return if late < -within { Outcome::Ghost } else { Outcome::Missed };
+        }
+        if late.abs() > within {
+            return Outcome::Late;
+        }
+    }
+    if seen.len() > expected.len() { Outcome::Ghost } else { Outcome::Right }
+}
+
+/// Judges the first impacts of three masses with the walls by their velocities before they met.
+fn lawful(before: &[f64], seen: &[Impact]) -> Outcome {
+    let speed = |gap| Some(seen.iter().find(|impact| impact.gap == gap)?.closing_speed);
+    let Some((left, right)) = speed(0).zip(speed(before.len())) else { return Outcome::Missed };
+    let left = -left;
+    let middle = before.iter().sum::<f64>() - left - right;
+    let energy = |velocities: &[f64]| velocities.iter().map(|v| v * v).sum::<f64>();
+    let apart = left <= middle + LAWFUL && middle <= right + LAWFUL;
+    let grows = energy(&[left, middle, right]) > energy(before) + LAWFUL;
+    if apart && !grows { Outcome::Right } else { Outcome::WrongSpeed }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use impact_chain::methods::{Certified, Cost, Task};
+    use impact_chain::{Error, Sink};
+
+    /// The engine with another time and closing speed of each impact, or without any.
+    struct False(f64);
+
+    impl Method for False {
+        fn name(&self) -> &'static str {
+            "false"
+        }
+
+        fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
+            if self.0 == 0.0 {
+                return Ok(Cost::default());
+            }
+            Certified.run((scenario, start, until), &mut |impact| {
+                let (time, speed) = (impact.time + self.0, impact.closing_speed * (1.0 + self.0));
+                sink(Impact { time, closing_speed: speed, ..impact })
+            })
+        }
+    }
+
+    #[test]
+    fn a_method_that_errs_is_not_right() {
+        for scene in scenes() {
+            for case in scene.cases.iter().filter(|case| case.until < 1e3) {
+                let [late, blind] = [0.05, 0.0].map(|by| case.run(&False(by)));
+                if late == Outcome::Refused {
+                    continue;
+                }
+                let nothing = |impacts: &Vec<_>| impacts.is_empty();
+                let expected = match &case.expected {
+                    Expected::Impacts { impacts, .. } if nothing(impacts) => [Outcome::Right; 2],
+                    Expected::Impacts { .. } => [Outcome::Late, Outcome::Missed],
+                    Expected::Speed { .. } => [Outcome::WrongSpeed, Outcome::Missed],
+                    Expected::Rest { .. } => [Outcome::Right; 2],
+                    Expected::Law => [Outcome::Right, Outcome::Missed],
+                };
+                assert_eq!([late, blind], expected, "{} {}", scene.id, case.difficulty);
+            }
+        }
+    }
+
+    #[test]
+    fn velocities_are_lawful_or_not() {
+        let hit = |gap, closing_speed| Impact { time: 1.0, gap, closing_speed };
+        let judged = |left, right| lawful(&[1.0, 0.0, -1.0], &[hit(0, left), hit(3, right)]);
+        assert_eq!(judged(0.8, 0.8), Outcome::Right);
+        // The middle mass passes the right one; more energy than before.
+        assert_eq!(judged(0.9, 0.1), Outcome::WrongSpeed);
+        assert_eq!(judged(1.1, 1.1), Outcome::WrongSpeed);
+    }
 }

@@ -2,8 +2,7 @@
 //!
 //! - [`race`]: every method against the true motion, segment by segment and run by run.
 //! - [`bias`]: the error of a method in the mean number of gaps that impact.
-//! - [`scenes`], [`case`], [`trials`]: situations in which methods fail, the expected outcomes, and
-//!   those found.
+//! - [`case`], [`trials`]: scenes in which methods fail, and the outcomes.
 //! - [`scale`]: counted work against the number of masses.
 //! - [`tables`]: the numbers of all of these.
 //!
@@ -14,11 +13,10 @@ pub mod bias;
 pub mod case;
 pub mod race;
 pub mod scale;
-pub mod scenes;
 pub mod tables;
 pub mod trials;
 
-use crate::params::{BiasParams, RaceParams, ScaleParams, TrialParams};
+use crate::params::{BiasParams, RaceParams, ScaleParams};
 use literate::experiments::Experiment;
 use literate::experiments::cutting::SECOND;
 use literate::experiments::experiment::How::Whole;
@@ -46,11 +44,11 @@ pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
 };
 
 /// Every method in the scenes where methods fail.
-pub const TRIALS: Experiment<TrialParams, trials::Trials> = Experiment {
+pub const TRIALS: Experiment<trials::TrialParams, trials::Trials> = Experiment {
     name: "trials",
     code: &["src/experiments/accuracy/trials.rs", "src/experiments/accuracy"],
-    parameters: TrialParams::new,
-    how: Whole(trials::run, |parameters| if parameters.short { SECOND } else { 4 * SECOND }),
+    parameters: trials::TrialParams::new,
+    how: Whole(trials::run, |parameters| parameters.cases() as u64 * SECOND / 10),
     tables: |_| Vec::new(),
 };
 

@@ -1,51 +1,87 @@
-//! Every method on every scene in which methods fail.
+//! Runs every method on every scene in which methods fail.
 
-use super::case::Verdict;
-use super::scenes;
+use super::case::{Case, Outcome, Scene, scenes};
 use crate::experiments::prelude::*;
-use crate::params::TrialParams;
+use crate::params::{Profile, Setting, trial_settings};
+
+/// Every method, and every scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrialParams {
+    pub settings: Vec<Setting>,
+    pub scenes: Vec<Scene>,
+}
+
+/// Runs that last longer are left out in the quick profile.
+const QUICK: f64 = 500.0;
+
+impl TrialParams {
+    /// Returns what is run in a profile.
+    pub fn new(profile: Profile) -> Self {
+        let mut scenes = scenes();
+        if profile == Profile::Quick {
+            for scene in &mut scenes {
+                scene.cases.retain(|case| case.until - case.start.time < QUICK);
+            }
+            scenes.retain(|scene| !scene.cases.is_empty());
+        }
+        TrialParams { settings: trial_settings(), scenes }
+    }
+
+    /// Returns the number of cases, over all scenes.
+    pub fn cases(&self) -> usize {
+        self.scenes.iter().map(|scene| scene.cases.len()).sum()
+    }
+}
 
 /// The outcomes of every method in every scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trials {
     pub parameters: TrialParams,
-    /// For each scene what happens in it, and for each setting in their order its verdicts.
-    pub scenes: Vec<(String, Vec<Trial>)>,
+    /// For each scene and each setting, in their order.
+    pub found: Vec<Vec<Trial>>,
 }
 
-/// The verdicts on one method in each case of a scene.
-pub type Trial = Vec<Verdict>;
+/// The outcomes of one method in each case of a scene.
+pub type Trial = Vec<Outcome>;
+
+/// A run that takes more steps than this is not begun, and counts as given up.
+const MOST_STEPS: f64 = 2e7;
 
 /// Number of cases with the expected outcome.
 pub fn right(trial: &Trial) -> usize {
-    trial.iter().filter(|verdict| **verdict == Verdict::Right).count()
+    trial.iter().filter(|outcome| **outcome == Outcome::Right).count()
 }
 
-/// The most frequent wrong verdict; of several the first in the order of [`Verdict`].
-pub fn trouble(trial: &Trial) -> Option<Verdict> {
-    let mut wrong: Vec<Verdict> =
-        trial.iter().copied().filter(|verdict| *verdict != Verdict::Right).collect();
+/// The most frequent wrong outcome; of several the first in the order of [`Outcome`].
+pub fn trouble(trial: &Trial) -> Option<Outcome> {
+    let mut wrong: Vec<Outcome> =
+        trial.iter().copied().filter(|outcome| *outcome != Outcome::Right).collect();
     wrong.sort_unstable();
     // Of equal counts `max_by_key` takes the last.
     wrong.chunk_by(|a, b| a == b).rev().max_by_key(|equal| equal.len()).map(|equal| equal[0])
 }
 
+/// Runs all methods on all scenes.
 pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Error> {
-    let scenes = scenes::all(parameters.short).map_err(|source| Error::failed("trials", source))?;
-    let settings = &parameters.settings;
+    let TrialParams { scenes, settings } = parameters;
     let pairs = scenes.iter().flat_map(|scene| settings.iter().map(move |way| (scene, way)));
     let stage = progress.stage("scenes where methods fail", (scenes.len() * settings.len()) as u64);
     let trials = each(&stage, progress, pairs, |(scene, setting)| {
-        let method = setting.method.with(setting.value);
-        let judge = |case: &super::case::Case| {
+        let mut trial = Vec::with_capacity(scene.cases.len());
+        for case in &scene.cases {
             progress.check()?;
-            Ok(case.judge(method.as_ref()))
-        };
-        scene.cases.iter().map(judge).collect::<Result<Trial, Error>>()
+            trial.push(outcome(*setting, case));
+        }
+        Ok(trial)
     })?;
-    let rows = scenes.iter().zip(trials.chunks(settings.len().max(1)));
-    Ok(Trials {
-        parameters: parameters.clone(),
-        scenes: rows.map(|(scene, trials)| (scene.what.into(), trials.to_vec())).collect(),
-    })
+    let found = trials.chunks(settings.len().max(1)).map(<[_]>::to_vec).collect();
+    Ok(Trials { parameters: parameters.clone(), found })
+}
+
+fn outcome(Setting { method, value }: Setting, case: &Case) -> Outcome {
+    let steps = (case.until - case.start.time) / value;
+    if value > 0.0 && !method.has_tolerance() && steps > MOST_STEPS {
+        return Outcome::GaveUp;
+    }
+    case.run(method.with(value).as_ref())
 }

@@ -2,7 +2,7 @@
 
 use super::gap::Gap;
 use super::real::Real;
-use impact_chain::{Initial, Scenario};
+use impact_chain::{Initial, Scenario, State};
 use impact_paper::params::Boundary;
 
 /// One impact.
@@ -86,6 +86,29 @@ impl<R: Real> Reference<R> {
                 if idle { Next::None } else { Next::NoRootUntil(R::of(0.0)) }
             })
             .collect();
+        chain
+    }
+
+    /// Sets a chain at the time of a state, every double taken as the exact number that it is.
+    pub fn at(scenario: &Scenario, start: &State) -> Self {
+        let mut chain: Reference<R> = Reference::new(scenario);
+        let t = R::of(start.time);
+        let w = chain.frequencies[0].clone();
+        let (s, c) = (w.clone() * t.clone()).sin_cos();
+        for mass in &mut chain.masses {
+            mass[0] = [R::of(0.0), R::of(0.0)];
+        }
+        for (j, [x, v]) in chain.state(&t).into_iter().enumerate() {
+            let place = R::of((j + 1) as f64) * chain.spacing.clone();
+            let u = R::of(start.positions[j]) - place - x;
+            let rate = (R::of(start.velocities[j]) - v) / w.clone();
+            chain.masses[j][0] = [
+                u.clone() * c.clone() - rate.clone() * s.clone(),
+                u * s.clone() + rate * c.clone(),
+            ];
+        }
+        chain.next.fill(Next::NoRootUntil(t.clone()));
+        chain.time = t;
         chain
     }
 

@@ -3,7 +3,7 @@
 use super::method::{Cost, Method, Task};
 use super::steps::check_end;
 use crate::topology::Topology;
-use crate::{Engine, Error, Impact, Scenario, Sink, State};
+use crate::{Engine, Error, Graze, Impact, Scenario, Sink, State};
 
 /// The exact event-driven engine: flight in closed form, the first root of each gap certified.
 ///
@@ -49,6 +49,10 @@ impl Method for Certified {
             steps: counters.searches,
             evaluations: counters.evaluations,
             simultaneous: counters.simultaneous,
+            undecided: counters.undecided,
+            first_graze: engine
+                .first_graze()
+                .map(|graze| Graze { time: start.time + graze.time, ..graze }),
             ..cost
         })
     }

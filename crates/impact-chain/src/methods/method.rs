@@ -1,18 +1,21 @@
 //! Defines the trait of all ways to simulate a chain.
 
 use crate::impact::{Impact, Sink, collect};
-use crate::{Error, Scenario, State};
+use crate::{Error, Graze, Scenario, State};
 
 /// Counted work of a method: deterministic.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cost {
     pub impacts: u64,
     /// Steps in time; for the certified engine, searches.
     pub steps: u64,
     /// Evaluations of the acceleration of one mass or of the width of one gap, with its sines.
     pub evaluations: u64,
-    /// Runs of neighbouring gaps that closed at exactly the same instant, which no rival detects.
+    /// Impacts at exactly the same instant as one of a neighbouring gap, which no rival detects.
     pub simultaneous: u64,
+    /// Dips of gaps that rounding could not decide, and the first of them; no rival detects them.
+    pub undecided: u64,
+    pub first_graze: Option<Graze>,
 }
 
 impl Cost {

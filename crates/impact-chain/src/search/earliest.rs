@@ -132,30 +132,36 @@ impl Earliest {
         least <= self.mask()
     }
 
-    /// Returns the index of the earliest of the full keys, and that key.
+    /// Returns the index of the earliest of the full keys, and that key; among equal keys the
+    /// index of largest `speed`, and the lowest of those.
     #[cold]
-    pub fn first_in_full(&self) -> (usize, Instant) {
-        let index = self.winner_in_full(1);
-        (index, self.keys[index])
-    }
-
-    /// Returns the index of the earliest full key below a node whose word agrees with that of the
-    /// root except for the index.
-    fn winner_in_full(&self, node: usize) -> usize {
-        let width = self.keys.len();
-        if node >= width {
-            return node - width;
+    pub fn first_in_full(&self, speed: impl Fn(usize) -> f64) -> (usize, Instant) {
+        let mut agreeing = vec![1];
+        let (mut first, mut key, mut fastest) = (0, Instant::NEVER, f64::NEG_INFINITY);
+        while let Some(node) = agreeing.pop() {
+            if self.nodes[node] ^ self.nodes[1] > self.mask() {
+                continue;
+            }
+            let Some(index) = node.checked_sub(self.keys.len()) else {
+                agreeing.extend([2 * node + 1, 2 * node]);
+                continue;
+            };
+            let at = self.keys[index];
+            if at > key || at == Instant::NEVER {
+                continue;
+            }
+            let speed = speed(index);
+            if at < key || speed > fastest {
+                (first, key, fastest) = (index, at, speed);
+            }
         }
-        let agrees = |below: &usize| self.nodes[*below] ^ self.nodes[1] <= self.mask();
-        let [left, right] = [2 * node, 2 * node + 1]
-            .map(|below| agrees(&below).then(|| self.winner_in_full(below)));
-        left.into_iter().chain(right).min_by_key(|&index| self.keys[index]).unwrap_or(0)
+        (first, key)
     }
 
     /// Moves the epoch, as no key is left before the end of the words.
     #[cold]
     fn next_epoch(&mut self) -> (usize, Instant) {
-        let (index, key) = self.first_in_full();
+        let (index, key) = self.first_in_full(|_| 0.0);
         if key < Instant::NEVER {
             self.rebase(key);
         }
@@ -178,7 +184,12 @@ mod tests {
             let (first, key) = earliest.first();
             assert!(earliest.is_close(first) || first == index);
             assert_eq!(key, keys[first]);
-            assert_eq!(earliest.first_in_full(), (index, keys[index]));
+            assert_eq!(earliest.first_in_full(|_| 0.0), (index, keys[index]));
+            // The fastest of equal keys, and the lowest of those.
+            let fastest = (0..keys.len()).min_by_key(|&i| (keys[i], 9 - i % 10, i)).unwrap();
+            if key < Instant::NEVER {
+                assert_eq!(earliest.first_in_full(|i| (i % 10) as f64), (fastest, keys[fastest]));
+            }
         }
         for len in [1, 2, 7, 8, 9, 101, 700] {
             let mut earliest = Earliest::new(len);

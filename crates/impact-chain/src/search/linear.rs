@@ -2,8 +2,8 @@
 //! factors depend on the frequencies alone: a table, made once, replaces every sine.
 
 use super::local_frame::{Frame, Frequencies};
+use super::pair::{Pair, splat};
 use super::trig::small_sin_cos;
-use wide::f64x2;
 
 /// Taylor coefficients of a function about one instant, from its value to the ninth order.
 pub type Taylor = [f64; 10];
@@ -11,9 +11,9 @@ pub type Taylor = [f64; 10];
 /// The factors of 2 `N` numbers. Each also contains f₀, which callers add.
 #[derive(Clone, Copy, Debug)]
 pub struct Linear<const M: usize, const N: usize> {
-    slope: [f64x2; N],
-    alpha: [f64x2; N],
-    forced: [[[f64x2; N]; 2]; M],
+    slope: [Pair; N],
+    alpha: [Pair; N],
+    forced: [[[Pair; N]; 2]; M],
 }
 
 /// Computes the Taylor coefficients about s of 1 − cos νs and of sin νs, the latter with sin
@@ -41,7 +41,7 @@ impl<const M: usize, const N: usize> Linear<M, N> {
     /// coefficients about any instant.
     pub fn new(
         frequencies: &Frequencies<M>,
-        extract: impl Fn(&dyn Fn(f64) -> Taylor) -> [f64x2; N],
+        extract: impl Fn(&dyn Fn(f64) -> Taylor) -> [Pair; N],
     ) -> Self {
         let w = frequencies.omega;
         Linear {
@@ -66,13 +66,12 @@ impl<const M: usize, const N: usize> Linear<M, N> {
 
     /// Evaluates the numbers of a frame, without f₀.
     #[inline(always)]
-    pub fn evaluate(&self, frame: &Frame<M>) -> [f64x2; N] {
+    pub fn evaluate(&self, frame: &Frame<M>) -> [Pair; N] {
         std::array::from_fn(|i| {
-            let mut sum =
-                f64x2::splat(frame.g0) * self.slope[i] + f64x2::splat(frame.alpha) * self.alpha[i];
+            let mut sum = splat(frame.g0) * self.slope[i] + splat(frame.alpha) * self.alpha[i];
             for m in 0..M {
-                sum += f64x2::splat(frame.forced[m][0]) * self.forced[m][0][i]
-                    + f64x2::splat(frame.forced[m][1]) * self.forced[m][1][i];
+                sum += splat(frame.forced[m][0]) * self.forced[m][0][i]
+                    + splat(frame.forced[m][1]) * self.forced[m][1][i];
             }
             sum
         })

@@ -94,6 +94,10 @@ pub struct Point<const M: usize> {
 /// doubled, as the margin is used at both sides.
 pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
+/// Below this fraction of d a gap keeps its width and rate from its last frame when a neighbour is
+/// hit: as a difference of two positions it would have lost its digits.
+pub const NEARLY_SHUT: f64 = 1e-9;
+
 impl<const M: usize> Frame<M> {
     /// The function 0.
     pub const ZERO: Frame<M> =

@@ -7,7 +7,7 @@
 use super::linear::Linear;
 use super::local_frame::{Frame, Frequencies};
 use super::outcome::Counters;
-use wide::f64x2;
+use super::pair::{Pair, splat};
 
 /// Nodes over the reach, both ends included; a power of two.
 const NODES: usize = 32;
@@ -37,7 +37,7 @@ impl<const M: usize> Nodes<M> {
             nodes: std::array::from_fn(|i| {
                 Linear::new(frequencies, |f| {
                     let c = f(i as f64 * spacing);
-                    std::array::from_fn(|k| f64x2::from([c[2 * k], c[2 * k + 1]]))
+                    std::array::from_fn(|k| Pair::from([c[2 * k], c[2 * k + 1]]))
                 })
             }),
             reach: frequencies.reach,
@@ -59,7 +59,7 @@ impl<const M: usize> Nodes<M> {
             let index = number.to_bits() as usize % NODES;
             let node = index as f64 * self.spacing;
             let mut taylor = Taylor(self.nodes[index].evaluate(frame));
-            taylor.0[0] += f64x2::from([frame.f0, 0.0]);
+            taylor.0[0] += Pair::from([frame.f0, 0.0]);
             let mut h = s - node;
             for _ in 0..STEPS {
                 if h.abs() > self.radius {
@@ -88,28 +88,28 @@ impl<const M: usize> Nodes<M> {
 }
 
 /// A Taylor polynomial of degree nine, with its coefficients of even and odd order in pairs.
-struct Taylor([f64x2; 5]);
+struct Taylor([Pair; 5]);
 
 impl Taylor {
     /// Returns the Taylor coefficients about h, up to the third.
     #[inline(always)]
     fn about(&self, h: f64) -> [f64; 4] {
         let c = &self.0;
-        let square = f64x2::splat(h * h);
+        let square = splat(h * h);
         let fourth = square * square;
-        let sum = |x: f64x2| {
+        let sum = |x: Pair| {
             let [even, odd] = x.to_array();
             even + h * odd
         };
         // (c₁, c₂), (c₃, c₄), …
-        let next: [f64x2; 4] =
-            std::array::from_fn(|i| f64x2::from([c[i].to_array()[1], c[i + 1].to_array()[0]]));
-        let times = |x: f64x2, a: f64, b: f64| x * f64x2::from([a, b]);
+        let next: [Pair; 4] =
+            std::array::from_fn(|i| Pair::from([c[i].to_array()[1], c[i + 1].to_array()[0]]));
+        let times = |x: Pair, a: f64, b: f64| x * Pair::from([a, b]);
         let value = (c[0] + square * c[1]) + fourth * ((c[2] + square * c[3]) + fourth * c[4]);
         let slope = (times(next[0], 1.0, 2.0) + square * times(next[1], 3.0, 4.0))
             + fourth
                 * ((times(next[2], 5.0, 6.0) + square * times(next[3], 7.0, 8.0))
-                    + fourth * f64x2::from([9.0 * c[4].to_array()[1], 0.0]));
+                    + fourth * Pair::from([9.0 * c[4].to_array()[1], 0.0]));
         let bend = (times(c[1], 1.0, 3.0) + square * times(c[2], 6.0, 10.0))
             + fourth * (times(c[3], 15.0, 21.0) + square * times(c[4], 28.0, 36.0));
         let twist = (times(next[1], 1.0, 4.0) + square * times(next[2], 10.0, 20.0))

@@ -1,5 +1,7 @@
 //! Defines what a search returns, and the counters of its work.
 
+use serde::{Deserialize, Serialize};
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Next {
     /// The first root, at `s`, where f falls with `speed` = −f'(s) ≥ 0.
@@ -13,7 +15,7 @@ pub enum Next {
 }
 
 /// Counted work of a run, the same on every machine.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counters {
     pub impacts: u64,
     /// Contact phases begun, one per gap.
@@ -24,8 +26,18 @@ pub struct Counters {
     pub pieces: u64,
     /// Evaluations of a gap: by the polynomial of a node, or with sines (the start costs none).
     pub evaluations: u64,
-    /// Decisions taken inside the undecidable band of the search.
+    /// Dips of a gap of which rounding cannot tell whether they reach zero, taken for misses. One
+    /// that an impact next to the gap prevents is counted too.
     pub undecided: u64,
-    /// Instants at which two or more neighbouring gaps closed together.
+    /// Where the last of these dips lies in the frame of its gap.
+    pub(crate) dip: f64,
+    /// Impacts at exactly the same instant as one of a neighbouring gap.
     pub simultaneous: u64,
+}
+
+/// A dip of a gap of which rounding cannot tell whether it reaches zero.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Graze {
+    pub time: f64,
+    pub gap: usize,
 }

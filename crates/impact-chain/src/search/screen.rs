@@ -10,13 +10,13 @@
 
 use super::linear::{Linear, Taylor};
 use super::local_frame::{Frame, Frequencies};
-use wide::f64x2;
+use super::pair::{self, Pair, less, min, select, splat};
 
 /// Degree of the Bernstein form.
 const N: usize = 8;
 
 /// One number for each of the coefficients b₁ … b₈.
-type CoefficientPairs = [f64x2; N / 2];
+type CoefficientPairs = [Pair; N / 2];
 
 /// The values of a function at the ends of the eighths of the reach.
 #[derive(Clone, Copy, Debug)]
@@ -38,9 +38,9 @@ impl<const M: usize> Eighths<M> {
     /// the secant of the eighth in which it lies.
     #[inline(always)]
     pub fn guess(&self, frame: &Frame<M>) -> f64 {
-        let row = self.values.evaluate(frame).map(|x| x + f64x2::splat(frame.f0));
-        let below = signs(row.map(|x| x.simd_lt(f64x2::ZERO)));
-        let [[a, b], [c, d], [e, f], [g, h]] = row.map(f64x2::to_array);
+        let row = self.values.evaluate(frame).map(|x| x + splat(frame.f0));
+        let below = signs(row.map(|x| less(x, splat(0.0))));
+        let [[a, b], [c, d], [e, f], [g, h]] = row.map(Pair::to_array);
         let values = [frame.f0, a, b, c, d, e, f, g, h];
         let last = (below | 1 << (N - 1)).trailing_zeros() as usize % N;
         let (high, low) = (values[last], values[last + 1]);
@@ -51,7 +51,7 @@ impl<const M: usize> Eighths<M> {
 /// Packs the results of eight comparisons into one bit each.
 #[inline(always)]
 fn signs(masks: CoefficientPairs) -> u32 {
-    let [a, b, c, d] = masks.map(|mask| mask.to_bitmask());
+    let [a, b, c, d] = masks.map(|mask| pair::signs(mask) as u32);
     (a | b << 2) | (c << 4 | d << 6)
 }
 
@@ -64,7 +64,7 @@ pub struct Piece<const M: usize> {
     pub width: f64,
     factors: Linear<M, { N / 2 }>,
     /// The largest difference between f and p over M₄, as it enters b₄, and 0 for b₃.
-    difference: f64x2,
+    difference: Pair,
     /// The largest effect of the same difference on b_{i+1} − b_i.
     difference_of_slope: f64,
 }
@@ -104,7 +104,7 @@ fn hermite(left: Taylor, right: Taylor, w: f64) -> CoefficientPairs {
 }
 
 fn row(b: [f64; N]) -> CoefficientPairs {
-    std::array::from_fn(|i| f64x2::from([b[2 * i], b[2 * i + 1]]))
+    std::array::from_fn(|i| Pair::from([b[2 * i], b[2 * i + 1]]))
 }
 
 impl<const M: usize> Piece<M> {
@@ -118,7 +118,7 @@ impl<const M: usize> Piece<M> {
             start,
             width,
             factors: Linear::new(frequencies, |f| hermite(f(start), f(end), width)),
-            difference: f64x2::from([0.0, eighth / 70.0]),
+            difference: Pair::from([0.0, eighth / 70.0]),
             // |f' − p'| ≤ M₈ max |t³ (w − t)³ (t − ξ)|/7! ≤ M₈ w⁷/(64 · 7!), times w/8.
             difference_of_slope: eighth / 64.0,
         }
@@ -136,8 +136,8 @@ impl<const M: usize> Piece<M> {
     /// Computes the coefficients b₁ … b₈ of q over this piece; b₀ is f(a).
     #[inline(always)]
     pub fn coefficients(&self, frame: &Frame<M>) -> Coefficients {
-        let mut row = self.factors.evaluate(frame).map(|x| x + f64x2::splat(frame.f0));
-        row[1] -= f64x2::splat(frame.bound) * self.difference;
+        let mut row = self.factors.evaluate(frame).map(|x| x + splat(frame.f0));
+        row[1] += splat(-frame.bound) * self.difference;
         Coefficients { row, slack: SLACK * frame.size }
     }
 
@@ -146,17 +146,18 @@ impl<const M: usize> Piece<M> {
     #[inline(always)]
     pub fn only_root(&self, frame: &Frame<M>, first: f64, c: &Coefficients) -> Option<f64> {
         let [b1, b2, b3, b4, b5, b6, b7, b8] = c.all();
-        let before = [[first, b1], [b2, b3], [b4, b5], [b6, b7]].map(f64x2::from);
-        let slack = f64x2::splat(c.slack + self.difference_of_slope * frame.bound);
-        let falls: [f64x2; N / 2] = std::array::from_fn(|i| c.row[i].simd_lt(before[i] - slack));
-        if !((falls[0] & falls[1]) & (falls[2] & falls[3])).all() || b8 >= -c.slack {
+        let before = [[first, b1], [b2, b3], [b4, b5], [b6, b7]].map(Pair::from);
+        let slack = splat(c.slack + self.difference_of_slope * frame.bound);
+        let falls: [Pair; N / 2] = std::array::from_fn(|i| less(c.row[i], before[i] - slack));
+        let all_fall = pair::signs((falls[0] & falls[1]) & (falls[2] & falls[3])) == 0b11;
+        if !all_fall || b8 >= -c.slack {
             return None;
         }
         // The parabola with value, slope and curvature of p at the end that is nearer to zero. No
         // processor can predict which one it is, so a mask replaces a branch.
-        let at_left = f64x2::splat(first).simd_lt(f64x2::splat(-b8));
+        let at_left = less(splat(first), splat(-b8));
         let nearer = |left: [f64; 2], right: [f64; 2]| {
-            at_left.select(f64x2::from(left), f64x2::from(right)).to_array()
+            select(at_left, Pair::from(left), Pair::from(right)).to_array()
         };
         let [near, next] = nearer([first, b1], [b8, b7]);
         let [third, _] = nearer([b2; 2], [b6; 2]);
@@ -180,17 +181,16 @@ impl Coefficients {
     #[inline(always)]
     pub fn are_positive(&self) -> bool {
         let [a, b, c, d] = self.row;
-        let least = a.fast_min(b).fast_min(c.fast_min(d));
-        least.simd_gt(f64x2::splat(self.slack)).all()
+        let least = min(min(a, b), min(c, d));
+        pair::signs(less(splat(self.slack), least)) == 0b11
     }
 
     /// Whether the signs of b₁ … b₈, which are not all plus, change at most once, from plus
     /// to minus.
     #[inline(always)]
     pub fn change_sign_once(&self) -> bool {
-        let slack = f64x2::splat(self.slack);
-        let plus = signs(self.row.map(|b| b.simd_gt(slack)));
-        let minus = signs(self.row.map(|b| b.simd_lt(-slack)));
+        let plus = signs(self.row.map(|b| less(splat(self.slack), b)));
+        let minus = signs(self.row.map(|b| less(b, splat(-self.slack))));
         // Plus from the lowest bit on, and minus all others.
         (plus & (plus + 1) == 0) & (plus + minus == (1 << N) - 1)
     }
@@ -203,7 +203,7 @@ impl Coefficients {
 
     #[inline(always)]
     fn all(&self) -> [f64; N] {
-        let [[a, b], [c, d], [e, f], [g, h]] = self.row.map(f64x2::to_array);
+        let [[a, b], [c, d], [e, f], [g, h]] = self.row.map(Pair::to_array);
         [a, b, c, d, e, f, g, h]
     }
 }

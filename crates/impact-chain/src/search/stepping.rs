@@ -1,6 +1,6 @@
 //! Finds the first root by certified steps: slower than the screen, but always decisive.
 
-use super::local_frame::{Frame, Frequencies, Point, ROUNDING};
+use super::local_frame::{Frame, Frequencies, NEARLY_SHUT, Point, ROUNDING};
 use super::outcome::{Counters, Next};
 
 /// Returns the first root h > 0 of the parabola f + g h − ½ K h², f ≥ 0; `far` if there is
@@ -155,10 +155,10 @@ const PATIENCE: u32 = 64;
 ///
 /// # The undecidable band
 /// Where the minimum of that quadratic lies within two margins of zero, a double cannot tell a
-/// grazing impact from a near miss. The quadratic then decides, hit if its minimum is ≤ 0, and
-/// the decision is counted in [`Counters::undecided`]. A margin is 8 ε times the sum of the
-/// absolute values of the terms of f, ε = 2^-52; that sum is at most d + 2 (R₁ + R₂) + 3 R₂
-/// Ω/ω.
+/// grazing impact from a near miss. It is taken for a miss, so an exact graze is right, and is
+/// counted in [`Counters::undecided`]. A margin is 8 ε times the sum of the absolute values of the
+/// terms of f, ε = 2^-52; that sum is at most d + 2 (R₁ + R₂) + 3 R₂ Ω/ω. It is at least the
+/// rounding of the frame itself, unless the gap was nearly shut at its instant.
 pub fn first_root_by_steps<const M: usize>(
     frame: &Frame<M>,
     from: f64,
@@ -168,6 +168,9 @@ pub fn first_root_by_steps<const M: usize>(
 ) -> Next {
     let fast = frequencies.fastest;
     let bound6 = fast * fast * frame.bound;
+    // A frame that was not carried on from an impact has rounding of its own.
+    let carried = frame.f0 <= NEARLY_SHUT * frame.size;
+    let rounding = if carried { 0.0 } else { 2.0 * f64::EPSILON * frame.size };
     let mut s = from;
     let mut p = if s == 0.0 {
         frame.start(frequencies)
@@ -189,10 +192,22 @@ pub fn first_root_by_steps<const M: usize>(
         if p.d1 < 0.0 && discriminant >= 0.0 {
             let h = 2.0 * p.f / (root - p.d1);
             let rest = (p.d3.abs() * (1.0 / 6.0) + frame.bound * h * (1.0 / 24.0)) * (h * h * h);
-            if in_band || rest <= p.margin {
-                work.undecided += u64::from(discriminant <= 4.0 * p.d2 * p.margin);
+            let near = in_band || rest <= p.margin;
+            if near && discriminant > 4.0 * p.d2 * p.margin.max(rounding) {
                 let (s, speed) = polish(s, h, root, &p, frequencies);
                 return if s <= limit { Next::Root { s, speed } } else { Next::Clear { s: limit } };
+            }
+            if near {
+                // To where the quadratic is above the band again.
+                work.undecided += 1;
+                work.dip = s - p.d1 / p.d2;
+                s += climb(&p, rounding);
+                if s >= limit {
+                    return Next::Clear { s: limit };
+                }
+                p = frame.at(s, frequencies);
+                work.evaluations += 1;
+                continue;
             }
         }
         let mut leap = 0.0;
@@ -219,10 +234,10 @@ pub fn first_root_by_steps<const M: usize>(
             leap = h;
         }
         let h = if in_band && p.d2 > 0.0 {
-            // A dip in which the quadratic does not reach zero: on to where it leaves the band.
+            // A dip in which the quadratic does not reach zero.
             work.undecided += 1;
-            let up = (p.d1 * p.d1 + 2.0 * p.d2 * (4.0 * p.margin)).sqrt();
-            (up - p.d1) / p.d2
+            work.dip = s - p.d1 / p.d2;
+            climb(&p, rounding)
         } else {
             stretch((p.f - p.margin).max(0.0), &p, frame.bound, limit - s)
         };
@@ -247,6 +262,30 @@ pub fn first_root_by_steps<const M: usize>(
     Next::Clear { s }
 }
 // end
+
+/// Widths above this fraction of the size of a frame are no part of a dip that rounding hides.
+pub const SHALLOW: f64 = 1e-6;
+
+/// Returns where a frame from the motions has a dip of which its rounding hides whether it reaches
+/// zero, and a time after it; none if it has none close to its instant.
+#[cold]
+pub fn hidden_dip<const M: usize>(
+    frame: &Frame<M>,
+    frequencies: &Frequencies<M>,
+) -> Option<[f64; 2]> {
+    let (p, rounding) = (frame.start(frequencies), 2.0 * f64::EPSILON * frame.size);
+    let dip = -p.d1 / p.d2;
+    let rest = (p.d3.abs() * (1.0 / 6.0) + frame.bound * dip * (1.0 / 24.0)) * (dip * dip * dip);
+    let lowest = p.f + 0.5 * p.d1 * dip;
+    let is_hidden = dip > 0.0 && rest <= rounding && lowest.abs() <= 2.0 * rounding;
+    is_hidden.then(|| [dip, climb(&p, rounding)])
+}
+
+/// Returns the time from a point of a dip to where its quadratic is above the band again.
+fn climb<const M: usize>(p: &Point<M>, rounding: f64) -> f64 {
+    let up = (p.d1 * p.d1 + 8.0 * p.d2 * p.margin.max(rounding)).sqrt();
+    (up - p.d1) / p.d2
+}
 
 /// Returns the longest certain one of the halves, quarters and so on of a leap that failed, or none
 /// if none goes farther than a step.

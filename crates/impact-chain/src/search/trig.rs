@@ -1,6 +1,6 @@
 //! Computes sine and cosine by plain + − × only, so with the same bits on every machine.
 
-use wide::f64x2;
+use super::pair::{Pair, abs, less, max, min, select, splat};
 
 /// Largest |x| for which [`small_sin_cos`] is meant.
 pub const RANGE: f64 = 2.83;
@@ -86,14 +86,14 @@ const TABLE: [[f64; 2]; TERMS] = {
 
 /// Evaluates both polynomials of [`TABLE`] at z, in one register of two.
 #[inline(always)]
-fn polynomials(z: f64x2) -> f64x2 {
+fn polynomials(z: Pair) -> Pair {
     let square = z * z;
     // Even and odd powers apart: half the length of each chain of dependent operations.
-    let mut even = f64x2::from(TABLE[TERMS - 2]);
-    let mut odd = f64x2::from(TABLE[TERMS - 1]);
+    let mut even = Pair::from(TABLE[TERMS - 2]);
+    let mut odd = Pair::from(TABLE[TERMS - 1]);
     for k in (0..TERMS / 2 - 1).rev() {
-        even = even * square + f64x2::from(TABLE[2 * k]);
-        odd = odd * square + f64x2::from(TABLE[2 * k + 1]);
+        even = even * square + Pair::from(TABLE[2 * k]);
+        odd = odd * square + Pair::from(TABLE[2 * k + 1]);
     }
     even + z * odd
 }
@@ -102,17 +102,17 @@ fn polynomials(z: f64x2) -> f64x2 {
 /// below 1e-19 and 3e-18. The order is that of least latency, since all work at an event waits for
 /// its phases.
 #[inline(always)]
-fn quarter_polynomials(z: f64x2) -> f64x2 {
+fn quarter_polynomials(z: Pair) -> Pair {
     let square = z * z;
-    let pair = |k: usize| f64x2::from(TABLE[k]) + z * f64x2::from(TABLE[k + 1]);
+    let pair = |k: usize| Pair::from(TABLE[k]) + z * Pair::from(TABLE[k + 1]);
     (pair(0) + square * pair(2)) + (square * square) * (pair(4) + square * pair(6))
 }
 
 /// Returns sin x − x and 1 − cos x, given one of the two functions above.
 #[inline(always)]
-fn remainders(x: f64, polynomials: impl Fn(f64x2) -> f64x2) -> [f64; 2] {
+fn remainders(x: f64, polynomials: impl Fn(Pair) -> Pair) -> [f64; 2] {
     let z = x * x;
-    (polynomials(f64x2::splat(z)) * f64x2::from([z * x, z])).to_array()
+    (polynomials(splat(z)) * Pair::from([z * x, z])).to_array()
 }
 
 /// Returns sin x − x and 1 − cos x for |x| ≤ [`RANGE`], each to a few units in its last
@@ -165,19 +165,20 @@ const ARCTAN: [f64; 10] = [
 /// Returns the angles of two vectors from the x axis, in [−π, π] and to 2e-9, for windows that
 /// are widened by more than that.
 #[inline(always)]
-pub fn rough_angles(y: f64x2, x: f64x2) -> f64x2 {
+pub fn rough_angles(y: Pair, x: Pair) -> Pair {
     use std::f64::consts::{FRAC_PI_2, PI};
-    let (across, along) = (y.abs(), x.abs());
-    let slope = across.fast_min(along) / across.fast_max(along);
+    let (across, along) = (abs(y), abs(x));
+    let slope = min(across, along) / max(across, along);
     let square = slope * slope;
     let fourth = square * square;
-    let pair = |k: usize| f64x2::splat(ARCTAN[k]) + square * f64x2::splat(ARCTAN[k + 1]);
+    let pair = |k: usize| splat(ARCTAN[k]) + square * splat(ARCTAN[k + 1]);
     let sum =
         pair(0) + fourth * (pair(2) + fourth * (pair(4) + fourth * (pair(6) + fourth * pair(8))));
     let angle = slope * sum;
-    let angle = across.simd_gt(along).select(f64x2::splat(FRAC_PI_2) - angle, angle);
-    let angle = x.simd_lt(f64x2::ZERO).select(f64x2::splat(PI) - angle, angle);
-    y.simd_lt(f64x2::ZERO).select(-angle, angle)
+    let zero = splat(0.0);
+    let angle = select(less(along, across), splat(FRAC_PI_2) - angle, angle);
+    let angle = select(less(x, zero), splat(PI) - angle, angle);
+    select(less(y, zero), zero - angle, angle)
 }
 
 #[cfg(test)]

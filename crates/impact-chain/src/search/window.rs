@@ -2,8 +2,8 @@
 //! together.
 
 use super::local_frame::Frequencies;
+use super::pair::Pair;
 use super::trig::rough_angles;
-use wide::f64x2;
 
 /// One sinusoid R cos(νs + θ), as value u and quadrature u̇/ν at s = 0.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +47,7 @@ pub fn next_window<const M: usize>(
         // Always low enough if there is no angle at which it is too high.
         let narrow = cosine > -1.0 && cosine < 1.0;
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        let angles = rough_angles(f64x2::from([sine, quadrature]), f64x2::from([cosine, -u]));
+        let angles = rough_angles(Pair::from([sine, quadrature]), Pair::from([cosine, -u]));
         let [half_width, angle] = angles.to_array();
         let half_width = if narrow { half_width + WIDENED } else { 4.0 };
         Part { frequency, amplitude: r, angle, half_width }
