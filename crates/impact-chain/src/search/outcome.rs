@@ -1,7 +1,5 @@
 //! Defines what a search returns, and the counters of its work.
 
-use serde::{Deserialize, Serialize};
-
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Next {
     /// The first root, at `s`, where f falls with `speed` = −f'(s) ≥ 0.
@@ -36,7 +34,8 @@ pub struct Counters {
 }
 
 /// A dip of a gap of which rounding cannot tell whether it reaches zero.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "ensembles", derive(serde::Deserialize, serde::Serialize))]
 pub struct Graze {
     pub time: f64,
     pub gap: usize,
