@@ -220,11 +220,6 @@ impl Value {
             _ => 0.0,
         }
     }
-
-    /// Returns whether neither number nor error is infinite or NaN.
-    pub(crate) fn is_finite(&self) -> bool {
-        self.number.is_finite()
-    }
 }
 
 /// The path of the function that computes a value.

@@ -228,7 +228,7 @@ impl<'a, R> Building<'a, R> {
             let brackets = if row.is_empty() { String::new() } else { format!("[{row}]") };
             for (column, cell) in columns.iter().zip(cells) {
                 let address = format!("{name}{brackets}.{}", column.name);
-                if !cell.is_finite() {
+                if !cell.number.is_finite() {
                     let remedy = "correct it, or return None where there is no number";
                     faults.push(format!("{address} is {}; {remedy}", cell.plain()));
                 }
