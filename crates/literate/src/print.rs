@@ -11,7 +11,7 @@ use crate::value::{Digits, Number, Value};
 /// What filters of a template change of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Style {
-    /// Times one hundred, with a percent sign.
+    /// Writes it in per cent.
     pub percent: bool,
     /// Other digits than those of the value.
     pub digits: Option<Digits>,
@@ -120,12 +120,12 @@ impl Numeral {
         format!("{minus}{}{error}", self.digits)
     }
 
-    /// Whether only the power of ten is written: 10^−9 and not 1 × 10^−9.
+    /// Returns whether only the power of ten is written: 10^−9 and not 1 × 10^−9.
     pub fn is_power_alone(&self) -> bool {
         self.exponent.is_some() && self.digits == "1" && !self.negative && self.error.is_none()
     }
 
-    /// The number as TeX if it has a power of ten.
+    /// Returns the number as TeX if it has a power of ten.
     pub fn tex_power(&self) -> Option<String> {
         let exponent = self.exponent?;
         if self.is_power_alone() {
@@ -141,7 +141,8 @@ impl Numeral {
 
 const NARROW_SPACE: char = '\u{202f}';
 
-/// Below 10^−3 and from 10^6 on, a real number is written with a power of ten.
+/// Returns whether a real number of this size is written with a power of ten: below 10^−3 and from
+/// 10^6 on.
 fn shows_power(exponent: i32) -> bool {
     !(-3..6).contains(&exponent)
 }
@@ -178,7 +179,7 @@ fn with_error(x: f64, error: f64, power: i32) -> Numeral {
     Numeral { error: Some(error), ..number }
 }
 
-/// Digits in groups of three from five digits on, with a narrow space that does not break.
+/// Writes digits in groups of three from five digits on, with a narrow space that does not break.
 fn grouped(n: i128) -> String {
     let digits = n.unsigned_abs().to_string();
     if digits.len() < 5 {
@@ -195,7 +196,7 @@ fn grouped(n: i128) -> String {
 }
 
 impl Value {
-    /// The value in its digits, for terminals and data: `0.1165(4)`.
+    /// Returns the value in its digits, for terminals and data: `0.1165(4)`.
     pub fn plain(&self) -> String {
         print(&self.number, Style::default()).plain()
     }

@@ -1,5 +1,6 @@
 //! Says what is not there, where it is asked for, and what is nearest.
 
+use crate::text::place;
 use std::cmp::Reverse;
 use std::panic::Location;
 
@@ -18,9 +19,7 @@ pub struct Missing {
 impl Missing {
     #[track_caller]
     pub(super) fn new(address: impl Into<String>, what: impl Into<String>) -> Missing {
-        let place = Location::caller();
-        let place = format!("{}:{}", place.file(), place.line());
-        let remedy = "run a fuller profile";
+        let (remedy, place) = ("run a fuller profile", place(Location::caller()));
         Missing { address: address.into(), what: what.into(), remedy, place }
     }
 

@@ -9,6 +9,7 @@
 //! number is computed or named twice. Rows are found by equal keys, never by near ones.
 
 mod building;
+mod data;
 mod find;
 mod missing;
 mod rows;

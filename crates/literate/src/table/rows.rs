@@ -1,7 +1,8 @@
 //! Holds the cells of a table, and finds them by addresses and keys.
 
 use super::missing::{Missing, NO_NUMBER, no_such};
-use crate::value::{Kind, Number, Value};
+use crate::text::place;
+use crate::value::{Number, Value};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 use std::panic::Location;
@@ -33,14 +34,14 @@ pub(super) struct Column {
 pub type Keys<'a> = &'a [(&'a str, f64)];
 
 impl Table {
-    /// Its name: `experiment.table`.
+    /// Returns its name: `experiment.table`.
     pub fn name(&self) -> &'static str {
         self.name
     }
 
     /// Returns where the source makes it: `src/file.rs:12`.
     pub fn place(&self) -> String {
-        format!("{}:{}", self.place.file(), self.place.line())
+        place(self.place)
     }
 
     /// Returns why it is refused, with its place.
@@ -48,7 +49,7 @@ impl Table {
         self.fault.as_deref()
     }
 
-    /// The cell with this address; `first` and `last` stand for values of a key.
+    /// Finds the cell with this address; `first` and `last` stand for values of a key.
     pub fn at(&self, address: &str) -> Option<&Value> {
         if ["=first", "=last"].iter().any(|end| address.contains(end)) {
             let (row, column) = address.strip_prefix(self.name)?.rsplit_once("].")?;
@@ -156,18 +157,18 @@ impl Table {
         self.rows.iter().flat_map(|(_, cells)| cells)
     }
 
-    /// Names of the keys.
+    /// Returns the names of the keys.
     pub fn keys(&self) -> impl Iterator<Item = &'static str> {
         self.columns[..self.keys].iter().map(|column| column.name)
     }
 
-    /// The names of all rows, in order.
+    /// Returns the names of all rows, in order.
     pub fn rows(&self) -> impl Iterator<Item = &str> {
         self.rows.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Every way in which a template can name a row, with its cells by column: for a key its value,
-    /// or `first` and `last` of all its values. One empty name where there are no keys.
+    /// Lists every way in which a template can name a row, with its cells by column: for a key its
+    /// value, or `first` and `last` of all its values. One empty name where there are no keys.
     pub fn named(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
         let mut found = BTreeMap::new();
         let keys: Vec<_> = self.keys().map(|key| (key, self.called(key))).collect();
@@ -197,26 +198,6 @@ impl Table {
             found.extend(names.into_iter().map(|name| (name, row.clone())));
         }
         found
-    }
-
-    /// Column names with units, and the cells as data files write them: every bit of each number,
-    /// and a column of its own for each standard error.
-    pub fn data(&self) -> (Vec<String>, Vec<Vec<String>>) {
-        let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); self.rows.len()]);
-        for (at, Column { name, unit }) in self.columns.iter().enumerate() {
-            let mut cells = self.rows.iter().map(|(_, cells)| &cells[at]);
-            let error = cells.any(|cell| matches!(cell.kind, Kind::Ensemble { .. }));
-            header.push(format!("{name} ({unit})"));
-            header.extend(error.then(|| format!("{name}_error ({unit})")));
-            for (row, (_, cells)) in rows.iter_mut().zip(&self.rows) {
-                row.push(written(&cells[at].number));
-                row.extend(error.then(|| match cells[at].kind {
-                    Kind::Ensemble { standard_error, .. } => format!("{standard_error:?}"),
-                    _ => String::new(),
-                }));
-            }
-        }
-        (header, rows)
     }
 }
 
@@ -258,20 +239,11 @@ pub fn number(cell: &Value) -> Option<f64> {
     }
 }
 
-/// Writes a number as data files have it.
-fn written(number: &Number) -> String {
-    match number {
-        Number::None => String::new(),
-        Number::Integer(n) => n.to_string(),
-        Number::Real { value, .. } => format!("{value:?}"),
-        Number::Text(words) => words.clone(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::{Tables, cell, table_of};
     use super::*;
+    use crate::value::Kind;
     use std::sync::Arc;
 
     fn mean(row: &(f64, f64, Vec<f64>)) -> Option<Estimate> {
