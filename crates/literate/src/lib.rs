@@ -41,6 +41,7 @@
 mod build;
 pub mod claims;
 pub mod cli;
+mod decimal;
 pub mod experiments;
 mod failure;
 pub mod figures;

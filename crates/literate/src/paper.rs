@@ -7,6 +7,7 @@ use crate::figures::{self, Figure};
 use crate::project::Project;
 use crate::report::{Edition, Value};
 use crate::source::Sources;
+use crate::text;
 use serde_json::Value as Json;
 use std::collections::BTreeMap;
 use std::panic::Location;
@@ -157,7 +158,7 @@ impl Paper {
             named.push(("experiments", experiment.name(), place));
         }
         for FigureSpec { name, place, .. } in &self.figures {
-            named.push(("figures", name, format!("{}:{}", place.file(), place.line())));
+            named.push(("figures", name, text::place(place)));
         }
         for document in &self.edition.documents {
             named.push(("documents", document.markdown, format!("of {}", document.prose)));
@@ -197,7 +198,7 @@ mod tests {
         for (text, name) in
             [("3", "fig03"), ("fig03", "fig03"), ("S1", "s01"), ("spread", "spread")]
         {
-            assert_eq!(paper.find_figure(text).map(|own| own.name).unwrap(), name);
+            assert_eq!(paper.find_figure(text).map(|figure| figure.name).unwrap(), name);
         }
         assert!(paper.find_figure("16").err().unwrap().message.contains("fig03, s01, spread"));
         let twice = paper.figure("s01", &[], draw).check_names().unwrap_err().message;

@@ -1,5 +1,7 @@
 //! Prepares text for messages: one short line without control characters, in plain words.
 
+use std::panic::Location;
+
 /// Returns a message in one line of at most `most` characters; a longer one keeps its beginning
 /// and its end. Parsers repeat their input, which may be of any length.
 pub fn one_line(text: &str, most: usize) -> String {
@@ -12,6 +14,11 @@ pub fn one_line(text: &str, most: usize) -> String {
     let (head, tail) = (most * 2 / 3, most - most * 2 / 3 - 1);
     let head = line.chars().take(head);
     head.chain(['…']).chain(line.chars().skip(length - tail)).collect()
+}
+
+/// Writes a place in the source: `src/main.rs:12`.
+pub(crate) fn place(at: &Location<'_>) -> String {
+    format!("{}:{}", at.file(), at.line())
 }
 
 /// Counts things in words: `3 numbers`, `1 number`, `no number`.

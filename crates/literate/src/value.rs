@@ -146,19 +146,19 @@ impl Value {
         }
     }
 
-    /// An exact integer.
+    /// Makes an exact integer.
     pub fn integer(id: impl Into<String>, n: impl TryInto<i128>) -> Self {
         let n = n.try_into().map_or(Number::None, Number::Integer);
         Value::new(id, n, Kind::Exact)
     }
 
-    /// A real number that was computed without chance, printed with `significant` digits.
+    /// Makes a real number that was computed without chance, printed with `significant` digits.
     pub fn real(id: impl Into<String>, value: f64, significant: usize) -> Self {
         let digits = Digits::Significant(significant);
         Value::new(id, Number::Real { value, digits }, Kind::Deterministic)
     }
 
-    /// An average over `realisations`, printed with the digits that its standard error allows.
+    /// Makes an average over `realisations`, printed with the digits that its error allows.
     pub fn ensemble(
         id: impl Into<String>,
         value: f64,
@@ -170,12 +170,12 @@ impl Value {
         Value::new(id, Number::Real { value, digits }, kind)
     }
 
-    /// Words.
+    /// Makes a value that is words.
     pub fn text(id: impl Into<String>, text: impl Into<String>) -> Self {
         Value::new(id, Number::Text(text.into()), Kind::Exact)
     }
 
-    /// A number as somebody printed it, with so many decimals, and the place where it stands.
+    /// Makes a number as somebody printed it, with so many decimals, at a place of a paper.
     pub fn printed(
         id: impl Into<String>,
         value: f64,
@@ -189,13 +189,13 @@ impl Value {
         Value::new(id, number, Kind::Printed { place: place.into() })
     }
 
-    /// With a unit (Markdown, as `$1/\omega$`).
+    /// Sets its unit (Markdown, as `$1/\omega$`).
     pub fn unit(mut self, unit: impl Into<String>) -> Self {
         self.unit = unit.into();
         self
     }
 
-    /// With the path of the item that computed it and the experiment it was read from.
+    /// Sets the path of the item that computed it and the experiment it was read from.
     pub fn source(mut self, item: Origin, experiment: impl Into<String>) -> Self {
         self.source = item.0;
         self.experiment = experiment.into();
@@ -207,23 +207,18 @@ impl Value {
         self
     }
 
-    /// Kept for readers of `values.json`; templates need not name it.
+    /// Keeps it for readers of `values.json`; templates need not name it.
     pub fn data_only(mut self) -> Self {
         self.for_data_only = true;
         self
     }
 
-    /// Its standard error, zero where it has none.
+    /// Returns its standard error, zero where it has none.
     pub fn standard_error(&self) -> f64 {
         match self.kind {
             Kind::Ensemble { standard_error, .. } => standard_error,
             _ => 0.0,
         }
-    }
-
-    /// Returns whether neither number nor error is infinite or NaN.
-    pub(crate) fn is_finite(&self) -> bool {
-        self.number.is_finite()
     }
 }
 
@@ -232,30 +227,30 @@ impl Value {
 pub struct Origin(String);
 
 impl Origin {
-    /// What no function of the program computes: a command.
+    /// Makes the origin of what a command computes.
     pub fn of(words: &str) -> Origin {
         Origin(words.into())
     }
 }
 
-/// The origin of what a function computes. The compiler knows the function, so its path is never
-/// typed: it follows a function that moves, and one that is gone is an error.
+/// Returns the origin of what a function computes. The compiler knows the function, so its path is
+/// never typed: it follows a function that moves, and one that is gone is an error.
 pub fn origin<F>(_: F) -> Origin {
     origin_of::<F>()
 }
 
-/// The same for a function that is known by its type.
+/// Returns the same for a function that is known by its type.
 pub fn origin_of<F>() -> Origin {
     origin_from(std::any::type_name::<F>())
 }
 
-/// The origin from the name of a function's type.
+/// Returns the origin from the name of a function's type.
 fn origin_from(path: &str) -> Origin {
-    // What a closure computes, the function computes in which it stands.
+    // A closure counts as the function in which it stands.
     let path = path.replace("::{{closure}}", "");
     let (Some(from), Some(to)) = (path.find('<'), path.rfind('>')) else { return Origin(path) };
     // A method that stands in another module than its type is `module::<impl other::Type>::method`;
     // of one of a generic type the parameters go.
-    let other = path[from..to].strip_prefix("<impl ").and_then(|own| own.rsplit("::").next());
+    let other = path[from..to].strip_prefix("<impl ").and_then(|path| path.rsplit("::").next());
     Origin(format!("{}{}{}", &path[..from], other.unwrap_or_default(), &path[to + 1..]))
 }

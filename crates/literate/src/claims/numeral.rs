@@ -5,7 +5,7 @@ pub(super) const MAX_PLACES: i32 = 400;
 
 /// Writes a number with so many decimals; none if its last digit stands before the point.
 pub(super) fn written(value: f64, decimals: i32) -> String {
-    format!("{value:.*}", decimals.max(0) as usize)
+    format!("{value:.*}", decimals.clamp(0, MAX_PLACES) as usize)
 }
 
 /// Replaces the first digit that is not zero, or else the last zero.

@@ -5,6 +5,7 @@ use super::evidence::{Error, Evidence, Judged};
 use super::level::Level;
 use super::published::{Published, Statement};
 use crate::experiments::Results;
+use crate::text::place;
 use crate::value::Number;
 use std::collections::BTreeMap;
 use std::panic::Location;
@@ -135,8 +136,7 @@ pub fn judge_all(
             published.statement(rule.id)?;
         }
         if let Some(before) = places.insert(rule.id, rule.place) {
-            let [place, before] =
-                [rule.place, before].map(|at| format!("{}:{}", at.file(), at.line()));
+            let (place, before) = (place(rule.place), place(before));
             return Err(Error::Twice { id: rule.id, place, before });
         }
     }

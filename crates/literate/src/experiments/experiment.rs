@@ -60,7 +60,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         if let How::Read(read) = &self.how {
             return read(session);
         }
-        let parameters = (self.parameters)(session.profile);
+        let parameters = self.finite_parameters(session.profile)?;
         let identity = self.identity(session);
         session.saved(&identity, || match &self.how {
             How::Read(read) => read(session),
@@ -71,6 +71,19 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
                 cutting.joined(&parameters, &units, parts, &session.progress)
             }
         })
+    }
+
+    /// Returns its parameters. JSON, by which a saved result is known, has null for a number that is
+    /// not finite; the values of TOML have the number.
+    fn finite_parameters(&self, profile: Profile) -> Result<P, Error> {
+        let parameters = (self.parameters)(profile);
+        match toml::Value::try_from(&parameters) {
+            Ok(value) if !is_finite(&value) => {
+                let problem = "a parameter is NaN or infinite";
+                Err(Error::input(self.name, problem, "give it a number, or use `None`"))
+            }
+            _ => Ok(parameters),
+        }
     }
 
     /// Returns the results of some units of an experiment that is cut, in their order, and how many
@@ -113,6 +126,16 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         // Units share the cores with the realisations inside them.
         let parts = units.par_iter().zip(saved).with_max_len(1).map(part);
         Ok((parts.collect::<Result<_, Error>>()?, run))
+    }
+}
+
+/// Returns whether no number in it is NaN or infinite.
+fn is_finite(value: &toml::Value) -> bool {
+    match value {
+        toml::Value::Float(number) => number.is_finite(),
+        toml::Value::Array(values) => values.iter().all(is_finite),
+        toml::Value::Table(fields) => fields.values().all(is_finite),
+        _ => true,
     }
 }
 
@@ -244,7 +267,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
         }
         let How::Cut(..) = self.how else { return self.get(session).map(|_| units.len()) };
         session.store.prepare()?;
-        let parameters = (self.parameters)(session.profile);
+        let parameters = self.finite_parameters(session.profile)?;
         Ok(self.parts(units, &parameters, &identity, session)?.1)
     }
 
@@ -254,5 +277,21 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
 
     fn tables(&self, found: &Found) -> Vec<Table> {
         found.downcast_ref().map_or_else(Vec::new, self.tables)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parameter_that_is_not_finite_is_refused() {
+        type Parameters = (Vec<f64>, Option<u64>);
+        const fn toy(parameters: fn(Profile) -> Parameters) -> Experiment<Parameters, ()> {
+            Experiment::new("toy", parameters, |_, _| Ok(()), |()| Vec::new())
+        }
+        let error = toy(|_| (vec![1.0, f64::NAN], Some(1))).finite_parameters(Profile::Quick);
+        assert!(error.unwrap_err().to_string().starts_with("toy: a parameter is NaN or infinite"));
+        assert!(toy(|_| (vec![1.0], Some(1))).finite_parameters(Profile::Full).is_ok());
     }
 }

@@ -104,7 +104,7 @@ fn showable(value: &Value) -> Result<(), Error> {
     };
     match value.id.chars().chain(words.chars()).find(hidden) {
         Some(c) => Err(Error::Unshowable(value.id.clone(), c)),
-        None if !value.is_finite() => Err(Error::NotFinite(value.id.clone())),
+        None if !value.number.is_finite() => Err(Error::NotFinite(value.id.clone())),
         None => Ok(()),
     }
 }

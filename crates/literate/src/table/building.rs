@@ -1,4 +1,4 @@
-//! A table that is being made: each call adds a column, keys first.
+//! Makes a table: each call adds a column, keys first.
 
 use super::rows::{Column, Table, called};
 use crate::value::{Kind, Number, Origin, Value, origin_of};
@@ -34,7 +34,7 @@ impl Table {
     }
 }
 
-/// A unit as Markdown.
+/// Writes a unit as Markdown.
 fn markdown(unit: &str) -> String {
     match unit {
         "1" | "text" => String::new(),
@@ -76,19 +76,19 @@ impl<'a, R> Building<'a, R> {
         self
     }
 
-    /// Columns from here on are of so many realisations.
+    /// Sets the number of realisations behind the columns that follow.
     pub fn over(mut self, number: impl Fn(&R) -> usize + 'a) -> Self {
         self.number = Rc::new(number);
         self
     }
 
-    /// Columns from here on show what this item computed.
+    /// Sets the item that computed the columns that follow.
     pub fn computed_by(mut self, item: Origin) -> Self {
         self.origin = Some(item);
         self
     }
 
-    fn one_key_more(&mut self, name: &str) {
+    fn count_key(&mut self, name: &str) {
         if self.table.keys < self.table.columns.len() {
             self.fault(format!("the key {name} stands after other columns; put keys first"));
         }
@@ -101,33 +101,33 @@ impl<'a, R> Building<'a, R> {
         self.table.fault.get_or_insert(what);
     }
 
-    /// A key: a parameter by which rows are found.
+    /// Adds a key: a parameter by which rows are found.
     pub fn key<K: Into<Number>, F: Fn(&R) -> K>(
         mut self,
         name: &'static str,
         unit: &'static str,
-        of: F,
+        get: F,
     ) -> Self {
-        self.one_key_more(name);
-        self.put((name, unit), "", origin_of::<F>(), |row: &R| as_chosen(of(row)))
+        self.count_key(name);
+        self.put((name, unit), "", origin_of::<F>(), |row: &R| as_chosen(get(row)))
     }
 
-    /// A key that is a name.
-    pub fn text_key<F: Fn(&R) -> String>(mut self, name: &'static str, of: F) -> Self {
-        self.one_key_more(name);
-        self.put((name, "text"), "", origin_of::<F>(), |row: &R| Value::text("", of(row)))
+    /// Adds a key that is a name.
+    pub fn text_key<F: Fn(&R) -> String>(mut self, name: &'static str, get: F) -> Self {
+        self.count_key(name);
+        self.put((name, "text"), "", origin_of::<F>(), |row: &R| Value::text("", get(row)))
     }
 
-    /// A number from chance with its standard error; none where the sample decides nothing.
+    /// Adds a number from chance with its standard error; none where the sample decides nothing.
     pub fn estimate<F: Fn(&R) -> Option<Estimate>>(
         self,
         name: &'static str,
         unit: &'static str,
         meaning: &str,
-        of: F,
+        get: F,
     ) -> Self {
         let number = self.number.clone();
-        let cell = |row: &R| match of(row) {
+        let cell = |row: &R| match get(row) {
             Some(Estimate { value, error, .. }) => {
                 Value::ensemble("", value, error, number(row) as u64)
             }
@@ -136,33 +136,33 @@ impl<'a, R> Building<'a, R> {
         self.put((name, unit), meaning, origin_of::<F>(), cell)
     }
 
-    /// A number that no chance has part in, with so many significant digits, or none.
+    /// Adds a number that was computed without chance, with so many significant digits, or none.
     pub fn real<V: Into<Option<f64>>, F: Fn(&R) -> V>(
         self,
         name: &'static str,
         unit: &'static str,
         digits: usize,
         meaning: &str,
-        of: F,
+        get: F,
     ) -> Self {
-        let cell = |row: &R| match of(row).into() {
+        let cell = |row: &R| match get(row).into() {
             Some(value) => Value::real("", value, digits),
             None => as_text(Number::None),
         };
         self.put((name, unit), meaning, origin_of::<F>(), cell)
     }
 
-    /// Words that were computed, or none.
+    /// Adds words that were computed, or none.
     pub fn words<W: Into<Number>, F: Fn(&R) -> W>(
         self,
         name: &'static str,
         meaning: &str,
-        of: F,
+        get: F,
     ) -> Self {
-        self.put((name, "text"), meaning, origin_of::<F>(), |row: &R| as_text(of(row)))
+        self.put((name, "text"), meaning, origin_of::<F>(), |row: &R| as_text(get(row)))
     }
 
-    /// All cells so far were measured, and are an input.
+    /// Marks all cells so far as measured: they are an input.
     pub fn measured(mut self) -> Self {
         for cell in self.table.rows.iter_mut().flat_map(|(_, cells)| cells) {
             cell.kind = Kind::Measured;
@@ -170,20 +170,20 @@ impl<'a, R> Building<'a, R> {
         self
     }
 
-    /// A parameter, with all its digits, or none.
+    /// Adds a parameter, with all its digits, or none.
     pub fn chosen<K: Into<Number>, F: Fn(&R) -> K>(
         self,
         name: &'static str,
         unit: &'static str,
         meaning: &str,
-        of: F,
+        get: F,
     ) -> Self {
-        self.put((name, unit), meaning, origin_of::<F>(), |row: &R| as_chosen(of(row)))
+        self.put((name, unit), meaning, origin_of::<F>(), |row: &R| as_chosen(get(row)))
     }
 
-    /// A count, shown as an integer up to a million and with its leading digits beyond.
-    pub fn count<F: Fn(&R) -> u64>(self, name: &'static str, meaning: &str, of: F) -> Self {
-        let cell = |row: &R| match of(row) {
+    /// Adds a count, shown as an integer up to a million and with its leading digits beyond.
+    pub fn count<F: Fn(&R) -> u64>(self, name: &'static str, meaning: &str, get: F) -> Self {
+        let cell = |row: &R| match get(row) {
             n if n < 1_000_000 => Value::integer("", n),
             n => Value::real("", n as f64, 2),
         };
@@ -192,11 +192,11 @@ impl<'a, R> Building<'a, R> {
 
     /// Gives cells of a column the id of the number that they are: one that another table or a
     /// value has already.
-    pub fn same(mut self, column: &str, of: impl Fn(&R) -> Option<String>) -> Self {
+    pub fn same(mut self, column: &str, get: impl Fn(&R) -> Option<String>) -> Self {
         match self.table.column(column) {
             Ok(at) => {
                 for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
-                    cells[at].id = of(row).unwrap_or_default();
+                    cells[at].id = get(row).unwrap_or_default();
                 }
             }
             Err(missing) => self.fault(missing.to_string()),
@@ -228,7 +228,7 @@ impl<'a, R> Building<'a, R> {
             let brackets = if row.is_empty() { String::new() } else { format!("[{row}]") };
             for (column, cell) in columns.iter().zip(cells) {
                 let address = format!("{name}{brackets}.{}", column.name);
-                if !cell.is_finite() {
+                if !cell.number.is_finite() {
                     let remedy = "correct it, or return None where there is no number";
                     faults.push(format!("{address} is {}; {remedy}", cell.plain()));
                 }

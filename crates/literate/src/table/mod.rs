@@ -9,8 +9,13 @@
 //! number is computed or named twice. Rows are found by equal keys, never by near ones.
 
 mod building;
+mod data;
+mod find;
+mod missing;
 mod rows;
 
 pub use building::Building;
+pub use find::{Tables, cell, number_at, table, table_of};
+pub use missing::{Missing, nearest};
 pub(crate) use rows::called;
-pub use rows::{Keys, Missing, Table, Tables, cell, nearest, number, number_at, table, table_of};
+pub use rows::{Keys, Table, number};

@@ -1,10 +1,11 @@
 //! Holds the cells of a table, and finds them by addresses and keys.
 
-use crate::value::{Kind, Number, Value};
+use super::missing::{Missing, NO_NUMBER, no_such};
+use crate::text::place;
+use crate::value::{Number, Value};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 use std::panic::Location;
-use std::sync::Arc;
 
 /// Rows with keys, and columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,106 +30,18 @@ pub(super) struct Column {
     pub(super) unit: &'static str,
 }
 
-/// There is no such table, row, column or cell, or the cell has no number.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{address}: {what}; {remedy}, or correct it in {place}")]
-pub struct Missing {
-    address: String,
-    /// What is missing, and the nearest names that there are.
-    what: String,
-    /// What to do if the address is right.
-    remedy: &'static str,
-    place: String,
-}
-
-impl Missing {
-    #[track_caller]
-    fn new(address: impl Into<String>, what: impl Into<String>) -> Missing {
-        let place = Location::caller();
-        let place = format!("{}:{}", place.file(), place.line());
-        let remedy = "run a fuller profile";
-        Missing { address: address.into(), what: what.into(), remedy, place }
-    }
-}
-
-/// Tables by their names.
-pub type Tables = BTreeMap<&'static str, Arc<Table>>;
-
-/// Finds a table by its name.
-#[track_caller]
-pub fn table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missing> {
-    match tables.get(name) {
-        Some(table) => Ok(table),
-        None => {
-            let missing = Missing::new(name, no_such("table", name, tables.keys().copied()));
-            Err(Missing { remedy: "add its experiment to `needs`", ..missing })
-        }
-    }
-}
-
-/// Finds the cell with an address, `cascade.orbits[n=3].delta`.
-#[track_caller]
-pub fn cell<'a>(tables: &'a Tables, address: &str) -> Result<&'a Value, Missing> {
-    let table = table(tables, table_of(address).unwrap_or(address))?;
-    match table.at(address) {
-        Some(cell) => Ok(cell),
-        None => Err(Missing::new(address, table.what_is_missing(address))),
-    }
-}
-
-#[track_caller]
-pub fn number_at(tables: &Tables, address: &str) -> Result<f64, Missing> {
-    match number(cell(tables, address)?) {
-        Some(number) => Ok(number),
-        None => Err(Missing::new(address, NO_NUMBER)),
-    }
-}
-
-const NO_NUMBER: &str = "this cell has no number";
-
-/// Says that there is nothing of this name, with the nearest names that there are.
-fn no_such<'a>(kind: &str, name: &str, names: impl Iterator<Item = &'a str>) -> String {
-    let nearest = nearest(name, names);
-    match nearest.is_empty() {
-        true => format!("there is no {kind} {name}, nor any other"),
-        false => format!("there is no {kind} {name}; nearest: {}", nearest.join(", ")),
-    }
-}
-
-/// Returns the three names that are most like one: with the most characters alike at their
-/// beginnings and ends.
-pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let begin = |own: &str| own.chars().zip(name.chars()).take_while(|(a, b)| a == b).count();
-    let ends =
-        |own: &str| own.chars().rev().zip(name.chars().rev()).take_while(|(a, b)| a == b).count();
-    let mut names: Vec<&str> = names.collect();
-    names.sort_by_key(|own| std::cmp::Reverse(begin(own) + ends(own)));
-    names.truncate(3);
-    names
-}
-
 /// Keys of a row, with their values.
 pub type Keys<'a> = &'a [(&'a str, f64)];
 
-/// `experiment.table` of a cell's address; none of what is no address.
-pub fn table_of(address: &str) -> Option<&str> {
-    match address.split_once('[') {
-        Some((table, rest)) => rest.contains("].").then_some(table),
-        None => {
-            address.rsplit_once('.').map(|(table, _)| table).filter(|table| table.contains('.'))
-        }
-    }
-}
-
 impl Table {
-    /// Its name: `experiment.table`.
+    /// Returns its name: `experiment.table`.
     pub fn name(&self) -> &'static str {
         self.name
     }
 
     /// Returns where the source makes it: `src/file.rs:12`.
     pub fn place(&self) -> String {
-        format!("{}:{}", self.place.file(), self.place.line())
+        place(self.place)
     }
 
     /// Returns why it is refused, with its place.
@@ -136,7 +49,7 @@ impl Table {
         self.fault.as_deref()
     }
 
-    /// The cell with this address; `first` and `last` stand for values of a key.
+    /// Finds the cell with this address; `first` and `last` stand for values of a key.
     pub fn at(&self, address: &str) -> Option<&Value> {
         if ["=first", "=last"].iter().any(|end| address.contains(end)) {
             let (row, column) = address.strip_prefix(self.name)?.rsplit_once("].")?;
@@ -146,7 +59,7 @@ impl Table {
     }
 
     /// Says which part of an address is not there, with the nearest that is.
-    fn what_is_missing(&self, address: &str) -> String {
+    pub(super) fn what_is_missing(&self, address: &str) -> String {
         let rest = address.strip_prefix(self.name).unwrap_or(address);
         let (row, column) = rest.rsplit_once('.').unwrap_or(("", rest));
         let row = row.trim_start_matches('[').trim_end_matches(']');
@@ -244,18 +157,18 @@ impl Table {
         self.rows.iter().flat_map(|(_, cells)| cells)
     }
 
-    /// Names of the keys.
+    /// Returns the names of the keys.
     pub fn keys(&self) -> impl Iterator<Item = &'static str> {
         self.columns[..self.keys].iter().map(|column| column.name)
     }
 
-    /// The names of all rows, in order.
+    /// Returns the names of all rows, in order.
     pub fn rows(&self) -> impl Iterator<Item = &str> {
         self.rows.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Every way in which a template can name a row, with its cells by column: for a key its value,
-    /// or `first` and `last` of all its values. One empty name where there are no keys.
+    /// Lists every way in which a template can name a row, with its cells by column: for a key its
+    /// value, or `first` and `last` of all its values. One empty name where there are no keys.
     pub fn named(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
         let mut found = BTreeMap::new();
         let keys: Vec<_> = self.keys().map(|key| (key, self.called(key))).collect();
@@ -285,26 +198,6 @@ impl Table {
             found.extend(names.into_iter().map(|name| (name, row.clone())));
         }
         found
-    }
-
-    /// Column names with units, and the cells as data files write them: every bit of each number,
-    /// and a column of its own for each standard error.
-    pub fn data(&self) -> (Vec<String>, Vec<Vec<String>>) {
-        let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); self.rows.len()]);
-        for (at, Column { name, unit }) in self.columns.iter().enumerate() {
-            let mut cells = self.rows.iter().map(|(_, cells)| &cells[at]);
-            let error = cells.any(|cell| matches!(cell.kind, Kind::Ensemble { .. }));
-            header.push(format!("{name} ({unit})"));
-            header.extend(error.then(|| format!("{name}_error ({unit})")));
-            for (row, (_, cells)) in rows.iter_mut().zip(&self.rows) {
-                row.push(written(&cells[at].number));
-                row.extend(error.then(|| match cells[at].kind {
-                    Kind::Ensemble { standard_error, .. } => format!("{standard_error:?}"),
-                    _ => String::new(),
-                }));
-            }
-        }
-        (header, rows)
     }
 }
 
@@ -346,19 +239,12 @@ pub fn number(cell: &Value) -> Option<f64> {
     }
 }
 
-/// Writes a number as data files have it.
-fn written(number: &Number) -> String {
-    match number {
-        Number::None => String::new(),
-        Number::Integer(n) => n.to_string(),
-        Number::Real { value, .. } => format!("{value:?}"),
-        Number::Text(words) => words.clone(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::{Tables, cell, table_of};
     use super::*;
+    use crate::value::Kind;
+    use std::sync::Arc;
 
     fn mean(row: &(f64, f64, Vec<f64>)) -> Option<Estimate> {
         let value = row.2.iter().sum::<f64>() / row.2.len() as f64;
@@ -409,13 +295,16 @@ mod tests {
         let table = table();
         let keys = [("r", 0.8), ("sigma", 0.30000000000000004)];
         let lost = table.number(&keys, "mean").unwrap_err();
-        assert!(lost.place.starts_with("crates/literate/src/table/rows.rs:"), "{}", lost.place);
+        assert!(lost.to_string().contains("in crates/literate/src/table/rows.rs:"), "{lost}");
         let nearest = "row r=0.8,sigma=0.30000000000000004; nearest: r=0.8,sigma=0.3, r=0.8,";
-        assert!(lost.what.contains(nearest), "{}", lost.what);
+        assert!(lost.to_string().contains(nearest), "{lost}");
         let tables = Tables::from([(table.name(), Arc::new(table.clone()))]);
-        let what = |address| cell(&tables, address).unwrap_err().what;
+        let what = |address| cell(&tables, address).unwrap_err().to_string();
         assert!(what("test.rise[r=0,sigma=0.1].meen").contains("no column meen; nearest: mean"));
-        assert!(what("test.ris.mean").ends_with("no table test.ris; nearest: test.rise"));
+        assert!(
+            what("test.ris.mean")
+                .contains("no table test.ris; nearest: test.rise; add its experiment")
+        );
         // Nothing is drawn of a column, a key or a row that is not there.
         let column = table.series(&[], "sigma", "meen").unwrap_err();
         assert!(column.to_string().contains("test.rise: there is no column meen; nearest: mean"));

@@ -1,0 +1,51 @@
+//! Finds tables and cells by their names.
+
+use super::missing::{Missing, NO_NUMBER, no_such};
+use super::rows::{Table, number};
+use crate::value::Value;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Tables by their names.
+pub type Tables = BTreeMap<&'static str, Arc<Table>>;
+
+/// Finds a table by its name.
+#[track_caller]
+pub fn table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missing> {
+    match tables.get(name) {
+        Some(table) => Ok(table),
+        None => {
+            let missing = Missing::new(name, no_such("table", name, tables.keys().copied()));
+            Err(missing.remedy("add its experiment to `needs`"))
+        }
+    }
+}
+
+/// Finds the number with an address.
+#[track_caller]
+pub fn number_at(tables: &Tables, address: &str) -> Result<f64, Missing> {
+    match number(cell(tables, address)?) {
+        Some(number) => Ok(number),
+        None => Err(Missing::new(address, NO_NUMBER)),
+    }
+}
+
+/// Finds the cell with an address, `cascade.orbits[n=3].delta`.
+#[track_caller]
+pub fn cell<'a>(tables: &'a Tables, address: &str) -> Result<&'a Value, Missing> {
+    let table = table(tables, table_of(address).unwrap_or(address))?;
+    match table.at(address) {
+        Some(cell) => Ok(cell),
+        None => Err(Missing::new(address, table.what_is_missing(address))),
+    }
+}
+
+/// Returns `experiment.table` of a cell's address; none of what is no address.
+pub fn table_of(address: &str) -> Option<&str> {
+    match address.split_once('[') {
+        Some((table, rest)) => rest.contains("].").then_some(table),
+        None => {
+            address.rsplit_once('.').map(|(table, _)| table).filter(|table| table.contains('.'))
+        }
+    }
+}
