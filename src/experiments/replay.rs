@@ -19,7 +19,6 @@ pub const REPLAY: Experiment<ReplayRuns, Replays> = Experiment {
 /// What is run: each run with a name.
 pub type ReplayRuns = Vec<(String, Request)>;
 
-/// The results, run by run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replays {
     pub parameters: ReplayRuns,
@@ -31,7 +30,6 @@ pub struct ReplayResult {
     pub impacts: u64,
     /// Different gaps with an impact in the window.
     pub distinct: usize,
-    /// Contact phases begun.
     pub contact_phases: u64,
     /// Runs of neighbouring gaps that closed at one instant.
     pub simultaneous: u64,

@@ -9,7 +9,6 @@ use crate::params;
 /// Chains with other starts, boundaries and frequencies.
 pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, tables);
 
-/// Half heights of variants of the paper's chain.
 pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
     let rest = named(variants, "rest").and_then(half_height_all);
     let table = Table::of("starts.variants", variants, |one| one.ensemble.realisations)
@@ -32,16 +31,14 @@ pub fn beside_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let relation = all.iter().find(|table| table.name() == "theory.relation")?;
     let theory = relation.number(&[], "sigma_half").ok()?;
     let both = half("rest").zip(half("random"));
-    let table = Table::of("starts.beside_theory", &[()], |()| starts[0].ensemble.realisations)
+    const SHARE: &str = "of the distance from rest to the theory, with random free parts";
+    let chains = named(starts, "rest")?.ensemble.realisations;
+    let table = Table::of("starts.beside_theory", &[()], |()| chains)
         .computed_by(origin(share_of_start))
-        .estimate(
-            "share",
-            "1",
-            "of the distance from rest to the theory, with random free parts",
-            |()| both.map(|(rest, random)| share_of_start(rest, random, theory)),
-        )
-        .done();
-    Some(vec![table])
+        .estimate("share", "1", SHARE, |()| {
+            both.map(|(rest, random)| share_of_start(rest, random, theory))
+        });
+    Some(vec![table.done()])
 }
 
 /// The part of the distance between theory and simulation that the start explains, from the half

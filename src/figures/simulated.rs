@@ -2,10 +2,9 @@
 
 use super::labels::FORCING;
 use super::prelude::*;
-use crate::experiments::rise::Counted;
 use crate::experiments::theory::beside;
+use crate::experiments::{Results, sweep};
 pub use crate::params::printed_threshold;
-use literate::table::Table;
 
 /// Line of the simulation's marks.
 pub const CROSS: Stroke = Stroke::solid(RED, THIN);
@@ -38,17 +37,29 @@ pub fn printed(panel: &Panel, from: f64) -> Drawn {
     panel.label(&format!("paper: {printed}"), line[1], (0, -1), INK)
 }
 
-/// Mean over the realisations with an impact against σ.
-pub fn means(sweep: &Counted) -> Vec<(f64, f64)> {
-    sweep.comparable().filter_map(|row| Some((row.sigma, row.mean?.value))).collect()
+/// Number of gaps of the chains of the main sweep.
+pub fn gaps(results: &Results) -> Result<usize, Error> {
+    Ok(results.number("sweep.run.gaps")? as usize)
 }
 
-/// A theory curve up to the largest σ of a sweep.
-pub fn curve(table: &Table, sweep: &Counted, column: &str) -> Vec<(f64, f64)> {
-    let end = sweep.first().rows.last().map_or(0.0, |row| row.sigma);
-    let mut points = table.points(&[], "sigma", column);
+/// Mean over the realisations with an impact against σ. The mean of a single one is drawn, though
+/// it has no error and so no cell.
+pub fn means(results: &Results) -> Result<Vec<(f64, f64)>, Error> {
+    let rows = sweep::main(results)?.comparable();
+    Ok(rows.filter_map(|row| Some((row.sigma, row.mean?.value))).collect())
+}
+
+/// A column of the main sweep against σ.
+pub fn swept(results: &Results, column: &str) -> Result<Vec<(f64, f64)>, Error> {
+    Ok(results.table("sweep.rows")?.points(&[], "sigma", column))
+}
+
+/// A theory curve up to the largest σ of the main sweep.
+pub fn curve(results: &Results, column: &str) -> Result<Vec<(f64, f64)>, Error> {
+    let end = results.table("sweep.rows")?.values("sigma").into_iter().fold(0.0, f64::max);
+    let mut points = results.table("theory.curve")?.points(&[], "sigma", column);
     points.retain(|(sigma, _)| *sigma <= end);
-    points
+    Ok(points)
 }
 
 /// The first point of a curve at or above some height, for its name.

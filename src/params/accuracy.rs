@@ -76,12 +76,10 @@ pub struct RaceParams {
     pub chains: usize,
     /// Impacts from whose states each method starts anew, spread evenly over all chains.
     pub segments: usize,
-    /// The methods.
     pub settings: Vec<Setting>,
 }
 
 impl RaceParams {
-    /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let quick = profile == Profile::Quick;
         let (until, at_least, chains, segments, realisations) =
@@ -107,18 +105,15 @@ pub fn trial_settings() -> Vec<Setting> {
 /// Counted work of an impact against the number of masses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScaleParams {
-    /// Standard deviation σ.
     pub sigma: f64,
     /// Numbers of masses n, rising.
     pub masses: Vec<usize>,
     /// Largest n of all methods but the engine.
     pub rivals: usize,
-    /// The methods.
     pub settings: Vec<Setting>,
 }
 
 impl ScaleParams {
-    /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (masses, rivals) = match profile {
             Profile::Full => (vec![10, 30, 100, 300, 1000, 10_000], 300),
@@ -141,7 +136,6 @@ pub struct BiasParams {
 }
 
 impl BiasParams {
-    /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let quick = profile == Profile::Quick;
         let (sigmas, protocol) = if quick {

@@ -43,7 +43,6 @@ pub(crate) fn distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64
     (!differences.is_empty()).then(|| (squares.sum::<f64>() / differences.len() as f64).sqrt())
 }
 
-/// The table of the comparison.
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let sweep = sweep::main(results).ok()?;
     let table = |name| all.iter().find(|table| table.name() == name);

@@ -40,11 +40,9 @@ fn lengths() -> Table {
     let peak = (1..=VERTICES).max_by(|a, b| shares[a - 1].total_cmp(&shares[b - 1]));
     one("theory.lengths", origin(counting::ratio_to_longest))
         .real("before_last", "1", 4, "Eq. (8) at k = N − 1", |()| ratio(VERTICES - 1))
-        .count(
-            "exceptions",
-            "lengths k < N with more than a tenth of the circuits of length N",
-            |()| exceptions().count() as u64,
-        )
+        .count("exceptions", "lengths k < N with over a tenth as many circuits as N", |()| {
+            exceptions().count() as u64
+        })
         .count("first_exception", "the shortest of them", |()| exceptions().min().unwrap_or(0))
         .computed_by(origin(counting::shares))
         .count("peak", "the most frequent length", |()| peak.unwrap_or(VERTICES) as u64)
