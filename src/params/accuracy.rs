@@ -2,6 +2,7 @@
 
 use super::chosen::SEED;
 use super::methods::{MethodName, Setting};
+use super::printed::printed_threshold;
 use super::runs::Runs;
 use impact_chain::{Chain, Protocol};
 use literate::experiments::Profile;
@@ -139,9 +140,9 @@ impl BiasParams {
     pub fn new(profile: Profile) -> Self {
         let quick = profile == Profile::Quick;
         let (sigmas, protocol) = if quick {
-            (vec![0.12, 0.14], Protocol { transient: 100.0, window: 100.0 })
+            (vec![printed_threshold(), 0.14], Protocol { transient: 100.0, window: 100.0 })
         } else {
-            (vec![0.11, 0.12, 0.14], Protocol::default())
+            (vec![0.11, printed_threshold(), 0.14], Protocol::default())
         };
         let settings: Vec<(Setting, usize)> = all(&BIAS)
             .into_iter()
