@@ -6,7 +6,7 @@ use super::shared::*;
 use crate::experiments::protocol::range;
 use crate::experiments::starts::share_of_start;
 use crate::experiments::sweep;
-use crate::experiments::theory::beside::{LARGE_SIGMA, largest_distance};
+use crate::experiments::theory::comparison::{LARGE_SIGMA, largest_distance};
 use crate::experiments::{LENGTHS, PROTOCOL, RESTITUTION, STARTS};
 use crate::params::{NEAR_SIMULTANEOUS, Protocol, VERTICES};
 use impact_chain::counts::Total;
@@ -55,7 +55,7 @@ fn eq25(e: &Evidence<'_>) -> Judged {
 /// proportion to p^k have a mean with the slope Var(X)/p.
 fn expected_jump(e: &Evidence<'_>) -> Judged {
     let columns = ["step", "largest_increase", "increase_of_two", "increase_of_all"];
-    let [step, one, two, all] = e.numbers("sweep.beside_theory", columns)?;
+    let [step, one, two, all] = e.numbers("sweep.against_theory", columns)?;
     let [slope, variance] = e.numbers("theory.jump", ["slope", "variance_over_p"])?;
     let half = e.number("sweep.run.gaps")? / 2.0;
     let ratio = two / one;
@@ -155,7 +155,7 @@ pub(super) fn windows(e: &Evidence<'_>) -> Result<Vec<Vec<(f64, f64)>>, Error> {
 
 fn large_sigma(e: &Evidence<'_>) -> Judged {
     let columns = ["large_distance", "large_distance_at", "large_mean", "large_theory"];
-    let [distance, at, mean, theory] = e.numbers("sweep.beside_theory", columns)?;
+    let [distance, at, mean, theory] = e.numbers("sweep.against_theory", columns)?;
     let gaps = e.number("sweep.run.gaps")?;
     let limit = gaps / 10.0;
     let curve = e.results.table("theory.curve")?.points(&[], "sigma", "simple");
@@ -241,7 +241,7 @@ fn half_heights_of_starts(e: &Evidence<'_>) -> Result<Vec<(f64, Estimate, Estima
 /// and not to r.
 fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     let theory = e.number("theory.relation.sigma_half")?;
-    let share = e.estimate("starts.beside_theory.share")?;
+    let share = e.estimate("starts.against_theory.share")?;
     let halves = e.results.table("restitution.curves")?.estimates(&[], "r", "half_height");
     let [Some((lowest, _)), Some((highest, _))] = [halves.first(), halves.last()] else {
         return Err(Undecided);

@@ -19,7 +19,7 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     }
     halves.sort_by(|a, b| a.0.value.total_cmp(&b.0.value));
     let (least, most) = (halves.first(), halves.last());
-    let same = |of: Option<&(Estimate, &Curve)>| of.map(|(_, cell)| address(cell, "half_height"));
+    let same = |cell: Option<&(Estimate, &Curve)>| Some(address(cell?.1, "half_height"));
     let all = Table::of("protocol.all", &[map], |map| map.ensemble.realisations)
         .count("realisations", "chains at each σ", |map| map.ensemble.realisations as u64)
         .count("sigmas", "values of σ", |map| map.ensemble.sigmas.len() as u64)
@@ -27,9 +27,9 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
         .count("as_printed", "of these, half heights that round to the printed one", |_| {
             round_to_printed(map, printed_interval(), |rise| rise.half_height) as u64
         })
-        .estimate("largest", SIGMA, "largest half height", |_| most.map(|of| of.0))
+        .estimate("largest", SIGMA, "largest half height", |_| most.map(|(half, _)| *half))
         .same("largest", |_| same(most))
-        .estimate("least", SIGMA, "least half height", |_| least.map(|of| of.0))
+        .estimate("least", SIGMA, "least half height", |_| least.map(|(half, _)| *half))
         .same("least", |_| same(least))
         .done();
     vec![cells(map), all]

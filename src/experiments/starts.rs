@@ -25,7 +25,7 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
 }
 
 /// The part of the distance to the theory that the start explains.
-pub fn beside_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
+pub fn against_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let starts = results.of(&STARTS).ok()?;
     let half = |name: &str| named(starts, name).and_then(half_height_all);
     let relation = all.iter().find(|table| table.name() == "theory.relation")?;
@@ -33,7 +33,7 @@ pub fn beside_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let both = half("rest").zip(half("random"));
     const SHARE: &str = "of the distance from rest to the theory, with random free parts";
     let chains = named(starts, "rest")?.ensemble.realisations;
-    let table = Table::of("starts.beside_theory", &[()], |()| chains)
+    let table = Table::of("starts.against_theory", &[()], |()| chains)
         .computed_by(origin(share_of_start))
         .estimate("share", "1", SHARE, |()| {
             both.map(|(rest, random)| share_of_start(rest, random, theory))

@@ -3,7 +3,7 @@
 
 use super::prelude::*;
 use super::simulated::*;
-use crate::experiments::theory::beside;
+use crate::experiments::theory::comparison;
 use crate::experiments::{Results, sweep};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
@@ -19,7 +19,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         .filter_map(|row| row.mean?.interval.map(|[low, high]| (row.sigma, low, high)));
     let intervals: Vec<_> = intervals.collect();
     panel.bars("mean of those with an impact", &intervals, 0, INTERVAL, Outside::Cut)?;
-    printed(&panel, beside::at(&means, printed_threshold()).unwrap_or(0.0))?;
+    printed(&panel, comparison::at(&means, printed_threshold()).unwrap_or(0.0))?;
     let broken = Stroke::dashed(GREY, LINE, Dash::Short);
     panel.curve("mean of all", &all, broken, Outside::Cut)?;
     panel.markers("mean of those with an impact", &means, CROSSES, Outside::Cut)?;

@@ -3,7 +3,7 @@
 use super::labels::FORCING;
 use super::prelude::*;
 use crate::experiments::Results;
-use crate::experiments::theory::beside::at;
+use crate::experiments::theory::comparison::at;
 use crate::params::{Chain, printed_threshold};
 use literate::table::Table;
 

@@ -2,7 +2,7 @@
 
 use super::labels::FORCING;
 use super::prelude::*;
-use crate::experiments::theory::beside;
+use crate::experiments::theory::comparison;
 use crate::experiments::{Results, sweep};
 pub use crate::params::printed_threshold;
 
@@ -69,5 +69,5 @@ pub fn reaches(points: &[(f64, f64)], height: f64) -> (f64, f64) {
 
 /// The value of a curve at some σ in words.
 pub fn at(points: &[(f64, f64)], sigma: f64) -> String {
-    beside::at(points, sigma).map_or("nothing".into(), |value| short(value, 3))
+    comparison::at(points, sigma).map_or("nothing".into(), |value| short(value, 3))
 }

@@ -46,10 +46,9 @@ pub type First = Option<f64>;
 pub(super) fn ensembles(
     parameters: &NucleationParams,
 ) -> impl Iterator<Item = (usize, usize, f64)> {
-    let of = |&(masses, realisations): &(usize, usize)| {
+    parameters.lengths.iter().flat_map(|&(masses, realisations)| {
         parameters.sigmas.iter().map(move |&sigma| (masses, realisations, sigma))
-    };
-    parameters.lengths.iter().flat_map(of)
+    })
 }
 
 /// Chains of all ensembles.

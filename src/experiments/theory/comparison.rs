@@ -60,7 +60,7 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let finest = (steps.fold(f64::INFINITY, f64::min) * 1e6).round() / 1e6;
     let far = |at: usize| largest_distance(&means, simple).map(|far| far[at]);
     let kept = increases(&means, finest);
-    let table = Table::of("sweep.beside_theory", &[()], |()| 0)
+    let table = Table::of("sweep.against_theory", &[()], |()| 0)
         .computed_by(origin(largest_distance))
         .chosen("large_sigma", SIGMA, "from here on σ is called large", |()| Some(LARGE_SIGMA))
         .real("large_distance", "1", 2, "largest distance of both means at large σ", |()| {
