@@ -22,8 +22,6 @@
 //!
 //! Imports flow one way: `impact-numerics` → `impact-chain` → `impact-circuits` (crates) →
 //! `experiments` → `figures`, `claims` → `contents`; `params` may be read by all.
-// People read this library in its source; it is not published.
-#![allow(missing_docs)]
 // Macros that print panic on a closed pipe or a full disk: `literate::cli::terminal` does not.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![warn(clippy::print_stderr, clippy::print_stdout)]

@@ -122,7 +122,7 @@ fn rise_exists(e: &Evidence<'_>) -> Judged {
                   statistical error";
     let mut note = Text::from(WITH_AN_IMPACT);
     let columns = ["largest_increase", "increase_of_two"];
-    if let Ok([one, two]) = e.numbers("sweep.beside_theory", columns) {
+    if let Ok([one, two]) = e.numbers("sweep.against_theory", columns) {
         let steep = " It is steep and no jump: over two steps of the grid it increases {} times as much as over one, where a \
                      slope gives 2 and a jump 1.";
         note = note.then(Text::of(steep, [significant(two / one, 2)]));

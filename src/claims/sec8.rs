@@ -5,7 +5,7 @@ use super::shared::*;
 use crate::experiments::protocol::range;
 use crate::experiments::starts::share_of_start;
 use crate::experiments::sweep;
-use crate::experiments::theory::beside::{self, LARGE_SIGMA, largest_distance};
+use crate::experiments::theory::comparison::{self, LARGE_SIGMA, largest_distance};
 use crate::experiments::{LENGTHS, PROTOCOL, RESTITUTION, STARTS};
 use crate::params::{Protocol, VERTICES};
 use impact_chain::counts::Total;
@@ -140,7 +140,7 @@ fn p_poor(e: &Evidence<'_>) -> Judged {
     let column = |name| curve.curve(&[], "sigma", name);
     let (mean, relation) = (column("simple")?, column("p")?);
     let inverse: Vec<(f64, f64)> = mean.iter().zip(&relation).map(|(a, b)| (a.1, b.1)).collect();
-    let needed = |means: &[(f64, f64)]| beside::at(&inverse, beside::at(means, sigma)?);
+    let needed = |means: &[(f64, f64)]| comparison::at(&inverse, comparison::at(means, sigma)?);
     let means = e.results.table("sweep.rows")?.curve(&[], "sigma", "mean")?;
     let ours = needed(&means).ok_or(Undecided)?;
     let windows = windows(e)?;
@@ -173,7 +173,7 @@ pub(super) fn windows(e: &Evidence<'_>) -> Result<Vec<Vec<(f64, f64)>>, Error> {
 
 fn large_sigma(e: &Evidence<'_>) -> Judged {
     let columns = ["large_distance", "large_distance_at", "large_mean", "large_theory"];
-    let [distance, at, mean, theory] = e.numbers("sweep.beside_theory", columns)?;
+    let [distance, at, mean, theory] = e.numbers("sweep.against_theory", columns)?;
     let gaps = e.number("sweep.run.gaps")?;
     let limit = gaps / 10.0;
     let curve = e.results.table("theory.curve")?.curve(&[], "sigma", "simple")?;
@@ -282,7 +282,7 @@ fn half_heights_of_starts(e: &Evidence<'_>) -> Result<Vec<(f64, Estimate, Estima
 /// and not to r.
 fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     let theory = e.number("theory.relation.sigma_half")?;
-    let share = e.estimate("starts.beside_theory.share")?;
+    let share = e.estimate("starts.against_theory.share")?;
     let halves = e.results.table("restitution.curves")?.series(&[], "r", "half_height")?;
     let [Some((lowest, _)), Some((highest, _))] = [halves.first(), halves.last()] else {
         return Err(Undecided);

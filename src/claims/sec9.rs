@@ -3,7 +3,7 @@
 use super::sec8::{RELEASED, VISIBLE, windows};
 use super::shared::*;
 use crate::experiments::SEGMENTS;
-use crate::experiments::theory::beside::{self, LARGE_SIGMA};
+use crate::experiments::theory::comparison::{self, LARGE_SIGMA};
 use crate::params::{CONVERGENCE_P, HIGHER_P, REMARK_P};
 
 pub fn rules() -> Vec<Rule> {
@@ -239,7 +239,7 @@ fn relation_matters(e: &Evidence<'_>) -> Judged {
 }
 
 fn improves(e: &Evidence<'_>) -> Judged {
-    let [simple, higher] = e.numbers("sweep.beside_theory", ["simple", "higher"])?;
+    let [simple, higher] = e.numbers("sweep.against_theory", ["simple", "higher"])?;
     let found = Text::of(
         "distance to the simulated means below σ = {}: {} gaps without, {} with higher orders",
         [significant(LARGE_SIGMA, 1), significant(simple, 3), significant(higher, 3)],
@@ -251,7 +251,7 @@ fn improves(e: &Evidence<'_>) -> Judged {
     let windows = windows(e)?;
     let mut better = 0;
     for means in &windows {
-        let [simple, higher] = curves.each_ref().map(|curve| beside::distance(means, curve));
+        let [simple, higher] = curves.each_ref().map(|curve| comparison::distance(means, curve));
         better += usize::from(simple.zip(higher).is_some_and(|(a, b)| improved([a, b])));
     }
     Ok(e.found(found, improved([simple, higher]) && better == windows.len())

@@ -78,8 +78,8 @@ fn join(
     all.iter().map(counted).collect()
 }
 
-/// The results of a function on each of several items, on all threads; the stage advances by one
-/// for each.
+/// Returns the results of a function on each item, on all threads; the stage advances by one for
+/// each.
 pub fn each<A: Send, R: Send>(
     stage: &Stage,
     progress: &Progress,
@@ -96,7 +96,7 @@ pub fn each<A: Send, R: Send>(
     all.into_par_iter().with_max_len(1).map(one).collect()
 }
 
-/// The ensemble of a name.
+/// Returns the ensemble of a name.
 pub fn named<'a>(all: &'a [Counted], name: &str) -> Option<&'a Counted> {
     all.iter().find(|one| one.ensemble.name == name)
 }

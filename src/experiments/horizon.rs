@@ -10,7 +10,6 @@ use literate::experiments::Experiment;
 use literate::experiments::cutting::SECOND;
 use literate::experiments::experiment::How::Whole;
 
-/// Chaos and its horizon.
 pub const HORIZON: Experiment<Runs, Horizon> = Experiment {
     name: "horizon",
     code: &["src/experiments/horizon.rs"],
@@ -19,7 +18,6 @@ pub const HORIZON: Experiment<Runs, Horizon> = Experiment {
     tables,
 };
 
-/// The twins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Horizon {
     pub parameters: Runs,
@@ -48,7 +46,6 @@ impl Horizon {
     }
 }
 
-/// Runs the twins.
 pub fn run(parameters: &Runs, progress: &Progress) -> Result<Horizon, Error> {
     let stage = progress.stage("horizon", parameters.realisations as u64);
     let twins = each(&stage, progress, 0..parameters.realisations as u64, |index| {

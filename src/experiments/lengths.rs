@@ -6,7 +6,6 @@ use crate::experiments::prelude::*;
 use crate::params;
 use impact_chain::Start;
 
-/// Chains of several lengths from rest, and chains with a random start.
 pub const LENGTHS: Ensembles = ensembles("lengths", "lengths", params::lengths, tables);
 
 /// The chains from rest, with their curves.
@@ -15,7 +14,6 @@ pub fn from_rest(found: &[Counted]) -> impl Iterator<Item = (&Counted, &Curve)> 
     at_rest.flat_map(|one| one.curves.iter().map(move |curve| (one, curve)))
 }
 
-/// Makes the tables of both.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     vec![rest(found), random(found), all(found)]
 }

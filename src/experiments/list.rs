@@ -35,7 +35,7 @@ pub const ALL: &[&dyn AnyExperiment] = &[
 
 /// Tables that need several experiments.
 pub const DERIVED: [DerivedTables; 3] =
-    [theory::beside::tables, seeds::compared::tables, starts::beside_theory];
+    [theory::comparison::tables, seeds::compared::tables, starts::against_theory];
 
 /// The graph theory, which costs nothing and is never saved.
 pub const THEORY: Experiment<serde_json::Value, ()> = Experiment {

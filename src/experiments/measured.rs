@@ -36,7 +36,6 @@ pub struct Measured {
 pub struct MeasuredOn {
     /// Day of the measurement, YYYY-MM-DD.
     pub date: String,
-    /// What it ran on.
     pub machine: Machine,
     pub rows: Vec<Measurement>,
 }
@@ -46,7 +45,6 @@ pub struct MeasuredOn {
 pub struct Machine {
     /// Model of the processor, as the system calls it.
     pub processor: String,
-    /// Operating system and architecture.
     pub os: String,
 }
 
@@ -59,7 +57,6 @@ pub enum What {
     /// A method of this project (`impact_chain::methods`) with one setting, timed in turn with the
     /// engine.
     Method,
-    /// Another project.
     Peer,
     /// What the report does not show: whole commands, ensembles, and programs that could not be
     /// run.
@@ -74,7 +71,6 @@ pub enum What {
 /// of 106 bits up to the first wrong impact (the *horizon*).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
-    /// What the row is about.
     pub what: What,
     /// Name of engine, method, peer or command.
     pub name: String,
@@ -101,7 +97,6 @@ pub struct Measurement {
 }
 
 impl Measured {
-    /// The committed file.
     pub fn committed(session: &Session<'_>) -> Result<Self, Error> {
         let again = "run make measure again, or restore the file";
         let project = session.project;
@@ -115,7 +110,6 @@ impl Measured {
         })
     }
 
-    /// Rows of one kind.
     pub fn of(&self, what: What) -> impl Iterator<Item = &Measurement> {
         self.sessions.iter().flat_map(|session| &session.rows).filter(move |row| row.what == what)
     }

@@ -12,11 +12,14 @@ pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::pr
 
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let Some(map) = named(found, PROTOCOL.name) else { return Vec::new() };
-    let halves = || map.curves.iter().filter_map(|cell| Some((cell.rise.half_height?, cell)));
-    let least = halves().min_by(|a, b| a.0.value.total_cmp(&b.0.value)).map(|(_, cell)| cell);
-    let most = halves().max_by(|a, b| a.0.value.total_cmp(&b.0.value)).map(|(_, cell)| cell);
-    let half = |cell: Option<&Curve>| cell.and_then(|cell| cell.rise.half_height);
-    let same = |cell: Option<&Curve>| cell.map(|cell| address(cell, "half_height"));
+    // The windows with a half height, the lowest first.
+    let mut halves: Vec<(Estimate, &Curve)> = Vec::new();
+    for cell in &map.curves {
+        halves.extend(cell.rise.half_height.map(|half| (half, cell)));
+    }
+    halves.sort_by(|a, b| a.0.value.total_cmp(&b.0.value));
+    let (least, most) = (halves.first(), halves.last());
+    let same = |cell: Option<&(Estimate, &Curve)>| Some(address(cell?.1, "half_height"));
     let all = Table::of("protocol.all", &[map], |map| map.ensemble.realisations)
         .count("realisations", "chains at each σ", |map| map.ensemble.realisations as u64)
         .count("sigmas", "values of σ", |map| map.ensemble.sigmas.len() as u64)
@@ -24,9 +27,9 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
         .count("as_printed", "of these, half heights that round to the printed one", |_| {
             round_to_printed(map, printed_interval(), |rise| rise.half_height) as u64
         })
-        .estimate("largest", SIGMA, "largest half height", |_| half(most))
+        .estimate("largest", SIGMA, "largest half height", |_| most.map(|(half, _)| *half))
         .same("largest", |_| same(most))
-        .estimate("least", SIGMA, "least half height", |_| half(least))
+        .estimate("least", SIGMA, "least half height", |_| least.map(|(half, _)| *half))
         .same("least", |_| same(least))
         .done();
     vec![cells(map), all]

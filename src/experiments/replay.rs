@@ -1,7 +1,7 @@
 //! Runs that a page repeats, each with a digest of its impacts: equal bits give an equal digest.
 
 use crate::experiments::prelude::*;
-use crate::params::{Boundary, Profile, Protocol, SEED, Start};
+use crate::params::{Boundary, Profile, Protocol, SEED, Start, printed_threshold};
 use impact_chain::replay::{Forces, Replay, Request};
 use literate::experiments::Experiment;
 use literate::experiments::cutting::SECOND;
@@ -19,7 +19,6 @@ pub const REPLAY: Experiment<ReplayRuns, Replays> = Experiment {
 /// What is run: each run with a name.
 pub type ReplayRuns = Vec<(String, Request)>;
 
-/// The results, run by run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replays {
     pub parameters: ReplayRuns,
@@ -31,7 +30,6 @@ pub struct ReplayResult {
     pub impacts: u64,
     /// Different gaps with an impact in the window.
     pub distinct: usize,
-    /// Contact phases begun.
     pub contact_phases: u64,
     /// Runs of neighbouring gaps that closed at one instant.
     pub simultaneous: u64,
@@ -50,15 +48,16 @@ pub fn runs(_: Profile) -> ReplayRuns {
         let chain = Chain { masses: pairs.len(), restitution, ..Chain::default() };
         Request { chain, forces: Forces::Given(pairs), transient: 0.0, window: until }
     };
-    let chain = Chain::default;
+    let (chain, threshold) = (Chain::default, printed_threshold());
+    let at_threshold = format!("Fig. 3 at σ = {threshold}");
     let named = [
-        ("Fig. 3 at σ = 0.12", drawn(0.12, chain())),
+        (&at_threshold[..], drawn(threshold, chain())),
         ("Fig. 3 at σ = 0.05, without an impact", drawn(0.05, chain())),
         ("Fig. 3 at σ = 0.2", drawn(0.2, chain())),
         ("Fig. 3 at σ = 0.3", drawn(0.3, chain())),
         ("a ring", drawn(0.2, Chain { boundary: Boundary::Ring, ..chain() })),
         ("a random start", drawn(0.16, Chain { start: Start::Random, ..chain() })),
-        ("no loss, r = 1", drawn(0.12, Chain { restitution: 1.0, ..chain() })),
+        ("no loss, r = 1", drawn(threshold, Chain { restitution: 1.0, ..chain() })),
         ("no rebound, r = 0", drawn(0.3, Chain { restitution: 0.0, ..chain() })),
         ("a thousand masses", drawn(0.16, Chain { masses: 1000, ..chain() })),
         ("chatter: one mass comes to rest at a wall", given(vec![[5.88, -4.94]], 0.2, 20.0)),

@@ -9,7 +9,6 @@ use crate::params;
 pub const RESTITUTION: Ensembles =
     ensembles("restitution", "restitution", params::restitution, tables);
 
-/// Half heights of chains of several restitutions.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let table = Table::of("restitution.curves", found, |one| one.ensemble.realisations)
         .key("r", "1", |one| one.ensemble.chain.restitution)

@@ -30,13 +30,10 @@ pub struct Segments {
 /// A stretch of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Segment {
-    /// Distance d between equilibria.
     pub spacing: f64,
-    /// Number of masses n.
     pub masses: usize,
     /// Its beginning, after the start of the run.
     pub from: f64,
-    /// Its end.
     pub until: f64,
     /// A grid of times from `from` to `until` that includes every impact.
     pub times: Vec<f64>,
@@ -127,7 +124,6 @@ impl Segment {
     }
 }
 
-/// The circuits of both segments.
 pub fn tables(segments: &Segments) -> Vec<Table> {
     let both = [(5.0, &segments.fig05), (6.0, &segments.fig06)];
     let table = Table::of("segments.circuits", &both, |_| 1)

@@ -33,14 +33,13 @@ pub fn run(parameters: &Runs, progress: &Progress) -> Result<SpaceTime, Error> {
     for realisation in 0..parameters.realisations as u64 {
         progress.check()?;
         let impacts = Engine::new(&parameters.scenario(realisation))
-            .and_then(|mut engine| engine.impacts(parameters.until));
-        let impacts = impacts.map_err(|source| Error::failed("spacetime", source))?;
-        let (times, gaps): (Vec<f64>, Vec<u32>) =
-            impacts.into_iter().map(|impact| (impact.time, impact.gap as u32)).unzip();
-        if times.last().is_some_and(|t| *t > 0.9 * parameters.until) {
+            .and_then(|mut engine| engine.impacts(parameters.until))
+            .map_err(|source| Error::failed("spacetime", source))?;
+        if impacts.last().is_some_and(|last| last.time > 0.9 * parameters.until) {
             stage.advance(1);
-            let parameters = parameters.clone();
-            return Ok(SpaceTime { parameters, times, gaps });
+            let (times, gaps) =
+                impacts.into_iter().map(|impact| (impact.time, impact.gap as u32)).unzip();
+            return Ok(SpaceTime { parameters: parameters.clone(), times, gaps });
         }
     }
     Err(Error::input(
@@ -51,7 +50,6 @@ pub fn run(parameters: &Runs, progress: &Progress) -> Result<SpaceTime, Error> {
 }
 
 impl SpaceTime {
-    /// Number of gaps.
     pub fn width(&self) -> usize {
         self.parameters.chain.gaps()
     }
@@ -65,30 +63,31 @@ impl SpaceTime {
         firsts
     }
 
-    /// For each gap that is hit its first impact, and the earlier of those of its neighbours.
-    fn with_neighbours(&self) -> impl Iterator<Item = (usize, f64, Option<f64>)> {
-        let firsts = self.firsts();
-        (0..firsts.len()).filter_map(move |gap| {
-            let left = gap.checked_sub(1).and_then(|left| firsts[left]);
-            let near = left.into_iter().chain(firsts.get(gap + 1).copied().flatten());
-            Some((gap, firsts[gap]?, near.reduce(f64::min)))
-        })
+    /// For each gap that is hit, the time from the first impact of the earlier of its neighbours to
+    /// its own; none if neither had been hit.
+    fn waits(&self) -> Vec<(usize, Option<f64>)> {
+        let firsts: Vec<f64> =
+            self.firsts().into_iter().map(|first| first.unwrap_or(f64::INFINITY)).collect();
+        let mut waits = Vec::new();
+        for (gap, &first) in firsts.iter().enumerate().filter(|(_, first)| first.is_finite()) {
+            let around = &firsts[gap.saturating_sub(1)..firsts.len().min(gap + 2)];
+            let earliest = around.iter().copied().fold(first, f64::min);
+            waits.push((gap, (earliest < first).then_some(first - earliest)));
+        }
+        waits
     }
 
     /// The gaps at which impacts start: hit when neither neighbour had been. Such a gap closes by
     /// itself, since its masses move as they did from the beginning.
     pub fn starts(&self) -> Vec<usize> {
-        let first = |(_, at, near): &(usize, f64, Option<f64>)| near.is_none_or(|near| near >= *at);
-        self.with_neighbours().filter(first).map(|(gap, ..)| gap).collect()
+        let starts = self.waits().into_iter().filter(|(_, wait)| wait.is_none());
+        starts.map(|(gap, _)| gap).collect()
     }
 
-    /// How long each step of a front takes, the quickest first: from the first impact of the
-    /// earlier neighbour of a gap to that of the gap; starts are no steps.
+    /// How long each step of a front takes, the quickest first; starts are no steps.
     pub fn advances(&self) -> Vec<f64> {
-        let advance = |(_, time, near): (usize, f64, Option<f64>)| {
-            near.filter(|near| *near < time).map(|near| time - near)
-        };
-        let mut advances: Vec<f64> = self.with_neighbours().filter_map(advance).collect();
+        let mut advances: Vec<f64> =
+            self.waits().into_iter().filter_map(|(_, wait)| wait).collect();
         advances.sort_by(f64::total_cmp);
         advances
     }

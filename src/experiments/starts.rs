@@ -9,7 +9,6 @@ use crate::params;
 /// Chains with other starts, boundaries and frequencies.
 pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, tables);
 
-/// Half heights of variants of the paper's chain.
 pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
     let rest = named(variants, "rest").and_then(half_height_all);
     let table = Table::of("starts.variants", variants, |one| one.ensemble.realisations)
@@ -26,22 +25,20 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
 }
 
 /// The part of the distance to the theory that the start explains.
-pub fn beside_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
+pub fn against_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let starts = results.of(&STARTS).ok()?;
     let half = |name: &str| named(starts, name).and_then(half_height_all);
     let relation = all.iter().find(|table| table.name() == "theory.relation")?;
     let theory = relation.number(&[], "sigma_half").ok()?;
     let both = half("rest").zip(half("random"));
-    let table = Table::of("starts.beside_theory", &[()], |()| starts[0].ensemble.realisations)
+    const SHARE: &str = "of the distance from rest to the theory, with random free parts";
+    let chains = named(starts, "rest")?.ensemble.realisations;
+    let table = Table::of("starts.against_theory", &[()], |()| chains)
         .computed_by(origin(share_of_start))
-        .estimate(
-            "share",
-            "1",
-            "of the distance from rest to the theory, with random free parts",
-            |()| both.map(|(rest, random)| share_of_start(rest, random, theory)),
-        )
-        .done();
-    Some(vec![table])
+        .estimate("share", "1", SHARE, |()| {
+            both.map(|(rest, random)| share_of_start(rest, random, theory))
+        });
+    Some(vec![table.done()])
 }
 
 /// The part of the distance between theory and simulation that the start explains, from the half

@@ -6,7 +6,7 @@ use super::half_height::{ANY_IMPACT, HALF_HEIGHT, OF_ACTIVE};
 use crate::experiments::prelude::*;
 use crate::params::{self, LEVEL, NEAR_SIMULTANEOUS, SLOW, printed_threshold};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
-use impact_chain::rise::{Mean, Rise, RisePoint, RunTotals};
+use impact_chain::rise::{Mean, Rise, RisePoint};
 
 /// The main sweep of Sec. 2.
 pub const SWEEP: Ensembles = ensembles("sweep", "main sweep", params::sweep, tables);
@@ -25,20 +25,19 @@ pub fn main(results: &Results) -> Result<&Counted, Error> {
     named(results.of(&SWEEP)?, SWEEP.name).ok_or(Error::NotRun(SWEEP.name))
 }
 
-/// Impacts of all σ.
 pub fn total(sweep: &Counted) -> Total {
     let mut total = Total::default();
-    sweep.runs.iter().for_each(|row| total.add(&row.total));
+    for row in &sweep.runs {
+        total.add(&row.total);
+    }
     total
 }
 
-/// All tables of the main sweep.
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let Some(sweep) = named(found, SWEEP.name) else { return Vec::new() };
     vec![run(sweep), rows(sweep), rise_table(sweep), modes(sweep), rare(sweep), sticking()]
 }
 
-/// The rise with the second seed.
 pub fn of_second_seed(found: &Vec<Counted>) -> Vec<Table> {
     let table = Table::of("second_seed.rise", found, |sweep| sweep.ensemble.realisations)
         .count("seed", "master seed", |sweep| sweep.ensemble.seed)
@@ -51,7 +50,6 @@ const WIDTH_OF_ACTIVE: &str =
     "from a quarter to three quarters of all gaps, of the mean of realisations with an impact";
 
 fn run(sweep: &Counted) -> Table {
-    let total = |pick: fn(&RunTotals) -> u64| move |all: &&Counted| all.runs.iter().map(pick).sum();
     let protocol = sweep.first().protocol;
     Table::of("sweep.run", &[sweep], |sweep| sweep.ensemble.realisations)
         .count("gaps", "gaps of a chain", |sweep| sweep.ensemble.chain.gaps() as u64)
@@ -67,16 +65,10 @@ fn run(sweep: &Counted) -> Table {
         .count("sigmas", "values of σ", |sweep| sweep.runs.len() as u64)
         .count("seed", "master seed", |sweep| sweep.ensemble.seed)
         .chosen("confidence", "1", "of all intervals", |_| Some(LEVEL))
-        .count(
-            "impacts",
-            "impacts simulated, transients included",
-            total(|runs| runs.total.impacts),
-        )
-        .count(
-            "failed",
-            "realisations that the engine ended early",
-            total(|runs| runs.failed as u64),
-        )
+        .count("impacts", "impacts simulated, transients included", |sweep| total(sweep).impacts)
+        .count("failed", "realisations that the engine ended early", |sweep| {
+            sweep.runs.iter().map(|runs| runs.failed as u64).sum()
+        })
         .done()
 }
 
@@ -93,16 +85,13 @@ fn rows(sweep: &Counted) -> Table {
             estimate(row.mean_all)
         })
         .over(|row| row.kept)
-        .estimate(
-            "mean",
-            "1",
-            "different gaps with an impact, mean of realisations with any",
-            |row| estimate(row.mean),
-        )
-        .estimate("impacts", "1", "impacts in the window, mean of realisations with any", |row| {
+        .estimate("mean", "1", "different gaps with an impact, mean of those with any", |row| {
+            estimate(row.mean)
+        })
+        .estimate("impacts", "1", "impacts in the window, mean of those with any", |row| {
             estimate(row.impacts)
         })
-        .estimate("masses", "1", "masses hit in the window, mean of realisations with any", |row| {
+        .estimate("masses", "1", "masses hit in the window, mean of those with any", |row| {
             estimate(row.masses)
         })
         .done()

@@ -11,7 +11,6 @@ use literate::experiments::Experiment;
 use literate::experiments::cutting::SECOND;
 use literate::experiments::experiment::How::Whole;
 
-/// Two masses under a low force.
 pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
     name: "two_masses",
     code: &["src/experiments/two_masses.rs"],
@@ -79,8 +78,8 @@ pub fn tables(found: &TwoMasses) -> Vec<Table> {
             "greatest",
             "1",
             6,
-            "least force with an impact within the time, over its bound, largest of all",
-            |(_, pair)| pair[1],
+            "largest of the least forces with an impact, over bounds",
+            |row| row.1[1],
         )
         .done();
     vec![bound, excess]

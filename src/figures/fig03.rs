@@ -3,27 +3,26 @@
 
 use super::prelude::*;
 use super::simulated::*;
-use crate::experiments::theory::beside;
+use crate::experiments::theory::comparison;
 use crate::experiments::{Results, sweep};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sweep = sweep::main(results)?;
     let half_height = results.number("sweep.rise.half_height").ok();
     let sheet = Sheet::new(7550);
-    let n = sweep.ensemble.chain.gaps();
+    let n = gaps(results)?;
     let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
     let panel = sheet.lettered(LETTERS[0], MAIN, x, y)?;
-    let all: Vec<_> =
-        sweep.comparable().filter_map(|row| Some((row.sigma, row.mean_all?.value))).collect();
+    let (all, means) = (swept(results, "mean_all")?, means(results)?);
     let intervals = sweep
         .comparable()
         .filter_map(|row| row.mean?.interval.map(|[low, high]| (row.sigma, low, high)));
     let intervals: Vec<_> = intervals.collect();
     panel.bars("mean of those with an impact", &intervals, 0, INTERVAL, Outside::Cut)?;
-    printed(&panel, beside::at(&means(sweep), printed_threshold()).unwrap_or(0.0))?;
+    printed(&panel, comparison::at(&means, printed_threshold()).unwrap_or(0.0))?;
     let broken = Stroke::dashed(GREY, LINE, Dash::Short);
     panel.curve("mean of all", &all, broken, Outside::Cut)?;
-    panel.markers("mean of those with an impact", &means(sweep), CROSSES, Outside::Cut)?;
+    panel.markers("mean of those with an impact", &means, CROSSES, Outside::Cut)?;
     let end = (panel.x.hi, n as f64);
     panel.label("mean of those with an impact", end, (-1, 3), RED)?;
     panel.label("mean of all", reaches(&all, 7.0), (3, 0), GREY)?;
@@ -37,8 +36,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
     let (x, y) = (sigma_axis(), Axis::linear(0.0, 1.0, 0.5, 5, "share"));
     let share = sheet.lettered(LETTERS[1], Frame::new(1200, 5200, 8150, 6650), x, y)?;
-    let ran = sweep.comparable().filter(|row| row.ran > 0);
-    let fraction: Vec<_> = ran.map(|row| (row.sigma, row.kept as f64 / row.ran as f64)).collect();
+    let fraction = swept(results, "kept")?;
     let line = Stroke::solid(RED, THIN);
     let dot = (Symbol::Disc, 38, Stroke::solid(RED, HAIR));
     share.marked_curve("share with an impact", &fraction, (line, dot), Outside::Cut)?;

@@ -2,19 +2,18 @@
 
 use super::prelude::*;
 use super::simulated::*;
-use crate::experiments::{Results, sweep};
+use crate::experiments::Results;
 use crate::params::VERTICES;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sweep = sweep::main(results)?;
     let sheet = Sheet::new(5450);
-    let n = sweep.ensemble.chain.gaps();
+    let n = gaps(results)?;
     let threshold = printed_threshold();
     let panel = sheet.panel(MAIN, sigma_axis(), count_axis(n, "expected number of impacts"))?;
     printed(&panel, 0.0)?;
-    let simple = curve(results.table("theory.curve")?, sweep, "simple")?;
+    let simple = curve(results, "simple")?;
     panel.curve("theory", &simple, Stroke::solid(GREEN, LINE), Outside::Cut)?;
-    let simulated = means(sweep);
+    let simulated = means(results)?;
     panel.markers("simulation", &simulated, CROSSES, Outside::Cut)?;
     panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
     panel.label("graph theory", reaches(&simple, 0.7 * n as f64), (2, 0), GREEN)?;

@@ -3,20 +3,19 @@
 
 use super::prelude::*;
 use super::simulated::*;
-use crate::experiments::{Results, sweep};
+use crate::experiments::Results;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let (sweep, theory) = (sweep::main(results)?, results.table("theory.curve")?);
     let sheet = Sheet::new(7550);
-    let n = sweep.ensemble.chain.gaps();
+    let n = gaps(results)?;
     let threshold = printed_threshold();
     let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
     let panel = sheet.lettered(LETTERS[0], MAIN, x, y)?;
-    let (simple, higher) = (curve(theory, sweep, "simple")?, curve(theory, sweep, "higher")?);
+    let (simple, higher) = (curve(results, "simple")?, curve(results, "higher")?);
     panel.curve("simple circuits", &simple, Stroke::solid(GREEN, LINE), Outside::Cut)?;
     let blue = Stroke::dashed(BLUE, LINE, Dash::Long);
     panel.curve("five classes", &higher, blue, Outside::Cut)?;
-    let simulated = means(sweep);
+    let simulated = means(results)?;
     printed(&panel, 0.6 * n as f64)?;
     panel.markers("simulation", &simulated, CROSSES, Outside::Cut)?;
     panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;

@@ -3,7 +3,7 @@
 use super::prelude::*;
 use super::simulated::FORCING;
 use crate::experiments::Results;
-use crate::experiments::theory::beside::at;
+use crate::experiments::theory::comparison::at;
 use crate::params::printed_threshold;
 use literate::table::Table;
 

@@ -5,7 +5,7 @@ use super::simulated::{FORCING, count_axis};
 use crate::experiments::Results;
 use crate::experiments::rise::Counted;
 use crate::experiments::sweep;
-use crate::experiments::theory::beside::at;
+use crate::experiments::theory::comparison::at;
 use literate::table::Table;
 
 /// The σ of (a).

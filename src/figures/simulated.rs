@@ -1,10 +1,9 @@
 //! What the figures of the simulations share: their rows, axes and marks.
 
 use super::prelude::*;
-use crate::experiments::rise::Counted;
-use crate::experiments::theory::beside;
+use crate::experiments::theory::comparison;
+use crate::experiments::{Results, sweep};
 pub use crate::params::printed_threshold;
-use literate::table::Table;
 
 /// The label of an axis of σ.
 pub const FORCING: &str = "*σ* (*d ω*^{2})";
@@ -40,15 +39,27 @@ pub fn printed(panel: &Panel, from: f64) -> Drawn {
     panel.label(&format!("paper: {printed}"), line[1], (0, -1), INK)
 }
 
-/// Mean over the realisations with an impact against σ.
-pub fn means(sweep: &Counted) -> Vec<(f64, f64)> {
-    sweep.comparable().filter_map(|row| Some((row.sigma, row.mean?.value))).collect()
+/// Number of gaps of the chains of the main sweep.
+pub fn gaps(results: &Results) -> Result<usize, Error> {
+    Ok(results.number("sweep.run.gaps")? as usize)
 }
 
-/// A theory curve up to the largest σ of a sweep.
-pub fn curve(table: &Table, sweep: &Counted, column: &str) -> Result<Vec<(f64, f64)>, Error> {
-    let end = sweep.first().rows.last().map_or(0.0, |row| row.sigma);
-    let mut points = table.curve(&[], "sigma", column)?;
+/// Mean over the realisations with an impact against σ. The mean of a single one is drawn, though
+/// it has no error and so no cell.
+pub fn means(results: &Results) -> Result<Vec<(f64, f64)>, Error> {
+    let rows = sweep::main(results)?.comparable();
+    Ok(rows.filter_map(|row| Some((row.sigma, row.mean?.value))).collect())
+}
+
+/// A column of the main sweep against σ.
+pub fn swept(results: &Results, column: &str) -> Result<Vec<(f64, f64)>, Error> {
+    Ok(results.table("sweep.rows")?.curve(&[], "sigma", column)?)
+}
+
+/// A theory curve up to the largest σ of the main sweep.
+pub fn curve(results: &Results, column: &str) -> Result<Vec<(f64, f64)>, Error> {
+    let end = sweep::main(results)?.first().rows.last().map_or(0.0, |row| row.sigma);
+    let mut points = results.table("theory.curve")?.curve(&[], "sigma", column)?;
     points.retain(|(sigma, _)| *sigma <= end);
     Ok(points)
 }
@@ -60,5 +71,5 @@ pub fn reaches(points: &[(f64, f64)], height: f64) -> (f64, f64) {
 
 /// The value of a curve at some σ in words.
 pub fn at(points: &[(f64, f64)], sigma: f64) -> String {
-    beside::at(points, sigma).map_or("nothing".into(), |value| short(value, 3))
+    comparison::at(points, sigma).map_or("nothing".into(), |value| short(value, 3))
 }

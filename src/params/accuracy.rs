@@ -2,6 +2,7 @@
 
 use super::chosen::SEED;
 use super::methods::{MethodName, Setting};
+use super::printed::printed_threshold;
 use super::runs::Runs;
 use impact_chain::{Chain, Protocol};
 use literate::experiments::Profile;
@@ -76,12 +77,10 @@ pub struct RaceParams {
     pub chains: usize,
     /// Impacts from whose states each method starts anew, spread evenly over all chains.
     pub segments: usize,
-    /// The methods.
     pub settings: Vec<Setting>,
 }
 
 impl RaceParams {
-    /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let quick = profile == Profile::Quick;
         let (until, at_least, chains, segments, realisations) =
@@ -107,18 +106,15 @@ pub fn trial_settings() -> Vec<Setting> {
 /// Counted work of an impact against the number of masses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScaleParams {
-    /// Standard deviation σ.
     pub sigma: f64,
     /// Numbers of masses n, rising.
     pub masses: Vec<usize>,
     /// Largest n of all methods but the engine.
     pub rivals: usize,
-    /// The methods.
     pub settings: Vec<Setting>,
 }
 
 impl ScaleParams {
-    /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (masses, rivals) = match profile {
             Profile::Full => (vec![10, 30, 100, 300, 1000, 10_000], 300),
@@ -141,13 +137,12 @@ pub struct BiasParams {
 }
 
 impl BiasParams {
-    /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let quick = profile == Profile::Quick;
         let (sigmas, protocol) = if quick {
-            (vec![0.12, 0.14], Protocol { transient: 100.0, window: 100.0 })
+            (vec![printed_threshold(), 0.14], Protocol { transient: 100.0, window: 100.0 })
         } else {
-            (vec![0.11, 0.12, 0.14], Protocol::default())
+            (vec![0.11, printed_threshold(), 0.14], Protocol::default())
         };
         let settings: Vec<(Setting, usize)> = all(&BIAS)
             .into_iter()

@@ -96,8 +96,8 @@ pub fn starts(profile: Profile) -> Vec<Ensemble> {
 /// Chains from rest of several lengths, and chains with a random start.
 pub fn lengths(profile: Profile) -> Vec<Ensemble> {
     // Masses, σ in thousandths (first, last, step), realisations, transient, windows.
-    type Case = (usize, [u32; 3], usize, f64, &'static [f64]);
-    let cases: &[Case] = match profile {
+    type Sizes = (usize, [u32; 3], usize, f64, &'static [f64]);
+    let sizes: &[Sizes] = match profile {
         Profile::Full => &[
             (100, [80, 160, 10], 120, 500.0, &[200.0]),
             (10_000, [80, 150, 10], 2, 500.0, &[200.0]),
@@ -109,7 +109,7 @@ pub fn lengths(profile: Profile) -> Vec<Ensemble> {
             (100, [100, 140, 20], 2, 500.0, &[200.0, 2000.0]),
         ],
     };
-    let rest = |&(masses, [from, to, step], realisations, transient, widths): &Case| Ensemble {
+    let rest = |&(masses, [from, to, step], realisations, transient, widths): &Sizes| Ensemble {
         chain: Chain { masses, ..Chain::default() },
         protocols: windows(&[transient], widths),
         pieces: (masses / 250).max(1),
@@ -132,7 +132,7 @@ pub fn lengths(profile: Profile) -> Vec<Ensemble> {
         most_rejected: 1.0,
         ..paper("random", Grid::default().and(9, 18, step, 100), realisations)
     };
-    cases.iter().map(rest).chain([random]).collect()
+    sizes.iter().map(rest).chain([random]).collect()
 }
 
 /// Chains of two lengths from rest and from above, under the same forces. Each σ is run as long as
@@ -143,8 +143,8 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
     const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });
     const ALL: &[f64] = &[500.0, 5e3, 2e4, 5e4, 1e5];
     // Masses, start, σ in thousandths (first, last, step), transients.
-    type Case = (&'static [usize], Option<Heating>, [u32; 3], &'static [f64]);
-    let (chains, cases): (_, &[Case]) = match profile {
+    type Sizes = (&'static [usize], Option<Heating>, [u32; 3], &'static [f64]);
+    let (chains, sizes): (_, &[Sizes]) = match profile {
         Profile::Full => (
             12,
             &[
@@ -171,7 +171,7 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
         ),
     };
     let mut all = Vec::new();
-    for &(lengths, heating, [from, to, step], transients) in cases {
+    for &(lengths, heating, [from, to, step], transients) in sizes {
         for &masses in lengths {
             let start = if heating.is_some() { "above" } else { "rest" };
             let name = format!("{start}, n = {masses}, σ from {}", f64::from(from) / 1000.0);

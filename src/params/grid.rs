@@ -12,7 +12,6 @@ impl Grid {
         self
     }
 
-    /// The values, rising.
     pub fn values(self) -> Vec<f64> {
         debug_assert!(self.0.windows(2).all(|w| w[0] < w[1]));
         self.0

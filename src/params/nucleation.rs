@@ -18,14 +18,11 @@ pub struct NucleationParams {
     pub sigmas: Vec<f64>,
     /// Times T by which a first impact is looked for, rising.
     pub times: Vec<f64>,
-    /// Name of the random stream.
     pub stream: String,
-    /// Master seed.
     pub seed: u64,
 }
 
 impl NucleationParams {
-    /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (lengths, sigmas, last): (&[_], _, _) = match profile {
             Profile::Full => (
@@ -53,7 +50,6 @@ pub struct SeedsParams {
     pub chain: Chain,
     /// Standard deviations σ, rising.
     pub sigmas: Vec<f64>,
-    /// Chains at each σ.
     pub realisations: usize,
     /// A chain whose one gap has not closed by this time is left out.
     pub wait: f64,
@@ -66,14 +62,11 @@ pub struct SeedsParams {
     /// Transients T of the counts that are predicted, in bins, rising; the last window ends with
     /// the bins.
     pub transients: Vec<usize>,
-    /// Name of the random stream.
     pub stream: String,
-    /// Master seed.
     pub seed: u64,
 }
 
 impl SeedsParams {
-    /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (sigmas, realisations) = match profile {
             Profile::Full => (Grid::default().and(16, 30, 1, 200).and(16, 16, 1, 100), 240),

@@ -10,16 +10,11 @@ use serde::{Deserialize, Serialize};
 /// Chains of one kind at one σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Runs {
-    /// The chain without its forcing.
     pub chain: Chain,
-    /// Standard deviation σ.
     pub sigma: f64,
-    /// Time at which runs end.
     pub until: f64,
     pub realisations: usize,
-    /// Name of the random stream.
     pub stream: String,
-    /// Master seed.
     pub seed: u64,
 }
 
@@ -39,7 +34,6 @@ impl Runs {
         Runs { chain, sigma: printed_threshold(), until, realisations: 1000, stream, seed: SEED }
     }
 
-    /// A realisation.
     pub fn scenario(&self, index: u64) -> Scenario {
         let mut normals = NormalPairs::new(&self.stream, self.seed, index);
         Scenario::draw(&self.chain, self.sigma, &mut normals)
@@ -56,7 +50,6 @@ pub struct TwoMassesParams {
 }
 
 impl TwoMassesParams {
-    /// The sizes of each profile.
     pub fn new(profile: Profile) -> Self {
         let (times, realisations) = match profile {
             Profile::Full => (vec![1e2, 1e3, 1e4], 40),

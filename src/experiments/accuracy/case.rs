@@ -12,7 +12,6 @@ use serde_json::Value as Json;
 pub struct Scene {
     /// Short name: `grazing-hits`.
     pub id: String,
-    /// What happens in it.
     pub what: String,
     /// Why the outcome is what it is.
     pub why: String,
@@ -127,7 +126,6 @@ impl Outcome {
     }
 }
 
-/// Returns all scenes.
 pub fn scenes() -> Vec<Scene> {
     let read = serde_json::from_str(include_str!("../../../scenes/scenes.json"));
     read.unwrap_or_else(|error| panic!("scenes/scenes.json: {error}; mend it and build again"))

@@ -18,7 +18,6 @@ const LONGEST: f64 = 1e3;
 /// Time after the true impact within which a method may still find it.
 const PATIENCE: f64 = 0.1;
 
-/// All methods against the truth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Race {
     pub parameters: RaceParams,
@@ -31,7 +30,6 @@ pub struct Race {
 /// What one method with one setting did.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Entry {
-    /// Method and setting.
     pub setting: Setting,
     /// Evaluations per impact of the runs.
     pub work: Option<f64>,

@@ -91,9 +91,7 @@ fn all(race: &Race) -> Table {
 
 /// One method at one σ, and the engine on the same chains.
 pub struct Compared {
-    /// The method.
     pub setting: Setting,
-    /// σ.
     pub sigma: f64,
     /// Chains that both ran to the end.
     pub pairs: usize,

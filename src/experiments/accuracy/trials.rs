@@ -4,7 +4,6 @@ use super::case::{Case, Outcome, Scene, scenes};
 use crate::experiments::prelude::*;
 use crate::params::{Profile, Setting, trial_settings};
 
-/// Every method, and every scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrialParams {
     pub settings: Vec<Setting>,

@@ -1,6 +1,7 @@
 //! Compares chains from rest with chains from above under the same forces, after several
 //! transients.
 
+mod pairs;
 pub mod run;
 pub mod tables;
 

@@ -3,7 +3,7 @@
 //!
 //! A chain from above runs well beyond the rise first; then all its forces are lowered by one
 //! factor. Chain i has the same forces on both branches and at every σ, so branches are compared
-//! chain by chain ([`super::tables`]).
+//! chain by chain (`pairs.rs`).
 
 use crate::experiments::ensembles::{part, rows};
 use crate::experiments::prelude::*;

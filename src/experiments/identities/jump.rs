@@ -42,10 +42,13 @@ pub(super) fn mean_rises() -> Cases {
 /// Eq. (11): sign of the difference of neighbouring weights against the sign of f. A tie of the
 /// weights is a zero of f.
 pub(super) fn eq11() -> Cases {
-    let of_p = |p| weights(p).windows(2).map(|w| w[1].partial_cmp(&w[0])).collect::<Vec<_>>();
-    let steps =
-        GRID.into_iter().flat_map(|p| of_p(p).into_iter().zip(1_u32..).map(move |s| (p, s)));
-    cases(steps.map(|(p, (sign, k))| sign == f(p, k.into()).partial_cmp(&0.0)))
+    let mut agree = Vec::new();
+    for p in GRID {
+        for (pair, k) in weights(p).windows(2).zip(1_u32..) {
+            agree.push(pair[1].partial_cmp(&pair[0]) == f(p, k.into()).partial_cmp(&0.0));
+        }
+    }
+    cases(agree)
 }
 
 /// Eq. (13): |f(k±)| over the largest of its three terms.
@@ -56,11 +59,13 @@ pub(super) fn eq13() -> f64 {
 
 /// Eqs. (16) and (17): signs, and the slope against a finite difference: f is linear in p.
 pub(super) fn slopes() -> Cases {
-    cases((1..VERTICES).map(|k| k as f64).flat_map(|k| {
-        let (none, slope) = (f(0.0, k), f(1.0, k) - f(0.0, k));
-        let positive = slope > 0.0 && (slope / (k * (N - k)) - 1.0).abs() < 1e-14;
-        [none < 0.0 && none == -(k + 1.0), positive]
-    }))
+    let mut agree = Vec::new();
+    for k in (1..VERTICES).map(|k| k as f64) {
+        let slope = f(1.0, k) - f(0.0, k);
+        agree.push(f(0.0, k) == -(k + 1.0));
+        agree.push(slope > 0.0 && (slope / (k * (N - k)) - 1.0).abs() < 1e-14);
+    }
+    cases(agree)
 }
 
 /// k* at neighbouring p of a grid from just beyond the jump to one.
@@ -93,17 +98,23 @@ pub(super) fn other_root() -> Cases {
 /// one; at the ends of 1..=N one neighbour is enough.
 pub(super) fn extrema() -> Cases {
     let first = jump::first_local_maximum(VERTICES).map_or(1.0, |(_, [a, b])| a as f64 / b as f64);
+    let mut agree = Vec::new();
     // At the first p itself a minimum and a maximum are level.
-    cases((1..=200).flat_map(|i| {
+    for i in 1..=200 {
         let p = (first * pxfm::f_exp(-pxfm::f_log(first) * f64::from(i) / 200.0)).min(1.0);
-        let Some(zeros) = jump::zeros(VERTICES, p) else { return vec![false] };
+        let Some(zeros) = jump::zeros(VERTICES, p) else {
+            agree.push(false);
+            continue;
+        };
         let weights = weights(p);
         let [low, high] = zeros.map(|k| (k.ceil() as usize).clamp(1, VERTICES) - 1);
-        let around = |at: usize| [at.checked_sub(1), Some(at + 1)].into_iter().flatten();
-        let above = around(low).filter_map(|at| Some(*weights.get(at)? >= weights[low]));
-        let below = around(high).filter_map(|at| Some(*weights.get(at)? <= weights[high]));
-        above.chain(below).collect()
-    }))
+        for step in [-1, 1] {
+            let near = |at: usize| weights.get(at.checked_add_signed(step)?);
+            agree.extend(near(low).map(|weight| *weight >= weights[low]));
+            agree.extend(near(high).map(|weight| *weight <= weights[high]));
+        }
+    }
+    cases(agree)
 }
 
 /// At p_crit, with a double zero, f is −p (k − k_touch)²: Φ flattens there and falls on both

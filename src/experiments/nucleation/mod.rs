@@ -4,7 +4,7 @@
 pub mod run;
 pub mod tables;
 
-pub use run::{Expected, First, Gaps, Nucleation};
+pub use run::{First, Gaps, Nucleation, Theory};
 
 use crate::params::NucleationParams;
 use literate::experiments::Experiment;

@@ -12,18 +12,17 @@ const ANGLES: usize = 256;
 /// Angles of the rule for neighbours, whose cost grows as their square.
 const COARSE: usize = 64;
 
-/// First impacts of chains from rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Nucleation {
     pub parameters: NucleationParams,
     /// For each length and σ, length by length, the realisations.
     pub rows: Vec<Vec<First>>,
-    pub expected: Expected,
+    pub expected: Theory,
 }
 
 /// The chances of gaps to close by themselves, by the theory.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Expected {
+pub struct Theory {
     /// At each σ that was run.
     pub gaps: Vec<Gaps>,
     /// Within the latest time, at σ that lie closer together, for curves.
@@ -35,11 +34,8 @@ pub struct Expected {
 /// The chances of gaps at one σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gaps {
-    /// Standard deviation σ.
     pub sigma: f64,
-    /// Within each time.
     pub within: Vec<Chances>,
-    /// In unlimited time.
     pub ever: Chances,
 }
 
@@ -50,10 +46,9 @@ pub type First = Option<f64>;
 pub(super) fn ensembles(
     parameters: &NucleationParams,
 ) -> impl Iterator<Item = (usize, usize, f64)> {
-    let of = |&(masses, realisations): &(usize, usize)| {
+    parameters.lengths.iter().flat_map(|&(masses, realisations)| {
         parameters.sigmas.iter().map(move |&sigma| (masses, realisations, sigma))
-    };
-    parameters.lengths.iter().flat_map(of)
+    })
 }
 
 /// Chains of all ensembles.
@@ -73,7 +68,7 @@ pub fn run(parameters: &NucleationParams, progress: &Progress) -> Result<Nucleat
     Ok(Nucleation { parameters: parameters.clone(), rows, expected: expected(parameters) })
 }
 
-fn expected(parameters: &NucleationParams) -> Expected {
+fn expected(parameters: &NucleationParams) -> Theory {
     let chain = &parameters.chain;
     let within = Reach::within(chain, &parameters.times, ANGLES);
     let fewer: Vec<Reach> = within.iter().map(|reach| reach.every(ANGLES / COARSE)).collect();
@@ -92,7 +87,7 @@ fn expected(parameters: &NucleationParams) -> Expected {
             .collect()
     });
     let gaps = parameters.sigmas.par_iter().map(gaps).collect();
-    Expected { gaps, curve, half: half(chain, &ever, &ever) }
+    Theory { gaps, curve, half: half(chain, &ever, &ever) }
 }
 
 fn first(

@@ -3,7 +3,7 @@
 
 use crate::experiments::prelude::*;
 use crate::experiments::protocol::address;
-use crate::experiments::theory::beside::at;
+use crate::experiments::theory::comparison::at;
 use crate::experiments::{PROTOCOL, SEEDS};
 
 const OFF: &str =
@@ -16,8 +16,9 @@ fn mean(cell: &Curve, sigma: f64) -> Option<f64> {
 
 /// The tables; none where an experiment was not run.
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
-    let of = |name: &str| all.iter().find(|table| table.name() == name);
-    let (means, rise, theory) = (of("seeds.means")?, of("seeds.rise")?, of("theory.curve")?);
+    let table = |name: &str| all.iter().find(|table| table.name() == name);
+    let (means, rise) = (table("seeds.means")?, table("seeds.rise")?);
+    let theory = table("theory.curve")?;
     let seeds = &results.of(&SEEDS).ok()?.parameters;
     let map = named(results.of(&PROTOCOL).ok()?, "protocol")?;
     let window = seeds.window as f64 * seeds.bin;
@@ -48,10 +49,10 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .real("grown", "1", 2, OFF, |cell| off(cell, grown(cell)))
         .done();
     // With the protocol of the main sweep.
-    let transient = of("sweep.run")?.number(&[], "transient").ok()?;
+    let transient = table("sweep.run")?.number(&[], "transient").ok()?;
     let half = rise.estimates(&[("transient", transient)], "transient", "half_height");
     let clumps = rise.estimates(&[("transient", transient)], "transient", "of_clumps");
-    let swept = of("sweep.rise")?.estimates(&[], "half_height_all", "half_height_all");
+    let swept = table("sweep.rise")?.estimates(&[], "half_height_all", "half_height_all");
     let compared = Table::of("seeds.compared", &[()], |()| seeds.realisations)
         .count("sigmas", "values of σ that seeds and map have", |()| sigmas.len() as u64)
         .estimate("early", SIGMA, "half height of the main sweep less this", |()| {

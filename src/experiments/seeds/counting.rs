@@ -37,9 +37,8 @@ impl ByDistance {
             for (gap, bits) in trace.hits.iter().enumerate() {
                 let distance = gap.abs_diff(seed);
                 places[distance] += 1;
-                if *bits != 0 {
-                    let both = hit.iter_mut().zip(&masks);
-                    both.for_each(|(hit, mask)| hit[distance] += u64::from(bits & mask != 0));
+                for (hit, mask) in hit.iter_mut().zip(&masks) {
+                    hit[distance] += u64::from(bits & mask != 0);
                 }
             }
         }
@@ -49,18 +48,15 @@ impl ByDistance {
 
     /// The sum over groups of runs, without the group of index `left_out` if there is one.
     pub(super) fn sum(groups: &[ByDistance], left_out: usize) -> Self {
-        let of = groups.iter().enumerate().filter(|(group, _)| *group != left_out);
-        let mut seen = of.map(|(_, group)| group.clone());
-        let first = seen.next().unwrap_or_default();
-        seen.fold(first, |mut all, group| {
-            let add = |all: &mut Vec<u64>, more: &Vec<u64>| {
-                all.iter_mut().zip(more).for_each(|(all, more)| *all += more);
-            };
-            add(&mut all.places, &group.places);
-            all.reached.iter_mut().zip(&group.reached).for_each(|(all, more)| add(all, more));
-            all.active.iter_mut().zip(&group.active).for_each(|(all, more)| add(all, more));
-            all
-        })
+        let mut all = ByDistance::default();
+        for (_, group) in groups.iter().enumerate().filter(|(group, _)| *group != left_out) {
+            add(std::slice::from_mut(&mut all.places), std::slice::from_ref(&group.places));
+            all.reached.resize(group.reached.len(), Vec::new());
+            all.active.resize(group.active.len(), Vec::new());
+            add(&mut all.reached, &group.reached);
+            add(&mut all.active, &group.active);
+        }
+        all
     }
 
     /// The share of the gaps at each distance; 0 where no gap has that distance.
@@ -91,6 +87,16 @@ impl ByDistance {
             points.push((pxfm::f_log(bin as f64), pxfm::f_log(advance)));
         }
         slope(&points)
+    }
+}
+
+/// Adds counts by distance to others.
+fn add(sums: &mut [Vec<u64>], more: &[Vec<u64>]) {
+    for (sums, more) in sums.iter_mut().zip(more) {
+        sums.resize(more.len(), 0);
+        for (sum, count) in sums.iter_mut().zip(more) {
+            *sum += count;
+        }
     }
 }
 

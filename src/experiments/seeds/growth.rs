@@ -65,23 +65,29 @@ fn closing(parameters: &SeedsParams, begin: Begin) -> Vec<[Vec<f64>; 2]> {
     let edges: Vec<f64> = (1..=parameters.bins).map(|bin| bin as f64 * parameters.bin).collect();
     let reaches = Reach::within(chain, &edges, ANGLES);
     let ever = Reach::ever(chain, COARSE);
-    let by = |variance: f64, share: f64| {
-        let by = reaches.iter().map(|reach| share * reach.probability(chain.spacing, variance));
-        let by: Vec<f64> = std::iter::once(0.0).chain(by).collect();
-        by.windows(2).map(|pair| pair[1] - pair[0]).collect()
+    let in_each_bin = |variance: f64, share: f64| {
+        let (mut chances, mut before) = (Vec::with_capacity(reaches.len()), 0.0);
+        for reach in &reaches {
+            let by_then = share * reach.probability(chain.spacing, variance);
+            chances.push(by_then - before);
+            before = by_then;
+        }
+        chances
     };
-    let of = |sigma: &f64| {
+    let mut all = Vec::with_capacity(parameters.sigmas.len());
+    for &sigma in &parameters.sigmas {
         // The share of closing gaps whose left neighbour stays open.
         let first = match begin {
             Begin::Gaps => 1.0,
             Begin::Clumps => {
-                let chances = Chances::new(chain, &ever, &ever, *sigma);
+                let chances = Chances::new(chain, &ever, &ever, sigma);
                 1.0 - chances.pair / chances.p
             }
         };
-        [by(sigma * sigma, 1.0), by(2.0 * sigma * sigma, first)]
-    };
-    parameters.sigmas.iter().map(of).collect()
+        let variance = sigma * sigma;
+        all.push([in_each_bin(variance, 1.0), in_each_bin(2.0 * variance, first)]);
+    }
+    all
 }
 
 /// The predictions of all transients, from the counts of groups of runs at each σ.
@@ -91,16 +97,20 @@ pub(super) fn predictions(
     begin: Begin,
 ) -> Vec<Prediction> {
     let closing = closing(parameters, begin);
-    let sum = |left| seen.iter().map(|groups| ByDistance::sum(groups, left)).collect();
-    let sums: Vec<Vec<ByDistance>> = (0..=GROUPS).map(sum).collect();
-    let of = |&transient: &usize| {
-        let means = |seen: &Vec<ByDistance>| {
-            let both = closing.iter().zip(seen);
-            both.map(|(chances, seen)| expected(parameters, chances, seen, transient)).collect()
-        };
-        Prediction { transient, means: sums.iter().map(means).collect() }
-    };
-    parameters.transients.iter().map(of).collect()
+    let mut all: Vec<Prediction> = Vec::new();
+    for &transient in &parameters.transients {
+        all.push(Prediction { transient, means: Vec::new() });
+    }
+    for left_out in 0..=GROUPS {
+        let sums: Vec<ByDistance> =
+            seen.iter().map(|groups| ByDistance::sum(groups, left_out)).collect();
+        for Prediction { transient, means } in &mut all {
+            let both = closing.iter().zip(&sums);
+            let mean = both.map(|(chances, seen)| expected(parameters, chances, seen, *transient));
+            means.push(mean.collect());
+        }
+    }
+    all
 }
 
 /// The expected number of gaps with an impact in the window.
@@ -132,14 +142,16 @@ fn expected(
         all
     };
     let (wall, inner) = (sends(wall), sends(inner));
-    let silent = |x: usize| {
-        let from = |y: usize| {
+    let mut mean = 0.0;
+    for x in 0..gaps {
+        let mut silent = 1.0;
+        for y in 0..gaps {
             let at_wall = y == 0 || y + 1 == gaps;
-            1.0 - if at_wall { wall[x.abs_diff(y)] } else { inner[x.abs_diff(y)] }
-        };
-        (0..gaps).map(from).fold(1.0, |product, factor| product * factor)
-    };
-    (0..gaps).map(|x| 1.0 - silent(x)).sum()
+            silent *= 1.0 - if at_wall { &wall } else { &inner }[x.abs_diff(y)];
+        }
+        mean += 1.0 - silent;
+    }
+    mean
 }
 
 #[cfg(test)]
@@ -164,12 +176,12 @@ mod tests {
         let (transient, window) = (1, 2);
         let logs = closing.each_ref().map(|closing| -> Vec<f64> {
             let sends = |l: usize| {
-                let of = |since: usize| match transient >= since {
+                let hit = |since: usize| match transient >= since {
                     true => seen.active[transient - since][l],
                     false => seen.reached[transient + window - since][l],
                 };
                 let bins = closing.iter().enumerate().take(transient + window);
-                let hits: f64 = bins.map(|(bin, p)| p * (of(bin) + of(bin + 1)) as f64).sum();
+                let hits: f64 = bins.map(|(bin, p)| p * (hit(bin) + hit(bin + 1)) as f64).sum();
                 hits / (2.0 * seen.places[l] as f64)
             };
             (0..gaps).map(|l| pxfm::f_log1p(-sends(l))).collect()

@@ -28,7 +28,6 @@ pub struct Trace {
 /// Runs at one σ; none where the engine gave up.
 pub type Part = Vec<Option<Trace>>;
 
-/// Runs all chains.
 pub fn run(parameters: &SeedsParams, progress: &Progress) -> Result<Seeds, Error> {
     let chains = parameters.sigmas.len() * parameters.realisations;
     let stage = progress.stage("seeds", chains as u64);

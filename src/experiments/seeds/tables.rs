@@ -147,8 +147,8 @@ impl RunsAtSigma<'_> {
     /// Gaps of a run with an impact in some bins.
     fn hit(&self, from: usize, count: usize) -> Option<Estimate> {
         let mask = bits(from, count);
-        let of = |trace: &Trace| trace.hits.iter().filter(|bits| **bits & mask != 0).count() as f64;
-        average(&self.runs.iter().map(|(_, trace)| of(trace)).collect::<Vec<_>>())
+        let hit = |trace: &Trace| trace.hits.iter().filter(|bits| **bits & mask != 0).count();
+        average(&self.runs.iter().map(|(_, trace)| hit(trace) as f64).collect::<Vec<_>>())
     }
 }
 
@@ -184,8 +184,8 @@ mod tests {
         assert_eq!(advance, [(25.0, 0.0), (50.0, 0.75), (75.0, 0.75), (100.0, 0.75)]);
         // Waits of 30, 30 and 40, and one that is cut off at 100: of four fronts one stands.
         let beat = std::f64::consts::TAU / (std::f64::consts::SQRT_2 - 1.0);
-        let of = |column| fronts.number(&[("sigma", 0.1)], column).unwrap();
-        assert!((of("even") + pxfm::f_expm1(-3.0 / 200.0 * beat)).abs() < 1e-12);
-        assert_eq!([of("bursts"), of("standing")], [0.0, 0.25]);
+        let front = |column| fronts.number(&[("sigma", 0.1)], column).unwrap();
+        assert!((front("even") + pxfm::f_expm1(-3.0 / 200.0 * beat)).abs() < 1e-12);
+        assert_eq!([front("bursts"), front("standing")], [0.0, 0.25]);
     }
 }

@@ -43,11 +43,9 @@ fn lengths() -> Table {
         .real("largest_far", "1", 2, "the largest for k < N − 3", |()| {
             (1..VERTICES - 3).map(ratio).fold(0.0, f64::max)
         })
-        .count(
-            "exceptions",
-            "lengths k < N with more than a tenth of the circuits of length N",
-            |()| exceptions().count() as u64,
-        )
+        .count("exceptions", "lengths k < N with over a tenth as many circuits as N", |()| {
+            exceptions().count() as u64
+        })
         .computed_by(origin(counting::shares))
         .count("peak", "the most frequent length", |()| peak.unwrap_or(VERTICES) as u64)
         .count("from", "N − 3", |()| VERTICES as u64 - 3)

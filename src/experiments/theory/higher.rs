@@ -141,26 +141,18 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
             tail as u64
         })
         .computed_by(origin(by_different))
-        .real(
-            "simple_by_different",
-            "1",
-            2,
-            "share of simple circuits there with a p for each different impact",
-            |()| simple_by_different(first),
-        )
+        .real("simple_by_different", "1", 2, "simple ones there, a p a different impact", |()| {
+            simple_by_different(first)
+        })
         .count("step_by_different", "largest step of k* with a p for each different impact", |()| {
             largest_step()
         })
         .computed_by(origin(five))
         .real("tail_weight", "1", 1, "probability of these k", |()| weight)
         .computed_by(origin(doubling))
-        .real(
-            "doubling",
-            "1",
-            3,
-            "weight of one doubled vertex, largest p of Fig. 13, k = μ",
-            |()| doubling(last),
-        )
+        .real("doubling", "1", 3, "weight of one doubled vertex, largest p of Fig. 13", |()| {
+            doubling(last)
+        })
         .computed_by(origin(means_apart))
         .chosen("means_apart_at", "1", "p at which the means differ most in proportion", |()| {
             Some(at)
@@ -171,12 +163,6 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
         .real("change", "1", 2, "largest change of μ over σ", |()| change)
         .chosen("change_at", sigma, "σ of it", |()| Some(change_at))
         .real("half_shift", sigma, 1, "shift of σ at which μ is (N + 1)/2", |()| half_shift)
-        .real(
-            "relation_over",
-            "1",
-            2,
-            "shift of the jump from rest over that by higher orders",
-            |()| over,
-        )
+        .real("relation_over", "1", 2, "shift of the jump from rest over that by orders", |()| over)
         .done()
 }

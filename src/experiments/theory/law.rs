@@ -21,7 +21,6 @@ pub fn simple(p: f64) -> Vec<f64> {
     law(Simple, p).probabilities()
 }
 
-/// k* of simple circuits.
 pub fn k_star(p: f64) -> usize {
     law(Simple, p).k_star()
 }

@@ -5,8 +5,8 @@
 //! Cheap: all tables take some tenths of a second, and nothing is saved.
 
 pub(crate) mod basics;
-pub(crate) mod beside;
 pub(crate) mod census;
+pub(crate) mod comparison;
 pub(crate) mod counts;
 pub(crate) mod higher;
 pub mod jump;

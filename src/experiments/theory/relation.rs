@@ -120,13 +120,9 @@ pub(super) fn relation() -> Table {
         .computed_by(origin(eq25))
         .real("difference", "1", 1, "Eq. (25) less its double integral, relative", |()| eq25())
         .computed_by(origin(sigma_kept))
-        .real(
-            "sigma_kept_half",
-            SIGMA,
-            3,
-            "σ at which half of the chains have a gap that closes by itself",
-            |()| sigma_kept(0.5),
-        )
+        .real("sigma_kept_half", SIGMA, 3, "σ at which half of the chains have a seed", |()| {
+            sigma_kept(0.5)
+        })
         .real("sigma_kept_onset", SIGMA, 3, "σ at which enough have one for the onset", |()| {
             sigma_kept(ONSET)
         })

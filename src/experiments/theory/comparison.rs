@@ -43,7 +43,6 @@ pub(crate) fn distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64
     (!differences.is_empty()).then(|| (squares.sum::<f64>() / differences.len() as f64).sqrt())
 }
 
-/// The table of the comparison.
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let sweep = sweep::main(results).ok()?;
     let table = |name| all.iter().find(|table| table.name() == name);
@@ -60,7 +59,7 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let finest = (steps.fold(f64::INFINITY, f64::min) * 1e6).round() / 1e6;
     let far = |at: usize| largest_distance(&means, simple).map(|far| far[at]);
     let kept = increases(&means, finest);
-    let table = Table::of("sweep.beside_theory", &[()], |()| 0)
+    let table = Table::of("sweep.against_theory", &[()], |()| 0)
         .computed_by(origin(largest_distance))
         .chosen("large_sigma", SIGMA, "from here on σ is called large", |()| Some(LARGE_SIGMA))
         .real("large_distance", "1", 2, "largest distance of both means at large σ", |()| far(0))

@@ -1,0 +1,225 @@
+//! Half heights and shares on both branches, and their differences chain by chain.
+//!
+//! Chains are independent of each other, and nothing else is: the same chain at another σ, after
+//! another transient or on the other branch has the same forces. So every error is that of leaving
+//! out whole chains in turn (the jackknife, which gives the usual standard error of a mean), and a
+//! difference is taken before its error is. Intervals have the quantiles of Student's t for the
+//! number of chains.
+
+use super::run::Chains;
+use crate::experiments::prelude::*;
+use impact_numerics::estimates::{LEVEL, jackknife};
+use impact_numerics::statistics::{last_rise, mean, slope, student_quantile};
+
+/// Shares of active gaps on one branch after one transient.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Branch {
+    /// The σ that were run so long, rising.
+    pub sigmas: Vec<f64>,
+    /// For each of them the share in each chain; none if its run was not complete.
+    shares: Vec<Vec<Option<f64>>>,
+}
+
+impl Branch {
+    /// Collects the shares of chains of one length, with or without heating.
+    fn new(found: &[Chains], masses: usize, heated: bool, transient: f64) -> Branch {
+        let mut rows = Vec::new();
+        for Chains { ensemble, counts } in found {
+            if ensemble.chain.masses != masses || ensemble.heating.is_some() != heated {
+                continue;
+            }
+            let mut windows = ensemble.protocols.iter();
+            let Some(window) = windows.position(|one| one.transient == transient) else { continue };
+            let gaps = ensemble.chain.gaps() as f64;
+            for (sigma, counts) in ensemble.sigmas.iter().zip(counts) {
+                let share = |count: &Option<u32>| count.map(|count| f64::from(count) / gaps);
+                rows.push((*sigma, counts[window].iter().map(share).collect()));
+            }
+        }
+        rows.sort_by(|a: &(f64, Vec<_>), b| a.0.total_cmp(&b.0));
+        let (sigmas, shares) = rows.into_iter().unzip();
+        Branch { sigmas, shares }
+    }
+
+    fn chains(&self) -> usize {
+        self.shares.iter().map(Vec::len).min().unwrap_or(0)
+    }
+
+    /// Mean share at a σ over all chains but one; none where no chain was run.
+    pub fn share(&self, sigma: f64, without: Option<usize>) -> Option<f64> {
+        let place = self.sigmas.iter().position(|at| *at == sigma)?;
+        let chains = self.shares[place].iter().enumerate();
+        let used = chains.filter(|(chain, _)| Some(*chain) != without);
+        mean(&used.filter_map(|(_, share)| *share).collect::<Vec<_>>())
+    }
+
+    /// Half height of the mean over all chains but one.
+    pub fn half_height(&self, without: Option<usize>) -> Option<f64> {
+        let shares: Vec<Option<f64>> =
+            self.sigmas.iter().map(|sigma| self.share(*sigma, without)).collect();
+        last_rise(&self.sigmas, &shares, 0.5)
+    }
+}
+
+/// Both branches of chains of one length after one transient.
+pub(super) struct Pair {
+    pub masses: usize,
+    pub transient: f64,
+    pub rest: Branch,
+    pub above: Branch,
+}
+
+/// A quantity of both branches, over all chains but one.
+pub(super) type Quantity = fn(&Pair, Option<usize>) -> Option<f64>;
+
+/// Half height from rest.
+pub(super) fn from_rest(pair: &Pair, without: Option<usize>) -> Option<f64> {
+    pair.rest.half_height(without)
+}
+
+/// Half height from above.
+pub(super) fn from_above(pair: &Pair, without: Option<usize>) -> Option<f64> {
+    pair.above.half_height(without)
+}
+
+/// Half height from rest less that from above.
+pub(super) fn distance(pair: &Pair, without: Option<usize>) -> Option<f64> {
+    Some(from_rest(pair, without)? - from_above(pair, without)?)
+}
+
+impl Pair {
+    /// Returns all pairs, by length and transient.
+    pub fn all(found: &[Chains]) -> Vec<Pair> {
+        let mut keys: Vec<(usize, f64)> = Vec::new();
+        for Chains { ensemble, .. } in found {
+            let masses = ensemble.chain.masses;
+            keys.extend(ensemble.protocols.iter().map(|window| (masses, window.transient)));
+        }
+        keys.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        keys.dedup();
+        let mut pairs = Vec::with_capacity(keys.len());
+        for (masses, transient) in keys {
+            let [rest, above] =
+                [false, true].map(|heated| Branch::new(found, masses, heated, transient));
+            pairs.push(Pair { masses, transient, rest, above });
+        }
+        pairs
+    }
+
+    /// Returns the number of chains on each branch.
+    pub fn chains(&self) -> usize {
+        self.rest.chains().min(self.above.chains())
+    }
+
+    /// Estimates a quantity of all chains.
+    pub fn estimate(
+        &self,
+        quantity: impl Fn(&Pair, Option<usize>) -> Option<f64>,
+    ) -> Option<Estimate> {
+        jackknife(self.chains(), |without| quantity(self, without))
+    }
+
+    /// Estimates by how much a quantity exceeds that of another pair of the same chains.
+    pub fn estimate_less(
+        &self,
+        other: &Pair,
+        quantity: impl Fn(&Pair, Option<usize>) -> Option<f64>,
+    ) -> Option<Estimate> {
+        jackknife(self.chains().min(other.chains()), |without| {
+            Some(quantity(self, without)? - quantity(other, without)?)
+        })
+    }
+}
+
+/// Returns the exponent of a power law of T through the distances of some pairs, over all chains
+/// but one, by least squares in logarithms. None if a distance is not positive.
+pub(super) fn exponent(pairs: &[Pair], without: Option<usize>) -> Option<f64> {
+    let mut points = Vec::new();
+    for pair in pairs {
+        let distance = distance(pair, without).filter(|distance| *distance > 0.0)?;
+        points.push((pxfm::f_log(pair.transient), pxfm::f_log(distance)));
+    }
+    slope(&points)
+}
+
+/// Returns the interval of an estimate from independent chains, with Student's t.
+pub(super) fn interval(estimate: Option<Estimate>, chains: usize) -> [f64; 2] {
+    let quantile = student_quantile(LEVEL, chains.saturating_sub(1));
+    let Some((Estimate { value, error, .. }, quantile)) = estimate.zip(quantile) else {
+        return [f64::NAN; 2];
+    };
+    [value - quantile * error, value + quantile * error]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CHAINS: usize = 12;
+
+    /// Chains whose share rises from 0 to 1 over an interval of σ around a place of each chain.
+    fn made_up(places: &[f64]) -> Branch {
+        let sigmas = vec![0.0, 1.0];
+        let at = |sigma: f64| places.iter().map(|place| Some(0.5 + sigma - place)).collect();
+        Branch { shares: sigmas.iter().map(|sigma| at(*sigma)).collect(), sigmas }
+    }
+
+    fn pair(transient: f64, rest: &[f64], above: &[f64]) -> Pair {
+        Pair { masses: 1, transient, rest: made_up(rest), above: made_up(above) }
+    }
+
+    /// Places of chains on both branches: a part that both share, with a standard deviation of
+    /// 0.06, and parts of each branch, with 0.03 and 0.04. The distance of the half heights then
+    /// has the error 0.05/√12.
+    fn drawn(index: u64) -> [Vec<f64>; 2] {
+        let mut normals = NormalPairs::new("test of branches", 1, index);
+        let mut places = [Vec::new(), Vec::new()];
+        for _ in 0..CHAINS {
+            let ([both, _], [rest, above]) = (normals.pair(), normals.pair());
+            places[0].push(0.6 + 0.06 * both + 0.03 * rest);
+            places[1].push(0.4 + 0.06 * both + 0.04 * above);
+        }
+        places
+    }
+
+    #[test]
+    fn the_error_of_a_distance_is_the_known_one() {
+        let (mut squares, mut inside) = (0.0, 0);
+        const SAMPLES: u64 = 4000;
+        for index in 0..SAMPLES {
+            let [rest, above] = drawn(index);
+            let pair = pair(500.0, &rest, &above);
+            let found = pair.estimate(distance).unwrap();
+            squares += found.error * found.error / SAMPLES as f64;
+            let [from, to] = interval(Some(found), CHAINS);
+            inside += u64::from((from..to).contains(&0.2));
+        }
+        // 4000 mean squares with 11 degrees of freedom: known to √(2/11/4000) = 0.7 %. Resampling
+        // with replacement would give 11/12 of it, errors combined as if branches were independent
+        // nearly four times as much.
+        let known = 0.05 * 0.05 / CHAINS as f64;
+        assert!((squares / known - 1.0).abs() < 0.03, "{}", squares / known);
+        // 95 % to √(0.95 · 0.05/4000) = 0.34 %.
+        let share = inside as f64 / SAMPLES as f64;
+        assert!((share - LEVEL).abs() < 0.014, "{share}");
+    }
+
+    #[test]
+    fn a_power_law_by_hand() {
+        let distance = |time: f64| 0.4 / time.sqrt();
+        let times = [1.0, 4.0, 25.0];
+        let at = |time: &f64| pair(*time, &[0.5 + distance(*time); 3], &[0.5; 3]);
+        let pairs: Vec<Pair> = times.iter().map(at).collect();
+        assert!((exponent(&pairs, None).unwrap() + 0.5).abs() < 1e-12);
+        assert_eq!(exponent(&[at(&1.0), pair(9.0, &[0.4; 3], &[0.5; 3])], None), None);
+    }
+
+    #[test]
+    fn changes_are_taken_chain_by_chain() {
+        // Chains differ much, and all change by the same.
+        let (first, later) = ([0.1, 0.5, 0.9], [0.2, 0.6, 1.0]);
+        let (first, later) = (pair(1.0, &first, &first), pair(2.0, &later, &first));
+        let found = later.estimate_less(&first, from_rest).unwrap();
+        assert!((found.value - 0.1).abs() < 1e-12 && found.error < 1e-12, "{found:?}");
+    }
+}
