@@ -23,7 +23,7 @@ const LEFT_OUT: &[(&str, &str)] = &[
     ("src/experiments/prelude.rs", "names what stands elsewhere"),
     ("src/experiments/horizon.rs", "of the methods only the race has a horizon, and it lists this"),
     ("src/experiments/protocol.rs", "seeds/compared.rs compares results, and no run does"),
-    ("src/experiments/theory/beside.rs", "seeds/compared.rs compares results, and no run does"),
+    ("src/experiments/theory/comparison.rs", "seeds/compared.rs compares results, and no run does"),
 ];
 
 /// The crates as paths of items name them, and the folders of their source.
