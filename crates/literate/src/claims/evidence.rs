@@ -33,9 +33,7 @@ pub enum Error {
     #[error("check {id}: {error}")]
     Check { id: String, error: Box<Error> },
     #[error("a number of it is {0}; correct it, or return `Undecided` where there is none")]
-    NotFinite(f64),
-    #[error("{place}: the rule {id} was made at {before}; rename or remove one")]
-    Twice { id: &'static str, place: String, before: String },
+    NotFinite(Text),
     /// A rule that needs the number of statistical checks does not count as one of them.
     #[error("the rule of {0} allows for standard errors; add `.statistical()` to it")]
     NotStatistical(String),

@@ -101,17 +101,6 @@ impl Published {
         Ok(published)
     }
 
-    /// Returns all that was printed with another first digit in the number of one statement.
-    pub(super) fn misprinted(&self, id: &str) -> Published {
-        let mut published = self.clone();
-        for statement in &mut published.statements {
-            if statement.id == id {
-                statement.misprint();
-            }
-        }
-        published
-    }
-
     /// Makes an error of the entry with this id, with its line.
     fn fault(&self, id: &str, what: &str) -> PublishedError {
         let line = self.line(id);
@@ -186,14 +175,16 @@ impl Statement {
         Ok(())
     }
 
-    /// Changes the first digit of the printed number, also where it stands in the printed words.
-    fn misprint(&mut self) {
-        let Some(shown) = self.shown() else { return };
-        self.printed = match number_alone(&self.printed) {
+    /// Returns it with another first digit in its number, also in the printed words; none if it has
+    /// no number.
+    pub(super) fn misprint(&self) -> Option<Statement> {
+        let shown = self.shown()?;
+        let value = with_other_digit(&shown).parse().ok();
+        let printed = match number_alone(&self.printed) {
             Some(_) => with_other_digit(&self.printed),
             None => self.printed.replacen(&shown, &with_other_digit(&shown), 1),
         };
-        self.value = with_other_digit(&shown).parse().ok();
+        Some(Statement { value, printed, ..self.clone() })
     }
 
     /// Returns the number with its printed decimals.
@@ -247,14 +238,13 @@ mod tests {
             ("0.5 ‰", 5e-4, 5e-5, "0.6 ‰"),
             ("0", 0.0, 0.5, "1"),
         ] {
-            let mut read = parse(&format!("printed = \"{printed}\"")).unwrap();
+            let read = parse(&format!("printed = \"{printed}\"")).unwrap();
             assert_eq!((read.value, read.half_unit()), (Some(value), half_unit), "{printed}");
-            read.misprint();
-            assert_eq!(read.printed.replace('−', "-"), misprint);
+            assert_eq!(read.misprint().unwrap().printed.replace('−', "-"), misprint);
         }
-        let mut read = parse("printed = \"σ ≈ 0.12\"\nvalue = 0.12\ndecimals = 2").unwrap();
+        let read = parse("printed = \"σ ≈ 0.12\"\nvalue = 0.12\ndecimals = 2").unwrap();
         assert_eq!(read.half_unit(), 5e-3);
-        read.misprint();
+        let read = read.misprint().unwrap();
         assert_eq!((read.value, read.printed.as_str()), (Some(0.22), "σ ≈ 0.22"));
         for words in ["about 2.094", "1 2", "e5", "·10⁻⁴", "3 10⁻⁴", "inf", "1e999", "1e-99999999"]
         {
