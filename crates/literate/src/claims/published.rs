@@ -53,6 +53,9 @@ pub struct Statement {
     /// The place of its last printed digit: its decimals, and −3 if it was printed in thousands.
     #[serde(default)]
     pub decimals: Option<i32>,
+    /// The line of its id.
+    #[serde(skip)]
+    line: usize,
 }
 
 /// What is wrong with a file of published statements.
@@ -63,10 +66,10 @@ pub enum PublishedError {
     #[error("published.toml: no {what} {id:?}; add it, or remove the check that asks for it")]
     Missing { what: &'static str, id: String },
     #[error(
-        "published.toml: {id:?}: its check needs the number in printed = {printed:?}; write it as `value`, with \
-         `decimals`, as many as were printed"
+        "published.toml:{line}: the id {id:?}: its check needs the number in printed = {printed:?}; write it as \
+         `value`, with `decimals`, as many as were printed"
     )]
-    NoNumber { id: String, printed: String },
+    NoNumber { line: usize, id: String, printed: String },
 }
 
 impl Published {
@@ -80,6 +83,7 @@ impl Published {
             toml::from_str(text).map_err(|error| PublishedError::Line(toml_fault(text, &error)))?;
         published.text = text.into();
         for at in 0..published.statements.len() {
+            published.statements[at].line = published.line(&published.statements[at].id);
             if let Err(what) = published.statements[at].read_number() {
                 return Err(published.fault(&published.statements[at].id, what));
             }
@@ -194,8 +198,8 @@ impl Statement {
 
     /// Returns the printed number.
     pub fn number(&self) -> Result<f64, PublishedError> {
-        let (id, printed) = (self.id.clone(), self.printed.clone());
-        self.value.ok_or(PublishedError::NoNumber { id, printed })
+        let (line, id, printed) = (self.line, self.id.clone(), self.printed.clone());
+        self.value.ok_or(PublishedError::NoNumber { line, id, printed })
     }
 
     /// Returns half a unit of the last printed digit.

@@ -274,6 +274,7 @@ mod tests {
             error.starts_with("check mean: toy.all.maen: there is no column maen; "),
             "{error}"
         );
+        assert!(error.contains("src/claims/rule.rs:"), "{error}");
         let error = refused("mean", |e| e.found(super::super::chosen(f64::NAN), true).into());
         assert!(error.starts_with("check mean: a number of it is NaN; "), "{error}");
     }
