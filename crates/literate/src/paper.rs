@@ -149,7 +149,7 @@ impl Paper {
         self
     }
 
-    /// Refuses two experiments, figures or documents of one name, with the places of both.
+    /// Refuses two experiments, figures, rules or documents of one name, with the places of both.
     pub(crate) fn check_names(&self) -> Result<(), Failure> {
         let mut named = Vec::new();
         for (experiment, number) in self.experiments.iter().zip(1..) {
@@ -159,6 +159,9 @@ impl Paper {
         }
         for FigureSpec { name, place, .. } in &self.figures {
             named.push(("figures", name, text::place(place)));
+        }
+        for Rule { id, place, .. } in &self.rules {
+            named.push(("rules", id, text::place(place)));
         }
         for document in &self.edition.documents {
             named.push(("documents", document.markdown, format!("of {}", document.prose)));
@@ -204,6 +207,10 @@ mod tests {
         let twice = paper.figure("s01", &[], draw).check_names().unwrap_err().message;
         assert!(twice.starts_with("two figures have the name s01: "), "{twice}");
         assert_eq!(twice.matches("src/paper.rs:").count(), 2, "{twice}");
+        let paper =
+            Paper::new("toy", toy()).check("a", |e| e.open("–")).check("a", |e| e.open("–"));
+        let twice = paper.check_names().unwrap_err().message;
+        assert!(twice.starts_with("two rules have the name a: "), "{twice}");
     }
 
     #[test]

@@ -33,9 +33,7 @@ pub enum Error {
     #[error("check {id}: {error}")]
     Check { id: String, error: Box<Error> },
     #[error("a number of it is {0}; correct it, or return `Undecided` where there is none")]
-    NotFinite(f64),
-    #[error("{place}: the rule {id} was made at {before}; rename or remove one")]
-    Twice { id: &'static str, place: String, before: String },
+    NotFinite(Text),
     /// A rule that needs the number of statistical checks does not count as one of them.
     #[error("the rule of {0} allows for standard errors; add `.statistical()` to it")]
     NotStatistical(String),
@@ -124,12 +122,14 @@ impl Evidence<'_> {
     #[track_caller]
     pub fn cell(&self, address: &str) -> Check {
         let statement = self.statement;
-        let (cell, missing) = match self.results.tables().map(|all| table::cell(all, address)) {
-            Ok(Ok(cell)) => (Some(cell), None),
-            Ok(Err(missing)) => (None, Some(missing)),
-            // `judge_all` has refused such tables.
-            Err(_) => (None, None),
-        };
+        let (mut cell, mut missing) = (None, None);
+        // `judge_all` has refused the others.
+        if let Ok(tables) = self.results.tables() {
+            match table::cell(tables, address) {
+                Ok(found) => cell = Some(found),
+                Err(error) => missing = Some(error),
+            }
+        }
         let standard_error = cell.map_or(0.0, Value::standard_error);
         let found = match cell.map(|cell| cell.number.clone()) {
             Some(Number::Real { value, .. })

@@ -53,6 +53,9 @@ pub struct Statement {
     /// The place of its last printed digit: its decimals, and −3 if it was printed in thousands.
     #[serde(default)]
     pub decimals: Option<i32>,
+    /// The line of its id.
+    #[serde(skip)]
+    line: usize,
 }
 
 /// What is wrong with a file of published statements.
@@ -63,10 +66,10 @@ pub enum PublishedError {
     #[error("published.toml: no {what} {id:?}; add it, or remove the check that asks for it")]
     Missing { what: &'static str, id: String },
     #[error(
-        "published.toml: {id:?}: its check needs the number in printed = {printed:?}; write it as `value`, with \
-         `decimals`, as many as were printed"
+        "published.toml:{line}: the id {id:?}: its check needs the number in printed = {printed:?}; write it as \
+         `value`, with `decimals`, as many as were printed"
     )]
-    NoNumber { id: String, printed: String },
+    NoNumber { line: usize, id: String, printed: String },
 }
 
 impl Published {
@@ -80,6 +83,7 @@ impl Published {
             toml::from_str(text).map_err(|error| PublishedError::Line(toml_fault(text, &error)))?;
         published.text = text.into();
         for at in 0..published.statements.len() {
+            published.statements[at].line = published.line(&published.statements[at].id);
             if let Err(what) = published.statements[at].read_number() {
                 return Err(published.fault(&published.statements[at].id, what));
             }
@@ -99,17 +103,6 @@ impl Published {
             }
         }
         Ok(published)
-    }
-
-    /// Returns all that was printed with another first digit in the number of one statement.
-    pub(super) fn misprinted(&self, id: &str) -> Published {
-        let mut published = self.clone();
-        for statement in &mut published.statements {
-            if statement.id == id {
-                statement.misprint();
-            }
-        }
-        published
     }
 
     /// Makes an error of the entry with this id, with its line.
@@ -186,14 +179,16 @@ impl Statement {
         Ok(())
     }
 
-    /// Changes the first digit of the printed number, also where it stands in the printed words.
-    fn misprint(&mut self) {
-        let Some(shown) = self.shown() else { return };
-        self.printed = match number_alone(&self.printed) {
+    /// Returns it with another first digit in its number, also in the printed words; none if it has
+    /// no number.
+    pub(super) fn misprint(&self) -> Option<Statement> {
+        let shown = self.shown()?;
+        let value = with_other_digit(&shown).parse().ok();
+        let printed = match number_alone(&self.printed) {
             Some(_) => with_other_digit(&self.printed),
             None => self.printed.replacen(&shown, &with_other_digit(&shown), 1),
         };
-        self.value = with_other_digit(&shown).parse().ok();
+        Some(Statement { value, printed, ..self.clone() })
     }
 
     /// Returns the number with its printed decimals.
@@ -203,8 +198,8 @@ impl Statement {
 
     /// Returns the printed number.
     pub fn number(&self) -> Result<f64, PublishedError> {
-        let (id, printed) = (self.id.clone(), self.printed.clone());
-        self.value.ok_or(PublishedError::NoNumber { id, printed })
+        let (line, id, printed) = (self.line, self.id.clone(), self.printed.clone());
+        self.value.ok_or(PublishedError::NoNumber { line, id, printed })
     }
 
     /// Returns half a unit of the last printed digit.
@@ -247,14 +242,13 @@ mod tests {
             ("0.5 ‰", 5e-4, 5e-5, "0.6 ‰"),
             ("0", 0.0, 0.5, "1"),
         ] {
-            let mut read = parse(&format!("printed = \"{printed}\"")).unwrap();
+            let read = parse(&format!("printed = \"{printed}\"")).unwrap();
             assert_eq!((read.value, read.half_unit()), (Some(value), half_unit), "{printed}");
-            read.misprint();
-            assert_eq!(read.printed.replace('−', "-"), misprint);
+            assert_eq!(read.misprint().unwrap().printed.replace('−', "-"), misprint);
         }
-        let mut read = parse("printed = \"σ ≈ 0.12\"\nvalue = 0.12\ndecimals = 2").unwrap();
+        let read = parse("printed = \"σ ≈ 0.12\"\nvalue = 0.12\ndecimals = 2").unwrap();
         assert_eq!(read.half_unit(), 5e-3);
-        read.misprint();
+        let read = read.misprint().unwrap();
         assert_eq!((read.value, read.printed.as_str()), (Some(0.22), "σ ≈ 0.22"));
         for words in ["about 2.094", "1 2", "e5", "·10⁻⁴", "3 10⁻⁴", "inf", "1e999", "1e-99999999"]
         {

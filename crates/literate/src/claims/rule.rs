@@ -4,10 +4,8 @@ use super::check::{Basis, Check, Kind, Verdict};
 use super::evidence::{Error, Evidence, Judged};
 use super::level::Level;
 use super::published::{Published, Statement};
+use super::text::Text;
 use crate::experiments::Results;
-use crate::text::place;
-use crate::value::Number;
-use std::collections::BTreeMap;
 use std::panic::Location;
 
 /// How one statement or relation is judged.
@@ -20,7 +18,7 @@ pub struct Rule {
     basis: Option<Basis>,
     statistical: bool,
     /// Where the source makes it.
-    place: &'static Location<'static>,
+    pub(crate) place: &'static Location<'static>,
     judge: Box<dyn Fn(&Evidence<'_>) -> Judged + Send + Sync>,
 }
 
@@ -65,8 +63,20 @@ impl Rule {
         self.relation.is_none()
     }
 
-    /// Computes the check.
-    fn check(&self, evidence: &Evidence<'_>) -> Judged {
+    /// Computes the check of a statement or relation.
+    fn check(
+        &self,
+        statement: &Statement,
+        published: &Published,
+        results: &Results,
+        level: Level,
+    ) -> Judged {
+        let level = (self.statistical || !self.is_of_statement()).then_some(level);
+        let judged = self.judged(&Evidence { statement, results, published, level });
+        judged.map_err(|error| Error::Check { id: self.id.into(), error: Box::new(error) })
+    }
+
+    fn judged(&self, evidence: &Evidence<'_>) -> Judged {
         let Evidence { statement, published, .. } = evidence;
         if let Some(words) = self.reads {
             let words = words.replace("{}", &statement.shown().unwrap_or_default());
@@ -94,24 +104,13 @@ impl Rule {
                 check = check.note("The results have no number for it.");
             }
         }
-        for number in
-            [&check.found, &check.tolerance, &check.note].into_iter().flat_map(|text| &text.0)
-        {
-            if let Number::Real { value, .. } = number
-                && !number.is_finite()
-            {
-                return Err(Error::NotFinite(*value));
+        for text in [&check.found, &check.tolerance, &check.note] {
+            if let Some(number) = text.0.iter().find(|number| !number.is_finite()) {
+                return Err(Error::NotFinite(Text::from(number.clone())));
             }
         }
         check.basis = self.basis.unwrap_or(check.basis);
         Ok(check)
-    }
-
-    /// Computes the check of a statement.
-    fn check_statement(&self, published: &Published, results: &Results, level: Level) -> Judged {
-        let statement = published.statement(self.id)?;
-        let level = self.statistical.then_some(level);
-        self.check(&Evidence { statement, results, published, level })
     }
 }
 
@@ -130,35 +129,24 @@ pub fn judge_all(
     rules: &[Rule],
     results: &Results,
 ) -> Result<Vec<Check>, Error> {
-    let mut places = BTreeMap::new();
-    for rule in rules {
-        if rule.is_of_statement() {
-            published.statement(rule.id)?;
-        }
-        if let Some(before) = places.insert(rule.id, rule.place) {
-            let (place, before) = (place(rule.place), place(before));
-            return Err(Error::Twice { id: rule.id, place, before });
-        }
+    for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
+        published.statement(rule.id)?;
     }
     results.tables()?;
     let level = level_of(rules);
-    let named = |id: &str, error| Error::Check { id: id.into(), error: Box::new(error) };
     let mut checks = Vec::new();
     for statement in &published.statements {
-        let id = &statement.id;
-        checks.push(match rules.iter().find(|rule| rule.is_of_statement() && rule.id == *id) {
-            Some(rule) => {
-                let judged = rule.check_statement(published, results, level);
-                judged.map_err(|error| named(id, error))?
-            }
+        let rule = rules.iter().find(|rule| rule.is_of_statement() && rule.id == statement.id);
+        checks.push(match rule {
+            Some(rule) => rule.check(statement, published, results, level)?,
             None => Evidence { statement, results, published, level: None }.open("–"),
         });
     }
     for rule in rules {
-        let Some(relation) = rule.relation else { continue };
-        let statement = &Statement::new(Kind::Relation, rule.id, relation);
-        let evidence = Evidence { statement, results, published, level: Some(level) };
-        checks.push(rule.check(&evidence).map_err(|error| named(rule.id, error))?);
+        if let Some(relation) = rule.relation {
+            let statement = Statement::new(Kind::Relation, rule.id, relation);
+            checks.push(rule.check(&statement, published, results, level)?);
+        }
     }
     Ok(checks)
 }
@@ -174,14 +162,12 @@ pub fn blind_to_their_number(
     let level = level_of(rules);
     let mut blind = Vec::new();
     for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
-        if published.statement(rule.id).is_ok_and(|statement| statement.value.is_some()) {
-            let misprinted = published.misprinted(rule.id);
-            let judged = rule.check_statement(&misprinted, results, level);
-            use Verdict::{DiffersAndExplained, Reproduced};
-            if judged.is_ok_and(|check| [Reproduced, DiffersAndExplained].contains(&check.verdict))
-            {
-                blind.push(rule.id);
-            }
+        let Ok(statement) = published.statement(rule.id) else { continue };
+        let Some(misprint) = statement.misprint() else { continue };
+        let judged = rule.check(&misprint, published, results, level);
+        let verdict = judged.map(|check| check.verdict);
+        if matches!(verdict, Ok(Verdict::Reproduced | Verdict::DiffersAndExplained)) {
+            blind.push(rule.id);
         }
     }
     blind
@@ -288,11 +274,9 @@ mod tests {
             error.starts_with("check mean: toy.all.maen: there is no column maen; "),
             "{error}"
         );
+        assert!(error.contains("src/claims/rule.rs:"), "{error}");
         let error = refused("mean", |e| e.found(super::super::chosen(f64::NAN), true).into());
         assert!(error.starts_with("check mean: a number of it is NaN; "), "{error}");
-        let twice = judged(&[Rule::new("rise", open), Rule::new("rise", open)]).unwrap_err();
-        let twice = twice.to_string();
-        assert_eq!(twice.matches("src/claims/rule.rs:").count(), 2, "{twice}");
     }
 
     #[test]

@@ -73,8 +73,8 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         })
     }
 
-    /// Returns its parameters. JSON, by which a saved result is known, has null for a number that is
-    /// not finite; the values of TOML have the number.
+    /// Returns its parameters. JSON, by which a saved result is known, has null for a number that
+    /// is not finite; the values of TOML have the number.
     fn finite_parameters(&self, profile: Profile) -> Result<P, Error> {
         let parameters = (self.parameters)(profile);
         match toml::Value::try_from(&parameters) {
