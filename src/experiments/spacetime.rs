@@ -95,7 +95,7 @@ impl SpaceTime {
 
 pub fn tables(found: &SpaceTime) -> Vec<Table> {
     let advances = found.advances();
-    let step = |place: usize| advances.get(place).copied().unwrap_or(f64::NAN);
+    let step = |place: usize| advances.get(place).copied();
     let table = Table::of("spacetime.run", &[found], |_| 1)
         .chosen("sigma", SIGMA, "standard deviation σ", |found| Some(found.parameters.sigma))
         .chosen("until", TIME, "length of the run", |found| Some(found.parameters.until))

@@ -22,37 +22,41 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let seeds = &results.of(&SEEDS).ok()?.parameters;
     let map = named(results.of(&PROTOCOL).ok()?, "protocol")?;
     let window = seeds.window as f64 * seeds.bin;
-    let transients = rise.values("transient").into_iter();
+    let transients = rise.distinct("transient").ok()?.into_iter();
     let cells: Vec<&Curve> = transients.filter_map(|time| map.curve(time, window)).collect();
     let everywhere = |sigma: &f64| cells.iter().all(|cell| mean(cell, *sigma).is_some());
     let sigmas: Vec<f64> = seeds.sigmas.iter().copied().filter(everywhere).collect();
-    let off = |cell: &Curve, predicted: Vec<(f64, f64)>| {
-        let square = |sigma: &f64| {
-            let both = at(&predicted, *sigma).zip(mean(cell, *sigma));
-            both.map_or(f64::NAN, |(a, b)| (a - b) * (a - b))
-        };
-        (sigmas.iter().map(square).sum::<f64>() / sigmas.len() as f64).sqrt()
+    let off = |cell: &Curve, predicted: &[(f64, f64)]| {
+        let mut squares = 0.0;
+        for sigma in &sigmas {
+            let difference = at(predicted, *sigma)? - mean(cell, *sigma)?;
+            squares += difference * difference;
+        }
+        (!sigmas.is_empty()).then(|| (squares / sigmas.len() as f64).sqrt())
     };
-    let grown =
-        |cell: &Curve| means.points(&[("transient", cell.protocol.transient)], "sigma", "grown");
+    let column = |name| theory.curve(&[], "sigma", name).ok();
+    let (simple, rest) = (column("simple")?, column("rest")?);
     let scores = Table::of("seeds.scores", &cells, |_| map.ensemble.realisations)
         .key("transient", TIME, |cell| cell.protocol.transient)
         .estimate("half_height", SIGMA, "", |cell| cell.rise.half_height_all)
         .same("half_height", |cell| Some(address(cell, "half_height_all")))
         .estimate("deficit", SIGMA, "simulated half height less the predicted one", |cell| {
             let keys = [("transient", cell.protocol.transient)];
-            let predicted = rise.estimates(&keys, "transient", "half_height");
+            let predicted = rise.series(&keys, "transient", "half_height").ok()?;
             Some(difference(cell.rise.half_height_all?, predicted.first()?.1))
         })
-        .real("eq25", "1", 2, OFF, |cell| off(cell, theory.points(&[], "sigma", "simple")))
-        .real("from_rest", "1", 2, OFF, |cell| off(cell, theory.points(&[], "sigma", "rest")))
-        .real("grown", "1", 2, OFF, |cell| off(cell, grown(cell)))
+        .real("eq25", "1", 2, OFF, |cell| off(cell, &simple))
+        .real("from_rest", "1", 2, OFF, |cell| off(cell, &rest))
+        .real("grown", "1", 2, OFF, |cell| {
+            let keys = [("transient", cell.protocol.transient)];
+            off(cell, &means.curve(&keys, "sigma", "grown").ok()?)
+        })
         .done();
     // With the protocol of the main sweep.
     let transient = table("sweep.run")?.number(&[], "transient").ok()?;
-    let half = rise.estimates(&[("transient", transient)], "transient", "half_height");
-    let clumps = rise.estimates(&[("transient", transient)], "transient", "of_clumps");
-    let swept = table("sweep.rise")?.estimates(&[], "half_height_all", "half_height_all");
+    let after = |column| rise.series(&[("transient", transient)], "transient", column).ok();
+    let (half, clumps) = (after("half_height")?, after("of_clumps")?);
+    let swept = table("sweep.rise")?.series(&[], "half_height_all", "half_height_all").ok()?;
     let compared = Table::of("seeds.compared", &[()], |()| seeds.realisations)
         .count("sigmas", "values of σ that seeds and map have", |()| sigmas.len() as u64)
         .estimate("early", SIGMA, "half height of the main sweep less this", |()| {
