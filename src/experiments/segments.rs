@@ -1,4 +1,4 @@
-//! The motions of Figs. 5(b) and 6(b): saved scenarios, replayed by the engine.
+//! Replays the saved motions of Figs. 5(b) and 6(b).
 
 use crate::experiments::prelude::*;
 use literate::experiments::Experiment;
@@ -52,8 +52,8 @@ pub struct SegmentImpact {
 const POINTS: usize = 200;
 
 impl Segment {
-    /// The impacts of the circuit, each edge's end once: without the last impact, which is the
-    /// first one again and closes the circuit.
+    /// Returns the impacts of the circuit, each edge's end once: without the last impact, which is
+    /// the first one again and closes the circuit.
     pub fn circuit(&self) -> &[SegmentImpact] {
         match self.impacts.split_last() {
             Some((last, others)) if others.first().is_some_and(|first| first.gap == last.gap) => {
@@ -73,7 +73,7 @@ impl Segment {
         self.circuit().iter().map(|i| format!("{}-{}", body(i.gap), body(i.gap + 1))).collect()
     }
 
-    /// How often each different impact is repeated beyond its first time, most first.
+    /// Returns how often each different impact is repeated beyond its first time, most first.
     pub fn repeats(&self) -> Vec<(String, usize)> {
         let mut visits: BTreeMap<String, usize> = BTreeMap::new();
         for name in self.names() {
@@ -85,7 +85,7 @@ impl Segment {
         repeated
     }
 
-    /// How many masses take part in its impacts.
+    /// Returns how many masses take part in its impacts.
     pub fn masses_hit(&self) -> usize {
         let both_sides = self.impacts.iter().flat_map(|impact| [impact.gap, impact.gap + 1]);
         let masses = both_sides.filter(|body| (1..=self.masses).contains(body));
