@@ -35,7 +35,7 @@ const CRATES: &[(&str, &str)] = &[
     ("", "src"),
 ];
 
-/// The paper with its experiments, without figures, claims and documents.
+/// Returns the paper with its experiments, without figures, claims and documents.
 pub fn bare() -> Paper {
     let sources = Sources { crates: CRATES, ..literate::sources!("src", "crates") };
     let project = Project::new(sources);

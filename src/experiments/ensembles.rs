@@ -1,5 +1,5 @@
-//! Experiments that are ensembles of chains: cut into units by σ and realisation, joined to
-//! curves.
+//! Makes experiments of ensembles of chains, which are cut into units by σ and realisation and
+//! joined to curves.
 
 use crate::params::Profile;
 use impact_chain::rise::{Counted, Curve};
@@ -28,12 +28,12 @@ pub const fn ensembles(
 /// How ensembles are cut into units, and joined.
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> = Cutting { rows, part, join };
 
-/// Each ensemble with each of its σ.
+/// Lists each ensemble with each of its σ.
 fn cases(all: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
     all.iter().flat_map(|one| one.sigmas.iter().map(move |&sigma| (one, sigma)))
 }
 
-/// A row of work for each σ of each ensemble.
+/// Returns a row of work for each σ of each ensemble.
 pub fn rows(all: &Vec<Ensemble>) -> Vec<UnitRow> {
     let row = |(one, sigma): (&Ensemble, f64)| UnitRow {
         realisations: one.realisations_at(sigma),

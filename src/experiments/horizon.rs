@@ -1,4 +1,4 @@
-//! How long a run can be trusted: twins that differ in the last bit of every amplitude.
+//! Measures how long a run can be trusted, by twins that differ in the last bit of every amplitude.
 //!
 //! A change of one amplitude alone would be the smaller disturbance: in one run of four it is
 //! rounded away. Every operation of a run rounds, in every mass, so the twins differ in all.
@@ -35,12 +35,12 @@ pub struct Twins {
 }
 
 impl Horizon {
-    /// Mean of a quantity over the twins that have it.
+    /// Returns the mean of a quantity over the twins that have it.
     fn over(&self, pick: fn(&Twins) -> Option<f64>) -> Option<Estimate> {
         average(&self.twins.iter().filter_map(pick).collect::<Vec<f64>>())
     }
 
-    /// Growth rate λ.
+    /// Returns the growth rate λ.
     pub fn growth(&self) -> Option<Estimate> {
         self.over(|twins| twins.growth)
     }
@@ -54,7 +54,7 @@ pub fn run(parameters: &Runs, progress: &Progress) -> Result<Horizon, Error> {
     Ok(Horizon { parameters: parameters.clone(), twins })
 }
 
-/// Means over the twins.
+/// Makes the table of means over the twins.
 pub fn tables(found: &Horizon) -> Vec<Table> {
     let table = Table::of("horizon.twins", &[found], |found| found.twins.len())
         .computed_by(origin(run))
@@ -80,8 +80,8 @@ const GROWING: std::ops::Range<f64> = 1e-13..1e-4;
 /// Units of time in which the largest difference is one point of the growth.
 const STRIDE: f64 = 5.0;
 
-/// The rate λ of the growth e^λt of differences with their times, which rise: by a straight line
-/// through the logarithms of the largest in each stride; none from fewer than three points.
+/// Returns the rate λ of the growth e^λt of differences with their times, which rise: by a straight
+/// line through the logarithms of the largest in each stride; none from fewer than three points.
 fn rate(differences: &[(f64, f64)]) -> Option<f64> {
     let stride = |point: &(f64, f64)| (point.0 / STRIDE) as u64;
     let points: Vec<(f64, f64)> = differences

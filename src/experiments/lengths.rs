@@ -1,4 +1,5 @@
-//! Chains of several lengths from rest, and chains with a random start, after several transients.
+//! Runs chains of several lengths from rest, and chains with a random start, after several
+//! transients.
 
 use super::ensembles::{Ensembles, ensembles};
 use super::half_height::HALF_HEIGHT;
@@ -8,7 +9,7 @@ use impact_chain::Start;
 
 pub const LENGTHS: Ensembles = ensembles("lengths", "lengths", params::lengths, tables);
 
-/// The chains from rest, with their curves.
+/// Returns the chains from rest, with their curves.
 pub fn from_rest(found: &[Counted]) -> impl Iterator<Item = (&Counted, &Curve)> {
     let at_rest = found.iter().filter(|one| one.ensemble.chain.start == Start::Rest);
     at_rest.flat_map(|one| one.curves.iter().map(move |curve| (one, curve)))
@@ -41,7 +42,7 @@ fn random(found: &[Counted]) -> Table {
         .done()
 }
 
-/// The longest chains.
+/// Makes the table of the longest chains.
 fn all(found: &[Counted]) -> Table {
     let longest = found.iter().max_by_key(|one| one.ensemble.chain.masses);
     Table::of("lengths.all", &[()], |()| 0)

@@ -1,4 +1,4 @@
-//! Times that were measured once, on one machine: `benches/measured.json`.
+//! Reads times that were measured once, on one machine: `benches/measured.json`.
 //!
 //! Times differ from run to run, so nothing of the reproduction depends on them. `make measure`
 //! writes them, with date and machine, and they are committed; the report only reads them, and
@@ -114,7 +114,7 @@ impl Measured {
         self.sessions.iter().flat_map(|session| &session.rows).filter(move |row| row.what == what)
     }
 
-    /// The row of a method with a setting on n masses at σ.
+    /// Returns the row of a method with a setting on n masses at σ.
     pub fn method(&self, setting: Setting, n: usize, sigma: f64) -> Option<&Measurement> {
         let alike = |row: &&Measurement| {
             row.name == setting.method.id() && row.value == Some(setting.value)
@@ -122,8 +122,8 @@ impl Measured {
         self.of(What::Method).filter(alike).find(|row| row.n == n as u64 && row.sigma == sigma)
     }
 
-    /// Time of an impact in one chain of n masses by the engine, in microseconds, in the session of
-    /// a row.
+    /// Returns the time of an impact in one chain of n masses by the engine, in microseconds, in
+    /// the session of a row.
     pub fn engine(&self, row: &Measurement) -> Option<f64> {
         let session = self.sessions.iter().find(|session| session.rows.contains(row))?;
         let engine = session.rows.iter().filter(|at| at.what == What::Engine && at.n == row.n);
@@ -132,7 +132,7 @@ impl Measured {
 }
 
 impl Measurement {
-    /// Time over that of the engine on the same chains.
+    /// Returns the time over that of the engine on the same chains.
     pub fn over_engine(&self) -> Option<f64> {
         Some(self.seconds? / self.engine_seconds?)
     }
@@ -143,7 +143,7 @@ impl Measurement {
     }
 }
 
-/// When and where times were measured, and those that the report quotes.
+/// Makes the tables of times that the report quotes, with when and where they were measured.
 pub fn tables(measured: &Measured) -> Vec<Table> {
     // The last session of the engine and that of the methods, which may be one.
     let parts = [("engine", What::Engine), ("methods", What::Method)];

@@ -1,4 +1,4 @@
-//! The influence of the counting protocol: half height against transient T and window W.
+//! Maps the influence of the counting protocol: half height against transient T and window W.
 
 use super::ensembles::{Ensembles, ensembles};
 use super::half_height::{ANY_IMPACT, HALF_HEIGHT, OF_ACTIVE};
@@ -46,7 +46,7 @@ pub fn round_to_printed(
     places.filter(|at| (from..to).contains(&at.value)).count()
 }
 
-/// From the least of some places to the largest.
+/// Returns the distance of the largest of some places from the least.
 pub fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate> {
     let places: Vec<Estimate> = places.flatten().collect();
     let least = places.iter().min_by(|a, b| a.value.total_cmp(&b.value))?;
@@ -55,7 +55,7 @@ pub fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate>
     Some(with_error(most.value - least.value, error))
 }
 
-/// The address of a number of a cell.
+/// Returns the address of a number of a cell.
 pub fn address(cell: &Curve, column: &str) -> String {
     let Protocol { transient, window } = cell.protocol;
     format!("protocol.cells[transient={transient},window={window}].{column}")

@@ -1,4 +1,5 @@
-//! Runs that a page repeats, each with a digest of its impacts: equal bits give an equal digest.
+//! Runs what a page repeats, each run with a digest of its impacts: equal bits give an equal
+//! digest.
 
 use crate::experiments::prelude::*;
 use crate::params::{Boundary, Profile, Protocol, SEED, Start, printed_threshold};
@@ -37,7 +38,8 @@ pub struct ReplayResult {
     pub digest: String,
 }
 
-/// The first are realisations behind Fig. 3; the others are difficult for an engine.
+/// Returns the runs: the first are realisations behind Fig. 3, the others are difficult for an
+/// engine.
 pub fn runs(_: Profile) -> ReplayRuns {
     let drawn = |sigma: f64, chain: Chain| {
         let forces = Forces::Drawn { sigma, stream: "sweep".into(), seed: SEED, realisation: 0 };
@@ -76,7 +78,7 @@ fn pressed() -> Vec<[f64; 2]> {
     (0..5).map(f64::from).map(|j| [3.0 * (4.0 - 2.0 * j) + 0.1 * j, 0.3 * j]).collect()
 }
 
-/// The forces on 20 masses of which the right half mirrors the left.
+/// Returns the forces on 20 masses of which the right half mirrors the left.
 fn mirrored() -> Vec<[f64; 2]> {
     let stream = "mirror".into();
     let forces = Forces::Drawn { sigma: 0.3, stream, seed: SEED, realisation: 0 };
@@ -105,7 +107,7 @@ pub fn run(parameters: &ReplayRuns, progress: &Progress) -> Result<Replays, Erro
     Ok(Replays { parameters: parameters.clone(), found: each(&stage, progress, parameters, one)? })
 }
 
-/// The digests with which the pages compare their runs.
+/// Makes the tables of the digests with which the pages compare their runs.
 pub fn tables(all: &Replays) -> Vec<Table> {
     let rows: Vec<_> = all.parameters.iter().zip(&all.found).collect();
     let runs = Table::of("replay.runs", &rows, |_| 1)

@@ -1,4 +1,4 @@
-//! Half heights of chains of several restitutions r.
+//! Finds half heights of chains of several restitutions r.
 
 use super::ensembles::{Ensembles, ensembles};
 use super::half_height::{HALF_HEIGHT, half_height_all};

@@ -56,8 +56,8 @@ pub struct SegmentImpact {
 const POINTS: usize = 200;
 
 impl Segment {
-    /// The impacts of the circuit, each edge's end once: without the last impact, which is the
-    /// first one again and closes the circuit.
+    /// Returns the impacts of the circuit, each edge's end once: without the last impact, which is
+    /// the first one again and closes the circuit.
     pub fn circuit(&self) -> &[SegmentImpact] {
         match self.impacts.split_last() {
             Some((last, others)) if others.first().is_some_and(|first| first.gap == last.gap) => {
@@ -77,7 +77,7 @@ impl Segment {
         self.circuit().iter().map(|i| format!("{}-{}", body(i.gap), body(i.gap + 1))).collect()
     }
 
-    /// How often each different impact is repeated beyond its first time, most first.
+    /// Returns how often each different impact is repeated beyond its first time, most first.
     pub fn repeats(&self) -> Vec<(String, usize)> {
         let mut visits: BTreeMap<String, usize> = BTreeMap::new();
         for name in self.names() {

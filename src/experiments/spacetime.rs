@@ -1,5 +1,5 @@
-//! One long run at the printed threshold, impact by impact: where impacts start, how they spread
-//! along the chain, and where they stop.
+//! Records one long run at the printed threshold, impact by impact: where impacts start, how they
+//! spread along the chain, and where they stop.
 //!
 //! The run is the first realisation of its stream that still has impacts in its last part.
 
@@ -54,7 +54,7 @@ impl SpaceTime {
         self.parameters.chain.gaps()
     }
 
-    /// Time of the first impact of each gap.
+    /// Returns the time of the first impact of each gap.
     pub fn firsts(&self) -> Vec<Option<f64>> {
         let mut firsts = vec![None; self.width()];
         for (&time, &gap) in self.times.iter().zip(&self.gaps) {
@@ -63,8 +63,8 @@ impl SpaceTime {
         firsts
     }
 
-    /// For each gap that is hit, the time from the first impact of the earlier of its neighbours to
-    /// its own; none if neither had been hit.
+    /// Returns, for each gap that is hit, the time from the first impact of the earlier of its
+    /// neighbours to its own; none if neither had been hit.
     fn waits(&self) -> Vec<(usize, Option<f64>)> {
         let firsts: Vec<f64> =
             self.firsts().into_iter().map(|first| first.unwrap_or(f64::INFINITY)).collect();
@@ -77,14 +77,14 @@ impl SpaceTime {
         waits
     }
 
-    /// The gaps at which impacts start: hit when neither neighbour had been. Such a gap closes by
-    /// itself, since its masses move as they did from the beginning.
+    /// Returns the gaps at which impacts start: hit when neither neighbour had been. Such a gap
+    /// closes by itself, since its masses move as they did from the beginning.
     pub fn starts(&self) -> Vec<usize> {
         let starts = self.waits().into_iter().filter(|(_, wait)| wait.is_none());
         starts.map(|(gap, _)| gap).collect()
     }
 
-    /// How long each step of a front takes, the quickest first; starts are no steps.
+    /// Returns how long each step of a front takes, the quickest first; starts are no steps.
     pub fn advances(&self) -> Vec<f64> {
         let mut advances: Vec<f64> =
             self.waits().into_iter().filter_map(|(_, wait)| wait).collect();

@@ -1,5 +1,5 @@
-//! Half heights of chains that differ from the paper's in the start, in Ω, or by a ring in place
-//! of walls.
+//! Finds half heights of chains that differ from the paper's in the start, in Ω, or by a ring in
+//! place of walls.
 
 use super::ensembles::{Ensembles, ensembles};
 use super::half_height::{HALF_HEIGHT, half_height_all};
@@ -24,7 +24,7 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
     vec![table]
 }
 
-/// The part of the distance to the theory that the start explains.
+/// Makes the table of the part of the distance to the theory that the start explains.
 pub fn against_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let starts = results.of(&STARTS).ok()?;
     let half = |name: &str| named(starts, name).and_then(half_height_all);
@@ -41,8 +41,8 @@ pub fn against_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     Some(vec![table.done()])
 }
 
-/// The part of the distance between theory and simulation that the start explains, from the half
-/// heights from rest, from random free parts, and of the theory.
+/// Returns the part of the distance between theory and simulation that the start explains, from the
+/// half heights from rest, from random free parts, and of the theory.
 pub fn share_of_start(rest: Estimate, random: Estimate, theory: f64) -> Estimate {
     let (moved, all) = (difference(random, rest), theory - rest.value);
     with_error(moved.value / all, moved.error / all)

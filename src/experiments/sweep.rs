@@ -1,5 +1,5 @@
-//! The numerical simulations of Sec. 2 (Figs. 2, 3, 12 and 15): means and shares at each σ, where
-//! the rise is, and rare events.
+//! Runs the simulations of Sec. 2 (Figs. 2, 3, 12 and 15): means and shares at each σ, where the
+//! rise is, and rare events.
 
 use super::ensembles::{Ensembles, ensembles};
 use super::half_height::{ANY_IMPACT, HALF_HEIGHT, OF_ACTIVE};
@@ -72,7 +72,7 @@ fn run(sweep: &Counted) -> Table {
         .done()
 }
 
-/// Means (of different gaps, of impacts, of masses) and shares at each σ.
+/// Makes the table of means (of different gaps, of impacts, of masses) and shares at each σ.
 fn rows(sweep: &Counted) -> Table {
     let estimate = |mean: Option<Mean>| mean?.estimate();
     Table::of("sweep.rows", &sweep.first().rows, |row| row.ran)
@@ -133,9 +133,10 @@ fn modes(sweep: &Counted) -> Table {
         .done()
 }
 
-/// Impacts within [`NEAR_SIMULTANEOUS`] of one in an adjacent gap, and impacts slower than
-/// [`SLOW`], expected by chance in a whole sweep: from those within δ = 1e−2 in proportion to
-/// δ, and from those below v = 0.1 in proportion to v², as the rate of impacts grows with v.
+/// Returns the impacts within [`NEAR_SIMULTANEOUS`] of one in an adjacent gap, and those slower
+/// than [`SLOW`], that are expected by chance in a whole sweep: from those within δ = 1e−2 in
+/// proportion to δ, and from those below v = 0.1 in proportion to v², as the rate of impacts grows
+/// with v.
 pub fn expected(total: &Total) -> [f64; 2] {
     let slow = SLOW / SLOW_DECADES[0];
     [
@@ -167,8 +168,8 @@ fn rare(sweep: &Counted) -> Table {
         .done()
 }
 
-/// The probability that the forces on a pair can press it together: an amplitude of ΔF, Rayleigh
-/// distributed with scale √2 σ, above d ω² = 1.
+/// Returns the probability that the forces on a pair can press it together: an amplitude of ΔF,
+/// Rayleigh distributed with scale √2 σ, above d ω² = 1.
 fn can_stick(sigma: &f64) -> f64 {
     pxfm::f_exp(-0.25 / (sigma * sigma))
 }
@@ -180,8 +181,8 @@ fn sticking() -> Table {
         .done()
 }
 
-/// Between which σ the mode passes half of all gaps: by its bootstrap intervals it is under one
-/// half below the first, and over it from the second on.
+/// Returns the σ between which the mode passes half of all gaps: by its bootstrap intervals it is
+/// under one half below the first, and over it from the second on.
 pub fn mode_half(curve: &Curve, gaps: usize) -> Option<[f64; 2]> {
     let half = gaps as f64 / 2.0;
     let intervals: Vec<(f64, [usize; 2])> =

@@ -1,4 +1,4 @@
-//! Two masses (the remark of Sec. 2): under a low enough force they never hit.
+//! Runs two masses under a low force, which never hit: a remark of Sec. 2.
 //!
 //! After a start from rest every gap keeps R1 + R2 < d, and so never closes, while the amplitudes
 //! are below a bound in closed form. With fixed directions of the forcing and growing amplitude the
@@ -59,7 +59,7 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
     })
 }
 
-/// The bound, and how near to its bound each direction has an impact.
+/// Makes the tables of the bound, and of how near to its bound each direction has an impact.
 pub fn tables(found: &TwoMasses) -> Vec<Table> {
     let bound = Table::of("two_masses.bound", &[found], |_| 0)
         .computed_by(origin(safe_force))
@@ -85,14 +85,15 @@ pub fn tables(found: &TwoMasses) -> Vec<Table> {
     vec![bound, excess]
 }
 
-/// The amplitude of each of two neighbouring masses below which R1 + R2 < d in their gap for every
-/// direction, after a start from rest: forces at most F differ by at most 2F, so
-/// R2 ≤ 2F/|ω² − Ω²| and R1 ≤ max(1, Ω/ω) R2.
+/// Returns the amplitude of each of two neighbouring masses below which R1 + R2 < d in their gap
+/// for every direction, after a start from rest: forces at most F differ by at most 2F, so R2 ≤
+/// 2F/|ω² − Ω²| and R1 ≤ max(1, Ω/ω) R2.
 pub fn safe_force(chain: &Chain) -> f64 {
     bound(chain, &worst(chain))
 }
 
-/// The worst directions: opposite forces in the quadrature that the start from rest amplifies.
+/// Returns the worst directions: opposite forces in the quadrature that the start from rest
+/// amplifies.
 fn worst(chain: &Chain) -> Vec<[f64; 2]> {
     if chain.forcing_frequency > chain.natural_frequency {
         vec![[0.0, 1.0], [0.0, -1.0]]
@@ -101,8 +102,8 @@ fn worst(chain: &Chain) -> Vec<[f64; 2]> {
     }
 }
 
-/// The factor on `forcing` below which R1 + R2 < d in every gap between walls, after a start from
-/// rest.
+/// Returns the factor on `forcing` below which R1 + R2 < d in every gap between walls, after a
+/// start from rest.
 fn bound(chain: &Chain, forcing: &[[f64; 2]]) -> f64 {
     let (w, big_w) = (chain.natural_frequency, chain.forcing_frequency);
     let wall = [[0.0; 2]];
@@ -115,8 +116,8 @@ fn bound(chain: &Chain, forcing: &[[f64; 2]]) -> f64 {
     chain.spacing * (w * w - big_w * big_w).abs() / reach.fold(0.0, f64::max)
 }
 
-/// Impacts below the bound of fixed directions of the forcing, and for each time the smallest ratio
-/// to the bound with an impact.
+/// Returns the number of impacts below the bound of fixed directions of the forcing, and for each
+/// time the smallest ratio to the bound with an impact.
 fn thresholds(
     parameters: &TwoMassesParams,
     forcing: &[[f64; 2]],

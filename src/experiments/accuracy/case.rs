@@ -203,7 +203,7 @@ impl Expected {
         }
     }
 
-    /// The number of impacts that decide the outcome.
+    /// Returns the number of impacts that decide the outcome.
     fn enough(&self) -> usize {
         match self {
             Expected::Impacts { impacts, only, .. } => impacts.len() + usize::from(*only),

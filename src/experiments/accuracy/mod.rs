@@ -1,4 +1,4 @@
-//! Speed against accuracy: the cost of each method, and where it fails.
+//! Compares speed and accuracy: the cost of each method, and where it fails.
 //!
 //! - [`race`]: every method against the true motion, segment by segment and run by run.
 //! - [`bias`]: the error of a method in the mean number of gaps that impact.

@@ -1,4 +1,4 @@
-//! Counted work of an impact against the number of masses.
+//! Counts the work of an impact against the number of masses.
 
 use crate::experiments::prelude::*;
 use crate::params::{BENCH, MethodName, ScaleParams, Setting};
@@ -6,7 +6,8 @@ use crate::params::{BENCH, MethodName, ScaleParams, Setting};
 /// Method, number of masses n, evaluations per impact: methods in their order, for each n rising.
 pub type Scale = Vec<(Setting, usize, f64)>;
 
-/// Simulated time at n masses: that of `benches/peers/measure.rs`, and short for rivals.
+/// Returns the simulated time at n masses: that of `benches/peers/measure.rs`, and a short one for
+/// rivals.
 fn until(masses: usize, method: MethodName) -> f64 {
     match method {
         MethodName::Certified => (200_000.0 / masses as f64).clamp(10.0, 200.0),

@@ -1,4 +1,4 @@
-//! Tables of the comparison of methods.
+//! Makes the tables of the comparison of methods.
 
 use super::bias::{self, Biases, GapCount};
 use super::race::{self, DISPLACED, Entry, Race};
@@ -7,7 +7,7 @@ use crate::experiments::prelude::*;
 use crate::params::{MethodName, Setting};
 use impact_numerics::statistics::{mean, standard_error};
 
-/// A method with its steps or tolerances, as Markdown.
+/// Returns a method with its steps or tolerances, as Markdown.
 pub fn titled(settings: &[Setting]) -> String {
     let method = settings[0].method;
     let letter = if method.has_tolerance() { r"\mathrm{tol}" } else { "h" };
@@ -18,7 +18,7 @@ pub fn titled(settings: &[Setting]) -> String {
     }
 }
 
-/// 0.03 stays, 1e-9 becomes a power of ten.
+/// Writes 0.03 as it is, and 1e-9 as a power of ten.
 fn power(value: f64) -> String {
     let text = format!("{value:e}");
     match text.split_once('e') {
@@ -30,7 +30,7 @@ fn power(value: f64) -> String {
     }
 }
 
-/// Figs. S6 and S7.
+/// Makes the tables of Figs. S6 and S7.
 pub fn race(race: &Race) -> Vec<Table> {
     let by = |method| race.entries.iter().filter(move |entry| entry.setting.method == method);
     let coarsest: Vec<&Entry> =
@@ -100,7 +100,7 @@ pub struct Compared {
     pub share: Option<Estimate>,
 }
 
-/// The comparisons of all rivals, settings outer.
+/// Returns the comparisons of all rivals, settings outer.
 pub fn compared(biases: &Biases) -> Vec<Compared> {
     let mut rows = Vec::new();
     for (i, &(setting, _)) in biases.parameters.settings.iter().enumerate().skip(1) {
@@ -121,7 +121,7 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
     rows
 }
 
-/// The error of the mean.
+/// Makes the tables of the error of the mean.
 pub fn bias(biases: &Biases) -> Vec<Table> {
     let rows = compared(biases);
     let cells = Table::of("bias.cells", &rows, |row| row.pairs)
@@ -144,7 +144,7 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
     vec![cells, means]
 }
 
-/// Fig. S8.
+/// Makes the table of Fig. S9.
 pub fn scale(scale: &Scale) -> Vec<Table> {
     let ends = MethodName::ALL.into_iter().filter_map(|method| {
         let rows = || scale.iter().filter(move |row| row.0.method == method);

@@ -46,12 +46,12 @@ pub type Trial = Vec<Outcome>;
 /// A run that takes more steps than this is not begun, and counts as given up.
 const MOST_STEPS: f64 = 2e7;
 
-/// Number of cases with the expected outcome.
+/// Returns the number of cases with the expected outcome.
 pub fn right(trial: &Trial) -> usize {
     trial.iter().filter(|outcome| **outcome == Outcome::Right).count()
 }
 
-/// The most frequent wrong outcome; of several the first in the order of [`Outcome`].
+/// Returns the most frequent wrong outcome; of several the first in the order of [`Outcome`].
 pub fn trouble(trial: &Trial) -> Option<Outcome> {
     let mut wrong: Vec<Outcome> =
         trial.iter().copied().filter(|outcome| *outcome != Outcome::Right).collect();
@@ -60,7 +60,7 @@ pub fn trouble(trial: &Trial) -> Option<Outcome> {
     wrong.chunk_by(|a, b| a == b).rev().max_by_key(|equal| equal.len()).map(|equal| equal[0])
 }
 
-/// Runs all methods on all scenes.
+/// Runs all methods on all scenes, and judges each case.
 pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Error> {
     let TrialParams { scenes, settings } = parameters;
     let pairs = scenes.iter().flat_map(|scene| settings.iter().map(move |way| (scene, way)));

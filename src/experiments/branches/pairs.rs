@@ -1,4 +1,4 @@
-//! Half heights and shares on both branches, and their differences chain by chain.
+//! Compares half heights and shares on both branches chain by chain.
 //!
 //! Chains are independent of each other, and nothing else is: the same chain at another σ, after
 //! another transient or on the other branch has the same forces. So every error is that of leaving
@@ -45,7 +45,7 @@ impl Branch {
         self.shares.iter().map(Vec::len).min().unwrap_or(0)
     }
 
-    /// Mean share at a σ over all chains but one; none where no chain was run.
+    /// Returns the mean share at a σ over all chains but one; none where no chain was run.
     pub fn share(&self, sigma: f64, without: Option<usize>) -> Option<f64> {
         let place = self.sigmas.iter().position(|at| *at == sigma)?;
         let chains = self.shares[place].iter().enumerate();
@@ -53,7 +53,7 @@ impl Branch {
         mean(&used.filter_map(|(_, share)| *share).collect::<Vec<_>>())
     }
 
-    /// Half height of the mean over all chains but one.
+    /// Returns the half height of the mean over all chains but one.
     pub fn half_height(&self, without: Option<usize>) -> Option<f64> {
         let shares: Vec<Option<f64>> =
             self.sigmas.iter().map(|sigma| self.share(*sigma, without)).collect();
@@ -72,17 +72,17 @@ pub(super) struct Pair {
 /// A quantity of both branches, over all chains but one.
 pub(super) type Quantity = fn(&Pair, Option<usize>) -> Option<f64>;
 
-/// Half height from rest.
+/// Returns the half height from rest.
 pub(super) fn from_rest(pair: &Pair, without: Option<usize>) -> Option<f64> {
     pair.rest.half_height(without)
 }
 
-/// Half height from above.
+/// Returns the half height from above.
 pub(super) fn from_above(pair: &Pair, without: Option<usize>) -> Option<f64> {
     pair.above.half_height(without)
 }
 
-/// Half height from rest less that from above.
+/// Returns the half height from rest less that from above.
 pub(super) fn distance(pair: &Pair, without: Option<usize>) -> Option<f64> {
     Some(from_rest(pair, without)? - from_above(pair, without)?)
 }

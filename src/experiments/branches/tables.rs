@@ -1,4 +1,4 @@
-//! Tables of half heights and shares on both branches.
+//! Makes the tables of half heights and shares on both branches.
 
 use super::pairs::{Branch, Pair, Quantity, distance, exponent, from_above, from_rest, interval};
 use super::run::Chains;
@@ -21,7 +21,7 @@ pub fn tables(found: &Vec<Chains>) -> Vec<Table> {
     ]
 }
 
-/// Half heights after each transient, and the change since the one before it.
+/// Makes the table of half heights after each transient, and the change since the one before it.
 fn half_heights(lengths: &[&[Pair]]) -> Table {
     const LATER: &str = "the same less that after the transient before";
     let mut rows: Vec<(&Pair, Option<&Pair>)> = Vec::new();
@@ -46,18 +46,18 @@ fn half_heights(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-/// The first two pairs of one length.
+/// Returns the first two pairs of one length.
 fn first_two(pairs: &[Pair]) -> &[Pair] {
     &pairs[..pairs.len().min(2)]
 }
 
-/// The last three pairs of one length.
+/// Returns the last three pairs of one length.
 fn last_three(pairs: &[Pair]) -> &[Pair] {
     &pairs[pairs.len().saturating_sub(3)..]
 }
 
-/// How the distance falls with T, as a power law over the first two transients and over the last
-/// three.
+/// Makes the table of the laws by which the distance falls with T: powers over the first two
+/// transients and over the last three.
 fn laws(lengths: &[&[Pair]]) -> Table {
     const LAW: &str = "d ln(distance)/d ln T by least squares over the last three transients";
     let law = |pairs: &[Pair]| {
@@ -85,8 +85,8 @@ fn laws(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-/// Half heights and distances of the shorter chains less those of the longer ones, which begin with
-/// the same forces.
+/// Makes the table of half heights and distances of the shorter chains less those of the longer
+/// ones, which begin with the same forces.
 fn compared_lengths(lengths: &[&[Pair]]) -> Table {
     const LESS: &str = "that of the shorter chains less that of the longer ones";
     let mut rows: Vec<(&Pair, &Pair)> = Vec::new();
@@ -102,7 +102,7 @@ fn compared_lengths(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-/// Changes of half heights from the third last transient to the last.
+/// Makes the table of changes of half heights from the third last transient to the last.
 fn late(lengths: &[&[Pair]]) -> Table {
     const SINCE: &str = "half height at last less that at the earlier time";
     let change = |pairs: &[Pair], quantity: Quantity| {
@@ -117,15 +117,15 @@ fn late(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-/// By how much the share from above exceeds that from rest at a σ.
+/// Estimates by how much the share from above exceeds that from rest at a σ.
 fn excess(pair: &Pair, sigma: f64) -> Option<Estimate> {
     pair.estimate(|pair, without| {
         Some(pair.above.share(sigma, without)? - pair.rest.share(sigma, without)?)
     })
 }
 
-/// Shares at the largest σ that both branches have after every transient, in chains of each length
-/// that have one.
+/// Makes the table of shares at the largest σ that both branches have after every transient, in
+/// chains of each length that have one.
 fn fixed(lengths: &[&[Pair]]) -> Table {
     const ABOVE: &str = "share from above at last less that at the first time";
     const LATE: &str = "the same since the third last time";
@@ -154,7 +154,7 @@ fn fixed(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-/// Shares at every σ that was run on a branch.
+/// Makes the table of shares at every σ that was run on a branch.
 fn shares(pairs: &[Pair]) -> Table {
     const SHARE: &str = "share of all gaps with an impact";
     let mut rows: Vec<(&Pair, f64)> = Vec::new();

@@ -11,7 +11,7 @@ use impact_circuits::higher_order::{
 };
 use std::collections::BTreeMap;
 
-/// n + 1 impacts of a chain, two of them at walls, by the names of the vertices.
+/// Compares the names of the vertices with n + 1 impacts of a chain, two of them at walls.
 pub(super) fn impact_types() -> Cases {
     cases((1..=20).map(|masses| {
         let graph = Graph::of_chain(masses);
@@ -21,7 +21,7 @@ pub(super) fn impact_types() -> Cases {
     }))
 }
 
-/// Closed paths from vertex 0 without repetition: rotations of the simple circuits through it.
+/// Compares Eq. (6) with the rotations of simple circuits.
 pub(super) fn eq6(census: &Census) -> Cases {
     cases(enumerated().filter(|&(n, k)| k <= n).map(|(n, k)| {
         // A path is a simple circuit with one of its k vertices as the first: N paths in all.
@@ -35,7 +35,7 @@ pub(super) fn eq7(census: &Census) -> Cases {
     cases(enumerated().filter(|&(n, k)| k <= n).map(agrees))
 }
 
-/// Circuits through vertex 0 twice, by the sorted lengths of their two loops.
+/// Compares Eq. (29) with the circuits that pass vertex 0 twice, by the lengths of their two loops.
 pub(super) fn eq29() -> Cases {
     cases((1..).zip(LONGEST).flat_map(|(n, longest)| {
         let mut loops: BTreeMap<[usize; 2], u128> = BTreeMap::new();
@@ -69,7 +69,7 @@ pub(super) fn eq30_times_n(census: &Census) -> Cases {
 }
 
 pub(super) fn eq32() -> Cases {
-    /// Ordered sums of j positive integers, one by one.
+    /// Counts ordered sums of j positive integers one by one.
     fn count(n: usize, j: usize) -> u128 {
         match j {
             0 => u128::from(n == 0),
@@ -80,8 +80,8 @@ pub(super) fn eq32() -> Cases {
     cases((1..=10).flat_map(|n| (1..=n).map(move |j| (n, j))).map(agrees))
 }
 
-/// Circuits of all five classes with k different vertices, wherever no formula of Eq. (38) is used
-/// below the range that is printed with it: from k = 3 on, since Eq. (37) has length k + 2 > 4.
+/// Compares Eq. (38) with the circuits of all five classes, wherever no formula is used below its
+/// printed range: from k = 3 on, since Eq. (37) has length k + 2 > 4.
 pub(super) fn eq38(census: &Census) -> Cases {
     let lengths = |(n, longest): (usize, usize)| {
         (3..=n).take_while(move |k| k + 3 <= longest).map(move |k| (n, k))
@@ -106,9 +106,9 @@ pub(super) fn eq38(census: &Census) -> Cases {
 /// A formula for N vertices and length k.
 type Formula = fn(usize, usize) -> Option<Fraction>;
 
-/// Of each printed formula for a class of circuits: its equation, the smallest length from which on
-/// it is right in every case, the cases from there on, and what it gives and enumeration finds one
-/// length below, on three vertices.
+/// Returns for each printed formula of a class of circuits its equation, the smallest length from
+/// which on it is right in every case, the cases from there on, and what it gives and enumeration
+/// finds one length below, on three vertices.
 pub(super) fn class_ranges(census: &Census) -> Vec<(f64, usize, Cases, Option<f64>, u128)> {
     let formulas: [Formula; 4] = [doubled, three_visits, four_visits, two_doubled];
     let range = |(class, formula): (&Class, Formula)| {

@@ -1,4 +1,4 @@
-//! The distribution and its jump, Secs. 6 and 7: identities, signs, zeros and slopes.
+//! Checks the distribution and its jump, Secs. 6 and 7: identities, signs, zeros and slopes.
 
 use super::cases::{Cases, cases};
 use crate::experiments::theory::basics::{known, largest};
@@ -19,7 +19,7 @@ fn simple(p: f64) -> Law {
     law(Simple, p)
 }
 
-/// Φ(k)/p for k = 1..=N.
+/// Returns Φ(k)/p for k = 1..=N.
 fn weights(p: f64) -> Vec<Scaled> {
     simple(p).all_weights().collect()
 }
@@ -28,19 +28,19 @@ fn f(p: f64, k: f64) -> f64 {
     jump::f(VERTICES, p, k)
 }
 
-/// The largest of the three terms of f at k.
+/// Returns the largest of the three terms of f at k.
 fn size(p: f64, k: f64) -> f64 {
     largest([p * k * k, ((N * p - 1.0) * k).abs(), 1.0])
 }
 
-/// μ at neighbouring p of a grid of [0, 1].
+/// Compares μ at neighbouring p of a grid of [0, 1].
 pub(super) fn mean_rises() -> Cases {
     let means: Vec<f64> = (0..=200).map(|i| simple(f64::from(i) / 200.0).mean()).collect();
     cases(means.windows(2).map(|w| w[1] >= w[0]))
 }
 
-/// Eq. (11): sign of the difference of neighbouring weights against the sign of f. A tie of the
-/// weights is a zero of f.
+/// Compares the sign of the difference of neighbouring weights with the sign of f, Eq. (11). A tie
+/// of the weights is a zero of f.
 pub(super) fn eq11() -> Cases {
     let mut agree = Vec::new();
     for p in GRID {
@@ -51,13 +51,14 @@ pub(super) fn eq11() -> Cases {
     cases(agree)
 }
 
-/// Eq. (13): |f(k±)| over the largest of its three terms.
+/// Returns |f(k±)| over the largest of its three terms, Eq. (13).
 pub(super) fn eq13() -> f64 {
     let zeros = |p| jump::zeros(VERTICES, p).into_iter().flatten().map(move |k| (p, k));
     largest(GRID.into_iter().flat_map(zeros).map(|(p, k)| f(p, k).abs() / size(p, k)))
 }
 
-/// Eqs. (16) and (17): signs, and the slope against a finite difference: f is linear in p.
+/// Checks the signs in Eqs. (16) and (17), and compares the slope with a finite difference: f is
+/// linear in p.
 pub(super) fn slopes() -> Cases {
     let mut agree = Vec::new();
     for k in (1..VERTICES).map(|k| k as f64) {
@@ -68,7 +69,7 @@ pub(super) fn slopes() -> Cases {
     cases(agree)
 }
 
-/// k* at neighbouring p of a grid from just beyond the jump to one.
+/// Compares k* at neighbouring p of a grid from just beyond the jump to one.
 pub(super) fn monotone() -> Cases {
     let from = known(jump::p_jump(Simple, VERTICES)).bracket[1];
     let p = |i: i32| (from + (1.0 - from) * f64::from(i) / 1000.0).min(1.0);
@@ -77,15 +78,16 @@ pub(super) fn monotone() -> Cases {
     cases(found.windows(2).map(|w| w[1] >= w[0]))
 }
 
-/// Eq. (12): f is even about the place of its largest value: difference of both sides over the
-/// largest of its terms.
+/// Returns the difference of f on both sides of its maximum, about which it is even by Eq. (12),
+/// over the largest of its terms.
 pub(super) fn maximum() -> f64 {
     let pairs = |p| [0.5, 3.0, 40.0].map(|away| (p, top(p) + away, top(p) - away));
     let off = |(p, a, b)| (f(p, a) - f(p, b)).abs() / size(p, a).max(size(p, b));
     largest(GRID.into_iter().flat_map(pairs).map(off))
 }
 
-/// p = ((1 − √(N + 1))/N)², N from 1 to 1000, where f has a double zero too, at k < 0.
+/// Checks that f has another double zero, at p = ((1 − √(N + 1))/N)² and k < 0, for N from 1 to
+/// 1000.
 pub(super) fn other_root() -> Cases {
     cases((1..=1000).map(f64::from).map(|n| {
         let root = (1.0 - (n + 1.0).sqrt()) / n;
@@ -94,8 +96,8 @@ pub(super) fn other_root() -> Cases {
     }))
 }
 
-/// The weights themselves around ⌈k₋⌉ and ⌈k₊⌉, at p from the first integer maximum to
-/// one; at the ends of 1..=N one neighbour is enough.
+/// Compares the weights at ⌈k₋⌉ and ⌈k₊⌉ with their neighbours, at p from the first integer maximum
+/// to one; at the ends of 1..=N there is one neighbour.
 pub(super) fn extrema() -> Cases {
     let first = jump::first_local_maximum(VERTICES).map_or(1.0, |(_, [a, b])| a as f64 / b as f64);
     let mut agree = Vec::new();
@@ -117,20 +119,20 @@ pub(super) fn extrema() -> Cases {
     cases(agree)
 }
 
-/// At p_crit, with a double zero, f is −p (k − k_touch)²: Φ flattens there and falls on both
-/// sides. Distance of f from it over the largest of its terms.
+/// Returns the distance of f at p_crit from −p (k − k_touch)², its form with a double zero, over
+/// the largest of its terms: Φ flattens there and falls on both sides.
 pub(super) fn inflexion() -> f64 {
     let p = known(jump::p_crit(VERTICES));
     let off = |k: f64| (f(p, k) + p * (k - top(p)) * (k - top(p))).abs() / size(p, k);
     largest((1..=VERTICES).map(|k| off(k as f64)))
 }
 
-/// Eq. (17): f at some p ≤ 1 is positive, for each k between the ends.
+/// Checks that f is positive at some p ≤ 1 for each k between the ends, Eq. (17).
 pub(super) fn through_zero() -> Cases {
     cases((1..VERTICES).map(|k| f(1.0, k as f64) > 0.0))
 }
 
-/// Steps Φ(k) > Φ(k + 1) at every p of a grid from above 0 to p_crit, included.
+/// Checks that Φ(k) > Φ(k + 1) at every p of a grid from above 0 to p_crit, included.
 pub(super) fn falling() -> Cases {
     let crit = known(jump::p_crit(VERTICES));
     let steps = (1..=100).flat_map(|i| (1..VERTICES).map(move |k| (f64::from(i), k as f64)));

@@ -1,6 +1,6 @@
-//! The exact statements of Secs. 3 to 9, each compared with a second route: formulas with the
-//! enumeration of small graphs, closed forms with quadrature, zeros with the function. What a claim
-//! judges is how many cases fail, or by how much: a row for each, under the id of the statement.
+//! Compares each exact statement of Secs. 3 to 9 with a second route: formulas with the enumeration
+//! of small graphs, closed forms with quadrature, zeros with the function. What a claim judges is
+//! how many cases fail, or by how much: a row for each, under the id of the statement.
 //!
 //! Cheap, as the theory is, and not saved.
 
@@ -13,7 +13,7 @@ use crate::experiments::prelude::*;
 use crate::experiments::theory::census::census;
 use cases::Cases;
 
-/// The comparisons as tables, for the paper's N.
+/// Makes the tables of the comparisons, for the paper's N.
 pub fn tables() -> Vec<Table> {
     let census = census();
     let rows: [(&str, Cases); 15] = [

@@ -1,4 +1,4 @@
-//! The relation of p and σ, Sec. 8.
+//! Checks the relation of p and σ, Sec. 8.
 
 use crate::experiments::theory::basics::largest;
 use impact_circuits::impact_probability::{density_forced, density_free};
@@ -11,7 +11,8 @@ type Mass = [f64; 4];
 /// Two neighbours whose amplitudes have nothing in common.
 const PAIR: [Mass; 2] = [[0.11, -0.07, 0.0, 0.0], [-0.05, 0.13, 0.02, -0.03]];
 
-/// Δ_j(t) as Eq. (19) has it, against x_j = x(0) cos t + ẋ(0) sin t + ∫ sin(t − s) F(s) ds.
+/// Returns the largest distance of Δ_j(t) in Eq. (19) from x_j = x(0) cos t + ẋ(0) sin t + ∫ sin(t
+/// − s) F(s) ds.
 pub(super) fn separation() -> f64 {
     let big_omega = SQRT_2;
     let detuning = 1.0 - big_omega * big_omega;
@@ -34,8 +35,8 @@ pub(super) fn separation() -> f64 {
     }))
 }
 
-/// The integral of a density up to x, against the weight of a disc of radius x: two independent
-/// normal differences of variance 2 s², with s = σ and σ/|ω² − Ω²|.
+/// Returns the largest distance of the integral of a density up to x from the weight of a disc of
+/// radius x: two independent normal differences of variance 2 s², with s = σ and σ/|ω² − Ω²|.
 pub(super) fn distributions() -> f64 {
     let rule = GaussLegendre::new(20);
     let disc = |x: f64, s: f64| {

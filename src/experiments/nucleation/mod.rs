@@ -1,5 +1,5 @@
-//! First impacts of chains: how many chains have one by some time, and the number expected from the
-//! reach of single gaps.
+//! Runs chains to their first impact: how many have one by some time, and the number expected from
+//! the reach of single gaps.
 
 pub mod run;
 pub mod tables;

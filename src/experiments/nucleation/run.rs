@@ -1,5 +1,5 @@
-//! First impacts: how many chains have one by some time, and the number expected from the reach of
-//! single gaps.
+//! Runs chains to their first impact, and computes how many are expected to have one by some time
+//! from the reach of single gaps.
 
 use crate::experiments::prelude::*;
 use crate::params::NucleationParams;
@@ -42,7 +42,7 @@ pub struct Gaps {
 /// The time of a chain's first impact, if it has one in time.
 pub type First = Option<f64>;
 
-/// The ensembles in their order: masses, realisations, σ.
+/// Lists the ensembles in their order: masses, realisations, σ.
 pub(super) fn ensembles(
     parameters: &NucleationParams,
 ) -> impl Iterator<Item = (usize, usize, f64)> {
@@ -51,7 +51,7 @@ pub(super) fn ensembles(
     })
 }
 
-/// Chains of all ensembles.
+/// Returns the number of chains of all ensembles.
 pub(super) fn count(parameters: &NucleationParams) -> u64 {
     ensembles(parameters).map(|(_, realisations, _)| realisations as u64).sum()
 }

@@ -1,4 +1,4 @@
-//! Tables of first impacts, found and expected from the reach of single gaps.
+//! Makes the tables of first impacts, found and expected from the reach of single gaps.
 
 use super::run::{First, Gaps, Nucleation, ensembles};
 use crate::experiments::prelude::*;
@@ -33,7 +33,7 @@ pub fn tables(found: &Nucleation) -> Vec<Table> {
     ]
 }
 
-/// Single gaps and neighbours in unlimited time.
+/// Makes the table of single gaps and neighbours in unlimited time.
 fn single(gaps: &[Gaps]) -> Table {
     Table::of("nucleation.gaps", gaps, |_| 0)
         .key("sigma", SIGMA, |row| row.sigma)
@@ -44,7 +44,7 @@ fn single(gaps: &[Gaps]) -> Table {
         .done()
 }
 
-/// The share of the chains with an impact by the latest time, at more σ.
+/// Makes the table of the share of the chains with an impact by the latest time, at more σ.
 fn shares(parameters: &NucleationParams, curve: &[(f64, Chances)]) -> Table {
     let lengths = parameters.lengths.iter().map(|(masses, _)| *masses);
     let rows: Vec<(usize, f64, Chances)> =
@@ -58,7 +58,7 @@ fn shares(parameters: &NucleationParams, curve: &[(f64, Chances)]) -> Table {
         .done()
 }
 
-/// The share of closing gaps that a finite time misses.
+/// Makes the table of the share of closing gaps that a finite time misses.
 fn times(parameters: &NucleationParams, gaps: &[Gaps]) -> Table {
     let rows: Vec<(&Gaps, f64, Chances)> = gaps
         .iter()
@@ -104,7 +104,7 @@ fn all(parameters: &NucleationParams, chains: &[Chains<'_>], half: f64) -> Table
 }
 
 impl Chains<'_> {
-    /// Chains with an impact by the time.
+    /// Returns the number of chains with an impact by the time.
     fn hit(&self) -> u64 {
         let by_then = |first: &&First| first.is_some_and(|at| at <= self.time);
         self.part.iter().filter(by_then).count() as u64

@@ -1,5 +1,5 @@
-//! Predicted and simulated half heights and mean counts after several transients, by the map of the
-//! protocol.
+//! Compares predicted with simulated half heights and mean counts after several transients, by the
+//! map of the protocol.
 
 use crate::experiments::prelude::*;
 use crate::experiments::protocol::address;
@@ -9,12 +9,12 @@ use crate::experiments::{PROTOCOL, SEEDS};
 const OFF: &str =
     "root mean square distance of the predicted mean counts from the simulated ones, in gaps";
 
-/// Mean count of all chains at a σ; none where the runs were shorter.
+/// Returns the mean count of all chains at a σ; none where the runs were shorter.
 fn mean(cell: &Curve, sigma: f64) -> Option<f64> {
     Some(cell.rows.iter().find(|row| row.sigma == sigma)?.mean_all?.value)
 }
 
-/// The tables; none where an experiment was not run.
+/// Makes the tables; none where an experiment was not run.
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let table = |name: &str| all.iter().find(|table| table.name() == name);
     let (means, rise) = (table("seeds.means")?, table("seeds.rise")?);

@@ -1,4 +1,4 @@
-//! Impacts by their distance from the seed.
+//! Counts impacts by their distance from the seed.
 
 use super::run::Trace;
 use crate::params::SeedsParams;
@@ -15,12 +15,12 @@ pub struct ByDistance {
     pub active: Vec<Vec<u64>>,
 }
 
-/// Runs of which the seed closed, with it.
+/// Returns the runs of which the seed closed, with it.
 pub(super) fn ran(traces: &[Option<Trace>]) -> impl Iterator<Item = (usize, &Trace)> {
     traces.iter().flatten().filter_map(|trace| Some((trace.seed?, trace)))
 }
 
-/// The bits of `count` bins from one on.
+/// Returns the bits of `count` bins from one on.
 pub(super) fn bits(from: usize, count: usize) -> u64 {
     (0..count).map(|bin| 1 << (from + bin)).fold(0, |all, bit: u64| all | bit)
 }
@@ -46,7 +46,7 @@ impl ByDistance {
         ByDistance { places, active, reached: hit }
     }
 
-    /// The sum over groups of runs, without the group of index `left_out` if there is one.
+    /// Returns the sum over groups of runs, without the group of index `left_out` if there is one.
     pub(super) fn sum(groups: &[ByDistance], left_out: usize) -> Self {
         let mut all = ByDistance::default();
         for (_, group) in groups.iter().enumerate().filter(|(group, _)| *group != left_out) {
@@ -59,7 +59,7 @@ impl ByDistance {
         all
     }
 
-    /// The share of the gaps at each distance; 0 where no gap has that distance.
+    /// Returns the share of the gaps at each distance; 0 where no gap has that distance.
     pub(super) fn shares<'a>(&'a self, hit: &'a [u64]) -> impl Iterator<Item = f64> + 'a {
         let share = |(part, all): (&u64, &u64)| {
             if *all > 0 { *part as f64 / *all as f64 } else { 0.0 }
@@ -67,15 +67,15 @@ impl ByDistance {
         hit.iter().zip(&self.places).map(share)
     }
 
-    /// The expected number of gaps that a front has passed by the end of a bin, to one side of a
-    /// long chain.
+    /// Returns the expected number of gaps that a front has passed by the end of a bin, to one side
+    /// of a long chain.
     pub(super) fn advance(&self, bin: usize) -> f64 {
         self.shares(&self.reached[bin]).skip(1).sum()
     }
 
-    /// The exponent of a power law of time through the advance from a quarter of the last time on,
-    /// by least squares in logarithms: 1 for a constant speed. None if a front has not passed a gap
-    /// by then.
+    /// Returns the exponent of a power law of time through the advance from a quarter of the last
+    /// time on, by least squares in logarithms: 1 for a constant speed. None if a front has not
+    /// passed a gap by then.
     pub(super) fn exponent(&self) -> Option<f64> {
         let last = self.reached.len() - 1;
         let mut points = Vec::new();

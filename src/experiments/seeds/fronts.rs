@@ -1,4 +1,4 @@
-//! How fronts advance: how long each waits for the next gap.
+//! Measures how fronts advance: how long each waits for the next gap.
 //!
 //! Ahead of a front no mass was ever hit, and no gap closes by itself there. So a front takes one
 //! gap after the other, and between two first impacts it waits for the gap ahead. A wait ends with
@@ -25,8 +25,8 @@ pub struct Fronts {
     pub standing: f64,
 }
 
-/// The time 2π/|Ω − ω| after which free and forced motion have the same relative phase again:
-/// a gap that the present motions can close is closed by then, as a rule.
+/// Returns the time 2π/|Ω − ω| after which free and forced motion have the same relative phase
+/// again: a gap that the present motions can close is closed by then, as a rule.
 pub fn beat(chain: &Chain) -> f64 {
     TAU / (chain.forcing_frequency - chain.natural_frequency).abs()
 }
@@ -56,7 +56,7 @@ impl Fronts {
     }
 }
 
-/// A share or a rate over all runs, with its error by the jackknife over runs.
+/// Returns a share or a rate over all runs, with its error by the jackknife over runs.
 pub(super) fn over(runs: &[Fronts], of: fn(&Fronts) -> [f64; 2]) -> Option<Estimate> {
     ratio(&runs.iter().map(of).collect::<Vec<_>>())
 }

@@ -1,4 +1,4 @@
-//! The mean count expected from nucleation and growth: from the derived chances of single gaps and
+//! Predicts the mean count by nucleation and growth: from the derived chances of single gaps and
 //! the measured spreading from one of them alone.
 //!
 //! A gap at the place x has no impact in the window (T, T + W] if no seed y sends one there. If
@@ -44,12 +44,12 @@ pub(super) struct Prediction {
 }
 
 impl Prediction {
-    /// The mean count at the σ of that place.
+    /// Returns the mean count at the σ of that place.
     pub fn mean(&self, sigma: usize) -> Option<Estimate> {
         jackknife(GROUPS, |out| Some(self.means[out.unwrap_or(GROUPS)][sigma]))
     }
 
-    /// The σ at which it passes half of all gaps, if it does.
+    /// Returns the σ at which it passes half of all gaps, if it does.
     pub fn half_height(&self, parameters: &SeedsParams) -> Option<Estimate> {
         let half = 0.5 * parameters.chain.gaps() as f64;
         jackknife(GROUPS, |out| {
@@ -59,7 +59,8 @@ impl Prediction {
     }
 }
 
-/// For each σ the chances that impacts begin at a gap at a wall, and at any other, in each bin.
+/// Returns for each σ the chances that impacts begin at a gap at a wall, and at any other, in each
+/// bin.
 fn closing(parameters: &SeedsParams, begin: Begin) -> Vec<[Vec<f64>; 2]> {
     let chain = &parameters.chain;
     let edges: Vec<f64> = (1..=parameters.bins).map(|bin| bin as f64 * parameters.bin).collect();
@@ -90,7 +91,7 @@ fn closing(parameters: &SeedsParams, begin: Begin) -> Vec<[Vec<f64>; 2]> {
     all
 }
 
-/// The predictions of all transients, from the counts of groups of runs at each σ.
+/// Returns the predictions of all transients, from the counts of groups of runs at each σ.
 pub(super) fn predictions(
     parameters: &SeedsParams,
     seen: &[Vec<ByDistance>],
@@ -113,7 +114,7 @@ pub(super) fn predictions(
     all
 }
 
-/// The expected number of gaps with an impact in the window.
+/// Returns the expected number of gaps with an impact in the window.
 fn expected(
     parameters: &SeedsParams,
     [wall, inner]: &[Vec<f64>; 2],

@@ -1,4 +1,4 @@
-//! How impacts spread from one gap that closes by itself, and the mean count expected from
+//! Measures how impacts spread from one gap that closes by itself, and predicts the mean count by
 //! nucleation and growth.
 //!
 //! - [`run`](mod@run): chains with exactly one such gap, and where impacts get from there.

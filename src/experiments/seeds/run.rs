@@ -1,4 +1,4 @@
-//! Runs of chains in which exactly one gap closes by itself.
+//! Runs chains in which exactly one gap closes by itself.
 
 use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
@@ -46,7 +46,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The amplitudes of the chain, and that gap.
+    /// Returns the amplitudes of the chain, and that gap.
     fn chain(&mut self) -> (Vec<[f64; 2]>, usize) {
         let n = self.chain.masses;
         loop {
@@ -83,7 +83,7 @@ impl Search<'_> {
         }
     }
 
-    /// The amplitude of a body, none for a wall.
+    /// Returns the amplitude of a body, none for a wall.
     fn body(&mut self, body: usize) -> [f64; 2] {
         let wall = body == 0 || body > self.chain.masses;
         if wall { [0.0; 2] } else { self.normals.pair().map(|x| self.sigma * x) }

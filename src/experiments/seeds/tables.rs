@@ -1,4 +1,4 @@
-//! Tables of the runs, of fronts, and of the mean counts that follow.
+//! Makes the tables of the runs, of fronts, and of the mean counts that follow.
 
 use super::counting::{bits, ran};
 use super::fronts::{Fronts, beat, over};
@@ -49,7 +49,7 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
     ]
 }
 
-/// Counts at the end of the window after each transient.
+/// Makes the table of counts at the end of the window after each transient.
 fn course(rows: &[RunsAtSigma<'_>]) -> Table {
     let rows: Vec<(&RunsAtSigma<'_>, usize)> = rows
         .iter()
@@ -114,8 +114,8 @@ fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
         .done()
 }
 
-/// Where the mean counts pass half of all gaps, if every gap that closes by itself is a seed, and
-/// if only the first of a clump is.
+/// Makes the table of where the mean counts pass half of all gaps, if every gap that closes by
+/// itself is a seed, and if only the first of a clump is.
 fn rise(parameters: &SeedsParams, gaps: &[Prediction], clumps: &[Prediction]) -> Table {
     let rows: Vec<_> = gaps.iter().zip(clumps).collect();
     Table::of("seeds.rise", &rows, |_| parameters.realisations)
@@ -139,12 +139,12 @@ fn all(parameters: &SeedsParams) -> Table {
 }
 
 impl RunsAtSigma<'_> {
-    /// The bin with which the window after a transient ends.
+    /// Returns the bin with which the window after a transient ends.
     fn end(&self, transient: usize) -> usize {
         transient + self.parameters.window
     }
 
-    /// Gaps of a run with an impact in some bins.
+    /// Estimates the number of gaps of a run with an impact in some bins.
     fn hit(&self, from: usize, count: usize) -> Option<Estimate> {
         let mask = bits(from, count);
         let hit = |trace: &Trace| trace.hits.iter().filter(|bits| **bits & mask != 0).count();

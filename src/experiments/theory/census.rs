@@ -19,7 +19,7 @@ pub(crate) fn census() -> Census {
     census
 }
 
-/// All (N, length) that were enumerated.
+/// Lists all (N, length) that were enumerated.
 pub(crate) fn enumerated() -> impl Iterator<Item = (usize, usize)> {
     (1..).zip(LONGEST).flat_map(|(n, longest)| (1..=longest).map(move |k| (n, k)))
 }

@@ -7,15 +7,15 @@ use impact_chain::rise::{Mean, RisePoint};
 /// From here on σ is called large (ours).
 pub(crate) const LARGE_SIGMA: f64 = 0.2;
 
-/// A curve of the theory at any σ in its range, linear between its points.
+/// Returns a curve of the theory at any σ in its range, linear between its points.
 pub(crate) fn at(curve: &[(f64, f64)], sigma: f64) -> Option<f64> {
     let w = curve.windows(2).find(|w| w[0].0 <= sigma && sigma <= w[1].0)?;
     let share = (sigma - w[0].0) / (w[1].0 - w[0].0);
     Some(w[0].1 + share * (w[1].1 - w[0].1))
 }
 
-/// Where theory and simulated means lie farthest apart at large σ: their distance in gaps, σ, and
-/// both.
+/// Finds where theory and simulated means lie farthest apart at large σ: their distance in gaps, σ,
+/// and both.
 pub(crate) fn largest_distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<[f64; 4]> {
     let large = means.iter().filter(|(sigma, _)| *sigma >= LARGE_SIGMA);
     let distances = large.filter_map(|&(sigma, mean)| {
@@ -25,8 +25,8 @@ pub(crate) fn largest_distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Op
     distances.reduce(|most, one| if most[0] >= one[0] { most } else { one })
 }
 
-/// The largest increase of a mean within one and within two steps of σ, in gaps; where the grid is
-/// `finest`.
+/// Returns the largest increase of a mean within one and within two steps of σ, in gaps; where the
+/// grid is `finest`.
 fn increases(means: &[(f64, f64)], finest: f64) -> Option<[f64; 2]> {
     let fine = |w: &[(f64, f64)]| w.windows(2).all(|w| w[1].0 - w[0].0 < 1.01 * finest);
     let steps = means.windows(3).filter(|w| fine(w)).map(|w| [w[0].1, w[1].1, w[2].1]);
@@ -34,7 +34,8 @@ fn increases(means: &[(f64, f64)], finest: f64) -> Option<[f64; 2]> {
     found.reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]).map(|found| found.map(|x| x.max(0.0)))
 }
 
-/// Root mean square distance of a theory curve from the simulated means, up to where σ is large.
+/// Returns the root mean square distance of a theory curve from the simulated means, up to where σ
+/// is large.
 pub(crate) fn distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64> {
     let small = means.iter().filter(|(sigma, _)| *sigma < LARGE_SIGMA);
     let differences: Vec<f64> =

@@ -1,4 +1,4 @@
-//! How many circuits there are: Secs. 3 and 5, Fig. 7.
+//! Counts circuits: Secs. 3 and 5, Fig. 7.
 
 use super::basics::{known, one, sum};
 use crate::experiments::prelude::*;
@@ -15,7 +15,7 @@ pub(super) fn tables() -> Vec<Table> {
     vec![graph(), lengths(), commuting_circuits()]
 }
 
-/// Sec. 3.
+/// Makes the table of Sec. 3.
 fn graph() -> Table {
     let graph = Graph::of_chain(3);
     one("theory.graph", origin(Graph::of_chain))
@@ -24,15 +24,15 @@ fn graph() -> Table {
         .done()
 }
 
-/// Fig. 7: share of all simple circuits that those of length k = 1..=N have, and its decimal
-/// logarithm.
+/// Returns the share of all simple circuits that have length k = 1..=N, and its decimal logarithm:
+/// Fig. 7.
 pub fn shares() -> [Vec<f64>; 2] {
     let (shares, log_total) = known(counting::shares(VERTICES));
     let logarithm = |k| (known(counting::log_phi(VERTICES, k)) - log_total) / LN_10;
     [shares, (1..=VERTICES).map(logarithm).collect()]
 }
 
-/// Sec. 5.
+/// Makes the table of Sec. 5.
 fn lengths() -> Table {
     let (shares, _) = known(counting::shares(VERTICES));
     let ratio = |k| counting::ratio_to_longest(VERTICES, k);
@@ -55,7 +55,8 @@ fn lengths() -> Table {
         .done()
 }
 
-/// Simple circuits that differ only by the order of impacts without a common mass.
+/// Makes the table of simple circuits that differ only by the order of impacts without a common
+/// mass.
 fn commuting_circuits() -> Table {
     let [circuits, classes] = commuting::simple_classes(ENUMERATED);
     one("theory.commuting", origin(commuting::simple_classes))

@@ -1,4 +1,4 @@
-//! Circuits that repeat vertices: Sec. 9, Figs. 13 and 14.
+//! Computes what circuits that repeat vertices change: Sec. 9, Figs. 13 and 14.
 
 use super::basics::{known, one, sum};
 use super::census::{census, counted};
@@ -11,23 +11,23 @@ use impact_circuits::higher_order::{CLASSES, SHARED, doubled_as_printed, multipl
 use impact_circuits::{Fraction, jump};
 use impact_numerics::double_double::DoubleDouble;
 
-/// P(X = k) of five classes, k = 1..=N.
+/// Returns P(X = k) of five classes, k = 1..=N.
 pub fn five(p: f64) -> Vec<f64> {
     law(FiveClasses, p).probabilities()
 }
 
-/// The parts of the five classes in it, in the order of Eq. (38).
+/// Returns the parts of the five classes in it, in the order of Eq. (38).
 pub fn contributions(p: f64) -> [Vec<f64>; 5] {
     CLASSES.map(|class| law(FiveClasses, p).contribution(&class))
 }
 
-/// Half the sum of absolute differences.
+/// Returns half the sum of absolute differences.
 fn total_variation(a: &[f64], b: &[f64]) -> f64 {
     0.5 * sum(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
 }
 
-/// One doubled vertex costs p and can be placed in k²/2 ways, except on a single vertex: the
-/// weight of such circuits over that of simple ones.
+/// Returns the weight of circuits with one doubled vertex over that of simple ones, to first order:
+/// it costs p and can be placed in k²/2 ways, except on a single vertex.
 fn first_order(p: f64) -> f64 {
     let higher = (1_u32..).zip(simple(p)).skip(1);
     sum(higher.map(|(k, q)| q * p * f64::from(k) * f64::from(k) / 2.0))
@@ -55,7 +55,7 @@ pub(super) fn classes() -> Table {
         .done()
 }
 
-/// The p at which the two means differ most in proportion, and both there.
+/// Returns the p at which the two means differ most in proportion, and both there.
 fn means_apart() -> [f64; 3] {
     let simple = means();
     let rows = simple.into_iter().map(|(p, mean)| [p, mean, law(FiveClasses, p).mean()]);
@@ -63,7 +63,7 @@ fn means_apart() -> [f64; 3] {
     rows.fold([0.0, 1.0, 1.0], |most, row| if share(row) > share(most) { row } else { most })
 }
 
-/// The largest change of μ(p(σ)) by higher orders, and the σ where it is.
+/// Returns the largest change of μ(p(σ)) by higher orders, and the σ where it is.
 fn largest_change(curve: &Table) -> [f64; 2] {
     let column = |name| curve.curve(&[], "sigma", name).unwrap_or_default();
     let [simple, higher] = ["simple", "higher"].map(column);
@@ -73,8 +73,8 @@ fn largest_change(curve: &Table) -> [f64; 2] {
     })
 }
 
-/// Weight of circuits with one doubled vertex over that of simple ones, k being the whole part of
-/// μ.
+/// Returns the weight of circuits with one doubled vertex over that of simple ones, k being the
+/// whole part of μ.
 fn doubling(p: f64) -> f64 {
     let law = law(FiveClasses, p);
     let weight = |class| law.contribution(class)[law.mean() as usize - 1];
@@ -92,13 +92,15 @@ fn by_different(p: f64, more: &[f64]) -> Vec<f64> {
     simple(p).iter().zip(more).map(|(q, more)| q * more).collect()
 }
 
-/// Of the same: share of simple circuits, which are all of those that have no vertex twice.
+/// Returns the share of simple circuits in the same, which are all of those that have no vertex
+/// twice.
 fn simple_by_different(p: f64) -> f64 {
     let all = sum(by_different(p, &multiplicities()));
     f64::from(SHARED as u32) * sum(simple(p)) / all
 }
 
-/// Of the same: the largest step of k* between neighbouring p of a grid of 1/100 000 up to 0.04.
+/// Returns the largest step of k* in the same, between neighbouring p of a grid of 1/100 000 up to
+/// 0.04.
 fn largest_step() -> u64 {
     let more = multiplicities();
     let top = |p: f64| {
@@ -109,8 +111,8 @@ fn largest_step() -> u64 {
     ks.windows(2).map(|w| w[1].abs_diff(w[0])).max().unwrap_or(0)
 }
 
-/// Single numbers of Sec. 9, with those of the tables `theory.curve` and `theory.relation` that
-/// belong there.
+/// Makes the table of single numbers of Sec. 9, with those of `theory.curve` and `theory.relation`
+/// that belong there.
 pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     let sigma = SIGMA;
     let eq30 = doubled_as_printed(3, 3).map(Fraction::to_f64);

@@ -16,7 +16,7 @@ pub(super) fn tables() -> Vec<Table> {
     vec![numbers(), first_maximum()]
 }
 
-/// Sec. 7.
+/// Makes the table of Sec. 7.
 fn numbers() -> Table {
     let p_crit = |vertices| known(jump::p_crit(vertices));
     let (crit, leap) = (p_crit(VERTICES), known(jump::p_jump(Simple, VERTICES)));
@@ -62,20 +62,20 @@ fn first_maximum() -> Table {
         .done()
 }
 
-/// Fig. 10: p → 0, p_crit, half way from p_crit to the jump, and the jump itself.
+/// Returns the p of Fig. 10: 0, p_crit, half way from there to the jump, and the jump itself.
 pub fn stages() -> [f64; 4] {
     let (crit, leap) = (known(jump::p_crit(VERTICES)), known(jump::p_jump(Simple, VERTICES)).p);
     [0.0, crit, 0.5 * (crit + leap), leap]
 }
 
-/// f_{N,p}(k) on [0, N], four points to a unit of k.
+/// Returns f_{N,p}(k) on [0, N], four points to a unit of k.
 pub fn f(p: f64) -> Vec<(f64, f64)> {
     let ks = (0..=VERTICES * 4).map(|i| i as f64 / 4.0);
     ks.map(|k| (k, jump::f(VERTICES, p, k))).collect()
 }
 
-/// The zeros of f_{N,p}. The double nearest to p_crit may lie on either side of it; there both are
-/// 1/√p.
+/// Returns the zeros of f_{N,p}. The double nearest to p_crit may lie on either side of it; there
+/// both are 1/√p.
 pub fn zeros(p: f64) -> Option<[f64; 2]> {
     if p == known(jump::p_crit(VERTICES)) {
         return Some([1.0 / p.sqrt(); 2]);
@@ -83,25 +83,26 @@ pub fn zeros(p: f64) -> Option<[f64; 2]> {
     jump::zeros(VERTICES, p)
 }
 
-/// Where f is largest.
+/// Returns where f is largest.
 pub(crate) fn top(p: f64) -> f64 {
     (N * p - 1.0) / (2.0 * p)
 }
 
-/// Eq. (18): the p at which f gets real zeros for k > 0, since its largest value is not negative.
+/// Returns the p at which f gets real zeros for k > 0, since its largest value is not negative: Eq.
+/// (18).
 pub(crate) fn touching() -> f64 {
     roots::bracket(1e-6, 1.0, |p| top(p) > 0.0 && jump::f(VERTICES, p, top(p)) >= 0.0)[1]
 }
 
-/// The p and the real k at which Φ, with Γ functions for its factorials, has a stationary
-/// inflexion: ln Φ has the derivative ln p − 1/k + ψ(N + 1 − k), which is zero twice in k
-/// where 1/k² = ψ′(N + 1 − k).
+/// Returns the p and the real k at which Φ, with Γ functions for its factorials, has a stationary
+/// inflexion: ln Φ has the derivative ln p − 1/k + ψ(N + 1 − k), which is zero twice in k where
+/// 1/k² = ψ′(N + 1 − k).
 pub(crate) fn flat() -> [f64; 2] {
     let k = roots::bracket(1.0, N / 2.0, |k| 1.0 / (k * k) <= pxfm::f_trigamma(N + 1.0 - k))[1];
     [pxfm::f_exp(1.0 / k - pxfm::f_digamma(N + 1.0 - k)), k]
 }
 
-/// dμ/dp: Var(X)/p for weights in proportion to p^k, and by a central difference.
+/// Returns dμ/dp twice: as Var(X)/p, for weights in proportion to p^k, and by a central difference.
 pub(crate) fn mean_slopes(p: f64) -> [f64; 2] {
     let mean = law(Simple, p).mean();
     let squares = (1..).map(f64::from).map(|k: f64| (k - mean) * (k - mean));

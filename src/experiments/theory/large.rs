@@ -1,4 +1,4 @@
-//! The theory for many vertices, with p N held fixed as N grows: Fig. S5.
+//! Computes the theory for many vertices, with p N held fixed as N grows: Fig. S5.
 
 use super::basics::known;
 use crate::experiments::prelude::*;
@@ -31,12 +31,12 @@ pub(super) fn tables() -> Vec<Table> {
     vec![table]
 }
 
-/// The limit of k*/N against p N.
+/// Returns the limit of k*/N against p N.
 pub fn limit() -> Vec<(f64, f64)> {
     drawn().into_iter().map(|x| (x, limit_share(x))).collect()
 }
 
-/// k*/N against p N up to the jump and beyond: 1 before it, the local maximum then, since
+/// Returns k*/N against p N up to the jump and beyond: 1 before it, the local maximum then, since
 /// Φ(k)/Φ(1) rises with p.
 pub fn shares(vertices: usize) -> [Vec<(f64, f64)>; 2] {
     let leap = known(p_jump(Simple, vertices));

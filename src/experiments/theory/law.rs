@@ -11,12 +11,12 @@ pub(super) fn tables() -> Vec<Table> {
     vec![distributions(), mean()]
 }
 
-/// The distribution for the paper's N.
+/// Returns the distribution for the paper's N.
 pub(crate) fn law(space: SampleSpace, p: f64) -> Law {
     known(Law::new(space, VERTICES, p))
 }
 
-/// P(X = k) of simple circuits, k = 1..=N.
+/// Returns P(X = k) of simple circuits, k = 1..=N.
 pub fn simple(p: f64) -> Vec<f64> {
     law(Simple, p).probabilities()
 }
@@ -25,7 +25,7 @@ pub fn k_star(p: f64) -> usize {
     law(Simple, p).k_star()
 }
 
-/// Fig. 8.
+/// Makes the table of Fig. 8.
 fn distributions() -> Table {
     Table::of("theory.distribution", &DISTRIBUTION_P, |_| 0)
         .computed_by(origin(Law::mean))
@@ -36,26 +36,26 @@ fn distributions() -> Table {
         .done()
 }
 
-/// Fig. 9 (a): each p at which k* changes, from p = 0 on, and its value from there.
+/// Returns each p at which k* changes, from p = 0 on, and its value from there: Fig. 9 (a).
 pub fn steps() -> Vec<(f64, usize)> {
     let leap = known(jump::p_jump(Simple, VERTICES));
     let later = (leap.k_after..VERTICES - 1).map(|k| (jump::step(VERTICES, k), k + 1));
     [(0.0, 1), (leap.p, leap.k_after)].into_iter().chain(later).collect()
 }
 
-/// Fig. 9 (b): μ(p) of simple circuits, finer where it rises.
+/// Returns μ(p) of simple circuits, finer where it rises: Fig. 9 (b).
 pub fn means() -> Vec<(f64, f64)> {
     let grid = Grid::default().and(0, 400, 1, 10_000).and(9, 200, 1, 200).values();
     grid.into_iter().map(|p| (p, law(Simple, p).mean())).collect()
 }
 
-/// The p at which μ passes `level`, linear between points.
+/// Returns the p at which μ passes `level`, linear between points.
 fn crossing(means: &[(f64, f64)], level: f64) -> Option<f64> {
     let w = means.windows(2).find(|w| w[0].1 < level && level <= w[1].1)?;
     Some(w[0].0 + (w[1].0 - w[0].0) * (level - w[0].1) / (w[1].1 - w[0].1))
 }
 
-/// Fig. 9.
+/// Makes the table of Fig. 9.
 fn mean() -> Table {
     let mut heights: Vec<usize> = steps().windows(2).map(|w| w[1].1 - w[0].1).collect();
     heights.sort_unstable_by(|a, b| b.cmp(a));

@@ -1,6 +1,6 @@
-//! The graph theory of Secs. 3 to 9 as tables, and beyond the paper many vertices and circuits up
-//! to the order of distant impacts. Curves that only a figure draws are functions, as its data file
-//! has their values.
+//! Computes the graph theory of Secs. 3 to 9 as tables, and beyond the paper many vertices and
+//! circuits up to the order of distant impacts. Curves that only a figure draws are functions, as
+//! its data file has their values.
 //!
 //! Cheap: all tables take some tenths of a second, and nothing is saved.
 
@@ -16,7 +16,7 @@ pub(crate) mod relation;
 
 use literate::table::Table;
 
-/// All tables but those that compare the theory with a simulation.
+/// Makes all tables but those that compare the theory with a simulation.
 pub fn tables() -> Vec<Table> {
     let ((curve, relation), large) =
         rayon::join(|| rayon::join(relation::curve, relation::relation), large::tables);

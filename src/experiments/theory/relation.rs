@@ -1,5 +1,5 @@
-//! The relation of p and σ, and μ along it: Sec. 8, Figs. 11, 12 and 15; and gaps that close by
-//! themselves.
+//! Computes the relation of p and σ, and μ along it: Sec. 8, Figs. 11, 12 and 15; and gaps that
+//! close by themselves.
 
 use super::basics::{known, largest, one};
 use super::law::law;
@@ -17,34 +17,35 @@ use std::f64::consts::SQRT_2;
 /// σ of the random starts whose overlap is given.
 const OVERLAP: f64 = 0.145;
 
-/// p(σ) of Eq. (25) for the paper's chain, 0 where it underflows.
+/// Returns p(σ) of Eq. (25) for the paper's chain, 0 where it underflows.
 pub(super) fn p_of(sigma: f64) -> f64 {
     known(ImpactProbability::of_paper(sigma)).p().unwrap_or(0.0)
 }
 
-/// The same for a start from rest.
+/// Returns the same for a start from rest.
 fn p_rest_of(sigma: f64) -> f64 {
     known(ImpactProbability::of_paper(sigma)).p_from_rest().unwrap_or(0.0)
 }
 
-/// The smallest σ at which a property that holds from there on holds, to the last bit. At σ = 1
-/// both probabilities are above 0.99.
+/// Returns the smallest σ at which a property that holds from there on holds, to the last bit. At σ
+/// = 1 both probabilities are above 0.99.
 fn smallest_sigma(holds: impl FnMut(f64) -> bool) -> f64 {
     roots::bracket(0.0, 1.0, holds)[1]
 }
 
-/// The σ at which a probability is p.
+/// Returns the σ at which a probability is p.
 pub(super) fn reaches(p_of: fn(f64) -> f64, p: f64) -> f64 {
     smallest_sigma(|sigma| p_of(sigma) >= p)
 }
 
-/// The σ at which μ along a relation is (N + 1)/2: half way between 1 and N.
+/// Returns the σ at which μ along a relation is (N + 1)/2: half way between 1 and N.
 fn half(p_of: fn(f64) -> f64, space: SampleSpace) -> f64 {
     let middle = 0.5 * (VERTICES as f64 + 1.0);
     smallest_sigma(|sigma| law(space, p_of(sigma)).mean() >= middle)
 }
 
-/// From 0.02 to 0.4 in steps of 0.001, finer where circuits of higher order add most.
+/// Makes the table of curves against σ, from 0.02 to 0.4 in steps of 0.001, finer where circuits of
+/// higher order add most.
 pub(super) fn curve() -> Table {
     let sigmas =
         Grid::default().and(20, 139, 1, 1000).and(700, 760, 1, 5000).and(153, 400, 1, 1000);
@@ -68,33 +69,33 @@ pub(super) fn curve() -> Table {
         .done()
 }
 
-/// Probability that one of `gaps` independent gaps closes by itself.
+/// Returns the probability that one of `gaps` independent gaps closes by itself.
 fn any(p: f64, gaps: usize) -> f64 {
     -pxfm::f_expm1(gaps as f64 * pxfm::f_log1p(-p))
 }
 
-/// The same by p of Eq. (25), for random free parts, with another p for gaps at the walls, which do
-/// not move: an upper bound, since normal variables make symmetric convex events no less likely
-/// together than one by one.
+/// Returns the same by p of Eq. (25), for random free parts, with another p for gaps at the walls,
+/// which do not move: an upper bound, since normal variables make symmetric convex events no less
+/// likely together than one by one.
 fn any_random(sigma: &f64) -> f64 {
     let none = (Chain::default().gaps() - 2) as f64 * pxfm::f_log1p(-p_of(*sigma));
     -pxfm::f_expm1(none + 2.0 * pxfm::f_log1p(-p_of(sigma / SQRT_2)))
 }
 
-/// σ at which such a share of the chains has a gap that closes by itself, from rest and as if gaps
-/// were independent.
+/// Returns σ at which such a share of the chains has a gap that closes by itself, from rest and as
+/// if gaps were independent.
 fn sigma_kept(share: f64) -> f64 {
     smallest_sigma(|sigma| any(p_rest_of(sigma), Chain::default().gaps()) >= share)
 }
 
-/// Share of starts with random free parts that overlap, over p: Δ(0) = d + δα_0 − δα_1 is
-/// normal with variance 4σ².
+/// Returns the share of starts with random free parts that overlap, over p: Δ(0) = d + δα_0 − δα_1
+/// is normal with variance 4σ².
 fn overlap(sigma: f64) -> f64 {
     0.5 * pxfm::f_erfc(Chain::default().spacing / (2.0 * sigma) / SQRT_2) / p_of(sigma)
 }
 
-/// Eq. (25): largest relative difference between closed form and double integral, at σ where the
-/// latter has some digits of p left.
+/// Returns the largest relative difference between the closed form of Eq. (25) and the double
+/// integral, at σ where the latter has some digits of p left.
 fn eq25() -> f64 {
     largest([0.15, 0.2, 0.3, 0.5, 1.0].map(|sigma| {
         let gap = known(ImpactProbability::of_paper(sigma));
@@ -102,7 +103,7 @@ fn eq25() -> f64 {
     }))
 }
 
-/// Sec. 8.
+/// Makes the table of Sec. 8.
 pub(super) fn relation() -> Table {
     let crit = known(p_crit(VERTICES));
     let jumps = [(Simple, VERTICES), (Simple, VERTICES + 1), (FiveClasses, VERTICES)];
@@ -142,7 +143,7 @@ pub(super) fn relation() -> Table {
         .done()
 }
 
-/// Gaps that close by themselves, at the σ of the main sweeps of all profiles.
+/// Makes the table of gaps that close by themselves, at the σ of the main sweeps of all profiles.
 pub(super) fn gaps() -> Table {
     let gaps = Chain::default().gaps();
     let expected = |sigma: &f64| gaps as f64 * p_rest_of(*sigma);
