@@ -5,9 +5,13 @@ use super::steps::{Step, steps};
 use super::tally::{Stop, Tally};
 use crate::forcing::Component;
 use crate::impact::jumps;
+use crate::scenario::COMPONENTS;
 use crate::search::clock::Instant;
 use crate::topology::Topology;
 use crate::{Boundary, Error, Scenario, Sink, State};
+
+/// (sin, cos) of the phase of each component of the forcing.
+pub type Phases = [(f64, f64); COMPONENTS];
 
 /// The bodies of a chain with their state and forces; bodies are numbered from the left wall (0) to
 /// the right one (n + 1).
@@ -60,15 +64,6 @@ impl Bodies {
         self.v[right] - self.v[left]
     }
 
-    /// Applies an impulse P ≥ 0 that opens gap k, for masses 1/`lightness`.
-    #[inline]
-    pub fn push(&mut self, k: usize, impulse: f64, lightness: f64) {
-        let [left, right] = self.topology.sides(k);
-        let [inverse_left, inverse_right] = self.topology.inverse_masses(k);
-        self.v[left] -= impulse * inverse_left * lightness;
-        self.v[right] += impulse * inverse_right * lightness;
-    }
-
     /// Applies the impact law at gap k.
     pub fn hit(&mut self, k: usize, speed: f64) {
         let [left, right] = self.topology.sides(k);
@@ -77,37 +72,60 @@ impl Bodies {
         self.v[right] += jumps[1];
     }
 
-    pub fn forces(&self, at: Instant, out: &mut [f64]) {
-        for (i, component) in self.forcing.iter().enumerate() {
-            let (sin, cos) = component.phase(at);
-            let amplitudes = component.cos.iter().zip(&component.sin);
-            for (out, (alpha, beta)) in out.iter_mut().zip(amplitudes) {
-                let force = alpha * cos + beta * sin;
-                *out = if i == 0 { force } else { *out + force };
-            }
+    pub fn phases(&self, at: Instant) -> Phases {
+        let mut phases = [(0.0, 1.0); COMPONENTS];
+        for (phase, component) in phases.iter_mut().zip(&self.forcing) {
+            *phase = component.phase(at);
         }
+        phases
     }
 
     /// Computes the accelerations in flight at displacements `u` and an instant. The walls have
     /// none.
     pub fn accelerations(&self, at: Instant, u: &[f64], out: &mut [f64]) {
-        self.forces(at, out);
         for (out, u) in out.iter_mut().zip(u) {
-            *out -= self.stiffness * u;
+            *out = -self.stiffness * u;
+        }
+        for (component, (sin, cos)) in self.forcing.iter().zip(self.phases(at)) {
+            add_forces(component, [cos, sin], out);
         }
     }
 
-    /// Whether any gap would be shut after a time `ahead` at its present rate. The test is cheap,
-    /// as it mostly fails.
-    pub fn any_shut(&self, ahead: f64) -> bool {
-        let (u, v) = (&self.u, &self.v);
-        let is_shut =
-            |u: [f64; 2], v: [f64; 2]| self.spacing + (u[1] - u[0]) + ahead * (v[1] - v[0]) <= 0.0;
+    /// Returns the acceleration of one body in flight.
+    pub fn acceleration(&self, m: usize, phases: &Phases) -> f64 {
+        let mut sum = -self.stiffness * self.u[m];
+        for (component, (sin, cos)) in self.forcing.iter().zip(phases) {
+            sum += component.cos[m] * cos + component.sin[m] * sin;
+        }
+        sum
+    }
+
+    /// Makes a step of flight with all bodies: v' = `keep` v + `pull` u + forces, where `waves`
+    /// gives the factors of the amplitudes (cos, sin) of each component; then u' = u + `drift` (v,
+    /// v').
+    #[inline(always)]
+    pub fn fly(
+        &mut self,
+        [keep, pull]: [f64; 2],
+        waves: impl Fn(usize) -> [f64; 2],
+        drift: [f64; 2],
+    ) {
+        let Bodies { u, v, forcing, .. } = self;
+        step(u, v, &forcing[0], [keep, pull], waves(0), drift);
+        for (i, component) in forcing.iter().enumerate().skip(1) {
+            let [c, s] = waves(i);
+            add_forces(component, [c, s], v);
+            add_forces(component, [drift[1] * c, drift[1] * s], u);
+        }
+    }
+
+    /// Whether any gap is shut at displacements `u`. The test is cheap, as it mostly fails.
+    pub fn any_shut(&self, u: &[f64]) -> bool {
         // Neighbours in the array are neighbours in the row; a ring has one gap more.
         let (first, last) = if self.is_ring { (1, u.len() - 2) } else { (0, u.len() - 1) };
-        let mut any = self.is_ring && is_shut([u[last], u[first]], [v[last], v[first]]);
-        for (u, v) in u[first..=last].windows(2).zip(v[first..=last].windows(2)) {
-            any |= is_shut([u[0], u[1]], [v[0], v[1]]);
+        let mut any = self.is_ring && self.spacing + (u[first] - u[last]) <= 0.0;
+        for (left, right) in u[first..last].iter().zip(&u[first + 1..=last]) {
+            any |= self.spacing + (right - left) <= 0.0;
         }
         any
     }
@@ -116,6 +134,38 @@ impl Bodies {
     pub fn masses(&self) -> u64 {
         self.u.len() as u64 - 2
     }
+}
+
+/// Adds the forces of a component, given the factors of its amplitudes.
+fn add_forces(component: &Component, [c, s]: [f64; 2], out: &mut [f64]) {
+    for (out, (cos, sin)) in out.iter_mut().zip(component.cos.iter().zip(&component.sin)) {
+        *out += c * cos + s * sin;
+    }
+}
+
+/// One step of flight under one component, in a loop that the compiler turns into vectors.
+fn step(
+    u: &mut [f64],
+    v: &mut [f64],
+    component: &Component,
+    [keep, pull]: [f64; 2],
+    [c, s]: [f64; 2],
+    [before, after]: [f64; 2],
+) {
+    let amplitudes = component.cos.iter().zip(&component.sin);
+    for ((u, v), (cos, sin)) in u.iter_mut().zip(v).zip(amplitudes) {
+        let new = (keep * *v + pull * *u) + (c * cos + s * sin);
+        *u += before * *v + after * new;
+        *v = new;
+    }
+}
+
+/// Adds an impulse, or what follows from one, that opens gap k.
+pub fn push(topology: &Topology, k: usize, impulse: f64, out: &mut [f64]) {
+    let [left, right] = topology.sides(k);
+    let [inverse_left, inverse_right] = topology.inverse_masses(k);
+    out[left] -= impulse * inverse_left;
+    out[right] += impulse * inverse_right;
 }
 
 /// A method with a fixed step.

@@ -1,6 +1,6 @@
 //! Simulates by Moreau–Jean time stepping.
 
-use super::bodies::{Bodies, Stepper, run_steps};
+use super::bodies::{Bodies, Phases, Stepper, push, run_steps};
 use super::method::{Cost, Method, Task};
 use super::steps::Step;
 use super::tally::{Stop, Tally};
@@ -42,7 +42,12 @@ impl Method for MoreauJean {
     }
 
     fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        let begin = |row: &Bodies| Impulses::begin(row, Instant::at(start.time));
+        let begin = |row: &Bodies| Impulses {
+            phases: row.phases(Instant::at(start.time)),
+            forecast: row.u.clone(),
+            active: Vec::new(),
+            touching: Vec::new(),
+        };
         run_steps((scenario, start, until), self.step, sink, begin)
     }
 }
@@ -56,11 +61,10 @@ struct Active {
 }
 
 struct Impulses {
-    /// The forcing at the beginning and at the end of a step.
-    forces: Vec<f64>,
-    later: Vec<f64>,
-    /// Velocities at the beginning of a step.
-    before: Vec<f64>,
+    /// Phases at the beginning of a step.
+    phases: Phases,
+    /// Displacements that the velocities at the beginning of a step give for its middle.
+    forecast: Vec<f64>,
     active: Vec<Active>,
     /// The gaps that had an impulse in the last step.
     touching: Vec<usize>,
@@ -70,26 +74,32 @@ impl Stepper for Impulses {
     fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
         let half = 0.5 * step.h;
         let gaps = row.topology.gaps();
+        for (forecast, (u, v)) in self.forecast.iter_mut().zip(row.u.iter().zip(&row.v)) {
+            *forecast = u + half * v;
+        }
         self.active.clear();
-        if row.any_shut(half) {
-            let shut = (0..gaps).filter(|&k| row.width(k) + half * row.rate(k) <= 0.0);
+        if row.any_shut(&self.forecast) {
+            let shut = (0..gaps).filter(|&k| row.width_at(k, &self.forecast) <= 0.0);
             self.active.extend(shut.map(|k| Active { k, rate: row.rate(k), impulse: 0.0 }));
         }
-        row.forces(step.to, &mut self.later);
         tally.cost.evaluations += row.masses() + gaps as u64;
         let bend = half * half * row.stiffness;
         let lightness = 1.0 / (1.0 + bend);
-        self.before.copy_from_slice(&row.v);
-        let forces = self.forces.iter().zip(&self.later);
-        for ((v, u), (now, later)) in row.v.iter_mut().zip(&row.u).zip(forces) {
-            let pull = half * (now + later) - step.h * row.stiffness * u;
-            *v = ((1.0 - bend) * *v + pull) * lightness;
+        let (later, scale) = (row.phases(step.to), half * lightness);
+        let waves = |i: usize| {
+            let ((sin, cos), (later_sin, later_cos)) = (self.phases[i], later[i]);
+            [scale * (cos + later_cos), scale * (sin + later_sin)]
+        };
+        let pull = -step.h * row.stiffness * lightness;
+        row.fly([(1.0 - bend) * lightness, pull], waves, [half, half]);
+        self.phases = later;
+        if self.active.is_empty() && self.touching.is_empty() {
+            return Ok(());
         }
         self.solve(row, lightness);
-        for ((u, v), before) in row.u.iter_mut().zip(&row.v).zip(&self.before) {
-            *u += half * (v + before);
+        for gap in &self.active {
+            push(&row.topology, gap.k, half * gap.impulse * lightness, &mut row.u);
         }
-        std::mem::swap(&mut self.forces, &mut self.later);
         // A gap with an impulse that had none in the last step has an impact.
         let pressed = || self.active.iter().filter(|gap| gap.impulse > 0.0);
         let before = std::mem::take(&mut self.touching);
@@ -102,18 +112,6 @@ impl Stepper for Impulses {
 }
 
 impl Impulses {
-    fn begin(row: &Bodies, at: Instant) -> Impulses {
-        let mut forces = vec![0.0; row.u.len()];
-        row.forces(at, &mut forces);
-        Impulses {
-            later: forces.clone(),
-            forces,
-            before: row.v.clone(),
-            active: Vec::new(),
-            touching: Vec::new(),
-        }
-    }
-
     /// Solves for the impulses of the active gaps by projected Gauss–Seidel.
     fn solve(&mut self, row: &mut Bodies, lightness: f64) {
         for _ in 0..SWEEPS {
@@ -122,7 +120,8 @@ impl Impulses {
                 let [left, right] = row.topology.inverse_masses(gap.k);
                 let lack = row.rate(gap.k) + row.restitution * gap.rate;
                 let impulse = (gap.impulse - lack / ((left + right) * lightness)).max(0.0);
-                row.push(gap.k, impulse - gap.impulse, lightness);
+                let change_of_rate = (impulse - gap.impulse) * lightness;
+                push(&row.topology, gap.k, change_of_rate, &mut row.v);
                 change = change.max((impulse - gap.impulse).abs());
                 largest = largest.max(impulse);
                 gap.impulse = impulse;

@@ -1,6 +1,6 @@
 //! Simulates contacts by penalty springs.
 
-use super::bodies::{Bodies, Stepper, run_steps};
+use super::bodies::{Bodies, Phases, Stepper, push, run_steps};
 use super::method::{Cost, Method, Task};
 use super::steps::Step;
 use super::tally::{Stop, Tally};
@@ -60,6 +60,7 @@ fn damping_ratio(r: f64) -> f64 {
     -log / (PI * PI + log * log).sqrt()
 }
 
+/// Between steps the velocities of the row are those half of the last step ago.
 struct Springs {
     /// ω_c²: force per overlap and reduced mass.
     stiffness: f64,
@@ -67,9 +68,11 @@ struct Springs {
     damping: f64,
     /// Whether the gap is in an episode of contact.
     touching: Vec<bool>,
-    /// Number of such gaps.
-    contacts: usize,
-    accelerations: Vec<f64>,
+    /// Such gaps, with what opens them.
+    contacts: Vec<(usize, f64)>,
+    phases: Phases,
+    /// Length of the last step.
+    last: f64,
 }
 
 impl Springs {
@@ -77,57 +80,47 @@ impl Springs {
     fn begin(row: &Bodies, at: Instant, step: f64, h: f64) -> Springs {
         let steps = (DURATION / step).sqrt().max(STEPS);
         let contact = PI / (steps * h);
-        let mut springs = Springs {
+        Springs {
             stiffness: contact * contact,
             damping: 2.0 * damping_ratio(row.restitution) * contact,
             touching: vec![false; row.topology.gaps()],
-            contacts: 0,
-            accelerations: vec![0.0; row.u.len()],
-        };
-        springs.push(row, at);
-        springs
-    }
-
-    /// Computes the accelerations at the displacements and velocities of the row.
-    fn push(&mut self, row: &Bodies, at: Instant) {
-        row.accelerations(at, &row.u, &mut self.accelerations);
-        if self.contacts == 0 {
-            return;
-        }
-        for k in (0..self.touching.len()).filter(|&k| self.touching[k]) {
-            let [left, right] = row.topology.sides(k);
-            let [inverse_left, inverse_right] = row.topology.inverse_masses(k);
-            let apart = -(self.stiffness * row.width(k) + self.damping * row.rate(k));
-            let force = apart / (inverse_left + inverse_right);
-            self.accelerations[left] -= force * inverse_left;
-            self.accelerations[right] += force * inverse_right;
+            contacts: Vec::new(),
+            phases: row.phases(at),
+            last: 0.0,
         }
     }
 }
 
 impl Stepper for Springs {
     fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
-        let half = 0.5 * step.h;
-        for ((u, v), a) in row.u.iter_mut().zip(&mut row.v).zip(&self.accelerations) {
-            *v += half * a;
-            *u += step.h * *v;
+        let kick = 0.5 * (self.last + step.h);
+        // The damper uses the velocity in the middle of the last step.
+        for (k, impulse) in &mut self.contacts {
+            let apart = -(self.stiffness * row.width(*k) + self.damping * row.rate(*k));
+            let [left, right] = row.topology.inverse_masses(*k);
+            *impulse = kick * apart / (left + right);
         }
+        for (k, impulse) in self.contacts.drain(..) {
+            push(&row.topology, k, impulse, &mut row.v);
+        }
+        let waves = |i: usize| [kick * self.phases[i].1, kick * self.phases[i].0];
+        row.fly([1.0, -kick * row.stiffness], waves, [0.0, step.h]);
+        (self.phases, self.last) = (row.phases(step.to), step.h);
         tally.cost.evaluations += row.masses() + self.touching.len() as u64;
-        if self.contacts > 0 || row.any_shut(0.0) {
-            for k in 0..self.touching.len() {
-                let (width, speed) = (row.width(k), -row.rate(k));
-                let begins = !self.touching[k] && width < 0.0 && speed > 0.0;
-                if begins {
-                    tally.impact(k, step.to.time(), speed)?;
-                }
-                self.touching[k] = begins || self.touching[k] && width < 0.0;
-            }
-            self.contacts = self.touching.iter().filter(|touching| **touching).count();
+        if !row.any_shut(&row.u) {
+            self.touching.fill(false);
+            return Ok(());
         }
-        // The damper uses the velocity in the middle of the step, half a step ago.
-        self.push(row, step.to);
-        for (v, a) in row.v.iter_mut().zip(&self.accelerations) {
-            *v += half * a;
+        for k in 0..self.touching.len() {
+            let (width, speed) = (row.width(k), -row.rate(k));
+            let begins = !self.touching[k] && width < 0.0 && speed > 0.0;
+            if begins {
+                tally.impact(k, step.to.time(), speed)?;
+            }
+            self.touching[k] = begins || self.touching[k] && width < 0.0;
+            if self.touching[k] {
+                self.contacts.push((k, 0.0));
+            }
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Integrates by Verlet with a flip of velocities.
 
-use super::bodies::{Bodies, Stepper, run_steps};
+use super::bodies::{Bodies, Phases, Stepper, run_steps};
 use super::method::{Cost, Method, Task};
 use super::steps::Step;
 use super::tally::{Stop, Tally};
@@ -31,42 +31,37 @@ impl Method for Verlet {
     }
 
     fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        let begin = |row: &Bodies| Flip::begin(row, Instant::at(start.time));
+        let begin = |row: &Bodies| Flip { phases: row.phases(Instant::at(start.time)), last: 0.0 };
         run_steps((scenario, start, until), self.step, sink, begin)
     }
 }
 
+/// Between steps the velocities of the row are those half of the last step ago, so that each step
+/// goes over the masses once.
 struct Flip {
-    accelerations: Vec<f64>,
-}
-
-impl Flip {
-    fn begin(row: &Bodies, at: Instant) -> Flip {
-        let mut accelerations = vec![0.0; row.u.len()];
-        row.accelerations(at, &row.u, &mut accelerations);
-        Flip { accelerations }
-    }
+    phases: Phases,
+    /// Length of the last step.
+    last: f64,
 }
 
 impl Stepper for Flip {
     fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
-        let half = 0.5 * step.h;
-        for ((u, v), a) in row.u.iter_mut().zip(&mut row.v).zip(&self.accelerations) {
-            *v += half * a;
-            *u += step.h * *v;
-        }
-        row.accelerations(step.to, &row.u, &mut self.accelerations);
-        for (v, a) in row.v.iter_mut().zip(&self.accelerations) {
-            *v += half * a;
-        }
+        let kick = 0.5 * (self.last + step.h);
+        let waves = |i: usize| [kick * self.phases[i].1, kick * self.phases[i].0];
+        row.fly([1.0, -kick * row.stiffness], waves, [0.0, step.h]);
+        (self.phases, self.last) = (row.phases(step.to), step.h);
         let gaps = row.topology.gaps();
         tally.cost.evaluations += row.masses() + gaps as u64;
-        if !row.any_shut(0.0) {
+        if !row.any_shut(&row.u) {
             return Ok(());
         }
         for k in 0..gaps {
-            let speed = -row.rate(k);
-            if row.width(k) < 0.0 && speed > 0.0 {
+            if row.width(k) >= 0.0 {
+                continue;
+            }
+            let [left, right] = row.topology.sides(k).map(|m| row.acceleration(m, &self.phases));
+            let speed = -(row.rate(k) + 0.5 * step.h * (right - left));
+            if speed > 0.0 {
                 row.hit(k, speed);
                 tally.impact(k, step.to.time(), speed)?;
             }
