@@ -92,13 +92,13 @@ impl Run {
     }
 
     /// Advances gap k from now to the zero of f + g s − b s²/2, with a bound b on its second
-    /// derivative.
+    /// derivative; for ever if its amplitudes add up to less than d, until an impact next to it.
     fn advance_gap(&mut self, k: usize, now: Instant, GapState { width, rate, .. }: GapState) {
-        let (f, b) = (width.max(0.0), self.flights.curvature(k));
+        let (f, [reach, b]) = (width.max(0.0), self.flights.bounds(k));
         let root = (rate * rate + 2.0 * b * f).sqrt();
         let s = if rate < 0.0 { 2.0 * f / (root - rate) } else { (rate + root) / b };
-        // A gap that never moves has no zero.
-        let s = if s.is_nan() { LATEST } else { s.clamp(SHORTEST, LATEST) };
+        let is_safe = reach + self.reached < self.flights.spacing;
+        let s = if is_safe { LATEST } else { s.clamp(SHORTEST, LATEST) };
         self.queue.set(k, [now.after(s)]);
     }
 }

@@ -38,6 +38,13 @@ const DENSE: [f64; 7] = [
     69997945.0 / 29380423.0,
 ];
 
+/// The absolute tolerance over the relative one, as in the defaults of solve_ivp in SciPy and of
+/// ode45 in MATLAB, 1e-6 and 1e-3.
+const ABSOLUTE: f64 = 1e-3;
+
+/// Below this an error is rounding, in units of the spacing.
+const LEAST: f64 = 1e-15;
+
 /// One step from `y` to `next`: displacements of all bodies, then their velocities.
 pub struct Stages {
     pub y: Vec<f64>,
@@ -76,7 +83,7 @@ impl Stages {
         let mut sum = 0.0;
         for (i, (y, next)) in self.y.iter().zip(&self.next).enumerate() {
             let error = h * self.weighted(&ERROR, i);
-            let allowed = tolerance * (1.0 + y.abs().max(next.abs()));
+            let allowed = (tolerance * (ABSOLUTE + y.abs().max(next.abs()))).max(LEAST);
             sum += (error / allowed) * (error / allowed);
         }
         (sum / self.y.len() as f64).sqrt()

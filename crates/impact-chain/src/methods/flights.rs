@@ -22,7 +22,7 @@ pub struct GapState {
 /// The masses in flight: x_j = j d + a_j cos ωt + b_j sin ωt + forced response.
 pub struct Flights {
     pub topology: Topology,
-    spacing: f64,
+    pub spacing: f64,
     pub restitution: f64,
     omega: f64,
     rate: Rate,
@@ -96,19 +96,20 @@ impl Flights {
         GapState { s, width, rate }
     }
 
-    /// Bounds the second derivative of gap k: Σ R Ω² over its sinusoids of amplitude R, the free
-    /// part among them.
-    pub fn curvature(&self, k: usize) -> f64 {
+    /// Bounds by how far gap k departs from d, Σ R over its sinusoids of amplitude R, the free part
+    /// among them, and its second derivative, Σ R Ω².
+    pub fn bounds(&self, k: usize) -> [f64; 2] {
         let [left, right] = self.topology.sides(k);
         let length = |x: f64, y: f64| (x * x + y * y).sqrt();
         let [free_left, free_right] = [self.free[left], self.free[right]];
         let free = length(free_right[0] - free_left[0], free_right[1] - free_left[1]);
-        let mut forced = 0.0;
+        let (mut reach, mut curvature) = (free, self.omega * self.omega * free);
         for part in &self.forced {
             let [c, s] = [&part.cos, &part.sin].map(|all| all[right] - all[left]);
-            forced += part.frequency * part.frequency * length(c, s);
+            reach += length(c, s);
+            curvature += part.frequency * part.frequency * length(c, s);
         }
-        INFLATION * (self.omega * self.omega * free + forced)
+        [INFLATION * reach, INFLATION * curvature]
     }
 
     /// Applies the impact law at gap k: a jump of velocity only rotates into the free part.

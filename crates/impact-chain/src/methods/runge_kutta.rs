@@ -13,7 +13,7 @@ use crate::{Error, Sink};
 /// an event, bisected on the dense output; the earliest ends the step, and integration starts
 /// again.
 ///
-/// Absolute and relative tolerance are one number. The next step has 0.9 err^(−1/5) times the
+/// The absolute tolerance is a thousandth of the relative one. The next step has 0.9 err^(−1/5) times the
 /// length of the last, from 1/5 to 5 times; after an event it is the length tried before.
 ///
 /// - Source: Dormand and Prince (1980), J. Comput. Appl. Math. 6, 19; step control and dense output
@@ -26,7 +26,7 @@ use crate::{Error, Sink};
 ///   step of all masses; a chatter ends in the bound on work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RungeKutta {
-    /// Error allowed in a step, absolute and relative.
+    /// Error allowed in a step, relative.
     pub tolerance: f64,
 }
 
