@@ -197,12 +197,12 @@ fn record(scenario: &Scenario, from: f64, until: f64) -> Result<Segment, impact_
         let time = if point == POINTS { until } else { from + point as f64 * step };
         // The engine stops after each impact, because positions are exact only up to the next.
         while let Some(Impact { time, gap, .. }) = engine.next_impact(time)? {
-            let positions = engine.positions(time);
+            let positions = engine.positions(time)?;
             let position = if gap == 0 { 0.0 } else { positions[gap.min(masses) - 1] };
             segment.impacts.push(SegmentImpact { time, gap, position });
             segment.push(time, positions);
         }
-        segment.push(time, engine.positions(time));
+        segment.push(time, engine.positions(time)?);
     }
     Ok(segment)
 }

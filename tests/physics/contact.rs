@@ -23,7 +23,7 @@ fn scene(masses: &[(f64, f64)], forces: &[f64], restitution: f64) -> Scenario {
 /// The gaps in contact at a time, all with a force that presses.
 fn held(engine: &mut Engine, t: f64) -> Vec<usize> {
     assert!(run(engine, t).is_empty(), "an impact before {t}");
-    let contacts = engine.contacts(t);
+    let contacts = engine.contacts(t).unwrap();
     assert!(contacts.iter().all(|c| c.1 >= 0.0), "{contacts:?} at {t}");
     contacts.into_iter().map(|c| c.0).collect()
 }
@@ -54,7 +54,9 @@ fn clusters_are_released_gap_by_gap_where_a_force_changes_its_sign() {
             for t in [after, 0.5 * (from + to), to - 1e-12] {
                 let gaps_held: Vec<usize> = gaps.iter().map(|(gap, ..)| *gap).collect();
                 assert_eq!(held(&mut engine, t), gaps_held, "{forces:?} at {t}");
-                for ((_, force), (_, factor, constant)) in engine.contacts(t).iter().zip(*gaps) {
+                for ((_, force), (_, factor, constant)) in
+                    engine.contacts(t).unwrap().iter().zip(*gaps)
+                {
                     let expected = factor * (2.0 * t).cos() + constant;
                     assert!((force - expected).abs() < 1e-13, "{forces:?} at {t}: {force}");
                 }
@@ -93,12 +95,12 @@ fn three_masses_collapse_in_a_geometric_series() {
         let mut engine = Engine::new(&scene(&masses, &[9.0, 0.0, -9.0], r)).unwrap();
         let impacts = run(&mut engine, 0.1);
         assert!(impacts.len() < 80, "r = {r}: a collapse is cut short, {}", impacts.len());
-        let contacts = engine.contacts(0.1);
+        let contacts = engine.contacts(0.1).unwrap();
         assert_eq!(contacts.iter().map(|c| c.0).collect::<Vec<_>>(), [1, 2], "r = {r}");
         for (_, force) in contacts {
             assert!((force - (9.0 * 0.2f64.cos() - 1.0)).abs() < 1e-12, "force {force}");
         }
-        let x = engine.positions(0.1);
+        let x = engine.positions(0.1).unwrap();
         assert!((x[1] - x[0]).abs() < 2e-15 && (x[2] - x[1]).abs() < 2e-15, "{x:?}");
         if r == 0.0 {
             continue;
@@ -139,10 +141,10 @@ fn without_restitution_a_pair_sticks_only_while_it_is_pressed() {
         let mut engine = Engine::new(&scene(&masses, &[force, -force], 0.0)).unwrap();
         let impacts = run(&mut engine, 0.01);
         assert_eq!(impacts.len(), 1, "force {force}");
-        assert_eq!(engine.contacts(0.01).len(), usize::from(sticks), "force {force}");
+        assert_eq!(engine.contacts(0.01).unwrap().len(), usize::from(sticks), "force {force}");
         // A contact that a force would end as soon as it begins must not begin.
         assert_eq!(engine.counters().contact_phases, u64::from(sticks), "force {force}");
-        let (x, v) = (engine.positions(0.01), engine.velocities(0.01));
+        let (x, v) = (engine.positions(0.01).unwrap(), engine.velocities(0.01).unwrap());
         let rate = v[1] - v[0];
         let s = 0.01 - impacts[0].time;
         let expected = if sticks { 0.0 } else { (1.0 - 2.0 * force) * s };
@@ -189,7 +191,7 @@ fn a_released_gap_is_not_shut_by_rounding() {
             let forces = [pressing + q, -pressing, -q];
             let mut engine = Engine::new(&scene(&[(2.0, 0.0); 3], &forces, 0.8)).unwrap();
             run(&mut engine, 0.7);
-            opened += usize::from(engine.contacts(0.7).iter().all(|c| c.0 != 2));
+            opened += usize::from(engine.contacts(0.7).unwrap().iter().all(|c| c.0 != 2));
             assert!(engine.counters().searches < 1000, "{forces:?}: {:?}", engine.counters());
         }
         assert_eq!(opened, 60, "{pressing}");
@@ -206,10 +208,10 @@ fn long_runs_that_are_released_at_once_part() {
         let place = f64::from(n + 1) / 2.0;
         let masses = vec![(place, 0.0); forces.len()];
         let mut engine = Engine::new(&scene(&masses, &forces, 0.0)).unwrap();
-        assert_eq!(engine.contacts(0.0).len(), forces.len() - 1);
+        assert_eq!(engine.contacts(0.0).unwrap().len(), forces.len() - 1);
         let t = 0.5 * (1.0 / force).acos() + 0.01;
         run(&mut engine, t);
-        assert!(engine.contacts(t).is_empty(), "{n}");
+        assert!(engine.contacts(t).unwrap().is_empty(), "{n}");
         assert!(engine.counters().searches < 20 * n as u64, "{n}: {:?}", engine.counters());
     }
 }
@@ -290,7 +292,7 @@ fn velocities_after_a_collective_hit_are_those_of_the_law() {
                         v
                     }
                 };
-                for (a, b) in engine.velocities(1e-11).iter().zip(&expected) {
+                for (a, b) in engine.velocities(1e-11).unwrap().iter().zip(&expected) {
                     assert!((a - b).abs() < 3e-8, "n = {n}, r = {r}: {a} for {b}");
                 }
             }
@@ -306,7 +308,7 @@ fn a_collective_hit_takes_a_small_power_of_the_masses() {
             let mut masses = vec![(0.0, 0.0); n];
             masses.push((1e-3, -1.0));
             let mut engine = Engine::new(&scene(&masses, &vec![-100.0; n + 1], r)).unwrap();
-            assert_eq!(engine.contacts(0.0).len(), n);
+            assert_eq!(engine.contacts(0.0).unwrap().len(), n);
             let hits = run(&mut engine, 2e-3);
             let first = hits.iter().take_while(|hit| hit.time == hits[0].time).count();
             println!(
@@ -365,7 +367,7 @@ fn an_even_mirror_image_keeps_its_symmetry() {
         let mut engine = Engine::new(&mirror(masses, 0.3, index)).unwrap();
         let impacts = run(&mut engine, 300.0);
         assert!(impacts.len() > 300, "{}", impacts.len());
-        let x = engine.positions(300.0);
+        let x = engine.positions(300.0).unwrap();
         let off = |j: usize| (x[j] + x[masses - 1 - j] - (masses + 1) as f64).abs();
         let worst = (0..masses).map(off).fold(0.0, f64::max);
         // One gap after the other cannot keep that of an odd one, whose middle mass is hit from

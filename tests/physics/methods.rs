@@ -112,8 +112,8 @@ fn runs_stop_and_go_on() {
         engine.run(30.0, |_| true).unwrap();
         let start = State {
             time: 30.0,
-            positions: engine.positions(30.0),
-            velocities: engine.velocities(30.0),
+            positions: engine.positions(30.0).unwrap(),
+            velocities: engine.velocities(30.0).unwrap(),
         };
         let exact = run(&mut engine, 40.0);
         let more: Box<dyn Method> = Box::new(Sampled { step: 0.1 });

@@ -20,7 +20,8 @@ fn with(field: &str) -> String {
 /// Texts that are no scenario, or, without braces, fields of one with a mass; of values with bars
 /// between, each stands there once. And what is said.
 const NO_SCENARIOS: &str = r##"{ => line 1
-[] => forcing
+[] => scenario; a JSON object
+[1,1,1.4] => scenario; a JSON object
 {"a\nb":1} => a b
 {"forcing":[[1,2]],"forcing":[[1,2]]} => forcing; duplicate
 {"forcing":[[nan,1]]} => forcing[0][0]
@@ -39,6 +40,13 @@ const NO_SCENARIOS: &str = r##"{ => line 1
 "boundary":"wall"|null => boundary
 "initial":"start"|{"free":3}|[] => initial
 "initial":{"random":{"sigma":0.1,"seed":-1}} => seed
+"damping":0.1 => damping; not in the model; restitution
+"masses":3 => masses; not in the model; forcing
+"gravity":9.8 => gravity; not in the model; places
+"stiffness":2 => stiffness; not in the model; natural_frequency
+"places":[1,2]|[] => places; give one for each mass
+"initial":{"at":[[1],[0]]} => initial.at; a JSON object
+"initial":{"at":{"positions":[1,2],"velocities":[0]}} => initial.at.positions; 2 values for 1 mass
 "initial":{"at":{"positions":[1]}} => initial.at; missing field `velocities`
 "initial":{"free":[]} => initial.free; 0 pairs for 1 mass
 "initial":{"free":[[0,1e300]]} => initial.free[0]"##;

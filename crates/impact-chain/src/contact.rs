@@ -269,7 +269,8 @@ impl<const M: usize> Simulation<M> {
             let factor = (w - big_w) * (w + big_w);
             [0, 1].map(|i| factor * (right[m][i] - left[m][i]))
         });
-        Force { constant: w * w * self.spacing, forced }
+        let [left, right] = self.topology.sides(k).map(|m| self.shifts[m]);
+        Force { constant: w * w * (self.spacing + (right - left)), forced }
     }
 
     /// Gives the masses along `gaps` (adjacent, left to right) one common motion.
@@ -280,7 +281,7 @@ impl<const M: usize> Simulation<M> {
         let mut common = Motion::STILL;
         // The centre, counted from the first member's place.
         let centre = if let Some(wall) = wall {
-            place(wall)
+            place(wall) + self.shifts[members[wall]]
         } else {
             let share = 1.0 / members.len() as f64;
             for &m in &members {
@@ -292,7 +293,8 @@ impl<const M: usize> Simulation<M> {
                     common[1] += share * part[1];
                 }
             }
-            share * (0..members.len()).map(place).sum::<f64>()
+            let places = members.iter().enumerate().map(|(i, &m)| place(i) + self.shifts[m]);
+            share * places.sum::<f64>()
         };
         for (i, &m) in members.iter().enumerate() {
             if !self.topology.is_wall(m) {
@@ -308,9 +310,10 @@ impl<const M: usize> Simulation<M> {
                 continue;
             }
             let was = self.motions[m];
-            let alone = Motion { forced: self.forced[m], ..Motion::STILL };
+            let offset = self.shifts[m];
+            let alone = Motion { forced: self.forced[m], offset, ..Motion::STILL };
             let (parts, parts_alone) = (was.parts(p), alone.parts(p));
-            let (mut u, mut quadrature) = (was.offset + parts.u, parts.u_quadrature);
+            let (mut u, mut quadrature) = (was.offset - offset + parts.u, parts.u_quadrature);
             for (i, (was, alone)) in parts.forced.iter().zip(parts_alone.forced).enumerate() {
                 let frequencies = &self.search.frequencies;
                 u += was[0] - alone[0];
@@ -378,13 +381,5 @@ impl<const M: usize> Simulation<M> {
         self.gaps[k].origin = self.now;
         self.gaps[k].awaits = awaits;
         self.queue.set(k, [key]);
-    }
-
-    pub fn contacts(&self, time: f64) -> Vec<(usize, f64)> {
-        let p = Phases::at(&self.rates, Instant::at(time));
-        (0..self.gaps.len())
-            .filter(|&k| self.gaps[k].in_contact)
-            .map(|k| (self.topology.label(k), self.forces[k].value(&p)))
-            .collect()
     }
 }

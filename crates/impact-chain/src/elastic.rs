@@ -39,7 +39,9 @@ impl<const M: usize> Simulation<M> {
         // |n|² − 1.
         let excess = (sin * sin + cos * cos - DoubleDouble::ONE).to_f64();
         let free = a * cos + b * sin;
-        let width = (free + DoubleDouble::from(self.spacing)).to_f64() - 0.5 * excess * free.hi;
+        let [before, after] = sides.map(|m| self.shifts[m]);
+        let at_rest = self.spacing + (after - before);
+        let width = (free + DoubleDouble::from(at_rest)).to_f64() - 0.5 * excess * free.hi;
         let late = width / speed;
         let [sin, cos] = [sin + cos * (w * late), cos - sin * (w * late)];
         let rate = b * cos - a * sin;

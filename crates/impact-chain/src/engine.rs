@@ -5,7 +5,7 @@ use super::force::Force;
 use super::impact::{Impact, Sink, collect};
 use super::scenario::COMPONENTS;
 use super::simulation::{Gap, Simulation};
-use super::{Error, Scenario};
+use super::{Error, Scenario, State};
 use crate::search::earliest::Earliest;
 use crate::search::outcome::{Counters, Graze};
 
@@ -82,15 +82,31 @@ impl Engine {
         call!(&mut self.0, simulation => simulation.run(until, sink))
     }
 
-    /// Returns the positions x_1..x_n at `time`, exact between the last event and the next.
-    pub fn positions(&self, time: f64) -> Vec<f64> {
+    /// Returns the positions x_1..x_n at a time from the last event to the next; right after
+    /// [`run`](Engine::run), at the time to which it ran.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a time outside.
+    pub fn positions(&self, time: f64) -> Result<Vec<f64>, Error> {
         call!(&self.0, simulation => simulation.positions(time))
     }
 
-    /// Returns the velocities of the masses 1..n at `time`, exact between the last event and the
-    /// next.
-    pub fn velocities(&self, time: f64) -> Vec<f64> {
+    /// Returns the velocities of the masses 1..n at a time from the last event to the next.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a time outside.
+    pub fn velocities(&self, time: f64) -> Result<Vec<f64>, Error> {
         call!(&self.0, simulation => simulation.velocities(time))
+    }
+
+    /// Returns positions and velocities at a time from the last event to the next. A scenario that
+    /// goes on from there is made by [`State::as_scenario`].
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a time outside.
+    pub fn state(&self, time: f64) -> Result<State, Error> {
+        let (positions, velocities) = (self.positions(time)?, self.velocities(time)?);
+        Ok(State { time, positions, velocities })
     }
 
     /// Returns the free parts (a_j, b_j) of the masses 1..n; those in contact share that of their
@@ -99,9 +115,12 @@ impl Engine {
         call!(&self.0, simulation => simulation.free_parts())
     }
 
-    /// Returns the gaps in contact and their contact forces at `time` (≥ 0 while it lasts), exact
-    /// between the last event and the next.
-    pub fn contacts(&self, time: f64) -> Vec<(usize, f64)> {
+    /// Returns the gaps in contact and their contact forces (≥ 0 while it lasts) at a time from the
+    /// last event to the next.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a time outside.
+    pub fn contacts(&self, time: f64) -> Result<Vec<(usize, f64)>, Error> {
         call!(&self.0, simulation => simulation.contacts(time))
     }
 
@@ -126,7 +145,7 @@ impl Engine {
 /// the next power of two.
 fn bytes<const M: usize>() -> usize {
     size_of::<Motion<M>>()
-        + size_of::<[f64; 2]>()
+        + size_of::<[f64; 3]>()
         + size_of::<[[f64; 2]; M]>()
         + size_of::<Gap<M>>()
         + size_of::<Force<M>>()

@@ -31,6 +31,9 @@ const OVERLAP: f64 = 1e-12;
 /// shut: roundings of amplitudes and sums add up to 5 · 2^-53.
 const SHUT_AT_START: f64 = 4.0 * f64::EPSILON;
 
+/// Rate of a shut gap at t = 0, in units of d ω, up to which rounding explains it: it is at rest.
+pub(crate) const AT_REST: f64 = 1e-12;
+
 impl<const M: usize> Simulation<M> {
     pub fn new(scenario: &Scenario) -> Result<Self, Error> {
         scenario.validate()?;
@@ -38,7 +41,11 @@ impl<const M: usize> Simulation<M> {
         let frequencies = Frequencies::new(w, scenario.frequencies());
         let n = scenario.forcing.len();
         let topology = Topology::new(n, scenario.boundary);
-        let mut motions = vec![Motion::STILL; n + 2];
+        let shifts: Vec<f64> = (0..n + 2).map(|m| scenario.shift(m)).collect();
+        let mut motions = Vec::with_capacity(n + 2);
+        for &offset in &shifts {
+            motions.push(Motion { offset, ..Motion::STILL });
+        }
         let mut responses = vec![[[0.0; 2]; M]; n + 2];
         for j in 0..n {
             let amplitudes = scenario.amplitudes::<M>(j);
@@ -52,7 +59,7 @@ impl<const M: usize> Simulation<M> {
                     .fold([0.0; 2], |[a, b], (big_w, [c, s])| [a - c, b - big_w / w * s]),
                 Initial::Free(parts) => parts[j],
             };
-            motions[j + 1] = Motion { a, b, forced, offset: 0.0 };
+            motions[j + 1] = Motion { a, b, forced, ..motions[j + 1] };
             responses[j + 1] = forced;
         }
         let gap = Gap {
@@ -68,6 +75,7 @@ impl<const M: usize> Simulation<M> {
             search: Search::new(frequencies),
             rates: Rates::new(&frequencies),
             topology,
+            shifts,
             motions,
             remainders: vec![[0.0; 2]; if scenario.restitution == 1.0 { n + 2 } else { 0 }],
             forced: responses,
@@ -96,11 +104,13 @@ impl<const M: usize> Simulation<M> {
                 return Err(Error::Overlap { gap: self.topology.label(k), depth: -frame.f0 });
             }
             let f0 = if frame.f0 <= SHUT_AT_START * self.terms(k) { 0.0 } else { frame.f0 };
-            if f0 == 0.0 && frame.g0 == 0.0 {
+            let slow = AT_REST * self.spacing * self.search.frequencies.omega;
+            let g0 = if f0 == 0.0 && frame.g0.abs() <= slow { 0.0 } else { frame.g0 };
+            if f0 == 0.0 && g0 == 0.0 {
                 shut.push(k);
             }
             if f0 == 0.0 || !self.try_long_wait(k, &phases) {
-                self.set_and_search(k, &phases, f0, frame.g0);
+                self.set_and_search(k, &phases, f0, g0);
             }
         }
         if !shut.is_empty() {
@@ -115,6 +125,7 @@ impl<const M: usize> Simulation<M> {
         let mut sum = self.spacing;
         for side in self.topology.sides(k) {
             let motion = &self.motions[side];
+            sum += motion.offset.abs();
             sum += motion.forced.iter().fold(motion.a.abs(), |sum, [c, _]| sum + c.abs());
         }
         sum

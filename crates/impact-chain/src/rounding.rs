@@ -32,7 +32,15 @@ pub fn width(scenario: &Scenario) -> f64 {
     for j in 0..scenario.forcing.len() {
         largest = largest.max(amplitude(scenario, j));
     }
-    TIME * f64::EPSILON * (scenario.spacing + 2.0 * largest)
+    // A gap that is wider at rest than both amplitudes cannot close.
+    let mut mean = scenario.spacing;
+    if scenario.places.is_some() {
+        for m in 1..scenario.forcing.len() + 2 {
+            let at_rest = (scenario.place(m) - scenario.place(m - 1)).abs();
+            mean = mean.max(at_rest.min(2.0 * largest));
+        }
+    }
+    TIME * f64::EPSILON * (mean + 2.0 * largest)
 }
 
 /// Adds up the free and the forced amplitudes of mass j, counted from 0.

@@ -42,6 +42,10 @@ pub struct Scenario {
     pub forcing: Vec<[f64; 2]>,
     /// Further components of the forcing, Eq. (3); the paper has none.
     pub overtones: Vec<Overtone>,
+    /// Places of equilibrium of the left wall, the masses 1..n and the right wall; none for j d, as
+    /// in the paper. A constant force F on a mass shifts its place by F/ω². On a ring those of the
+    /// walls have no meaning.
+    pub places: Option<Vec<f64>>,
 }
 
 /// A further component of the forcing.
@@ -91,7 +95,18 @@ impl Scenario {
             initial,
             forcing,
             overtones: Vec::new(),
+            places: None,
         }
+    }
+
+    /// Returns the place of equilibrium of body m: a mass, or a wall (0 or n + 1).
+    pub fn place(&self, m: usize) -> f64 {
+        self.places.as_ref().map_or(m as f64 * self.spacing, |places| places[m])
+    }
+
+    /// Returns the distance of the place of body m from m d.
+    pub(crate) fn shift(&self, m: usize) -> f64 {
+        self.place(m) - m as f64 * self.spacing
     }
 
     /// Returns the continuation from `time` when all forces change by `factor`, with time counted

@@ -1,31 +1,41 @@
-//! Reads a scenario from JSON.
+//! Reads a scenario from JSON, and writes one.
 
 use crate::error::{Error, within};
 use crate::scenario::{COMPONENTS, Initial, Overtone, Scenario, draw_pairs};
 use crate::state::State;
 use crate::{Boundary, Chain, Engine};
 use impact_numerics::random::NormalPairs;
-use serde::Deserialize;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::fmt;
+use std::marker::PhantomData;
 
 /// One component: a pair for each mass.
 type Pairs = Vec<[f64; 2]>;
 
 /// The fields of a scenario file.
-#[derive(Deserialize)]
-#[serde(default, deny_unknown_fields, expecting = "a JSON object")]
+#[derive(Deserialize, Serialize)]
+#[serde(default, deny_unknown_fields)]
 struct ScenarioFile {
     spacing: f64,
     natural_frequency: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
     forcing_frequency: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     forcing_frequencies: Option<Vec<f64>>,
     restitution: f64,
     boundary: Boundary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    places: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    walls: Option<[f64; 2]>,
     initial: Start,
     forcing: Forcing,
 }
 
 /// The forcing: one component, or several.
-#[derive(Deserialize)]
+#[derive(Deserialize, Serialize)]
 #[serde(untagged, expecting = "neither a list of pairs [alpha, beta] nor one for each frequency")]
 enum Forcing {
     One(Pairs),
@@ -33,14 +43,53 @@ enum Forcing {
 }
 
 /// The field `initial`.
-#[derive(Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
+#[derive(Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
 enum Start {
     Rest,
     Zero,
     Free(Pairs),
-    At { positions: Vec<f64>, velocities: Vec<f64> },
-    Random { sigma: f64, seed: u64 },
+    At(Object<At>),
+    Random(Object<Random>),
+}
+
+#[derive(Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct At {
+    positions: Vec<f64>,
+    velocities: Vec<f64>,
+}
+
+#[derive(Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Random {
+    sigma: f64,
+    seed: u64,
+}
+
+/// A value whose fields have names: a JSON array is not taken for them by position.
+#[derive(Serialize)]
+#[serde(transparent)]
+struct Object<T>(T);
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Fields<T>(PhantomData<T>);
+
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
+            type Value = Object<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a JSON object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Object<T>, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map)).map(Object)
+            }
+        }
+
+        deserializer.deserialize_map(Fields(PhantomData))
+    }
 }
 
 impl Default for ScenarioFile {
@@ -53,11 +102,23 @@ impl Default for ScenarioFile {
             forcing_frequencies: None,
             restitution: chain.restitution,
             boundary: chain.boundary,
+            places: None,
+            walls: None,
             initial: Start::Rest,
             forcing: Forcing::One(Vec::new()),
         }
     }
 }
+
+/// What people look for in vain, by a part of its name, and what to do instead.
+const NOT_IN_MODEL: [(&str, &str); 6] = [
+    ("damp", "flight is not damped; only impacts take energy out (restitution)"),
+    ("friction", "there is no friction; only impacts take energy out (restitution)"),
+    ("mass", "all masses are 1; the length of forcing is their number"),
+    ("stiff", "all springs are alike and go to the ground; give natural_frequency"),
+    ("gravity", "give places: a constant force F shifts the place of a mass by F/w^2"),
+    ("coupl", "no springs join the masses; they meet in impacts only"),
+];
 
 const REMEDY: &str =
     r#"write {"forcing": [[alpha, beta], ...]}, and other fields where they differ from the paper"#;
@@ -69,7 +130,8 @@ impl Scenario {
     /// `"initial"` is `"rest"`, `"zero"`, `{"free": [[a₁, b₁], …]}`,
     /// `{"at": {"positions": [x₁, …], "velocities": [v₁, …]}}` or
     /// `{"random": {"sigma": σ, "seed": k}}`. Several components are
-    /// `"forcing_frequencies": [Ω₁, …]` with a list of pairs for each.
+    /// `"forcing_frequencies": [Ω₁, …]` with a list of pairs for each. `"places": [p₁, …]` and
+    /// `"walls": [p₀, pₙ₊₁]` are places of equilibrium other than j d.
     ///
     /// # Errors
     /// As [`Engine::new`]; [`Error::Input`] names the field and the remedy.
@@ -89,9 +151,46 @@ impl Scenario {
     }
 }
 
+impl Scenario {
+    /// Writes the scenario as JSON in one line, from which [`Scenario::from_json`] reads the same.
+    pub fn to_json(&self) -> String {
+        let several = !self.overtones.is_empty();
+        let mut frequencies = Vec::new();
+        let mut lists = Vec::new();
+        for (frequency, amplitudes) in self.components() {
+            frequencies.push(frequency);
+            lists.push(amplitudes.to_vec());
+        }
+        let (masses, walls) = match self.places.as_deref() {
+            Some([left, masses @ .., right]) => (Some(masses.to_vec()), Some([*left, *right])),
+            _ => (None, None),
+        };
+        let file = ScenarioFile {
+            spacing: self.spacing,
+            natural_frequency: self.natural_frequency,
+            forcing_frequency: (!several).then_some(self.forcing_frequency),
+            forcing_frequencies: several.then_some(frequencies),
+            restitution: self.restitution,
+            boundary: self.boundary,
+            places: masses,
+            walls,
+            initial: match &self.initial {
+                Initial::Rest => Start::Rest,
+                Initial::Free(parts) => Start::Free(parts.clone()),
+            },
+            forcing: match several {
+                true => Forcing::Several(lists),
+                false => Forcing::One(self.forcing.clone()),
+            },
+        };
+        serde_json::to_string(&file).unwrap_or_default()
+    }
+}
+
 fn parse(text: &str) -> Result<ScenarioFile, Error> {
     let mut reader = serde_json::Deserializer::from_str(text);
-    let file = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+    let read: Result<Object<ScenarioFile>, _> = serde_path_to_error::deserialize(&mut reader);
+    let Object(file) = read.map_err(|error| {
         // A part of the path that has no name is "?".
         let path = error.path().to_string().replace(".?", "");
         let field = match path.as_str() {
@@ -99,7 +198,13 @@ fn parse(text: &str) -> Result<ScenarioFile, Error> {
             "" => "unnamed field",
             named => named,
         };
-        Error::input(field, error.inner().to_string(), REMEDY)
+        let problem = error.inner().to_string();
+        let unknown = problem.strip_prefix("unknown field `");
+        let name = unknown.and_then(|rest| rest.split('`').next()).unwrap_or_default();
+        match NOT_IN_MODEL.iter().find(|(part, _)| name.contains(part)) {
+            Some((_, instead)) => Error::input(field, "it is not in the model", *instead),
+            None => Error::input(field, problem, REMEDY),
+        }
     })?;
     reader.end().map_err(|error| Error::input("scenario", error.to_string(), REMEDY))?;
     Ok(file)
@@ -117,11 +222,11 @@ impl ScenarioFile {
             Start::Rest => Initial::Rest,
             Start::Zero => zero,
             Start::Free(parts) => Initial::Free(parts),
-            Start::At { positions, velocities } => {
+            Start::At(Object(At { positions, velocities })) => {
                 state = Some(State { time: 0.0, positions, velocities });
                 zero
             }
-            Start::Random { sigma, seed } => {
+            Start::Random(Object(Random { sigma, seed })) => {
                 within("initial.random.sigma", sigma, 0.0, 1e9)?;
                 let mut normals = NormalPairs::new("trace", seed, 0);
                 Initial::Free(draw_pairs(masses, sigma, &mut normals))
@@ -138,12 +243,38 @@ impl ScenarioFile {
             overtones: components
                 .map(|(frequency, amplitudes)| Overtone { frequency, amplitudes })
                 .collect(),
+            places: places(masses, self.spacing, self.places, self.walls)?,
         };
-        match state {
-            Some(state) => state.as_scenario(&scenario),
-            None => Ok(scenario),
-        }
+        let Some(state) = state else { return Ok(scenario) };
+        state.as_scenario(&scenario).map_err(|error| match error {
+            Error::Input { field, problem, remedy }
+                if ["positions", "velocities"].contains(&field.as_str()) =>
+            {
+                Error::input(format!("initial.at.{field}"), problem, remedy)
+            }
+            error => error,
+        })
     }
+}
+
+/// Returns the places of all bodies if any are given.
+fn places(
+    masses: usize,
+    spacing: f64,
+    places: Option<Vec<f64>>,
+    walls: Option<[f64; 2]>,
+) -> Result<Option<Vec<f64>>, Error> {
+    if places.is_none() && walls.is_none() {
+        return Ok(None);
+    }
+    let regular = (1..=masses).map(|j| j as f64 * spacing).collect();
+    let places: Vec<f64> = places.unwrap_or(regular);
+    if places.len() != masses {
+        let problem = format!("it has {} places for {masses} masses", places.len());
+        return Err(Error::input("places", problem, "give one for each mass"));
+    }
+    let [left, right] = walls.unwrap_or([0.0, (masses + 1) as f64 * spacing]);
+    Ok(Some([vec![left], places, vec![right]].concat()))
 }
 
 /// Returns the components of the forcing with their frequencies.

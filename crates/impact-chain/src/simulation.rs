@@ -1,5 +1,6 @@
 //! Holds the state of a simulation, and keeps the frame and the next event of each gap.
 
+use super::error::Error;
 use super::flight::{Motion, Phases, Rates};
 use super::force::Force;
 use super::impact::jumps;
@@ -42,6 +43,8 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) search: Search<M>,
     pub(super) rates: Rates<M>,
     pub(super) topology: Topology,
+    /// The distance of the place of each body from m d: 0 in the paper.
+    pub(super) shifts: Vec<f64>,
     /// Masses 1..n; 0 and n + 1 are the walls.
     pub(super) motions: Vec<Motion<M>>,
     /// Low words of their free parts as double-doubles; empty unless r = 1 (`elastic`).
@@ -213,21 +216,44 @@ impl<const M: usize> Simulation<M> {
         true
     }
 
+    /// Returns the phases at a time from the last event to the next.
+    fn phases_in_flight(&self, time: f64) -> Result<Phases<M>, Error> {
+        let (_, next) = self.queue.first_in_full(|_| 0.0);
+        let (from, to) = (self.now.time(), next.time());
+        if (from..=to).contains(&time) {
+            return Ok(Phases::at(&self.rates, Instant::at(time)));
+        }
+        let problem = format!("{time:?} is not between the last event and the next");
+        let remedy = format!("give {from:?} to {to:?}, or run the engine to that time first");
+        Err(Error::input("time", problem, remedy))
+    }
+
     // These three are documented in `Engine`, under the same names.
-    pub fn positions(&self, time: f64) -> Vec<f64> {
-        let phases = Phases::at(&self.rates, Instant::at(time));
+    pub fn positions(&self, time: f64) -> Result<Vec<f64>, Error> {
+        let phases = self.phases_in_flight(time)?;
         let mut positions = Vec::with_capacity(self.motions.len());
         for (j, motion) in self.masses() {
             let centre = j as f64 * self.spacing + motion.offset;
             positions.push(centre + motion.parts(&phases).displacement());
         }
-        positions
+        Ok(positions)
     }
 
-    pub fn velocities(&self, time: f64) -> Vec<f64> {
-        let phases = Phases::at(&self.rates, Instant::at(time));
+    pub fn velocities(&self, time: f64) -> Result<Vec<f64>, Error> {
+        let phases = self.phases_in_flight(time)?;
         let frequencies = &self.search.frequencies;
-        self.masses().map(|(_, motion)| motion.parts(&phases).velocity(frequencies)).collect()
+        Ok(self.masses().map(|(_, motion)| motion.parts(&phases).velocity(frequencies)).collect())
+    }
+
+    pub fn contacts(&self, time: f64) -> Result<Vec<(usize, f64)>, Error> {
+        let phases = self.phases_in_flight(time)?;
+        let mut contacts = Vec::new();
+        for (k, gap) in self.gaps.iter().enumerate() {
+            if gap.in_contact {
+                contacts.push((self.topology.label(k), self.forces[k].value(&phases)));
+            }
+        }
+        Ok(contacts)
     }
 
     pub fn free_parts(&self) -> Vec<[f64; 2]> {

@@ -1,6 +1,7 @@
 //! Describes a state of the masses at any time, and the scenario that starts there.
 
 use crate::error::{Error, within};
+use crate::events::AT_REST;
 use crate::forcing::{response_at_zero, rotate_phases};
 use crate::scenario::{Initial, Scenario};
 use crate::search::clock::{Instant, LATEST};
@@ -34,14 +35,15 @@ impl State {
                     [a + x, w * b + v]
                 }
             };
-            state.positions.push((j + 1) as f64 * scenario.spacing + u);
+            state.positions.push(scenario.place(j + 1) + u);
             state.velocities.push(v);
         }
         state
     }
 
-    /// Returns the displacements of all bodies from their places j d, from the left wall (0) to the
-    /// right one (n + 1), with gaps that overlap by no more than rounding shut exactly.
+    /// Returns the displacements of all bodies from their places, from the left wall (0) to the
+    /// right one (n + 1). Gaps that overlap by no more than rounding are shut exactly, and so are
+    /// gaps at rest that are as narrow.
     ///
     /// # Errors
     /// [`Error::Input`] for a scenario or a state outside the model, [`Error::Overlap`] for a gap
@@ -53,18 +55,23 @@ impl State {
         let d = scenario.spacing;
         let mut u = vec![0.0; self.positions.len() + 2];
         for (j, x) in self.positions.iter().enumerate() {
-            u[j + 1] = x - (j + 1) as f64 * d;
+            u[j + 1] = x - scenario.place(j + 1);
         }
+        let slow = AT_REST * d * scenario.natural_frequency;
         for k in 0..topology.gaps() {
             let [left, right] = topology.sides(k);
-            let width = d + (u[right] - u[left]);
-            if width >= 0.0 {
-                continue;
-            }
+            let at_rest = d + (scenario.shift(right) - scenario.shift(left));
+            let width = at_rest + (u[right] - u[left]);
             let place = (k + 1) as f64 * d + u[left].abs().max(u[right].abs());
-            let speed = |m: usize| self.velocities.get(m.wrapping_sub(1)).map_or(0.0, |v| v.abs());
-            if width < -self.rounding(place, speed(left).max(speed(right))) {
+            let velocity =
+                |m: usize| self.velocities.get(m.wrapping_sub(1)).copied().unwrap_or(0.0);
+            let [before, after] = [left, right].map(velocity);
+            let rounding = self.rounding(place, before.abs().max(after.abs()));
+            if width < -rounding {
                 return Err(Error::Overlap { gap: topology.label(k), depth: -width });
+            }
+            if width > rounding || width >= 0.0 && (after - before).abs() > slow {
+                continue;
             }
             if topology.is_wall(right) {
                 u[left] += width;
@@ -82,12 +89,12 @@ impl State {
     }
 
     fn validate(&self, n: usize) -> Result<(), Error> {
-        within("start.time", self.time, 0.0, LATEST)?;
+        within("time", self.time, 0.0, LATEST)?;
         for (field, values) in [("positions", &self.positions), ("velocities", &self.velocities)] {
             if values.len() != n || values.iter().any(|x| !x.is_finite()) {
                 let problem = format!("{} values for {n} masses", values.len());
                 let remedy = "give one finite number for each mass";
-                return Err(Error::input(format!("start.{field}"), problem, remedy));
+                return Err(Error::input(field, problem, remedy));
             }
         }
         Ok(())

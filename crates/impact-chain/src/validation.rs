@@ -5,6 +5,16 @@ use crate::rounding;
 use crate::scenario::{COMPONENTS, Initial, Scenario};
 
 impl Scenario {
+    /// Checks that the places are the paper's, j d, which most methods take for granted.
+    #[cfg(feature = "ensembles")]
+    pub(crate) fn check_uniform(&self) -> Result<(), Error> {
+        let problem = "only the method certified supports places of equilibrium";
+        match self.places {
+            None => Ok(()),
+            Some(_) => Err(Error::input("places", problem, "leave it out, or use that method")),
+        }
+    }
+
     /// Checks every field against the model.
     ///
     /// # Errors
@@ -33,6 +43,15 @@ impl Scenario {
         }
         if let Initial::Free(free) = &self.initial {
             pairs_within("initial.free", free, masses)?;
+        }
+        if let Some(places) = &self.places {
+            if places.len() != masses + 2 {
+                let problem = format!("it has {} places for {masses} masses", places.len());
+                return Err(Error::input("places", problem, "give one for each mass and wall"));
+            }
+            for &place in places {
+                within("places", place, -1e9, 1e9)?;
+            }
         }
         let (width, largest) = (rounding::width(self), rounding::LARGEST * self.spacing);
         if width <= largest {

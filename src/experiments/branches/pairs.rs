@@ -143,12 +143,10 @@ pub(super) fn exponent(pairs: &[Pair], without: Option<usize>) -> Option<f64> {
 }
 
 /// Returns the interval of an estimate from independent chains, with Student's t.
-pub(super) fn interval(estimate: Option<Estimate>, chains: usize) -> [f64; 2] {
-    let quantile = student_quantile(LEVEL, chains.saturating_sub(1));
-    let Some((Estimate { value, error, .. }, quantile)) = estimate.zip(quantile) else {
-        return [f64::NAN; 2];
-    };
-    [value - quantile * error, value + quantile * error]
+pub(super) fn interval(estimate: Option<Estimate>, chains: usize) -> Option<[f64; 2]> {
+    let quantile = student_quantile(LEVEL, chains.saturating_sub(1))?;
+    let Estimate { value, error, .. } = estimate?;
+    Some([value - quantile * error, value + quantile * error])
 }
 
 #[cfg(test)]
@@ -191,7 +189,7 @@ mod tests {
             let pair = pair(500.0, &rest, &above);
             let found = pair.estimate(distance).unwrap();
             squares += found.error * found.error / SAMPLES as f64;
-            let [from, to] = interval(Some(found), CHAINS);
+            let [from, to] = interval(Some(found), CHAINS).unwrap();
             inside += u64::from((from..to).contains(&0.2));
         }
         // 4000 mean squares with 11 degrees of freedom: known to √(2/11/4000) = 0.7 %. Resampling

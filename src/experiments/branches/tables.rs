@@ -72,8 +72,8 @@ fn laws(lengths: &[&[Pair]]) -> Table {
         })
         .computed_by(origin(exponent))
         .estimate("exponent", "1", LAW, |pairs| law(pairs))
-        .real("exponent_from", "1", 2, "lower end of its interval", |pairs| ends(pairs)[0])
-        .real("exponent_to", "1", 2, "upper end of its interval", |pairs| ends(pairs)[1])
+        .real("exponent_from", "1", 2, "lower end of its interval", |pairs| Some(ends(pairs)?[0]))
+        .real("exponent_to", "1", 2, "upper end of its interval", |pairs| Some(ends(pairs)?[1]))
         .estimate("early", "1", "the same over the first two transients", |pairs| {
             jackknife(pairs[0].chains(), |without| exponent(first_two(pairs), without))
         })

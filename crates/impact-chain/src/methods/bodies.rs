@@ -31,6 +31,7 @@ pub struct Bodies {
 
 impl Bodies {
     pub fn new(scenario: &Scenario, start: &State) -> Result<Bodies, Error> {
+        scenario.check_uniform()?;
         let u = start.displacements(scenario)?;
         let masses = scenario.forcing.len();
         let mut row = Bodies {

@@ -36,6 +36,7 @@ pub type FlightPhases = ((f64, f64), [(f64, f64); COMPONENTS]);
 
 impl Flights {
     pub fn new(scenario: &Scenario, start: &State) -> Result<Flights, Error> {
+        scenario.check_uniform()?;
         let u = start.displacements(scenario)?;
         let w = scenario.natural_frequency;
         let mut flights = Flights {

@@ -40,8 +40,9 @@ impl Method for Truth {
         if !scenario.overtones.is_empty() {
             return Err(refused("forcing_frequencies", "truth supports one frequency only"));
         }
+        scenario.check_uniform()?;
         let engine = Engine::new(&start.as_scenario(scenario)?)?;
-        if !engine.contacts(0.0).is_empty() {
+        if !engine.contacts(0.0)?.is_empty() {
             return Err(refused("initial", "a gap is in contact, which truth does not support"));
         }
         let slow = CONTACT_SPEED * scenario.spacing * scenario.natural_frequency;
