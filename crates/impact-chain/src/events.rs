@@ -31,8 +31,12 @@ const OVERLAP: f64 = 1e-12;
 /// shut: roundings of amplitudes and sums add up to 5 · 2^-53.
 const SHUT_AT_START: f64 = 4.0 * f64::EPSILON;
 
-/// Rate of a shut gap at t = 0, in units of d ω, up to which rounding explains it: it is at rest.
+/// Rate of a shut gap at t = 0, over the speed of the faster of its sides, up to which rounding
+/// explains it: it is at rest.
 pub(crate) const AT_REST: f64 = 1e-12;
+
+/// The same over the sum of the terms of these speeds.
+const AT_REST_OF_TERMS: f64 = 64.0 * f64::EPSILON;
 
 impl<const M: usize> Simulation<M> {
     pub fn new(scenario: &Scenario) -> Result<Self, Error> {
@@ -104,8 +108,8 @@ impl<const M: usize> Simulation<M> {
                 return Err(Error::Overlap { gap: self.topology.label(k), depth: -frame.f0 });
             }
             let f0 = if frame.f0 <= SHUT_AT_START * self.terms(k) { 0.0 } else { frame.f0 };
-            let slow = AT_REST * self.spacing * self.search.frequencies.omega;
-            let g0 = if f0 == 0.0 && frame.g0.abs() <= slow { 0.0 } else { frame.g0 };
+            let at_rest = f0 == 0.0 && frame.g0.abs() <= self.rounding_of_rate(k, &phases);
+            let g0 = if at_rest { 0.0 } else { frame.g0 };
             if f0 == 0.0 && g0 == 0.0 {
                 shut.push(k);
             }
@@ -129,6 +133,21 @@ impl<const M: usize> Simulation<M> {
             sum += motion.forced.iter().fold(motion.a.abs(), |sum, [c, _]| sum + c.abs());
         }
         sum
+    }
+
+    /// Returns the rate of gap k at t = 0 that rounding explains.
+    fn rounding_of_rate(&self, k: usize, phases: &Phases<M>) -> f64 {
+        let frequencies = &self.search.frequencies;
+        let (mut fastest, mut terms) = (0.0_f64, 0.0);
+        for side in self.topology.sides(k) {
+            let motion = &self.motions[side];
+            fastest = fastest.max(motion.parts(phases).velocity(frequencies).abs());
+            terms += frequencies.omega * motion.b.abs();
+            for (big_omega, [_, s]) in frequencies.big_omegas.iter().zip(&motion.forced) {
+                terms += big_omega * s.abs();
+            }
+        }
+        AT_REST * fastest + AT_REST_OF_TERMS * terms
     }
 
     pub fn run(&mut self, until: f64, sink: Sink) -> Result<(), Error> {

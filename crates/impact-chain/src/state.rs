@@ -57,7 +57,6 @@ impl State {
         for (j, x) in self.positions.iter().enumerate() {
             u[j + 1] = x - scenario.place(j + 1);
         }
-        let slow = AT_REST * d * scenario.natural_frequency;
         for k in 0..topology.gaps() {
             let [left, right] = topology.sides(k);
             let at_rest = d + (scenario.shift(right) - scenario.shift(left));
@@ -66,11 +65,12 @@ impl State {
             let velocity =
                 |m: usize| self.velocities.get(m.wrapping_sub(1)).copied().unwrap_or(0.0);
             let [before, after] = [left, right].map(velocity);
-            let rounding = self.rounding(place, before.abs().max(after.abs()));
+            let fastest = before.abs().max(after.abs());
+            let rounding = self.rounding(place, fastest);
             if width < -rounding {
                 return Err(Error::Overlap { gap: topology.label(k), depth: -width });
             }
-            if width > rounding || width >= 0.0 && (after - before).abs() > slow {
+            if width > rounding || width >= 0.0 && (after - before).abs() > AT_REST * fastest {
                 continue;
             }
             if topology.is_wall(right) {

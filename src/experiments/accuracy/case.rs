@@ -146,16 +146,10 @@ impl Case {
         State { time, positions, velocities }
     }
 
-    /// Returns both as a method takes them: from t = 0 it is a first start and not a restart, which
-    /// takes slow gaps to be at rest.
-    fn task(&self) -> Result<(Scenario, State), Failure> {
-        let (chain, start) = (self.chain()?, self.state());
-        Ok((if start.time == 0.0 { start.as_scenario(&chain)? } else { chain }, start))
-    }
-
     /// Runs a method and judges its impacts. The run ends as soon as the outcome is known.
     pub fn run(&self, method: &dyn Method) -> Outcome {
-        let Ok((scenario, start)) = self.task() else { return Outcome::Refused };
+        let Ok(scenario) = self.chain() else { return Outcome::Refused };
+        let start = self.state();
         let mut seen = Vec::new();
         let ran = method.run((&scenario, &start, self.until), &mut |impact| {
             if self.expected.counts(&impact) {
