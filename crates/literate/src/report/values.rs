@@ -115,7 +115,12 @@ pub fn read(text: &str) -> Result<Registry, Error> {
     let values: BTreeMap<String, Value> =
         serde_json::from_str(text).map_err(|e| fault(e.to_string()))?;
     let mut registry = Registry::default();
-    registry.extend(values.into_values()).map_err(|e| fault(e.to_string()))?;
+    for value in values.into_values() {
+        if !value.is_finite() {
+            return Err(fault(Error::NotFinite(value.id).to_string()));
+        }
+        registry.put(value);
+    }
     Ok(registry)
 }
 
