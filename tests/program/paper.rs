@@ -204,7 +204,7 @@ fn a_rerun_finds_what_the_list_cannot() {
         "differs  report.html",
         "unlisted data/more.csv",
     ];
-    assert_eq!(lines, names.map(|name| format!("rerun: {name}")).collect::<Vec<_>>());
+    assert_eq!(lines, names.map(|name| format!("rerun: {name}")));
 
     // What is lost or new is named without a rerun.
     fs::remove_file(here.join("r/data/fig02.csv")).unwrap();

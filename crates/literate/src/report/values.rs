@@ -114,14 +114,7 @@ pub fn read(text: &str) -> Result<Registry, Error> {
     let fault = |what: String| Error::Template(format!("values.json: {what}"));
     let values: BTreeMap<String, Value> =
         serde_json::from_str(text).map_err(|e| fault(e.to_string()))?;
-    let mut registry = Registry::default();
-    for value in values.into_values() {
-        if !value.is_finite() {
-            return Err(fault(Error::NotFinite(value.id).to_string()));
-        }
-        registry.put(value);
-    }
-    Ok(registry)
+    Ok(Registry { values, ..Registry::default() })
 }
 
 #[cfg(test)]
