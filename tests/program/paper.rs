@@ -186,15 +186,25 @@ fn a_rerun_finds_what_the_list_cannot() {
     let (old, new) = (digest(&before), digest(format!("{before}9\n")));
     let more = format!("{}  data/more.csv\n", digest(""));
     edit("SHA256SUMS", &|list| list.replace(&old, &new) + &more);
+    let (code, told, _) = crate::run(here, "verify r");
+    assert_eq!((code, &*told), (1, "differs  report.html\n"));
+    let page = fs::read_to_string(here.join("r/report.html")).unwrap();
+    let [old, new] = [&page[..page.len() - 1], &page].map(digest);
+    edit("SHA256SUMS.built", &|list| list.replace(&old, &new));
     assert!(answer(here, "verify r").ends_with(" files, all as SHA256SUMS lists them\n"));
     let (code, told, note) =
         crate::run(here, &format!("verify r --rerun --results saved {templates}"));
     assert_eq!(code, 1, "{told}{note}");
-    assert!(note.contains("4 files; `paper --out r --force --profile quick "), "{note}");
+    assert!(note.contains("5 files; `paper --out r --force --profile quick "), "{note}");
     let lines: Vec<&str> = told.lines().skip(1).collect();
-    let names = ["differs  SHA256SUMS", "differs  data/fig02.csv", "differs  report.html"];
-    let names = names.into_iter().chain(["unlisted data/more.csv"]);
-    assert_eq!(lines, names.map(|name| format!("rerun: {name}")).collect::<Vec<_>>());
+    let names = [
+        "differs  SHA256SUMS",
+        "differs  SHA256SUMS.built",
+        "differs  data/fig02.csv",
+        "differs  report.html",
+        "unlisted data/more.csv",
+    ];
+    assert_eq!(lines, names.map(|name| format!("rerun: {name}")));
 
     // What is lost or new is named without a rerun.
     fs::remove_file(here.join("r/data/fig02.csv")).unwrap();

@@ -8,7 +8,7 @@ use super::edition::{Document, Edition};
 use super::error::Error;
 use super::filled::{Filled, Places};
 use super::filler::Filler;
-use super::folder::{self, Files, Report, SUMS};
+use super::folder::{self, BUILT, Files, Report, SUMS};
 use super::input::{Input, LAB};
 use super::labels::Labels;
 use super::ledger::{EquationEntry, Ledger};
@@ -58,6 +58,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let Input { edition, project, experiments, .. } = *input;
     let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
     report.generated.extend(html::shared::files(&shown, cards, input, &labels)?);
+    report.generated.insert(BUILT.into(), folder::sums(&report.generated).into_bytes());
     Ok(report)
 }
 

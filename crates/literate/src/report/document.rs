@@ -188,8 +188,7 @@ pub fn in_one_line(words: &str) -> String {
 }
 
 /// Splits a text of an author, `3 $\times$ 4`, into words and formulas. A dollar sign alone, and
-/// one
-/// that Markdown would not take for mathematics, as in `$5 and $6`, is a word.
+/// one that Markdown would not take for mathematics, as in `$5 and $6`, is a word.
 pub fn words_and_maths(text: &str) -> Vec<Inline> {
     let (mut out, mut words, mut rest) = (Vec::new(), String::new(), text);
     while let Some((before, after)) = rest.split_once('$') {

@@ -1,16 +1,20 @@
 //! Writes a report into a folder, without overwriting files that somebody edited, and compares the
 //! two.
 //!
-//! SHA256SUMS lists every committed file, in the format of `sha256sum`. Pages and figures for LaTeX
-//! are generated each time and are not listed.
+//! Two lists in the format of `sha256sum` name every file: SHA256SUMS those that are committed, and
+//! SHA256SUMS.built those that are built beside them and may be absent, such as pages and figures
+//! for LaTeX. The second is built too: it says what was last written here.
 
 use crate::input::{self, STAGING, WRITING, is_absent, remedy, sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::Path;
 
-/// The list, in the folder.
+/// The list of committed files, in the folder.
 pub const SUMS: &str = "SHA256SUMS";
+
+/// The list of files that are built beside them.
+pub const BUILT: &str = "SHA256SUMS.built";
 
 /// Paths relative to the report's folder, and their bytes.
 pub type Files = BTreeMap<String, Vec<u8>>;
@@ -20,7 +24,7 @@ pub type Files = BTreeMap<String, Vec<u8>>;
 pub struct Report {
     /// Files that are committed; SHA256SUMS covers them.
     pub committed: Files,
-    /// Files that are not committed: pages, figures/*.pdf for LaTeX.
+    /// Files that are not committed: pages, figures/*.pdf for LaTeX; SHA256SUMS.built covers them.
     pub generated: Files,
 }
 
@@ -68,8 +72,12 @@ pub fn read_sums(text: &str) -> Option<Digests> {
     let entry = |line: &str| {
         let (digest, path) = line.split_once("  ")?;
         let of_report = match path.split_once('/') {
-            None => [".md", ".tex", ".json"].iter().any(|end| path.ends_with(end)),
-            Some((folder, name)) => ["data", "figures"].contains(&folder) && !name.contains('/'),
+            None => [".md", ".tex", ".json", ".html", ".css", ".js"]
+                .iter()
+                .any(|end| path.ends_with(end)),
+            Some((folder, name)) => {
+                ["data", "figures", "fonts"].contains(&folder) && !name.contains('/')
+            }
         };
         (of_report && digest.len() == 64).then(|| (path.to_string(), digest.to_string()))
     };
@@ -119,15 +127,20 @@ pub fn is_generated(path: &str) -> bool {
             "figures" => name.ends_with(".pdf"),
             _ => folder == "fonts",
         },
-        None => [".html", ".css", ".js"].iter().any(|end| path.ends_with(end)),
+        None => path == BUILT || [".html", ".css", ".js"].iter().any(|end| path.ends_with(end)),
     }
 }
 
-/// The digests in the list of a folder. None if the folder has other files and no list.
+/// Reads a list of a folder; none if it is not there or not a list.
+fn list(folder: &Path, name: &str) -> Option<Digests> {
+    read_sums(&String::from_utf8(read(folder, name).ok()?).ok()?)
+}
+
+/// The digests of committed files in the list of a folder. None if the folder has other files and
+/// no list.
 fn ours(folder: &Path) -> Result<Option<Digests>, Error> {
-    let list = || read_sums(&String::from_utf8(read(folder, SUMS).ok()?).ok()?);
     let is_empty = names(folder)?.iter().all(|name| name.starts_with(STAGING));
-    Ok(list().or_else(|| is_empty.then(Digests::new)))
+    Ok(list(folder, SUMS).or_else(|| is_empty.then(Digests::new)))
 }
 
 /// Refuses a folder that has no report, and names files that were edited: those whose bytes are
@@ -135,8 +148,10 @@ fn ours(folder: &Path) -> Result<Option<Digests>, Error> {
 /// checked.
 pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
     let place = || folder.display().to_string();
-    let ours = ours(folder)?.ok_or_else(|| Error::NotOurs(place()))?;
-    let paths = ours.keys().filter(|_| whole).chain(files.keys()).filter(|path| *path != SUMS);
+    let mut ours = ours(folder)?.ok_or_else(|| Error::NotOurs(place()))?;
+    ours.extend(list(folder, BUILT).unwrap_or_default());
+    let paths = ours.keys().filter(|_| whole).chain(files.keys());
+    let paths = paths.filter(|path| ![SUMS, BUILT].contains(&path.as_str()));
     let is_edited = |path: &&String| match read(folder, path) {
         Ok(bytes) => ours.get(*path) != Some(&sha256(&bytes)) && files.get(*path) != Some(&bytes),
         Err(error) => !is_absent(&error),
@@ -147,19 +162,21 @@ pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
 }
 
 /// Writes files: first all into a temporary folder, then each is renamed into its place, the list
-/// last. If the list is among them they are a whole report, and files that only the old list names
-/// are removed; else their lines are added to the old list. `generated` are pages and figures for
-/// LaTeX, which are on no list. Unless forced, it refuses first.
+/// lists last. If the list is among them they are a whole report, and files that only the old lists
+/// name are removed; else their lines are added to the old list. `generated` are pages and figures
+/// for LaTeX, with their list. Unless forced, it refuses first.
 pub fn write(folder: &Path, files: &Files, generated: &Files, force: bool) -> Result<(), Error> {
     let whole = files.contains_key(SUMS);
+    let new: Files = files.iter().chain(generated).map(|(a, b)| (a.clone(), b.clone())).collect();
     if !force {
-        refuse(folder, files, whole)?;
+        refuse(folder, &new, whole)?;
     }
-    let mut list = ours(folder)?.unwrap_or_default();
-    let gone = |path: &&String| whole && !files.contains_key(*path) && folder.join(path).exists();
-    let gone: Vec<String> = list.keys().filter(gone).cloned().collect();
-    list.retain(|_, _| !whole);
-    list.extend(digests(files.iter().filter(|(path, _)| *path != SUMS)));
+    let (mut committed, built) = (ours(folder)?.unwrap_or_default(), list(folder, BUILT));
+    let gone = |path: &&String| whole && !new.contains_key(*path) && folder.join(path).exists();
+    let old = committed.keys().chain(built.iter().flat_map(BTreeMap::keys));
+    let gone: Vec<String> = old.filter(gone).cloned().collect();
+    committed.retain(|_, _| !whole);
+    committed.extend(digests(files.iter().filter(|(path, _)| *path != SUMS)));
 
     let _moment = WRITING.read();
     std::fs::create_dir_all(folder).map_err(failed(folder))?;
@@ -172,9 +189,11 @@ pub fn write(folder: &Path, files: &Files, generated: &Files, force: bool) -> Re
         let above = place.parent().map_or(Ok(()), std::fs::create_dir_all);
         above.and_then(|()| how(&place)).map_err(failed(&folder.join(path)))
     };
-    let (name, list) = (SUMS.to_string(), lines(&list).into_bytes());
-    let mut all: Vec<_> = files.iter().filter(|(path, _)| *path != SUMS).chain(generated).collect();
-    all.push((&name, &list));
+    let (name, sums) = (SUMS.to_string(), lines(&committed).into_bytes());
+    let is_list = |path: &str| [SUMS, BUILT].contains(&path);
+    let mut all: Vec<_> = new.iter().filter(|(path, _)| !is_list(path)).collect();
+    all.extend(generated.get_key_value(BUILT));
+    all.push((&name, &sums));
     for (path, bytes) in &all {
         put(staged.path(), path, &|place| std::fs::write(place, bytes))?;
     }
@@ -203,17 +222,17 @@ fn faults(folder: &Path, expected: &Digests) -> Result<Vec<String>, Error> {
     Ok(expected.iter().filter_map(fault).chain(strange).collect())
 }
 
-/// Compares a folder with its list; returns how many files the list names, and a line for each
-/// fault.
+/// Compares a folder with its lists; returns how many files these name, and a line for each fault.
+/// Files that are built may be missing.
 pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
     let place = folder.join(SUMS);
     let text = input::regular_text(&place).map_err(failed(&place))?;
-    let list = read_sums(&text).ok_or_else(|| Error::NoList(folder.display().to_string()))?;
-    let passed = |fault: &String| {
-        fault.strip_prefix("unlisted ").is_some_and(|path| path == SUMS || is_generated(path))
-    };
-    let faults = faults(folder, &list)?.into_iter().filter(|fault| !passed(fault)).collect();
-    Ok((list.len(), faults))
+    let mut all = read_sums(&text).ok_or_else(|| Error::NoList(folder.display().to_string()))?;
+    all.extend(list(folder, BUILT).unwrap_or_default());
+    all.retain(|path, _| !is_generated(path) || folder.join(path).exists());
+    let mut faults = faults(folder, &all)?;
+    faults.retain(|fault| ![SUMS, BUILT].iter().any(|list| *fault == format!("unlisted {list}")));
+    Ok((all.len(), faults))
 }
 
 impl Report {
@@ -241,9 +260,10 @@ mod tests {
     }
 
     fn report(pairs: &[(&str, &str)]) -> Report {
-        let mut committed = files(pairs);
+        let (mut committed, mut generated) = (files(pairs), files(&[("report.html", "page")]));
         committed.insert(SUMS.into(), sums(&committed).into_bytes());
-        Report { committed, generated: files(&[("report.html", "page")]) }
+        generated.insert(BUILT.into(), sums(&generated).into_bytes());
+        Report { committed, generated }
     }
 
     fn standing(folder: &Path) -> Files {
@@ -267,13 +287,28 @@ mod tests {
         new.write(folder, false).unwrap();
         let notes = files(&[("notes.txt", "by hand")]);
         assert_eq!(standing(folder), whole(&new).into_iter().chain(notes).collect());
-        assert_eq!(verify(folder).unwrap(), (2, vec!["unlisted notes.txt".into()]));
+        assert_eq!(verify(folder).unwrap(), (3, vec!["unlisted notes.txt".into()]));
         // A figure alone: the list has it from then on.
         let figure = files(&[("figures/fig01.svg", "drawn")]);
         write(folder, &figure, &Files::new(), false).unwrap();
         write(folder, &files(&[("figures/fig01.svg", "again")]), &Files::new(), false).unwrap();
         fs::remove_file(folder.join("notes.txt")).unwrap();
-        assert_eq!(verify(folder).unwrap(), (3, Vec::new()));
+        assert_eq!(verify(folder).unwrap(), (4, Vec::new()));
+        // A page is listed too; in a clone it is absent.
+        fs::write(folder.join("report.html"), "edited").unwrap();
+        assert_eq!(verify(folder).unwrap().1, ["differs  report.html"]);
+        assert!(
+            matches!(new.write(folder, false), Err(Error::Edited(_, names)) if names == ["report.html"])
+        );
+        for lost in ["report.html", BUILT] {
+            fs::remove_file(folder.join(lost)).unwrap();
+            assert_eq!(verify(folder).unwrap(), (3, Vec::new()), "{lost}");
+        }
+        fs::write(folder.join("report.html"), "by hand").unwrap();
+        assert_eq!(verify(folder).unwrap().1, ["unlisted report.html"]);
+        assert!(matches!(new.write(folder, false), Err(Error::Edited(..))));
+        new.write(folder, true).unwrap();
+        assert_eq!(standing(folder), whole(&new));
     }
 
     #[test]

@@ -255,6 +255,17 @@ mod tests {
     }
 
     #[test]
+    fn the_manual_lists_every_macro() {
+        let manual = include_str!("../manual.md");
+        for name in ALLOWED.split_whitespace().filter(|name| !["begin", "end"].contains(name)) {
+            assert!(
+                manual.split([' ', '\n', '{', '`']).any(|word| word == format!("\\{name}")),
+                "{name}"
+            );
+        }
+    }
+
+    #[test]
     fn nothing_that_stops_pdflatex_is_left() {
         assert_eq!(
             text("50 % of σ ≥ 1–2 «x_1»").unwrap(),

@@ -114,9 +114,7 @@ pub fn read(text: &str) -> Result<Registry, Error> {
     let fault = |what: String| Error::Template(format!("values.json: {what}"));
     let values: BTreeMap<String, Value> =
         serde_json::from_str(text).map_err(|e| fault(e.to_string()))?;
-    let mut registry = Registry::default();
-    registry.extend(values.into_values()).map_err(|e| fault(e.to_string()))?;
-    Ok(registry)
+    Ok(Registry { values, ..Registry::default() })
 }
 
 #[cfg(test)]

@@ -300,8 +300,15 @@ fn a_report_is_all_its_files() {
     let sum = "5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv\n";
     assert!(text("SHA256SUMS").contains(sum), "{}", text("SHA256SUMS"));
     let generated = report.generated.keys().filter(|path| !path.starts_with("fonts/"));
-    let expected =
-        ["cards.js", "figures/fig03.pdf", "report.css", "report.html", "report.js", "search.js"];
+    let expected = [
+        "SHA256SUMS.built",
+        "cards.js",
+        "figures/fig03.pdf",
+        "report.css",
+        "report.html",
+        "report.js",
+        "search.js",
+    ];
     assert_eq!(generated.collect::<Vec<_>>(), expected);
     assert_eq!(assembled(PROSE).unwrap(), report);
 }
