@@ -5,9 +5,11 @@ use impact_chain::{Chain, Engine, Error, NormalPairs, Scenario, State};
 const STEP: f64 = 1e-4;
 
 fn energy(state: &State, scenario: &Scenario) -> f64 {
-    let one =
-        |(j, (x, v)): (usize, (&f64, &f64))| 0.5 * (v * v + (x - scenario.place(j + 1)).powi(2));
-    state.positions.iter().zip(&state.velocities).enumerate().map(one).sum()
+    let mut sum = 0.0;
+    for (j, (x, v)) in state.positions.iter().zip(&state.velocities).enumerate() {
+        sum += 0.5 * (v * v + (x - scenario.place(j + 1)).powi(2));
+    }
+    sum
 }
 
 fn power(state: &State, scenario: &Scenario) -> f64 {
@@ -15,25 +17,23 @@ fn power(state: &State, scenario: &Scenario) -> f64 {
     scenario.forcing.iter().zip(&state.velocities).map(|([a, b], v)| (a * cos + b * sin) * v).sum()
 }
 
-/// Change of energy, work, loss.
+/// Change of energy, work, and loss in impacts: of v²/2 at a wall, of v²/4 between masses.
 fn balance(scenario: &Scenario, until: f64) -> Result<[f64; 3], Error> {
     let mut engine = Engine::new(scenario)?;
-    let (mut work, mut loss) = (0.0, 0.0);
-    let mut before = engine.state(0.0)?;
+    let (mut work, mut loss, mut before) = (0.0, 0.0, State::of(scenario));
     for step in 1..=(until / STEP) as u32 {
         let time = f64::from(step) * STEP;
         engine.run(time, |impact| {
-            // Of v²/2 at a wall, of v²/4 between masses.
             let share = if [0, scenario.forcing.len()].contains(&impact.gap) { 0.5 } else { 0.25 };
             loss += share * (1.0 - scenario.restitution.powi(2)) * impact.closing_speed.powi(2);
             true
         })?;
-        let state = engine.state(time)?;
-        work += 0.5 * STEP * (power(&before, scenario) + power(&state, scenario));
-        before = state;
+        let after = engine.state(time)?;
+        work += 0.5 * STEP * (power(&before, scenario) + power(&after, scenario));
+        before = after;
     }
-    let first = energy(&State::of(scenario), scenario);
-    Ok([energy(&before, scenario) - first, work, loss])
+    let change = energy(&before, scenario) - energy(&State::of(scenario), scenario);
+    Ok([change, work, loss])
 }
 
 fn main() -> Result<(), Error> {
