@@ -1,8 +1,8 @@
 //! The verb `sweep`: runs an ensemble and prints a row for each σ.
 
-use super::range::within;
+use super::range::{Values, values, within};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
-use impact_chain::rise;
+use impact_chain::rise::{Mean, RisePoint};
 use impact_chain::{Boundary, Chain, Counts, Engine, Ensemble, Protocol, Start};
 use impact_chain::{Graze, LATEST};
 use impact_paper::experiments::Progress;
@@ -12,36 +12,47 @@ use literate::Failure;
 use literate::cli::terminal::{Threads, print, progress, warn};
 use literate::experiments::cutting::Cutting;
 use literate::figures::{DataFile, shortest};
-use std::sync::Arc;
+use std::ops::Range;
 
 /// Run an ensemble of random chains at each σ and print a row for each σ
 ///
 /// Examples:
 ///   sweep --sigma 0.08..0.16:0.01
 ///   sweep --sigma 0.12,0.13 --masses 1000 --realisations 100
+///   sweep --sigma 0.12 --realisations 1000..2000 --transient 100,500 --window 200,1000
 ///
 /// Read in a row how many distinct gaps impact in the window (T, T + W]; realisations without any
-/// are not kept. Realisation i has the same standard normals at every σ. Rows come together at the
-/// end. Standard error names realisations that the engine ended early, and rows with more than a
-/// tenth of the starts rejected.
+/// are not kept. Realisation i has the same standard normals at every σ. All windows are read from
+/// one run. Rows come together at the end. Standard error names realisations that the engine ended
+/// early, rows with more than a tenth of the starts rejected, or with more than one in a hundred
+/// impacts at the instant of another, and grazes that rounding could not decide.
 #[derive(clap::Args)]
-#[command(verbatim_doc_comment)]
+#[command(verbatim_doc_comment, after_help = help())]
 pub struct Args {
     /// Standard deviations: a list 0.1,0.12 or a range A..B:STEP (B included when hit).
-    #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true, value_parser = sigmas)]
-    sigma: Sigmas,
+    #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true, value_parser = values(0.0, 1e6))]
+    sigma: Values,
     /// Number of masses n.
     #[arg(long, value_name = "n", default_value_t = 100, value_parser = at_least_one)]
     masses: usize,
-    /// Realisations at each σ.
-    #[arg(long, value_name = "R", default_value_t = 1000, value_parser = at_least_one)]
-    realisations: usize,
-    /// Transient T that is dropped, in units of 1/ω.
-    #[arg(long, value_name = "T", default_value = "500", value_parser = within(0.0, LATEST), allow_hyphen_values = true)]
-    transient: f64,
-    /// Window W in which impacts are counted, in units of 1/ω.
-    #[arg(long, value_name = "W", default_value = "200", value_parser = within(1e-3, LATEST), allow_hyphen_values = true)]
-    window: f64,
+    /// Realisations at each σ: their number, or A..B for those from A up to B − 1.
+    #[arg(long, value_name = "R|A..B", default_value = "1000", value_parser = realisations)]
+    realisations: Range<u64>,
+    /// Transients T that are dropped, in units of time: a list or a range.
+    #[arg(long, value_name = "T", default_value = "500", value_parser = values(0.0, LATEST), allow_hyphen_values = true)]
+    transient: Values,
+    /// Windows W in which impacts are counted, in units of time: a list or a range.
+    #[arg(long, value_name = "W", default_value = "200", value_parser = values(1e-3, LATEST), allow_hyphen_values = true)]
+    window: Values,
+    /// Natural frequency ω.
+    #[arg(long, value_name = "w", default_value = "1", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
+    natural_frequency: f64,
+    /// Forcing frequency Ω, different from ω [default: √2].
+    #[arg(long, value_name = "W", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
+    forcing_frequency: Option<f64>,
+    /// Distance d of the places of the masses.
+    #[arg(long, value_name = "d", default_value = "1", value_parser = within(1e-6, 1e6), allow_hyphen_values = true)]
+    spacing: f64,
     /// Coefficient of restitution r.
     #[arg(long, value_name = "r", default_value = "0.8", value_parser = within(0.0, 1.0), allow_hyphen_values = true)]
     restitution: f64,
@@ -58,33 +69,57 @@ pub struct Args {
     threads: Threads,
 }
 
-/// A list of σ, which is one value of the command line.
-type Sigmas = std::sync::Arc<[f64]>;
-
 fn at_least_one(text: &str) -> Result<usize, String> {
     let number: Option<usize> = text.parse().ok();
     number.filter(|&n| n > 0).ok_or_else(|| "give a whole number, 1 or more".into())
 }
 
-/// A printed row.
-struct Row {
-    sigma: f64,
-    realisations: usize,
-    kept: usize,
-    rejected: usize,
-    mean_distinct: Option<f64>,
-    standard_error: Option<f64>,
-    mode_distinct: Option<usize>,
-    impacts_per_time: Option<f64>,
-    impacts: u64,
-    near_simultaneous: u64,
-    slow: u64,
-    contact_phases: u64,
+/// Reads a number of realisations, or the range of their numbers.
+fn realisations(text: &str) -> Result<Range<u64>, String> {
+    let (from, to) = text.split_once("..").unwrap_or(("0", text));
+    let range = from.parse().ok().zip(to.parse().ok()).map(|(from, to)| from..to);
+    let some = range.filter(|range: &Range<u64>| !range.is_empty());
+    some.ok_or_else(|| "give a whole number, 1 or more, or a range A..B".into())
+}
+
+/// The columns of a row, and what they hold.
+const COLUMNS: [(&str, &str); 18] = [
+    ("sigma", "standard deviation of the amplitudes"),
+    ("realisations", "chains drawn"),
+    ("kept", "those with an impact in the window"),
+    ("rejected", "those whose start overlaps"),
+    ("mean_distinct", "different gaps with an impact in the window, mean of the kept"),
+    ("standard_error", "of this mean"),
+    ("mode_distinct", "most frequent number of the kept, the lowest of several"),
+    ("impacts_per_time", "impacts in the window over W, mean of the kept"),
+    ("impacts", "impacts of whole runs, transients too"),
+    ("near_simultaneous", "those within 1e-9 of one in a gap next to it"),
+    ("slow", "those with a closing speed below 1e-8"),
+    ("contact_phases", "times that a gap came to rest in contact"),
+    ("mean_all", "different gaps with an impact, mean of all that ran"),
+    ("standard_error_all", "of this mean"),
+    ("simultaneous", "impacts at exactly the instant of one in a gap next to it"),
+    ("undecided", "grazes that rounding could not decide, taken for misses"),
+    ("transient", "T"),
+    ("window", "W"),
+];
+
+/// The text below the options in `--help`.
+fn help() -> String {
+    let mut text = "Columns:\n".to_string();
+    for (name, meaning) in COLUMNS {
+        text += &format!("  {name:<19} {meaning}\n");
+    }
+    text
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
+    let default = Chain::default();
     let chain = Chain {
         masses: args.masses,
+        spacing: args.spacing,
+        natural_frequency: args.natural_frequency,
+        forcing_frequency: args.forcing_frequency.unwrap_or(default.forcing_frequency),
         restitution: args.restitution,
         boundary: if args.boundary == "ring" { Boundary::Ring } else { Boundary::Walls },
         start: match args.initial.as_str() {
@@ -92,14 +127,28 @@ pub fn run(args: Args) -> Result<(), Failure> {
             "random" => Start::Random,
             _ => Start::Rest,
         },
-        ..Chain::default()
     };
+    if chain.forcing_frequency == chain.natural_frequency {
+        let what =
+            "--forcing-frequency: it equals the natural frequency (resonance); choose another";
+        return Err(Failure::input(what));
+    }
+    let mut protocols = Vec::new();
+    for &transient in &*args.transient {
+        for &window in &*args.window {
+            protocols.push(Protocol { transient, window });
+        }
+    }
+    let end = protocols.iter().map(Protocol::end).fold(0.0, f64::max);
+    let number = usize::try_from(args.realisations.end - args.realisations.start);
+    let realisations = number.unwrap_or(usize::MAX);
     let ensemble = Ensemble {
         name: "sweep".into(),
         chain,
-        protocols: vec![Protocol { transient: args.transient, window: args.window }],
+        protocols,
         sigmas: args.sigma.to_vec(),
-        realisations: args.realisations,
+        first: args.realisations.start,
+        realisations,
         stream: "sweep".into(),
         seed: args.seed,
         ..Ensemble::default()
@@ -108,56 +157,21 @@ pub fn run(args: Args) -> Result<(), Failure> {
     // counts.
     let threads = args.threads.number() as u128;
     let chain = Engine::memory(args.masses, 1) + 64 * args.masses as u128;
-    let needed = threads * chain + (1 << 10) * args.realisations as u128;
+    let needed = threads * chain + (1 << 10) * realisations as u128;
     fits(needed)?;
-    if args.transient + args.window > LATEST {
+    if end > LATEST {
         return Err(Failure::input(
             "--transient, --window: they end after t = 1e12; give shorter ones",
         ));
     }
     let progress = progress();
     let rows = args.threads.run(|| rows(ensemble, &progress))?;
-    print(&table(&rows))
+    let header = COLUMNS.map(|(name, _)| name.to_string()).into();
+    print(&DataFile { name: "sweep.csv".into(), header, rows }.csv())
 }
 
-/// Returns the rows as CSV; a number that there is not is an empty cell.
-fn table(rows: &[Row]) -> String {
-    let columns = [
-        "sigma",
-        "realisations",
-        "kept",
-        "rejected",
-        "mean_distinct",
-        "standard_error",
-        "mode_distinct",
-        "impacts_per_time",
-        "impacts",
-        "near_simultaneous",
-        "slow",
-        "contact_phases",
-    ];
-    let real = |value: Option<f64>| value.map_or_else(String::new, shortest);
-    let cells = |row: &Row| {
-        vec![
-            shortest(row.sigma),
-            row.realisations.to_string(),
-            row.kept.to_string(),
-            row.rejected.to_string(),
-            real(row.mean_distinct),
-            real(row.standard_error),
-            row.mode_distinct.map_or_else(String::new, |mode| mode.to_string()),
-            real(row.impacts_per_time),
-            row.impacts.to_string(),
-            row.near_simultaneous.to_string(),
-            row.slow.to_string(),
-            row.contact_phases.to_string(),
-        ]
-    };
-    let rows = rows.iter().map(cells).collect();
-    DataFile { name: "sweep.csv".into(), header: columns.map(String::from).into(), rows }.csv()
-}
-
-fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Row>, Failure> {
+/// Returns the rows, one for each σ and window.
+fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Vec<String>>, Failure> {
     let cutting: Cutting<Vec<Ensemble>, Counts, Vec<Counts>> = Cutting {
         rows: CUTTING.rows,
         part: CUTTING.part,
@@ -167,11 +181,18 @@ fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Row>, Failure> {
     };
     let all = vec![ensemble];
     let counts = cutting.run(&all, "sweep", progress)?;
-    let row = |(&sigma, counts): (&f64, &Counts)| row(&all[0], sigma, counts);
-    Ok(all[0].sigmas.iter().zip(&counts).map(row).collect())
+    let mut rows = Vec::new();
+    for (&sigma, counts) in all[0].sigmas.iter().zip(&counts) {
+        warn_of_doubts(&all[0], sigma, counts);
+        for window in 0..all[0].protocols.len() {
+            rows.push(row(&all[0], sigma, counts, window));
+        }
+    }
+    Ok(rows)
 }
 
-fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Row {
+/// Names what makes the rows of a σ doubtful.
+fn warn_of_doubts(ensemble: &Ensemble, sigma: f64, counts: &Counts) {
     let (all, rejected) = (ensemble.realisations, counts.rejected);
     if counts.failed > 0 {
         let failed = counts.failed;
@@ -200,21 +221,35 @@ fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts) -> Row {
             total.undecided
         ));
     }
-    let row = rise::RisePoint::new(sigma, counts, 0, ensemble.chain.gaps(), [None; 2]);
-    Row {
-        sigma,
-        realisations: all,
-        kept: row.kept,
-        rejected,
-        mean_distinct: row.mean.map(|mean| mean.value),
-        standard_error: row.mean.and_then(|mean| mean.error),
-        mode_distinct: row.mode,
-        impacts_per_time: row.impacts.map(|mean| mean.value / ensemble.protocols[0].window),
-        impacts: total.impacts,
-        near_simultaneous: total.near[NEAR_DECADES.len() - 1],
-        slow: total.slow[SLOW_DECADES.len() - 1],
-        contact_phases: total.contact_phases,
-    }
+}
+
+/// Returns the cells of a row; a number that there is not is an empty cell.
+fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts, window: usize) -> Vec<String> {
+    let row = RisePoint::new(sigma, counts, window, ensemble.chain.gaps(), [None; 2]);
+    let (protocol, total) = (ensemble.protocols[window], &counts.total);
+    let real = |value: Option<f64>| value.map_or_else(String::new, shortest);
+    let value = |mean: Option<Mean>| real(mean.map(|mean| mean.value));
+    let error = |mean: Option<Mean>| real(mean.and_then(|mean| mean.error));
+    vec![
+        shortest(sigma),
+        ensemble.realisations.to_string(),
+        row.kept.to_string(),
+        counts.rejected.to_string(),
+        value(row.mean),
+        error(row.mean),
+        row.mode.map_or_else(String::new, |mode| mode.to_string()),
+        real(row.impacts.map(|mean| mean.value / protocol.window)),
+        total.impacts.to_string(),
+        total.near[NEAR_DECADES.len() - 1].to_string(),
+        total.slow[SLOW_DECADES.len() - 1].to_string(),
+        total.contact_phases.to_string(),
+        value(row.mean_all),
+        error(row.mean_all),
+        total.simultaneous.to_string(),
+        total.undecided.to_string(),
+        shortest(protocol.transient),
+        shortest(protocol.window),
+    ]
 }
 
 /// Refuses what needs more memory than there is, in bytes.
@@ -232,60 +267,4 @@ fn fits(needed: u128) -> Result<(), Failure> {
     Err(Failure::input(format!(
         "--masses, --realisations: about {needed} of memory are needed and {available} are available; use fewer"
     )))
-}
-
-/// A range with this many values or more is taken for a mistake.
-const MOST_VALUES: f64 = 1e5;
-
-/// Reads a list or a range of standard deviations, in units of d ω².
-///
-/// A range is A + i·STEP, rounded to the decimals of A and STEP, so that 0.1..0.2:0.02 holds the
-/// same double 0.12 as a list does; B belongs to it when it is hit within STEP/1000.
-///
-/// # Errors
-/// One line with what is wrong and what to write.
-fn sigmas(text: &str) -> Result<Arc<[f64]>, String> {
-    // With larger ones rounding would hide the spacing of 1 (see `impact_chain::rounding`).
-    let number = |text: &str| within(0.0, 1e6)(text).map_err(|what| format!("{text:?}: {what}"));
-    let Some((from, rest)) = text.split_once("..") else {
-        return text.split(',').map(number).collect();
-    };
-    let (to, step) = rest.split_once(':').ok_or("the range has no step; write A..B:STEP")?;
-    let [a, b, h] = [number(from)?, number(to)?, number(step)?];
-    let steps = ((b - a) / h + 1e-3).floor();
-    if !(0.0..MOST_VALUES).contains(&steps) {
-        return Err("write a range of 1 to 100000 values, the smaller end first: A..B:STEP".into());
-    }
-    let decimals = |text: &str| match text.trim().split_once('.') {
-        _ if text.contains(['e', 'E']) => 17,
-        Some((_, decimals)) => decimals.len(),
-        None => 0,
-    };
-    let places = decimals(from).max(decimals(step));
-    let value = |i: u32| number(&format!("{:.places$}", a + f64::from(i) * h));
-    (0..=steps as u32).map(value).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::sigmas;
-
-    #[test]
-    fn lists_and_ranges() {
-        let read = |text: &str| sigmas(text).unwrap().to_vec();
-        assert_eq!(read("0.1,0.12"), [0.1, 0.12]);
-        assert_eq!(read(" 0.3 "), [0.3]);
-        // 0.1 + 0.02 is 0.12000000000000001 in binary; in decimals it is 0.12.
-        assert_eq!(read("0.1..0.14:0.02"), [0.1, 0.12, 0.14]);
-        assert_eq!(read("0.1..0.15:0.02"), [0.1, 0.12, 0.14]);
-        assert_eq!(read("0..0.001:5e-4"), [0.0, 5e-4, 1e-3]);
-        assert_eq!(read("0.12..0.12:1"), [0.12]);
-        // Three steps of 0.033333 end 1e−6 below 0.1: not short by STEP/1000.
-        assert_eq!(read("0..0.1:0.033333").len(), 4);
-        assert_eq!(read("0..0.1:0.03334").len(), 4);
-        assert_eq!(read("0..0.1:0.0334").len(), 3);
-        for wrong in ["0.2..0.1:0.01", "0.1..0.2:0", "0.1..0.2", "x", "0..1e6:1", "-0.1", "NaN"] {
-            assert!(sigmas(wrong).is_err(), "{wrong}");
-        }
-    }
 }

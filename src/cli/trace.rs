@@ -1,26 +1,37 @@
 //! The verb `trace`: runs one scenario and prints its impacts.
 
-use super::range::within;
+use super::range::{Values, values, within};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use impact_chain::LATEST;
 use impact_chain::State;
 use impact_chain::methods::Cost;
-use impact_chain::{Error, Graze, Impact, Scenario, rounding};
+use impact_chain::{Engine, Error, Graze, Impact, Scenario, rounding};
 use impact_paper::experiments::alive;
 use impact_paper::params::MethodName;
 use literate::Failure;
 use literate::cli::terminal::{warn, written as printed};
 use literate::input::{self, one_line, plain};
-use std::io::{self, Write};
+use std::fmt::{self, Write as _};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-/// Print the impacts of one scenario as CSV: time, gap, closing speed
+/// Print the impacts of a scenario as CSV: time, gap, closing speed
+///
+/// Masses 1..n in a row, each on a spring to its own place: between impacts
+///   x_j'' = w^2 (j d - x_j) + alpha_j cos Wt + beta_j sin Wt.
+/// Where neighbours meet, their velocities jump: the gap opens at r times the speed at which it
+/// closed, and momentum is kept. All masses are 1; walls, at 0 and (n + 1) d, do not move. Times
+/// are in units of 1/w, lengths of d, if these are 1. Not in the model: damping, springs between
+/// masses, unequal masses or springs, friction, a law for three at once (pairs are hit in turn).
 ///
 /// Examples:
 ///   trace chain.json --until 100
 ///   trace - --until 100 --max-impacts 20 < chain.json
+///   trace chain.json --at 0..100:0.5
+///   trace - --lines --until 100 < chains.jsonl
 ///   trace chain.json --until 100 --method verlet --step 0.01
 ///   trace chain.json --until 100 --method truth
 ///
@@ -46,8 +57,17 @@ pub struct Args {
     #[arg(value_name = "SCENARIO.json")]
     scenario: PathBuf,
     /// Stop at this time.
-    #[arg(long, value_name = "T", value_parser = within(0.0, LATEST), allow_hyphen_values = true)]
-    until: f64,
+    #[arg(long, value_name = "T", value_parser = within(0.0, LATEST), allow_hyphen_values = true,
+        required_unless_present = "at")]
+    until: Option<f64>,
+    /// Print time, mass, position and velocity at these times instead: a list, rising, or a range.
+    #[arg(long, value_name = "A..B:STEP|LIST", value_parser = values(0.0, LATEST), allow_hyphen_values = true,
+        conflicts_with_all = ["until", "max_impacts"])]
+    at: Option<Values>,
+    /// Read a scenario from each line; a first column has the number of the line. Each is answered
+    /// before the next is read.
+    #[arg(long)]
+    lines: bool,
     /// Stop after this many impacts.
     #[arg(long, value_name = "M")]
     max_impacts: Option<u64>,
@@ -129,6 +149,8 @@ const SCENARIO_HELP: &str = r#"The scenario, with the defaults of everything but
 Several components of the forcing, 8 at most:
    "forcing_frequencies": [W_1, W_2, ...], "forcing": [[[alpha_1, beta_1], ...], [[...], ...], ...]
 boundary: "walls" or "ring".
+places:   [p_1, ..., p_n] instead of j d, and "walls": [left, right] instead of [0, (n + 1) d]: gaps of any width,
+          a wall far away, constant forces F (they shift a place by F/w^2).
 initial:  "rest" (at equilibrium), "zero" (no free part),
           {"free": [[a_1, b_1], ...]} (x_j = j d + a_j cos wt + b_j sin wt + forced response),
           {"at": {"positions": [x_1, ...], "velocities": [v_1, ...]}} (from the left wall),
@@ -139,88 +161,201 @@ initial:  "rest" (at equilibrium), "zero" (no free part),
 const BLOCK: usize = 16 << 10;
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    let (name, scenario) = read(&args.scenario)?;
-    let (method, start) = (args.method.with(setting(&args)?), State::of(&scenario));
-    let (mut out, mut lines) = (io::stdout().lock(), String::new());
-    let mut written = Ok(());
-    let mut header = "time,gap,closing_speed\n";
-    let mut all = 0;
+    if args.at.is_some() && args.method != MethodName::Certified {
+        return Err(Failure::input("--at: only the method certified prints states; leave it out"));
+    }
+    if args.at.as_ref().is_some_and(|times| !times.is_sorted()) {
+        return Err(Failure::input("--at: the times fall; give rising ones"));
+    }
+    let header = match (&args.at, args.lines) {
+        (None, false) => "time,gap,closing_speed\n",
+        (None, true) => "scenario,time,gap,closing_speed\n",
+        (Some(_), false) => "time,mass,position,velocity\n",
+        (Some(_), true) => "scenario,time,mass,position,velocity\n",
+    };
+    let mut printer = Printer {
+        out: io::stdout().lock(),
+        lines: String::new(),
+        header,
+        prefix: String::new(),
+        written: Ok(()),
+    };
     let latest = Arc::new(AtomicU64::new(0));
     let _alive = alive({
         let latest = Arc::clone(&latest);
         move || Some(format!("trace: at t = {:?}", f64::from_bits(latest.load(Relaxed))))
     });
-    let most = args.max_impacts.unwrap_or(u64::MAX);
-    let mut sink = |Impact { time, gap, closing_speed }: Impact| {
-        latest.store(time.to_bits(), Relaxed);
-        if all < most {
-            // A run that is refused at its start prints nothing.
-            lines.push_str(std::mem::take(&mut header));
-            lines.push_str(&format!("{time:?},{gap},{closing_speed:?}\n"));
-            all += 1;
-            if lines.len() >= BLOCK {
-                written = out.write_all(lines.as_bytes());
-                lines.clear();
-            }
-        }
-        all < most && written.is_ok()
+    let piped = args.scenario == Path::new("-");
+    let name = if piped { "standard input".into() } else { args.scenario.display().to_string() };
+    let unread = |error: io::Error| {
+        Failure::input(format!("{name}: {error}; give a scenario, see `trace --help`"))
     };
-    let until = if most == 0 { 0.0 } else { args.until };
-    let ran = method.run((&scenario, &start, until), &mut sink);
+    if !args.lines {
+        let path = &args.scenario;
+        let text = if piped { input::read_from(io::stdin()) } else { input::read(path) };
+        return trace(&args, &name, &text.map_err(unread)?, &mut printer, &latest);
+    }
+    let mut file: Box<dyn BufRead> = if piped {
+        Box::new(io::stdin().lock())
+    } else {
+        Box::new(BufReader::new(File::open(&args.scenario).map_err(unread)?))
+    };
+    for number in 1.. {
+        let mut line = Vec::new();
+        (&mut file).take(LONGEST).read_until(b'\n', &mut line).map_err(unread)?;
+        if line.is_empty() {
+            break;
+        }
+        let name = format!("{name}, line {number}");
+        printer.prefix = format!("{number},");
+        let text = input::read_from(line.as_slice()).map_err(unread)?;
+        trace(&args, &name, &text, &mut printer, &latest)?;
+    }
+    printed(printer.flush())
+}
+
+/// The longest line of a scenario, in bytes.
+const LONGEST: u64 = 64 << 20;
+
+/// Prints rows in blocks of whole lines.
+struct Printer {
+    out: StdoutLock<'static>,
+    lines: String,
+    /// The first line, until it is printed.
+    header: &'static str,
+    /// What each row begins with.
+    prefix: String,
+    written: io::Result<()>,
+}
+
+impl Printer {
+    fn row(&mut self, row: fmt::Arguments) {
+        // A run that is refused at its start prints nothing.
+        self.lines.push_str(std::mem::take(&mut self.header));
+        let _ = writeln!(self.lines, "{}{row}", self.prefix);
+        if self.lines.len() >= BLOCK && self.written.is_ok() {
+            self.written = self.out.write_all(self.lines.as_bytes());
+            self.lines.clear();
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        std::mem::replace(&mut self.written, Ok(()))?;
+        self.out.write_all(self.lines.as_bytes())?;
+        self.lines.clear();
+        self.out.flush()
+    }
+}
+
+/// Runs the scenario of a text and prints its impacts, or its states at the times that are asked
+/// for.
+fn trace(
+    args: &Args,
+    name: &str,
+    text: &str,
+    printer: &mut Printer,
+    latest: &AtomicU64,
+) -> Result<(), Failure> {
+    let scenario = Scenario::from_json(text).map_err(|error| in_file(name, error))?;
+    let mut cost = Cost::default();
+    let ran = match &args.at {
+        Some(times) => states(&scenario, times, printer, latest, &mut cost),
+        None => impacts(args, &scenario, printer, latest, &mut cost)?,
+    };
     if ran.is_ok() {
-        lines.push_str(header);
+        printer.lines.push_str(std::mem::take(&mut printer.header));
     }
     // What was found before a run was stopped is printed.
-    if let Err(error) =
-        written.and_then(|()| out.write_all(lines.as_bytes())).and_then(|()| out.flush())
-    {
+    if let Err(error) = printer.flush() {
         return printed(Err(error));
     }
-    if let Ok(cost) = &ran {
-        warn_of_doubts(cost);
-    }
+    // Of many scenarios each note names its own.
+    let of_line = if args.lines { format!("{name}: ") } else { String::new() };
+    let note = |text: String| warn(&(of_line.clone() + &text));
+    warn_of_doubts(&cost, &note);
     let width = rounding::width(&scenario);
     let closed = matches!(args.method, MethodName::Certified | MethodName::Sampled);
     if closed
         && width > rounding::REPORTED * scenario.spacing
         && matches!(ran, Ok(_) | Err(Error::Work { .. }))
     {
-        warn(&format!(
+        note(format!(
             "rounding of large amplitudes may move each impact at closing speed v by {width:.1e}/v, and \
              errors grow from impact to impact"
         ));
     }
-    ran.map(drop).map_err(|error| in_file(&name, error))
+    ran.map_err(|error| in_file(name, error))
+}
+
+/// Prints the impacts of a scenario.
+fn impacts(
+    args: &Args,
+    scenario: &Scenario,
+    printer: &mut Printer,
+    latest: &AtomicU64,
+    cost: &mut Cost,
+) -> Result<Result<(), Error>, Failure> {
+    let (method, start) = (args.method.with(setting(args)?), State::of(scenario));
+    let most = args.max_impacts.unwrap_or(u64::MAX);
+    let mut all = 0;
+    let mut sink = |Impact { time, gap, closing_speed }: Impact| {
+        latest.store(time.to_bits(), Relaxed);
+        if all < most {
+            printer.row(format_args!("{time:?},{gap},{closing_speed:?}"));
+            all += 1;
+        }
+        all < most && printer.written.is_ok()
+    };
+    let until = if most == 0 { 0.0 } else { args.until.unwrap_or_default() };
+    let ran = method.run((scenario, &start, until), &mut sink);
+    Ok(ran.map(|counted| *cost = counted))
+}
+
+/// Prints time, place and velocity of each mass at each of several times.
+fn states(
+    scenario: &Scenario,
+    times: &[f64],
+    printer: &mut Printer,
+    latest: &AtomicU64,
+    cost: &mut Cost,
+) -> Result<(), Error> {
+    let mut engine = Engine::new(scenario)?;
+    for &time in times {
+        engine.run(time, |impact| {
+            latest.store(impact.time.to_bits(), Relaxed);
+            true
+        })?;
+        let state = engine.state(time)?;
+        for (j, (x, v)) in state.positions.iter().zip(&state.velocities).enumerate() {
+            printer.row(format_args!("{time:?},{},{x:?},{v:?}", j + 1));
+        }
+        if printer.written.is_err() {
+            break;
+        }
+    }
+    let counters = engine.counters();
+    cost.impacts = counters.impacts;
+    cost.simultaneous = counters.simultaneous;
+    (cost.undecided, cost.first_graze) = (counters.undecided, engine.first_graze());
+    Ok(())
 }
 
 /// Reports impacts whose order is a choice, and grazes that rounding hides.
-fn warn_of_doubts(cost: &Cost) {
+fn warn_of_doubts(cost: &Cost, note: &dyn Fn(String)) {
     if cost.simultaneous > 0 {
-        warn(&format!(
+        note(format!(
             "impacts at exactly the same instant as one in a neighbouring gap: {} of {}; they were taken \
              one after the other, fastest first",
             cost.simultaneous, cost.impacts
         ));
     }
     if let Some(Graze { time, gap }) = cost.first_graze {
-        warn(&format!(
+        note(format!(
             "grazes that rounding could not decide: {}, the first of gap {gap} at t = {time:?}; each was \
              taken for a miss, and the run may be wrong from there on",
             cost.undecided
         ));
     }
-}
-
-/// Reads a scenario, with the name of its file for messages.
-fn read(path: &Path) -> Result<(String, Scenario), Failure> {
-    let piped = path == Path::new("-");
-    let name = if piped { "standard input".into() } else { path.display().to_string() };
-    let text = if piped { input::read_from(io::stdin()) } else { input::read(path) };
-    let text = text.map_err(|error| {
-        Failure::input(format!("{name}: {error}; give a scenario, see `trace --help`"))
-    })?;
-    let scenario = Scenario::from_json(&text).map_err(|error| in_file(&name, error))?;
-    Ok((name, scenario))
 }
 
 /// The failure for an error in a scenario or a setting (exit code 2) or a run (1).

@@ -90,6 +90,8 @@ trace missing.json --until 5 => missing.json:
 trace empty --until 5 => empty:
 trace s.json --until soon => --until; give a number from 0.0 to
 trace s.json --until=-1|NaN|inf => --until
+trace s.json --at 2,1 => --at; give rising
+trace s.json --at 1 --method verlet => --at; certified
 trace s.json --until 5 --max-impacts=-1|1.5|99999999999999999999 => --max-impacts
 trace s.json --until 5 --step 0.1 => --step; certified takes neither; leave it out
 trace s.json --until 5 --method verlet --step 0 => --step: 0.0; give a number
@@ -100,6 +102,8 @@ sweep --sigma -0.1|NaN|x|0.2..0.1:0.01|0.1..0.2:0 => --sigma
 sweep --sigma 0.1 --masses 0|x => --masses
 sweep --sigma 0.1 --masses 1000000000000 => --masses, --realisations: about
 sweep --sigma 0.1 --realisations 1000000000000000000 => --masses, --realisations: about
+sweep --sigma 0.1 --realisations 0|5..5|9..3 => --realisations; whole number
+sweep --sigma 0.1 --forcing-frequency 1 => --forcing-frequency; resonance
 sweep --sigma 0.1 --window 1e-4 => --window; give a number from 0.001
 sweep --sigma 0.1 --restitution 1.1 => --restitution
 sweep --sigma 0.1 --threads 0|10000 => --threads; give 1 

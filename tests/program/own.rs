@@ -113,11 +113,40 @@ fn columns_and_rows() {
     assert_eq!(
         lines[0],
         "sigma,realisations,kept,rejected,mean_distinct,standard_error,mode_distinct,\
-         impacts_per_time,impacts,near_simultaneous,slow,contact_phases"
+         impacts_per_time,impacts,near_simultaneous,slow,contact_phases,mean_all,\
+         standard_error_all,simultaneous,undecided,transient,window"
     );
     // At σ = 0.01 nothing can hit: the gap closes only for a 25-σ force. Empty, not zero or NaN.
     assert!(lines[1].starts_with("0.01,24,0,0,,,,,0,0,0,0"), "{text}");
     assert!(lines[2].starts_with("0.2,24,"));
+}
+
+/// Parts of an ensemble add up to the whole, windows of one run to those of several, and each
+/// option reaches the chain.
+#[test]
+fn parts_windows_and_parameters_of_a_sweep() {
+    let cells = |options: &str| -> Vec<Vec<String>> {
+        let small = [("realisations", "24"), ("transient", "60"), ("window", "40")];
+        let mut line = format!("sweep --sigma 0.3 --masses 30{options}");
+        for (option, value) in small.into_iter().filter(|(option, _)| !options.contains(option)) {
+            line += &format!(" --{option} {value}");
+        }
+        let text = answer(Path::new("."), &line);
+        let row = |line: &str| line.split(',').map(String::from).collect();
+        text.lines().skip(1).map(row).collect()
+    };
+    let impacts = |options: &str| cells(options)[0][8].parse::<u64>().unwrap();
+    let parts = ["0..10", "10..24"].map(|part| impacts(&format!(" --realisations {part}")));
+    assert_eq!(impacts(""), parts.iter().sum::<u64>());
+    let both = cells(" --transient 10,50 --window 40");
+    for (transient, row) in ["10", "50"].into_iter().zip(&both) {
+        let alone = cells(&format!(" --transient {transient} --window 40"));
+        assert_eq!((&row[1..8], &row[16..]), (&alone[0][1..8], &alone[0][16..]), "{transient}");
+    }
+    let plain = cells("");
+    for option in [" --forcing-frequency 1.3", " --natural-frequency 1.1", " --spacing 1.2"] {
+        assert_ne!(plain, cells(option), "{option}");
+    }
 }
 
 #[test]
@@ -155,6 +184,27 @@ fn impacts_are_listed_in_order_from_a_file_or_a_pipe() {
         assert!(cells[0] >= last && cells[1] <= 3.0 && cells[2] >= 0.0, "{line}");
         last = cells[0];
     }
+}
+
+/// States at given times, and many scenarios in one run, each line answered for itself.
+#[test]
+fn states_and_many_scenarios() {
+    let folder = folder(SCENARIO);
+    let plain = answer(folder.path(), "trace s.json --until 9");
+    let states = answer(folder.path(), "trace s.json --at 0..9:4.5");
+    assert!(states.starts_with("time,mass,position,velocity\n0.0,1,1.0,0.0\n"), "{states}");
+    assert_eq!(states.lines().count(), 1 + 3 * 3);
+    let one_line = SCENARIO.replace('\n', " ");
+    std::fs::write(folder.path().join("s.json"), format!("{one_line}\n{one_line}\n[]\n")).unwrap();
+    let (code, text, note) = run(folder.path(), "trace s.json --lines --until 9");
+    assert!(code == 2 && note.contains("s.json, line 3: scenario: "), "{note}");
+    let mut expected = "scenario,time,gap,closing_speed\n".to_string();
+    for number in [1, 2] {
+        for row in plain.lines().skip(1) {
+            expected += &format!("{number},{row}\n");
+        }
+    }
+    assert_eq!(text, expected);
 }
 
 #[test]

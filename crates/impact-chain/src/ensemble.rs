@@ -61,6 +61,8 @@ pub struct Ensemble {
     pub sigmas: Vec<f64>,
     /// The windows, all of which are read from one run.
     pub protocols: Vec<Protocol>,
+    /// Number of the first realisation.
+    pub first: u64,
     /// Realisations at each σ.
     pub realisations: usize,
     /// Fewer or shorter runs beyond the rise.
@@ -85,6 +87,7 @@ impl Default for Ensemble {
             heating: None,
             sigmas: Vec::new(),
             protocols: vec![Protocol::default()],
+            first: 0,
             realisations: 100,
             beyond: None,
             most_rejected: 0.1,

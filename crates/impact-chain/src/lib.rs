@@ -64,6 +64,7 @@ pub use engine::Engine;
 pub use ensemble::{Beyond, Ensemble, Heating, Protocol};
 pub use error::Error;
 pub use impact::{Impact, Sink};
+pub use impact_numerics::random::NormalPairs;
 pub use scenario::{Initial, Overtone, Scenario};
 pub use search::clock::LATEST;
 pub use search::outcome::{Counters, Graze};

@@ -6,9 +6,9 @@ use crate::{Engine, Error, Scenario};
 use impact_numerics::random::NormalPairs;
 
 impl Ensemble {
-    /// Runs realisation `index` at a σ and counts its impacts; ends early, with incomplete counts,
-    /// when `stopped` returns true. A start that overlaps, and a run that the engine ended early,
-    /// are counted as such.
+    /// Runs a realisation at a σ, `index` after the first, and counts its impacts; ends early, with
+    /// incomplete counts, when `stopped` returns true. A start that overlaps, and a run that the
+    /// engine ended early, are counted as such.
     ///
     /// # Errors
     /// [`Error::Input`] if the chain is not allowed.
@@ -18,7 +18,7 @@ impl Ensemble {
         index: u64,
         stopped: impl Fn() -> bool,
     ) -> Result<Counts, Error> {
-        self.counted(sigma, index, &stopped)
+        self.counted(sigma, self.first + index, &stopped)
     }
 
     /// Not generic: generic code would be compiled with the caller's crate.

@@ -1,0 +1,49 @@
+//! Largest Lyapunov exponent of a chain: a second chain starts close by, and is brought back to
+//! that distance after each step.
+
+use impact_chain::{Chain, Engine, Error, NormalPairs, Scenario, State};
+
+const DISTANCE: f64 = 1e-8;
+
+fn exponent(scenario: &Scenario, steps: u32, step: f64) -> Result<f64, Error> {
+    let mut start = Engine::new(scenario)?;
+    start.run(100.0, |_| true)?;
+    let mut state = start.state(100.0)?;
+    let mut other = state.clone();
+    other.velocities[0] += DISTANCE;
+    let mut sum = 0.0;
+    for _ in 0..steps {
+        let ends = [&state, &other].map(|state| -> Result<State, Error> {
+            let mut engine = Engine::new(&state.as_scenario(scenario)?)?;
+            engine.run(step, |_| true)?;
+            Ok(State { time: state.time + step, ..engine.state(step)? })
+        });
+        [state, other] = [ends[0].clone()?, ends[1].clone()?];
+        let apart =
+            |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum() };
+        let squares =
+            apart(&state.positions, &other.positions) + apart(&state.velocities, &other.velocities);
+        let growth = squares.sqrt() / DISTANCE;
+        sum += growth.ln();
+        for (a, b) in
+            [(&state.positions, &mut other.positions), (&state.velocities, &mut other.velocities)]
+        {
+            b.iter_mut().zip(a).for_each(|(b, a)| *b = a + (*b - a) / growth);
+        }
+    }
+    Ok(sum / (f64::from(steps) * step))
+}
+
+fn main() -> Result<(), Error> {
+    let chain = Chain { masses: 10, ..Chain::default() };
+    let scenario = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("lyapunov", 1, 0));
+    println!("largest exponent: {:.3} per unit of time", exponent(&scenario, 400, 1.0)?);
+    Ok(())
+}
+
+#[test]
+fn errors_grow() {
+    let chain = Chain { masses: 10, ..Chain::default() };
+    let scenario = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("lyapunov", 1, 0));
+    assert!((0.05..0.5).contains(&exponent(&scenario, 400, 1.0).unwrap()));
+}
