@@ -64,6 +64,8 @@ fn things_are_found_by_part_by_number_and_as_people_write_them() {
             "{asked}: {told}{note}"
         );
     }
+    let column = answer(folder.path(), "explain --paper r race.finest[method=sampled].units");
+    assert!(column.contains("units (1) of data/race-finest.csv\n  method=sampled: "), "{column}");
     let says = ["there is no \"nope\"", "all are listed"];
     refused(folder.path(), "explain --paper r nope", &says);
 }

@@ -1,5 +1,6 @@
 //! The verb `diff`.
 
+use super::columns::Columns;
 use super::terminal::{print, shown};
 use crate::claims::{Check, Text, significant};
 use crate::failure::Failure;
@@ -37,13 +38,16 @@ pub(super) fn run(args: Args) -> Result<(), Failure> {
     let [old, new] = [&args.old, &args.new].map(|name| shown(Path::new(name)));
     let checks = checks(&before.ledger, &after.ledger);
     let numbers = numbers(&before.values, &after.values);
+    let columns = columns(&before.files, &after.files);
     let counts = [count(checks.len(), "check"), count(numbers.len(), "number")];
-    let all = [checks, numbers, files(&before.files, &after.files)].concat();
+    let more = count(columns.len(), "column");
+    let more = if columns.is_empty() { String::new() } else { format!(", and {more} of data") };
+    let all = [checks, numbers, columns, files(&before.files, &after.files)].concat();
     // A report, and the name of a file, may hold commands of a terminal.
     let lines = all.iter().map(|line| line.replace(is_control, " ") + "\n");
     print(&match all.is_empty() {
         true => format!("{old} and {new}: nothing differs\n"),
-        false => format!("{} changed\n{}", counts.join(" and "), lines.collect::<String>()),
+        false => format!("{}{more} changed\n{}", counts.join(" and "), lines.collect::<String>()),
     })
 }
 
@@ -108,6 +112,18 @@ fn committed(name: &str) -> Result<Files, Failure> {
         Ok((path.to_string(), git(&["cat-file", "blob", &format!("{name}:./paper/{path}")])?))
     };
     paths.map(read).collect()
+}
+
+/// Returns a line for each column that differs in a data file of both reports: prose names few of
+/// their numbers.
+fn columns(before: &Files, after: &Files) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (path, old) in before.iter().filter(|(path, _)| path.ends_with(".csv")) {
+        let Some(new) = after.get(path).filter(|new| *new != old) else { continue };
+        let [old, new] = [old, new].map(|bytes| Columns::read(&String::from_utf8_lossy(bytes)));
+        lines.extend(old.changes(&new, path));
+    }
+    lines
 }
 
 /// Lists files that one report lacks, and files that differ.

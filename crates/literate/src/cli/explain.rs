@@ -1,5 +1,6 @@
 //! The verb `explain`.
 
+use super::columns::column;
 use super::terminal::print;
 use crate::failure::Failure;
 use crate::input::{is_control, one_line, regular_text};
@@ -35,10 +36,16 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let ledger = ledger::read(&read(&folder, "ledger.json")?).map_err(fault)?;
     let Paper { edition, project, experiments, .. } = paper;
     let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
+    let mut columns = String::new();
     let mut found = if args.ids.is_empty() { cards.ids() } else { Vec::new() };
     for asked in &args.ids {
         let ids = cards.find(asked);
         if ids.is_empty() {
+            let data = |path: &str| regular_text(&folder.join(path)).ok();
+            if let Some(text) = column(asked, data) {
+                columns.extend(text.lines().map(|line| clean(line) + "\n"));
+                continue;
+            }
             let asked = one_line(asked, 60);
             let what = format!("there is no {asked:?}, and no id contains it");
             return Err(Failure::input(format!("explain: {what}; without it all are listed")));
@@ -49,7 +56,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let in_short = args.ids.len() < 2 && found.len() > 1;
     let found: Vec<Card> = found.iter().filter_map(|id| cards.get(id)).collect();
     let text = |card: &Card| if in_short { line(card) } else { shown(card) };
-    print(&found.iter().map(text).collect::<Vec<_>>().join(if in_short { "" } else { "\n" }))
+    let found = found.iter().map(text).collect::<Vec<_>>().join(if in_short { "" } else { "\n" });
+    print(&(found + &columns))
 }
 
 fn read(paper: &Path, name: &str) -> Result<String, Failure> {

@@ -2,6 +2,7 @@
 //! paper adds.
 
 mod check;
+mod columns;
 mod common;
 mod diff;
 mod explain;

@@ -2,10 +2,13 @@
 //!
 //! Articles, books, doctoral theses and software; entries of other kinds are refused.
 
+mod people;
+
 use super::document::{Inline, Reference, plain};
 use super::error::Error;
 use crate::input::line_and_column;
 use biblatex::{Bibliography, Chunk, Entry, EntryType, Person};
+use people::{family, listed, names};
 use std::collections::BTreeSet;
 use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};
 
@@ -289,41 +292,6 @@ fn address(entry: &Entry) -> Result<Option<String>, String> {
     }
 }
 
-/// Family name with its particle: `van der Berg`.
-fn family(person: &Person) -> String {
-    format!("{} {}", person.prefix, person.name).trim().to_string()
-}
-
-/// The names of a citation: "Rice", "Homer & Hogan", "Kowalczyk et al.".
-fn names(people: &[Person]) -> String {
-    let names: Vec<String> = people.iter().map(family).collect();
-    match names.as_slice() {
-        [one, two] if two != "others" => format!("{one} & {two}"),
-        [one, _, ..] => format!("{one} et al."),
-        one => one.concat(),
-    }
-}
-
-/// All authors as `Rice, S. O.` and `Knuth, D. E., III`, with a full stop at the end.
-fn listed(people: &[Person]) -> String {
-    let initial = |word: &str| word.chars().next().map(|c| format!("{c}."));
-    let tied = |word: &str| word.split('-').filter_map(initial).collect::<Vec<_>>().join("-");
-    let mut names = Vec::new();
-    for person in people {
-        let given = person.given_name.replace('.', ". ");
-        let given = given.split_whitespace().map(tied).collect::<Vec<_>>().join(" ");
-        let mut parts = vec![family(person), given, person.suffix.clone()];
-        parts.retain(|part| !part.is_empty());
-        names.push(parts.join(", "));
-    }
-    let list = match names.as_slice() {
-        [first @ .., last] if last == "others" => format!("{}, et al", first.join(", ")),
-        [first @ .., last] if !first.is_empty() => format!("{}, & {last}", first.join(", ")),
-        one => one.concat(),
-    };
-    list.trim_end_matches('.').to_string() + "."
-}
-
 /// What a text is sorted by: small letters without accents, and no signs.
 fn collated(text: &str) -> String {
     let bare = text.nfd().filter(|c| !is_combining_mark(*c)).flat_map(char::to_lowercase);
@@ -375,53 +343,23 @@ mod tests {
         assert_eq!(list(text).unwrap(), expected);
     }
 
+    /// An entry, and what the list shows of it; `·` is a blank that does not break.
+    const MEANT: &str = r"
+@article{k, author={van der Berg, Jan}, title={T}, journal={J}, year={1}} => van der Berg, 1: van der Berg, J. (1). T. *J*.
+@article{k, author={Jan van der Berg}, title={T}, journal={J}, year={1}} => van der Berg, 1: van der Berg, J. (1). T. *J*.
+@article{k, author={Knuth, III, Donald E.}, title={T}, journal={J}, year={1}} => Knuth, 1: Knuth, D. E., III. (1). T. *J*.
+@article{k, author={A}, title={Why?}, journal={Phys. Lett.}, year={-300}} => A, 300 BC: A. (300 BC). Why? *Phys. Lett.*
+@book{k, author={A}, title={Why?}, edition={11}, year=1} => A, 1: A. (1). *Why?* (11th ed.).
+@book{k, author={A}, title={O!}, publisher={P.}, edition={Revised ed.}, year=1} => A, 1: A. (1). *O!* (Revised ed.). P.
+@book{k, author={A}, title={On \emph{E. coli} and \$5, 50\%}, year=1} => A, 1: A. (1). *On* E. coli *and $5, 50%*.
+@book{k, author={A}, title={T}, doi={https://dx.doi.org/10.1/a\_b}, url={https://doi.org/10.1/a}, year=1} => A, 1: A. (1). *T*. <https://doi.org/10.1/a_b>
+@book{k, author={A}, title={T~U}, doi={DOI: 10.1/a}, year=1} => A, 1: A. (1). *T·U*. <https://doi.org/10.1/a>";
+
     #[test]
     fn names_titles_dates_and_addresses_are_shown_as_they_are_meant() {
-        let article = "title={T}, journal={J}, year={1}";
-        let book = "author={A}, year={2000}";
-        for (text, shown) in [
-            (
-                format!("@article{{k, author={{van der Berg, Jan}}, {article}}}"),
-                "van der Berg, 1: van der Berg, J. (1). T. *J*.",
-            ),
-            (
-                format!("@article{{k, author={{Jan van der Berg}}, {article}}}"),
-                "van der Berg, 1: van der Berg, J. (1). T. *J*.",
-            ),
-            (
-                format!("@article{{k, author={{Knuth, III, Donald E.}}, {article}}}"),
-                "Knuth, 1: Knuth, D. E., III. (1). T. *J*.",
-            ),
-            (
-                "@article{k, author={A}, title={Why?}, journal={Phys. Lett.}, year={-300}}".into(),
-                "A, 300 BC: A. (300 BC). Why? *Phys. Lett.*",
-            ),
-            (
-                format!("@book{{k, title={{Why?}}, edition={{11}}, {book}}}"),
-                "A, 2000: A. (2000). *Why?* (11th ed.).",
-            ),
-            (
-                format!(
-                    "@book{{k, title={{Really!}}, publisher={{P.}}, edition={{Revised ed.}}, {book}}}"
-                ),
-                "A, 2000: A. (2000). *Really!* (Revised ed.). P.",
-            ),
-            (
-                format!(r"@book{{k, title={{On \emph{{E. coli}} and~\$5, 50\%}}, {book}}}"),
-                "A, 2000: A. (2000). *On* E. coli *and\u{a0}$5, 50%*.",
-            ),
-            (
-                format!(
-                    "@book{{k, title={{T}}, doi={{https://dx.doi.org/10.1/a\\_b}}, url={{https://doi.org/10.1/a}}, {book}}}"
-                ),
-                "A, 2000: A. (2000). *T*. <https://doi.org/10.1/a_b>",
-            ),
-            (
-                format!("@book{{k, title={{T}}, doi={{DOI: 10.1/a}}, {book}}}"),
-                "A, 2000: A. (2000). *T*. <https://doi.org/10.1/a>",
-            ),
-        ] {
-            assert_eq!(list(&text).unwrap(), [shown], "{text}");
+        for line in MEANT.lines().skip(1) {
+            let (text, shown) = line.split_once(" => ").unwrap();
+            assert_eq!(list(text).unwrap(), [shown.replace('·', "\u{a0}")], "{text}");
         }
     }
 

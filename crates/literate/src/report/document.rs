@@ -233,6 +233,14 @@ pub fn is_abstract(block: &Block) -> bool {
     matches!(block, Block::Heading { text, .. } if plain(text) == "Abstract")
 }
 
+/// Returns the id of a heading on a page: its own, or `sec-2-1` by its number, or its words.
+pub fn heading_place(id: Option<&str>, number: Option<&str>, words: &[Inline]) -> String {
+    match (id, number) {
+        (None, Some(number)) => place_on_page(Some(&format!("sec:{number}")), words),
+        (id, _) => place_on_page(id, words),
+    }
+}
+
 /// Returns the id of a place on a page: `fig-3` for `fig:3`; for a section without an id its words,
 /// as `references`.
 pub fn place_on_page(id: Option<&str>, words: &[Inline]) -> String {

@@ -6,7 +6,8 @@
 pub(super) mod shared;
 mod table;
 
-use super::document::{self, Block, Formula, Inline, place_on_page, printed, spelt};
+use super::document::{self, Block, Formula, Inline};
+use super::document::{heading_place, place_on_page, printed, spelt};
 use super::edition::Document;
 use super::error::{Error, unresolved};
 use super::input::Input;
@@ -37,10 +38,11 @@ pub fn write(
     let (mut sections, mut figures) = (Vec::new(), Vec::new());
     for block in blocks {
         match block {
-            Block::Heading { level: 2, number, id, text } => sections.push([
-                place_on_page(id.as_deref(), text),
+            Block::Heading { level: level @ 2.., number, id, text } => sections.push([
+                heading_place(id.as_deref(), number.as_deref(), text),
                 number.clone().unwrap_or_default(),
                 page.inlines(text)?,
+                level.to_string(),
             ]),
             // What is shown again has its place elsewhere.
             Block::Figure { id, number, name, .. } if !here.repeats => {
@@ -103,12 +105,9 @@ impl Page<'_> {
             // The template has the title.
             Block::Heading { level: 1, .. } => String::new(),
             Block::Heading { level, number, id, text } => {
+                let id = heading_place(id.as_deref(), number.as_deref(), text);
                 let number = number.as_ref().map(|n| format!("<span class=\"number\">{n}</span> "));
                 let words = number.unwrap_or_default() + &self.inlines(text)?;
-                if *level > 2 && id.is_none() {
-                    return Ok(format!("<h{level}>{words}</h{level}>\n"));
-                }
-                let id = place_on_page(id.as_deref(), text);
                 format!("<h{level} id=\"{id}\"><a href=\"#{id}\">{words}</a></h{level}>\n")
             }
             Block::Paragraph(text) => self.paragraph(text)?,

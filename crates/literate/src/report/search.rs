@@ -1,6 +1,6 @@
 //! Makes the index of the search: the words of a document, with the section in which each stands.
 
-use super::document::{Block, Inline, place_on_page, spelt};
+use super::document::{Block, Inline, heading_place, spelt};
 
 /// A place that the search can find: id and name of its section, and its text.
 type Passage = [String; 3];
@@ -37,11 +37,10 @@ impl Index {
         match block {
             // The title is the name of the document.
             Block::Heading { level: 1, .. } => (),
-            Block::Heading { level, number, id, text } => {
+            Block::Heading { number, id, text, .. } => {
                 let words = format!("{} {}", number.as_deref().unwrap_or_default(), spelt(text));
-                if *level == 2 || id.is_some() {
-                    self.section = [place_on_page(id.as_deref(), text), words.trim().into()];
-                }
+                let place = heading_place(id.as_deref(), number.as_deref(), text);
+                self.section = [place, words.trim().into()];
                 self.add(&words);
             }
             Block::Paragraph(text) => self.add(&spelt(text)),

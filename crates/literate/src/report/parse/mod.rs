@@ -78,10 +78,8 @@ pub fn parse<'a>(
         places: Places::of(filled),
         found: Vec::new(),
     };
-    let blocks = reader.blocks().unwrap_or_else(|error| {
-        reader.found.push(error);
-        Vec::new()
-    });
+    // Outside of lists and quotations errors are noted.
+    let blocks = reader.blocks().unwrap_or_default();
     Parsed { blocks, places: reader.places, errors: reader.found }
 }
 

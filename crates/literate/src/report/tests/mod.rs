@@ -1,6 +1,7 @@
 //! A report of one document that uses everything, and everything that can be wrong with it.
 
 mod broken;
+mod data;
 mod documents;
 
 use super::*;
@@ -377,75 +378,6 @@ fn what_is_not_shown_is_refused() {
     assert!(matches!(fails("«v.half_height»", "half"), Error::Unused(id) if id == "half_height"));
     assert!(matches!(fails("![The rise.](figures/fig03.svg)", ""), Error::NotShown(_)));
     assert!(matches!(fails("\\tag{18}", ""), Error::NoEquation(number) if number == "18"));
-}
-
-/// Whatever signs words from data have, as cells and as names of rows, each format shows them.
-#[test]
-fn words_of_data_are_data() {
-    let shown = |words: &str| {
-        let rows = [words];
-        let table = Table::of("toy.words", &rows, |_| 1)
-            .text_key("name", |word| word.to_string())
-            .words("word", "", |word| word.to_string())
-            .done();
-        let cell = "«toy.words[row].word»";
-        let prose = format!(
-            "{PROSE}\n\n{cell} and <% for row in keys.toy.words.rows %>{cell}<% endfor %>.\n\n\
-             | Name | Word |\n|---|---|\n<% for row in keys.toy.words.rows -%>\n\
-             | «toy.words[row].name» | {cell} |\n<% endfor %>"
-        );
-        let prose = prose.replacen(cell, "«toy.words[keys.toy.words.rows[0]].word»", 1);
-        let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
-        let files = [("report.md", prose.as_str()), ("references.bib", bib)];
-        made_with(&files, &with_equation(), None, figure(), claim(), Some(table))
-    };
-    for words in [
-        "US$",
-        "cost $5 and $6",
-        "a|b",
-        r"C:\new{x}",
-        "<b>&amp;</b>",
-        "*a* _b_ `c`",
-        "[x](y)",
-        "one\ntwo\r\nthree",
-        "\"quoted\" ~ ^ #1 @a 50 %",
-        "1. a",
-        "null",
-    ] {
-        let report = shown(words).unwrap();
-        let line = words.replace("\r\n", " ").replace('\n', " ");
-        // Another reader of Markdown finds the words, in a sentence and in two cells.
-        let markdown = String::from_utf8(report.committed["report.md"].clone()).unwrap();
-        let options = pulldown_cmark::Options::ENABLE_TABLES | pulldown_cmark::Options::ENABLE_MATH;
-        let mut read = String::new();
-        for event in pulldown_cmark::Parser::new_ext(&markdown, options) {
-            match event {
-                pulldown_cmark::Event::Text(text) => read += &text,
-                pulldown_cmark::Event::End(_) => read += "⏎",
-                _ => (),
-            }
-        }
-        for place in [format!("{line} and {line}.⏎"), format!("⏎{line}⏎{line}⏎")] {
-            assert!(read.contains(&place), "{words:?}: {place:?} is not in {read}");
-        }
-        let tex = String::from_utf8(report.committed["report.tex"].clone()).unwrap();
-        let tex_line = tex::text(&line).unwrap();
-        assert!(tex.contains(&format!("{{{tex_line}}} \\\\\n")), "{words:?}: {tex}");
-        let page = String::from_utf8(report.generated["report.html"].clone()).unwrap();
-        let id = format!("toy.words[name={words}].word");
-        let [escaped, escaped_id] = [&line, &id].map(|text| crate::figures::escape(text));
-        let value = format!("\"{}\">{escaped}</span>", escaped_id.replace('\n', "&#10;"));
-        assert_eq!(page.matches(&value).count(), 3, "{words:?}");
-        let cards = String::from_utf8(report.generated["cards.js"].clone()).unwrap();
-        let cards: serde_json::Value =
-            serde_json::from_str(cards.trim_start_matches("CARDS = ").trim_end_matches(";\n"))
-                .unwrap();
-        assert_eq!(cards[1][&id][0], escaped, "{words:?}");
-    }
-    for words in ["a\u{7}b", "\0", "a\u{e000}b"] {
-        let error = shown(words).unwrap_err().to_string();
-        assert!(error.contains("which no format can show"), "{error}");
-    }
 }
 
 /// Signs that another reader of Markdown, or TeX, would take for markup are escaped.
