@@ -2,17 +2,17 @@
 //!
 //! # Contents
 //!
-//! - [`Chain`], [`Scenario`]: the chain of Sec. 2, and a chain with the amplitudes of its forcing
-//!   and its start.
-//! - [`Engine`], [`Impact`], [`Counters`]: the simulation of a scenario, its impacts, and its
-//!   counted work.
+//! - [`Chain`], [`Scenario`]: the chain of the model above with equal places, and one with the
+//!   amplitudes of its forcing, its start, and places of its choice.
+//! - [`Engine`], [`Impact`], [`Counters`], [`Graze`]: the simulation of a scenario, its impacts,
+//!   its counted work, and what rounding could not decide.
+//! - [`State`]: positions and velocities at a time, and the scenario that goes on from there.
 //! - [`Ensemble`], [`Counts`], [`rise`]: many random chains, counted in windows of time; means and
 //!   places of the rise.
 //! - [`Error`], [`rounding`]: input that is refused, and a bound of the errors of impacts.
 //! - [`replay`]: runs with a digest of their impacts, to be repeated bit for bit. [`counts`]: close
 //!   and slow impacts.
-//! - [`methods`], [`State`]: other ways to simulate a chain, to compare with, and the motion to 106
-//!   bits.
+//! - [`methods`]: other ways to simulate a chain, to compare with, and the motion to 106 bits.
 //!
 //! Equations are those of M. Homer and S. J. Hogan (2007), *Impact Dynamics of Large Dimensional
 //! Systems*.
