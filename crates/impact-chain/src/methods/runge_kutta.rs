@@ -13,8 +13,8 @@ use crate::{Error, Sink};
 /// an event, bisected on the dense output; the earliest ends the step, and integration starts
 /// again.
 ///
-/// The absolute tolerance is a thousandth of the relative one. The next step has 0.9 err^(−1/5) times the
-/// length of the last, from 1/5 to 5 times; after an event it is the length tried before.
+/// The absolute tolerance is a thousandth of the relative one. The next step has 0.9 err^(−1/5)
+/// times the length of the last, from 1/5 to 5 times; after an event it is the length tried before.
 ///
 /// - Source: Dormand and Prince (1980), J. Comput. Appl. Math. 6, 19; step control and dense output
 ///   as in Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, secs. II.4 to
