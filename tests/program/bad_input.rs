@@ -27,6 +27,7 @@ const NO_SCENARIOS: &str = r##"{ => line 1
 {"forcing":[[nan,1]]} => forcing[0][0]
 {"forcing_frequencies":[1.4],"forcing":[[1,2]]} => forcing: its lists
 {} => forcing; mass
+{"forcing":[[1,2]]} {"forcing":[[1,2]]} => scenario; --lines
 {"forcing":[[1,2,3]]} => forcing; [alpha, beta]
 {"forcing":[[0,0],[0,-1e300]]} => forcing[1]
 {"forcing":[[0,0],[0,0]],"initial":{"free":[[0.75,0],[-0.75,0]]}} => initial; gap 1; overlap

@@ -206,7 +206,10 @@ fn parse(text: &str) -> Result<ScenarioFile, Error> {
             None => Error::input(field, problem, REMEDY),
         }
     })?;
-    reader.end().map_err(|error| Error::input("scenario", error.to_string(), REMEDY))?;
+    reader.end().map_err(|error| {
+        let remedy = "give one scenario, or read one from each line (trace --lines)";
+        Error::input("scenario", error.to_string(), remedy)
+    })?;
     Ok(file)
 }
 
