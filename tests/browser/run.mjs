@@ -250,7 +250,12 @@ async function search_finds(page, name) {
   check((await finds.locator("mark").count()) === (await finds.count()), `${name}: what is found is not marked`);
   await input.fill("mpact");
   check((await finds.count()) === 0, `${name}: the search finds parts of words`);
-  await input.fill("no such words");
+  await input.fill("sudden impacting number");
+  await finds.first().waitFor({ timeout: 5000 }).catch(() => check(false, `${name}: words in another order are not found`));
+  await input.fill("statement 27");
+  check((await finds.first().getAttribute("href"))?.includes("#claim-"), `${name}: a statement is not found by its number`);
+  await input.fill("no such xylophones");
+  check((await page.locator(".search li").textContent()) === "nothing found", `${name}: the search does not say that nothing is found`);
   check((await finds.count()) === 0, `${name}: the search finds what is not there`);
   await input.fill("");
 }

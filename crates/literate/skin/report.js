@@ -140,7 +140,8 @@
     });
   }, { passive: true });
 
-  // A search through all documents, this one first; Enter goes from find to find.
+  // A search through all documents, this one first, for passages with all words in any order, whatever
+  // their endings; Enter goes from find to find.
   const MAX_FINDS = 12;
   const CONTEXT = 50;
   const found = make("ol");
@@ -150,21 +151,33 @@
   let [texts, next] = [undefined, 0];
   input.addEventListener("input", async () => {
     await (texts ??= load("search.js"));
-    const asked = input.value.trim();
-    const word = new RegExp(`(?<![\\p{L}\\p{N}])${asked.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}`, "iu");
-    const pages = asked.length < 2 ? [] : TEXTS.toSorted((a, b) => (b[0] === here) - (a[0] === here));
+    const asked = input.value.trim().split(/\s+/).filter((word) => word !== "");
+    const stem = (word) => (/^\p{L}{5,}$/u.test(word) ? word.replace(/(ies|ing|ed|es|s|y|e)$/i, "") : word);
+    const ends = (word) => (/^\p{N}+$/u.test(word) ? "(?!\\p{N})" : "\\p{L}*");
+    const pattern = (word) => `(?<![\\p{L}\\p{N}])${stem(word).replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}${ends(word)}`;
+    const words = asked.map((word) => new RegExp(pattern(word), "iu"));
+    const phrase = new RegExp(asked.map(pattern).join("[^\\p{L}\\p{N}]+"), "iu");
+    const is_short = asked.join("").length < 2;
+    const pages = is_short ? [] : TEXTS.toSorted((a, b) => (b[0] === here) - (a[0] === here));
     const places = pages.flatMap(([page, name, pieces]) => pieces.flatMap(([id, section, text]) => {
-      const at = text.search(word);
-      if (at < 0) return [];
-      const end = at + asked.length;
+      if (!words.every((word) => word.test(text))) return [];
+      const whole = phrase.exec(text);
+      const { index: at, 0: match } = whole ?? words[0].exec(text);
+      const end = at + match.length;
       const before = text.slice(Math.max(0, at - CONTEXT), at).replace(at > CONTEXT ? /^\S*\s/ : "", "");
       const after = text.slice(end, end + CONTEXT).replace(text.length > end + CONTEXT ? /\s\S*$/ : "", "");
       const where = page === here ? section : `${name}: ${section}`;
-      const words = make("small", {}, before, make("mark", {}, text.slice(at, end)), after);
-      return [[`${page}#${id}:~:text=${encodeURIComponent(text.slice(at, end + CONTEXT).replace(/\s\S*$/, "")).replaceAll("-", "%2D")}`, where, words]];
+      const shown = make("small", {}, before, make("mark", {}, text.slice(at, end)), after);
+      return [[`${page}#${id}:~:text=${encodeURIComponent(text.slice(at, end + CONTEXT).replace(/\s\S*$/, "")).replaceAll("-", "%2D")}`, where, shown, whole !== null]];
     }));
+    // Where the words follow one another comes first.
+    places.sort((a, b) => b[3] - a[3]);
     next = 0;
-    found.replaceChildren(...places.slice(0, MAX_FINDS).map(([href, where, words]) => make("li", {}, make("a", { href }, where, make("br"), words))));
+    const lines = places.slice(0, MAX_FINDS).map(([href, where, shown]) => make("li", {}, make("a", { href }, where, make("br"), shown)));
+    const more = places.length - MAX_FINDS;
+    if (more > 0) lines.push(make("li", {}, make("small", {}, `${more} more: add a word`)));
+    if (places.length === 0 && !is_short) lines.push(make("li", {}, make("small", {}, "nothing found")));
+    found.replaceChildren(...lines);
   });
   input.addEventListener("keydown", ({ key }) => {
     const finds = all("a", found);

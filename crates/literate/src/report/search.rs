@@ -1,12 +1,14 @@
-//! Makes the index of the search: the words of a document, with the section in which each stands.
+//! Makes the index of the search: the words of a document, each with its section, statement or
+//! equation.
 
-use super::document::{Block, Inline, heading_place, spelt};
+use super::document::{Block, Inline, heading_place, place_on_page, spelt};
+use super::tex;
 
-/// A place that the search can find: id and name of its section, and its text.
+/// What the search can find: the id of its place, the name of its section, and its text.
 type Passage = [String; 3];
 
-/// Returns a passage for each heading, paragraph, caption, item of a list, row of a table and
-/// reference of a document.
+/// Returns a passage for each heading, paragraph, equation with a number, caption, item of a list,
+/// row of a table and reference of a document.
 pub fn passages(blocks: &[Block], document: &str) -> Vec<Passage> {
     let mut index = Index { section: ["text".into(), document.into()], passages: Vec::new() };
     index.blocks(blocks);
@@ -20,10 +22,14 @@ struct Index {
 
 impl Index {
     fn add(&mut self, text: &str) {
+        self.add_at(&self.section[0].clone(), text);
+    }
+
+    /// Adds text with the id of its place on the page.
+    fn add_at(&mut self, id: &str, text: &str) {
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
         if !text.is_empty() {
-            let [id, name] = self.section.clone();
-            self.passages.push([id, name, text]);
+            self.passages.push([id.into(), self.section[1].clone(), text]);
         }
     }
 
@@ -43,7 +49,16 @@ impl Index {
                 self.section = [place, words.trim().into()];
                 self.add(&words);
             }
-            Block::Paragraph(text) => self.add(&spelt(text)),
+            Block::Paragraph(text) => {
+                self.add(&spelt(text));
+                for inline in text {
+                    if let Inline::Display { formula, number, id: Some(id) } = inline {
+                        let words =
+                            format!("Equation ({number}): {}", tex::spell(&formula.digits()));
+                        self.add_at(&place_on_page(Some(id), &[]), &words);
+                    }
+                }
+            }
             Block::Figure { number, caption, .. } => {
                 self.add(&format!("Figure {number}. {}", spelt(caption)));
             }
@@ -78,7 +93,13 @@ impl Index {
     }
 
     fn row(&mut self, cells: &[Vec<Inline>]) {
-        let cells: Vec<String> = cells.iter().map(|cell| spelt(cell)).collect();
-        self.add(&cells.join(" "));
+        let cells_spelt: Vec<String> = cells.iter().map(|cell| spelt(cell)).collect();
+        let words = cells_spelt.join(" ");
+        match cells.first().map(Vec::as_slice) {
+            Some([Inline::Anchor { id, .. }]) => {
+                self.add_at(&place_on_page(Some(id), &[]), &format!("Statement {words}"));
+            }
+            _ => self.add(&words),
+        }
     }
 }

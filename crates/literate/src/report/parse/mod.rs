@@ -58,9 +58,8 @@ pub fn parse<'a>(
         depth > 40
     });
     if let Some((_, range)) = deep {
-        let error = markup("lists or emphasis are nested too deeply");
-        let errors = vec![error.at(filled.place(range.start))];
-        return Parsed { blocks: Vec::new(), places: Places::of(filled), errors };
+        let error = markup("lists or emphasis are nested too deeply").at(filled.place(range.start));
+        return Parsed { blocks: Vec::new(), places: Places::of(filled), errors: vec![error] };
     }
     let mut reader = Reader {
         events: events.into_iter().peekable(),
@@ -78,7 +77,6 @@ pub fn parse<'a>(
         places: Places::of(filled),
         found: Vec::new(),
     };
-    // Outside of lists and quotations errors are noted.
     let blocks = reader.blocks().unwrap_or_default();
     Parsed { blocks, places: reader.places, errors: reader.found }
 }

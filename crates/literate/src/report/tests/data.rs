@@ -18,8 +18,7 @@ fn words_of_data_are_data() {
              | «toy.words[row].name» | {cell} |\n<% endfor %>"
         );
         let prose = prose.replacen(cell, "«toy.words[keys.toy.words.rows[0]].word»", 1);
-        let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
-        let files = [("report.md", prose.as_str()), ("references.bib", bib)];
+        let files = [("report.md", prose.as_str()), ("references.bib", BIB)];
         made_with(&files, &with_equation(), None, figure(), claim(), Some(table))
     };
     for words in [

@@ -14,6 +14,8 @@ use crate::source::toy;
 use crate::table::Table;
 use std::sync::Arc;
 
+const BIB: &str = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
+
 const SAMPLE: &str = r#"# A title
 
 ## Introduction {#sec:introduction}
@@ -94,8 +96,7 @@ fn tree(text: &str) -> Vec<document::Block> {
     let (values, sources) = (values(), toy());
     let parsed = parse::parse(&filled, &values, &filler.declared, &sources);
     let mut blocks = parsed.whole().unwrap().0;
-    let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
-    let library = bibliography::Library::read(bib).unwrap();
+    let library = bibliography::Library::read(BIB).unwrap();
     let mut labels = labels::Labels::default();
     labels.number_all(&mut blocks, Document::REPORT).unwrap();
     labels.resolve(&mut blocks, Document::REPORT, &library).unwrap();
@@ -203,9 +204,7 @@ fn assembled(prose: &str) -> Result<Report, Error> {
 }
 
 fn made_of(prose: &str, lab: Option<&str>, figure: Figure, claim: Check) -> Result<Report, Error> {
-    let bib = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
-    let files = [("report.md", prose), ("references.bib", bib)];
-    made(&files, &with_equation(), lab, figure, claim)
+    made(&[("report.md", prose), ("references.bib", BIB)], &with_equation(), lab, figure, claim)
 }
 
 fn with_equation() -> Edition {
