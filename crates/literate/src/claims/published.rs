@@ -147,6 +147,10 @@ impl Published {
     }
 }
 
+fn power_of_ten(exponent: i32) -> f64 {
+    format!("1e{exponent}").parse().unwrap_or(f64::INFINITY)
+}
+
 impl Statement {
     /// Makes a statement without a place, as of a relation between numbers.
     pub(super) fn new(kind: Kind, id: &str, statement: &str) -> Statement {
@@ -171,9 +175,19 @@ impl Statement {
         let whole = (value.fract() == 0.0).then_some(0);
         let decimals = self.decimals.or(whole);
         let decimals = decimals.ok_or("value needs `decimals`: write as many as were printed")?;
-        let is_rounded = decimals < 0 || written(value, decimals).parse() == Ok(value);
+        let is_rounded = match decimals {
+            ..0 => value % power_of_ten(-decimals) == 0.0,
+            _ => written(value, decimals).parse() == Ok(value),
+        };
         if !value.is_finite() || decimals.abs() > MAX_PLACES || !is_rounded {
             return Err("value is not a number with so many `decimals`");
+        }
+        // As a number, per cent or per mille.
+        let mut ways = [0, 2, 3].into_iter().map(|shift| {
+            written(value * power_of_ten(shift), (decimals - shift).max(0))
+        });
+        if value.fract() != 0.0 && !ways.any(|way| self.printed.contains(&way)) {
+            return Err("value does not stand in printed; write both as they were printed");
         }
         self.decimals = Some(decimals);
         Ok(())
@@ -263,6 +277,9 @@ mod tests {
             ("printed = \"x\"\nvalue = 0.125\ndecimals = 2", "with so many `decimals`"),
             ("printed = \"x\"\nvalue = 1\ndecimals = 99999", "with so many `decimals`"),
             ("printed = \"x\"\nvalue = inf\ndecimals = 0", "with so many `decimals`"),
+            ("printed = \"x\"\nvalue = 0.6\ndecimals = -3", "with so many `decimals`"),
+            ("printed = \"x\"\nvalue = 1500\ndecimals = -3", "with so many `decimals`"),
+            ("printed = \"about 2.094\"\nvalue = 2.5\ndecimals = 1", "does not stand in printed"),
             ("printed = \"12 %\"\nvalue = 12", "printed and value are not one number"),
             ("printed = \"1e-3\"\nvalue = 1e-3\ndecimals = 0", "printed and value are not"),
         ] {

@@ -5,7 +5,7 @@
 //! modules where a link leads to. The manual ([`crate::manual`]) has the form of what it reads and
 //! prints.
 
-use super::printed::PrintedTable;
+use super::printed::{PrintedTable, tables_by_name};
 use super::{AnyExperiment, Error, Found, Profile, Session, process};
 use crate::input;
 use crate::project::Project;
@@ -151,7 +151,9 @@ impl Command {
             return Ok(BTreeMap::new());
         }
         let form = "the manual of literate, *A new paper*, has the form";
-        let tables = serde_json::from_slice(printed).map_err(|error| {
+        let mut reader = serde_json::Deserializer::from_slice(printed);
+        let tables = tables_by_name(&mut reader).and_then(|found| reader.end().map(|()| found));
+        let tables = tables.map_err(|error| {
             let printed = String::from_utf8_lossy(printed);
             let first: Vec<&str> = printed.lines().take(FIRST_LINES).collect();
             let problem = format!("printed no tables in JSON, which has null for NaN: {error}");
@@ -326,6 +328,11 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7, 0.12345], [2, null, 0.1, null, null, null]]}
                 &table("\"rows\": [], \"units\": {\"B\": \"m\"}"),
                 "sh toy.sh",
                 "units: there is no column B; nearest: b",
+            ),
+            (
+                "echo '{\"a\": {\"columns\": [], \"rows\": []}, \"a\": {\"columns\": [], \"rows\": []}}'",
+                "sh toy.sh",
+                "there are two tables a",
             ),
             ("", "no-such-program", "cannot be started: "),
             ("", "sh toy.sh a.png", "did not write a.png"),

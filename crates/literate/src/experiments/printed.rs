@@ -3,9 +3,11 @@
 use crate::table::{Building, Table, called, nearest};
 use crate::value::{Number, Origin};
 use impact_numerics::estimates::with_error;
-use serde::{Deserialize, Serialize};
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value as Json;
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 
 /// A table as a command prints it. The manual ([`crate::manual`]) explains the fields.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -21,6 +23,32 @@ pub(super) struct PrintedTable {
     #[serde(default)]
     meanings: BTreeMap<String, String>,
     rows: Vec<Vec<Json>>,
+}
+
+/// Reads the tables of a command by their names, of which none may stand twice.
+pub(super) fn tables_by_name<'de, D: Deserializer<'de>>(
+    reader: D,
+) -> Result<BTreeMap<String, PrintedTable>, D::Error> {
+    struct ByName;
+    impl<'de> Visitor<'de> for ByName {
+        type Value = BTreeMap<String, PrintedTable>;
+
+        fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+            formatter.write_str("an object of tables by their names")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+            let mut tables = BTreeMap::new();
+            while let Some((name, table)) = map.next_entry::<String, PrintedTable>()? {
+                if tables.contains_key(&name) {
+                    return Err(A::Error::custom(format!("there are two tables {name}")));
+                }
+                tables.insert(name, table);
+            }
+            Ok(tables)
+        }
+    }
+    reader.deserialize_map(ByName)
 }
 
 impl PrintedTable {

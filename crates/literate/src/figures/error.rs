@@ -18,6 +18,13 @@ pub enum Error {
          give it another range"
     )]
     Axis { label: String, low: f64, high: f64 },
+    #[error(
+        "the series {0:?} has no point to draw; ask for columns of numbers, and for a logarithmic axis of \
+         positive ones"
+    )]
+    Empty(String),
+    #[error("the plot has no series; add one")]
+    NoSeries,
     #[error("the picture {0}")]
     Picture(String),
     #[error("the shipped fonts have no glyph for {character:?} in the label {label:?}")]

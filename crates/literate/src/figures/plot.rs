@@ -138,6 +138,19 @@ impl Plot {
         data
     }
 
+    /// Refuses a plot without a series, and a series that the axes have no place for.
+    fn check_series(&self) -> Result<(), Error> {
+        if self.series.is_empty() {
+            return Err(Error::NoSeries);
+        }
+        let shown = |x: f64, y: f64| (x > 0.0 || !self.x.is_log) && (y > 0.0 || !self.y.is_log);
+        let is_empty = |one: &&Series| !one.points.iter().any(|(x, y)| shown(*x, y.value));
+        match self.series.iter().find(is_empty) {
+            Some(one) => Err(Error::Empty(self.names[one.name].clone())),
+            None => Ok(()),
+        }
+    }
+
     /// Returns the axes that hold all data, after evaluating the functions at 401 places.
     fn axes(&mut self) -> (Axis, Axis) {
         let mut data = self.data();
@@ -169,6 +182,7 @@ impl Plot {
     /// of plotters.
     pub fn draw(mut self) -> Result<(Sheet, Panel), Error> {
         let (x, y) = self.axes();
+        self.check_series()?;
         let has_names = self.names.len() > 1;
         let left = panel::widest_number(&y)? + panel::LABEL_LEFT + 2 * TEXT;
         let mut right = WIDTH as i32 - 150 - panel::widest_number(&x)? / 2;
@@ -344,6 +358,12 @@ mod tests {
         small.finish("A", describe!("A")).unwrap();
         let wide = Plot::new().line("a", &[(0.0, -1.7e308), (1.0, 1.7e308)]);
         assert!(matches!(wide.finish("A", describe!("A")), Err(Error::Axis { .. })));
+        // What would be an empty frame.
+        let empty = [Plot::new().line("a", &[]), Plot::new().log_y("b").line("a", &[(1.0, -2.0)])];
+        for plot in empty {
+            assert!(matches!(plot.finish("A", describe!("A")), Err(Error::Empty(_))));
+        }
+        assert!(matches!(Plot::new().finish("A", describe!("A")), Err(Error::NoSeries)));
         let plot = Plot::new().log_x("*k*").x_range(2.0, 60.0).y_range(0.0, 1.0).mark_size(80);
         let (_, panel) = plot.points("a", &[(5.0, 0.5), (70.0, 0.5)], Symbol::Ring).draw().unwrap();
         assert_eq!((panel.x.lo, panel.x.hi, panel.y.lo, panel.y.hi), (2.0, 60.0, 0.0, 1.0));

@@ -2,6 +2,7 @@
 
 use super::error::Error;
 use crate::experiments::Profile;
+use crate::input::is_control;
 use crate::source::Sources;
 use crate::table::Table;
 pub use crate::value::{Digits, Kind, Number, Origin, Value, origin};
@@ -100,7 +101,7 @@ fn showable(value: &Value) -> Result<(), Error> {
     let hidden = |c: &char| match c {
         '\n' | '\r' | '\t' => false,
         '\u{e000}'..='\u{f8ff}' | '\u{fffe}' | '\u{ffff}' => true,
-        c => c.is_control(),
+        c => is_control(*c),
     };
     match value.id.chars().chain(words.chars()).find(hidden) {
         Some(c) => Err(Error::Unshowable(value.id.clone(), c)),
