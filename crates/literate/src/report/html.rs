@@ -8,7 +8,7 @@ mod table;
 
 use super::document::{self, Block, Formula, Inline};
 use super::document::{heading_place, place_on_page, printed, spelt};
-use super::edition::Document;
+use super::edition::{Document, Edition};
 use super::error::{Error, unresolved};
 use super::input::Input;
 use super::{latex, mathml};
@@ -52,6 +52,9 @@ pub fn write(
             _ => (),
         }
     }
+    let year = edition.date.split('-').next().unwrap_or_default();
+    let key = format!("{}{year}{}", input.project.sources.name, here.prose);
+    let key: String = key.chars().filter(char::is_ascii_alphanumeric).collect();
     let documents = edition.documents.iter().map(|of| (of.page, text(of.name)));
     let parts = json!({
         "file": here.page,
@@ -61,6 +64,8 @@ pub fn write(
         "meta": meta,
         "documents": documents.collect::<Vec<_>>(),
         "title": text(&spelt(title)),
+        "key": key,
+        "authors": text(&bibtex_authors(edition)),
         "bibtex": text(&latex::inlines(title)?),
         "heading": heading,
         "byline": if here.is_signed(edition) { text(&edition.byline()) } else { String::new() },
@@ -70,6 +75,18 @@ pub fn write(
         "glyphs": outlines(&page.glyphs.borrow()),
     });
     Ok((parts, page.values.into_inner()))
+}
+
+/// The authors as BibTeX takes them. A name that ends in a word without a capital, as that of a
+/// group, stands in braces, or BibTeX would take its last word for the name of a family.
+fn bibtex_authors(edition: &Edition) -> String {
+    let mut names = Vec::new();
+    for (name, _) in &edition.authors {
+        let last = name.split_whitespace().last().unwrap_or_default();
+        let is_group = last.starts_with(char::is_lowercase);
+        names.push(if is_group { format!("{{{name}}}") } else { name.to_string() });
+    }
+    names.join(" and ")
 }
 
 const OPENING: [char; 4] = ['(', '[', '“', '‘'];

@@ -299,10 +299,13 @@ fn a_report_is_all_its_files() {
     assert_eq!(text("SHA256SUMS").lines().count(), paths.len() - 1);
     let sum = "5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv\n";
     assert!(text("SHA256SUMS").contains(sum), "{}", text("SHA256SUMS"));
+    let index = std::str::from_utf8(&report.generated["data/index.html"]).unwrap();
+    assert!(index.contains("<a href=\"fig03.csv\">fig03.csv</a></td><td>"), "{index}");
     let generated = report.generated.keys().filter(|path| !path.starts_with("fonts/"));
     let expected = [
         "SHA256SUMS.built",
         "cards.js",
+        "data/index.html",
         "figures/fig03.pdf",
         "report.css",
         "report.html",
