@@ -8,7 +8,7 @@ mod table;
 
 use super::document::{self, Block, Formula, Inline};
 use super::document::{heading_place, place_on_page, printed, spelt};
-use super::edition::{Document, Edition};
+use super::edition::Document;
 use super::error::{Error, unresolved};
 use super::input::Input;
 use super::{latex, mathml};
@@ -65,7 +65,7 @@ pub fn write(
         "documents": documents.collect::<Vec<_>>(),
         "title": text(&spelt(title)),
         "key": key,
-        "authors": text(&bibtex_authors(edition)),
+        "authors": text(&edition.bibtex_authors()),
         "bibtex": text(&latex::inlines(title)?),
         "heading": heading,
         "byline": if here.is_signed(edition) { text(&edition.byline()) } else { String::new() },
@@ -75,18 +75,6 @@ pub fn write(
         "glyphs": outlines(&page.glyphs.borrow()),
     });
     Ok((parts, page.values.into_inner()))
-}
-
-/// The authors as BibTeX takes them. A name that ends in a word without a capital, as that of a
-/// group, stands in braces, or BibTeX would take its last word for the name of a family.
-fn bibtex_authors(edition: &Edition) -> String {
-    let mut names = Vec::new();
-    for (name, _) in &edition.authors {
-        let last = name.split_whitespace().last().unwrap_or_default();
-        let is_group = last.starts_with(char::is_lowercase);
-        names.push(if is_group { format!("{{{name}}}") } else { name.to_string() });
-    }
-    names.join(" and ")
 }
 
 const OPENING: [char; 4] = ['(', '[', '“', '‘'];
