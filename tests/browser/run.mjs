@@ -288,6 +288,17 @@ async function filters(page) {
   check((await shown.count()) === (await all.count()), "ledger: a row that is gone to stays hidden");
 }
 
+/** The entry to cite is copied, or selected where a page may not copy. */
+async function cites(page, name) {
+  await page.locator(".cite summary").click();
+  const copy = page.locator(".cite button");
+  await copy.click();
+  await page.waitForTimeout(100);
+  check(/^(Copied|Selected)$/.test(await copy.innerText()), `${name}: the entry to cite is not copied`);
+  const selected = await page.evaluate(() => getSelection().toString());
+  check(/^@misc\{[a-z0-9]+,/.test(selected), `${name}: to cite there is ${selected}`);
+}
+
 async function accessible(page, name) {
   await page.addScriptTag({ path: axe });
   const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"], preload: false }));
@@ -318,6 +329,7 @@ for (const [file, least] of Object.entries(PAGES)) {
     await tables_are_one_stop(page, name);
     await references_are_seen(page, name);
     await search_finds(page, name);
+    await cites(page, name);
     if (file === "ledger.html") await filters(page);
     await accessible(page, name);
     if (pictures) {

@@ -185,6 +185,17 @@
   });
   if (sections.length > 0) contents.querySelector("details")?.append(make("div", { className: "search", role: "search" }, input, found));
 
+  // What is to be cited is selected and copied; where a page may not copy, it stays selected.
+  for (const entry of all(".cite pre")) {
+    const copy = make("button", { type: "button" }, "Copy");
+    copy.addEventListener("click", async () => {
+      getSelection().selectAllChildren(entry);
+      const copied = await navigator.clipboard?.writeText(entry.textContent).then(() => true, () => false);
+      copy.textContent = copied ? "Copied" : "Selected";
+    });
+    entry.before(copy);
+  }
+
   // Long cells in a table of many columns can be unfolded; on paper all are open.
   for (const cell of all(".lists td.long")) {
     const start = cell.textContent.replace(/^(.{40}\S*).*/s, "$1 …");

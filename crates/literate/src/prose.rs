@@ -8,7 +8,8 @@ use std::path::Path;
 const TEXT: [&str; 8] = [".md", ".tex", ".bib", ".toml", ".html", ".css", ".js", ".json"];
 
 /// Frames of the documents, and empty files, for a folder that has none of these names.
-const SKIN: [(&str, &str); 7] = [
+const SKIN: [(&str, &str); 8] = [
+    ("data.html", include_str!("../skin/data.html")),
     ("literals.toml", ""),
     ("published.toml", ""),
     ("references.bib", ""),

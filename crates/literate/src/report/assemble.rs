@@ -263,6 +263,8 @@ fn write_documents(
         let passages = search::passages(blocks, document.name);
         texts.push(serde_json::json!([document.page, document.name, passages]));
     }
+    filler.insert("page", &html::shared::data_index(&report.committed, edition));
+    report.generated.insert("data/index.html".into(), filler.fill("data.html")?.into_bytes());
     let texts = format!("TEXTS = {};\n", serde_json::Value::from(texts));
     report.generated.insert("search.js".into(), texts.into_bytes());
     for name in ["report.css", "report.js"] {

@@ -45,6 +45,18 @@ impl Edition {
         self.authors.iter().map(author).chain(date).collect::<Vec<_>>().join(", ")
     }
 
+    /// The authors as BibTeX takes them. A name that ends in a word without a capital, as that of a
+    /// group, stands in braces, or BibTeX would take its last word for the name of a family.
+    pub(super) fn bibtex_authors(&self) -> String {
+        let mut names = Vec::new();
+        for (name, _) in &self.authors {
+            let last = name.split_whitespace().last().unwrap_or_default();
+            let is_group = last.starts_with(char::is_lowercase);
+            names.push(if is_group { format!("{{{name}}}") } else { name.to_string() });
+        }
+        names.join(" and ")
+    }
+
     /// Metadata in the head of each page: names of `<meta>` and their content.
     pub(super) fn about(&self, sources: &Sources) -> Vec<(&'static str, String)> {
         let Sources { name, version, .. } = sources;

@@ -125,6 +125,7 @@ pub fn is_generated(path: &str) -> bool {
     match path.split_once('/') {
         Some((folder, name)) => match folder {
             "figures" => name.ends_with(".pdf"),
+            "data" => name == "index.html",
             _ => folder == "fonts",
         },
         None => path == BUILT || [".html", ".css", ".js"].iter().any(|end| path.ends_with(end)),

@@ -52,6 +52,9 @@ pub fn write(
             _ => (),
         }
     }
+    let year = edition.date.split('-').next().unwrap_or_default();
+    let key = format!("{}{year}{}", input.project.sources.name, here.prose);
+    let key: String = key.chars().filter(char::is_ascii_alphanumeric).collect();
     let documents = edition.documents.iter().map(|of| (of.page, text(of.name)));
     let parts = json!({
         "file": here.page,
@@ -61,6 +64,8 @@ pub fn write(
         "meta": meta,
         "documents": documents.collect::<Vec<_>>(),
         "title": text(&spelt(title)),
+        "key": key,
+        "authors": text(&edition.bibtex_authors()),
         "bibtex": text(&latex::inlines(title)?),
         "heading": heading,
         "byline": if here.is_signed(edition) { text(&edition.byline()) } else { String::new() },

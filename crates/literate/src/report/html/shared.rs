@@ -1,13 +1,15 @@
-//! Makes the files that all pages share: fonts, and the cards of their numbers.
+//! Makes the files that all pages share: fonts, the cards of their numbers, and the index of data.
 
 use super::super::card::Cards;
 use super::super::document::{self, Inline};
+use super::super::edition::Edition;
 use super::super::error::Error;
 use super::super::folder::Files;
 use super::super::input::Input;
 use super::super::labels::Labels;
 use super::Page;
 use crate::figures::escape as text;
+use serde_json::{Value as Json, json};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -59,4 +61,19 @@ pub fn files(
     let font = |(name, bytes): (&str, &[u8])| (format!("fonts/{name}.woff2"), bytes.to_vec());
     files.extend(FONTS.map(font));
     Ok(files)
+}
+
+/// Returns what the template data.html inserts: the documents, and the name, the number of rows and
+/// the columns of each file of data.
+pub fn data_index(files: &Files, edition: &Edition) -> Json {
+    let mut rows = Vec::new();
+    for (path, bytes) in files {
+        let Some(name) = path.strip_prefix("data/") else { continue };
+        let table = String::from_utf8_lossy(bytes);
+        let mut lines = table.lines();
+        let columns = lines.next().unwrap_or_default().replace(',', ", ");
+        rows.push([text(name), lines.count().to_string(), text(&columns)]);
+    }
+    let documents: Vec<_> = edition.documents.iter().map(|of| (of.page, text(of.name))).collect();
+    json!({ "documents": documents, "files": rows })
 }

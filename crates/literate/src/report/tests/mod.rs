@@ -290,19 +290,19 @@ fn a_report_is_all_its_files() {
     assert!(markdown.contains("1 | A threshold \\| exists: 0.1165(4), reproduced |"), "{markdown}");
     assert!(markdown.contains("[fig03.csv](data/fig03.csv)"), "{markdown}");
     assert!(text("report.tex").contains("\\title{Title}"));
-    assert!(
-        text("report.tex").contains("At \\origin{half_height}{0.1165(4)}, "),
-        "{}",
-        text("report.tex")
-    );
+    let latex = text("report.tex");
+    assert!(latex.contains("At \\origin{half_height}{0.1165(4)}, "), "{latex}");
     assert!(text("values.json").contains("\"score.reproduced\""));
     assert_eq!(text("SHA256SUMS").lines().count(), paths.len() - 1);
     let sum = "5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv\n";
-    assert!(text("SHA256SUMS").contains(sum), "{}", text("SHA256SUMS"));
+    assert!(text("SHA256SUMS").contains(sum));
+    let index = std::str::from_utf8(&report.generated["data/index.html"]).unwrap();
+    assert!(index.contains("<a href=\"fig03.csv\">fig03.csv</a></td><td>"), "{index}");
     let generated = report.generated.keys().filter(|path| !path.starts_with("fonts/"));
     let expected = [
         "SHA256SUMS.built",
         "cards.js",
+        "data/index.html",
         "figures/fig03.pdf",
         "report.css",
         "report.html",
