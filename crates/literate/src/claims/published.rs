@@ -183,9 +183,9 @@ impl Statement {
             return Err("value is not a number with so many `decimals`");
         }
         // As a number, per cent or per mille.
-        let mut ways = [0, 2, 3].into_iter().map(|shift| {
-            written(value * power_of_ten(shift), (decimals - shift).max(0))
-        });
+        let mut ways = [0, 2, 3]
+            .into_iter()
+            .map(|shift| written(value * power_of_ten(shift), (decimals - shift).max(0)));
         if value.fract() != 0.0 && !ways.any(|way| self.printed.contains(&way)) {
             return Err("value does not stand in printed; write both as they were printed");
         }
