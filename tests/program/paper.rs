@@ -133,7 +133,7 @@ fn signals_end_the_work_and_leave_nothing_half_written() {
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let line = first_line(&mut child);
     assert!(line.starts_with("trace: at t = ") && line.contains(", after 5 s"), "{line}");
-    let [out, _] = ended(child, "-INT");
+    let [out, _] = ended(child, "-TERM");
     assert!(out.ends_with('\n'), "whole lines");
 }
 
