@@ -76,8 +76,13 @@ fn run(folder: &Path, line: &str) -> (i32, String, String) {
 #[test]
 fn the_advice_of_verify_works_as_it_is_printed() {
     let folder = tempfile::tempdir().unwrap();
-    let prose = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/feigenbaum");
-    let made = |line: &str| run(folder.path(), &format!("{line} --templates {prose}"));
+    // The way to the project may have blanks.
+    let prose = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/feigenbaum");
+    std::fs::create_dir(folder.path().join("prose")).unwrap();
+    for file in prose.read_dir().unwrap().map(Result::unwrap) {
+        std::fs::copy(file.path(), folder.path().join("prose").join(file.file_name())).unwrap();
+    }
+    let made = |line: &str| run(folder.path(), &format!("{line} --templates prose"));
     assert_eq!(made("paper").0, 0);
     // A saved result that is wrong, and looks fresh.
     let saved = folder.path().join("target/results/cascade-full.json");
