@@ -2,6 +2,7 @@
 
 use super::shared::*;
 use crate::experiments::SEGMENTS;
+use crate::params::VERTICES;
 use std::collections::BTreeSet;
 
 pub fn rules() -> Vec<Rule> {
@@ -11,7 +12,8 @@ pub fn rules() -> Vec<Rule> {
         Rule::new("sec5_masses_of_circuit", masses_of_circuit).reads("k + 1"),
         cases("sec5_eq6", ENUMERATION).reads("(N − 1)!/(N − k)!"),
         cases("sec5_eq7", ENUMERATION).reads("N!/(k (N − k)!)"),
-        Rule::new("sec5_eq8", eq8).on(OurMeasure).reads("≪ 1"),
+        Rule::new("sec5_eq8", eq8).on(OurMeasure).reads("≪ 1 for all k ≲ N"),
+        Rule::new("sec5_eq8_next", eq8_next).on(OurMeasure).reads("≪ 1 for all k ≲ N"),
         Rule::new("sec5_majority", majority).on(OurMeasure).reads("length ≈ N"),
     ]
 }
@@ -86,18 +88,31 @@ fn masses_of_circuit(e: &Evidence<'_>) -> Judged {
 
 /// Lengths that are about N, here as in the next statement: the largest, and three below it.
 fn eq8(e: &Evidence<'_>) -> Judged {
-    let columns = ["before_last", "largest_far", "from", "exceptions"];
-    let [ratio, far, from, exceptions] = e.numbers("theory.lengths", columns)?;
+    let [far, from] = e.numbers("theory.lengths", ["largest_far", "from"])?;
     let found = Text::of("at most {} for k < {}", [significant(far, 2), integer(from as usize)]);
-    Ok(e.found(found, far <= 0.1)
+    Ok(e.found(found, far <= 0.1).within(
+        Text::of("at most {}", [significant(0.1, 1)]),
+        "ours: “far below one” as at most a tenth; “about N” as within three of it",
+    ))
+}
+
+fn eq8_next(e: &Evidence<'_>) -> Judged {
+    let columns = ["before_last", "exceptions"];
+    let [ratio, exceptions] = e.numbers("theory.lengths", columns)?;
+    let n = VERTICES as f64;
+    Ok(e.found(Text::of("at k = N − 1: {}", [significant(ratio, 4)]), exceptions == 0.0)
         .within(
             Text::of("at most {}", [significant(0.1, 1)]),
-            "ours: “far below one” as at most a tenth; “about N” as within three of it",
+            "ours: “far below one” as at most a tenth",
         )
-        .note(Text::of(
-            "The {} lengths next to N have more than a tenth: at k = N − 1 the ratio is N/(N − 1), {}. Most circuits are there.",
-            [integer(exceptions as usize), significant(ratio, 4)],
-        )))
+        .explained(
+            Text::of(
+                "The ratio at k = N − 1 is N/(N − 1), above one. Above a tenth are the {} lengths next to N, where most \
+                 circuits are.",
+                [integer(exceptions as usize)],
+            ),
+            (ratio * (n - 1.0) / n - 1.0).abs() < 1e-13 && exceptions == 3.0,
+        ))
 }
 
 fn majority(e: &Evidence<'_>) -> Judged {

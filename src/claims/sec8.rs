@@ -115,15 +115,18 @@ fn no_impact(e: &Evidence<'_>) -> Judged {
 /// Less of a whole than this cannot be seen in a figure (ours).
 pub(super) const VISIBLE: f64 = 0.05;
 
+/// “Extremely small”, of a probability, is at most this (ours).
+const EXTREMELY_SMALL: f64 = 0.02;
+
 fn p_small(e: &Evidence<'_>) -> Judged {
     let [crit, jump] = e.numbers("theory.relation", ["sigma_crit", "sigma_jump"])?;
     let printed = e.statement.number()?;
     let p = e.number(&format!("theory.gap[sigma={printed}].p"))?;
     let found = Text::of("p = {} at σ = {}", [significant(p, 3), chosen(printed)]);
-    Ok(e.found(found, p <= VISIBLE)
+    Ok(e.found(found, p <= EXTREMELY_SMALL)
         .within(
-            Text::of("at most {}", [significant(VISIBLE, 1)]),
-            "ours: “extremely small” as what cannot be seen in a figure that reaches from zero to one",
+            Text::of("at most {}", [significant(EXTREMELY_SMALL, 1)]),
+            "ours: “extremely small” as a fiftieth of what a probability can be",
         )
         .note(Text::of(
             "It is not small for the theory: p reaches p_crit at σ = {} and p_jump at {}, below the printed value.",

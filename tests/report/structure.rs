@@ -76,7 +76,7 @@ fn the_readme_has_the_score() {
     };
     let [theory, measures] = [by(&["exact", "rounding"]), by(&["our measure"])];
     let split = format!(
-        "decide {} of them, and {} are reproduced; measures of ours for statements in words decide {}, and {} are; none of the {} numbers",
+        "decide {} of them, and {} are reproduced; measures of ours for statements in words decide {}, and {} are; the one number printed for the simulation, in {} readings, cannot",
         theory[0],
         theory[1],
         measures[0],

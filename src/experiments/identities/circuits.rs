@@ -80,11 +80,11 @@ pub(super) fn eq32() -> Cases {
     cases((1..=10).flat_map(|n| (1..=n).map(move |j| (n, j))).map(agrees))
 }
 
-/// Compares Eq. (38) with the circuits of all five classes, wherever no formula is used below its
-/// printed range: from k = 3 on, since Eq. (37) has length k + 2 > 4.
-pub(super) fn eq38(census: &Census) -> Cases {
+/// Compares Eq. (38) from a k on with the circuits of all five classes. From k = 3 on no formula is
+/// used below its printed range, since Eq. (37) has length k + 2 > 4.
+pub(super) fn eq38(census: &Census, from: usize) -> Cases {
     let lengths = |(n, longest): (usize, usize)| {
-        (3..=n).take_while(move |k| k + 3 <= longest).map(move |k| (n, k))
+        (from..=n).take_while(move |k| k + 3 <= longest).map(move |k| (n, k))
     };
     cases((1..).zip(LONGEST).flat_map(lengths).map(|(n, k)| {
         let simple = phi(n, k).map(|count| Fraction::new(count, 1));
