@@ -1,5 +1,6 @@
-// What readers run themselves: chains by the engine of this report, circuits by its theory, in WebAssembly. A page loads
-// this when it is first asked to; what it has to hold the runs against is LAB, which the program writes before this.
+// What readers run themselves: chains by the engine of this report, circuits by its theory, in
+// WebAssembly. A page loads this when it is first asked to; what it has to hold the runs against is
+// LAB, which the program writes before this.
 globalThis.open_lab = (() => {
   const { runs, curve, module } = LAB;
   const make = (tag, properties = {}, ...children) => {

@@ -87,7 +87,8 @@ fn class_range(e: &Evidence<'_>) -> Judged {
     })
 }
 
-/// As printed, without a smallest length, and from the length on where each formula is in its range.
+/// As printed, without a smallest length, and from the length on where each formula is in its
+/// range.
 fn eq38(e: &Evidence<'_>) -> Judged {
     let [all, wrong] = compared(e)?;
     let [in_range, wrong_in_range] =

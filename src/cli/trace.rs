@@ -20,7 +20,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// Print the impacts of a scenario as CSV: time, gap, closing speed
 ///
-/// Masses 1..n in a row, each on a spring to its own place: between impacts
+/// Masses 1..n in a row, each on a spring to its place: between impacts
 ///   x_j'' = w^2 (j d - x_j) + alpha_j cos Wt + beta_j sin Wt.
 /// Where neighbours meet, their velocities jump: the gap opens at r times the speed at which it
 /// closed, and momentum is kept. All masses are 1; walls, at 0 and (n + 1) d, do not move. Times
@@ -269,7 +269,7 @@ fn trace(
     if let Err(error) = printer.flush() {
         return printed(Err(error));
     }
-    // Of many scenarios each note names its own.
+    // With many scenarios each note names the one that it is about.
     let of_line = if args.lines { format!("{name}: ") } else { String::new() };
     let note = |text: String| warn(&(of_line.clone() + &text));
     warn_of_doubts(&cost, &note);

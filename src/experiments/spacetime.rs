@@ -64,7 +64,7 @@ impl SpaceTime {
     }
 
     /// Returns, for each gap that is hit, the time from the first impact of the earlier of its
-    /// neighbours to its own; none if neither had been hit.
+    /// neighbours to the first of the gap; none if neither had been hit.
     fn waits(&self) -> Vec<(usize, Option<f64>)> {
         let firsts: Vec<f64> =
             self.firsts().into_iter().map(|first| first.unwrap_or(f64::INFINITY)).collect();

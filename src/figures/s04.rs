@@ -76,7 +76,7 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
                 &points,
                 (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)),
             )?;
-            // Where a curve has room beside it.
+            // Where a label has room next to its curve.
             let (at, side) = match (column, place) {
                 ("from_above", 1) => (points.first(), (-2, 0)),
                 ("from_rest", 0) => (points.iter().find(|point| point.1.value >= 0.2), (2, 1)),

@@ -1,4 +1,5 @@
-// What readers run themselves: the same bits as the program computed when it made the report, soon, and refused in words.
+// What readers run themselves: the same bits as the program computed when it made the report, soon,
+// and refused in words.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 

@@ -1,5 +1,5 @@
-// Opens the pages of a report from disk in headless Chromium, as a reader would, and ends with exit code 1
-// if something is wrong. Usage: node run.mjs FOLDER [FOLDER FOR PICTURES]
+// Opens the pages of a report from disk in headless Chromium, as a reader would, and ends with exit
+// code 1 if something is wrong. Usage: node run.mjs FOLDER [FOLDER FOR PICTURES]
 import { chromium } from "playwright-core";
 import { createRequire } from "node:module";
 import { existsSync, statSync } from "node:fs";

@@ -165,14 +165,14 @@ fn outputs_that_cannot_be_written() {
     for arguments in ["trace s.json --until 1e5", "eval p-crit"] {
         let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
         let output = program(folder.path(), arguments).stdout(full).output().unwrap();
-        let (code, _, note) = crate::told(&output);
+        let (code, _, note) = crate::ended_with(&output);
         assert_eq!((code, note.lines().count()), (2, 1), "{note}");
         assert!(note.contains("standard output"), "{note}");
     }
     let mut command = program(folder.path(), "trace s.json --until 1e5");
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());
-    let (code, _, note) = crate::told(&child.wait_with_output().unwrap());
+    let (code, _, note) = crate::ended_with(&child.wait_with_output().unwrap());
     assert!(note.is_empty() && code != -1, "{note}");
 }
 

@@ -28,20 +28,20 @@ fn values_figures_equations_and_claims_are_explained() {
     let folder = report();
     for line in CARDS.lines() {
         let (id, parts) = line.split_once(" => ").unwrap();
-        let told = answer(folder.path(), &format!("explain --paper r {id}"));
-        assert!(!told.contains("\\mathrm") && !told.contains("\\Phi"), "{told}");
+        let text = answer(folder.path(), &format!("explain --paper r {id}"));
+        assert!(!text.contains("\\mathrm") && !text.contains("\\Phi"), "{text}");
         for part in parts.split("; ") {
-            assert!(told.contains(part), "{id}: {part:?} is not in\n{told}");
+            assert!(text.contains(part), "{id}: {part:?} is not in\n{text}");
         }
     }
     // The addresses that DESIGN.md gives.
     let design = std::fs::read_to_string("DESIGN.md").unwrap();
     let addresses = design.split('`').filter(|code| code.contains("]."));
-    let told = addresses.map(|id| answer(folder.path(), &format!("explain --paper r {id}")));
-    assert!(told.count() > 0);
-    let told = answer(folder.path(), "explain --paper r");
+    let answers = addresses.map(|id| answer(folder.path(), &format!("explain --paper r {id}")));
+    assert!(answers.count() > 0);
+    let text = answer(folder.path(), "explain --paper r");
     for id in ["sweep.rise.half_height ", "fig:15 ", "fig:S1 ", "eq:38 ", "claim:sec2_onset "] {
-        assert!(told.lines().any(|line| line.starts_with(id)), "{id}");
+        assert!(text.lines().any(|line| line.starts_with(id)), "{id}");
     }
 }
 
@@ -58,10 +58,10 @@ fn things_are_found_by_part_by_number_and_as_people_write_them() {
         (&half[..5], "sweep.rise.half_height"),
     ] {
         let mut command = program(folder.path(), "explain --paper r");
-        let (code, told, note) = outcome(command.arg(asked));
+        let (code, text, note) = outcome(command.arg(asked));
         assert!(
-            code == 0 && told.lines().any(|line| line.starts_with(id)),
-            "{asked}: {told}{note}"
+            code == 0 && text.lines().any(|line| line.starts_with(id)),
+            "{asked}: {text}{note}"
         );
     }
     let column = answer(folder.path(), "explain --paper r race.finest[method=sampled].units");

@@ -38,14 +38,14 @@ fn program(folder: &Path, arguments: &str) -> Command {
 }
 
 /// Exit code, stdout and stderr; −1 for a program that a signal ended.
-fn told(output: &Output) -> (i32, String, String) {
+fn ended_with(output: &Output) -> (i32, String, String) {
     let text = |bytes: &Vec<u8>| String::from_utf8_lossy(bytes).into_owned();
     (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
 }
 
 /// The same of a command.
 fn outcome(command: &mut Command) -> (i32, String, String) {
-    told(&command.output().unwrap())
+    ended_with(&command.output().unwrap())
 }
 
 /// The same of a run in a folder.

@@ -84,7 +84,7 @@ fn a_sweep_takes_no_more_memory_than_it_says() {
     let sweep = "ulimit -v 1000000; exec \"$0\" sweep --sigma 0.3 --masses 1000000 --realisations 1 --transient 0 \
                  --window 1 --threads 1";
     let output = Command::new("bash").args(["-c", sweep, crate::PROGRAM]).output().unwrap();
-    let (code, table, note) = crate::told(&output);
+    let (code, table, note) = crate::ended_with(&output);
     assert!(code == 0 && table.contains("0.3,"), "{note}");
 }
 

@@ -2,8 +2,8 @@
 //! as it is; exit codes.
 
 use crate::{
-    EXPERIMENTS, QUICK, SCENARIO, TEMPLATES, answer, digest, files, program, put, templates, told,
-    tree,
+    EXPERIMENTS, QUICK, SCENARIO, TEMPLATES, answer, digest, ended_with, files, program, put,
+    templates, tree,
 };
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -24,9 +24,9 @@ fn refused(folder: &Path, arguments: &str, words: &[&str]) {
 fn a_figure_alone_runs_and_writes_no_more_than_it_needs() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let (code, told, note) = run(here, "paper --figure 4 --out f --results none");
-    assert_eq!((code, note.as_str()), (0, ""), "{told}");
-    assert!(told.starts_with("f: 1 file in "), "{told}");
+    let (code, out, note) = run(here, "paper --figure 4 --out f --results none");
+    assert_eq!((code, note.as_str()), (0, ""), "{out}");
+    assert!(out.starts_with("f: 1 file in "), "{out}");
     assert!(here.join("f/figures/fig04.svg").is_file() && !here.join("none").exists());
     let paper = "paper --profile quick --figure 3 --out g --results r";
     // Two at once do not disturb each other.
@@ -57,9 +57,9 @@ fn saved_results_change_no_byte_and_neither_edits_nor_full_reports_are_written_o
         files.map(|file| file.metadata().unwrap().modified().unwrap()).collect()
     };
     let before = times();
-    let (code, told, note) = run(folder.path(), paper);
+    let (code, out, note) = run(folder.path(), paper);
     assert_eq!((code, times()), (0, before), "{note}");
-    assert!(told.contains("report.html") && told.contains(" statements of the paper: "), "{told}");
+    assert!(out.contains("report.html") && out.contains(" statements of the paper: "), "{out}");
     assert_eq!(note.matches(": fresh").count(), EXPERIMENTS, "{note}");
     assert!(QUICK.report == tree(&at("one")));
 
@@ -90,7 +90,7 @@ fn ended(mut child: Child, signal: &str) -> [String; 2] {
     let early = child.try_wait().unwrap();
     let kill = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
     assert!(early.is_none() && kill.success(), "it must still be running: {early:?}");
-    let (code, out, note) = told(&child.wait_with_output().unwrap());
+    let (code, out, note) = ended_with(&child.wait_with_output().unwrap());
     assert_eq!(code, 130, "{out}{note}");
     [out, note]
 }
@@ -169,10 +169,10 @@ fn a_rerun_finds_what_the_list_cannot() {
     put(&here.join("saved"), &QUICK.results);
 
     // Without saved results, by the profile that the report names, on another number of threads.
-    let (code, told, note) = crate::run(here, &format!("verify r --rerun --threads 1 {templates}"));
-    assert_eq!(code, 0, "{told}{note}");
+    let (code, out, note) = crate::run(here, &format!("verify r --rerun --threads 1 {templates}"));
+    assert_eq!(code, 0, "{out}{note}");
     assert!(note.contains("sweep: run\n"), "{note}");
-    assert!(told.contains("made again with the quick profile, the same bytes"), "{told}");
+    assert!(out.contains("made again with the quick profile, the same bytes"), "{out}");
 
     // A forger who keeps the list right.
     let edit = |name: &str, change: &dyn Fn(String) -> String| {
@@ -186,17 +186,17 @@ fn a_rerun_finds_what_the_list_cannot() {
     let (old, new) = (digest(&before), digest(format!("{before}9\n")));
     let more = format!("{}  data/more.csv\n", digest(""));
     edit("SHA256SUMS", &|list| list.replace(&old, &new) + &more);
-    let (code, told, _) = crate::run(here, "verify r");
-    assert_eq!((code, &*told), (1, "differs  report.html\n"));
+    let (code, out, _) = crate::run(here, "verify r");
+    assert_eq!((code, &*out), (1, "differs  report.html\n"));
     let page = fs::read_to_string(here.join("r/report.html")).unwrap();
     let [old, new] = [&page[..page.len() - 1], &page].map(digest);
     edit("SHA256SUMS.built", &|list| list.replace(&old, &new));
     assert!(answer(here, "verify r").ends_with(" files, all as SHA256SUMS lists them\n"));
-    let (code, told, note) =
+    let (code, out, note) =
         crate::run(here, &format!("verify r --rerun --results saved {templates}"));
-    assert_eq!(code, 1, "{told}{note}");
+    assert_eq!(code, 1, "{out}{note}");
     assert!(note.contains("5 files; `paper --out r --force --profile quick "), "{note}");
-    let lines: Vec<&str> = told.lines().skip(1).collect();
+    let lines: Vec<&str> = out.lines().skip(1).collect();
     let names = [
         "differs  SHA256SUMS",
         "differs  SHA256SUMS.built",
@@ -209,8 +209,8 @@ fn a_rerun_finds_what_the_list_cannot() {
     // What is lost or new is named without a rerun.
     fs::remove_file(here.join("r/data/fig02.csv")).unwrap();
     fs::write(here.join("r/data/strange.csv"), "").unwrap();
-    let (code, told, _) = crate::run(here, "verify r");
-    assert_eq!((code, &*told), (1, "missing  data/fig02.csv\nunlisted data/strange.csv\n"));
+    let (code, out, _) = crate::run(here, "verify r");
+    assert_eq!((code, &*out), (1, "missing  data/fig02.csv\nunlisted data/strange.csv\n"));
 }
 
 /// A report whose statements fail is written all the same. The exit codes of `--help` and DESIGN.md
@@ -224,8 +224,8 @@ fn a_statement_that_fails_is_exit_code_1() {
         text.replacen("printed = \"16\"\nvalue = 16", "printed = \"17\"", 1)
     });
     let paper = "paper --profile quick --out p --results r --templates t";
-    let (code, told, note) = crate::run(here, paper);
-    assert!(code == 1 && note.contains("sec3_edges; `check` says more"), "{told}{note}");
+    let (code, out, note) = crate::run(here, paper);
+    assert!(code == 1 && note.contains("sec3_edges; `check` says more"), "{out}{note}");
     let ledger = fs::read_to_string(here.join("p/ledger.json")).unwrap();
     assert!(ledger.contains("\"verdict\": \"differs\""));
     let help = answer(here, "--help");

@@ -68,12 +68,12 @@ fn damaged(name: &str, index: u64, good: &str) -> String {
 fn survives(name: &str, good: String, count: u64, read: Reader) {
     assert_eq!(read(&good), Ok(()), "{name}");
     let texts: Vec<String> = (0..count).map(|index| damaged(name, index, &good)).collect();
-    let (tell, told) = channel();
+    let (sender, outcomes) = channel();
     let given = texts.clone();
-    std::thread::spawn(move || given.iter().all(|text| tell.send(read(text)).is_ok()));
+    std::thread::spawn(move || given.iter().all(|text| sender.send(read(text)).is_ok()));
     for text in texts {
-        let told = told.recv_timeout(Duration::from_secs(60));
-        let line = told.unwrap_or_else(|_| panic!("{name} panics or hangs: {text}"));
+        let outcome = outcomes.recv_timeout(Duration::from_secs(60));
+        let line = outcome.unwrap_or_else(|_| panic!("{name} panics or hangs: {text}"));
         let line = line.err().unwrap_or_default();
         let plain = |line: &str| !line.contains(char::is_control) && line.len() <= 2000;
         assert!(line.lines().all(plain), "{name}: {line}: {text}");

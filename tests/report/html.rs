@@ -130,12 +130,12 @@ fn every_page_says_how_to_cite_it() {
         let boxes = elements(&page, "details").into_iter();
         let boxes: Vec<_> = boxes.filter(|own| own.attribute("class") == Some("cite")).collect();
         let [own] = boxes[..] else { panic!("{name}: {} boxes", boxes.len()) };
-        let told = words(own);
+        let entry = words(own);
         let here = QUICK.paper.edition.documents.iter().find(|of| of.page == name).unwrap();
-        assert!(told.contains(&format!("@misc{{impactpaper2026{},", here.prose)), "{told}");
-        assert!(told.contains("author = {{The impact-paper authors}},"), "{told}");
-        assert!(told.contains(&format!("title  = {{{title}}}")), "{name}: {told}");
-        assert!(told.contains(concat!("impact-paper ", env!("CARGO_PKG_VERSION"))), "{told}");
+        assert!(entry.contains(&format!("@misc{{impactpaper2026{},", here.prose)), "{entry}");
+        assert!(entry.contains("author = {{The impact-paper authors}},"), "{entry}");
+        assert!(entry.contains(&format!("title  = {{{title}}}")), "{name}: {entry}");
+        assert!(entry.contains(concat!("impact-paper ", env!("CARGO_PKG_VERSION"))), "{entry}");
     }
 }
 

@@ -15,7 +15,7 @@ const CRATES: [(&str, &str); 8] = [
     ("literate_sources", "crates/sources/src"),
     ("literate", "crates/literate/src"),
     ("impact_paper", "src"),
-    // The program is a crate beside its library, with files of its own.
+    // The program and its library are two crates in one folder.
     ("main", "src/main"),
 ];
 

@@ -140,8 +140,8 @@
     });
   }, { passive: true });
 
-  // A search through all documents, this one first, for passages with all words in any order, whatever
-  // their endings; Enter goes from find to find.
+  // A search through all documents, this one first, for passages with all words in any order,
+  // whatever their endings; Enter goes from find to find.
   const MAX_FINDS = 12;
   const CONTEXT = 50;
   const found = make("ol");

@@ -168,7 +168,7 @@ pub fn first_root_by_steps<const M: usize>(
 ) -> Next {
     let fast = frequencies.fastest;
     let bound6 = fast * fast * frame.bound;
-    // A frame that was not carried on from an impact has rounding of its own.
+    // A frame that does not begin at an impact is itself rounded.
     let carried = frame.f0 <= NEARLY_SHUT * frame.size;
     let rounding = if carried { 0.0 } else { 2.0 * f64::EPSILON * frame.size };
     let mut s = from;

@@ -1,6 +1,6 @@
 //! An experiment that is a command in another language.
 //!
-//! It runs in a folder of its own, with copies of the files that it names and nothing else, so that
+//! It runs in a temporary folder, with copies of the files that it names and nothing else, so that
 //! a file which it reads and does not name is missed at once. Links would not do: Python looks for
 //! modules where a link leads to. The manual ([`crate::manual`]) has the form of what it reads and
 //! prints.

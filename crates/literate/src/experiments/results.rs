@@ -42,7 +42,7 @@ impl Results {
     /// Returns the tables of all results, by name.
     ///
     /// # Errors
-    /// If two have the same name, and for the first table with a fault of its own.
+    /// If two have the same name, and for the first table that has a fault.
     pub fn tables(&self) -> Result<&Tables, Error> {
         // Made before the lock is taken: a thread that waits in it for others may begin something
         // else that looks here.

@@ -233,7 +233,8 @@ pub fn is_abstract(block: &Block) -> bool {
     matches!(block, Block::Heading { text, .. } if plain(text) == "Abstract")
 }
 
-/// Returns the id of a heading on a page: its own, or `sec-2-1` by its number, or its words.
+/// Returns the id of a heading on a page: the one it was given, or `sec-2-1` by its number, or its
+/// words.
 pub fn heading_place(id: Option<&str>, number: Option<&str>, words: &[Inline]) -> String {
     match (id, number) {
         (None, Some(number)) => place_on_page(Some(&format!("sec:{number}")), words),

@@ -2,7 +2,7 @@
 //! two.
 //!
 //! Two lists in the format of `sha256sum` name every file: SHA256SUMS those that are committed, and
-//! SHA256SUMS.built those that are built beside them and may be absent, such as pages and figures
+//! SHA256SUMS.built those that are only built and may be absent, such as pages and figures
 //! for LaTeX. The second is built too: it says what was last written here.
 
 use crate::input::{self, STAGING, WRITING, is_absent, remedy, sha256};
@@ -13,7 +13,7 @@ use std::path::Path;
 /// The list of committed files, in the folder.
 pub const SUMS: &str = "SHA256SUMS";
 
-/// The list of files that are built beside them.
+/// The list of files that are built and not committed.
 pub const BUILT: &str = "SHA256SUMS.built";
 
 /// Paths relative to the report's folder, and their bytes.

@@ -5,7 +5,7 @@ use crate::value::{Kind, Number};
 
 impl Table {
     /// Returns names of columns with units, and the cells as data files write them: every bit of
-    /// each number, and a column of its own for each standard error.
+    /// each number, and a further column for each standard error.
     pub fn data(&self) -> (Vec<String>, Vec<Vec<String>>) {
         let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); self.rows.len()]);
         for (at, Column { name, unit }) in self.columns.iter().enumerate() {

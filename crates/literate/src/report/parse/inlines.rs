@@ -104,7 +104,7 @@ impl Reader<'_> {
             while !matches!(self.next(), None | Some((Event::End(_), _))) {}
             return self.reference(dest_url, range.start);
         }
-        // An address between < and > is its own words.
+        // An address between < and > is shown as it is.
         if let Tag::Link { link_type: LinkType::Autolink, dest_url, .. } = &tag {
             while !matches!(self.next(), None | Some((Event::End(_), _))) {}
             let to = self.plain(dest_url)?;
