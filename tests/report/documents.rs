@@ -4,7 +4,7 @@
 //! its time. (The browser test bounds the pages, and `.ci/latex` those in print.)
 
 use crate::QUICK;
-use literate::report::{Document, Report};
+use literate::report::{Document, Files};
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
 /// Words of prose: no code, no displayed formula, no table, no address of a link, no description
@@ -44,9 +44,8 @@ fn words_are_counted_as_a_reader_does() {
 
 #[test]
 fn no_document_outgrows_its_reader() {
-    let text = |name: &str| {
-        std::str::from_utf8(&QUICK.report.committed[&format!("{name}.md")]).unwrap().to_owned()
-    };
+    let text =
+        |name: &str| std::str::from_utf8(&QUICK.report[&format!("{name}.md")]).unwrap().to_owned();
     let (edition, beyond) = (text("report"), text("beyond"));
     let counts = [
         ("the front page", words(&text("README")), 600),
@@ -84,9 +83,9 @@ fn links(text: &str) -> (Vec<String>, Vec<String>) {
 
 #[test]
 fn every_link_lands_wherever_the_report_is_written() {
-    let texts = |report: &Report| {
+    let texts = |report: &Files| {
         let text = |of: &Document| {
-            let text = std::str::from_utf8(&report.committed[of.markdown]).unwrap();
+            let text = std::str::from_utf8(&report[of.markdown]).unwrap();
             (of.markdown.to_string(), links(text))
         };
         QUICK.paper.edition.documents.iter().map(text).collect()

@@ -2,13 +2,13 @@
 //! quick profile.
 
 use crate::QUICK;
-use literate::report::Report;
+use literate::report::Files;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 static PAGES: LazyLock<BTreeMap<&str, String>> = LazyLock::new(|| {
-    let text = |page: &str| String::from_utf8(QUICK.report.generated[page].clone()).unwrap();
+    let text = |page: &str| String::from_utf8(QUICK.report[page].clone()).unwrap();
     QUICK
         .paper
         .edition
@@ -31,8 +31,8 @@ fn pages() -> impl Iterator<Item = (&'static str, Document<'static>)> {
 type Card = (String, String, Vec<usize>);
 
 /// Rows and cards in cards.js.
-fn cards(report: &Report) -> (Vec<String>, BTreeMap<String, Card>) {
-    let text = std::str::from_utf8(&report.generated["cards.js"]).unwrap();
+fn cards(report: &Files) -> (Vec<String>, BTreeMap<String, Card>) {
+    let text = std::str::from_utf8(&report["cards.js"]).unwrap();
     let json = text.strip_prefix("CARDS = ").and_then(|text| text.strip_suffix(";\n"));
     serde_json::from_str(json.unwrap()).unwrap()
 }
@@ -61,7 +61,7 @@ fn every_link_lands_wherever_the_report_is_written() {
     crate::links_land(
         |report| {
             let page = |of: &literate::report::Document| {
-                let text = std::str::from_utf8(&report.generated[of.page]).unwrap();
+                let text = std::str::from_utf8(&report[of.page]).unwrap();
                 (of.page.to_string(), links(&text.replace("href=\"data:,\"", "")))
             };
             let cards = format!("<p>{}</p>", cards(report).0.concat());

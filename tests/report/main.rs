@@ -19,7 +19,7 @@ use impact_paper::{claims, contents};
 use literate::Paper;
 use literate::figures::Figure;
 use literate::prose::Templates;
-use literate::report::{Document, Input, Registry, Report, assemble};
+use literate::report::{Document, Files, Input, Registry, assemble};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
@@ -29,9 +29,9 @@ struct Quick {
     paper: Paper,
     templates: Templates,
     figures: Vec<Figure>,
-    report: Report,
+    report: Files,
     /// The same as it is written into a folder of target/, and where no checkout is.
-    elsewhere: [Report; 2],
+    elsewhere: [Files; 2],
     results: Results,
     values: Registry,
     /// Where the results are saved.
@@ -49,7 +49,7 @@ impl Quick {
 
     /// A document as hosts show it.
     fn markdown(&self, document: &Document) -> &str {
-        std::str::from_utf8(&self.report.committed[document.markdown]).unwrap()
+        std::str::from_utf8(&self.report[document.markdown]).unwrap()
     }
 
     /// The prose of a document before it is filled.
@@ -65,7 +65,7 @@ type Links = BTreeMap<String, (Vec<String>, Vec<String>)>;
 
 /// Follows the links of files in a report that is written into paper/, into a folder of target/,
 /// and elsewhere; so many at least lead within a file, and from one to another.
-fn links_land(files: impl Fn(&Report) -> Links, least: usize, across: usize) {
+fn links_land(files: impl Fn(&Files) -> Links, least: usize, across: usize) {
     for (report, top) in [&QUICK.report, &QUICK.elsewhere[0], &QUICK.elsewhere[1]]
         .into_iter()
         .zip(["../", "../../", "none"])
@@ -83,8 +83,7 @@ fn links_land(files: impl Fn(&Report) -> Links, least: usize, across: usize) {
                     continue;
                 }
                 let to = if file.is_empty() { name } else { file };
-                let own = || report.committed.contains_key(to) || report.generated.contains_key(to);
-                assert!(own() || to == "data", "{name}: no {link}");
+                assert!(report.contains_key(to) || to == "data", "{name}: no {link}");
                 if !id.is_empty() {
                     inside += usize::from(to == name);
                     outside += usize::from(to != name);

@@ -8,7 +8,7 @@ use crate::paper::{FigureSpec, Paper};
 use crate::prose::Templates;
 use crate::report::claims::printed;
 use crate::report::filler::Filler;
-use crate::report::{Input, Registry, Report, Value, assemble};
+use crate::report::{Files, Input, Registry, Value, assemble};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -106,7 +106,7 @@ pub fn make_report(
     paper: &Paper,
     session: &Session<'_>,
     out: &Path,
-) -> Result<(Report, Vec<Check>), Failure> {
+) -> Result<(Files, Vec<Check>), Failure> {
     let Session { templates, progress, .. } = session;
     Filler::new(templates)?;
     let published = paper.published(session)?;

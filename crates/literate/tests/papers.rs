@@ -26,7 +26,7 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
     assert!(report == make_report(&paper, &session, Path::new("paper")).unwrap().0);
     assert_eq!(written(), first, "it is run once");
 
-    let text = |path: &str| String::from_utf8(report.committed[path].clone()).unwrap();
+    let text = |path: &str| String::from_utf8(report[path].clone()).unwrap();
     let markdown = text("report.md");
     for part in [
         "2 of 3 statements are reproduced, 1 differs and is",
@@ -44,7 +44,7 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
     let ledger = text("ledger.json");
     assert_eq!(ledger.matches("\"reproduced\"").count(), 2, "{ledger}");
     assert_eq!(ledger.matches("\"differs and explained\"").count(), 1, "{ledger}");
-    assert!(report.generated.contains_key("report.html"));
+    assert!(report.contains_key("report.html"));
 
     // The constants to the digits that the literature has: 4.669 201 609 102… and 2.502 907 875
     // 095….

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::input::{count, one_line};
 use crate::paper::{FigureSpec, Paper};
 use crate::report::values;
-use crate::report::{Files, Report, files_of, folder};
+use crate::report::{Files, files_of, folder};
 use crate::table::nearest;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -78,14 +78,15 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         if is_whole {
             return make_report(paper, &session, &out);
         }
-        let (results, mut report) = (paper.results(&needs, &session)?, Report::default());
+        let (results, mut report) = (paper.results(&needs, &session)?, Files::new());
         for figure in figures {
-            report.committed.extend(files_of(&figure.figure(&results)?).committed);
+            report.extend(files_of(&figure.figure(&results)?));
         }
+        report.retain(|path, _| !folder::is_generated(path));
         Ok((report, Vec::new()))
     })?;
-    report.write(&out, force).map_err(option)?;
-    let number = count(report.committed.len() + report.generated.len(), "file");
+    folder::write(&out, &report, force).map_err(option)?;
+    let number = count(report.len(), "file");
     let mut line = format!("{}: {number} in {:.1} s", shown(&out), began.elapsed().as_secs_f64());
     if is_whole {
         let pages: Vec<&str> = paper.edition.documents.iter().map(|one| one.page).collect();

@@ -66,7 +66,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         };
         let session = paper.session(templates.as_deref(), profile, store, progress())?;
         let made = threads.run(|| make_report(paper, &session, &folder))?.0;
-        let (files, differences) = made.compare(&folder)?;
+        let (files, differences) = folder::compare(&folder, &made)?;
         if differences.is_empty() {
             let name = profile.name();
             let fine = format!("made again with the {name} profile, the same bytes");

@@ -8,7 +8,7 @@ use super::edition::{Document, Edition};
 use super::error::Error;
 use super::filled::{Filled, Places};
 use super::filler::Filler;
-use super::folder::{self, BUILT, Files, Report, SUMS};
+use super::folder::{self, Files, SUMS, is_generated};
 use super::input::{Input, LAB};
 use super::labels::Labels;
 use super::ledger::{EquationEntry, Ledger};
@@ -30,7 +30,7 @@ struct Part<'a> {
 
 /// Makes the whole report in memory. What is wrong with the prose of all documents is reported at
 /// once: first what Tera says, then what can be read and resolved, then what can be written.
-pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
+pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     let (mut values, mut filler, filled) = fill(input)?;
     let used: BTreeSet<String> = filled.iter().flat_map(|filled| ids(&filled.text)).collect();
     let is_unused = |value: &&Value| !value.for_data_only && !used.contains(&value.id);
@@ -45,21 +45,19 @@ pub fn assemble(input: &Input<'_>) -> Result<Report, Error> {
     let declared = filler.declared.clone();
     let (parts, labels) = parts(input, &filled, &values, &declared, errors)?;
     let ledger = ledger_of(input, &parts);
-    let mut report = Report::default();
-    data_files(input, &values, &ledger, &mut report)?;
+    let mut files = data_files(input, &values, &ledger)?;
     let mut errors = Vec::new();
-    let shown = write_documents(input, &parts, &mut filler, &mut report, &mut errors)?;
-    report.committed.insert(SUMS.into(), folder::sums(&report.committed).into_bytes());
+    let shown = write_documents(input, &parts, &mut filler, &mut files, &mut errors)?;
     for Part { document, blocks, places } in &parts {
-        let links = check_links(blocks, *document, &labels, &report.committed, input.edition);
+        let links = check_links(blocks, *document, &labels, &files, input.edition);
         errors.extend(links.into_iter().map(|error| places.locate(error)));
     }
     all_in_order(errors)?;
     let Input { edition, project, experiments, .. } = *input;
     let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
-    report.generated.extend(html::shared::files(&shown, cards, input, &labels)?);
-    report.generated.insert(BUILT.into(), folder::sums(&report.generated).into_bytes());
-    Ok(report)
+    files.extend(html::shared::files(&shown, cards, input, &labels)?);
+    folder::add_lists(&mut files);
+    Ok(files)
 }
 
 /// Fills the prose of each document; returns the values with the scorecard among them, the filler
@@ -192,27 +190,19 @@ fn ledger_of(input: &Input<'_>, parts: &[Part<'_>]) -> Ledger {
     Ledger { claims: input.claims.to_vec(), figures, equations }
 }
 
-/// Adds values, ledger, tables and figures.
-fn data_files(
-    input: &Input<'_>,
-    values: &Registry,
-    ledger: &Ledger,
-    report: &mut Report,
-) -> Result<(), Error> {
+/// Makes the files of values, ledger, tables and figures.
+fn data_files(input: &Input<'_>, values: &Registry, ledger: &Ledger) -> Result<Files, Error> {
     let jsons = [
         ("values.json", serde_json::to_string_pretty(values)),
         ("ledger.json", serde_json::to_string_pretty(ledger)),
     ];
+    let mut files: Files = values.tables().map(|table| data(&DataFile::of(table))).collect();
     for (name, json) in jsons {
         let json = json.map_err(|error| Error::Template(format!("{name}: {error}")))? + "\n";
-        report.committed.insert(name.into(), json.into_bytes());
+        files.insert(name.into(), json.into_bytes());
     }
-    for files in input.figures.par_iter().map(files_of).collect::<Vec<_>>() {
-        report.committed.extend(files.committed);
-        report.generated.extend(files.generated);
-    }
-    report.committed.extend(values.tables().map(|table| data(&DataFile::of(table))));
-    Ok(())
+    files.extend(input.figures.par_iter().flat_map_iter(files_of).collect::<Vec<_>>());
+    Ok(files)
 }
 
 /// Adds each document in its formats, and what its pages load, and the errors of those that cannot
@@ -221,7 +211,7 @@ fn write_documents(
     input: &Input<'_>,
     parts: &[Part<'_>],
     filler: &mut Filler,
-    report: &mut Report,
+    files: &mut Files,
     errors: &mut Vec<Error>,
 ) -> Result<BTreeSet<String>, Error> {
     let edition = input.edition;
@@ -251,42 +241,36 @@ fn write_documents(
             let byline = format!("\n\n*{}*\n\n", markdown::escaped(&edition.byline()));
             text = text.replacen("\n\n", &byline, 1);
         }
-        report.committed.insert(document.markdown.into(), text.into_bytes());
+        files.insert(document.markdown.into(), text.into_bytes());
         if let Some(name) = document.print {
             filler.insert("print", &print);
             let text = filler.fill("report.tex")?;
-            report.committed.insert(format!("{name}.tex"), text.into_bytes());
+            files.insert(format!("{name}.tex"), text.into_bytes());
         }
         filler.insert("page", &page);
-        report.generated.insert(document.page.into(), filler.fill("report.html")?.into_bytes());
+        files.insert(document.page.into(), filler.fill("report.html")?.into_bytes());
         shown.extend(values);
         let passages = search::passages(blocks, document.name);
         texts.push(serde_json::json!([document.page, document.name, passages]));
     }
-    filler.insert("page", &html::shared::data_index(&report.committed, edition));
-    report.generated.insert("data/index.html".into(), filler.fill("data.html")?.into_bytes());
+    filler.insert("page", &html::shared::data_index(files, edition));
+    files.insert("data/index.html".into(), filler.fill("data.html")?.into_bytes());
     let texts = format!("TEXTS = {};\n", serde_json::Value::from(texts));
-    report.generated.insert("search.js".into(), texts.into_bytes());
+    files.insert("search.js".into(), texts.into_bytes());
     for name in ["report.css", "report.js"] {
-        report.generated.insert(name.into(), input.templates.text(name)?.as_bytes().to_vec());
+        files.insert(name.into(), input.templates.text(name)?.as_bytes().to_vec());
     }
     if let Some(lab) = input.lab {
-        report.generated.insert(LAB.into(), lab.as_bytes().to_vec());
+        files.insert(LAB.into(), lab.as_bytes().to_vec());
     }
     Ok(shown)
 }
 
 /// Returns the files of the picture of a figure, and its data.
-pub fn files_of(figure: &Figure) -> Report {
-    let mut report = Report::default();
-    for (name, bytes) in figure.files() {
-        let path = format!("figures/{name}");
-        let is_generated = folder::is_generated(&path);
-        let files = if is_generated { &mut report.generated } else { &mut report.committed };
-        files.insert(path, bytes);
-    }
-    report.committed.extend(figure.data.iter().map(data));
-    report
+pub fn files_of(figure: &Figure) -> Files {
+    let picture =
+        figure.files().into_iter().map(|(name, bytes)| (format!("figures/{name}"), bytes));
+    picture.chain(figure.data.iter().map(data)).collect()
 }
 
 fn data(file: &DataFile) -> (String, Vec<u8>) {
@@ -302,6 +286,7 @@ fn check_links(
     files: &Files,
     edition: &Edition,
 ) -> Vec<Error> {
+    let committed = || files.keys().map(String::as_str).filter(|path| !is_generated(path));
     let is_page = |to: &str| edition.documents.iter().any(|document| document.page == to);
     let leads = |to: &str| match (to.split_once("://"), to.strip_prefix('#')) {
         (Some((scheme, _)), _) => ["https", "http"].contains(&scheme),
@@ -311,14 +296,15 @@ fn check_links(
         }
         // `illustrate` has checked links to the project, which may be rewritten since.
         _ if to.starts_with('.') || to.starts_with("mailto:") || is_page(to) => true,
-        _ => files.keys().any(|path| path == to || path.starts_with(&format!("{to}/"))),
+        _ if to == SUMS => true,
+        _ => committed().any(|path| path == to || path.starts_with(&format!("{to}/"))),
     };
     let mut errors = Vec::new();
     document::visit(blocks, &mut |inline| {
         if let Inline::Link { to, .. } = inline
             && !leads(to)
         {
-            errors.push(no_file(to, files.keys().map(String::as_str)));
+            errors.push(no_file(to, committed()));
         }
     });
     errors

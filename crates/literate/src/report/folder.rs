@@ -16,17 +16,8 @@ pub const SUMS: &str = "SHA256SUMS";
 /// The list of files that are built and not committed.
 pub const BUILT: &str = "SHA256SUMS.built";
 
-/// Paths relative to the report's folder, and their bytes.
+/// A report in memory: paths relative to its folder, and bytes.
 pub type Files = BTreeMap<String, Vec<u8>>;
-
-/// A report in memory.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Report {
-    /// Files that are committed; SHA256SUMS covers them.
-    pub committed: Files,
-    /// Files that are not committed: pages, figures/*.pdf for LaTeX; SHA256SUMS.built covers them.
-    pub generated: Files,
-}
 
 /// Why a folder is not written or compared.
 #[derive(Debug, thiserror::Error)]
@@ -57,13 +48,18 @@ fn digests<'a>(files: impl Iterator<Item = (&'a String, &'a Vec<u8>)>) -> Digest
     files.map(|(path, bytes)| (path.clone(), sha256(bytes))).collect()
 }
 
+/// Lines that `sha256sum --check` reads, sorted by path.
 fn lines(digests: &Digests) -> String {
     digests.iter().map(|(path, digest)| format!("{digest}  {path}\n")).collect()
 }
 
-/// Lines that `sha256sum --check` reads, sorted by path.
-pub fn sums(files: &Files) -> String {
-    lines(&digests(files.iter()))
+/// Adds the two lists to the files of a whole report.
+pub fn add_lists(files: &mut Files) {
+    for (name, generated) in [(SUMS, false), (BUILT, true)] {
+        let listed = files.iter().filter(|(path, _)| is_generated(path) == generated);
+        let list = lines(&digests(listed));
+        files.insert(name.into(), list.into_bytes());
+    }
 }
 
 /// Reads paths and digests. Returns none if there is no line, or if a line names anything but a
@@ -162,22 +158,18 @@ pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
     if edited.is_empty() { Ok(()) } else { Err(Error::Edited(place(), edited)) }
 }
 
-/// Writes files: first all into a temporary folder, then each is renamed into its place, the list
-/// lists last. If the list is among them they are a whole report, and files that only the old lists
-/// name are removed; else their lines are added to the old list. `generated` are pages and figures
-/// for LaTeX, with their list. Unless forced, it refuses first.
-pub fn write(folder: &Path, files: &Files, generated: &Files, force: bool) -> Result<(), Error> {
+/// Writes files: first all into a temporary folder, then each is renamed into its place, the lists
+/// last. If the lists are among them they are a whole report, and files that only the old lists
+/// name are removed; else their lines are added to the old list. Unless forced, it refuses first.
+pub fn write(folder: &Path, files: &Files, force: bool) -> Result<(), Error> {
     let whole = files.contains_key(SUMS);
-    let new: Files = files.iter().chain(generated).map(|(a, b)| (a.clone(), b.clone())).collect();
     if !force {
-        refuse(folder, &new, whole)?;
+        refuse(folder, files, whole)?;
     }
-    let (mut committed, built) = (ours(folder)?.unwrap_or_default(), list(folder, BUILT));
-    let gone = |path: &&String| whole && !new.contains_key(*path) && folder.join(path).exists();
-    let old = committed.keys().chain(built.iter().flat_map(BTreeMap::keys));
+    let (mut listed, built) = (ours(folder)?.unwrap_or_default(), list(folder, BUILT));
+    let gone = |path: &&String| whole && !files.contains_key(*path) && folder.join(path).exists();
+    let old = listed.keys().chain(built.iter().flat_map(BTreeMap::keys));
     let gone: Vec<String> = old.filter(gone).cloned().collect();
-    committed.retain(|_, _| !whole);
-    committed.extend(digests(files.iter().filter(|(path, _)| *path != SUMS)));
 
     let _moment = WRITING.read();
     std::fs::create_dir_all(folder).map_err(failed(folder))?;
@@ -190,11 +182,13 @@ pub fn write(folder: &Path, files: &Files, generated: &Files, force: bool) -> Re
         let above = place.parent().map_or(Ok(()), std::fs::create_dir_all);
         above.and_then(|()| how(&place)).map_err(failed(&folder.join(path)))
     };
-    let (name, sums) = (SUMS.to_string(), lines(&committed).into_bytes());
-    let is_list = |path: &str| [SUMS, BUILT].contains(&path);
-    let mut all: Vec<_> = new.iter().filter(|(path, _)| !is_list(path)).collect();
-    all.extend(generated.get_key_value(BUILT));
-    all.push((&name, &sums));
+    let mut all = files.clone();
+    if !whole {
+        listed.extend(digests(files.iter()));
+        all.insert(SUMS.into(), lines(&listed).into_bytes());
+    }
+    let mut all: Vec<(&String, &Vec<u8>)> = all.iter().collect();
+    all.sort_by_key(|(path, _)| [BUILT, SUMS].iter().position(|list| list == path));
     for (path, bytes) in &all {
         put(staged.path(), path, &|place| std::fs::write(place, bytes))?;
     }
@@ -236,19 +230,12 @@ pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
     Ok((all.len(), faults))
 }
 
-impl Report {
-    /// Writes all of it into a folder.
-    pub fn write(&self, folder: &Path, force: bool) -> Result<(), Error> {
-        write(folder, &self.committed, &self.generated, force)
-    }
-
-    /// Compares a folder with the whole report, byte by byte; returns how many files were compared,
-    /// and a line for each fault. Generated files may be missing, but may not differ.
-    pub fn compare(&self, folder: &Path) -> Result<(usize, Vec<String>), Error> {
-        let generated = self.generated.iter().filter(|(path, _)| folder.join(path).exists());
-        let all = digests(self.committed.iter().chain(generated));
-        Ok((all.len(), faults(folder, &all)?))
-    }
+/// Compares a folder with a whole report, byte by byte; returns how many files were compared, and a
+/// line for each fault. Generated files may be missing, but may not differ.
+pub fn compare(folder: &Path, files: &Files) -> Result<(usize, Vec<String>), Error> {
+    let compared = |(path, _): &(&String, _)| !is_generated(path) || folder.join(path).exists();
+    let all = digests(files.iter().filter(compared));
+    Ok((all.len(), faults(folder, &all)?))
 }
 
 #[cfg(test)]
@@ -260,11 +247,11 @@ mod tests {
         pairs.iter().map(|(path, text)| (path.to_string(), text.as_bytes().to_vec())).collect()
     }
 
-    fn report(pairs: &[(&str, &str)]) -> Report {
-        let (mut committed, mut generated) = (files(pairs), files(&[("report.html", "page")]));
-        committed.insert(SUMS.into(), sums(&committed).into_bytes());
-        generated.insert(BUILT.into(), sums(&generated).into_bytes());
-        Report { committed, generated }
+    fn report(pairs: &[(&str, &str)]) -> Files {
+        let mut report = files(pairs);
+        report.insert("report.html".into(), b"page".to_vec());
+        add_lists(&mut report);
+        report
     }
 
     fn standing(folder: &Path) -> Files {
@@ -272,34 +259,30 @@ mod tests {
         walk(folder).unwrap().into_iter().map(one).collect()
     }
 
-    fn whole(report: &Report) -> Files {
-        report.committed.clone().into_iter().chain(report.generated.clone()).collect()
-    }
-
     #[test]
     fn a_report_is_replaced_and_what_others_put_there_is_left() {
         let temporary = tempfile::tempdir().unwrap();
         let folder = &temporary.path().join("new/paper");
         let old = report(&[("data/old.csv", "1"), ("report.md", "a")]);
-        old.write(folder, false).unwrap();
-        assert_eq!(standing(folder), whole(&old));
+        write(folder, &old, false).unwrap();
+        assert_eq!(standing(folder), old);
         fs::write(folder.join("notes.txt"), "by hand").unwrap();
         let new = report(&[("data/new.csv", "1"), ("report.md", "b")]);
-        new.write(folder, false).unwrap();
+        write(folder, &new, false).unwrap();
         let notes = files(&[("notes.txt", "by hand")]);
-        assert_eq!(standing(folder), whole(&new).into_iter().chain(notes).collect());
+        assert_eq!(standing(folder), new.clone().into_iter().chain(notes).collect());
         assert_eq!(verify(folder).unwrap(), (3, vec!["unlisted notes.txt".into()]));
         // A figure alone: the list has it from then on.
         let figure = files(&[("figures/fig01.svg", "drawn")]);
-        write(folder, &figure, &Files::new(), false).unwrap();
-        write(folder, &files(&[("figures/fig01.svg", "again")]), &Files::new(), false).unwrap();
+        write(folder, &figure, false).unwrap();
+        write(folder, &files(&[("figures/fig01.svg", "again")]), false).unwrap();
         fs::remove_file(folder.join("notes.txt")).unwrap();
         assert_eq!(verify(folder).unwrap(), (4, Vec::new()));
         // A page is listed too; in a clone it is absent.
         fs::write(folder.join("report.html"), "edited").unwrap();
         assert_eq!(verify(folder).unwrap().1, ["differs  report.html"]);
         assert!(
-            matches!(new.write(folder, false), Err(Error::Edited(_, names)) if names == ["report.html"])
+            matches!(write(folder, &new, false), Err(Error::Edited(_, names)) if names == ["report.html"])
         );
         for lost in ["report.html", BUILT] {
             fs::remove_file(folder.join(lost)).unwrap();
@@ -307,9 +290,9 @@ mod tests {
         }
         fs::write(folder.join("report.html"), "by hand").unwrap();
         assert_eq!(verify(folder).unwrap().1, ["unlisted report.html"]);
-        assert!(matches!(new.write(folder, false), Err(Error::Edited(..))));
-        new.write(folder, true).unwrap();
-        assert_eq!(standing(folder), whole(&new));
+        assert!(matches!(write(folder, &new, false), Err(Error::Edited(..))));
+        write(folder, &new, true).unwrap();
+        assert_eq!(standing(folder), new);
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub mod values;
 pub use assemble::{assemble, files_of};
 pub use edition::{Document, Edition};
 pub use error::Error;
-pub use folder::{Files, Report};
+pub use folder::Files;
 pub use input::{Input, LAB};
 pub use mark::framed;
 pub use values::{Registry, Value};

@@ -115,7 +115,7 @@ fn good_prose_passes() {
         «literal(text=\"2007\", why=\"the year\")», two-sided, `f64`, $k = 3$, $x_{12} = «v.half_height»$\n\n```\n12\n```\n\n\
         $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n«v.empty | otherwise(words=\"nothing\")», «v.spare | otherwise(words=\"nothing\")»\n\n| a |\n|---|\n| «v.empty» |\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>";
     let report = assembled(&format!("{PROSE}\n\n{good}\n")).unwrap();
-    let text = String::from_utf8_lossy(&report.committed["report.md"]).into_owned();
+    let text = String::from_utf8_lossy(&report["report.md"]).into_owned();
     assert!(text.contains("nothing, 3") && text.contains("| – |"), "{text}");
 }
 

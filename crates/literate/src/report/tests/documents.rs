@@ -48,10 +48,7 @@ fn documents_refer_to_each_other() {
     let right = files.map(|(path, text)| (path, text.replace("[@sec:b.]", "[@sec:b]")));
     let right: Vec<_> = right.iter().map(|(path, text)| (*path, text.as_str())).collect();
     let report = made(&right).unwrap();
-    let text = |path: &str| {
-        let bytes = report.committed.get(path).or(report.generated.get(path)).unwrap();
-        String::from_utf8(bytes.clone()).unwrap()
-    };
+    let text = |path: &str| String::from_utf8(report[path].clone()).unwrap();
     let parts = r##"
 README.md => # Front⏎⏎<a id="fig-fig03"></a>⏎![It rises \[steeply\].](figures/fig03.svg)⏎⏎**Figure 1.**
 report.md => # Report⏎⏎*A. Uthor (R & D), B. Uthor, 2026-11-24*⏎⏎## Abstract⏎⏎It *rises*.⏎⏎## 
