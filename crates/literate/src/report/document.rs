@@ -82,7 +82,19 @@ pub struct Reference {
     pub names: String,
     /// Year of a citation, with a letter where several would look alike: "1954a".
     pub year: String,
-    pub text: Vec<Inline>,
+    /// All authors, as the list shows them before the year in brackets.
+    pub authors: String,
+    /// What the list shows behind the year.
+    pub rest: Vec<Inline>,
+}
+
+impl Reference {
+    /// Returns the whole entry as the list shows it.
+    pub fn text(&self) -> Vec<Inline> {
+        let mut text = vec![Inline::Text(format!("{} ({}).", self.authors, self.year))];
+        text.extend(self.rest.iter().cloned());
+        text
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]

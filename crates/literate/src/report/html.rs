@@ -178,7 +178,7 @@ impl Page<'_> {
                 let mut out = String::from("<ul class=\"references\">\n");
                 for entry in entries {
                     let id = place_on_page(Some(&format!("ref:{}", entry.key)), &[]);
-                    let _ = writeln!(out, "<li id=\"{id}\">{}</li>", self.inlines(&entry.text)?);
+                    let _ = writeln!(out, "<li id=\"{id}\">{}</li>", self.inlines(&entry.text())?);
                 }
                 out + "</ul>\n"
             }

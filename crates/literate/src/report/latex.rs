@@ -124,7 +124,7 @@ fn write_block(block: &Block) -> Result<String, Error> {
         Block::Bibliography(entries) => {
             let mut out = String::from(HANGING);
             for entry in entries {
-                let text = inlines(&entry.text)?;
+                let text = inlines(&entry.text())?;
                 let name = label(&format!("ref:{}", entry.key));
                 out.push_str(&format!("\\item {name}{text}\n"));
             }

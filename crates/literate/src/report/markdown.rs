@@ -73,7 +73,7 @@ fn block(block: &Block) -> String {
         Block::Lab { .. } => String::new(),
         Block::Bibliography(entries) => {
             let entry = |entry: &document::Reference| {
-                format!("- {}{}", anchor(&format!("ref:{}", entry.key)), inlines(&entry.text))
+                format!("- {}{}", anchor(&format!("ref:{}", entry.key)), inlines(&entry.text()))
             };
             entries.iter().map(entry).collect::<Vec<_>>().join("\n")
         }

@@ -86,7 +86,7 @@ impl Index {
             Block::Lab { .. } => (),
             Block::Bibliography(entries) => {
                 for entry in entries {
-                    self.add(&spelt(&entry.text));
+                    self.add(&spelt(&entry.text()));
                 }
             }
         }
