@@ -1,6 +1,6 @@
 //! Prose that is broken: each fault is named with its place.
 
-use super::{PROSE, assembled, unmarked};
+use super::{PROSE, assembled, file, unmarked};
 
 /// Broken prose, line and column of the error, and words of its message; lines without an arrow are
 /// headings.
@@ -113,10 +113,10 @@ fn good_prose_passes() {
     let good = "Words \\*, \\_, \\$, me@x.org: C#, \\@sec:a, \\#, a * b, a_b, \\[a, b\\], a < b, \\^, \\~, \\-- and\n\n\
         [data](data), [code](../src/lib.rs), [out](https://x.org/10), `*` and $a_b * c^*$.\n\n\
         «literal(text=\"2007\", why=\"the year\")», two-sided, `f64`, $k = 3$, $x_{12} = «v.half_height»$\n\n```\n12\n```\n\n\
-        $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n«v.empty | otherwise(words=\"nothing\")», «v.spare | otherwise(words=\"nothing\")»\n\n| a |\n|---|\n| «v.empty» |\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>";
+        $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n«v.empty | otherwise(words=\"nothing\")», «v.count | otherwise(words=\"nothing\")»\n\n| a |\n|---|\n| «v.empty» |\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>";
     let report = assembled(&format!("{PROSE}\n\n{good}\n")).unwrap();
-    let text = String::from_utf8_lossy(&report["report.md"]).into_owned();
-    assert!(text.contains("nothing, 3") && text.contains("| – |"), "{text}");
+    let text = file(&report, "report.md");
+    assert!(text.contains("nothing, 12") && text.contains("| – |"), "{text}");
 }
 
 /// Faults that only a writer can see have places too, those of several blocks at once.

@@ -18,8 +18,7 @@ fn words_of_data_are_data() {
              | «toy.words[row].name» | {cell} |\n<% endfor %>"
         );
         let prose = prose.replacen(cell, "«toy.words[keys.toy.words.rows[0]].word»", 1);
-        let files = [("report.md", prose.as_str()), ("references.bib", BIB)];
-        made_with(&files, &with_equation(), None, figure(), claim(), Some(table))
+        Given { table: Some(table), ..given(&prose) }.made()
     };
     for words in [
         "US$",
@@ -37,7 +36,7 @@ fn words_of_data_are_data() {
         let report = shown(words).unwrap();
         let line = words.replace("\r\n", " ").replace('\n', " ");
         // Another reader of Markdown finds the words, in a sentence and in two cells.
-        let markdown = String::from_utf8(report["report.md"].clone()).unwrap();
+        let markdown = file(&report, "report.md");
         let options = pulldown_cmark::Options::ENABLE_TABLES | pulldown_cmark::Options::ENABLE_MATH;
         let mut read = String::new();
         for event in pulldown_cmark::Parser::new_ext(&markdown, options) {
@@ -50,15 +49,15 @@ fn words_of_data_are_data() {
         for place in [format!("{line} and {line}.⏎"), format!("⏎{line}⏎{line}⏎")] {
             assert!(read.contains(&place), "{words:?}: {place:?} is not in {read}");
         }
-        let tex = String::from_utf8(report["report.tex"].clone()).unwrap();
+        let tex = file(&report, "report.tex");
         let tex_line = tex::text(&line).unwrap();
         assert!(tex.contains(&format!("{{{tex_line}}} \\\\\n")), "{words:?}: {tex}");
-        let page = String::from_utf8(report["report.html"].clone()).unwrap();
+        let page = file(&report, "report.html");
         let id = format!("toy.words[name={words}].word");
         let [escaped, escaped_id] = [&line, &id].map(|text| crate::figures::escape(text));
         let value = format!("\"{}\">{escaped}</span>", escaped_id.replace('\n', "&#10;"));
         assert_eq!(page.matches(&value).count(), 3, "{words:?}");
-        let cards = String::from_utf8(report["cards.js"].clone()).unwrap();
+        let cards = file(&report, "cards.js");
         let cards: serde_json::Value =
             serde_json::from_str(cards.trim_start_matches("CARDS = ").trim_end_matches(";\n"))
                 .unwrap();

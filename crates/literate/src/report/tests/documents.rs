@@ -24,7 +24,6 @@ fn documents_refer_to_each_other() {
         print: Some("more"),
         repeats: false,
     };
-    let edition = Edition { documents: vec![FRONT, Document::REPORT, MORE], ..edition() };
     let files = [
         (
             "front.md",
@@ -41,14 +40,17 @@ fn documents_refer_to_each_other() {
           Table: T {#tab:t}\n\n| a |\n|---|\n| [!claim:rise] |",
         ),
     ];
-    let made = |files: &[(&str, &str)]| made(files, &edition, None, figure(), claim());
+    let with = |from: &str, to: &str| {
+        let given = given("");
+        let documents = vec![FRONT, Document::REPORT, MORE];
+        let edition = Edition { documents, equations: Vec::new(), ..given.edition };
+        let files = files.map(|(path, text)| (path, text.replace(from, to))).to_vec();
+        Given { files, edition, ..given }.made()
+    };
     // A mistake in the second file of a document has its place there.
-    let error = made(&files).unwrap_err().to_string();
+    let error = with("", "").unwrap_err().to_string();
     assert!(error.starts_with("report/02-second.md:3:24: [@sec:b.]: nothing"), "{error}");
-    let right = files.map(|(path, text)| (path, text.replace("[@sec:b.]", "[@sec:b]")));
-    let right: Vec<_> = right.iter().map(|(path, text)| (*path, text.as_str())).collect();
-    let report = made(&right).unwrap();
-    let text = |path: &str| String::from_utf8(report[path].clone()).unwrap();
+    let report = with("[@sec:b.]", "[@sec:b]").unwrap();
     let parts = r##"
 README.md => # Front⏎⏎<a id="fig-fig03"></a>⏎![It rises \[steeply\].](figures/fig03.svg)⏎⏎**Figure 1.**
 report.md => # Report⏎⏎*A. Uthor (R & D), B. Uthor, 2026-11-24*⏎⏎## Abstract⏎⏎It *rises*.⏎⏎## 
@@ -65,16 +67,10 @@ report.tex => Words, \textsuperscript{\ensuremath{\checkmark}~1} and Sec.~S1.1
 more.md => [Fig.·1](report.md#fig-fig03), [Sec.·2](report.md#sec-last).
 more.md => **Table S1.** T
 more.tex => \renewcommand{\thesection}{S\arabic{section}}"##;
-    for line in parts.lines().skip(1) {
-        let (file, part) = line.split_once(" => ").unwrap();
-        has(&text(file), part);
-    }
-    assert!(text("report.md").find("First") < text("report.md").find("Last"));
+    has(&report, parts);
+    let text = file(&report, "report.md");
+    assert!(text.find("First") < text.find("Last"));
     // Only a front page shows a figure again.
-    let again =
-        format!("{}\n\n![Again.](figures/fig03.svg)", files[3].1.replace("sec:b.]", "sec:b]"));
-    let twice =
-        right.iter().map(|(path, text)| (*path, if *path == "more.md" { &again } else { *text }));
-    let error = made(&twice.collect::<Vec<_>>()).unwrap_err().to_string();
+    let error = with("# More", "# More\n\n![Again.](figures/fig03.svg)").unwrap_err().to_string();
     assert!(error.contains("fig:fig03: two things"), "{error}");
 }

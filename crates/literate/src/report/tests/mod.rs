@@ -22,7 +22,7 @@ const SAMPLE: &str = r#"# A title
 
 Masses in a row ([@rice1945]; see [@fig:3], [@eq:18; @eq:25] and [@sec:protocol]). With
 «v.half_height» and $\sigma = «v.half_height»$, far below «v.tiny», the $n$-th mass of
-$f_{N,p}(k)$ and $\Phi'_{N,p}\,(k) < 1$ moves *fast*, **very** fast, at 100 % of `a_b`.
+$f_{N,p}(k)$ and $\Phi'_{N,p}\,(k) < 1$ moves *fast*, **very** fast, at \100 % of `a_b`.
 
 $$
 p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{N}\right)^2 \tag{18}
@@ -33,7 +33,7 @@ $$
 \begin{aligned} a &= b \\ c &= d \end{aligned} \tag{25}
 $$
 
-![The rise, at «v.half_height» or $\sigma$ ≥ 0.12.](figures/fig03.svg){#fig:3}
+![The rise, at «v.half_height» or $\sigma$ ≥ \0.12.](figures/fig03.svg){#fig:3}
 
 Of [@eq:map],
 $$
@@ -47,14 +47,14 @@ Table: What σ gives {#tab:sigma}
 
 | Check | Statement | Ours |
 |:--|---|--:|
-| [!claim:rise] | A threshold exists near 0.12 | «v.half_height» |
+| [!claim:rise] | A threshold exists near \0.12 | «v.half_height» |
 | [!claim:jump] | a_b * c | «v.kept | percent» |
 
 «v.count»
 . and [@Claim:jump] of [@tab:sigma] and [@fig:3].
 
-1. one
-2. two
+1. first
+2. second
 
    more
 - x
@@ -79,104 +79,64 @@ Listing: What $\delta v$ does. {#lst:kick}
 [@bibliography]
 "#;
 
-fn values() -> Registry {
-    let mut values = Registry::default();
-    let half = Value::ensemble("half_height", 0.11652, 0.0004, 1000);
-    let tiny = Value::real("tiny", 8.87e-4, 3);
-    let kept = Value::ensemble("kept", 0.945, 0.008, 400);
-    values.extend([half, tiny, kept, Value::integer("count", 12345)]).unwrap();
-    values
-}
-
-fn tree(text: &str) -> Vec<document::Block> {
-    let literals = "[[literal]]\nwhy = \"a test\"\nphrases = [\"100 %\", \"0.12\", \"two\"]";
-    let templates = Templates::of([("report.md", text), ("literals.toml", literals)]);
-    let filler = filler::Filler::new(&templates).unwrap().with(&values());
-    let filled = filler.prose(&Document::REPORT).unwrap();
-    let (values, sources) = (values(), toy());
-    let parsed = parse::parse(&filled, &values, &filler.declared, &sources);
-    let mut blocks = parsed.whole().unwrap().0;
-    let library = bibliography::Library::read(BIB).unwrap();
-    let mut labels = labels::Labels::default();
-    labels.number_all(&mut blocks, Document::REPORT).unwrap();
-    labels.resolve(&mut blocks, Document::REPORT, &library).unwrap();
-    blocks
-}
-
 /// Text in one line: `⏎` ends a line in it, and `·` is a blank that does not break.
 fn unmarked(line: &str) -> String {
     line.replace('⏎', "\n").replace('·', "\u{a0}")
 }
 
-/// Asserts that a document has these parts, one a line.
-fn has(text: &str, parts: &str) {
-    for part in parts.lines().map(unmarked) {
+/// Asserts that the files of a report have these parts, one a line, each behind its file.
+fn has(report: &Files, parts: &str) {
+    for line in parts.lines().skip(1) {
+        let (path, part) = line.split_once(" => ").unwrap();
+        let (text, part) = (file(report, path), unmarked(part));
         assert!(text.contains(&part), "{part:?} is not in\n{text}");
     }
 }
 
 #[test]
-fn markdown_for_a_host() {
-    let text = markdown::write(&tree(SAMPLE));
+fn each_format_has_its_markup() {
+    let claims = vec![claim("rise"), claim("jump")];
+    let report = Given { claims, ..given(SAMPLE) }.made().unwrap();
     has(
-        &text,
+        &report,
         r##"
-## <a id="sec-introduction"></a>1 Introduction⏎
-([[Rice, 1945](#ref-rice1945)]; see [Fig.·3](#fig-3), Eqs.·[(18)](#eq-18) and
-⏎0.1165(4) and $\sigma = 0.1165(4)$, far below $8.87\times10^{-4}$, the $n\text{-th}$
-$\Phi'_{N,p}\thinspace(k) \lt 1$ moves *fast*, **very** fast
-<a id="eq-18"></a>⏎⏎$$⏎p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{N}\right)^2⏎\tag{18}⏎$$⏎
-⏎\begin{aligned} a &= b \cr c &= d \end{aligned}⏎
-Of [Eq.·(1)](#eq-map),⏎⏎<a id="eq-map"></a>⏎⏎$$⏎x \to f(x)⏎\tag{1}⏎$$⏎⏎follows
-<a id="fig-3"></a>⏎![](figures/fig03.svg)⏎⏎**Figure 3.** The rise, at 0.1165(4) or
-<a id="tab-sigma"></a>**Table 1.** What σ gives⏎⏎| Check | Statement | Ours |⏎|---|---|--:|⏎
-| <a id="claim-jump"></a>2 | a_b \* c | 94.5(8)·% |⏎
-⏎. and [Claim·2](#claim-jump) of [Table·1](#tab-sigma) and [Fig.·3](#fig-3).⏎
-1. one⏎2. two⏎⏎   more⏎
-```rust⏎fn f() -> σ { 1 }⏎```⏎
-⏎By [Listing·1](#lst-kick), in words.⏎
-<a id="lst-kick"></a>**Listing 1.** What $\delta v$ does.⏎⏎<details>⏎<summary><code>toy::flight::Motion::kick</code></summary>⏎⏎```rust⏎/// 
-⏎    self.b += kick * p.cos;⏎}⏎```⏎⏎<sub>From [src/flight.rs](../src/flight.rs).</sub>⏎⏎</details>⏎
-- <a id="ref-rice1945"></a>Rice, S. O. (1945). Noise. *B*.⏎"##,
+report.md => ## <a id="sec-introduction"></a>1 Introduction⏎
+report.md => ([[Rice, 1945](#ref-rice1945)]; see [Fig.·3](#fig-3), Eqs.·[(18)](#eq-18) and
+report.md => ⏎0.1165(4) and $\sigma = 0.1165(4)$, far below $8.87\times10^{-4}$, the $n\text{-th}$
+report.md => $\Phi'_{N,p}\thinspace(k) \lt 1$ moves *fast*, **very** fast
+report.md => <a id="eq-18"></a>⏎⏎$$⏎p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{N}\right)^2⏎\tag{18}⏎$$⏎
+report.md => ⏎\begin{aligned} a &= b \cr c &= d \end{aligned}⏎
+report.md => Of [Eq.·(1)](#eq-map),⏎⏎<a id="eq-map"></a>⏎⏎$$⏎x \to f(x)⏎\tag{1}⏎$$⏎⏎follows
+report.md => <a id="fig-3"></a>⏎![It rises \[steeply\].](figures/fig03.svg)⏎⏎**Figure 3.** The rise, at 0.1165(4) or
+report.md => <a id="tab-sigma"></a>**Table 1.** What σ gives⏎⏎| Check | Statement | Ours |⏎|---|---|--:|⏎
+report.md => | <a id="claim-jump"></a>2 | a_b \* c | 94.5(8)·% |⏎
+report.md => ⏎. and [Claim·2](#claim-jump) of [Table·1](#tab-sigma) and [Fig.·3](#fig-3).⏎
+report.md => 1. first⏎2. second⏎⏎   more⏎
+report.md => ```rust⏎fn f() -> σ { 1 }⏎```⏎
+report.md => ⏎By [Listing·1](#lst-kick), in words.⏎
+report.md => <a id="lst-kick"></a>**Listing 1.** What $\delta v$ does.⏎⏎<details>⏎<summary><code>toy::flight::Motion::kick</code></summary>⏎⏎```rust⏎/// 
+report.md => ⏎    self.b += kick * p.cos;⏎}⏎```⏎⏎<sub>From [src/flight.rs](../src/flight.rs).</sub>⏎⏎</details>⏎
+report.md => - <a id="ref-rice1945"></a>Rice, S. O. (1945). Noise. *B*.⏎
+report.tex => \section{Introduction}\label{sec:introduction}⏎⏎Masses
+report.tex => \origin{half_height}{0.1165(4)} and $\sigma = \origin{half_height}{0.1165(4)}$, far below
+report.tex => see \hyperref[fig:3]{Fig.~3}, Eqs.~\hyperref[eq:18]{(18)} and
+report.tex => at 100 \% of \texttt{a\_\allowbreak{}b}.⏎\begin{equation}⏎p_{
+report.tex => \tag{18}\label{eq:18}⏎\end{equation}⏎where $N$ is large, so⏎\begin{equation}⏎
+report.tex => \includegraphics[width=0.8\linewidth,height=0.62\textheight,keepaspectratio]{figures/fig03.pdf}
+report.tex => \caption{The rise, at \origin{half_height}{0.1165(4)} or $\sigma$ \ensuremath{\ge} 0.12.}\label{fig:3}
+report.tex => Of \hyperref[eq:map]{Eq.~(1)},⏎\begin{equation}⏎x \to f(x)⏎\tag{1}\label{eq:map}⏎\end{equation}⏎follows
+report.tex => \begin{longtable}{llr}⏎\caption{What \ensuremath{\sigma} gives}\label{tab:sigma}\\⏎
+report.tex => \phantomsection\label{claim:jump}2 & a\_b * c & \origin{kept}{94.5(8)~\%} \\⏎
+report.tex => \phantomsection\section*{References}
+report.tex => ⏎By \hyperref[lst:kick]{Listing~1}, in words.⏎
+report.tex => \section*{Listings}
+report.tex => \phantomsection\label{lst:kick}\textbf{Listing 1.} What $\delta v$ does. \texttt{toy::\allowbreak{}flight
+report.tex => \begin{alltt}⏎/// A jump of the velocity by \ensuremath{\omega} `kick`
+report.tex => (&mut self, kick: f64, p: &Phases<M>) \{⏎    self.a -= kick * p.sin;⏎"##,
     );
-    assert!(
-        !text.contains("They move") && !text.contains("You run") && !text.contains("\n\n\n"),
-        "{text}"
-    );
-}
-
-#[test]
-fn latex_for_pdflatex() {
-    let parts = latex::write(&tree(SAMPLE), Document::REPORT).unwrap();
-    let [text, appendix] = ["body", "listings"].map(|name| parts[name].as_str().unwrap());
-    has(
-        text,
-        r##"
-\section{Introduction}\label{sec:introduction}⏎⏎Masses
-\origin{half_height}{0.1165(4)} and $\sigma = \origin{half_height}{0.1165(4)}$, far below
-see \hyperref[fig:3]{Fig.~3}, Eqs.~\hyperref[eq:18]{(18)} and
-at 100 \% of \texttt{a\_\allowbreak{}b}.⏎\begin{equation}⏎p_{
-\tag{18}\label{eq:18}⏎\end{equation}⏎where $N$ is large, so⏎\begin{equation}⏎
-\includegraphics[width=0.8\linewidth,height=0.62\textheight,keepaspectratio]{figures/fig03.pdf}
-\caption{The rise, at \origin{half_height}{0.1165(4)} or $\sigma$ \ensuremath{\ge} 0.12.}\label{fig:3}
-Of \hyperref[eq:map]{Eq.~(1)},⏎\begin{equation}⏎x \to f(x)⏎\tag{1}\label{eq:map}⏎\end{equation}⏎follows
-\begin{longtable}{llr}⏎\caption{What \ensuremath{\sigma} gives}\label{tab:sigma}\\⏎
-\phantomsection\label{claim:jump}2 & a\_b * c & \origin{kept}{94.5(8)~\%} \\⏎
-\phantomsection\section*{References}
-⏎By \hyperref[lst:kick]{Listing~1}, in words.⏎"##,
-    );
-    assert!(
-        !text.contains("self.b +=") && !text.contains("They move") && !text.contains("You run"),
-        "{text}"
-    );
-    has(
-        appendix,
-        r##"
-\section*{Listings}
-\phantomsection\label{lst:kick}\textbf{Listing 1.} What $\delta v$ does. \texttt{toy::\allowbreak{}flight
-\begin{alltt}⏎/// A jump of the velocity by \ensuremath{\omega} `kick`
-(&mut self, kick: f64, p: &Phases<M>) \{⏎    self.a -= kick * p.sin;⏎"##,
-    );
+    let [markdown, tex] = ["report.md", "report.tex"].map(|path| file(&report, path));
+    assert!(!markdown.contains("\n\n\n"), "{markdown}");
+    assert_eq!(tex.matches("self.b +=").count(), 1, "{tex}");
 }
 
 fn figure() -> Figure {
@@ -190,66 +150,75 @@ fn figure() -> Figure {
     Figure { id: "fig03".into(), data: vec![data], ..figure }
 }
 
-fn claim() -> Check {
-    let found =
-        Check::new(Kind::Statement, "rise", "A threshold | exists", with_error(0.11652, 0.0004));
+fn claim(id: &'static str) -> Check {
+    let found = with_error(0.11652, 0.0004);
+    let found = Check::new(Kind::Statement, id, "A threshold | exists", found);
     let mut judged = found.judged(true).within(decimals(0.005, 3), "half a unit");
     (judged.place, judged.expected) = ("Sec. 2".into(), "σ ≈ 0.12".into());
     judged
 }
 
-/// Assembles a report with one figure, one claim and one value from this prose.
-fn assembled(prose: &str) -> Result<Files, Error> {
-    made_of(prose, None, figure(), claim())
+/// What a report is made of.
+struct Given {
+    files: Vec<(&'static str, String)>,
+    edition: Edition,
+    lab: Option<&'static str>,
+    figure: Figure,
+    claims: Vec<Check>,
+    table: Option<Table>,
 }
 
-fn made_of(prose: &str, lab: Option<&str>, figure: Figure, claim: Check) -> Result<Files, Error> {
-    made(&[("report.md", prose), ("references.bib", BIB)], &with_equation(), lab, figure, claim)
+impl Given {
+    fn made(self) -> Result<Files, Error> {
+        let mut values = Registry::default();
+        values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000))?;
+        values.add(Value::real("tiny", 8.87e-4, 3).data_only())?;
+        values.add(Value::ensemble("kept", 0.945, 0.008, 400).data_only())?;
+        values.add(Value::integer("count", 12345).data_only())?;
+        let empty = Value::real("empty", 0.0, 1).data_only();
+        values.add(Value { number: values::Number::None, ..empty })?;
+        if let Some(table) = self.table {
+            values.add_table(Arc::new(table))?;
+        }
+        let templates = self.files.iter().map(|(path, text)| (*path, text.as_str()));
+        assemble(&Input {
+            templates: &Templates::of(templates.chain([("references.bib", BIB)])),
+            values: &values,
+            rows: &Default::default(),
+            claims: &self.claims,
+            figures: &[self.figure],
+            lab: self.lab,
+            top: Some("../"),
+            edition: &self.edition,
+            project: &Project::new(toy()),
+            experiments: &[],
+        })
+    }
 }
 
-fn with_equation() -> Edition {
+/// A report of one document with this prose.
+fn given(prose: &str) -> Given {
     let (what, home) = ("the jump".into(), "toy::flight".into());
     let equation = ledger::EquationEntry { number: 18, section: 7, what, home, step_towards: None };
-    Edition { equations: vec![equation], ..edition() }
-}
-
-fn edition() -> Edition {
     let authors = vec![("A. Uthor", "R & D"), ("B. Uthor", "")];
-    Edition { authors, date: "2026-11-24", ..Edition::new("toy") }
-}
-
-fn made(
-    files: &[(&str, &str)],
-    edition: &Edition,
-    lab: Option<&str>,
-    figure: Figure,
-    claim: Check,
-) -> Result<Files, Error> {
-    made_with(files, edition, lab, figure, claim, None)
-}
-
-fn made_with(
-    files: &[(&str, &str)],
-    edition: &Edition,
-    lab: Option<&str>,
-    figure: Figure,
-    claim: Check,
-    table: Option<Table>,
-) -> Result<Files, Error> {
-    let mut values = Registry::default();
-    values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000))?;
-    values.add(Value::integer("spare", 3).data_only())?;
-    let empty = Value::real("empty", 0.0, 1).data_only();
-    values.add(Value { number: values::Number::None, ..empty })?;
-    if let Some(table) = table {
-        values.add_table(Arc::new(table))?;
+    let edition = Edition::new("toy");
+    Given {
+        files: vec![("report.md", prose.into())],
+        edition: Edition { authors, date: "2026-11-24", equations: vec![equation], ..edition },
+        lab: None,
+        figure: figure(),
+        claims: vec![claim("rise")],
+        table: None,
     }
-    let (templates, rows) = (&Templates::of(files.iter().copied()), &Default::default());
-    let (values, claims, figures, top) = (&values, &[claim], &[figure], Some("../"));
-    let (project, experiments) = (&Project::new(toy()), &[][..]);
-    let input =
-        Input { templates, values, rows, claims, figures, lab, top, edition, project, experiments };
-    assemble(&input)
+}
+
+fn assembled(prose: &str) -> Result<Files, Error> {
+    given(prose).made()
+}
+
+/// A file of a report as text.
+fn file(report: &Files, path: &str) -> String {
+    String::from_utf8(report[path].clone()).unwrap()
 }
 
 const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945]. $$x = y \\tag{18}$$\n\n[@bibliography]\n\n\
@@ -259,13 +228,17 @@ const PROSE: &str = "# Title\n\nAt «v.half_height», [@rice1945]. $$x = y \\tag
 #[test]
 fn what_readers_run_is_offered_where_it_can_be_run() {
     let prose = PROSE.replace("[@bibliography]", "Lab toy: You run *them*.\n\n[@bibliography]");
-    let [mut without, mut with] =
-        [None, Some("end();")].map(|lab| made_of(&prose, lab, figure(), claim()).unwrap());
-    let page = |report: &Files| String::from_utf8(report["report.html"].clone()).unwrap();
-    let figure = "<figure class=\"lab\" id=\"lab-toy\" data-lab=\"toy\" hidden=\"\">";
-    assert!(page(&with).contains(figure) && page(&with).contains("You run <em>them</em>."));
-    assert_eq!(with[LAB], b"end();");
-    assert!(!page(&without).contains("You run") && !without.contains_key(LAB));
+    let mut without = assembled(&prose).unwrap();
+    let mut with = Given { lab: Some("end();"), ..given(&prose) }.made().unwrap();
+    has(
+        &with,
+        r##"
+report.html => <figure class="lab" id="lab-toy" data-lab="toy" hidden="">
+report.html => You run <em>them</em>.
+lab.js => end();"##,
+    );
+    assert!(!file(&without, "report.html").contains("You run"));
+    assert!(!without.contains_key(LAB));
     for report in [&mut with, &mut without] {
         report.retain(|path, _| !folder::is_generated(path));
     }
@@ -294,20 +267,19 @@ fn a_report_is_all_its_files() {
         "values.json",
     ];
     assert_eq!(paths.collect::<Vec<_>>(), expected);
-    let text = |path: &str| String::from_utf8(report[path].clone()).unwrap();
-    let markdown = text("report.md");
-    assert!(markdown.contains("![It rises \\[steeply\\].](figures/fig03.svg)"), "{markdown}");
-    assert!(markdown.contains("1 | A threshold \\| exists: 0.1165(4), reproduced |"), "{markdown}");
-    assert!(markdown.contains("[fig03.csv](data/fig03.csv)"), "{markdown}");
-    assert!(text("report.tex").contains("\\title{Title}"));
-    let latex = text("report.tex");
-    assert!(latex.contains("At \\origin{half_height}{0.1165(4)}, "), "{latex}");
-    assert!(text("values.json").contains("\"score.reproduced\""));
-    assert_eq!(text("SHA256SUMS").lines().count(), 6);
-    let sum = "5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv\n";
-    assert!(text("SHA256SUMS").contains(sum));
-    let index = std::str::from_utf8(&report["data/index.html"]).unwrap();
-    assert!(index.contains("<a href=\"fig03.csv\">fig03.csv</a></td><td>"), "{index}");
+    assert_eq!(file(&report, "SHA256SUMS").lines().count(), 6);
+    has(
+        &report,
+        r##"
+report.md => ![It rises \[steeply\].](figures/fig03.svg)
+report.md => 1 | A threshold \| exists: 0.1165(4), reproduced |
+report.md => [fig03.csv](data/fig03.csv)
+report.tex => \title{Title}
+report.tex => At \origin{half_height}{0.1165(4)}, 
+values.json => "score.reproduced"
+SHA256SUMS => 5fbfa3bf9031ae769b4cb3a5cd6b9e1c235880438f409f9ec99217b60b1ecb17  data/fig03.csv⏎
+data/index.html => <a href="fig03.csv">fig03.csv</a></td><td>"##,
+    );
     assert_eq!(assembled(PROSE).unwrap(), report);
 }
 
@@ -317,51 +289,44 @@ fn a_picture_from_a_file_is_shown_in_all_formats() {
     let description = crate::describe!("Balls on [rods].");
     let picture = Figure::picture(&[svg, pdf], "The set-up", description).unwrap();
     let prose = PROSE.replace("figures/fig03.svg", "figures/photo.svg");
-    let report = made_of(&prose, None, Figure { id: "photo".into(), ..picture }, claim()).unwrap();
-    assert_eq!(report["figures/photo.svg"], svg);
-    assert_eq!(report["figures/photo.pdf"], pdf);
-    for (file, part) in [
-        (&report["report.md"], r"![Balls on \[rods\].](figures/photo.svg)"),
-        (&report["report.tex"], "{figures/photo.pdf}"),
-        (&report["SHA256SUMS"], "  figures/photo.svg\n"),
-        (&report["report.html"], r#"<img src="figures/photo.svg" alt="Balls on [rods]."/>"#),
-    ] {
-        let text = String::from_utf8_lossy(file);
-        assert!(text.contains(part), "{part} is not in {text}");
-    }
+    let figure = Figure { id: "photo".into(), ..picture };
+    let report = Given { figure, ..given(&prose) }.made().unwrap();
+    has(
+        &report,
+        r##"
+figures/photo.svg => <svg/>
+figures/photo.pdf => %PDF-1.5
+report.md => ![Balls on \[rods\].](figures/photo.svg)
+report.tex => {figures/photo.pdf}
+report.html => <img src="figures/photo.svg" alt="Balls on [rods]."/>
+SHA256SUMS =>   figures/photo.svg⏎"##,
+    );
 }
 
 /// A title is plain text where no markup is read, and markup of each format else.
 #[test]
 fn titles_are_clean() {
     let title = r"# Impact\_dynamics & large % systems: R&D $\sigma_{1/2}$";
-    let report = assembled(&PROSE.replace("# Title", title)).unwrap();
-    let page = String::from_utf8(report["report.html"].clone()).unwrap();
-    let tex = String::from_utf8(report["report.tex"].clone()).unwrap();
-    for (text, part) in [
-        (&page, "<title>Impact_dynamics &amp; large % systems: R&amp;D σ_1/2</title>"),
-        (&tex, r"\title{Impact\_dynamics \& large \% systems: R\&D $\sigma_{1/2}$}"),
-        (&tex, r"pdftitle={Impact\_dynamics \& large \% systems: R\&D sigma\_1/2}"),
-    ] {
-        assert!(text.contains(part), "{part} is not in {text}");
-    }
+    has(
+        &assembled(&PROSE.replace("# Title", title)).unwrap(),
+        r##"
+report.html => <title>Impact_dynamics &amp; large % systems: R&amp;D σ_1/2</title>
+report.tex => \title{Impact\_dynamics \& large \% systems: R\&D $\sigma_{1/2}$}
+report.tex => pdftitle={Impact\_dynamics \& large \% systems: R\&D sigma\_1/2}"##,
+    );
 }
 
 #[test]
 fn numerals_that_were_typed_outside_the_prose_are_refused() {
     let n = 12;
-    let drawn = |description| Figure { description, ..figure() };
-    let judged = |reason: &str| claim().within("", reason);
-    let fine = made_of(PROSE, None, drawn(crate::describe!("{n} of {}, k = 1.", n + 1)), claim());
-    fine.unwrap();
-    for (made, words) in [
-        (
-            made_of(PROSE, None, drawn(crate::describe!("{n} of 12.")), claim()),
-            "what fig03 shows: ",
-        ),
-        (made_of(PROSE, None, figure(), judged("within 12 of it")), "the reason of rise: "),
+    let drawn = |description| Given { figure: Figure { description, ..figure() }, ..given(PROSE) };
+    drawn(crate::describe!("{n} of {}, k = 1.", n + 1)).made().unwrap();
+    let judged = vec![claim("rise").within("", "within 12 of it")];
+    for (given, words) in [
+        (drawn(crate::describe!("{n} of 12.")), "what fig03 shows: "),
+        (Given { claims: judged, ..given(PROSE) }, "the reason of rise: "),
     ] {
-        let error = made.unwrap_err().to_string();
+        let error = given.made().unwrap_err().to_string();
         assert!(error.starts_with(words) && error.contains("12"), "{error}");
     }
 }
@@ -377,19 +342,17 @@ fn what_is_not_shown_is_refused() {
 /// Signs that another reader of Markdown, or TeX, would take for markup are escaped.
 #[test]
 fn each_format_shows_what_is_meant() {
-    let text = "# T\n\n$a$–$b$ is \\` and ``a `b` c``, \\~\\~c\\~\\~, \\&lt; d.\n\n\\[x\\]: yes\n\n\
+    let text = "$a$–$b$ is \\` and ``a `b` c``, \\~\\~c\\~\\~, \\&lt; d.\n\n\\[x\\]: yes\n\n\
         ````\n```\n12\n````\n\n[DOI](https://doi.org/10.1/S0(98)00123-4)\n\n\
         | a | b |\n|---|---|\n| \\[q\\] | c |\n\n- \\[z\\] a\n";
-    let (tree, tex) = (tree(text), latex::write(&tree(text), Document::REPORT).unwrap());
-    let (markdown, tex) = (markdown::write(&tree), tex["body"].as_str().unwrap());
-    for (text, kept) in [
-        (&*markdown, r"$a\text{–}b$ is \` and ``a `b` c``, \~\~c\~\~, \&lt; d."),
-        (&markdown, "\n\\[x]: yes\n"),
-        (&markdown, "\n````\n```\n12\n````\n"),
-        (&markdown, "(https://doi.org/10.1/S0(98)00123-4)"),
-        (tex, "\n{}[q] & c"),
-        (tex, "\\item {}[z] a"),
-    ] {
-        assert!(text.contains(kept), "{kept}: {text}");
-    }
+    has(
+        &assembled(&format!("{PROSE}\n\n{text}")).unwrap(),
+        r##"
+report.md => $a\text{–}b$ is \` and ``a `b` c``, \~\~c\~\~, \&lt; d.
+report.md => ⏎\[x]: yes⏎
+report.md => ⏎````⏎```⏎12⏎````⏎
+report.md => (https://doi.org/10.1/S0(98)00123-4)
+report.tex => ⏎{}[q] & c
+report.tex => \item {}[z] a"##,
+    );
 }
