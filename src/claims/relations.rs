@@ -52,10 +52,10 @@ fn relation(
             found => found?,
         };
         let largest = departures.iter().copied().fold(0.0, f64::max);
-        let text = "the largest of {} departures is {} of what is allowed";
-        let text = Text::of(text, [integer(departures.len()), significant(largest, 2)]);
+        let text = "the largest of {} departures is {:2} of what is allowed";
+        let text = text!(text, departures.len(), largest);
         if departures.is_empty() {
-            return Judged::Ok(e.open(text));
+            return Ok(e.open(text));
         }
         Ok(e.found(text, departures.iter().all(|departure| *departure <= 1.0)))
     };

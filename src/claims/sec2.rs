@@ -7,6 +7,7 @@ use crate::experiments::rise::{Curve, Rise, RisePoint};
 use crate::experiments::sweep::{self, mode_half};
 use crate::experiments::{LENGTHS, PROTOCOL, TWO_MASSES};
 use crate::params::{NEAR_SIMULTANEOUS, SLOW};
+use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 
 pub fn rules() -> Vec<Rule> {
@@ -44,10 +45,7 @@ fn parameters(e: &Evidence<'_>) -> Judged {
     let same_square = (square - printed("forcing_frequency_squared")?).abs() <= 4.0 * f64::EPSILON;
     let reads = e.statement.printed
         == format!("n = {n}, d = m = ω = {d}, Ω = √{}, r = {r}", square.round());
-    let found = Text::of(
-        "n = {}, d = {}, ω = {}, Ω² = {}, r = {}",
-        [integer(n), chosen(d), chosen(omega), significant(square, 1), chosen(r)],
-    );
+    let found = text!("n = {}, d = {}, ω = {}, Ω² = {:1}, r = {}", n, d, omega, square, r);
     let same = pairs.iter().all(|(ours, printed)| ours == printed);
     Ok(e.found(found, reads && same_square && same).within("none", "the same numbers").note(
         "The paper prints neither initial condition nor transient nor window; for these it refers \
@@ -71,7 +69,7 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     let row = small_force(e)?;
     let here = e.estimate(&format!("sweep.rows[sigma={}].mean", row.sigma))?;
     let limit = e.number("sweep.run.gaps")? / VERY_FEW;
-    let found = Text::of("at σ = {} a mean of {}", [chosen(row.sigma), estimate(&here)]);
+    let found = text!("at σ = {} a mean of {}", row.sigma, here);
     let mut means = Vec::new();
     for curve in &ensemble(e.results.of(&PROTOCOL)?, "sweep")?.curves {
         means.extend(curve.rows.first().and_then(|row| row.mean?.estimate()));
@@ -83,23 +81,15 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     let check = if few == 0 || few == means.len() {
         let reason =
             "ours: “very few” as a twentieth of all gaps, at two thirds of the printed threshold";
-        e.found(found, few > 0).within(Text::of("at most {}", [significant(limit, 2)]), reason)
+        e.found(found, few > 0).within(text!("at most {:2}", limit), reason)
     } else {
         e.open(found)
     };
-    Ok(check.note(Text::of(
-        "Of {} pairs of transient T and window W, which are not printed, {} give at most {}, a twentieth of all gaps: from {} \
-         in the shortest window after the shortest transient to {} in the longest. Only {} of {} realisations have an impact, \
-         but in these impacts spread.",
-        [
-            integer(means.len()),
-            integer(few),
-            significant(limit, 2),
-            estimate(first),
-            estimate(last),
-            integer(row.kept),
-            integer(row.ran),
-        ],
+    Ok(check.note(text!(
+        "Of {} pairs of transient T and window W, which are not printed, {} give at most {:2}, a twentieth of all \
+         gaps: from {} in the shortest window after the shortest transient to {} in the longest. Only {} of {} \
+         realisations have an impact, but in these impacts spread.",
+        means.len(), few, limit, *first, *last, row.kept, row.ran
     )))
 }
 
@@ -118,25 +108,17 @@ fn none_below(e: &Evidence<'_>) -> Judged {
     else {
         return Err(Undecided);
     };
-    let found = Text::of(
-        "at σ = {} {} of the realisations have an impact",
-        [chosen(row.sigma), estimate(&here)],
-    );
+    let found = text!("at σ = {} {} of the realisations have an impact", row.sigma, here);
     let check = if none == 0 || none == shares.len() {
         let reason = "ours: “no impacts” as in at most a twentieth of the realisations, at two thirds of the printed threshold";
-        e.found(found, none > 0).within(Text::of("at most {}", [significant(limit, 1)]), reason)
+        e.found(found, none > 0).within(text!("at most {:1}", limit), reason)
     } else {
         e.open(found)
     };
-    Ok(check.note(Text::of(
-        "In the {} windows of the map of protocols the share lies from {} to {}; in {} of them it is at most {}.",
-        [
-            integer(shares.len()),
-            significant(least, 2),
-            significant(most, 2),
-            integer(none),
-            significant(limit, 1),
-        ],
+    Ok(check.note(text!(
+        "In the {} windows of the map of protocols the share lies from {:2} to {:2}; in {} of them it is at most \
+         {:1}.",
+        shares.len(), least, most, none, limit
     )))
 }
 
@@ -145,19 +127,17 @@ fn jump(e: &Evidence<'_>) -> Judged {
     let columns = ["step", "largest_increase", "increase_of_two", "increase_of_all"];
     let [step, one, two, all] = e.numbers("sweep.against_theory", columns)?;
     let half = e.number("sweep.run.gaps")? / 2.0;
-    let found = Text::of(
-        "largest step of the mean, between σ that are {} apart: {} gaps",
-        [chosen(step), significant(one, 2)],
-    );
+    let found =
+        text!("largest step of the mean, between σ that are {} apart: {:2} gaps", step, one);
     let reason = "ours: a jump is a step of half the height or more";
     Ok(e.found(found, one >= half)
-        .within(Text::of("a step of at least {}", [significant(half, 3)]), reason)
+        .within(text!("a step of at least {:3}", half), reason)
         .explained(
-            Text::of(
-                "The rise is steep but gradual: over two steps of the grid the mean of the realisations with an impact \
-                 increases {} times as much as over one (a slope gives 2, a jump 1); the largest step of the mean of all \
-                 is {}.",
-                [significant(two / one, 2), significant(all, 2)],
+            text!(
+                "The rise is steep but gradual: over two steps of the grid the mean of the realisations with an \
+                 impact increases {:2} times as much as over one (a slope gives 2, a jump 1); the largest step of \
+                 the mean of all is {:2}.",
+                two / one, all
             ),
             two / one > 1.5,
         ))
@@ -174,16 +154,14 @@ fn rise_exists(e: &Evidence<'_>) -> Judged {
     let limit = limit_of_sharp(alone);
     let [a, b] = [&width, &half].map(|x| (x.error / x.value) * (x.error / x.value));
     let error = share * (a + b).sqrt();
-    let found = Text::of(
-        "a quarter to three quarters of all gaps within {} of σ½",
-        [with_error(share, error)],
-    );
+    let found =
+        text!("a quarter to three quarters of all gaps within {} of σ½", with_error(share, error));
     let reason = "ours: half of what the same rise takes where impacts do not spread and each gap closes by itself; and the \
                   statistical error";
     let mut note = Text::from(WITH_AN_IMPACT);
     if let Ok(width) = e.estimate("sweep.rise.width") {
         let more = " The mean of all rises from a tenth to nine tenths within Δσ = {}.";
-        note = note.then(Text::of(more, [estimate(&width)]));
+        note = note.then(text!(more, width));
     }
     let windows = &ensemble(e.results.of(&PROTOCOL)?, "protocol")?.curves;
     let share_in =
@@ -192,13 +170,11 @@ fn rise_exists(e: &Evidence<'_>) -> Judged {
     let least = shares.iter().copied().reduce(f64::min);
     let most = shares.iter().copied().reduce(f64::max);
     if let Some((least, most)) = least.zip(most) {
-        let range = " In {} of the {} windows of the map of protocols the share is known, and lies from {} to {}.";
-        let [known, all] = [shares.len(), windows.len()].map(integer);
-        let numbers = [known, all, significant(least, 2), significant(most, 2)];
-        note = note.then(Text::of(range, numbers));
+        let range = " In {} of the {} windows of the map of protocols the share is known, and lies from {:2} to {:2}.";
+        note = note.then(text!(range, shares.len(), windows.len(), least, most));
     }
     let agrees = share <= limit + e.level()?.quantile * error;
-    let tolerance = Text::of("at most {}", [significant(limit, 2)]);
+    let tolerance = text!("at most {:2}", limit);
     Ok(e.found(found, agrees).within(tolerance, reason).note(note))
 }
 
@@ -216,10 +192,7 @@ fn repeated(e: &Evidence<'_>) -> Judged {
     let row = format!("sweep.rows[sigma={threshold}]");
     let [impacts, gaps] = e.numbers(&row, ["impacts", "mean"])?;
     let each = impacts / gaps;
-    let found = Text::of(
-        "{} impacts for each gap that has any, at σ = {}",
-        [significant(each, 2), chosen(threshold)],
-    );
+    let found = text!("{:2} impacts for each gap that has any, at σ = {}", each, threshold);
     Ok(e.open(found).note(
         "In the window of our protocol. Impacts go on, so a longer window has more and a short one cannot have many: the window, \
          which is not printed, decides.",
@@ -231,18 +204,18 @@ fn repeated(e: &Evidence<'_>) -> Judged {
 fn not_judged(e: &Evidence<'_>, place: fn(&Rise) -> Option<Estimate>) -> Result<Text, Error> {
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
     let printed = round_to_printed(map, e.statement.interval()?, place);
-    let mut text = Text::of(
+    let mut text = text!(
         "The protocol, which is not printed, decides. The printed digits come from {} of {} pairs of transient T and window W. \
          From the narrowest W to the widest that has such a place:",
-        [integer(printed), integer(map.curves.len())],
+        printed,
+        map.curves.len()
     );
     let mut sentence = " {} to {} for T = {}";
     let same_transient = |a: &Curve, b: &Curve| a.protocol.transient == b.protocol.transient;
     for windows in map.curves.chunk_by(same_transient) {
         let places: Vec<Estimate> = windows.iter().filter_map(|curve| place(&curve.rise)).collect();
         if let [Some(first), Some(last)] = [places.first(), places.last()] {
-            let transient = integer(windows[0].protocol.transient as usize);
-            text = text.then(Text::of(sentence, [estimate(first), estimate(last), transient]));
+            text = text.then(text!(sentence, *first, *last, windows[0].protocol.transient));
         }
         sentence = ", {} to {} for {}";
     }
@@ -251,21 +224,20 @@ fn not_judged(e: &Evidence<'_>, place: fn(&Rise) -> Option<Estimate>) -> Result<
 
 /// Adds the protocol of the sweep to what is found.
 fn with_protocol(e: &Evidence<'_>, found: Text) -> Result<Text, Error> {
-    let times = e.numbers("sweep.run", ["transient", "window"])?;
-    let times = times.map(|time| integer(time as usize));
-    Ok(found.then(Text::of(" with T = {}, W = {}, from rest", times)))
+    let [transient, window] = e.numbers("sweep.run", ["transient", "window"])?;
+    Ok(found.then(text!(" with T = {}, W = {}, from rest", transient, window)))
 }
 
 fn half_height(e: &Evidence<'_>) -> Judged {
     let half = e.estimate("sweep.rise.half_height")?;
-    let found = with_protocol(e, Text::of("σ½ = {}", [estimate(&half)]))?;
+    let found = with_protocol(e, text!("σ½ = {}", half))?;
     let note = Text::from(WITH_AN_IMPACT).then(" ");
     Ok(e.open(found).note(note.then(not_judged(e, |rise| rise.half_height)?)))
 }
 
 fn onset(e: &Evidence<'_>) -> Judged {
     let onset = e.estimate("sweep.rise.onset")?;
-    let found = with_protocol(e, Text::of("σ = {}", [estimate(&onset)]))?;
+    let found = with_protocol(e, text!("σ = {}", onset))?;
     let note = Text::from(
         "Judged by the mean of all: where any realisation has an impact, the mean of those is above a twentieth. ",
     );
@@ -277,17 +249,17 @@ fn onset(e: &Evidence<'_>) -> Judged {
 fn mode_rise(e: &Evidence<'_>) -> Judged {
     let [low, high] = e.numbers("sweep.mode", ["half_from", "half_to"])?;
     let [from, to] = e.statement.interval()?;
-    let text = Text::of("between σ = {} and {}", [chosen(low), chosen(high)]);
+    let text = text!("between σ = {} and {}", low, high);
     let found = with_protocol(e, text)?;
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
     let halves = map.curves.iter().filter_map(|curve| mode_half(curve, map.ensemble.chain.gaps()));
     let ranges: Vec<[f64; 2]> = halves.collect();
     let meets = ranges.iter().filter(|[low, high]| *low <= to && *high >= from).count();
-    Ok(e.open(found).note(Text::of(
-        "The protocol, which is not printed, decides. The mode is known to the range of σ in which its bootstrap interval \
-         reaches over half of all gaps; of the {} protocols with such a range {} have one that meets the printed digits. \
-         It follows the mean.",
-        [integer(ranges.len()), integer(meets)],
+    Ok(e.open(found).note(text!(
+        "The protocol, which is not printed, decides. The mode is known to the range of σ in which its bootstrap \
+         interval reaches over half of all gaps; of the {} protocols with such a range {} have one that meets the \
+         printed digits. It follows the mean.",
+        ranges.len(), meets
     )))
 }
 
@@ -305,18 +277,16 @@ fn three_way(e: &Evidence<'_>) -> Judged {
     // Masses in contact pass a hit on to one another at once.
     let excess = seen - expected;
     let by_chance = (-room..=room + phases).contains(&excess);
-    let found = Text::of(
-        "{} of {} impacts within {} of one next to it",
-        [integer(seen as usize), significant(impacts, 2), significant(NEAR_SIMULTANEOUS, 1)],
-    );
+    let found =
+        text!("{} of {:2} impacts within {:1} of one next to it", seen, impacts, NEAR_SIMULTANEOUS);
     let reason = "ours: one in a thousand; and the count must be what one expects by chance, but for hits \
                   that masses in contact pass on to one another at once, one for each contact phase";
     Ok(e.found(found, share <= NEGLIGIBLE && by_chance)
-        .within(Text::of("a share of {}", [significant(NEGLIGIBLE, 1)]), reason)
-        .note(Text::of(
-            "The share within δ falls in proportion to δ, and would reach the tolerance at δ = {}; by chance one expects {} such \
-             impacts, and none at δ = 0.",
-            [significant(NEAR_SIMULTANEOUS * NEGLIGIBLE * impacts / expected, 1), significant(expected, 2)],
+        .within(text!("a share of {:1}", NEGLIGIBLE), reason)
+        .note(text!(
+            "The share within δ falls in proportion to δ, and would reach the tolerance at δ = {:1}; by chance one \
+             expects {:2} such impacts, and none at δ = 0.",
+            NEAR_SIMULTANEOUS * NEGLIGIBLE * impacts / expected, expected
         )))
 }
 
@@ -326,16 +296,13 @@ fn sticking(e: &Evidence<'_>) -> Judged {
     if impacts == 0.0 {
         return Err(Undecided);
     }
-    let found = Text::of(
-        "{} contact phases in {} impacts",
-        [integer(phases as usize), significant(impacts, 2)],
-    );
+    let found = text!("{} contact phases in {:2} impacts", phases, impacts);
     Ok(e.found(found, phases / impacts <= NEGLIGIBLE)
-        .within(Text::of("a share of {}", [significant(NEGLIGIBLE, 1)]), "ours: one in a thousand")
-        .note(Text::of(
-            "Two masses alone can stick only if their forces differ by more than d ω². {} impacts were slower \
-             than {}.",
-            [integer(slow as usize), significant(SLOW, 1)],
+        .within(text!("a share of {:1}", NEGLIGIBLE), "ours: one in a thousand")
+        .note(text!(
+            "Two masses alone can stick only if their forces differ by more than d ω². {} impacts were slower than \
+             {:1}.",
+            slow, SLOW
         )))
 }
 
@@ -343,17 +310,18 @@ fn without_impact(e: &Evidence<'_>) -> Judged {
     let found = e.results.of(&TWO_MASSES)?;
     let least = found.excess.iter().map(|pair| pair[0]).reduce(f64::min).ok_or(Undecided)?;
     let safe = e.number("two_masses.bound.force")?;
-    let text = Text::of(
-        "{} impacts below the force that the amplitudes allow; smallest force with an impact, over that bound: {}",
-        [integer(found.violations as usize), significant(least, 6)],
+    let text = text!(
+        "{} impacts below the force that the amplitudes allow; smallest force with an impact, over that bound: {:6}",
+        found.violations,
+        least
     );
     let reason =
         "a gap whose amplitudes add up to less than d never closes; rounding of the bracket aside";
     Ok(e.found(text, found.violations == 0 && least >= 1.0 - 1e-9 && safe > 0.0)
         .within("none below 1", reason)
-        .note(Text::of(
-            "No direction of the forces lets the masses meet below an amplitude of {} on each.",
-            [significant(safe, 4)],
+        .note(text!(
+            "No direction of the forces lets the masses meet below an amplitude of {:4} on each.",
+            safe
         )))
 }
 
@@ -361,7 +329,7 @@ fn walls_like_masses(e: &Evidence<'_>) -> Judged {
     let difference = e.estimate("starts.variants[chain=ring].difference")?;
     let allowed = half_unit(e)?;
     let agrees = difference.value.abs() <= allowed + e.level()?.quantile * difference.error;
-    Ok(e.found(Text::of("σ½ of the mean of all differs by {}", [estimate(&difference)]), agrees)
+    Ok(e.found(text!("σ½ of the mean of all differs by {}", difference), agrees)
         .within(
             plus_minus(allowed),
             "ours: half a unit of the digit in which the threshold is printed; and the statistical error at the level of the table",
@@ -381,10 +349,9 @@ fn percolation(e: &Evidence<'_>) -> Judged {
     let mut widths: Vec<_> = widths.filter(|(masses, _)| *masses >= 100).collect();
     widths.sort_by_key(|(masses, _)| *masses);
     let found = match (widths.first(), widths.last()) {
-        (Some((n, short)), Some((most, long))) if most > n => Text::of(
-            "width of the rise {} for n = {}, {} for n = {}",
-            [estimate(short), integer(*n), estimate(long), integer(*most)],
-        ),
+        (Some((n, short)), Some((most, long))) if most > n => {
+            text!("width of the rise {} for n = {}, {} for n = {}", *short, *n, *long, *most)
+        }
         _ => "chains of one length only".into(),
     };
     Ok(e.open(found).note(

@@ -17,7 +17,7 @@ pub fn rules() -> Vec<Rule> {
 }
 
 fn size(e: &Evidence<'_>, found: f64) -> Judged {
-    let check = e.found(integer(found as usize), found == e.statement.number()?);
+    let check = e.found(text!("{}", found), found == e.statement.number()?);
     Ok(check.within("none", "an integer is exact"))
 }
 
@@ -25,18 +25,15 @@ fn size(e: &Evidence<'_>, found: f64) -> Judged {
 fn different_orbits(e: &Evidence<'_>) -> Judged {
     let columns = ["gaps", "circuits", "by_eq7", "classes"];
     let [gaps, orders, circuits, classes] = e.numbers("theory.commuting", columns)?;
-    let count = |number: f64| integer(number as usize);
-    let found = Text::of(
-        "{} different orders of impacts for the {} simple circuits of {} gaps",
-        [count(orders), count(circuits), count(gaps)],
-    );
+    let text = "{} different orders of impacts for the {} simple circuits of {} gaps";
+    let found = text!(text, orders, circuits, gaps);
     let sets = ((1_u64 << gaps as u32) - 1) as f64;
     Ok(e.found(found, orders == circuits).within("none", "integers are exact").explained(
-        Text::of(
+        text!(
             "But two impacts without a common mass may change places, and every mass still has its impacts in the same \
              order. In this sense all simple circuits through the same gaps are one: a mass can tell {} apart, as many \
              as there are sets of gaps.",
-            [count(classes)],
+            classes
         ),
         classes == sets,
     ))
@@ -44,9 +41,9 @@ fn different_orbits(e: &Evidence<'_>) -> Judged {
 
 fn realised(e: &Evidence<'_>) -> Judged {
     let both = e.results.of(&SEGMENTS)?;
-    let found = [&both.fig05, &both.fig06].map(|segment| integer(segment.names().len()));
+    let found = [&both.fig05, &both.fig06].map(|segment| segment.names().len());
     let text = "periodic orbits with the {} and the {} impacts of two circuits";
-    Ok(e.open(Text::of(text, found)).note(
+    Ok(e.open(text!(text, found[0], found[1])).note(
         "We searched for the orbits of Figs. 5 and 6 only, and chose the forces for them. For all circuits, or for given forces, \
          it is not shown.",
     ))
@@ -59,10 +56,7 @@ fn few_and_many(e: &Evidence<'_>) -> Judged {
         e.results.table("sweep.rows")?.distinct("sigma")?.last().copied().ok_or(Undecided)?;
     let mean = |sigma: f64| e.estimate(&format!("sweep.rows[sigma={sigma}].mean"));
     let (few, many) = (mean(low)?, mean(high)?);
-    let found = Text::of(
-        "{} different impacts at σ = {}, {} at {}",
-        [estimate(&few), chosen(low), estimate(&many), chosen(high)],
-    );
+    let found = text!("{} different impacts at σ = {}, {} at {}", few, low, many, high);
     Ok(e.open(found).note(
         "What is found are means of realisations with at least one impact. That they consist of periodic orbits is an \
          assumption that no simulation can test, since the chain is chaotic; impacts in an orbit cannot be counted.",

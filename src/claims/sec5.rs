@@ -42,12 +42,13 @@ fn orbit(e: &Evidence<'_>, figure: usize) -> Judged {
         && drawn.names() == asked
         && reads.contains(&e.statement.printed)
         && found.len() as f64 == e.statement.number()?;
-    let text = Text::from(found.join(", ")).then(Text::of(
-        "; after a period of {} again, to {}",
-        [significant(period, 4), significant(apart, 1)],
+    let text = Text::from(found.join(", ")).then(text!(
+        "; after a period of {:4} again, to {:1}",
+        period,
+        apart
     ));
     Ok(e.found(text, agrees)
-        .within(significant(allowed, 1), "rounding, which the impacts of a period enlarge")
+        .within(text!("{:1}", allowed), "rounding, which the impacts of a period enlarge")
         .note("A solution of the equations of motion with the period of the forces, which were chosen for it; the figure draws \
                another, which is not periodic. How likely such forces are is not said."))
 }
@@ -75,10 +76,7 @@ fn masses_of_circuit(e: &Evidence<'_>) -> Judged {
     }
     let found = bodies(&gaps, segment.masses);
     let printed = found as f64 == e.statement.number()?;
-    let text = Text::of(
-        "{} for Fig. 5; k + 1 for {} of {} sets of gaps",
-        [found, right, sets].map(integer),
-    );
+    let text = text!("{} for Fig. 5; k + 1 for {} of {} sets of gaps", found, right, sets);
     Ok(e.found(text, printed && right == sets).within("none", "integers are exact").explained(
         "A circuit whose gaps are neighbours, as on a ring, has k + 1 bodies, and the printed example is one. A gap apart from \
          the others brings two bodies, and the last gap of the whole ring none.",
@@ -89,9 +87,9 @@ fn masses_of_circuit(e: &Evidence<'_>) -> Judged {
 /// Lengths that are about N, here as in the next statement: the largest, and three below it.
 fn eq8(e: &Evidence<'_>) -> Judged {
     let [far, from] = e.numbers("theory.lengths", ["largest_far", "from"])?;
-    let found = Text::of("at most {} for k < {}", [significant(far, 2), integer(from as usize)]);
+    let found = text!("at most {:2} for k < {}", far, from);
     Ok(e.found(found, far <= 0.1).within(
-        Text::of("at most {}", [significant(0.1, 1)]),
+        text!("at most {:1}", 0.1),
         "ours: “far below one” as at most a tenth; “about N” as within three of it",
     ))
 }
@@ -100,16 +98,16 @@ fn eq8_next(e: &Evidence<'_>) -> Judged {
     let columns = ["before_last", "exceptions"];
     let [ratio, exceptions] = e.numbers("theory.lengths", columns)?;
     let n = VERTICES as f64;
-    Ok(e.found(Text::of("at k = N − 1: {}", [significant(ratio, 4)]), exceptions == 0.0)
+    Ok(e.found(text!("at k = N − 1: {:4}", ratio), exceptions == 0.0)
         .within(
-            Text::of("at most {}", [significant(0.1, 1)]),
+            text!("at most {:1}", 0.1),
             "ours: “far below one” as at most a tenth",
         )
         .explained(
-            Text::of(
-                "The ratio at k = N − 1 is N/(N − 1), above one. Above a tenth are the {} lengths next to N, where most \
-                 circuits are.",
-                [integer(exceptions as usize)],
+            text!(
+                "The ratio at k = N − 1 is N/(N − 1), above one. Above a tenth are the {} lengths next to N, where \
+                 most circuits are.",
+                exceptions
             ),
             (ratio * (n - 1.0) / n - 1.0).abs() < 1e-13 && exceptions == 3.0,
         ))
@@ -117,10 +115,7 @@ fn eq8_next(e: &Evidence<'_>) -> Judged {
 
 fn majority(e: &Evidence<'_>) -> Judged {
     let [share, peak] = e.numbers("theory.lengths", ["share", "peak"])?;
-    let found = Text::of(
-        "{} of all within three of N; the peak at k = {}",
-        [significant(share, 4), integer(peak as usize)],
-    );
+    let found = text!("{:4} of all within three of N; the peak at k = {}", share, peak);
     let reason = "ours: “about N” as within three of it; “majority” as more than half";
     Ok(e.found(found, share > 0.5).within("more than half", reason))
 }

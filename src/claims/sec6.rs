@@ -20,24 +20,16 @@ fn few(e: &Evidence<'_>) -> Judged {
     let row = format!("theory.distribution[p={p}]");
     let [mean, k_star] = e.numbers(&row, ["mean", "k_star"])?;
     let limit = VERTICES as f64 / sec2::VERY_FEW;
-    let found = Text::of(
-        "μ = {}, k* = {} at p = {}",
-        [significant(mean, 4), integer(k_star as usize), chosen(p)],
-    );
-    Ok(e.found(found, mean <= limit && k_star == 1.0).within(
-        Text::of("at most {}", [significant(limit, 2)]),
-        "ours: “very few” as a twentieth of all vertices",
-    ))
+    let found = text!("μ = {:4}, k* = {} at p = {}", mean, k_star, p);
+    Ok(e.found(found, mean <= limit && k_star == 1.0)
+        .within(text!("at most {:2}", limit), "ours: “very few” as a twentieth of all vertices"))
 }
 
 fn rise(e: &Evidence<'_>) -> Judged {
     let [a, _, c, _] = DISTRIBUTION_P;
     let mean = |p: f64| e.number(&format!("theory.distribution[p={p}].mean"));
     let (few, many, n) = (mean(a)?, mean(c)?, VERTICES as f64);
-    let found = Text::of(
-        "μ from {} to {} while p goes from {} to {}",
-        [significant(few, 3), significant(many, 3), chosen(a), chosen(c)],
-    );
+    let found = text!("μ from {:3} to {:3} while p goes from {} to {}", few, many, a, c);
     Ok(e.found(found, few < 0.1 * n && many > 0.75 * n).within(
         "from below a tenth to above three quarters of N",
         "ours: what “rapidly towards the size of the whole system” asks at least",
@@ -46,10 +38,7 @@ fn rise(e: &Evidence<'_>) -> Judged {
 
 fn step(e: &Evidence<'_>) -> Judged {
     let [largest, second] = e.numbers("theory.mean", ["largest_step", "other_steps"])?;
-    let found = Text::of(
-        "one step of height {}, all others {}",
-        [largest, second].map(|step| integer(step as usize)),
-    );
+    let found = text!("one step of height {}, all others {}", largest, second);
     Ok(e.found(found, largest * 10.0 >= VERTICES as f64 && second == 1.0).within(
         "one step of ten or more, all others of one",
         "ours: “large” as at least a tenth of N; a step function of integers has ones",
@@ -58,7 +47,7 @@ fn step(e: &Evidence<'_>) -> Judged {
 
 fn mean_zero(e: &Evidence<'_>) -> Judged {
     let least = e.number("theory.mean.at_zero")?;
-    let found = Text::of("μ = {} as p → 0+", [significant(least, 1)]);
+    let found = text!("μ = {:1} as p → 0+", least);
     Ok(e.found(found, least == e.statement.number()?).within("none", "an integer is exact").explained(
         "At p = 0 Eq. (9) is 0/0. As p goes to zero the circuits of one edge hold all the weight, and μ goes to one; zero \
          is the number of a graph without edges. The mode at p = 0 is read in the same way.",
@@ -79,10 +68,9 @@ fn ends(e: &Evidence<'_>) -> Result<[[f64; 2]; 2], Error> {
 }
 
 fn like_simulation(e: &Evidence<'_>) -> Judged {
-    let [simulated, theory] = ends(e)?;
-    let shares = [simulated[0], simulated[1], theory[0], theory[1]];
-    let text = "simulated from {} to {} of N as σ grows, theory from {} to {} as p grows";
-    Ok(e.open(Text::of(text, shares.map(|share| significant(share, 2)))).note(
+    let [[low, high], [least, most]] = ends(e)?;
+    let text = "simulated from {:2} to {:2} of N as σ grows, theory from {:2} to {:2} as p grows";
+    Ok(e.open(text!(text, low, high, least, most)).note(
         "The paper names a likeness of curves over different axes, and no quantity. Any two curves that rise from few \
          to all would have it. With the relation of σ and p they can be compared, in Section 8.",
     ))

@@ -28,22 +28,19 @@ const INTEGER: &str = "an integer is exact";
 
 fn start(e: &Evidence<'_>) -> Judged {
     let first = e.number("theory.jump.k_at_zero")?;
-    let found = Text::of("k* = {} as p → 0+", [integer(first as usize)]);
+    let found = text!("k* = {} as p → 0+", first);
     let note = "At p = 0 itself Eq. (9) is 0/0; the mean there is read in the same way.";
     Ok(e.found(found, first == e.statement.number()?).within("none", INTEGER).note(note))
 }
 
 fn through_zero(e: &Evidence<'_>) -> Judged {
     let [all, failed] = compared(e)?;
-    let found = Text::of(
-        "f passes zero at some p ≤ 1 for {} of {} k",
-        [integer(all - failed), integer(all)],
-    );
+    let found = text!("f passes zero at some p ≤ 1 for {} of {} k", all - failed, all);
     let last = jump::f(VERTICES, 1.0, VERTICES as f64 - 1.0);
     Ok(e.found(found, failed == 0).within("none", INTEGER).explained(
-        Text::of(
-            "At k = N − 1 f is p (N − 1) − N, which is {} at p = 1 and less before; so k* ends at N − 1.",
-            [significant(last, 1)],
+        text!(
+            "At k = N − 1 f is p (N − 1) − N, which is {:1} at p = 1 and less before; so k* ends at N − 1.",
+            last
         ),
         failed == 1 && last < 0.0,
     ))
@@ -55,18 +52,20 @@ fn inflexion(e: &Evidence<'_>) -> Judged {
     let columns = ["p_crit", "k_touch", "p_flat", "k_flat"];
     let [crit, touch, p, k] = e.numbers("theory.jump", columns)?;
     let allowed = 1e-13;
-    let found = Text::of(
-        "with Γ functions for the factorials at p = {}, k = {}; p_crit = {}",
-        [significant(p, 6), significant(k, 3), significant(crit, 6)],
+    let found = text!(
+        "with Γ functions for the factorials at p = {:6}, k = {:3}; p_crit = {:6}",
+        p,
+        k,
+        crit
     );
     Ok(e.found(found, (p / crit - 1.0).abs() <= allowed)
-        .within(Text::of("{} relative", [significant(allowed, 1)]), "rounding")
+        .within(text!("{:1} relative", allowed), "rounding")
         .explained(
-            Text::of(
-                "f has a double zero there, at k = {}, but f is the forward difference of Φ and not its derivative, whose \
-                 double zero comes at a smaller p, half a step further on. On the integers Φ is not stationary. It falls \
-                 at {} of {} steps up to p_crit, as the paper says.",
-                [significant(touch, 4), integer(steps - failed), integer(steps)],
+            text!(
+                "f has a double zero there, at k = {:4}, but f is the forward difference of Φ and not its \
+                 derivative, whose double zero comes at a smaller p, half a step further on. On the integers Φ is \
+                 not stationary. It falls at {} of {} steps up to p_crit, as the paper says.",
+                touch, steps - failed, steps
             ),
             off <= allowed && failed == 0 && steps > 0 && (k - touch - 0.5).abs() < 0.05,
         ))
@@ -74,53 +73,46 @@ fn inflexion(e: &Evidence<'_>) -> Judged {
 
 fn extrema(e: &Evidence<'_>) -> Judged {
     let [all, failed] = compared(e)?;
-    Ok(e.all_cases(all, failed).note(Text::of(
-        "Neighbours of ⌈k₋⌉ and ⌈k₊⌉, since f is a forward difference. The first local maximum on the integers appears \
-         at p = {}, a little above p_crit.",
-        [significant(e.number("theory.first_maximum.p")?, 8)],
+    Ok(e.all_cases(all, failed).note(text!(
+        "Neighbours of ⌈k₋⌉ and ⌈k₊⌉, since f is a forward difference. The first local maximum on the integers \
+         appears at p = {:8}, a little above p_crit.",
+        e.number("theory.first_maximum.p")?
     )))
 }
 
 fn p_crit(e: &Evidence<'_>) -> Judged {
     let [formula, found, k] = e.numbers("theory.jump", ["p_crit", "p_crit_found", "k_touch"])?;
     let allowed = 1e-13;
-    let text = Text::of("the zeros appear at p = {}", [significant(found, 15)]);
+    let text = text!("the zeros appear at p = {:15}", found);
     Ok(e.found(text, (found / formula - 1.0).abs() <= allowed)
         .within(
-            Text::of("{} relative", [significant(allowed, 1)]),
+            text!("{:1} relative", allowed),
             "rounding: the largest value of f is known to a few units in the last place",
         )
-        .note(Text::of("They appear at k = {}, not at an integer.", [significant(k, 4)])))
+        .note(text!("They appear at k = {:4}, not at an integer.", k)))
 }
 
 fn still_one(e: &Evidence<'_>) -> Judged {
-    let both = e.numbers("theory.jump", ["k_at_crit", "k_before"])?;
+    let [at_crit, before] = e.numbers("theory.jump", ["k_at_crit", "k_before"])?;
     let printed = e.statement.number()?;
-    let found = Text::of(
-        "k* = {} at p_crit and {} half way to the jump",
-        both.map(|k| integer(k as usize)),
-    );
-    Ok(e.found(found, both == [printed; 2]).within("none", INTEGER))
+    let found = text!("k* = {} at p_crit and {} half way to the jump", at_crit, before);
+    Ok(e.found(found, [at_crit, before] == [printed; 2]).within("none", INTEGER))
 }
 
 fn leaps(e: &Evidence<'_>) -> Judged {
     let [crit, leap, k_after] = e.numbers("theory.jump", ["p_crit", "p_jump", "k_after"])?;
-    let found =
-        Text::of("from 1 to {} at p = {}", [integer(k_after as usize), significant(leap, 15)]);
+    let found = text!("from 1 to {} at p = {:15}", k_after, leap);
     Ok(e.found(found, k_after >= 10.0 && leap > crit)
         .within("ten or more, above p_crit", "ours: “much larger” as at least ten times")
-        .note(Text::of(
-            "The paper prints p_crit only; the jump comes {} % later.",
-            [significant(100.0 * (leap / crit - 1.0), 3)],
+        .note(text!(
+            "The paper prints p_crit only; the jump comes {:3} % later.",
+            100.0 * (leap / crit - 1.0)
         )))
 }
 
 fn limit(e: &Evidence<'_>) -> Judged {
     let [last, ratio] = e.numbers("theory.jump", ["k_at_one", "last_ratio"])?;
-    Ok(e.found(
-        Text::of("k* = {} at p = 1", [integer(last as usize)]),
-        last == e.statement.number()?,
-    )
-    .within("none", INTEGER)
-    .note(Text::of("There Φ(N)/Φ(N − 1) is {}.", [significant(ratio, 2)])))
+    Ok(e.found(text!("k* = {} at p = 1", last), last == e.statement.number()?)
+        .within("none", INTEGER)
+        .note(text!("There Φ(N)/Φ(N − 1) is {:2}.", ratio)))
 }

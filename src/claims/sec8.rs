@@ -54,7 +54,7 @@ fn eq25(e: &Evidence<'_>) -> Judged {
 /// Weights in proportion to p^k have a mean with the slope Var(X)/p.
 fn expected_jump(e: &Evidence<'_>) -> Judged {
     let [slope, variance] = e.numbers("theory.jump", ["slope", "variance_over_p"])?;
-    let found = Text::of("dμ/dp = {} at p_jump", [significant(slope, 4)]);
+    let found = text!("dμ/dp = {:4} at p_jump", slope);
     Ok(e.found(found, !slope.is_finite())
         .within("no finite slope", "ours: a jump has no slope")
         .explained(
@@ -80,14 +80,11 @@ fn no_impact(e: &Evidence<'_>) -> Judged {
         above += usize::from(low > bound);
         let Some(found) = share(begun as u64, ran as u64) else { continue };
         if (0.05..0.95).contains(&bound) {
-            text = text.then(Text::of(
-                if shares_of_bound.is_empty() {
-                    "share of chains {} of {} at σ = {}"
-                } else {
-                    "; {} of {} at σ = {}"
-                },
-                [estimate(&found), significant(bound, 2), chosen(row.sigma)],
-            ));
+            let sentence = match shares_of_bound.is_empty() {
+                true => "share of chains {} of {:2} at σ = {}",
+                false => "; {} of {:2} at σ = {}",
+            };
+            text = text.then(text!(sentence, found, bound, row.sigma));
             shares_of_bound.push(found.value / bound);
             below += usize::from(high < 2.0 / 3.0 * bound);
             overlaps += row.rejected;
@@ -104,11 +101,11 @@ fn no_impact(e: &Evidence<'_>) -> Judged {
             "intervals at the level of the table; two thirds are ours, for gaps that share a mass \
              and come near their infimum too late",
         )
-        .note(Text::of(
+        .note(text!(
             "Chains with random free parts, as Eq. (20) supposes. {} of these {} chains overlap at the start, which \
-             Eq. (20) counts as impacts. The bound is 1 − ∏ (1 − p) over all gaps with p of Eq. (25); chains come to at \
-             least {} of it.",
-            [integer(overlaps), integer(chains), significant(least, 2)],
+             Eq. (20) counts as impacts. The bound is 1 − ∏ (1 − p) over all gaps with p of Eq. (25); chains come to \
+             at least {:2} of it.",
+            overlaps, chains, least
         )))
 }
 
@@ -122,15 +119,16 @@ fn p_small(e: &Evidence<'_>) -> Judged {
     let [crit, jump] = e.numbers("theory.relation", ["sigma_crit", "sigma_jump"])?;
     let printed = e.statement.number()?;
     let p = e.number(&format!("theory.gap[sigma={printed}].p"))?;
-    let found = Text::of("p = {} at σ = {}", [significant(p, 3), chosen(printed)]);
+    let found = text!("p = {:3} at σ = {}", p, printed);
     Ok(e.found(found, p <= EXTREMELY_SMALL)
         .within(
-            Text::of("at most {}", [significant(EXTREMELY_SMALL, 1)]),
+            text!("at most {:1}", EXTREMELY_SMALL),
             "ours: “extremely small” as a fiftieth of what a probability can be",
         )
-        .note(Text::of(
-            "It is not small for the theory: p reaches p_crit at σ = {} and p_jump at {}, below the printed value.",
-            [significant(crit, 4), significant(jump, 4)],
+        .note(text!(
+            "It is not small for the theory: p reaches p_crit at σ = {:4} and p_jump at {:4}, below the printed \
+             value.",
+            crit, jump
         )))
 }
 
@@ -149,16 +147,18 @@ fn p_poor(e: &Evidence<'_>) -> Judged {
     let windows = windows(e)?;
     let times: Vec<f64> = windows.iter().filter_map(|means| Some(needed(means)? / p)).collect();
     let least = times.iter().copied().reduce(f64::min).ok_or(Undecided)?;
-    let found = Text::of(
-        "p = {} at σ = {}, where the theory needs {} for the simulated mean",
-        [significant(p, 2), chosen(sigma), significant(ours, 2)],
+    let found = text!(
+        "p = {:2} at σ = {}, where the theory needs {:2} for the simulated mean",
+        p,
+        sigma,
+        ours
     );
     Ok(e.found(found, ours >= 2.0 * p && least >= 2.0)
         .within("at least twice", "ours: “poor” as less than half of what is needed")
-        .note(Text::of(
-            "In all windows of the map with T ≥ {} at least {} times as much is needed. The paper suspects p; that the theory \
-             itself is at fault the numbers do not exclude, since Eq. (20) gives what it supposes.",
-            [chosen(RELEASED), significant(least, 2)],
+        .note(text!(
+            "In all windows of the map with T ≥ {} at least {:2} times as much is needed. The paper suspects p; that \
+             the theory itself is at fault the numbers do not exclude, since Eq. (20) gives what it supposes.",
+            RELEASED, least
         )))
 }
 
@@ -188,33 +188,21 @@ fn large_sigma(e: &Evidence<'_>) -> Judged {
     for means in &windows {
         far = largest_distance(means, &curve).map_or(far, |[distance, ..]| far.max(distance));
     }
-    let found = Text::of(
-        "largest distance from σ = {} on: {} gaps",
-        [chosen(LARGE_SIGMA), significant(distance, 2)],
-    );
+    let found = text!("largest distance from σ = {} on: {:2} gaps", LARGE_SIGMA, distance);
     let check = if distance >= constant {
         e.open(found)
     } else {
         e.found(found, far <= limit).within(
-            Text::of("at most {}, and less than N is away", [significant(limit, 3)]),
+            text!("at most {:3}, and less than N is away", limit),
             "ours: a tenth of all gaps",
         )
     };
     Ok(check
-        .note(Text::of(
-            "Reached at σ = {}; in all windows of the map with T ≥ {} at most {}. But the constant N is at most {} away: both \
-             curves approach all gaps, whatever the theory, so nothing is tested here. The theory misses {} of its {} \
-             vertices, the simulation {} of its {} gaps.",
-            [
-                chosen(at),
-                chosen(RELEASED),
-                significant(far, 2),
-                significant(constant, 2),
-                significant(VERTICES as f64 - theory, 2),
-                integer(VERTICES),
-                significant(gaps - mean, 2),
-                integer(gaps as usize),
-            ],
+        .note(text!(
+            "Reached at σ = {}; in all windows of the map with T ≥ {} at most {:2}. But the constant N is at most \
+             {:2} away: both curves approach all gaps, whatever the theory, so nothing is tested here. The theory \
+             misses {:2} of its {} vertices, the simulation {:2} of its {} gaps.",
+            at, RELEASED, far, constant, VERTICES as f64 - theory, VERTICES, gaps - mean, gaps
         )))
 }
 
@@ -228,20 +216,18 @@ fn threshold_shift(e: &Evidence<'_>) -> Judged {
     let halves: Vec<Estimate> =
         map.curves.iter().filter_map(|curve| curve.rise.half_height_all).collect();
     let agree = halves.iter().filter(|half| near(half)).count();
-    let found = Text::of(
-        "half height of the theory at σ = {}, of the simulation at {}",
-        [significant(theory, 4), estimate(&half)],
-    );
+    let found =
+        text!("half height of the theory at σ = {:4}, of the simulation at {}", theory, half);
     let check = if agree == 0 || agree == halves.len() {
         let reason = "ours: a curve that is moved by more agrees nowhere along the rise";
         e.found(found, agree > 0).within("within a fifth of one another", reason)
     } else {
         e.open(found)
     };
-    Ok(check.note(Text::of(
+    Ok(check.note(text!(
         "Along the rise the protocol, which is not printed, decides: in {} of {} windows of the map both half heights are \
          within a fifth of one another. The paper itself finds the agreement poor at small σ.",
-        [agree, halves.len()].map(integer),
+        agree, halves.len()
     )))
 }
 
@@ -257,10 +243,7 @@ fn mean_is_easier(e: &Evidence<'_>) -> Judged {
     let mut ratios: Vec<f64> = rows.filter_map(ratio).collect();
     ratios.sort_by(f64::total_cmp);
     let ratio = *ratios.get(ratios.len() / 2).ok_or(Undecided)?;
-    let found = Text::of(
-        "the interval of the mode is {} times as wide as that of the mean",
-        [significant(ratio, 2)],
-    );
+    let found = text!("the interval of the mode is {:2} times as wide as that of the mean", ratio);
     Ok(e.found(found, ratio >= 2.0)
         .within("at least twice", "ours: “much easier” as at least four times fewer realisations")
         .note("Median over the rows from onset to half height."))
@@ -296,19 +279,17 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     );
     for (i, (time, rest, random)) in half_heights_of_starts(e)?.iter().enumerate() {
         let share = share_of_start(*rest, *random, theory);
-        note = note.then(Text::of(
-            if i == 0 { " {} for T = {}" } else { ", {} for {}" },
-            [estimate(&share), integer(*time as usize)],
-        ));
+        let sentence = if i == 0 { " {} for T = {}" } else { ", {} for {}" };
+        note = note.then(text!(sentence, share, *time));
     }
-    let found = Text::of(
+    let found = text!(
         "from rest the start makes up {} of the distance between theory and simulation",
-        [estimate(&share)],
+        share
     );
-    Ok(e.open(found).note(note.then(Text::of(
-        ". The theory assumes random free parts, for which nothing of the distance is due to the start. From r = {} to {} \
-         the half height moves by {}, more than with the start.",
-        [chosen(*lowest), chosen(*highest), estimate(&moved)],
+    Ok(e.open(found).note(note.then(text!(
+        ". The theory assumes random free parts, for which nothing of the distance is due to the start. From r = {} \
+         to {} the half height moves by {}, more than with the start.",
+        *lowest, *highest, moved
     ))))
 }
 
@@ -348,22 +329,25 @@ fn ensured(e: &Evidence<'_>, what: &str, pick: fn(&Total) -> u64) -> Judged {
     }
     let decides = |ours: f64, without: f64| ours <= NEGLIGIBLE && without > NEGLIGIBLE;
     let (sigma, ours, without, _) = *shares.last().ok_or(Undecided)?;
-    let text = Text::of(
-        "at σ = {} a share of {} at r = {}, {} at r = {}",
-        [chosen(sigma), significant(ours, 1), chosen(r), significant(without, 1), chosen(lowest)],
+    let text = text!(
+        "at σ = {} a share of {:1} at r = {}, {:1} at r = {}",
+        sigma,
+        ours,
+        r,
+        without,
+        lowest
     );
-    let tolerance = "at most {} at the paper's r, more at the lowest, at each σ";
-    let check = e.found(text, shares.iter().all(|row| decides(row.1, row.2))).within(
-        Text::of(tolerance, [significant(NEGLIGIBLE, 1)]),
-        "ours: one in a thousand, as in Section 2",
-    );
+    let tolerance = "at most {:1} at the paper's r, more at the lowest, at each σ";
+    let check = e
+        .found(text, shares.iter().all(|row| decides(row.1, row.2)))
+        .within(text!(tolerance, NEGLIGIBLE), "ours: one in a thousand, as in Section 2");
     let negligible = shares.iter().take_while(|row| row.3 <= NEGLIGIBLE);
     let Some((until, ..)) = negligible.last() else {
         return Ok(check.note(what));
     };
     let more = " At strong forces r decides. But up to σ = {} no r that was run has more than that, so none ensures it.";
     let threshold = e.published.statement("sec2_half_height")?.number()?;
-    let note = Text::from(what).then(Text::of(more, [chosen(*until)]));
+    let note = Text::from(what).then(text!(more, *until));
     Ok(check.explained(note, decides(ours, without) && *until >= threshold))
 }
 

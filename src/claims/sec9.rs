@@ -51,16 +51,13 @@ fn fig6_repeats(e: &Evidence<'_>) -> Judged {
 fn eq30(e: &Evidence<'_>) -> Judged {
     let [printed, counted] = e.numbers("theory.higher", ["eq30_printed", "eq30_counted"])?;
     let [compared, failed] = compared(e)?;
-    let found = Text::of(
-        "Eq. (30) gives {}, enumeration {}",
-        [significant(printed, 1), integer(counted as usize)],
-    );
+    let found = text!("Eq. (30) gives {:1}, enumeration {}", printed, counted);
     Ok(e.found(found, printed == counted)
         .within("none", INTEGER)
-        .explained(Text::of(
-            "A factor N is missing, the choice of the vertex that is visited twice; Eq. (33) has it. With it the formula \
-             agrees in {} of {} cases.",
-            [integer(compared), integer(compared)],
+        .explained(text!(
+            "A factor N is missing, the choice of the vertex that is visited twice; Eq. (33) has it. With it the \
+             formula agrees in {} of {} cases.",
+            compared, compared
         ), failed == 0 && compared > 0))
 }
 
@@ -73,12 +70,13 @@ fn class_range(e: &Evidence<'_>) -> Judged {
     // A printed "k > 3" means from 4 on; without a printed range every length is meant.
     let printed_from = e.statement.value.map_or(1.0, |k| k + 1.0);
     let agrees = right_from == printed_from && failed == 0.0 && compared > 3.0;
-    let why = Text::of(
+    let why = text!(
         "One length below, on three vertices, the formula gives {} and enumeration finds {}: sequences that repeat a \
          shorter one.",
-        [chosen(formula), integer(counted as usize)],
+        formula,
+        counted
     );
-    let found = Text::of("right from k = {} on", [integer(right_from as usize)]);
+    let found = text!("right from k = {} on", right_from);
     let check = e.found(found, agrees).within("none", INTEGER);
     Ok(match e.statement.value {
         Some(_) => check.note(why),
@@ -93,12 +91,12 @@ fn eq38(e: &Evidence<'_>) -> Judged {
     let [all, wrong] = compared(e)?;
     let [in_range, wrong_in_range] =
         e.numbers("theory.cases[statement=sec9_eq38_in_range]", ["compared", "failed"])?;
-    let found = Text::of("right in {} of {} cases", [integer(all - wrong), integer(all)]);
+    let found = text!("right in {} of {} cases", all - wrong, all);
     Ok(e.found(found, wrong == 0 && all > 0).within("none", INTEGER).explained(
-        Text::of(
+        text!(
             "No smallest k is printed. From k = 3 on, where each formula is used in the range that is printed with it, {} of \
              {} cases agree. For k = 1 and 2, which the distribution needs too, formulas are used below their range.",
-            [in_range - wrong_in_range, in_range].map(|cases| integer(cases as usize)),
+            in_range - wrong_in_range, in_range
         ),
         wrong_in_range == 0.0 && in_range > 0.0,
     ))
@@ -113,17 +111,17 @@ fn even_small_p(e: &Evidence<'_>) -> Judged {
     let p = e.statement.number()?;
     let (share, first_order) = (of_five(e, p, "simple")?, of_five(e, p, "first_order")?);
     let higher = (1.0 - share) / share;
-    let found = Text::of("higher orders hold {} %", [significant(100.0 * (1.0 - share), 2)]);
+    let found = text!("higher orders hold {:2} %", 100.0 * (1.0 - share));
     let predicted = 100.0 * first_order / (1.0 + first_order);
     let by_different = 1.0 - e.number("theory.higher.simple_by_different")?;
     Ok(e.found(found, 1.0 - share >= VISIBLE)
         .within("at least 5 %", "ours: the least that can be seen in a figure")
-        .explained(Text::of(
+        .explained(text!(
             "A doubled vertex has relative weight p k²/2, which is below one for the small k that hold nearly \
-             everything; this first order alone predicts {} %, and further orders less than as much again. They \
-             dominate only in the tail. With a factor p for each different impact, and not for each edge as Section 4 \
-             prints, they hold {} %.",
-            [significant(predicted, 2), significant(100.0 * by_different, 2)],
+             everything; this first order alone predicts {:2} %, and further orders less than as much again. They \
+             dominate only in the tail. With a factor p for each different impact, and not for each edge as Section \
+             4 prints, they hold {:2} %.",
+            predicted, 100.0 * by_different
         ), higher > first_order && higher < 2.0 * first_order))
 }
 
@@ -133,9 +131,9 @@ fn dominate(e: &Evidence<'_>) -> Judged {
     let falls = shares.windows(2).all(|w| w[1] < w[0]);
     let p = HIGHER_P[2];
     let share = of_five(e, p, "simple")?;
-    let found = Text::of("simple circuits hold {} at p = {}", [significant(share, 2), chosen(p)]);
+    let found = text!("simple circuits hold {:2} at p = {}", share, p);
     Ok(e.found(found, share <= 0.01 && falls).within(
-        Text::of("at most {}", [significant(0.01, 1)]),
+        text!("at most {:1}", 0.01),
         "ours: “insignificant” as at most one in a hundred, and falling with p",
     ))
 }
@@ -147,20 +145,17 @@ fn convergence(e: &Evidence<'_>) -> Judged {
     let later = later.map(|p| Ok((p, distance(p)?))).collect::<Result<Vec<_>, Error>>()?;
     let falls = later.windows(2).all(|w| w[1].1 < w[0].1);
     let (p_last, last) = later.last().copied().unwrap_or((f64::NAN, f64::NAN));
-    let found = Text::of(
-        "total variation distance {} at p = {}, {} at {}",
-        [significant(a, 3), chosen(p_a), significant(b, 3), chosen(p_b)],
-    );
+    let found = text!("total variation distance {:3} at p = {}, {:3} at {}", a, p_a, b, p_b);
     let near = p_b <= p_last && b <= VISIBLE;
     Ok(e.found(found, falls && near)
         .within(
-            Text::of("falling, and at most {} in panel (b)", [significant(VISIBLE, 1)]),
+            text!("falling, and at most {:1} in panel (b)", VISIBLE),
             "ours: the least that can be seen in a figure, as for higher orders at the smallest p",
         )
-        .explained(Text::of(
-            "The distance falls at every p that was computed, to {} at p = {}; the two come together only beyond the p of the \
-             figure. It is a shift of all k by about one: see the means.",
-            [significant(last, 2), chosen(p_last)],
+        .explained(text!(
+            "The distance falls at every p that was computed, to {:2} at p = {}; the two come together only beyond \
+             the p of the figure. It is a shift of all k by about one: see the means.",
+            last, p_last
         ), falls && later.len() > 2 && b < 0.5 * a))
 }
 
@@ -168,20 +163,18 @@ fn mean_large_p(e: &Evidence<'_>) -> Judged {
     let p = HIGHER_P[2];
     let mean = e.number(&format!("theory.distribution[p={p}].mean"))?;
     let difference = of_five(e, p, "mean_difference")? / mean;
-    let found =
-        Text::of("relative difference {} at p = {}", [significant(difference, 2), chosen(p)]);
-    Ok(e.found(found, difference.abs() <= 0.05).within(
-        Text::of("at most {}", [significant(0.05, 1)]),
-        "ours: “very good” as within one in twenty",
-    ))
+    let found = text!("relative difference {:2} at p = {}", difference, p);
+    Ok(e.found(found, difference.abs() <= 0.05)
+        .within(text!("at most {:1}", 0.05), "ours: “very good” as within one in twenty"))
 }
 
 /// An explanation by orders that are counted, where those that are left out weigh more.
 fn explains_agreement(e: &Evidence<'_>) -> Judged {
     let doubling = e.number("theory.higher.doubling")?;
-    let found = Text::of(
-        "at p = {} one more doubled vertex multiplies the weight by {}",
-        [chosen(HIGHER_P[2]), significant(doubling, 3)],
+    let found = text!(
+        "at p = {} one more doubled vertex multiplies the weight by {:3}",
+        HIGHER_P[2],
+        doubling
     );
     Ok(e.open(found).note(
         "An explanation is not a number. The orders that are left out outweigh those that are counted, and theory and \
@@ -191,12 +184,9 @@ fn explains_agreement(e: &Evidence<'_>) -> Judged {
 
 fn mean_small_p(e: &Evidence<'_>) -> Judged {
     let [difference, at] = e.numbers("theory.higher", ["means_ratio", "means_apart_at"])?;
-    let found = Text::of(
-        "relative difference up to {}, at p = {}",
-        [significant(difference, 2), chosen(at)],
-    );
+    let found = text!("relative difference up to {:2}, at p = {}", difference, at);
     Ok(e.found(found, difference >= 0.1)
-        .within(Text::of("at least {}", [significant(0.1, 1)]), "ours: “measurable” as one in ten"))
+        .within(text!("at least {:1}", 0.1), "ours: “measurable” as one in ten"))
 }
 
 fn higher_jump(e: &Evidence<'_>) -> Judged {
@@ -204,34 +194,27 @@ fn higher_jump(e: &Evidence<'_>) -> Judged {
     let by_different = e.number("theory.higher.step_by_different")?;
     let simple = e.number("theory.jump.p_jump")?;
     let shift = higher / simple - 1.0;
-    let found = Text::of(
-        "p_jump = {}, to k* = {}; for simple circuits {}",
-        [significant(higher, 6), integer(k_after as usize), significant(simple, 6)],
-    );
+    let found =
+        text!("p_jump = {:6}, to k* = {}; for simple circuits {:6}", higher, k_after, simple);
     Ok(e.found(found, shift.abs() > 1e-9 && k_after >= 10.0)
         .within(
             "another p, and a step of ten or more",
             "both are known to the last bit; “jump” as in Section 7",
         )
-        .note(Text::of(
-            "A change by {} %. With a factor p for each different impact, and not for each edge as Section 4 prints, k* \
-             climbs in steps of {} and nothing jumps.",
-            [significant(100.0 * shift, 2), integer(by_different as usize)],
+        .note(text!(
+            "A change by {:2} %. With a factor p for each different impact, and not for each edge as Section 4 \
+             prints, k* climbs in steps of {} and nothing jumps.",
+            100.0 * shift, by_different
         )))
 }
 
 fn fig15_modest(e: &Evidence<'_>) -> Judged {
     let [change, at, shift] = e.numbers("theory.higher", ["change", "change_at", "half_shift"])?;
     let allowed = half_unit(e)?;
-    let found = Text::of(
-        "largest change {} at σ = {}; the half height moves by {}",
-        [significant(change, 3), chosen(at), significant(shift, 2)],
-    );
+    let found =
+        text!("largest change {:3} at σ = {}; the half height moves by {:2}", change, at, shift);
     Ok(e.found(found, at < LARGE_SIGMA && shift.abs() <= allowed).within(
-        Text::of(
-            "below σ = {}; by at most {}",
-            [significant(LARGE_SIGMA, 1), significant(allowed, 1)],
-        ),
+        text!("below σ = {:1}; by at most {:1}", LARGE_SIGMA, allowed),
         "ours: “small σ” as what is not large in Section 8; “modest” as half a unit of the \
          digit in which the paper prints the threshold",
     ))
@@ -241,9 +224,10 @@ fn relation_matters(e: &Evidence<'_>) -> Judged {
     let columns = ["sigma_jump", "sigma_jump_rest", "sigma_jump_higher"];
     let [simple, rest, higher] = e.numbers("theory.relation", columns)?;
     let (relation, higher) = ((rest - simple).abs(), (higher - simple).abs());
-    let found = Text::of(
-        "another relation moves the jump by {} in σ, higher orders by {}",
-        [significant(relation, 3), significant(higher, 2)],
+    let found = text!(
+        "another relation moves the jump by {:3} in σ, higher orders by {:2}",
+        relation,
+        higher
     );
     Ok(e.found(found, relation > higher)
         .within("the first is larger", "a comparison of two computed numbers")
@@ -252,9 +236,11 @@ fn relation_matters(e: &Evidence<'_>) -> Judged {
 
 fn improves(e: &Evidence<'_>) -> Judged {
     let [simple, higher] = e.numbers("sweep.against_theory", ["simple", "higher"])?;
-    let found = Text::of(
-        "distance to the simulated means below σ = {}: {} gaps without, {} with higher orders",
-        [significant(LARGE_SIGMA, 1), significant(simple, 3), significant(higher, 3)],
+    let found = text!(
+        "distance to the simulated means below σ = {:1}: {:3} gaps without, {:3} with higher orders",
+        LARGE_SIGMA,
+        simple,
+        higher
     );
     let improved = |[simple, higher]: [f64; 2]| higher < simple && higher >= 0.8 * simple;
     let table = e.results.table("theory.curve")?;
@@ -271,8 +257,10 @@ fn improves(e: &Evidence<'_>) -> Judged {
             "a decrease by at most a fifth",
             "ours: “slightly”; the distance is the root of the mean square over all rows",
         )
-        .note(Text::of(
+        .note(text!(
             "It decreases so in {} of the {} windows of the map of protocols with T ≥ {}.",
-            [integer(better), integer(windows.len()), chosen(RELEASED)],
+            better,
+            windows.len(),
+            RELEASED
         )))
 }

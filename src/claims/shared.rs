@@ -2,18 +2,10 @@
 
 use crate::experiments::ensembles::named;
 use crate::experiments::rise::Counted;
-use impact_numerics::statistics::Estimate;
 pub use literate::claims::Basis::{OurMeasure, PrintedDigit, Rounding};
 pub use literate::claims::Error::{self, Undecided};
-pub use literate::claims::{
-    Evidence, Judged, Kind, Rule, Text, chosen, integer, significant, with_error,
-};
-use literate::value::Number;
-
-/// Returns a number with its standard error.
-pub fn estimate(found: &Estimate) -> Number {
-    with_error(found.value, found.error)
-}
+pub use literate::claims::{Evidence, Judged, Kind, Rule, Text};
+pub use literate::text;
 
 /// Finds the chains of this name among those of an experiment.
 pub fn ensemble<'a>(found: &'a [Counted], name: &str) -> Result<&'a Counted, Error> {
@@ -22,7 +14,7 @@ pub fn ensemble<'a>(found: &'a [Counted], name: &str) -> Result<&'a Counted, Err
 
 /// Returns a tolerance to both sides.
 pub fn plus_minus(half: f64) -> Text {
-    Text::of("± {}", [significant(half, 1)])
+    text!("± {:1}", half)
 }
 
 /// Returns half a unit of the last digit in which the paper prints the threshold.
@@ -45,7 +37,7 @@ pub fn largest_difference(e: &Evidence<'_>) -> Result<f64, Error> {
 /// Makes the rule of a definition, which this edition uses as it stands: nothing is computed.
 #[track_caller]
 pub fn defined(id: &'static str) -> Rule {
-    Rule::new(id, |e| e.found("used as it stands", e.statement.kind == Kind::Definition))
+    Rule::new(id, |e| Ok(e.found("used as it stands", e.statement.kind == Kind::Definition)))
 }
 
 /// Makes the rule of a statement about the theory that fails in none of the compared cases.
@@ -53,14 +45,12 @@ pub fn defined(id: &'static str) -> Rule {
 pub fn cases(id: &'static str, note: &'static str) -> Rule {
     Rule::new(id, move |e| {
         let [all, failed] = compared(e)?;
-        Judged::Ok(e.all_cases(all, failed).note(note))
+        Ok(e.all_cases(all, failed).note(note))
     })
 }
 
 /// Makes the rule of a statement about the theory that is an equality of real numbers.
 #[track_caller]
 pub fn equality(id: &'static str, allowed: f64, note: &'static str) -> Rule {
-    let judge =
-        move |e: &Evidence<'_>| Judged::Ok(e.rounding(largest_difference(e)?, allowed).note(note));
-    Rule::new(id, judge).on(Rounding)
+    Rule::new(id, move |e| Ok(e.rounding(largest_difference(e)?, allowed).note(note))).on(Rounding)
 }

@@ -123,10 +123,10 @@ impl Paper {
 
     /// Adds a rule that judges the statement with this id.
     #[track_caller]
-    pub fn check<C: Into<Judged>>(
+    pub fn check(
         self,
         id: &'static str,
-        judge: impl Fn(&Evidence<'_>) -> C + Send + Sync + 'static,
+        judge: impl Fn(&Evidence<'_>) -> Judged + Send + Sync + 'static,
     ) -> Self {
         self.rule(Rule::new(id, judge))
     }
@@ -207,8 +207,8 @@ mod tests {
         let twice = paper.figure("s01", &[], draw).check_names().unwrap_err().message;
         assert!(twice.starts_with("two figures have the name s01: "), "{twice}");
         assert_eq!(twice.matches("src/paper.rs:").count(), 2, "{twice}");
-        let paper =
-            Paper::new("toy", toy()).check("a", |e| e.open("–")).check("a", |e| e.open("–"));
+        let open = |e: &Evidence<'_>| Ok(e.open("–"));
+        let paper = Paper::new("toy", toy()).check("a", open).check("a", open);
         let twice = paper.check_names().unwrap_err().message;
         assert!(twice.starts_with("two rules have the name a: "), "{twice}");
     }

@@ -4,6 +4,7 @@
 //! it, it becomes a [`Value`] with an id, and a template names that id: `«v.half_height»`. The
 //! printed digits follow from the value itself, so that prose, tables and `values.json` agree.
 
+use impact_numerics::statistics::Estimate;
 use serde::{Deserialize, Serialize};
 
 /// The number itself, with what decides how many digits of it are printed.
@@ -33,6 +34,16 @@ impl Number {
             _ => true,
         }
     }
+
+    /// Returns the number with so many significant digits; words as they are.
+    pub(crate) fn significant(self, digits: usize) -> Number {
+        let digits = Digits::Significant(digits);
+        match self {
+            Number::Integer(n) => Number::Real { value: n as f64, digits },
+            Number::Real { value, .. } => Number::Real { value, digits },
+            other => other,
+        }
+    }
 }
 
 /// A number that was chosen, with all its digits: an integer where it is one.
@@ -60,6 +71,13 @@ from_integers!(i32 i64 u32 u64 usize);
 impl From<String> for Number {
     fn from(words: String) -> Number {
         Number::Text(words)
+    }
+}
+
+/// A number with its standard error.
+impl From<Estimate> for Number {
+    fn from(found: Estimate) -> Number {
+        Number::Real { value: found.value, digits: Digits::Error(found.error) }
     }
 }
 

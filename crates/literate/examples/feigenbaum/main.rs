@@ -150,8 +150,8 @@ pub fn paper() -> Paper {
             // The explanation can fail: ours, rounded to three decimals, must be what is printed.
             let rounded = (e.number("cascade.limit.onset")? * 1000.0).round() / 1000.0;
             let why = "printed is the number rounded to three decimals, and a zero";
-            let check = e.cell("cascade.limit.onset");
-            Judged::Ok(check.explained(why, Some(rounded) == e.statement.value))
+            let holds = Some(rounded) == e.statement.value;
+            Ok(e.cell("cascade.limit.onset")?.explained(why, holds))
         });
     Paper { prose: "crates/literate/examples/feigenbaum", ..paper }
 }

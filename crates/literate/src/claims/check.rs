@@ -1,7 +1,6 @@
 //! Defines a check: a statement or relation with what was found, the tolerance and the verdict.
 
-use super::text::{Text, chosen, significant};
-use crate::table::Missing;
+use super::text::Text;
 use serde::{Deserialize, Serialize};
 
 /// What a check judges.
@@ -135,24 +134,6 @@ pub struct Check {
     pub verdict: Verdict,
     /// What explains a difference, or what else a reader should know.
     pub note: Text,
-    #[serde(skip)]
-    pub(super) compared: Option<Compared>,
-}
-
-/// The number of a cell and the one that was printed, by which [`Check::within_errors`] and
-/// [`Check::near`] judge again.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Compared {
-    /// Why there is no such cell.
-    pub missing: Option<Missing>,
-    /// The number, if the cell has one.
-    pub value: Option<f64>,
-    pub standard_error: f64,
-    pub printed: Option<f64>,
-    /// How many standard errors are allowed; none in a rule that is not statistical.
-    pub quantile: Option<f64>,
-    /// Whether the verdict needs that number and has none.
-    pub lacks_quantile: bool,
 }
 
 impl Check {
@@ -166,38 +147,6 @@ impl Check {
     pub fn judged(self, agrees: bool) -> Check {
         let verdict = if agrees { Verdict::Reproduced } else { Verdict::Differs };
         Check { verdict, ..self }
-    }
-
-    /// Judges the number of a cell by its distance from the printed one, which may be `room` and
-    /// the allowed number of standard errors; `shown` is the room that the tolerance names.
-    pub(super) fn allowed(self, room: f64, with_errors: bool, shown: Option<f64>) -> Check {
-        let Some(mut compared) = self.compared.clone() else { return self };
-        let error = if with_errors { compared.standard_error } else { 0.0 };
-        compared.lacks_quantile = error > 0.0 && compared.quantile.is_none();
-        let room = room + compared.quantile.unwrap_or(0.0) * error;
-        let tolerance = Text::of("± {}", [significant(shown.unwrap_or(room), 1)]);
-        let numbers = compared.value.zip(compared.printed);
-        let check = Check { tolerance, compared: Some(compared), ..self };
-        match numbers {
-            // The last bit may be rounded.
-            Some((value, printed)) => check.judged((value - printed).abs() <= room * (1.0 + 1e-9)),
-            None => check,
-        }
-    }
-
-    /// Judges a [cell](super::Evidence::cell) by its standard error alone: it lies within so many
-    /// of the printed number as the level of the statistical checks allows.
-    pub fn within_errors(self) -> Check {
-        let reason = "standard errors at the level of the table".into();
-        Check { reason, basis: Basis::Statistics, ..self.allowed(0.0, true, None) }
-    }
-
-    /// Judges a [cell](super::Evidence::cell) by a measure of ours: it lies no further from the
-    /// printed number.
-    pub fn near(self, tolerance: f64, reason: &str) -> Check {
-        let shown = Text::of("± {}", [chosen(tolerance)]);
-        let check = self.allowed(tolerance, false, None).within(shown, reason);
-        Check { basis: Basis::OurMeasure, ..check }
     }
 
     /// Adds an explanation, which predicts what is found (`holds`) or does not: then the check

@@ -1,21 +1,22 @@
 //! Gives a rule what it may look at, and starts its check.
 //!
 //! ```
-//! # use literate::claims::{Check, Evidence};
-//! # let _: [fn(&Evidence<'_>) -> Check; 3] = [
+//! # use literate::claims::{Evidence, Judged};
+//! # let _: [fn(&Evidence<'_>) -> Judged; 3] = [
 //! |e| e.cell("cascade.limit.delta"), // rounds to what was printed
-//! |e| e.cell("walk.fit.slope").within_errors(), // differs by some standard errors at most
-//! |e| e.cell("walk.fit.onset").near(0.01, "ours: a hundredth").explained("too few steps", true),
+//! |e| e.within_errors("walk.fit.slope"), // differs by some standard errors at most
+//! |e| Ok(e.near("walk.fit.onset", 0.01, "ours: a hundredth")?.explained("too few steps", true)),
 //! # ];
 //! ```
 
-use super::check::{Basis, Check, Compared};
+use super::check::{Basis, Check};
 use super::level::Level;
 use super::published::{Published, PublishedError, Statement};
-use super::text::{Text, decimals, integer, significant};
+use super::text::Text;
 use crate::experiments::{self, Results};
 use crate::table::{self, Missing};
-use crate::value::{Number, Value};
+use crate::text;
+use crate::value::{Digits, Number};
 use impact_numerics::statistics::Estimate;
 
 /// Why a check could not be computed.
@@ -57,12 +58,6 @@ impl From<Missing> for Error {
 
 /// A check, or why there is none.
 pub type Judged = Result<Check, Error>;
-
-impl From<Check> for Judged {
-    fn from(check: Check) -> Judged {
-        Ok(check)
-    }
-}
 
 /// What a rule may look at: its statement, the results, and all that was printed.
 #[derive(Clone, Copy, Debug)]
@@ -116,51 +111,61 @@ impl Evidence<'_> {
         Ok(Estimate { value, error, interval: [value - error, value + error] })
     }
 
-    /// Compares a cell with the printed number, to which it has to round, with room for its
-    /// standard error if it has one; [`Check::within_errors`] and [`Check::near`] ask for something
-    /// else.
+    /// Judges the number of a cell: it has to round to the printed one, with room for its standard
+    /// error if it has one.
     #[track_caller]
-    pub fn cell(&self, address: &str) -> Check {
-        let statement = self.statement;
-        let (mut cell, mut missing) = (None, None);
-        // `judge_all` has refused the others.
-        if let Ok(tables) = self.results.tables() {
-            match table::cell(tables, address) {
-                Ok(found) => cell = Some(found),
-                Err(error) => missing = Some(error),
+    pub fn cell(&self, address: &str) -> Judged {
+        let half = self.statement.half_unit();
+        let (room, reason) = match self.standard_errors(address)? {
+            0.0 => (half, "half a unit of the last printed digit"),
+            errors => {
+                (half + errors, "half a unit of the last printed digit, and the statistical error")
             }
+        };
+        let check = self.compared(address, room)?.within(text!("± {:1}", half), reason);
+        Ok(Check { basis: Basis::PrintedDigit, ..check })
+    }
+
+    /// Judges the number of a cell by its standard error alone: it lies within so many of the
+    /// printed one as the level of the statistical checks allows.
+    #[track_caller]
+    pub fn within_errors(&self, address: &str) -> Judged {
+        let room = self.standard_errors(address)?;
+        let reason = "standard errors at the level of the table";
+        let check = self.compared(address, room)?.within(text!("± {:1}", room), reason);
+        Ok(Check { basis: Basis::Statistics, ..check })
+    }
+
+    /// Judges the number of a cell by a measure of ours: it lies no further from the printed one.
+    #[track_caller]
+    pub fn near(&self, address: &str, tolerance: f64, reason: &str) -> Judged {
+        let check = self.compared(address, tolerance)?.within(text!("± {}", tolerance), reason);
+        Ok(Check { basis: Basis::OurMeasure, ..check })
+    }
+
+    /// Returns how far chance may move the number of a cell; 0 if it has no standard error.
+    #[track_caller]
+    fn standard_errors(&self, address: &str) -> Result<f64, Error> {
+        match self.estimate(address)?.error {
+            error if error > 0.0 => Ok(self.level()?.quantile * error),
+            _ => Ok(0.0),
         }
-        let standard_error = cell.map_or(0.0, Value::standard_error);
-        let found = match cell.map(|cell| cell.number.clone()) {
-            Some(Number::Real { value, .. })
-                if standard_error == 0.0 && statement.value.is_some() =>
-            {
-                let places = statement.decimals.unwrap_or(0) + 2;
-                decimals(value, places.max(0) as usize).into()
+    }
+
+    /// Starts the check of a cell whose number lies no further from the printed one than `room`.
+    #[track_caller]
+    fn compared(&self, address: &str, room: f64) -> Judged {
+        let (found, printed) = (self.estimate(address)?, self.statement.number()?);
+        let found_number = match table::cell(self.results.tables()?, address)?.number {
+            Number::Real { value, .. } if found.error == 0.0 => {
+                let places = self.statement.decimals.unwrap_or(0) + 2;
+                Number::Real { value, digits: Digits::Decimals(places.max(0) as usize) }
             }
-            Some(number) => Text::from(number),
-            None => "–".into(),
+            ref number => number.clone(),
         };
-        let reason = if standard_error > 0.0 {
-            "half a unit of the last printed digit, and the statistical error"
-        } else {
-            "half a unit of the last printed digit"
-        };
-        let compared = Compared {
-            missing,
-            value: cell.and_then(table::number),
-            standard_error,
-            printed: statement.value,
-            quantile: self.level.map(|level| level.quantile),
-            lacks_quantile: false,
-        };
-        let check = Check {
-            reason: reason.into(),
-            basis: Basis::PrintedDigit,
-            compared: Some(compared),
-            ..self.open(found)
-        };
-        check.allowed(statement.half_unit(), true, Some(statement.half_unit()))
+        // The last bit may be rounded.
+        let agrees = (found.value - printed).abs() <= room * (1.0 + 1e-9);
+        Ok(self.found(found_number, agrees))
     }
 
     /// Starts a check that the results do not decide; without a note it [fails](Check::fails).
@@ -181,14 +186,14 @@ impl Evidence<'_> {
 
     /// Starts a check of whole cases, which must all agree.
     pub fn all_cases(&self, cases: usize, failures: usize) -> Check {
-        let found = Text::of("{} of {} cases agree", [integer(cases - failures), integer(cases)]);
+        let found = text!("{} of {} cases agree", cases - failures, cases);
         self.found(found, failures == 0 && cases > 0).within("none", "integers are exact")
     }
 
     /// Starts a check of a largest relative deviation, which rounding must explain.
     pub fn rounding(&self, largest: f64, allowed: f64) -> Check {
-        let found = Text::of("largest relative deviation {}", [significant(largest, 1)]);
+        let found = text!("largest relative deviation {:1}", largest);
         let reason = "rounding in double precision, with room for the length of the sums";
-        self.found(found, largest <= allowed).within(significant(allowed, 1), reason)
+        self.found(found, largest <= allowed).within(text!("{:1}", allowed), reason)
     }
 }

@@ -14,4 +14,4 @@ pub use evidence::{Error, Evidence, Judged};
 pub use level::{FAMILY_LEVEL, Level};
 pub use published::{Parameter, Published, PublishedError, Statement};
 pub use rule::{Rule, blind_to_their_number, judge_all, level_of};
-pub use text::{Text, chosen, decimals, integer, significant, with_error};
+pub use text::Text;

@@ -25,12 +25,11 @@ pub struct Rule {
 impl Rule {
     /// Makes a rule for the statement of `published.toml` with this id.
     #[track_caller]
-    pub fn new<C: Into<Judged>>(
+    pub fn new(
         id: &'static str,
-        judge: impl Fn(&Evidence<'_>) -> C + Send + Sync + 'static,
+        judge: impl Fn(&Evidence<'_>) -> Judged + Send + Sync + 'static,
     ) -> Rule {
-        let judge = Box::new(move |evidence: &Evidence<'_>| judge(evidence).into());
-        let place = Location::caller();
+        let (judge, place) = (Box::new(judge), Location::caller());
         Rule { id, relation: None, reads: None, basis: None, statistical: false, place, judge }
     }
 
@@ -90,20 +89,6 @@ impl Rule {
             }
             judged => judged?,
         };
-        if let Some(compared) = check.compared.take() {
-            if let Some(missing) = compared.missing {
-                return Err(missing.into());
-            }
-            if compared.lacks_quantile {
-                return Err(Error::NotStatistical(self.id.into()));
-            }
-            // A comparison needs both numbers.
-            statement.number()?;
-            if compared.value.is_none() {
-                check.verdict = Verdict::CannotBeJudged;
-                check = check.note("The results have no number for it.");
-            }
-        }
         for text in [&check.found, &check.tolerance, &check.note] {
             if let Some(number) = text.0.iter().find(|number| !number.is_finite()) {
                 return Err(Error::NotFinite(Text::from(number.clone())));
@@ -175,9 +160,9 @@ pub fn blind_to_their_number(
 
 #[cfg(test)]
 mod tests {
-    use super::super::integer;
     use super::*;
     use crate::table::Table;
+    use crate::text;
     use impact_numerics::statistics::Estimate;
     use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -204,7 +189,7 @@ mod tests {
 
     #[test]
     fn a_cell_is_compared_with_what_was_printed() {
-        let judge = |judge: fn(&Evidence<'_>) -> Check| {
+        let judge = |judge: fn(&Evidence<'_>) -> Judged| {
             let rules = ["rise", "mean"].map(|id| Rule::new(id, judge).statistical());
             let checks = judged(&rules).unwrap();
             (checks.iter().map(|check| check.verdict).collect::<Vec<_>>(), checks)
@@ -220,15 +205,15 @@ mod tests {
         let (verdicts, checks) = judge(|e| e.cell("toy.all.mean"));
         assert_eq!(verdicts, [Yes, Yes, Open, Open]);
         assert_eq!(checks[1].found.to_string(), "0.115(2)");
-        let (verdicts, checks) = judge(|e| e.cell("toy.all.mean").within_errors());
+        let (verdicts, checks) = judge(|e| e.within_errors("toy.all.mean"));
         assert_eq!(checks[0].tolerance.to_string(), "± 0.006", "2.94 standard errors");
         assert_eq!(verdicts, [Yes, Yes, Open, Open]);
-        let (verdicts, checks) = judge(|e| e.cell("toy.all.rise").near(1e-3, "ours"));
+        let (verdicts, checks) = judge(|e| e.near("toy.all.rise", 1e-3, "ours"));
         assert_eq!(checks[0].tolerance.to_string(), "± 0.001");
         assert_eq!(verdicts, [No, No, Open, Open]);
-        let (verdicts, _) = judge(|e| e.cell("toy.all.rise").explained("why", true));
+        let (verdicts, _) = judge(|e| Ok(e.cell("toy.all.rise")?.explained("why", true)));
         assert_eq!(verdicts, [Yes, Why, Open, Open]);
-        let (verdicts, checks) = judge(|e| e.cell("toy.all.rise").explained("why", false));
+        let (verdicts, checks) = judge(|e| Ok(e.cell("toy.all.rise")?.explained("why", false)));
         assert_eq!(verdicts, [No, No, Open, Open]);
         assert!(checks.iter().all(Check::fails), "a statement without a rule fails too");
         assert!(!checks[3].clone().note("It is a likeness in words.").fails());
@@ -239,43 +224,43 @@ mod tests {
         static RUNS: AtomicUsize = AtomicUsize::new(0);
         let counted = |e: &Evidence<'_>| {
             RUNS.fetch_add(1, Relaxed);
-            e.level().map(|level| e.open(integer(level.claims)))
+            e.level().map(|level| e.open(text!("{}", level.claims)))
         };
         let rules = [
             Rule::new("rise", counted).statistical(),
-            Rule::new("mean", |e| e.cell("toy.all.mean").within_errors()).statistical(),
+            Rule::new("mean", |e| e.within_errors("toy.all.mean")).statistical(),
             Rule::new("both", counted).relation("The level is known."),
         ];
         let checks = judged(&rules).unwrap();
         assert_eq!((RUNS.load(Relaxed), checks.len()), (2, 5));
         assert_eq!(checks[0].found, checks[4].found, "relations do not count");
         assert_eq!((checks[0].found.to_string(), checks[4].kind), ("2".into(), Kind::Relation));
-        for judge in [counted, |e: &Evidence<'_>| e.cell("toy.all.mean").into()] {
+        for judge in [counted, |e: &Evidence<'_>| e.cell("toy.all.mean")] {
             let error = refused("mean", judge);
             assert!(error.starts_with("check mean: the rule of mean allows for"), "{error}");
         }
-        let near = |e: &Evidence<'_>| e.cell("toy.all.mean").near(0.1, "ours");
+        let near = |e: &Evidence<'_>| e.near("toy.all.mean", 0.1, "ours");
         assert!(judged(&[Rule::new("mean", near)]).is_ok());
     }
 
     #[test]
     fn a_check_needs_both_numbers() {
-        let open = |e: &Evidence<'_>| e.cell("toy.all.none").explained("why", true);
+        let open = |e: &Evidence<'_>| Ok(e.cell("toy.all.none")?.explained("why", true));
         let check = &judged(&[Rule::new("rise", open)]).unwrap()[0];
         assert_eq!((check.verdict, check.found.to_string()), (Verdict::CannotBeJudged, "–".into()));
-        assert_eq!(check.note.to_string(), "The results have no number for it.");
-        let error = refused("words", |e| e.cell("toy.all.rise").into());
+        assert_eq!(check.note.to_string(), "The available results do not decide it.");
+        let error = refused("words", |e| e.cell("toy.all.rise"));
         assert!(
             error.contains("the number in printed = \"steep\"; write it as `value`"),
             "{error}"
         );
-        let error = refused("mean", |e| e.cell("toy.all.maen").into());
+        let error = refused("mean", |e| e.cell("toy.all.maen"));
         assert!(
             error.starts_with("check mean: toy.all.maen: there is no column maen; "),
             "{error}"
         );
         assert!(error.contains("src/claims/rule.rs:"), "{error}");
-        let error = refused("mean", |e| e.found(super::super::chosen(f64::NAN), true).into());
+        let error = refused("mean", |e| Ok(e.found(text!("{}", f64::NAN), true)));
         assert!(error.starts_with("check mean: a number of it is NaN; "), "{error}");
     }
 
@@ -283,8 +268,8 @@ mod tests {
     fn verdicts_that_another_number_would_have_too_are_named() {
         let rules = [
             Rule::new("rise", |e| e.cell("toy.all.rise")),
-            Rule::new("mean", |e| e.found("always", true)),
-            Rule::new("words", |e| e.found("always", true)),
+            Rule::new("mean", |e| Ok(e.found("always", true))),
+            Rule::new("words", |e| Ok(e.found("always", true))),
         ];
         let published = Published::parse(PUBLISHED).unwrap();
         assert_eq!(blind_to_their_number(&published, &rules, &results()), ["mean"]);
@@ -292,7 +277,7 @@ mod tests {
 
     #[test]
     fn other_printed_words_are_refused_and_the_basis_stays_without_a_verdict() {
-        let rule = |words| Rule::new("rise", |_| Judged::Err(Error::Undecided)).reads(words);
+        let rule = |words| Rule::new("rise", |_| Err(Error::Undecided)).reads(words);
         let checks = judged(&[rule("{}").on(Basis::OurMeasure)]).unwrap();
         let check = &checks[0];
         assert_eq!((check.verdict, check.basis), (Verdict::CannotBeJudged, Basis::OurMeasure));

@@ -2,9 +2,18 @@
 //! deserve.
 
 use crate::print::{Style, print};
-use crate::value::{Digits, Number};
+use crate::value::Number;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+
+/// Makes a [`Text`] of a sentence in which each `{}` stands for the next of the numbers, and `{:3}`
+/// for three significant digits of it.
+#[macro_export]
+macro_rules! text {
+    ($sentence:expr $(, $number:expr)* $(,)?) => {
+        $crate::claims::Text::of($sentence, [$($crate::value::Number::from($number)),*])
+    };
+}
 
 /// A short text with numbers in it; its words are [`Number::Text`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -12,12 +21,14 @@ use std::fmt;
 pub struct Text(pub Vec<Number>);
 
 impl Text {
-    /// Makes a sentence in which each `{}` stands for the next of the numbers.
+    /// Does what [`text!`](crate::text) does.
     pub fn of(sentence: &str, numbers: impl IntoIterator<Item = Number>) -> Text {
-        let mut words = sentence.split("{}");
-        let mut text = Text::from(words.next().unwrap_or_default());
-        for (number, words) in numbers.into_iter().zip(words) {
-            text.0.push(number);
+        let mut pieces = sentence.split('{');
+        let mut text = Text::from(pieces.next().unwrap_or_default());
+        for (number, piece) in numbers.into_iter().zip(pieces) {
+            let (digits, words) = piece.split_once('}').unwrap_or(("", piece));
+            let digits = digits.strip_prefix(':').and_then(|digits| digits.parse().ok());
+            text.0.push(digits.map_or(number.clone(), |digits| number.significant(digits)));
             text = text.then(words);
         }
         text
@@ -32,30 +43,6 @@ impl Text {
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
-}
-
-/// Makes a number with its standard error.
-pub fn with_error(value: f64, error: f64) -> Number {
-    Number::Real { value, digits: Digits::Error(error) }
-}
-
-/// Makes a number of so many decimals.
-pub fn decimals(value: f64, decimals: usize) -> Number {
-    Number::Real { value, digits: Digits::Decimals(decimals) }
-}
-
-/// Makes a number of so many significant digits.
-pub fn significant(value: f64, digits: usize) -> Number {
-    Number::Real { value, digits: Digits::Significant(digits) }
-}
-
-/// Makes a number that was chosen, with all its digits.
-pub fn chosen(value: f64) -> Number {
-    Number::Real { value, digits: Digits::Full }
-}
-
-pub fn integer(value: usize) -> Number {
-    Number::Integer(value as i128)
 }
 
 impl From<Number> for Text {

@@ -2,7 +2,7 @@
 
 use super::columns::Columns;
 use super::terminal::{print, shown};
-use crate::claims::{Check, Text, significant};
+use crate::claims::Check;
 use crate::failure::Failure;
 use crate::input::{count, is_control, one_line};
 use crate::print::{Style, print as printed};
@@ -211,7 +211,7 @@ fn change(id: &str, both: [Option<&Value>; 2]) -> (f64, String) {
 
 fn signed(value: f64) -> String {
     let sign = if value > 0.0 { "+" } else { "" };
-    format!("{sign}{}", Text::from(significant(value, 3)))
+    format!("{sign}{}", Value::real("", value, 3).plain())
 }
 
 /// What became of a thing: `x: reproduced -> differs`, `x: new, reproduced`, `x: gone, was

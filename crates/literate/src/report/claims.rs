@@ -109,14 +109,14 @@ pub fn scorecard(claims: &[Check]) -> Vec<Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::with_error;
+    use impact_numerics::estimates::with_error;
 
     #[test]
     fn symbols_with_an_index_or_a_star_are_formulas() {
         let text = "At p_crit k* of φ_N(k) is fig_3_b, 2*3, a_ and σ_x.";
         let set = r"At $p_{\mathrm{crit}}$ $k^*$ of $\phi_N$(k) is fig_3_b, 2*3, a_ and $σ_x$.";
         assert_eq!(symbols(text), set);
-        let text = Text::of("k* at {}.", [with_error(0.11652, 0.0004)]);
+        let text = crate::text!("k* at {}.", with_error(0.11652, 0.0004));
         assert_eq!(sentence(&text), "$k^*$ at 0.1165(4).");
     }
 

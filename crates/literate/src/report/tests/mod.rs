@@ -5,13 +5,14 @@ mod data;
 mod documents;
 
 use super::*;
-use crate::claims::{Check, Kind, decimals, with_error};
+use crate::claims::{Check, Kind};
 use crate::figures::prelude::{HPos, INK, Sheet, VPos, words};
 use crate::figures::{DataFile, Figure};
 use crate::project::Project;
 use crate::prose::Templates;
 use crate::source::toy;
 use crate::table::Table;
+use impact_numerics::estimates::with_error;
 use std::sync::Arc;
 
 const BIB: &str = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
@@ -151,9 +152,9 @@ fn figure() -> Figure {
 }
 
 fn claim(id: &'static str) -> Check {
-    let found = with_error(0.11652, 0.0004);
-    let found = Check::new(Kind::Statement, id, "A threshold | exists", found);
-    let mut judged = found.judged(true).within(decimals(0.005, 3), "half a unit");
+    let found = crate::text!("{}", with_error(0.11652, 0.0004));
+    let check = Check::new(Kind::Statement, id, "A threshold | exists", found);
+    let mut judged = check.judged(true).within(crate::text!("{:1}", 0.005), "half a unit");
     (judged.place, judged.expected) = ("Sec. 2".into(), "σ ≈ 0.12".into());
     judged
 }
