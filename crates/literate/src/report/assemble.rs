@@ -16,7 +16,7 @@ use super::lint::Declared;
 use super::mark::ids;
 use super::parse::Parsed;
 use super::values::{Registry, Value};
-use super::{html, latex, ledger, lint, markdown, parse, search, tex};
+use super::{html, latex, ledger, lint, markdown, parse, search};
 use crate::figures::{DataFile, Figure};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -215,24 +215,17 @@ fn write_documents(
     errors: &mut Vec<Error>,
 ) -> Result<BTreeSet<String>, Error> {
     let edition = input.edition;
-    let write = |part: &Part<'_>| {
-        let latex = latex::write(&part.blocks, part.document)?;
-        Ok((latex, html::write(&part.blocks, part.document, input)?))
+    let write = |Part { document, blocks, .. }: &Part<'_>| {
+        (latex::write(blocks, *document, edition), html::write(blocks, *document, input))
     };
-    let written = parts.par_iter().with_max_len(1).map(write);
-    let written = written.collect::<Vec<Result<_, Error>>>();
-    let mut authors = Vec::new();
-    for (name, affiliation) in &edition.authors {
-        authors.push([tex::text(name)?, tex::text(affiliation)?]);
-    }
-    filler.insert("authors", &authors);
-    filler.insert("date", &edition.date);
+    let written: Vec<_> = parts.par_iter().with_max_len(1).map(write).collect();
     let (mut shown, mut texts) = (BTreeSet::new(), Vec::new());
     for (Part { document, blocks, places }, written) in parts.iter().zip(written) {
         let (print, (page, values)) = match written {
-            Ok(written) => written,
-            Err(error) => {
-                errors.push(places.locate(error));
+            (Ok(print), Ok(page)) => (print, page),
+            (print, page) => {
+                let found = print.err().into_iter().chain(page.err());
+                errors.extend(found.map(|error| places.locate(error)));
                 continue;
             }
         };
@@ -321,12 +314,13 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> (Vec<String>, Vec<Erro
     let (mut shown, mut errors) = (Vec::new(), Vec::new());
     for block in blocks.iter_mut() {
         let Block::Figure { name, files, alt, origin, .. } = block else { continue };
-        let figure = match input.figure(name) {
-            Ok(figure) => figure,
-            Err(error) => {
-                errors.push(error);
-                continue;
-            }
+        let Some(figure) = input.figure(name) else {
+            let what = format!(
+                "the paper draws no figure {name:?}; use figures/NAME.svg of one that it draws"
+            );
+            let names = input.figures.iter().map(|figure| figure.id.as_str());
+            errors.push(Error::unknown(format!("({name}"), what, names));
+            continue;
         };
         let names = figure.names();
         if files[0] != names[0] {

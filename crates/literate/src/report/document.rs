@@ -33,15 +33,7 @@ pub enum Block {
         origin: Vec<Inline>,
         caption: Vec<Inline>,
     },
-    /// A table; one with a caption has a number.
-    Table {
-        id: Option<String>,
-        number: Option<String>,
-        caption: Vec<Inline>,
-        columns: Vec<Alignment>,
-        head: Vec<Vec<Inline>>,
-        rows: Vec<Vec<Vec<Inline>>>,
-    },
+    Table(Table),
     /// A list; an ordered one has the number with which it starts.
     List {
         start: Option<u64>,
@@ -71,6 +63,17 @@ pub enum Block {
     /// The place of the list of references; filled by
     /// [`Labels::resolve`](super::labels::Labels::resolve).
     Bibliography(Vec<Reference>),
+}
+
+/// A table; one with a caption has a number.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    pub id: Option<String>,
+    pub number: Option<String>,
+    pub caption: Vec<Inline>,
+    pub columns: Vec<Alignment>,
+    pub head: Vec<Vec<Inline>>,
+    pub rows: Vec<Vec<Vec<Inline>>>,
 }
 
 /// One entry of the list of references.
@@ -246,22 +249,21 @@ pub fn is_abstract(block: &Block) -> bool {
 }
 
 /// Returns the id of a heading on a page: the one it was given, or `sec-2-1` by its number, or its
-/// words.
+/// words, as `references`.
 pub fn heading_place(id: Option<&str>, number: Option<&str>, words: &[Inline]) -> String {
     match (id, number) {
-        (None, Some(number)) => place_on_page(Some(&format!("sec:{number}")), words),
-        (id, _) => place_on_page(id, words),
+        (Some(id), _) => place_on_page(id),
+        (None, Some(number)) => place_on_page(&format!("sec:{number}")),
+        (None, None) => {
+            let words = plain(words).to_lowercase();
+            let words = words.split(|c: char| !c.is_ascii_alphanumeric());
+            words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
+        }
     }
 }
 
-/// Returns the id of a place on a page: `fig-3` for `fig:3`; for a section without an id its words,
-/// as `references`.
-pub fn place_on_page(id: Option<&str>, words: &[Inline]) -> String {
-    let Some(id) = id else {
-        let words = plain(words).to_lowercase();
-        let words = words.split(|c: char| !c.is_ascii_alphanumeric());
-        return words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-");
-    };
+/// Returns the id of a place on a page: `fig-3` for `fig:3`.
+pub fn place_on_page(id: &str) -> String {
     let mut place = String::new();
     for c in id.chars() {
         match c {
@@ -288,7 +290,7 @@ fn texts(block: &Block) -> Vec<&Vec<Inline>> {
         Block::Figure { caption, origin, .. } | Block::Listing { caption, origin, .. } => {
             vec![caption, origin]
         }
-        Block::Table { caption, head, rows, .. } => {
+        Block::Table(Table { caption, head, rows, .. }) => {
             [caption].into_iter().chain(head).chain(rows.iter().flatten()).collect()
         }
         Block::List { items, .. } => items.iter().flatten().flat_map(texts).collect(),
@@ -305,7 +307,7 @@ fn texts_mut(block: &mut Block) -> Vec<&mut Vec<Inline>> {
         Block::Figure { caption, origin, .. } | Block::Listing { caption, origin, .. } => {
             vec![caption, origin]
         }
-        Block::Table { caption, head, rows, .. } => {
+        Block::Table(Table { caption, head, rows, .. }) => {
             [caption].into_iter().chain(head).chain(rows.iter_mut().flatten()).collect()
         }
         Block::List { items, .. } => items.iter_mut().flatten().flat_map(texts_mut).collect(),

@@ -126,11 +126,3 @@ impl Error {
         }
     }
 }
-
-/// The error of a reference that was not resolved before a document is written.
-pub(super) fn unresolved(ids: &[String]) -> Error {
-    Error::Template(format!(
-        "internal error: [@{}] is not resolved; please report it",
-        ids.join("; ")
-    ))
-}

@@ -9,7 +9,7 @@ mod table;
 use super::document::{self, Block, Formula, Inline};
 use super::document::{heading_place, place_on_page, printed, spelt};
 use super::edition::Document;
-use super::error::{Error, unresolved};
+use super::error::Error;
 use super::input::Input;
 use super::{latex, mathml};
 use crate::claims::Verdict;
@@ -27,27 +27,27 @@ pub fn write(
     here: Document,
     input: &Input<'_>,
 ) -> Result<(Json, BTreeSet<String>), Error> {
-    let page = Page { input, values: RefCell::default(), glyphs: RefCell::default() };
+    let page = Page::new(input);
     let (title, edition) = (document::title(blocks)?, input.edition);
     let meta: Vec<_> = edition
         .about(&input.project.sources)
         .into_iter()
         .map(|(name, words)| (name, text(&words)))
         .collect();
-    let (heading, body) = (page.inlines(title)?, page.blocks(blocks)?);
+    let (heading, body) = (page.inlines(title), page.blocks(blocks));
     let (mut sections, mut figures) = (Vec::new(), Vec::new());
     for block in blocks {
         match block {
             Block::Heading { level: level @ 2.., number, id, text } => sections.push([
                 heading_place(id.as_deref(), number.as_deref(), text),
                 number.clone().unwrap_or_default(),
-                page.inlines(text)?,
+                page.inlines(text),
                 level.to_string(),
             ]),
             // What is shown again has its place elsewhere.
             Block::Figure { id, number, name, .. } if !here.repeats => {
-                let name = text(&input.figure(name)?.title);
-                figures.push([place_on_page(Some(id), &[]), number.clone(), name]);
+                let name = input.figure(name).map_or(String::new(), |figure| text(&figure.title));
+                figures.push([place_on_page(id), number.clone(), name]);
             }
             _ => (),
         }
@@ -66,7 +66,7 @@ pub fn write(
         "title": text(&spelt(title)),
         "key": key,
         "authors": text(&edition.bibtex_authors()),
-        "bibtex": text(&latex::inlines(title)?),
+        "bibtex": text(&latex::inlines(title)),
         "heading": heading,
         "byline": if here.is_signed(edition) { text(&edition.byline()) } else { String::new() },
         "sections": sections,
@@ -74,6 +74,7 @@ pub fn write(
         "body": body,
         "glyphs": outlines(&page.glyphs.borrow()),
     });
+    Error::all(page.errors.into_inner())?;
     Ok((parts, page.values.into_inner()))
 }
 
@@ -82,13 +83,22 @@ const CLOSING: [char; 12] = ['.', ',', ';', ':', '!', '?', ')', ']', '”', '’
 
 pub(super) struct Page<'a> {
     input: &'a Input<'a>,
+    /// The ids of the cards that it opens.
     values: RefCell<BTreeSet<String>>,
+    /// The outlines of letters that its figures use.
     glyphs: RefCell<Glyphs>,
+    /// Of formulas that cannot be shown.
+    errors: RefCell<Vec<Error>>,
 }
 
-impl Page<'_> {
-    fn blocks(&self, blocks: &[Block]) -> Result<String, Error> {
-        let (mut out, mut end, mut errors) = (String::new(), "", Vec::new());
+impl<'a> Page<'a> {
+    fn new(input: &'a Input<'a>) -> Self {
+        let (values, glyphs, errors) = Default::default();
+        Page { input, values, glyphs, errors }
+    }
+
+    fn blocks(&self, blocks: &[Block]) -> String {
+        let (mut out, mut end) = (String::new(), "");
         for block in blocks {
             if matches!(block, Block::Heading { .. }) {
                 out += std::mem::take(&mut end);
@@ -96,36 +106,34 @@ impl Page<'_> {
             if document::is_abstract(block) {
                 (out, end) = (out + "<section class=\"abstract\">\n", "</section>\n");
             }
-            match self.block(block) {
-                Ok(text) => out += &text,
-                Err(error) => errors.push(error),
-            }
+            out += &self.block(block);
         }
-        Error::all(errors)?;
-        Ok(out + end)
+        out + end
     }
 
-    fn block(&self, block: &Block) -> Result<String, Error> {
-        Ok(match block {
+    fn block(&self, block: &Block) -> String {
+        match block {
             // The template has the title.
             Block::Heading { level: 1, .. } => String::new(),
             Block::Heading { level, number, id, text } => {
                 let id = heading_place(id.as_deref(), number.as_deref(), text);
                 let number = number.as_ref().map(|n| format!("<span class=\"number\">{n}</span> "));
-                let words = number.unwrap_or_default() + &self.inlines(text)?;
+                let words = number.unwrap_or_default() + &self.inlines(text);
                 format!("<h{level} id=\"{id}\"><a href=\"#{id}\">{words}</a></h{level}>\n")
             }
-            Block::Paragraph(text) => self.paragraph(text)?,
+            Block::Paragraph(text) => self.paragraph(text),
             Block::Figure { id, number, name, files: [file, _], origin, caption, .. } => {
-                let figure = self.input.figure(name)?;
-                self.glyphs.borrow_mut().extend(figure.drawing.glyphs.clone());
+                let picture = self.input.figure(name).map_or(String::new(), |figure| {
+                    self.glyphs.borrow_mut().extend(figure.drawing.glyphs.clone());
+                    figure.on_page()
+                });
                 format!(
                     "<figure id=\"{}\">{}<figcaption><strong>Figure {number}.</strong> {} <span class=\"origin\">\
                      Picture: <a href=\"figures/{file}\">{file}</a>. {}</span></figcaption></figure>\n",
-                    place_on_page(Some(id), &[]),
-                    scroll(&format!("Figure {number}"), &figure.on_page()),
-                    self.inlines(caption)?,
-                    self.inlines(origin)?
+                    place_on_page(id),
+                    scroll(&format!("Figure {number}"), &picture),
+                    self.inlines(caption),
+                    self.inlines(origin)
                 )
             }
             Block::Lab { .. } if self.input.lab.is_none() => String::new(),
@@ -133,18 +141,19 @@ impl Page<'_> {
                 "<figure class=\"lab\" id=\"lab-{lab}\" data-lab=\"{lab}\" hidden=\"\"><div class=\"controls\">\
                  <button type=\"button\">Run it here</button><span role=\"status\"></span></div>\
                  <figcaption><strong>Live.</strong> {}</figcaption></figure>\n",
-                self.inlines(caption)?
+                self.inlines(caption)
             ),
-            Block::Table { id, number, caption, columns, head, rows } => {
-                let id = id.as_ref().map(|id| format!(" id=\"{}\"", place_on_page(Some(id), &[])));
-                let name = format!("Table {}", number.as_deref().unwrap_or_default());
+            Block::Table(table) => {
+                let id = table.id.as_ref().map(|id| format!(" id=\"{}\"", place_on_page(id)));
                 let mut out = format!("<figure class=\"table\"{}>", id.unwrap_or_default());
-                if number.is_some() {
-                    let caption = self.inlines(caption)?;
+                let mut name = String::from("Table");
+                if let Some(number) = &table.number {
+                    name += &format!(" {number}");
+                    let caption = self.inlines(&table.caption);
                     let _ =
                         write!(out, "<figcaption><strong>{name}.</strong> {caption}</figcaption>");
                 }
-                out + &scroll(name.trim(), &self.table(columns, head, rows)?) + "</figure>\n"
+                out + &scroll(&name, &self.table(table)) + "</figure>\n"
             }
             Block::List { start, items } => {
                 let (open, close) = match start {
@@ -157,53 +166,53 @@ impl Page<'_> {
                         [Block::Paragraph(text)] => self.inlines(text),
                         blocks => self.blocks(blocks),
                     };
-                    Ok(format!("<li>{}</li>\n", words?))
+                    format!("<li>{words}</li>\n")
                 };
-                open + &items.iter().map(item).collect::<Result<String, Error>>()? + close
+                open + &items.iter().map(item).collect::<String>() + close
             }
             Block::Quote(blocks) => {
-                format!("<blockquote>\n{}</blockquote>\n", self.blocks(blocks)?)
+                format!("<blockquote>\n{}</blockquote>\n", self.blocks(blocks))
             }
             Block::Code { text, .. } => code(text),
             Block::Listing { id, number, caption, item, origin, text, .. } => format!(
                 "<div class=\"listing\" id=\"{}\"><p><strong>Listing {number}.</strong> {}</p>\n<details><summary>{}\
                  </summary>\n{}<p class=\"origin\">{}</p></details></div>\n",
-                place_on_page(Some(id), &[]),
-                self.inlines(caption)?,
-                self.inline(&Inline::Code(item.clone()))?,
+                place_on_page(id),
+                self.inlines(caption),
+                self.inline(&Inline::Code(item.clone())),
                 code(text),
-                self.inlines(origin)?
+                self.inlines(origin)
             ),
             Block::Bibliography(entries) => {
                 let mut out = String::from("<ul class=\"references\">\n");
                 for entry in entries {
-                    let id = place_on_page(Some(&format!("ref:{}", entry.key)), &[]);
-                    let _ = writeln!(out, "<li id=\"{id}\">{}</li>", self.inlines(&entry.text())?);
+                    let id = place_on_page(&format!("ref:{}", entry.key));
+                    let _ = writeln!(out, "<li id=\"{id}\">{}</li>", self.inlines(&entry.text()));
                 }
                 out + "</ul>\n"
             }
-        })
+        }
     }
 
     /// HTML lets no equation stand inside a `<p>`: the sentence goes on in the next one.
-    fn paragraph(&self, text: &[Inline]) -> Result<String, Error> {
+    fn paragraph(&self, text: &[Inline]) -> String {
         let mut out = String::new();
         let is_display = |inline: &Inline| matches!(inline, Inline::Display { .. });
         for (i, words) in text.split(is_display).enumerate() {
             let equation = text.iter().filter(|inline| is_display(inline)).nth(i);
-            let words = self.inlines(words)?;
+            let words = self.inlines(words);
             if !words.trim().is_empty() {
                 let class = if i > 0 { " class=\"on\"" } else { "" };
                 let _ = writeln!(out, "<p{class}>{}</p>", words.trim());
             }
-            out += &equation.map_or(Ok(String::new()), |equation| self.inline(equation))?;
+            out += &equation.map_or(String::new(), |equation| self.inline(equation));
         }
-        Ok(out)
+        out
     }
 
     /// Writes running text. Browsers break lines before and after a formula: what must stay on its
     /// line is kept together with it.
-    fn inlines(&self, list: &[Inline]) -> Result<String, Error> {
+    fn inlines(&self, list: &[Inline]) -> String {
         // Pieces, and whether each stays with the one before.
         let mut pieces: Vec<(String, bool)> = Vec::new();
         for (i, piece) in list.iter().enumerate() {
@@ -218,7 +227,7 @@ impl Page<'_> {
                     true => opens || is_value(before),
                     false => is_value(Some(piece)) && (is_maths(before) || opens),
                 };
-                pieces.push((self.inline(piece)?, kept));
+                pieces.push((self.inline(piece), kept));
                 continue;
             };
             // `$x =$ 3`.
@@ -240,11 +249,11 @@ impl Page<'_> {
                 format!("<span class=\"keep\">{all}</span>")
             }
         };
-        Ok(together.map(group).collect())
+        together.map(group).collect()
     }
 
-    fn inline(&self, inline: &Inline) -> Result<String, Error> {
-        Ok(match inline {
+    fn inline(&self, inline: &Inline) -> String {
+        match inline {
             Inline::Text(words) => text(words),
             Inline::Soft => "\n".into(),
             // Long paths may break at their joints.
@@ -253,15 +262,15 @@ impl Page<'_> {
                 let code = code.replace(',', ",<wbr\u{0}>").replace('[', "<wbr\u{0}>[");
                 format!("<code>{}</code>", code.replace('\u{0}', "/"))
             }
-            Inline::Emphasis(inner) => format!("<em>{}</em>", self.inlines(inner)?),
-            Inline::Raised(inner) => format!("<sup>{}</sup>", self.inlines(inner)?),
-            Inline::Strong(inner) => format!("<strong>{}</strong>", self.inlines(inner)?),
-            Inline::Maths(formula) => self.formula(formula, MathDisplay::Inline)?,
+            Inline::Emphasis(inner) => format!("<em>{}</em>", self.inlines(inner)),
+            Inline::Raised(inner) => format!("<sup>{}</sup>", self.inlines(inner)),
+            Inline::Strong(inner) => format!("<strong>{}</strong>", self.inlines(inner)),
+            Inline::Maths(formula) => self.formula(formula, MathDisplay::Inline),
             Inline::Display { formula, id, number } => {
-                let formula = self.formula(formula, MathDisplay::Block)?;
+                let formula = self.formula(formula, MathDisplay::Block);
                 let name = if id.is_some() { number } else { "without number" };
                 let name = format!("Equation {name}");
-                let (id, number) = match id.as_deref().map(|id| place_on_page(Some(id), &[])) {
+                let (id, number) = match id.as_deref().map(place_on_page) {
                     Some(id) => (
                         format!(" id=\"{id}\""),
                         format!("<a class=\"number\" href=\"#{id}\">({number})</a>"),
@@ -274,12 +283,12 @@ impl Page<'_> {
             Inline::Value { id, shown: Shown::Number(numeral) } => {
                 self.value(id, &number(numeral, "\u{a0}%"))
             }
-            Inline::Value { id, shown } => self.value(id, &self.inlines(&printed(shown))?),
+            Inline::Value { id, shown } => self.value(id, &self.inlines(&printed(shown))),
             Inline::Link { to, shown } => {
                 // A document is another file here.
                 let of = self.input.edition.documents.iter().find(|of| of.markdown == to);
                 let to = of.map_or(to.as_str(), |of| of.page);
-                format!("<a href=\"{}\">{}</a>", text(to), self.inlines(shown)?)
+                format!("<a href=\"{}\">{}</a>", text(to), self.inlines(shown))
             }
             Inline::Reference { to, within, shown } => {
                 let file = within.map_or("", |document| document.page);
@@ -297,28 +306,24 @@ impl Page<'_> {
                     let card = card.unwrap_or_default();
                     format!(" class=\"verdict {name}\" title=\"{words}\"{card}")
                 });
-                format!(
-                    "<a href=\"{file}#{}\"{class}>{}</a>",
-                    place_on_page(Some(to), &[]),
-                    text(shown)
-                )
+                format!("<a href=\"{file}#{}\"{class}>{}</a>", place_on_page(to), text(shown))
             }
             Inline::Anchor { id, number } => {
-                format!("<span id=\"{}\">{number}</span>", place_on_page(Some(id), &[]))
+                format!("<span id=\"{}\">{number}</span>", place_on_page(id))
             }
-            Inline::Unresolved { ids, .. } => return Err(unresolved(ids)),
-        })
+            Inline::Unresolved { ids, .. } => text(&ids.join("; ")),
+        }
     }
 
-    fn formula(&self, formula: &Formula, display: MathDisplay) -> Result<String, Error> {
+    fn formula(&self, formula: &Formula, display: MathDisplay) -> String {
         let value = |id: &str, shown: &Shown| match shown {
             Shown::Words(words) => self.value(id, &text(words)),
             Shown::Number(numeral) => self.value(id, &number(numeral, "\u{202f}%")),
         };
-        mathml::write(formula, display, value).map_err(|error| match error {
+        mathml::write(formula, display, value).unwrap_or_else(|what| {
             // The error names the whole formula, by which its place is found.
-            Error::Maths { what, .. } => Error::Maths { tex: formula.digits(), what },
-            other => other,
+            self.errors.borrow_mut().push(Error::Maths { tex: formula.digits(), what });
+            String::new()
         })
     }
 

@@ -1,7 +1,6 @@
 //! Holds all that a report is made of.
 
 use super::edition::Edition;
-use super::error::Error;
 use super::values::Registry;
 use crate::claims::Check;
 use crate::experiments::AnyExperiment;
@@ -35,14 +34,7 @@ pub struct Input<'a> {
 
 impl<'a> Input<'a> {
     /// Returns the figure of this name.
-    pub(super) fn figure(&self, name: &str) -> Result<&'a Figure, Error> {
-        let found = self.figures.iter().find(|figure| figure.id == name);
-        found.ok_or_else(|| {
-            let what = format!(
-                "the paper draws no figure {name:?}; use figures/NAME.svg of one that it draws"
-            );
-            let names = self.figures.iter().map(|figure| figure.id.as_str());
-            Error::unknown(format!("({name}"), what, names)
-        })
+    pub(super) fn figure(&self, name: &str) -> Option<&'a Figure> {
+        self.figures.iter().find(|figure| figure.id == name)
     }
 }

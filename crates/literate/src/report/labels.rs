@@ -1,7 +1,7 @@
 //! Numbers sections, figures, tables, equations and statements, and resolves references to them.
 
 use super::bibliography::Library;
-use super::document::{Block, Inline, Reference, rewrite, visit};
+use super::document::{Block, Inline, Reference, Table, rewrite, visit};
 use super::edition::Document;
 use super::error::Error;
 use crate::claims::Check;
@@ -86,7 +86,7 @@ impl Labels {
                     *number = next("lst");
                     (Some(id.clone()), number.clone())
                 }
-                Block::Table { id, number: Some(number), .. } => {
+                Block::Table(Table { id, number: Some(number), .. }) => {
                     *number = next("tab");
                     (id.clone(), number.clone())
                 }

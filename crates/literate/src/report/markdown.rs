@@ -5,7 +5,7 @@
 //! `\\` `\cr`, `*` `\ast`, `<` `\lt`; a `_` that could open emphasis gets a space behind it; and
 //! what follows a closing `$` without a space (`$n$-th`) moves inside.
 
-use super::document::{self, Block, Inline};
+use super::document::{self, Block, Inline, Table, place_on_page};
 use pulldown_cmark::Alignment;
 use std::borrow::Cow;
 
@@ -39,12 +39,12 @@ fn block(block: &Block) -> String {
             let (id, alt) = (anchor(id), alternative(alt));
             format!("{id}\n![{alt}](figures/{file})\n\n**Figure {number}.** {caption}{origin}")
         }
-        Block::Table { id, number, caption, columns, head, rows } => {
-            let mut text = id.as_deref().map_or(String::new(), anchor);
-            if let Some(number) = number {
-                text.push_str(&format!("**Table {number}.** {}\n\n", inlines(caption)));
+        Block::Table(own) => {
+            let mut text = own.id.as_deref().map_or(String::new(), anchor);
+            if let Some(number) = &own.number {
+                text.push_str(&format!("**Table {number}.** {}\n\n", inlines(&own.caption)));
             }
-            text + &table(columns, head, rows)
+            text + &table(own)
         }
         Block::List { start, items } => {
             let item = |(i, item): (usize, &Vec<Block>)| {
@@ -80,7 +80,7 @@ fn block(block: &Block) -> String {
     }
 }
 
-fn table(columns: &[Alignment], head: &[Vec<Inline>], rows: &[Vec<Vec<Inline>>]) -> String {
+fn table(table: &Table) -> String {
     let writer = Writer { in_table: true };
     let row = |cells: &[Vec<Inline>]| {
         let cells: Vec<String> = cells.iter().map(|cell| writer.all(cell)).collect();
@@ -91,10 +91,10 @@ fn table(columns: &[Alignment], head: &[Vec<Inline>], rows: &[Vec<Vec<Inline>>])
         Alignment::Center => ":-:",
         Alignment::Right => "--:",
     };
-    let rules: Vec<&str> = columns.iter().map(rule).collect();
-    let mut out = row(head);
+    let rules: Vec<&str> = table.columns.iter().map(rule).collect();
+    let mut out = row(&table.head);
     out.push_str(&format!("|{}|\n", rules.join("|")));
-    for cells in rows {
+    for cells in &table.rows {
         out.push_str(&row(cells));
     }
     out
@@ -110,7 +110,7 @@ fn fence(code: &str, least: usize) -> String {
 
 /// Returns an HTML anchor, `fig-3` for `fig:3`.
 fn anchor(id: &str) -> String {
-    format!("<a id=\"{}\"></a>", document::place_on_page(Some(id), &[]))
+    format!("<a id=\"{}\"></a>", place_on_page(id))
 }
 
 /// Alternative text: one line, without characters that Markdown would read.
@@ -204,7 +204,7 @@ impl Writer {
             Inline::Link { to, shown } => out.push_str(&format!("[{}]({to})", self.all(shown))),
             Inline::Reference { to, within, shown } => {
                 let file = within.map_or("", |document| document.markdown);
-                let place = document::place_on_page(Some(to), &[]);
+                let place = place_on_page(to);
                 out.push('[');
                 self.text(shown, out);
                 out.push_str(&format!("]({file}#{place})"));

@@ -1,7 +1,6 @@
 //! Converts formulas from TeX to MathML Core.
 
 use super::document::{Formula, Part};
-use super::error::Error;
 use crate::print::Shown;
 use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
 use std::sync::LazyLock;
@@ -10,21 +9,23 @@ static CONVERTER: LazyLock<Option<LatexToMathML>> =
     LazyLock::new(|| LatexToMathML::new(MathCoreConfig::default()).ok());
 
 /// Converts TeX without values.
-fn convert(tex: &str, display: MathDisplay) -> Result<String, Error> {
-    let fail = |what: String| Error::Maths { tex: tex.into(), what };
-    let converter = CONVERTER.as_ref().ok_or_else(|| fail("no converter".into()))?;
+fn convert(tex: &str, display: MathDisplay) -> Result<String, String> {
+    let converter = CONVERTER.as_ref().ok_or("no converter")?;
     let made = converter.convert_with_local_state(tex, display);
-    made.map(|made| made.mathml).map_err(|error| fail(error.to_string()))
+    made.map(|made| made.mathml).map_err(|error| error.to_string())
 }
 
 /// Writes a formula, cut at its values, which `value` writes: screen readers take a formula as a
 /// whole and would not reach a button inside it. A value in a script, a root or a fraction stays in
 /// the formula as digits.
+///
+/// # Errors
+/// What is wrong with the formula.
 pub fn write(
     formula: &Formula,
     display: MathDisplay,
     value: impl Fn(&str, &Shown) -> String,
-) -> Result<String, Error> {
+) -> Result<String, String> {
     let (mut out, mut tex, mut depth) = (String::new(), String::new(), 0);
     for part in &formula.0 {
         match part {

@@ -10,7 +10,6 @@ use super::super::labels::Labels;
 use super::Page;
 use crate::figures::escape as text;
 use serde_json::{Value as Json, json};
-use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 const FONTS: [(&str, &[u8]); 4] = [
@@ -29,7 +28,7 @@ pub fn files(
     input: &Input<'_>,
     labels: &Labels,
 ) -> Result<Files, Error> {
-    let page = Page { input, values: RefCell::default(), glyphs: RefCell::default() };
+    let page = Page::new(input);
     let (mut rows, mut places, mut all) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
     for id in values {
         let unknown = || Error::Template(format!("there is no value {id}"));
@@ -48,13 +47,13 @@ pub fn files(
                 other => document::relative_link(other, input.top),
             };
             let words: Vec<Inline> = text.iter().flat_map(place).collect();
-            let row = format!("<dt>{name}</dt><dd>{}</dd>", page.inlines(&words)?);
+            let row = format!("<dt>{name}</dt><dd>{}</dd>", page.inlines(&words));
             numbers.push(*places.entry(row.clone()).or_insert_with(|| {
                 rows.push(row);
                 rows.len() - 1
             }));
         }
-        all.insert(id, (page.inlines(&card.title)?, text(&card.lead), numbers));
+        all.insert(id, (page.inlines(&card.title), text(&card.lead), numbers));
     }
     let json = serde_json::to_string(&(rows, all)).unwrap_or_default();
     let mut files = Files::from([("cards.js".into(), format!("CARDS = {json};\n").into_bytes())]);

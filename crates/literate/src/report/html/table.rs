@@ -1,7 +1,6 @@
 //! Writes tables, which become lists or scroll sideways on a narrow screen.
 
-use super::super::document::{Inline, plain, spelt};
-use super::super::error::Error;
+use super::super::document::{Inline, Table, plain, spelt};
 use super::Page;
 use crate::figures::escape as text;
 use pulldown_cmark::Alignment;
@@ -19,12 +18,8 @@ const FEW: usize = 3;
 
 impl Page<'_> {
     /// Writes a table without its caption.
-    pub(super) fn table(
-        &self,
-        columns: &[Alignment],
-        head: &[Vec<Inline>],
-        rows: &[Vec<Vec<Inline>>],
-    ) -> Result<String, Error> {
+    pub(super) fn table(&self, table: &Table) -> String {
+        let Table { columns, head, rows, .. } = table;
         let longest =
             |i: usize| rows.iter().filter_map(|row| row.get(i)).map(|c| plain(c).len()).max();
         let longest: Vec<usize> = (0..columns.len()).filter_map(longest).collect();
@@ -59,7 +54,7 @@ impl Page<'_> {
         };
         let mut out = format!("<table{table}>\n<thead><tr{line}>");
         for (i, cell) in head.iter().enumerate() {
-            let mut words = self.inlines(cell)?;
+            let mut words = self.inlines(cell);
             // Some readers of screens see no words in mathematics.
             if matches!(cell.as_slice(), [Inline::Maths(_)]) {
                 let spelt = text(&spelt(cell));
@@ -79,11 +74,11 @@ impl Page<'_> {
             for (i, cell) in row.iter().enumerate() {
                 let name = head.get(i).filter(|_| lists);
                 let name = name.map(|head| format!(" data-name=\"{}\"", text(&spelt(head))));
-                let (name, words) = (name.unwrap_or_default(), self.inlines(cell)?);
+                let (name, words) = (name.unwrap_or_default(), self.inlines(cell));
                 let _ = write!(out, "<td{field}{}{name}>{words}</td>", class(i));
             }
             out.push_str("</tr>\n");
         }
-        Ok(out + "</tbody>\n</table>")
+        out + "</tbody>\n</table>"
     }
 }

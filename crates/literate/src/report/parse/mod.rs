@@ -6,7 +6,7 @@
 
 mod inlines;
 
-use super::document::{Block, Inline, plain};
+use super::document::{Block, Inline, Table, plain};
 use super::error::Error;
 use super::filled::{Filled, Places};
 use super::labels::check_kind;
@@ -263,8 +263,8 @@ impl<'a> Reader<'a> {
             *first = first.trim_start_matches(word).to_string();
             let mut block = self.block()?;
             match (&mut block, id) {
-                (Block::Table { id: table_id, number, caption, .. }, id) if *kind == "tab" => {
-                    (*table_id, *number, *caption) = (id, Some(String::new()), inlines);
+                (Block::Table(table), id) if *kind == "tab" => {
+                    (table.id, table.number, table.caption) = (id, Some(String::new()), inlines);
                 }
                 (Block::Listing { id: listing_id, caption, .. }, Some(id)) if *kind == "lst" => {
                     (*listing_id, *caption) = (id, inlines);
@@ -370,7 +370,7 @@ impl<'a> Reader<'a> {
             rows.push(cells);
         }
         let head = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
-        Ok(Block::Table { id: None, number: None, caption: Vec::new(), columns, head, rows })
+        Ok(Block::Table(Table { columns, head, rows, ..Table::default() }))
     }
 }
 
@@ -388,11 +388,11 @@ fn cells_of(row: &str) -> usize {
 
 /// Whether a block may stand in a list or a quotation, where nothing is numbered.
 fn stands_within(block: &Block) -> bool {
-    use Block::{Code, List, Paragraph, Quote, Table};
-    matches!(
-        block,
-        Paragraph(_) | List { .. } | Quote(_) | Code { .. } | Table { number: None, .. }
-    )
+    match block {
+        Block::Paragraph(_) | Block::List { .. } | Block::Quote(_) | Block::Code { .. } => true,
+        Block::Table(table) => table.number.is_none(),
+        _ => false,
+    }
 }
 
 fn is_block(tag: &Tag<'_>) -> bool {
