@@ -63,8 +63,7 @@ globalThis.open_lab = (() => {
       },
       advance: (impacts) => refused(exports.advance(impacts)),
       found() {
-        const [time, impacts, distinct, gaps] = numbers(4);
-        const columns = exports.columns();
+        const [time, impacts, distinct, gaps, columns] = numbers(5);
         return { time, impacts, distinct, gaps, columns, digest: text(), bytes: exports.memory.buffer.byteLength, picture: memory(Uint32Array, exports.picture(), columns * gaps) };
       },
       law(vertices, p) {

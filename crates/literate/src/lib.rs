@@ -71,7 +71,6 @@ pub mod prose;
 pub mod report;
 mod source;
 pub mod table;
-mod text;
 pub mod value;
 
 pub use build::make_report;

@@ -4,10 +4,10 @@ use crate::claims::{Check, Evidence, Judged, Published, Rule};
 use crate::experiments::{AnyExperiment, DerivedTables, Results, Session};
 use crate::failure::Failure;
 use crate::figures::{self, Figure};
+use crate::input;
 use crate::project::Project;
 use crate::report::{Edition, Value};
 use crate::source::Sources;
-use crate::text;
 use serde_json::Value as Json;
 use std::collections::BTreeMap;
 use std::panic::Location;
@@ -158,10 +158,10 @@ impl Paper {
             named.push(("experiments", experiment.name(), place));
         }
         for FigureSpec { name, place, .. } in &self.figures {
-            named.push(("figures", name, text::place(place)));
+            named.push(("figures", name, input::place(place)));
         }
         for Rule { id, place, .. } in &self.rules {
-            named.push(("rules", id, text::place(place)));
+            named.push(("rules", id, input::place(place)));
         }
         for document in &self.edition.documents {
             named.push(("documents", document.markdown, format!("of {}", document.prose)));

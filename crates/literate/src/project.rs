@@ -32,11 +32,6 @@ fn is_in(path: &str, place: &str) -> bool {
     path.strip_prefix(place).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
-/// Returns the folder that the environment names for the project.
-fn named() -> Option<PathBuf> {
-    std::env::var_os("LITERATE_PROJECT").map(PathBuf::from)
-}
-
 impl Project {
     /// Makes a project with this source.
     pub fn new(sources: Sources) -> Self {
@@ -123,12 +118,13 @@ impl Project {
     /// Finds a file or folder by its path from the top of the project; none if only the copy inside
     /// has it.
     pub fn find(&self, path: &str) -> Option<PathBuf> {
-        let here = Path::new(path);
-        if here.exists() {
-            return Some(here.into());
-        }
-        let found = self.around().or_else(named)?.join(path);
-        found.exists().then_some(found)
+        Some(self.way()?.join(path)).filter(|found| found.exists())
+    }
+
+    /// Returns the way to the top of the project, if it lies around the current folder or the
+    /// environment names it.
+    fn way(&self) -> Option<PathBuf> {
+        self.around().or_else(|| std::env::var_os("LITERATE_PROJECT").map(PathBuf::from))
     }
 
     /// Returns the way from the current folder up to the top of the project, if it lies in it:
@@ -148,8 +144,7 @@ impl Project {
 
     /// Finds the top of the project, as an absolute path.
     fn top(&self) -> Option<PathBuf> {
-        let found = self.around().or_else(named)?;
-        std::env::current_dir().ok()?.join(found).canonicalize().ok()
+        std::env::current_dir().ok()?.join(self.way()?).canonicalize().ok()
     }
 
     /// Returns the top of the project, or else the current folder.

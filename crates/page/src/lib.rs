@@ -1,11 +1,9 @@
 //! The functions that a page of the report calls, as WebAssembly. Numbers are passed directly;
 //! texts and lists lie in memory that is valid until the next call.
 //!
-//! - [`room`], [`open`], [`advance`]: one run of the engine at a time, of at most a thousand
-//!   masses.
+//! - [`room`], [`open`], [`advance`]: one run of the engine at a time.
 //! - [`law`], [`p_of_sigma`], [`mean`], [`k_star`]: the theory.
-//! - [`text`], [`numbers`], [`picture`], with [`text_length`] and [`columns`]: where the results
-//!   lie.
+//! - [`text`] with [`text_length`], [`numbers`], [`picture`]: where the results lie.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![deny(unsafe_op_in_unsafe_fn)]
 
@@ -16,10 +14,6 @@ use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::jump;
 use std::cell::RefCell;
 
-/// The largest number of masses of a chain.
-const MAX_MASSES: usize = 1000;
-/// The longest time of a run.
-const MAX_TIME: f64 = 20_000.0;
 /// Columns of the picture in space and time.
 const COLUMNS: usize = 640;
 
@@ -45,18 +39,9 @@ impl Page {
     fn open(&mut self) -> Result<(), String> {
         self.run = None;
         let request = request(&self.numbers, &String::from_utf8_lossy(&self.text))?;
-        let (masses, until) = (request.chain.masses, request.until());
-        if masses > MAX_MASSES {
-            return Err(format!(
-                "{masses} masses are too many for a page; give {MAX_MASSES} at most"
-            ));
-        }
-        if until > MAX_TIME {
-            return Err(format!("T + W = {until} is too long for a page; give {MAX_TIME} at most"));
-        }
         let run = Replay::new(&request).map_err(|error| error.to_string())?;
         self.picture = vec![0; COLUMNS * run.gaps()];
-        self.run = Some((run, until));
+        self.run = Some((run, request.until()));
         Ok(())
     }
 
@@ -74,6 +59,7 @@ impl Page {
             done.counters().impacts as f64,
             run.distinct() as f64,
             run.gaps() as f64,
+            COLUMNS as f64,
         ];
         self.text = run.digest().into_bytes();
         on.map_err(|error| error.to_string())
@@ -84,26 +70,16 @@ impl Page {
 /// 1 zero or 2 random), then σ, seed and realisation of the stream that the text names; without
 /// one, α and β of each mass.
 fn request(numbers: &[f64], stream: &str) -> Result<Request, String> {
-    let [
-        transient,
-        window,
-        n,
-        spacing,
-        natural_frequency,
-        forcing_frequency,
-        restitution,
-        ring,
-        start,
-        rest @ ..,
-    ] = numbers
+    let [transient, window, n, spacing, natural, forcing, restitution, ring, start, rest @ ..] =
+        numbers
     else {
         return Err("numbers are missing".into());
     };
     let chain = Chain {
         masses: *n as usize,
         spacing: *spacing,
-        natural_frequency: *natural_frequency,
-        forcing_frequency: *forcing_frequency,
+        natural_frequency: *natural,
+        forcing_frequency: *forcing,
         restitution: *restitution,
         boundary: if *ring == 1.0 { Boundary::Ring } else { Boundary::Walls },
         start: match *start as usize {
@@ -155,8 +131,8 @@ pub extern "C" fn open() -> u32 {
 }
 
 /// Advances by so many impacts at most: 1 if there may be more, 0 at the end, 2 if it failed. The
-/// numbers are then time, impacts, different gaps in the window, and gaps; the text is the digest,
-/// or the error.
+/// numbers are then time, impacts, different gaps in the window, gaps, and columns of the picture;
+/// the text is the digest, or the error.
 #[unsafe(no_mangle)]
 pub extern "C" fn advance(impacts: u32) -> u32 {
     answer(|page| page.advance(impacts.into()))
@@ -167,12 +143,6 @@ pub extern "C" fn advance(impacts: u32) -> u32 {
 #[unsafe(no_mangle)]
 pub extern "C" fn law(vertices: usize, p: f64) -> u32 {
     answer(|page| {
-        if vertices > MAX_MASSES + 1 {
-            return Err(format!(
-                "N = {vertices} is too large for a page; give {} at most",
-                MAX_MASSES + 1
-            ));
-        }
         let message = |error: impact_circuits::Error| error.to_string();
         let law = Law::new(SampleSpace::Simple, vertices, p).map_err(message)?;
         let after = jump::p_jump(SampleSpace::Simple, vertices).map_or(-1.0, |jump| jump.p);
@@ -194,14 +164,13 @@ pub extern "C" fn p_of_sigma(sigma: f64) -> f64 {
 /// Returns μ of this many vertices at p, or −1.
 #[unsafe(no_mangle)]
 pub extern "C" fn mean(vertices: usize, p: f64) -> f64 {
-    Law::new(SampleSpace::Simple, vertices.min(MAX_MASSES + 1), p).map_or(-1.0, |law| law.mean())
+    Law::new(SampleSpace::Simple, vertices, p).map_or(-1.0, |law| law.mean())
 }
 
 /// Returns k* of this many vertices at p, or −1.
 #[unsafe(no_mangle)]
 pub extern "C" fn k_star(vertices: usize, p: f64) -> f64 {
-    Law::new(SampleSpace::Simple, vertices.min(MAX_MASSES + 1), p)
-        .map_or(-1.0, |l| l.k_star() as f64)
+    Law::new(SampleSpace::Simple, vertices, p).map_or(-1.0, |law| law.k_star() as f64)
 }
 
 /// Returns the address of the text.
@@ -228,12 +197,6 @@ pub extern "C" fn picture() -> *const u32 {
     PAGE.with_borrow(|page| page.picture.as_ptr())
 }
 
-/// Returns the columns of the picture.
-#[unsafe(no_mangle)]
-pub extern "C" fn columns() -> usize {
-    COLUMNS
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -257,7 +220,7 @@ mod tests {
         run.advance(u64::MAX, |_, _| ()).unwrap();
         assert_eq!(page.text, run.digest().into_bytes());
         let impacts = run.engine().counters().impacts as f64;
-        assert_eq!(page.numbers, [70.0, impacts, run.distinct() as f64, 31.0]);
+        assert_eq!(page.numbers, [70.0, impacts, run.distinct() as f64, 31.0, COLUMNS as f64]);
         assert!(impacts > 100.0);
         assert_eq!(page.picture.iter().sum::<u32>() as f64, impacts);
         let none = opened("", &NUMBERS[..9]).map(|_| ()).unwrap_err();
@@ -273,7 +236,7 @@ mod tests {
 
     #[test]
     fn the_law_is_that_of_the_theory() {
-        assert_eq!((law(100, 0.02), law(MAX_MASSES + 2, 0.02), law(100, f64::NAN)), (0, 2, 2));
+        assert_eq!(law(100, f64::NAN), 2);
         assert_eq!(law(100, 0.02), 0);
         let numbers = PAGE.with_borrow(|page| page.numbers.clone());
         assert_eq!(numbers.len(), 6 + 2 * 100);

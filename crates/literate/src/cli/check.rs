@@ -1,13 +1,12 @@
 //! The verb `check`.
 
-use super::common::{Sources, of, scores, verdict};
+use super::common::{Sources, scores, verdict};
 use super::terminal::print;
-use crate::claims::{Check, Kind, Published, Verdict, blind_to_their_number, score};
+use crate::claims::{Check, Published, Verdict, blind_to_their_number};
 use crate::failure::Failure;
 use crate::input::one_line;
 use crate::paper::Paper;
 use crate::table::nearest;
-use serde_json::json;
 use std::collections::BTreeMap;
 
 /// Judge the statements of the paper, and relations between its numbers
@@ -31,7 +30,7 @@ pub(super) struct Args {
     /// Print all that is known of each, and also those that are reproduced or hold.
     #[arg(long, short)]
     verbose: bool,
-    /// Print in this form; `github` annotates what fails and the ten worst others.
+    /// Print in this form; `github` annotates what fails.
     #[arg(long, default_value = "text")]
     format: Format,
     #[command(flatten)]
@@ -41,7 +40,6 @@ pub(super) struct Args {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
     Text,
-    Json,
     Github,
 }
 
@@ -75,7 +73,6 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let file = session.templates.place("published.toml");
     print(&match args.format {
         Format::Text => text(&checks, &blind, &args, &numbers),
-        Format::Json => json(&checks, &blind, &published, &file),
         Format::Github => github(&checks, &published, &file),
     })?;
     verdict(&checks)
@@ -145,48 +142,10 @@ fn text(
     out
 }
 
-/// Prints JSON: each check as ledger.json has it, with the line of a statement.
-fn json(checks: &[Check], blind: &[&str], published: &Published, file: &str) -> String {
-    let (mut claims, mut relations) = (Vec::new(), Vec::new());
-    for check in checks {
-        let mut fields = json!(check);
-        fields["fails"] = check.fails().into();
-        fields["words"] = check.words().into();
-        fields["blind_to_its_number"] = blind.contains(&check.id.as_str()).into();
-        if check.kind.is_printed() {
-            fields["file"] = file.into();
-            fields["line"] = published.line(&check.id).into();
-            claims.push(fields);
-        } else {
-            relations.push(fields);
-        }
-    }
-    let counts = Verdict::ALL.iter().zip(score(of(checks, Kind::Statement)));
-    let counts: BTreeMap<_, _> = counts.map(|(verdict, count)| (verdict.words(), count)).collect();
-    let all = json!({ "score": counts, "claims": claims, "relations": relations });
-    format!("{all:#}\n")
-}
-
-/// How many annotations are printed at most.
-const ANNOTATIONS: usize = 10;
-
-/// Prints commands of GitHub's log: what fails, then the worst statements, each at its line.
+/// Prints a command of GitHub's log for each check that fails, at its line.
 fn github(checks: &[Check], published: &Published, file: &str) -> String {
-    let kind = |check: &Check| match check.verdict {
-        _ if check.fails() => Some("error"),
-        _ if !check.kind.is_printed() => None,
-        Verdict::CannotBeJudged => Some("warning"),
-        Verdict::DiffersAndExplained => Some("notice"),
-        _ => None,
-    };
-    let worst = ["error", "warning", "notice"].into_iter().flat_map(|worst| {
-        checks
-            .iter()
-            .filter(move |check| kind(check) == Some(worst))
-            .map(move |check| (worst, check))
-    });
     let mut out = String::new();
-    for (kind, check) in worst.take(ANNOTATIONS) {
+    for check in checks.iter().filter(|check| check.fails()) {
         let mut place = String::new();
         if check.kind.is_printed() {
             place = format!("file={},line={},", property(file), published.line(&check.id));
@@ -196,7 +155,7 @@ fn github(checks: &[Check], published: &Published, file: &str) -> String {
         for (name, field) in fields(check) {
             text += &format!("; {name}: {field}");
         }
-        out += &format!("::{kind} {place}title={title}::{}\n", data(&text));
+        out += &format!("::error {place}title={title}::{}\n", data(&text));
     }
     out
 }

@@ -6,14 +6,13 @@ use crate::experiments::{Profile, Session, Store};
 use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::Paper;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
 
 /// Options of verbs that make a report or judge it.
 #[derive(clap::Args)]
 pub(super) struct Sources {
     /// Take these sample sizes.
-    #[arg(long, default_value = "full", value_parser = profile())]
+    #[arg(long, default_value = "full")]
     pub profile: Profile,
     #[command(flatten)]
     pub threads: Threads,
@@ -24,12 +23,6 @@ pub(super) struct Sources {
     /// Keep results of long runs in this folder [default: target/results in the project].
     #[arg(long, value_name = "DIR")]
     results: Option<PathBuf>,
-}
-
-fn profile() -> impl TypedValueParser<Value = Profile> {
-    let quick = PossibleValue::new("quick").help("To try out: small samples");
-    let full = PossibleValue::new("full").help("The committed report");
-    PossibleValuesParser::new([quick, full]).try_map(|name| name.parse::<Profile>())
 }
 
 impl Sources {
@@ -50,7 +43,7 @@ impl Sources {
     }
 }
 
-pub(super) fn of(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> + Clone {
+fn of(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> + Clone {
     checks.iter().filter(move |check| check.kind == kind)
 }
 

@@ -99,19 +99,14 @@ fn committed(name: &str) -> Result<Files, Failure> {
         Failure::input(format!("{name}: {what} ({reason}); {remedy}"))
     };
     let git = |arguments: &[&str]| git(arguments).map_err(neither);
-    // git takes these for options, paths or ranges.
-    let odd = |c: char| c.is_control() || c.is_whitespace() || c == ':';
-    if name.is_empty() || name.starts_with('-') || name.contains(odd) || name.contains("..") {
-        return Err(neither("not a valid revision".into()));
-    }
-    let list =
-        git(&["ls-tree", "-r", "-z", "--full-tree", "--name-only", &format!("{name}:./paper")])?;
-    let list = String::from_utf8_lossy(&list).into_owned();
+    let folder = format!("{name}:./paper");
+    let tree = git(&["rev-parse", "--verify", "--end-of-options", &folder])?;
+    let tree = String::from_utf8_lossy(&tree);
+    let list = git(&["ls-tree", "-r", "-z", "--full-tree", "--name-only", tree.trim()])?;
+    let list = String::from_utf8_lossy(&list);
     let paths = list.split_terminator('\0').filter(|path| !folder::is_generated(path));
-    let read = |path: &str| {
-        Ok((path.to_string(), git(&["cat-file", "blob", &format!("{name}:./paper/{path}")])?))
-    };
-    paths.map(read).collect()
+    let blob = |path: &str| git(&["cat-file", "blob", &format!("{}:{path}", tree.trim())]);
+    paths.map(|path| Ok((path.to_string(), blob(path)?))).collect()
 }
 
 /// Returns a line for each column that differs in a data file of both reports: prose names few of

@@ -18,8 +18,8 @@ use crate::paper::Paper;
 use clap::error::ErrorKind;
 use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
-use std::thread::JoinHandle;
 
 const EXIT_CODES: &str = "Exit codes:
   0    fine
@@ -64,16 +64,11 @@ impl Paper {
     }
 
     /// The same with more verbs, and what each of them does.
-    pub fn cli_with<V: Subcommand + Send + 'static>(
-        self,
-        more: impl FnOnce(V) -> Result<(), Failure> + Send + 'static,
-    ) -> ExitCode {
+    pub fn cli_with<V: Subcommand>(self, more: impl FnOnce(V) -> Result<(), Failure>) -> ExitCode {
         std::panic::set_hook(Box::new(terminal::report_panic));
-        let thread = std::thread::Builder::new().stack_size(terminal::STACK);
-        let line: Vec<OsString> = std::env::args_os().collect();
-        let joined = thread.spawn(move || self.run_with(line, more)).map(JoinHandle::join);
-        // The hook has said what went wrong in it.
-        joined.ok().and_then(Result::ok).unwrap_or(1).into()
+        let run = || self.run_with(std::env::args_os().collect(), more);
+        // The hook has said what went wrong.
+        catch_unwind(AssertUnwindSafe(run)).unwrap_or(1).into()
     }
 
     /// Runs a command line, of which the first word is the name of the program, and returns its

@@ -2,7 +2,7 @@
 
 use super::common::Sources;
 use super::terminal::{print, shown};
-use crate::experiments::{AnyExperiment, Error, Session, announce};
+use crate::experiments::{AnyExperiment, Error, Session};
 use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::Paper;
@@ -70,7 +70,7 @@ fn run_shard(
         open.extend(experiment.open(units.clone(), session));
         shares.push((experiment, units));
     }
-    announce(&format!("shard {shard}/{of}: {}", count(open.len(), "unit")), &open, session)?;
+    session.announce(&format!("shard {shard}/{of}: {}", count(open.len(), "unit")), &open)?;
     let [mut run, mut all] = [0, 0];
     for (experiment, units) in shares.iter().filter(|(_, units)| !units.is_empty()) {
         session.progress.check()?;

@@ -37,8 +37,8 @@ pub struct Command {
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Output {
     tables: BTreeMap<String, PrintedTable>,
-    /// The files that it wrote, in hexadecimal digits.
-    files: BTreeMap<String, String>,
+    /// The bytes of the files that it wrote.
+    files: BTreeMap<String, Vec<u8>>,
 }
 
 /// Lines of an output that a message repeats.
@@ -140,9 +140,14 @@ impl Command {
             let bytes = std::fs::read(folder.path().join(path)).map_err(|error| {
                 fail(format!("did not write {path}, which its `writes` lists: {error}"))
             })?;
-            files.insert(path.to_string(), input::hexadecimal(&bytes));
+            files.insert(path.to_string(), bytes);
         }
         Ok(Output { tables, files })
+    }
+
+    /// Returns the bytes of a file that it wrote; none if there is no such file.
+    pub(super) fn file(&self, found: &Found, path: &str) -> Option<Vec<u8>> {
+        found.downcast_ref::<Output>()?.files.get(path).cloned()
     }
 
     /// Reads the tables that it printed; a command that writes files need not print any.
@@ -160,7 +165,7 @@ impl Command {
             format!("{problem}; {form}; it printed:\n{}", first.join("\n"))
         })?;
         for (name, table) in &tables {
-            if let Some(fault) = PrintedTable::fault(table) {
+            if let Some(fault) = table.fault(self.name, name, self.line) {
                 return Err(format!("printed {name}: {fault}; {form}"));
             }
         }
@@ -213,12 +218,6 @@ impl AnyExperiment for Command {
         let Some(output) = found.downcast_ref::<Output>() else { return Vec::new() };
         let tables = output.tables.iter();
         tables.map(|(name, table)| table.table(self.name, name, self.line)).collect()
-    }
-
-    fn file(&self, found: &Found, path: &str) -> Option<Vec<u8>> {
-        let digits = found.downcast_ref::<Output>()?.files.get(path)?;
-        let byte = |at: usize| u8::from_str_radix(digits.get(at..at + 2)?, 16).ok();
-        (0..digits.len()).step_by(2).map(byte).collect()
     }
 }
 

@@ -209,11 +209,6 @@ pub trait AnyExperiment: Sync {
     fn found(&self, session: &Session<'_>) -> Result<Found, Error>;
 
     fn tables(&self, found: &Found) -> Vec<Table>;
-
-    /// Returns the bytes of a file that a command wrote; none if there is no such file.
-    fn file(&self, _: &Found, _path: &str) -> Option<Vec<u8>> {
-        None
-    }
 }
 
 impl std::fmt::Debug for dyn AnyExperiment {
@@ -266,7 +261,6 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
             return Ok(0);
         }
         let How::Cut(..) = self.how else { return self.get(session).map(|_| units.len()) };
-        session.store.prepare()?;
         let parameters = self.finite_parameters(session.profile)?;
         Ok(self.parts(units, &parameters, &identity, session)?.1)
     }

@@ -1,7 +1,6 @@
 //! Experiments: parameters, units of work, runs, tables; results that save and reload exactly, and
 //! are used again as long as what they are made of is the same.
 
-mod announce;
 mod command;
 pub mod cutting;
 mod error;
@@ -14,7 +13,6 @@ mod results;
 mod session;
 mod store;
 
-pub(crate) use announce::announce;
 pub use command::Command;
 pub use error::Error;
 pub use experiment::{AnyExperiment, Experiment, Found};

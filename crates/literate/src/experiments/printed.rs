@@ -6,7 +6,7 @@ use impact_numerics::estimates::with_error;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value as Json;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// A table as a command prints it. The manual ([`crate::manual`]) explains the fields.
@@ -71,15 +71,10 @@ impl PrintedTable {
     }
 
     /// What is wrong with it, if anything: a name, a field for a column that is not there, a row.
-    pub(super) fn fault(&self) -> Option<String> {
-        let mut seen = BTreeSet::new();
-        for name in self.names() {
-            if name.is_empty() || !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
-                return Some(format!("{name:?} is not a name of letters, digits and `_`"));
-            }
-            if !seen.insert(name) {
-                return Some(format!("there are two columns {name}"));
-            }
+    pub(super) fn fault(&self, experiment: &str, name: &str, line: &'static str) -> Option<String> {
+        let is_name = |name: &str| name.chars().all(|c| c.is_alphanumeric() || c == '_');
+        if let Some(name) = self.names().find(|name| name.is_empty() || !is_name(name)) {
+            return Some(format!("{name:?} is not a name of letters, digits and `_`"));
         }
         for (field, columns) in [
             ("units", self.units.keys().collect::<Vec<_>>()),
@@ -93,31 +88,26 @@ impl PrintedTable {
         }
         for (name, digits) in &self.digits {
             if self.error_of(name).is_some() || !(1..=17).contains(digits) {
-                return Some(format!(
-                    "digits: give {name} 1 to 17, or an error, which decides them"
-                ));
+                let remedy = "1 to 17, or an error, which decides them";
+                return Some(format!("digits: give {name} {remedy}"));
             }
         }
-        let mut seen = BTreeSet::new();
         for (row, at) in self.rows.iter().zip(1..) {
             if let Some(fault) = self.fault_in(row) {
                 return Some(format!("row {at} {fault}"));
             }
-            let keys = row[..self.keys.len()].iter().map(|key| format!("{:?}", exact(key)));
-            if !seen.insert(keys.collect::<Vec<_>>()) {
-                return Some(format!("row {at} has the keys of one before"));
-            }
         }
-        None
+        let table = self.table(experiment, name, line);
+        // Behind a place in our source and the name of the table.
+        table.fault()?.splitn(3, ": ").nth(2).map(String::from)
     }
 
     fn fault_in(&self, row: &[Json]) -> Option<String> {
-        let names: Vec<&str> = self.names().collect();
-        if row.len() != names.len() {
-            return Some(format!("has {} cells for {} names", row.len(), names.len()));
+        let all = self.names().count();
+        if row.len() != all {
+            return Some(format!("has {} cells for {all} names", row.len()));
         }
-        for (at, name) in names.iter().enumerate() {
-            let cell = &row[at];
+        for (at, (name, cell)) in self.names().zip(row).enumerate() {
             if cell.is_array() || cell.is_object() {
                 return Some(format!("has more than a number or a word as {name}"));
             }
@@ -127,9 +117,8 @@ impl PrintedTable {
             if let Some(error) = self.error_of(name).filter(|_| !cell.is_null()) {
                 let valid = row[error].as_f64().is_some_and(|error| error >= 0.0);
                 if cell.as_f64().is_none() || !valid {
-                    return Some(format!(
-                        "needs numbers as {name} and {name}_error, or null as {name}"
-                    ));
+                    let names = format!("{name} and {name}_error, or null as {name}");
+                    return Some(format!("needs numbers as {names}"));
                 }
             }
         }

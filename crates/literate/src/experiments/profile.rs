@@ -2,11 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How much is sampled: small to try out, large for the committed report.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+/// How much is sampled.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, clap::ValueEnum,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Profile {
+    /// To try out: small samples
     Quick,
+    /// The committed report
     Full,
 }
 
@@ -17,15 +21,5 @@ impl Profile {
             Profile::Quick => "quick",
             Profile::Full => "full",
         }
-    }
-}
-
-impl std::str::FromStr for Profile {
-    type Err = String;
-
-    fn from_str(name: &str) -> Result<Self, String> {
-        let mut all = [Profile::Quick, Profile::Full].into_iter();
-        all.find(|profile| profile.name() == name)
-            .ok_or_else(|| format!("no profile {name:?}; give quick or full"))
     }
 }

@@ -1,14 +1,11 @@
 //! Runs experiments, and holds their results and the tables that follow from them.
 
-use super::announce::announce;
-use super::progress::say;
 use super::store::Json;
 use super::{AnyExperiment, Command, Error, Experiment, Found, Profile, Session};
+use crate::input::count;
 use crate::table::{Table, Tables, number_at, table};
-use crate::text::count;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, OnceLock};
 
 /// Makes tables of the results and tables of several experiments; none if one of these was not run.
@@ -67,7 +64,7 @@ impl Results {
     fn made(&self) -> Result<Tables, String> {
         let (experiments, derived) = &self.made_by;
         let tables = |experiment: &&dyn AnyExperiment| match self.found.get(experiment.name()) {
-            Some(found) => naming(experiment.name(), || experiment.tables(found)),
+            Some(found) => experiment.tables(found),
             None => Vec::new(),
         };
         let tables = experiments.par_iter().with_max_len(1).map(tables);
@@ -98,14 +95,9 @@ impl Results {
     /// Returns the bytes of a file that a command wrote.
     pub fn file(&self, command: &Command, path: &str) -> Result<Vec<u8>, Error> {
         let found = self.found.get(command.name).ok_or(Error::NotRun(command.name))?;
-        let missing = || {
-            Error::input(
-                path,
-                format!("{} wrote no such file", command.name),
-                "add it to its `writes`",
-            )
-        };
-        command.file(found, path).ok_or_else(missing)
+        let problem = format!("{} wrote no such file", command.name);
+        let missing = Error::input(path, problem, "add it to its `writes`");
+        command.file(found, path).ok_or(missing)
     }
 
     /// Returns the number with this address: `theory.jump.p_jump`.
@@ -130,22 +122,13 @@ impl Results {
             stale += usize::from(!units.is_empty());
             open.extend(units);
         }
-        announce(&count(stale, "experiment"), &open, session)?;
+        session.announce(&count(stale, "experiment"), &open)?;
         let mut found = BTreeMap::new();
         for experiment in experiments {
-            let name = experiment.name();
-            found.insert(name, naming(name, || experiment.found(session))?);
+            found.insert(experiment.name(), experiment.found(session)?);
         }
         session.progress.check()?;
         let made_by = (experiments.to_vec(), derived.to_vec());
         Ok(Results { profile: session.profile, made_by, found, tables: OnceLock::new() })
     }
-}
-
-/// Does a part of the work of an experiment; if that panics, says which experiment it was.
-fn naming<T>(experiment: &str, work: impl FnOnce() -> T) -> T {
-    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
-        say(&format!("the internal error was in the experiment {experiment}"));
-        resume_unwind(panic)
-    })
 }

@@ -1,9 +1,11 @@
 //! Holds what a run needs: project, prose, profile, store and progress.
 
+use super::cutting::{SECOND, Unit};
 use super::error::Error;
 use super::profile::Profile;
 use super::progress::Progress;
 use super::store::{Identity, Json, Store};
+use crate::input::count;
 use crate::project::Project;
 use crate::prose::Templates;
 
@@ -30,20 +32,62 @@ impl Session<'_> {
         if let Ok(found) = found {
             return Ok(found);
         }
-        self.store.prepare()?;
         let result = run()?;
         self.store.put(identity, &result)?;
         // Units that stay do no harm: the joined result is looked for first.
         let _ = self.store.remove(identity, false);
         Ok(result)
     }
+
+    /// Prints one line if some units are to be run: what they belong to, and about how long they
+    /// take.
+    ///
+    /// # Errors
+    /// If their results cannot be saved.
+    pub(crate) fn announce(&self, what: &str, units: &[Unit]) -> Result<(), Error> {
+        if units.is_empty() {
+            return Ok(());
+        }
+        self.store.prepare()?;
+        let work: u64 = units.iter().map(|unit| unit.weight).sum();
+        let threads = rayon::current_num_threads();
+        let time = duration(work / SECOND / threads as u64);
+        let quick = match self.profile {
+            Profile::Full => "; `--profile quick` takes seconds",
+            Profile::Quick => "",
+        };
+        let threads = count(threads, "thread");
+        self.progress.say(&format!("{what} to run, {time} on {threads}{quick}"));
+        Ok(())
+    }
+}
+
+/// Returns a time in words, as precise as an estimate from counted work is.
+fn duration(seconds: u64) -> String {
+    match seconds {
+        0..10 => "a few seconds".into(),
+        10..100 => format!("about {} seconds", seconds.div_ceil(10) * 10),
+        _ => format!("about {} minutes", seconds.div_ceil(60)),
+    }
 }
 
 #[cfg(test)]
-impl Session<'_> {
-    /// Makes a session of a project of three files, with small samples and without prose.
-    pub(crate) fn toy(store: Store, progress: Progress) -> Self {
-        let project = Box::leak(Box::new(Project::new(crate::source::toy())));
-        Session { project, templates: Templates::of([]), profile: Profile::Quick, store, progress }
+mod tests {
+    use super::*;
+
+    impl Session<'_> {
+        /// Makes a session of a project of three files, with small samples and without prose.
+        pub(crate) fn toy(store: Store, progress: Progress) -> Self {
+            let project = Box::leak(Box::new(Project::new(crate::source::toy())));
+            let (templates, profile) = (Templates::of([]), Profile::Quick);
+            Session { project, templates, profile, store, progress }
+        }
+    }
+
+    #[test]
+    fn times_are_rounded_up() {
+        assert_eq!(duration(3), "a few seconds");
+        assert_eq!(duration(41), "about 50 seconds");
+        assert_eq!(duration(179), "about 3 minutes");
     }
 }

@@ -142,16 +142,14 @@ impl Store {
         if differences.is_empty() { Ok(text) } else { Err(again(&differences)) }
     }
 
+    /// Makes the folder, so that one which cannot be made is known before a run.
     pub fn prepare(&self) -> Result<(), Error> {
         let Some(folder) = &self.folder else { return Ok(()) };
         let failed = |source| Error::Store { path: folder.clone(), source };
         std::fs::create_dir_all(folder).map_err(failed)
     }
 
-    pub fn put<T>(&self, identity: &Identity, result: &T) -> Result<(), Error>
-    where
-        T: Serialize + DeserializeOwned + PartialEq,
-    {
+    pub fn put<T: Json>(&self, identity: &Identity, result: &T) -> Result<(), Error> {
         let Some(path) = self.path(identity) else { return Ok(()) };
         let [made_of, body] = [written(identity, identity)?, written(identity, result)?];
         let text = format!("{}\n{made_of}\n{body}\n", digest(&[&made_of, &body]));
@@ -203,10 +201,7 @@ fn made_of(text: &str) -> Result<Identity, &'static str> {
 /// # Errors
 /// [`Error::NotFinite`]: JSON has neither NaN nor infinity, and serde_json writes null instead.
 /// Reading it back finds all such losses.
-fn written<T>(identity: &Identity, result: &T) -> Result<String, Error>
-where
-    T: Serialize + DeserializeOwned + PartialEq,
-{
+fn written<T: Json>(identity: &Identity, result: &T) -> Result<String, Error> {
     let not_finite = || Error::NotFinite { experiment: identity.experiment.clone() };
     let body = serde_json::to_string(result).map_err(|_| not_finite())?;
     match serde_json::from_str::<T>(&body) {
@@ -217,6 +212,7 @@ where
 
 /// Writes a temporary file and renames it, so that no file ever has half a result.
 fn save(path: &Path, text: &str) -> std::io::Result<()> {
+    std::fs::create_dir_all(path.parent().unwrap_or(path))?;
     let _moment = WRITING.read();
     let waiting = path.with_extension(format!("json.{}", std::process::id()));
     let saved = std::fs::write(&waiting, text).and_then(|()| std::fs::rename(&waiting, path));

@@ -83,7 +83,7 @@ impl Registry {
     /// The profile with which they were made.
     pub fn profile(&self) -> Option<Profile> {
         match &self.get("profile")?.number {
-            Number::Text(name) => name.parse().ok(),
+            Number::Text(name) => clap::ValueEnum::from_str(name, false).ok(),
             _ => None,
         }
     }

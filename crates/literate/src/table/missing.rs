@@ -1,6 +1,6 @@
 //! Says what is not there, where it is asked for, and what is nearest.
 
-use crate::text::place;
+use crate::input::place;
 use std::cmp::Reverse;
 use std::panic::Location;
 

@@ -1,7 +1,7 @@
 //! Holds the cells of a table, and finds them by addresses and keys.
 
 use super::missing::{Missing, NO_NUMBER, no_such};
-use crate::text::place;
+use crate::input::place;
 use crate::value::{Number, Value};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
