@@ -94,7 +94,7 @@ fn prose(text: &str) -> Result<(), Error> {
     labels.number_all(&mut blocks, here)?;
     labels.resolve(&mut blocks, here, &LIBRARY)?;
     markdown::write(&blocks);
-    latex::write(&blocks, here).map(drop)
+    latex::write(&blocks, here, &QUICK.paper.edition).map(drop)
 }
 
 fn line<T>(read: Result<T, impl std::fmt::Display>) -> Result<(), String> {
