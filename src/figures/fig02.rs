@@ -9,6 +9,7 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let n = sweep.ensemble.chain.gaps();
     let threshold = printed_threshold();
     let panel = sheet.panel(MAIN, sigma_axis(), count_axis(n, "most likely number of impacts"))?;
+    let panel = panel.outside(Outside::Cut);
     let intervals = sweep.comparable().filter_map(|row| {
         let [low, high] = row.mode_interval?;
         (low < high).then_some((row.sigma, low as f64, high as f64))
@@ -16,9 +17,9 @@ pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let intervals: Vec<_> = intervals.collect();
     let modes: Vec<_> =
         sweep.comparable().filter_map(|row| Some((row.sigma, row.mode? as f64))).collect();
-    panel.bars("mode", &intervals, 40, INTERVAL, Outside::Cut)?;
+    panel.bars("mode", &intervals, 40, INTERVAL)?;
     printed(&panel, 0.0)?;
-    panel.markers("mode", &modes, CROSSES, Outside::Cut)?;
+    panel.markers("mode", &modes, CROSSES)?;
     panel.label("most likely number", (panel.x.hi, n as f64), (-1, 3), RED)?;
     let last = intervals.last().map_or(threshold, |bar| bar.0);
     panel.label("its 95 % interval", (last, 0.7 * n as f64), (2, 0), GREY)?;

@@ -12,17 +12,17 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(7550);
     let n = gaps(results)?;
     let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
-    let panel = sheet.lettered(LETTERS[0], MAIN, x, y)?;
+    let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
     let (all, means) = (swept(results, "mean_all")?, means(results)?);
     let intervals = sweep
         .comparable()
         .filter_map(|row| row.mean?.interval.map(|[low, high]| (row.sigma, low, high)));
     let intervals: Vec<_> = intervals.collect();
-    panel.bars("mean of those with an impact", &intervals, 0, INTERVAL, Outside::Cut)?;
+    panel.bars("mean of those with an impact", &intervals, 0, INTERVAL)?;
     printed(&panel, comparison::at(&means, printed_threshold()).unwrap_or(0.0))?;
     let broken = Stroke::dashed(GREY, LINE, Dash::Short);
-    panel.curve("mean of all", &all, broken, Outside::Cut)?;
-    panel.markers("mean of those with an impact", &means, CROSSES, Outside::Cut)?;
+    panel.curve("mean of all", &all, broken)?;
+    panel.markers("mean of those with an impact", &means, CROSSES)?;
     let end = (panel.x.hi, n as f64);
     panel.label("mean of those with an impact", end, (-1, 3), RED)?;
     panel.label("mean of all", reaches(&all, 7.0), (3, 0), GREY)?;
@@ -35,11 +35,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     }
 
     let (x, y) = (sigma_axis(), Axis::linear(0.0, 1.0, 0.5, 5, "share"));
-    let share = sheet.lettered(LETTERS[1], Frame::new(1200, 5200, 8150, 6650), x, y)?;
+    let share = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 6650), x, y)?;
+    let share = share.outside(Outside::Cut);
     let fraction = swept(results, "kept")?;
     let line = Stroke::solid(RED, THIN);
     let dot = (Symbol::Disc, 38, Stroke::solid(RED, HAIR));
-    share.marked_curve("share with an impact", &fraction, (line, dot), Outside::Cut)?;
+    share.marked_curve("share with an impact", &fraction, line, dot)?;
     let at = reaches(&fraction, 0.5);
     share.label("share of the realisations with an impact", at, (5, 0), RED)?;
 

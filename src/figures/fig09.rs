@@ -14,9 +14,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let y = |label: &str| Axis::linear(-4.0, top, 20.0, 2, label);
     let p = || Axis::decades(-3, 0, 1, "*p*");
     let frame = Frame::new(1150, 430, 8150, 3430);
-    let mode = sheet.lettered(LETTERS[0], frame, p().without_numbers(), y("*k*^{∗}"))?;
+    let mode = sheet.lettered("(a)", frame, p().without_numbers(), y("*k*^{∗}"))?;
     let frame = Frame::new(1150, 4130, 8150, 7130);
-    let expected = sheet.lettered(LETTERS[1], frame, p(), y("*μ*"))?;
+    let expected = sheet.lettered("(b)", frame, p(), y("*μ*"))?.outside(Outside::Cut);
 
     let p_jump = results.number("theory.jump.p_jump")?;
     let jump = results.number("theory.jump.k_after")?;
@@ -24,7 +24,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let text = format!("from 1 to {jump} at *p* = {}", short(p_jump, 4));
     mode.label(&text, (p_jump, jump / 2.0), (2, 0), INK)?;
     let mean = means();
-    expected.curve("mean", &mean, CURVE, Outside::Cut)?;
+    expected.curve("mean", &mean, CURVE)?;
     expected.label("*μ* → 1 as *p* → 0", (expected.x.lo, 1.0), (3, -2), INK)?;
 
     let description = describe!(
@@ -44,16 +44,11 @@ fn most_likely([p_jump, jump]: [f64; 2], panel: &Panel) -> Drawn {
         stairs.push((p, k_star as f64));
     }
     stairs.extend(stairs.last().map(|last| (1.0, last.1)));
-    panel.curve(
-        "most likely number, 1",
-        &[(panel.x.lo, 1.0), (p_jump, 1.0)],
-        CURVE,
-        Outside::Cut,
-    )?;
-    panel.curve("most likely number", &stairs, CURVE, Outside::Cut)?;
+    panel.curve("most likely number, 1", &[(panel.x.lo, 1.0), (p_jump, 1.0)], CURVE)?;
+    panel.curve("most likely number", &stairs, CURVE)?;
     let dotted = Stroke::dashed(GREEN, THIN, Dash::Dotted);
     panel.guide("jump", &[(p_jump, 1.0), (p_jump, jump)], dotted)?;
     let look = |mark| (mark, 50, Stroke::solid(GREEN, THIN));
-    panel.markers("before the jump", &[(p_jump, 1.0)], look(Symbol::Disc), Outside::Refuse)?;
-    panel.markers("after the jump", &[(p_jump, jump)], look(Symbol::Ring), Outside::Refuse)
+    panel.markers("before the jump", &[(p_jump, 1.0)], look(Symbol::Disc))?;
+    panel.markers("after the jump", &[(p_jump, jump)], look(Symbol::Ring))
 }

@@ -62,12 +62,13 @@ fn signs(p: f64) -> Axis {
 }
 
 fn sign(panel: &Panel, p: f64) -> Drawn {
+    let panel = panel.outside(Outside::Cut);
     panel.level("zero", 0.0, Stroke::solid(GREY, HAIR))?;
-    panel.curve("f", &f(p), Stroke::solid(BLUE, LINE), Outside::Cut)?;
+    panel.curve("f", &f(p), Stroke::solid(BLUE, LINE))?;
     if let Some(zeros) = zeros(p) {
         let at = zeros.map(|k| (k, 0.0));
         let disc = (Symbol::Disc, 60, Stroke::solid(BLUE, HAIR));
-        panel.markers("zeros of f", &at, disc, Outside::Cut)?;
+        panel.markers("zeros of f", &at, disc)?;
         if zeros[0] < zeros[1] {
             // Where the curve is not: below the line inside the arch, above it outside.
             panel.label("*k*_{−}", at[0], (1, 1), INK)?;
@@ -85,7 +86,7 @@ fn weight(panel: &Panel, highest: &[usize], shown: &[f64]) -> Drawn {
     for &k in highest {
         let at = (k as f64, shown[k - 1]);
         let disc = (Symbol::Disc, 75, Stroke::solid(RED, HAIR));
-        panel.markers("most likely", &[at], disc, Outside::Refuse)?;
+        panel.markers("most likely", &[at], disc)?;
         // Next to the first column, under the broken line; above the other columns.
         match (k, highest.len()) {
             (1, 1) => panel.label("*k*^{∗} = 1", at, (2, 1), RED)?,

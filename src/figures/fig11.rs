@@ -17,17 +17,18 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sigma = || Axis::linear(0.0, end, 0.1, 5, FORCING);
     let y = upwards_from_zero(p.iter().chain(&from_rest).map(|p| p.1).fold(0.0, f64::max), "*p*");
     let linear = Frame::new(1300, 430, 8150, 3430);
-    let linear = sheet.lettered(LETTERS[0], linear, sigma().without_numbers(), y)?;
+    let linear = sheet.lettered("(a)", linear, sigma().without_numbers(), y)?;
     let y = Axis::decades(LOWEST, 0, 2, "*p*");
-    let decades = sheet.lettered(LETTERS[1], Frame::new(1300, 4130, 8150, 7530), sigma(), y)?;
+    let decades = sheet.lettered("(b)", Frame::new(1300, 4130, 8150, 7530), sigma(), y)?;
+    let decades = decades.outside(Outside::Cut);
 
     let (main, rest) = (Stroke::solid(BLUE, LINE), Stroke::dashed(GREY, LINE, Dash::Short));
     // Both vanish with σ.
     let from_zero = |points: &[(f64, f64)]| [&[(0.0, 0.0)], points].concat();
-    linear.curve("p for a start from rest", &from_zero(&from_rest), rest, Outside::Refuse)?;
-    linear.curve("p of Eq. (25)", &from_zero(&p), main, Outside::Refuse)?;
-    decades.curve("p for a start from rest", &from_rest, rest, Outside::Cut)?;
-    decades.curve("p of Eq. (25)", &p, main, Outside::Cut)?;
+    linear.curve("p for a start from rest", &from_zero(&from_rest), rest)?;
+    linear.curve("p of Eq. (25)", &from_zero(&p), main)?;
+    decades.curve("p for a start from rest", &from_rest, rest)?;
+    decades.curve("p of Eq. (25)", &p, main)?;
     let on = |points: &[(f64, f64)], height| super::simulated::reaches(points, height);
     linear.label("start from rest", on(&from_rest, 0.35), (-3, 0), GREY)?;
     linear.label("Eq. (25): random free parts", on(&p, 0.2), (2, 0), BLUE)?;

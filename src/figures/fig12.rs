@@ -10,11 +10,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let n = gaps(results)?;
     let threshold = printed_threshold();
     let panel = sheet.panel(MAIN, sigma_axis(), count_axis(n, "expected number of impacts"))?;
+    let panel = panel.outside(Outside::Cut);
     printed(&panel, 0.0)?;
     let simple = curve(results, "simple")?;
-    panel.curve("theory", &simple, Stroke::solid(GREEN, LINE), Outside::Cut)?;
+    panel.curve("theory", &simple, Stroke::solid(GREEN, LINE))?;
     let simulated = means(results)?;
-    panel.markers("simulation", &simulated, CROSSES, Outside::Cut)?;
+    panel.markers("simulation", &simulated, CROSSES)?;
     panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
     panel.label("graph theory", reaches(&simple, 0.7 * n as f64), (2, 0), GREEN)?;
     if let Ok(half) = results.number("sweep.rise.half_height") {

@@ -48,7 +48,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let (left, top) = (1200 + 4050 * (i as i32 % 2), 480 + 3300 * (i as i32 / 2));
         let frame = Frame::new(left, top, left + 2950, top + 2100);
         let x = Axis::linear(first, last, step, 5, "*k*");
-        let panel = sheet.panel(frame, x, y.column("P(X = k)"))?;
+        let panel = sheet.panel(frame, x, y.column("P(X = k)"))?.outside(Outside::Cut);
         panel.heading(LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
         series(&panel, p)?;
     }
@@ -81,11 +81,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 }
 
 fn series(panel: &Panel, p: f64) -> Drawn {
-    panel.curve("all five classes", &over_k(&five(p)), SUM, Outside::Cut)?;
+    panel.curve("all five classes", &over_k(&five(p)), SUM)?;
     for (class, (name, _, colour, dash)) in contributions(p).iter().zip(CLASSES) {
         // On a logarithmic axis each is visible.
         let points = if panel.y.is_log { over_k(class) } else { visible(class, panel.y.hi) };
-        panel.curve(name, &points, Stroke::dashed(colour, LINE, dash), Outside::Cut)?;
+        panel.curve(name, &points, Stroke::dashed(colour, LINE, dash))?;
     }
     Ok(())
 }

@@ -20,8 +20,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let panel = sheet.panel(Frame::new(left, 480, left + 2970, 2580), x, y)?;
         let p = short(at, 3);
         panel.heading(LETTERS[i], &format!("*p* = {p}"))?;
-        panel.curve("simple circuits", &over_k(&simple), line, Outside::Refuse)?;
-        panel.curve("five classes", &over_k(&higher), broken, Outside::Refuse)?;
+        panel.curve("simple circuits", &over_k(&simple), line)?;
+        panel.curve("five classes", &over_k(&higher), broken)?;
         let peak = |values: &[f64]| {
             let highest = |a: &(f64, f64), b: &(f64, f64)| a.1.total_cmp(&b.1);
             over_k(values).into_iter().max_by(highest).unwrap_or_default()

@@ -10,14 +10,14 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let n = gaps(results)?;
     let threshold = printed_threshold();
     let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
-    let panel = sheet.lettered(LETTERS[0], MAIN, x, y)?;
+    let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
     let (simple, higher) = (curve(results, "simple")?, curve(results, "higher")?);
-    panel.curve("simple circuits", &simple, Stroke::solid(GREEN, LINE), Outside::Cut)?;
+    panel.curve("simple circuits", &simple, Stroke::solid(GREEN, LINE))?;
     let blue = Stroke::dashed(BLUE, LINE, Dash::Long);
-    panel.curve("five classes", &higher, blue, Outside::Cut)?;
+    panel.curve("five classes", &higher, blue)?;
     let simulated = means(results)?;
     printed(&panel, 0.6 * n as f64)?;
-    panel.markers("simulation", &simulated, CROSSES, Outside::Cut)?;
+    panel.markers("simulation", &simulated, CROSSES)?;
     panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
     panel.label("simple circuits only", reaches(&simple, 0.5 * n as f64), (2, 0), GREEN)?;
     panel.label("with higher orders", reaches(&higher, 0.08 * n as f64), (-2, 0), BLUE)?;
@@ -26,8 +26,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);
     let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "added");
-    let added = sheet.lettered(LETTERS[1], Frame::new(1200, 5200, 8150, 6650), sigma_axis(), y)?;
-    added.curve("difference of the theories", &change, Stroke::solid(BLUE, LINE), Outside::Cut)?;
+    let added = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 6650), sigma_axis(), y)?;
+    let added = added.outside(Outside::Cut);
+    added.curve("difference of the theories", &change, Stroke::solid(BLUE, LINE))?;
     let peak = (reaches(&change, most).0, 0.7 * most);
     added.label("what the higher orders add", peak, (5, 0), BLUE)?;
 

@@ -20,7 +20,7 @@ pub fn draw(
     layout.circuit(&sheet, order, RED)?;
     layout.vertices(&sheet, order)?;
     let style = words(TEXT, INK, HPos::Left, VPos::Bottom);
-    sheet.area.draw_text(LETTERS[0], &style, (260, 350))?;
+    sheet.area.draw_text("(a)", &style, (260, 350))?;
 
     let duration = segment.until - segment.from;
     let walls = (segment.masses + 1) as f64;
@@ -28,7 +28,7 @@ pub fn draw(
     let y = Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*");
     let panel = sheet.panel(Frame::new(1200, 4900, 8000, 8500), x, y)?;
     let panel = panel.with_suffix("b");
-    sheet.area.draw_text(LETTERS[1], &style, (260, 4690))?;
+    sheet.area.draw_text("(b)", &style, (260, 4690))?;
     motion(&panel, segment, order.len())?;
     let names: Vec<&str> = order.iter().map(|&gap| NAMES[gap]).collect();
     let description = describe!(
@@ -65,7 +65,7 @@ fn motion(panel: &Panel, segment: &Segment, length: usize) -> Drawn {
     for (j, points) in paths.iter().enumerate() {
         let (colour, dash) = MASSES[j % MASSES.len()];
         let name = format!("mass {}", j + 1);
-        panel.curve(&name, points, Stroke::dashed(colour, LINE, dash), Outside::Refuse)?;
+        panel.curve(&name, points, Stroke::dashed(colour, LINE, dash))?;
     }
     let ends = (1..).zip(&paths).zip(MASSES);
     let ends = ends.map(|((j, path), look)| (format!("*x*_{{{j}}}"), path, look.0));
@@ -73,7 +73,7 @@ fn motion(panel: &Panel, segment: &Segment, length: usize) -> Drawn {
     let hits: Vec<_> =
         segment.impacts.iter().map(|hit| (hit.time - from, hit.position / d)).collect();
     let ring = (Symbol::Ring, 70, Stroke::solid(RED, 24));
-    panel.unrecorded().markers("impacts", &hits, ring, Outside::Refuse)?;
+    panel.unrecorded().markers("impacts", &hits, ring)?;
     for (i, (hit, at)) in segment.impacts.iter().zip(&hits).enumerate() {
         panel.record(&format!("impact {}", name(hit.gap)), [*at]);
         panel.label_nearby(&(i % length + 1).to_string(), *at, (0, -1), RED)?;

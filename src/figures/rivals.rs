@@ -31,11 +31,11 @@ pub type Place = (MethodName, usize, (i32, i32), Option<&'static str>);
 pub const FINEST: usize = usize::MAX;
 
 /// Draws the settings of each method as marks on a line, and the names of some next to their marks.
-pub fn draw(panel: &Panel, curves: &Curves, places: &[Place], outside: Outside) -> Drawn {
+pub fn draw(panel: &Panel, curves: &Curves, places: &[Place]) -> Drawn {
     for (method, points) in curves {
         let look = look(*method);
         let line = Stroke { width: THIN, ..look.2 };
-        panel.marked_curve(method.title(), points, (line, look), outside)?;
+        panel.marked_curve(method.title(), points, line, look)?;
     }
     for (method, setting, offset, name) in places {
         let curve = curves.iter().find(|curve| curve.0 == *method).map(|curve| &curve.1);

@@ -25,7 +25,7 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
 
     // Thousandths are finer than the picture, and a file of all digits would be twice as long.
     let whole = time(0.0, until, until / 4.0).column("time_to_thousandths (1/omega)");
-    let whole = sheet.lettered(LETTERS[0], Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
+    let whole = sheet.lettered("(a)", Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
     let impacts = points(run, 0.0, until);
     whole.record("impacts", impacts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     shades(&sheet, &whole, run, until / INTERVALS)?;
@@ -36,7 +36,7 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let from = (run.times.first().unwrap_or(&0.0) / 10.0).floor() * 10.0;
     let to = from + DETAIL;
     let near = Frame::new(1200, 5250, 8150, 8550);
-    let near = sheet.lettered(LETTERS[1], near, time(from, to, DETAIL / 4.0), gaps())?.unrecorded();
+    let near = sheet.lettered("(b)", near, time(from, to, DETAIL / 4.0), gaps())?.unrecorded();
     let first = ticks(points(run, from, to), 14, Stroke::solid(INK, 30));
     near.draw_series("first impacts", [first])?;
     starts(&near, run, to)?;
@@ -96,7 +96,7 @@ fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Drawn {
     let firsts = run.firsts();
     let starts = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
     let starts: Vec<_> = starts.filter(|(time, _)| *time <= until).collect();
-    panel.unrecorded().markers("starts", &starts, START, Outside::Refuse)?;
+    panel.unrecorded().markers("starts", &starts, START)?;
     panel.record("starts", starts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     Ok(())
 }

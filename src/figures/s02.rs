@@ -22,18 +22,18 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
+    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
     let mut kept = sweep.curve(&[], "sigma", "kept")?;
     kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
     let ring = (Symbol::Ring, LARGE, Stroke::solid(INK, THIN));
-    panel.markers("kept", &kept, ring, Outside::Refuse)?;
+    panel.markers("kept", &kept, ring)?;
     let last = found.distinct("time")?.last().copied().unwrap_or_default();
     let lengths = found.distinct("masses")?;
     for (place, &masses) in lengths.iter().enumerate() {
         let colour = ordered(place, lengths.len());
         let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
         let curve = shares.curve(&keys[..1], "sigma", "clumps")?;
-        panel.curve(&name, &curve, Stroke::solid(colour, LINE), Outside::Refuse)?;
+        panel.curve(&name, &curve, Stroke::solid(colour, LINE))?;
         let marks = found.series(&keys, "sigma", "found")?;
         panel.record(&format!("{name}, simulation"), marks.iter().copied());
         let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
@@ -49,7 +49,8 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn 
 fn times(sheet: &Sheet, found: &Table) -> Drawn {
     let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").between(8.0, 9e3);
     let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*_{rest}");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7650), x, y)?;
+    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 7650), x, y)?;
+    let panel = panel.outside(Outside::Cut);
     let sigmas = found.distinct("sigma")?;
     let three = [sigmas.first().copied(), Some(printed_threshold()), sigmas.last().copied()];
     let mut drawn = Vec::new();
@@ -58,7 +59,7 @@ fn times(sheet: &Sheet, found: &Table) -> Drawn {
         let points = found.curve(&[("sigma", sigma)], "time", "missing")?;
         let thin = Stroke::solid(colour, THIN);
         let name = format!("*σ* = {sigma}");
-        panel.marked_curve(&name, &points, (thin, (Symbol::Disc, LARGE, thin)), Outside::Cut)?;
+        panel.marked_curve(&name, &points, thin, (Symbol::Disc, LARGE, thin))?;
         // The names stand clear of the last discs.
         let ends = points.into_iter().map(|(time, missing)| (1.1 * time, missing));
         drawn.push((name, ends.collect::<Vec<_>>(), colour));

@@ -27,7 +27,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Drawn {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
     let y = count_axis(sweep.ensemble.chain.gaps(), "mean number of gaps");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
+    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.first().protocol.transient)];
     let lines = [
         ("circuits, Eq. (25)", "simple", Stroke::dashed(BLUE, LINE, Dash::Short), 50.0),
@@ -36,7 +36,7 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Draw
     for (name, column, stroke, height) in lines {
         let mut curve = theory.curve(&[], "sigma", column)?;
         curve.retain(|(sigma, _)| *sigma >= SIGMAS.0 && *sigma <= SIGMAS.1);
-        panel.curve(name, &curve, stroke, Outside::Refuse)?;
+        panel.curve(name, &curve, stroke)?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, mean)| (mean, sigma)).collect();
         let place = (at(&rising, height).unwrap_or(SIGMAS.0), height);
         panel.label(name, place, (-2, 0), stroke.colour)?;
@@ -53,9 +53,9 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Draw
         .collect();
     let look = (Symbol::Disc, 42, Stroke::solid(RED, THIN));
     let ends: Vec<_> = bars.iter().map(|(x, _, [low, high])| (*x, *low, *high)).collect();
-    panel.bars("simulation", &ends, 35, look.2, Outside::Refuse)?;
+    panel.bars("simulation", &ends, 35, look.2)?;
     let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
-    panel.markers("simulation", &points, look, Outside::Refuse)?;
+    panel.markers("simulation", &points, look)?;
     let low = points.iter().copied().rfind(|(_, mean)| *mean < 40.0);
     low.map_or(Ok(()), |low| panel.label("simulation", low, (2, 1), RED))
 }
@@ -71,13 +71,14 @@ fn spread<T: Copy>(all: &[T]) -> Vec<T> {
 fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "time since first impact (1/*ω*)").between(20.0, 7000.0);
     let y = Axis::decades(-1, 2, 1, "advance (gaps)").between(0.3, 80.0);
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 3850, 7650), x, y)?;
+    let panel =
+        sheet.lettered("(b)", Frame::new(1150, 5250, 3850, 7650), x, y)?.outside(Outside::Cut);
     let sigmas = spread(&advance.distinct("sigma")?);
     let mut drawn = Vec::new();
     for (place, sigma) in sigmas.iter().enumerate() {
         let points = advance.curve(&[("sigma", *sigma)], "time", "advance")?;
         let (name, colour) = (format!("*σ* = {sigma}"), ordered(place, sigmas.len()));
-        panel.curve(&name, &points, Stroke::solid(colour, LINE), Outside::Cut)?;
+        panel.curve(&name, &points, Stroke::solid(colour, LINE))?;
         drawn.push((name, points, colour));
     }
     panel.label_ends(&drawn)?;
@@ -90,9 +91,10 @@ fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").between(20.0, 2000.0);
     let y = Axis::linear(0.1, 0.14, 0.01, 2, "half height (*d ω*^{2})")
         .column("half_height (d omega^2)");
-    let panel = sheet.lettered(LETTERS[2], Frame::new(5600, 5250, 8150, 7650), x, y)?;
+    let panel =
+        sheet.lettered("(c)", Frame::new(5600, 5250, 8150, 7650), x, y)?.outside(Outside::Edge);
     let grown = rise.curve(&[], "transient", "half_height")?;
-    panel.marked_curve(GROWN.0, &grown, (GROWN.1.2, GROWN.1), Outside::Edge)?;
+    panel.marked_curve(GROWN.0, &grown, GROWN.1.2, GROWN.1)?;
     let look = (Symbol::Disc, LARGE, Stroke::solid(RED, THIN));
     let found = scores.series(&[], "transient", "half_height")?;
     panel.estimates("simulation", &found, look)?;

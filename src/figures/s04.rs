@@ -26,13 +26,14 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
     let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 1.1e5);
     let y = Axis::linear(0.06, 0.14, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
         .column("half_height (d omega^2)");
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 6000, 3930), x, y)?;
+    let panel =
+        sheet.lettered("(a)", Frame::new(1150, 430, 6000, 3930), x, y)?.outside(Outside::Cut);
     let bound = results.number("theory.relation.sigma_kept_half")?;
     panel.level("bound by seeds", bound, Stroke::dashed(INK, THIN, Dash::Dotted))?;
     panel.label("bound from rest, *n* = 100", (10.0, bound), (1, 1), INK)?;
     let map = results.table("protocol.cells")?;
     let map = map.curve(&[("window", WINDOW)], "transient", "half_height_all")?;
-    panel.curve("from rest, n = 100", &map, Stroke::solid(GREY, LINE), Outside::Cut)?;
+    panel.curve("from rest, n = 100", &map, Stroke::solid(GREY, LINE))?;
     let mut ends = Vec::new();
     for (place, masses) in lengths.iter().enumerate() {
         let longest = place + 1 == lengths.len();
@@ -60,7 +61,7 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
     let most = sigmas.iter().copied().fold(0.0, f64::max);
     let x = Axis::linear(least - 0.005, most + 0.005, 0.01, 2, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of active gaps");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 8000), x, y)?;
+    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 8000), x, y)?;
     let transients = shares.distinct("transient")?;
     let ends = [transients.first(), transients.last()];
     let mut labels = Vec::new();

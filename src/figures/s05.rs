@@ -23,10 +23,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn shares(sheet: &Sheet) -> Drawn {
     let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
     let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
-    let panel = sheet.lettered(LETTERS[0], Frame::new(1150, 430, 8150, 3730), x, y)?;
+    let panel =
+        sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?.outside(Outside::Cut);
     // Wide, with a rim of the page's colour for the curves that lie on it.
     let limit = large::limit();
-    panel.curve("limit", &limit, Stroke::solid(GREY, 130), Outside::Cut)?;
+    panel.curve("limit", &limit, Stroke::solid(GREY, 130))?;
     panel.guide("rim", &limit, Stroke::solid(WHITE, 76))?;
     panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), GREY)?;
     for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
@@ -35,8 +36,8 @@ fn shares(sheet: &Sheet) -> Drawn {
         // No value lies within the jump.
         let [before, after] = large::shares(vertices);
         let name = format!("N = {vertices}");
-        panel.curve(&name, &before, stroke, Outside::Cut)?;
-        panel.curve(&name, &after, stroke, Outside::Cut)?;
+        panel.curve(&name, &before, stroke)?;
+        panel.curve(&name, &after, stroke)?;
         let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
         panel.guide("jump", &jump, Stroke::dashed(colour, THIN, Dash::Dotted))?;
         let start = (RANGE.0, 1.0 / vertices as f64);
@@ -53,14 +54,14 @@ fn shares(sheet: &Sheet) -> Drawn {
 fn jumps(sheet: &Sheet, table: &Table) -> Drawn {
     let x = Axis::decades(1, 6, 1, "*N*");
     let y = Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump");
-    let panel = sheet.lettered(LETTERS[1], Frame::new(1150, 5250, 8150, 7550), x, y)?;
+    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 7550), x, y)?;
     let rule = table.curve(&[], "n", "rule")?;
     let rule: Vec<_> = rule.into_iter().map(|(n, k)| (n, k / n)).collect();
     let line = Stroke::solid(INK, THIN);
-    panel.curve("rule", &rule, line, Outside::Refuse)?;
+    panel.curve("rule", &rule, line)?;
     let exact = table.curve(&[], "n", "share")?;
     let disc = (Symbol::Disc, 55, Stroke::solid(RED, THIN));
-    panel.markers("exact", &exact, disc, Outside::Refuse)?;
+    panel.markers("exact", &exact, disc)?;
     if let Some(place) = exact.get(4) {
         panel.label("exact", *place, (2, -1), RED)?;
     }

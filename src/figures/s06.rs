@@ -34,7 +34,8 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
     let (x, y) =
         (cost_axis().without_numbers(), error.column("error of the next impact's time (1/omega)"));
-    let errors = sheet.lettered(LETTERS[0], Frame::new(1300, 430, 8250, 4330), x, y)?;
+    let errors =
+        sheet.lettered("(a)", Frame::new(1300, 430, 8250, 4330), x, y)?.outside(Outside::Edge);
     errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, Dash::Short))?;
     errors.label("missed above", (errors.x.hi, DISPLACED), (-1, -1), INK)?;
 
@@ -47,7 +48,7 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
         first.label = Some("none".into());
     }
     let misses = Frame::new(1300, 4950, 8250, 7250);
-    let misses = sheet.lettered(LETTERS[1], misses, cost_axis(), axis)?;
+    let misses = sheet.lettered("(b)", misses, cost_axis(), axis)?.outside(Outside::Edge);
 
     let spread = |e: &Entry| Some((e.setting.method, (e.work?, e.errors?[0], e.errors?[1])));
     let share = |e: &Entry| e.misses as f64 / e.tried.max(1) as f64;
@@ -55,14 +56,14 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     let spreads = by_method(&race.entries, spread);
     for (method, bars) in &spreads {
         let thin = Stroke { width: HAIR, ..look(*method).2 };
-        errors.bars(method.title(), bars, 0, thin, Outside::Edge)?;
+        errors.bars(method.title(), bars, 0, thin)?;
     }
     let median = |(method, bars): (MethodName, Vec<(f64, f64, f64)>)| {
         (method, bars.iter().map(|bar| (bar.0, bar.1)).collect())
     };
     let medians = spreads.into_iter().map(median).collect();
-    rivals::draw(&errors, &medians, &NAMES, Outside::Edge)?;
-    rivals::draw(&misses, &missed, &MISSED, Outside::Edge)?;
+    rivals::draw(&errors, &medians, &NAMES)?;
+    rivals::draw(&misses, &missed, &MISSED)?;
     Ok(sheet.finish("Error and misses of the next impact", description(race)))
 }
 

@@ -51,10 +51,10 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         .between(0.2, 8e3)
         .column("measured time over the engine's (1)");
     let by_time = Frame::new(1100, 430, 8250, 4330);
-    let by_time = sheet.lettered(LETTERS[0], by_time, x, horizon_axis(top))?;
+    let by_time = sheet.lettered("(a)", by_time, x, horizon_axis(top))?.outside(Outside::Edge);
     let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").between(1e-20, 0.5);
     let by_error = Frame::new(1100, 5500, 8250, 7700);
-    let by_error = sheet.lettered(LETTERS[1], by_error, x, horizon_axis(top))?;
+    let by_error = sheet.lettered("(b)", by_error, x, horizon_axis(top))?.outside(Outside::Edge);
 
     chaos(&by_error, race)?;
     if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|t| t[1] < top) {
@@ -67,7 +67,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let others = programs(measured, run.chain.masses);
     for (program, points) in &others {
         let stroke = Stroke::dashed(GREY, HAIR, Dash::Dotted);
-        by_time.unrecorded().curve(program, points, stroke, Outside::Edge)?;
+        by_time.unrecorded().curve(program, points, stroke)?;
     }
     let time = |e: &Entry| match e.setting.method {
         Certified => Some(1.0),
@@ -83,16 +83,16 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
         for (method, found) in &methods {
             let bars = found.iter().map(|(x, t)| (*x, t.value - t.error, t.value + t.error));
             let stroke = Stroke { width: HAIR, ..look(*method).2 };
-            panel.bars(method.title(), &bars.collect::<Vec<_>>(), 0, stroke, Outside::Edge)?;
+            panel.bars(method.title(), &bars.collect::<Vec<_>>(), 0, stroke)?;
         }
         let points = |found: Vec<(f64, Estimate)>| found.into_iter().map(|(x, t)| (x, t.value));
         let curves = methods.into_iter().map(|(method, found)| (method, points(found).collect()));
-        rivals::draw(panel, &curves.collect(), places, Outside::Edge)?;
+        rivals::draw(panel, &curves.collect(), places)?;
     }
     // Their marks lie above those of the methods, and their lines are where no name may be.
     for (program, points) in &others {
         let look = (Symbol::OpenDiamond, MEDIUM, Stroke::solid(GREY, THIN));
-        by_time.markers(program, points, look, Outside::Edge)?;
+        by_time.markers(program, points, look)?;
     }
     for (program, points) in others {
         let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };
@@ -122,7 +122,7 @@ fn chaos(panel: &Panel, race: &Race) -> Drawn {
     panel.draw_series("interval of the growth", [band])?;
     let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
     let stroke = Stroke::dashed(GREY, LINE, Dash::Short);
-    panel.curve("what chaos allows", &line, stroke, Outside::Cut)
+    panel.outside(Outside::Cut).curve("what chaos allows", &line, stroke)
 }
 
 fn description(race: &Race) -> Description {

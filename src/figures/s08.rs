@@ -76,7 +76,7 @@ fn rows_of(
     let panel = sheet.panel(frame, x, y)?;
     panel.guide("engine", &[(0.0, panel.y.lo), (0.0, 0.0)], Stroke::solid(RED, THIN))?;
     let disc = (Symbol::Disc, LARGE + 12, Stroke::solid(RED, THIN));
-    panel.unrecorded().markers("engine", &[(0.0, 0.0)], disc, Outside::Refuse)?;
+    panel.unrecorded().markers("engine", &[(0.0, 0.0)], disc)?;
     let style = words(SMALL, INK, HPos::Right, VPos::Center);
     let write = |words: &str, right: i32, row: f64| {
         let at = panel.area.map_coordinate(&(0.0, row));
@@ -95,7 +95,7 @@ fn rows_of(
         let symbol = if is_clear { Symbol::Disc } else { Symbol::Ring };
         if value.abs() < RANGE {
             let mark = (symbol, MEDIUM, Stroke::solid(INK, THIN));
-            panel.unrecorded().markers("difference", &[(value, row)], mark, Outside::Refuse)?;
+            panel.unrecorded().markers("difference", &[(value, row)], mark)?;
         } else {
             let (from, to) = (0.8 * RANGE * value.signum(), RANGE * value.signum());
             panel.area.draw(&arrow(vec![(from, row), (to, row)], stroke))?;

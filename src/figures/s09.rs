@@ -26,24 +26,20 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     let masses = || Axis::decades(0, 5, 1, "number of masses *n*").between(7.0, 1.4e4);
     let work = scale.iter().map(|row| row.2);
     let y = Axis::decades_around(work, 1, "evaluations per impact");
-    let counted = sheet.lettered(
-        LETTERS[0],
-        Frame::new(1200, 430, 8250, 3330),
-        masses().without_numbers(),
-        y,
-    )?;
+    let counted =
+        sheet.lettered("(a)", Frame::new(1200, 430, 8250, 3330), masses().without_numbers(), y)?;
     let all = by_method(scale, |row| Some((row.0.method, (row.1 as f64, row.2))));
-    rivals::draw(&counted, &all, &NAMES, Outside::Refuse)?;
+    rivals::draw(&counted, &all, &NAMES)?;
 
     let rows = of_engine(measured);
     let times = rows.iter().filter_map(|row| row.microseconds_per_impact);
     let y = Axis::decades_around(times, 1, "µs per impact").label_1_2_5();
     let (x, y) = (masses(), y.column("time per impact (us)"));
-    let clock = sheet.lettered(LETTERS[1], Frame::new(1200, 4050, 8250, 5750), x, y)?;
+    let clock = sheet.lettered("(b)", Frame::new(1200, 4050, 8250, 5750), x, y)?;
     let red = look(Certified);
     let line: Vec<_> =
         rows.iter().filter_map(|row| Some((row.n as f64, row.microseconds_per_impact?))).collect();
-    clock.marked_curve("engine", &line, (red.2, red), Outside::Refuse)?;
+    clock.marked_curve("engine", &line, red.2, red)?;
     if let Some(last) = line.last() {
         clock.label("engine", *last, (0, -2), RED)?;
     }

@@ -107,7 +107,7 @@ fn diagram(results: &Results) -> Result<Figure, FigureError> {
             }
         }
     }
-    panel.markers("orbits", &points, (Symbol::Disc, 9, Stroke::solid(INK, 4)), Outside::Refuse)?;
+    panel.markers("orbits", &points, (Symbol::Disc, 9, Stroke::solid(INK, 4)))?;
     let onset = limit.number(&[], "onset")?;
     let line = [(onset, 0.0), (onset, 1.0)];
     panel.guide("onset", &line, Stroke::solid(BLUE, THIN))?;

@@ -5,21 +5,20 @@
 //! plotters, none of which a figure of ours meets:
 //!
 //! - An area moves points outside it onto its edge, so that a curve is silently wrong. Ours are as
-//!   large as the sheet, and [`super::cut`] cuts curves at the frame of a panel.
+//!   large as the sheet, and [`super::panel::Panel::cut`] cuts curves at the frame.
 //! - `DashedPathElement` has dashes of one length, takes the platform's `hypot`, and makes hundreds
 //!   of paths of a curve. A dashed curve of ours is one path.
 //! - `LogCoord` and `TriangleMarker` take the platform's mathematics, so that bytes differ between
 //!   machines. Ours take portable functions or none.
 //! - `ErrorBar` draws a disc over the symbol. Ours has caps only.
-//! - A style has no fill with an edge, no dash, and no rim of words ([`super::text`]).
+//! - A style has no fill with an edge, no dash, and no rim of words ([`super::style::rimmed`]).
 
 use super::drawing::{Drawing, Element, Label};
 use super::error::Error;
 use super::font;
 use super::markup;
 use super::path::{Point, Step, circle, polygon, polyline};
-use super::style::{PALETTE, Stroke, WIDTH};
-use super::text;
+use super::style::{PALETTE, Stroke, WIDTH, is_rimmed};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{FontTransform, RGBColor};
 use plotters_backend::{
@@ -163,7 +162,7 @@ impl DrawingBackend for Drawing {
                 FontTransform::Rotate270 => true,
                 _ => return Err(Error::Drawing(format!("{words:?} would stand head down")).into()),
             },
-            rim: text::is_rimmed(style),
+            rim: is_rimmed(style),
             glyphs,
         }));
         Ok(())

@@ -3,9 +3,8 @@
 //! The grid is a hundredth of a millimetre at column width, so whole numbers are fine enough for
 //! smooth curves. Labels are outlines (see [`super::font`]); nothing depends on the machine.
 
-use super::cut;
 use super::font::{self, Placed};
-use super::path::{Point, Step};
+use super::path::{Point, Step, inside};
 use super::style::Stroke;
 use plotters::style::RGBColor;
 use std::collections::BTreeMap;
@@ -70,11 +69,6 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// Makes an empty drawing.
-    pub fn new(height: u32) -> Self {
-        Drawing { height, ..Drawing::default() }
-    }
-
     pub(super) fn shape(&mut self, path: Vec<Step>, fill: Fill, stroke: Option<Stroke>) {
         self.elements.push(Element::Shape(path, fill, stroke));
     }
@@ -103,20 +97,16 @@ fn stands_in(label: &Label, frame: Frame) -> bool {
 /// Tells whether a path enters a frame; curves count as their chords.
 fn crosses(path: &[Step], frame: Frame) -> bool {
     let float = |(x, y): Point| (f64::from(x), f64::from(y));
-    let (left_top, right_bottom) =
-        (float((frame.left, frame.top)), float((frame.right, frame.bottom)));
-    let (across, down) = ((left_top.0, right_bottom.0), (left_top.1, right_bottom.1));
-    let mut at = (0, 0);
-    for step in path {
+    let across = float((frame.left, frame.right));
+    let down = float((frame.top, frame.bottom));
+    let mut at = (0.0, 0.0);
+    path.iter().any(|step| {
         let (from, to) = match *step {
-            Step::Move(to) => (to, to),
-            Step::Line(to) | Step::Curve([.., to]) => (at, to),
-            Step::Close => continue,
+            Step::Move(to) => (float(to), float(to)),
+            Step::Line(to) | Step::Curve([.., to]) => (at, float(to)),
+            Step::Close => return false,
         };
-        if cut::inside(float(from), float(to), across, down).is_some() {
-            return true;
-        }
         at = to;
-    }
-    false
+        inside(from, to, across, down).is_some()
+    })
 }

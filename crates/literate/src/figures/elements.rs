@@ -65,16 +65,6 @@ pub fn line<C: Clone + 'static>(points: Vec<C>, stroke: Stroke) -> DynElement<'s
     CustomElement::new(points, dashed).into_dyn()
 }
 
-/// Draws a straight stroke from each first point to the second.
-pub(super) fn segments<C>(points: Vec<C>, stroke: Stroke) -> CustomElement<C> {
-    CustomElement::new(points, move |drawing, points| {
-        for pair in points.chunks_exact(2) {
-            drawing.draw_line(pair[0], pair[1], &ShapeStyle::from(stroke))?;
-        }
-        Ok(())
-    })
-}
-
 /// Draws a bar between two points, with caps of half a width, none if it is zero.
 pub(super) fn error_bar<C>(ends: [C; 2], half: i32, stroke: Stroke) -> CustomElement<C> {
     let style = ShapeStyle::from(stroke);

@@ -3,7 +3,6 @@
 
 mod axis;
 mod backend;
-mod cut;
 mod drawing;
 mod elements;
 mod error;
@@ -17,10 +16,8 @@ mod pdf;
 mod plot;
 mod record;
 mod series;
-mod sheet;
 mod style;
 mod svg;
-mod text;
 
 pub use drawing::{Drawing, Glyphs};
 pub use error::{Drawn, Error};
@@ -34,12 +31,9 @@ pub mod prelude {
     pub use super::drawing::Frame;
     pub use super::elements::{Marker, arrow, line, markers, ticks};
     pub use super::helpers::*;
-    pub use super::panel::Panel;
+    pub use super::panel::{Outside, Panel, Sheet, SheetArea};
     pub use super::plot::Plot;
-    pub use super::series::Outside;
-    pub use super::sheet::{Sheet, SheetArea};
     pub use super::style::*;
-    pub use super::text::{rimmed, words};
     pub use super::{DataFile, Description, Drawn, Error, Figure};
     pub use crate::describe;
     pub use plotters::element::{EmptyElement, PathElement, Polygon, Rectangle, Text};

@@ -1,16 +1,17 @@
-//! Draws panels: frames with two axes, and names in them; [`super::series`] draws data in a panel.
+//! Makes sheets and panels, and draws axes and names; [`super::series`] draws data in a panel.
 //!
 //! All methods fail if a label has a character that the shipped fonts lack.
 
 use super::axis::Axis;
 use super::drawing::{Drawing, Frame};
-use super::elements::segments;
+use super::elements::CustomElement;
 use super::error::{Drawn, Error};
+use super::figure::{Description, Figure};
 use super::font;
 use super::path::Point;
 use super::record::Record;
-use super::style::{HAIR, INK, SMALL, Stroke, TEXT, WIDTH};
-use super::text::{rimmed, words};
+use super::style::{HAIR, INK, SMALL, Stroke, TEXT, WIDTH, rimmed, words};
+use plotters::coord::Shift;
 use plotters::coord::cartesian::{Cartesian2d, MeshLine};
 use plotters::drawing::DrawingArea;
 use plotters::element::{EmptyElement, Text};
@@ -19,6 +20,69 @@ use plotters::style::{FontTransform, RGBColor, ShapeStyle, TextStyle};
 use plotters_backend::DrawingBackend;
 use std::cell::RefCell;
 use std::rc::Rc;
+
+/// A sheet as a drawing area of plotters, in grid units from its upper left corner.
+pub type SheetArea = DrawingArea<Drawing, Shift>;
+
+/// A figure in the making.
+pub struct Sheet {
+    pub area: SheetArea,
+    drawing: Rc<RefCell<Drawing>>,
+    records: RefCell<Vec<Rc<RefCell<Record>>>>,
+}
+
+impl Sheet {
+    /// Makes an empty sheet of column width, `height` grid units high.
+    pub fn new(height: u32) -> Self {
+        let drawing = Rc::new(RefCell::new(Drawing { height, ..Drawing::default() }));
+        Sheet { area: DrawingArea::from(&drawing), drawing, records: RefCell::default() }
+    }
+
+    /// Adds a panel and draws its axes. The area of the panel is as large as the sheet, so that
+    /// plotters moves no point onto the frame.
+    pub fn panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+        x.check()?;
+        y.check()?;
+        let place = (frame.left..frame.right, frame.bottom..frame.top);
+        let plane = Cartesian2d::new(x.clone(), y.clone(), place);
+        let area = DrawingArea::from(&self.drawing).apply_coord_spec(plane);
+        let record = Rc::new(RefCell::new(Record::new(&x, &y)));
+        self.records.borrow_mut().push(record.clone());
+        let (drawing, outside) = (self.drawing.clone(), Outside::Refuse);
+        let panel = Panel { area, frame, x, y, drawing, record, recorded: true, outside };
+        panel.draw_axes()?;
+        Ok(panel)
+    }
+
+    /// Adds a panel, its axes and its letter.
+    pub fn lettered(&self, letter: &str, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+        let panel = self.panel(frame, x, y)?;
+        panel.letter(letter)?;
+        Ok(panel)
+    }
+
+    /// Closes the figure. Its data is what its panels have recorded, a file for each. The paper
+    /// gives it its id.
+    pub fn finish(self, title: &str, description: Description) -> Figure {
+        let drawing = self.drawing.take();
+        let records = self.records.take();
+        let data = records.iter().filter_map(|record| record.borrow().file()).collect();
+        Figure { title: title.into(), description, drawing, data, ..Figure::default() }
+    }
+}
+
+/// What to do with data outside the frame. On a logarithmic axis all that is not positive lies
+/// outside, below.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outside {
+    /// It is a mistake.
+    Refuse,
+    /// The panel shows a part of the data on purpose: cut at the frame. What is not positive is
+    /// left out on a logarithmic axis, of the record too.
+    Cut,
+    /// It is shown at the edge.
+    Edge,
+}
 
 /// Axes in a frame; data is in its units, whatever the scales.
 #[derive(Clone)]
@@ -30,9 +94,10 @@ pub struct Panel {
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    pub(super) drawing: Rc<RefCell<Drawing>>,
+    drawing: Rc<RefCell<Drawing>>,
     pub(super) record: Rc<RefCell<Record>>,
     pub(super) recorded: bool,
+    pub(super) outside: Outside,
 }
 
 const TICK: i32 = 85;
@@ -91,16 +156,6 @@ fn anchor((right, down): (i32, i32)) -> (HPos, VPos) {
 }
 
 impl Panel {
-    /// Makes a panel without anything in it, not even its axes. Its area is as large as the sheet,
-    /// so that plotters moves no point onto the frame.
-    pub(super) fn new(drawing: &Rc<RefCell<Drawing>>, frame: Frame, x: Axis, y: Axis) -> Self {
-        let place = (frame.left..frame.right, frame.bottom..frame.top);
-        let plane = Cartesian2d::new(x.clone(), y.clone(), place);
-        let area = DrawingArea::from(drawing).apply_coord_spec(plane);
-        let record = Rc::new(RefCell::new(Record::new(&x, &y)));
-        Panel { area, frame, x, y, drawing: drawing.clone(), record, recorded: true }
-    }
-
     /// Returns the panel with a file of its data whose name ends in `suffix`, after the id of the
     /// figure.
     pub fn with_suffix(self, suffix: &str) -> Self {
@@ -111,6 +166,11 @@ impl Panel {
     /// Returns the panel without a record, for what is no data: repeated outlines, details.
     pub fn unrecorded(&self) -> Self {
         Panel { recorded: false, ..self.clone() }
+    }
+
+    /// Returns the panel with this done to data outside the frame; they are refused otherwise.
+    pub fn outside(&self, outside: Outside) -> Self {
+        Panel { outside, ..self.clone() }
     }
 
     /// Writes words at a point of the data, moved on the sheet.
@@ -126,17 +186,20 @@ impl Panel {
     /// Draws both axes: spines at the left and below, ticks outwards, numbers, labels.
     pub(super) fn draw_axes(&self) -> Drawn {
         let Frame { left, top, right, bottom } = self.frame;
-        let hair = Stroke::solid(INK, HAIR);
-        let corner = (self.x.lo, self.y.lo);
-        let spines = vec![(self.x.lo, self.y.hi), corner, corner, (self.x.hi, self.y.lo)];
-        self.area.draw(&segments(spines, hair))?;
+        let hair = ShapeStyle::from(Stroke::solid(INK, HAIR));
+        let corners = [(self.x.lo, self.y.hi), (self.x.lo, self.y.lo), (self.x.hi, self.y.lo)];
+        let spines = CustomElement::new(corners.into(), move |drawing, corners| {
+            drawing.draw_line(corners[0], corners[1], &hair)?;
+            drawing.draw_line(corners[1], corners[2], &hair)
+        });
+        self.area.draw(&spines)?;
         let tick = |axis: &Axis, value: f64| if axis.is_major(value) { TICK } else { MINOR_TICK };
         let draw_tick = |drawing: &mut Drawing, line: MeshLine<'_, Axis, Axis>| {
             let (from, to) = match line {
                 MeshLine::XMesh((x, y), _, value) => ((x, y), (x, y + tick(&self.x, *value))),
                 MeshLine::YMesh((x, y), _, value) => ((x, y), (x - tick(&self.y, *value), y)),
             };
-            drawing.draw_line(from, to, &ShapeStyle::from(hair))
+            drawing.draw_line(from, to, &hair)
         };
         self.area.draw_mesh(draw_tick, usize::MAX, usize::MAX)?;
 

@@ -42,3 +42,20 @@ pub fn circle((x, y): Point, r: i32) -> Vec<Step> {
     path.push(Step::Close);
     path
 }
+
+/// Returns the parameters between which the stretch from `a` to `b` lies in the rectangle of these
+/// ends (Liang and Barsky 1984); none if it does not.
+pub fn inside(a: (f64, f64), b: (f64, f64), x: (f64, f64), y: (f64, f64)) -> Option<(f64, f64)> {
+    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+    let (mut start, mut end) = (0.0_f64, 1.0_f64);
+    for (p, q) in [(-dx, a.0 - x.0), (dx, x.1 - a.0), (-dy, a.1 - y.0), (dy, y.1 - a.1)] {
+        if p == 0.0 && q < 0.0 {
+            return None;
+        } else if p < 0.0 {
+            start = start.max(q / p);
+        } else if p > 0.0 {
+            end = end.min(q / p);
+        }
+    }
+    (start <= end).then_some((start, end))
+}

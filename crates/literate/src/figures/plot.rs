@@ -7,9 +7,7 @@ use super::elements::Marker;
 use super::error::Error;
 use super::figure::{Description, Figure};
 use super::font;
-use super::panel::{self, Panel};
-use super::series::Outside;
-use super::sheet::Sheet;
+use super::panel::{self, Outside, Panel, Sheet};
 use super::style::*;
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
@@ -195,7 +193,7 @@ impl Plot {
         }
         let frame = Frame::new(left, 250, right, 4250);
         let sheet = Sheet::new((frame.bottom + panel::LABEL_BELOW + 2 * TEXT) as u32);
-        let panel = sheet.panel(frame, x, y)?;
+        let panel = sheet.panel(frame, x, y)?.outside(Outside::Cut);
         for Series { name: place, kind, points } in &self.series {
             let (name, named, colour) = &mut ends[*place];
             let places: Vec<(f64, f64)> = points.iter().map(|(x, y)| (*x, y.value)).collect();
@@ -204,10 +202,10 @@ impl Plot {
                 |symbol| -> Marker { (symbol, self.mark_size, Stroke::solid(*colour, THIN)) };
             match kind {
                 SeriesKind::Line | SeriesKind::Curve(_) => {
-                    panel.curve(name, &places, stroke, Outside::Cut)?;
+                    panel.curve(name, &places, stroke)?;
                 }
                 SeriesKind::Markers(symbol) if points.iter().all(|(_, y)| y.error == 0.0) => {
-                    panel.markers(name, &places, marker(*symbol), Outside::Cut)?;
+                    panel.markers(name, &places, marker(*symbol))?;
                 }
                 SeriesKind::Markers(symbol) => panel.estimates(name, points, marker(*symbol))?,
             }

@@ -6,12 +6,12 @@
 //! All methods return [`Error::Outside`] for a number that is not finite, and for a point outside
 //! the frame where that is refused.
 
-use super::cut::cut;
 use super::drawing::{Drawing, Element};
 use super::elements::{CustomElement, Marker, error_bar, line, markers};
 use super::error::{Drawn, Error};
 use super::markup::spelled;
-use super::panel::Panel;
+use super::panel::{Outside, Panel};
+use super::path::inside;
 use super::record::DataPoint;
 use super::style::Stroke;
 use impact_numerics::statistics::Estimate;
@@ -20,19 +20,6 @@ use plotters::style::Color;
 
 /// Points in units of the data.
 type Points<'a> = &'a [(f64, f64)];
-
-/// What to do with data outside the frame. On a logarithmic axis all that is not positive lies
-/// outside, below.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outside {
-    /// It is a mistake.
-    Refuse,
-    /// The panel shows a part of the data on purpose: cut at the frame. What is not positive is
-    /// left out on a logarithmic axis, of the record too.
-    Cut,
-    /// It is shown at the edge.
-    Edge,
-}
 
 impl Panel {
     /// Draws a series of plotters, or any elements, as a group of this name. What lies outside the
@@ -75,24 +62,17 @@ impl Panel {
         self.x.contains(x) && self.y.contains(y)
     }
 
-    /// Records points, so many a row, and returns those that can be drawn. Of those to be cut, the
-    /// ones that the axes have no place for are left out of both.
-    fn places(
-        &self,
-        name: &str,
-        points: Points,
-        outside: Outside,
-        in_row: usize,
-    ) -> Result<Vec<(f64, f64)>, Error> {
+    /// Records points and returns those that can be drawn. Of those to be cut, the ones that the
+    /// axes have no place for are left out of both.
+    fn places(&self, name: &str, points: Points) -> Result<Vec<(f64, f64)>, Error> {
         let (mut shown, mut places) = (Vec::new(), Vec::new());
         for (i, &(x, y)) in points.iter().enumerate() {
-            let is_refused = outside == Outside::Refuse && !self.contains((x, y));
+            let is_refused = self.outside == Outside::Refuse && !self.contains((x, y));
             if is_refused || !x.is_finite() || !y.is_finite() {
-                let (series, row) = (spelled(name), 1 + i / in_row);
-                return Err(Error::Outside { series, row, x, y });
+                return Err(Error::Outside { series: spelled(name), row: 1 + i, x, y });
             }
             // Where points outside are refused, the edge takes away at most a rounding error.
-            let place = match outside {
+            let place = match self.outside {
                 Outside::Cut if !self.has_place((x, y)) => continue,
                 Outside::Cut => (x, y),
                 _ => (x.clamp(self.x.lo, self.x.hi), y.clamp(self.y.lo, self.y.hi)),
@@ -105,19 +85,37 @@ impl Panel {
     }
 
     /// Returns the parts of a curve inside the frame, for series of plotters, which are not cut.
+    /// What is between two points is straight on the sheet, on logarithmic axes too.
     pub fn cut(&self, points: Points) -> Vec<Vec<(f64, f64)>> {
-        cut(points, &self.x, &self.y)
+        let (across, up) = (self.x.ends(), self.y.ends());
+        let mut parts: Vec<Vec<(f64, f64)>> = Vec::new();
+        for pair in points.windows(2) {
+            let [a, b] = [pair[0], pair[1]].map(|p| (self.x.position(p.0), self.y.position(p.1)));
+            let Some((start, end)) = inside(a, b, across, up) else { continue };
+            let at = |t: f64| {
+                let x = (a.0 + t * (b.0 - a.0)).clamp(across.0, across.1);
+                let y = (a.1 + t * (b.1 - a.1)).clamp(up.0, up.1);
+                (self.x.value(x), self.y.value(y))
+            };
+            let from = if start > 0.0 { at(start) } else { pair[0] };
+            let to = if end < 1.0 { at(end) } else { pair[1] };
+            match parts.last_mut() {
+                Some(part) if start == 0.0 && part.last() == Some(&from) => part.push(to),
+                _ => parts.push(vec![from, to]),
+            }
+        }
+        parts
     }
 
     /// Draws a curve.
-    pub fn curve(&self, name: &str, points: Points, stroke: Stroke, outside: Outside) -> Drawn {
-        let parts = self.cut(&self.places(name, points, outside, 1)?);
+    pub fn curve(&self, name: &str, points: Points, stroke: Stroke) -> Drawn {
+        let parts = self.cut(&self.places(name, points)?);
         self.draw_series(name, parts.into_iter().map(|part| line(part, stroke)))
     }
 
     /// Draws a line that is no data, cut at the frame: zero, a level, an outline, a printed value.
     pub fn guide(&self, name: &str, points: Points, stroke: Stroke) -> Drawn {
-        self.unrecorded().curve(name, points, stroke, Outside::Cut)
+        self.unrecorded().outside(Outside::Cut).curve(name, points, stroke)
     }
 
     /// Draws a guide across the panel at one height.
@@ -125,9 +123,9 @@ impl Panel {
         self.guide(name, &[(self.x.lo, y), (self.x.hi, y)], stroke)
     }
 
-    /// Draws symbols; those outside the frame are left out if `outside` cuts.
-    pub fn markers(&self, name: &str, points: Points, marker: Marker, outside: Outside) -> Drawn {
-        let mut places = self.places(name, points, outside, 1)?;
+    /// Draws symbols; where the panel cuts, those outside the frame are left out.
+    pub fn markers(&self, name: &str, points: Points, marker: Marker) -> Drawn {
+        let mut places = self.places(name, points)?;
         places.retain(|p| self.contains(*p));
         self.draw_series(name, [markers(places, marker)])
     }
@@ -137,11 +135,11 @@ impl Panel {
         &self,
         name: &str,
         points: Points,
-        (stroke, marker): (Stroke, Marker),
-        outside: Outside,
+        stroke: Stroke,
+        marker: Marker,
     ) -> Drawn {
-        self.curve(name, points, stroke, outside)?;
-        self.markers(name, points, marker, outside)
+        self.curve(name, points, stroke)?;
+        self.markers(name, points, marker)
     }
 
     /// Draws columns of width 1 around 1, 2, …, which stand on zero: filled and with an outline;
@@ -160,27 +158,21 @@ impl Panel {
             outline.push(right);
         }
         self.draw_series(name, [Polygon::new(outline.clone(), stroke.colour.mix(0.45))])?;
-        self.unrecorded().curve(name, &outline, stroke, Outside::Refuse)
+        self.unrecorded().outside(Outside::Refuse).curve(name, &outline, stroke)
     }
 
-    /// Draws bars from `low` to `high` at each x, with caps of the given half width; if `outside`
-    /// cuts, they are cut at the frame, and left out outside it.
-    pub fn bars(
-        &self,
-        name: &str,
-        bars: &[(f64, f64, f64)],
-        half: i32,
-        stroke: Stroke,
-        outside: Outside,
-    ) -> Drawn {
-        let ends: Vec<_> =
-            bars.iter().flat_map(|(x, low, high)| [(*x, *low), (*x, *high)]).collect();
-        let at_edge = if outside == Outside::Cut { Outside::Edge } else { outside };
-        let ends = self.unrecorded().places(name, &ends, at_edge, 2)?;
+    /// Draws bars from `low` to `high` at each x, with caps of the given half width. They end at
+    /// the frame; where the panel cuts, those outside it are left out.
+    pub fn bars(&self, name: &str, bars: &[(f64, f64, f64)], half: i32, stroke: Stroke) -> Drawn {
+        let is_cut = self.outside == Outside::Cut;
+        let edge = if is_cut { Outside::Edge } else { self.outside };
+        let quiet = self.unrecorded().outside(edge);
+        let lows: Vec<_> = bars.iter().map(|(x, low, _)| (*x, *low)).collect();
+        let highs: Vec<_> = bars.iter().map(|(x, _, high)| (*x, *high)).collect();
+        let ends = quiet.places(name, &lows)?.into_iter().zip(quiet.places(name, &highs)?);
         self.record(name, bars.iter().copied());
-        let shown = |x: f64| outside != Outside::Cut || self.x.contains(x);
-        let bars = ends.chunks_exact(2).zip(bars).filter(|(_, bar)| shown(bar.0));
-        self.draw_series(name, bars.map(|(ends, _)| error_bar([ends[0], ends[1]], half, stroke)))
+        let shown = ends.zip(bars).filter(|(_, bar)| !is_cut || self.x.contains(bar.0));
+        self.draw_series(name, shown.map(|((low, high), _)| error_bar([low, high], half, stroke)))
     }
 
     /// Draws estimates with bars of one standard error. What lies outside the frame is left out,
@@ -196,8 +188,8 @@ impl Panel {
             }
         }
         let quiet = self.unrecorded();
-        quiet.bars(name, &bars, 35, marker.2, Outside::Edge)?;
-        quiet.markers(name, &points, marker, Outside::Cut)
+        quiet.outside(Outside::Edge).bars(name, &bars, 35, marker.2)?;
+        quiet.outside(Outside::Cut).markers(name, &points, marker)
     }
 
     /// Draws estimates with a line through them, cut at the frame.
@@ -208,7 +200,7 @@ impl Panel {
         marker: Marker,
     ) -> Drawn {
         let points: Vec<_> = estimates.iter().map(|(x, y)| (*x, y.value)).collect();
-        self.unrecorded().curve(name, &points, marker.2, Outside::Cut)?;
+        self.guide(name, &points, marker.2)?;
         self.estimates(name, estimates, marker)
     }
 }
@@ -218,7 +210,7 @@ mod tests {
     use super::*;
     use crate::figures::axis::Axis;
     use crate::figures::drawing::Frame;
-    use crate::figures::sheet::Sheet;
+    use crate::figures::panel::Sheet;
     use crate::figures::style::{GREEN, Symbol};
     use impact_numerics::estimates::with_error;
 
@@ -230,23 +222,32 @@ mod tests {
     }
 
     #[test]
+    fn a_curve_that_leaves_and_returns_becomes_two_parts() {
+        let panel = Sheet::new(3000).panel(FRAME, axis(), axis()).unwrap();
+        let parts = panel.cut(&[(0.1, 0.5), (0.3, 1.5), (0.5, 0.5), (0.6, 0.4)]);
+        assert_eq!((parts.len(), parts[0][1], parts[1].len()), (2, (0.2, 1.0), 3));
+        assert_eq!(panel.cut(&[(-1.0, 0.5), (2.0, 0.5)]), [vec![(0.0, 0.5), (1.0, 0.5)]]);
+        assert!(panel.cut(&[(0.1, 2.0), (0.9, 3.0)]).is_empty());
+    }
+
+    #[test]
     fn data_outside_the_frame_is_an_error_and_not_moved_onto_it() {
         let panel = Sheet::new(3000).panel(FRAME, axis(), axis()).unwrap();
         let corners = [(0.0, 0.0), (1.0, 1.0)].map(|corner| panel.area.map_coordinate(&corner));
         assert_eq!(corners, [(1000, 1100), (2000, 100)]);
         let beyond = [(0.5, 0.5), (0.6, 1.1)];
-        let drawn = panel.curve("curve", &beyond, LINE, Outside::Refuse);
+        let drawn = panel.curve("curve", &beyond, LINE);
         assert!(matches!(drawn, Err(Error::Outside { y: 1.1, .. })));
-        panel.curve("curve", &beyond, LINE, Outside::Cut).unwrap();
-        let marks = panel.markers("marks", &beyond, (Symbol::Disc, 30, LINE), Outside::Refuse);
+        let marks = panel.markers("marks", &beyond, (Symbol::Disc, 30, LINE));
         assert!(matches!(marks, Err(Error::Outside { .. })));
         assert!(panel.columns("columns", &[1.1], LINE).is_err());
-        let bars = [(0.5, 0.1, 0.2), (0.5, 0.1, f64::NAN)];
-        let drawn = panel.bars("bars", &bars, 0, LINE, Outside::Cut);
-        assert!(matches!(drawn, Err(Error::Outside { row: 2, .. })));
-        assert!(panel.curve("nan", &[(0.1, f64::NAN)], LINE, Outside::Cut).is_err());
         // A wall that is touched within rounding is inside.
-        panel.curve("wall", &[(0.0, -1e-17), (1.0, 1.0 + 1e-15)], LINE, Outside::Refuse).unwrap();
+        panel.curve("wall", &[(0.0, -1e-17), (1.0, 1.0 + 1e-15)], LINE).unwrap();
+        let panel = panel.outside(Outside::Cut);
+        panel.curve("curve", &beyond, LINE).unwrap();
+        let drawn = panel.bars("bars", &[(0.5, 0.1, 0.2), (0.5, 0.1, f64::NAN)], 0, LINE);
+        assert!(matches!(drawn, Err(Error::Outside { row: 2, .. })));
+        assert!(panel.curve("nan", &[(0.1, f64::NAN)], LINE).is_err());
     }
 
     #[test]
@@ -255,16 +256,18 @@ mod tests {
         let panel = sheet.lettered("(b)", FRAME, axis(), Axis::decades(-2, 0, 1, "y")).unwrap();
         assert_eq!(panel.area.map_coordinate(&(0.5, 0.1)), (1500, 600));
         let points = [(0.1, 0.5), (0.2, 0.0), (0.3, 1e-3), (0.4, -1.0)];
-        let refused = panel.curve("refused", &points, LINE, Outside::Refuse);
+        let refused = panel.curve("refused", &points, LINE);
         assert!(matches!(refused, Err(Error::Outside { x: 0.2, y: 0.0, .. })));
-        panel.curve("cut", &points, LINE, Outside::Cut).unwrap();
-        panel.markers("edge", &points[1..2], (Symbol::Disc, 30, LINE), Outside::Edge).unwrap();
+        let cut = panel.outside(Outside::Cut);
+        cut.curve("cut", &points, LINE).unwrap();
+        let disc = (Symbol::Disc, 30, LINE);
+        panel.outside(Outside::Edge).markers("edge", &points[1..2], disc).unwrap();
         let estimates = [(0.5, 0.1, 0.2), (0.6, 0.0, 0.1), (0.7, 2.0, 0.1)];
         let estimates = estimates.map(|(x, value, error)| (x, with_error(value, error)));
-        panel.estimates("estimates", &estimates, (Symbol::Disc, 30, LINE)).unwrap();
+        panel.estimates("estimates", &estimates, disc).unwrap();
         // Guides, grounds and what is quiet are no data.
         panel.level("level", 0.5, LINE).unwrap();
-        panel.unrecorded().curve("rims", &points, LINE, Outside::Cut).unwrap();
+        cut.unrecorded().curve("rims", &points, LINE).unwrap();
         // In units of the data, and as they were given: the cut is the picture's.
         let file = &sheet.finish("", Default::default()).data[0];
         let rows = "cut,0.1,0.5,\ncut,0.3,0.001,\nedge,0.2,0,\n\

@@ -4,7 +4,9 @@
 //! of Okabe and Ito (2008), which colour-blind readers distinguish, the orange darker for its
 //! contrast with paper. A colour never stands alone: a symbol, a dash or a name says the same.
 
-use plotters::style::{Color, RGBColor, ShapeStyle};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color, FontDesc, RGBColor, ShapeStyle, TextStyle};
+use plotters_backend::BackendTextStyle;
 
 /// Width of every figure: one column.
 pub const WIDTH: u32 = 8400;
@@ -139,4 +141,21 @@ pub enum Symbol {
     OpenSquare,
     OpenTriangle,
     OpenDiamond,
+}
+
+/// Makes the style of words of a size in grid units; `h` and `v` say where in them their place is.
+pub fn words(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
+    FontDesc::from(("plain", size)).color(&colour).pos(Pos::new(h, v))
+}
+
+/// Makes the style of words that may stand on something: a rim of the page's colour sets them off.
+/// A style of plotters cannot say so. The name of the font does, since all words are set in the
+/// shipped fonts.
+pub fn rimmed(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
+    FontDesc::from(("rimmed", size)).color(&colour).pos(Pos::new(h, v))
+}
+
+/// Tells whether a style is one of [`rimmed`].
+pub(super) fn is_rimmed(style: &impl BackendTextStyle) -> bool {
+    style.family().as_str() == "rimmed"
 }
