@@ -6,6 +6,7 @@
 
 use super::error::Error;
 use super::markup::spelled;
+use crate::decimal::{Decimal, significant};
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use pxfm::{f_exp10, f_log10};
@@ -256,12 +257,11 @@ pub(super) fn decimal(m: i32, exponent: i32) -> f64 {
     format!("{m}e{exponent}").parse().unwrap_or(f64::MIN_POSITIVE)
 }
 
-/// Returns a number as n · 10^power, rounded to twelve digits; none if it is not finite.
+/// Returns a positive number as n · 10^power, rounded to twelve digits; none if it is not finite.
 fn decimal_of(number: f64) -> Option<(i128, i32)> {
-    let shown = format!("{number:.11e}");
-    let (mantissa, power) = shown.split_once('e')?;
-    let n: i128 = mantissa.replace('.', "").parse().ok()?;
-    Some((n / 10_i128.pow(zeros(n)), power.parse::<i32>().ok()? - 11 + zeros(n) as i32))
+    let Decimal { digits, places } = significant(number, 12);
+    let n: i128 = digits.parse().ok()?;
+    Some((n / 10_i128.pow(zeros(n)), zeros(n) as i32 - places))
 }
 
 /// Returns the number of zeros at the end of a number, none for zero.
@@ -281,18 +281,17 @@ fn leading(numbers: &[i128]) -> i32 {
 
 /// Writes n · 10^power on an axis whose largest number has its first digit at 10^`most`.
 fn exact(n: i128, power: i32, most: i32) -> String {
-    let is_plain = power >= -5 && most <= 5;
-    let places = if is_plain { power } else { power - most };
-    let mut digits = n.unsigned_abs().to_string() + &"0".repeat(places.max(0) as usize);
-    if places < 0 {
-        digits = format!("{digits:0>width$}", width = 1 + places.unsigned_abs() as usize);
-        digits.insert(digits.len() - places.unsigned_abs() as usize, '.');
+    if n == 0 {
+        return "0".into();
     }
     let sign = if n < 0 { "−" } else { "" };
-    match n {
-        0 => "0".into(),
-        _ if is_plain => format!("{sign}{digits}"),
-        _ => format!("{sign}{digits}·{}", power_of_ten(most)),
+    let is_plain = power >= -5 && most <= 5;
+    let places = if is_plain { -power } else { most - power };
+    let digits = Decimal { digits: n.unsigned_abs().to_string(), places }.written();
+    if is_plain {
+        sign.to_owned() + &digits
+    } else {
+        format!("{sign}{digits}·{}", power_of_ten(most))
     }
 }
 

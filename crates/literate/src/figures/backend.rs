@@ -131,7 +131,7 @@ impl DrawingBackend for Drawing {
     /// Sets words in the shipped fonts, whatever the font of the style; see `markup`. Nothing is
     /// drawn for no words.
     fn draw_text<S: BackendTextStyle>(&mut self, words: &str, style: &S, at: Point) -> Outcome {
-        let font::Line { mut glyphs, width } = font::set(words)?;
+        let (mut glyphs, width) = font::set(words)?;
         if glyphs.is_empty() {
             return Ok(());
         }

@@ -15,12 +15,10 @@ use std::iter::once;
 /// Symbol, half its width, and the line of an open symbol, whose colour fills a closed one.
 pub type Marker = (Symbol, i32, Stroke);
 
-type Draw = dyn Fn(&mut Drawing, Vec<Point>) -> Outcome;
-
 /// An element that plotters lacks: points, and how it is drawn at their places on the sheet.
 pub struct CustomElement<C> {
     points: Vec<C>,
-    draw: Box<Draw>,
+    draw: Box<dyn Fn(&mut Drawing, Vec<Point>) -> Outcome>,
 }
 
 impl<C> CustomElement<C> {
@@ -92,72 +90,66 @@ pub fn ticks<C>(points: Vec<C>, width: i32, stroke: Stroke) -> CustomElement<C> 
     })
 }
 
-/// Draws a solid line that ends in an arrow head.
+/// Draws a solid line that ends in an arrow head, inside it. A short last stretch must not turn the
+/// head, so its direction is taken over at least its length.
 pub fn arrow<C>(points: Vec<C>, stroke: Stroke) -> CustomElement<C> {
-    CustomElement::new(points, move |drawing, points| draw_arrow(drawing, points, stroke))
-}
-
-/// Draws equal symbols at points, as one shape.
-pub fn markers<C>(points: Vec<C>, marker: Marker) -> CustomElement<C> {
-    CustomElement::new(points, move |drawing, points| draw_markers(drawing, &points, marker))
-}
-
-/// Ends the line inside the head. A short last stretch must not turn the head, so its direction is
-/// taken over at least its length.
-fn draw_arrow(drawing: &mut Drawing, mut path: Vec<Point>, stroke: Stroke) -> Outcome {
-    let Some(&tip) = path.last() else { return Ok(()) };
     let width = f64::from(stroke.width);
     let (length, half) = (90.0 + 2.6 * width, 34.0 + 1.1 * width);
-    let to_tip = |p: &Point| {
-        let (dx, dy) = (f64::from(tip.0 - p.0), f64::from(tip.1 - p.1));
-        (dx, dy, (dx * dx + dy * dy).sqrt())
-    };
-    while path.len() > 1 && path.last().is_some_and(|p| to_tip(p).2 < length) {
-        path.pop();
-    }
-    let Some((dx, dy, distance)) = path.last().map(to_tip).filter(|&(.., d)| d > 0.0) else {
-        return Ok(());
-    };
-    let (ux, uy) = (dx / distance, dy / distance);
-    let at = |along: f64, aside: f64| {
-        let x = f64::from(tip.0) - along * ux - aside * uy;
-        let y = f64::from(tip.1) - along * uy + aside * ux;
-        (x.round() as i32, y.round() as i32)
-    };
-    path.push(at(0.75 * length, 0.0));
-    let style = ShapeStyle::from(stroke);
-    drawing.draw_path(path, &style)?;
-    let head = [tip, at(length, half), at(0.75 * length, 0.0), at(length, -half)];
-    drawing.fill_polygon(head, &style.color)
+    CustomElement::new(points, move |drawing, mut path| {
+        let Some(&tip) = path.last() else { return Ok(()) };
+        let to_tip = |p: &Point| {
+            let (dx, dy) = (f64::from(tip.0 - p.0), f64::from(tip.1 - p.1));
+            (dx, dy, (dx * dx + dy * dy).sqrt())
+        };
+        while path.len() > 1 && path.last().is_some_and(|p| to_tip(p).2 < length) {
+            path.pop();
+        }
+        let Some((dx, dy, distance)) = path.last().map(to_tip).filter(|&(.., d)| d > 0.0) else {
+            return Ok(());
+        };
+        let (ux, uy) = (dx / distance, dy / distance);
+        let at = |along: f64, aside: f64| {
+            let x = f64::from(tip.0) - along * ux - aside * uy;
+            let y = f64::from(tip.1) - along * uy + aside * ux;
+            (x.round() as i32, y.round() as i32)
+        };
+        path.push(at(0.75 * length, 0.0));
+        let style = ShapeStyle::from(stroke);
+        drawing.draw_path(path, &style)?;
+        let head = [tip, at(length, half), at(0.75 * length, 0.0), at(length, -half)];
+        drawing.fill_polygon(head, &style.color)
+    })
 }
 
-/// Draws symbols as one path, whose edge is solid.
-fn draw_markers(drawing: &mut Drawing, points: &[Point], marker: Marker) -> Outcome {
-    let (symbol, r, Stroke { colour, width, .. }) = marker;
-    let stroke = Stroke::solid(colour, width);
-    let mut path: Vec<Step> = Vec::new();
-    for &(x, y) in points {
-        let mut corners = |places: &[Point]| {
-            path.extend(polygon(places.iter().map(|(right, down)| (x + right * r, y + down * r))));
-        };
-        match symbol {
-            Symbol::Cross => Cross::new((), r, stroke).draw(once((x, y)), drawing, (0, 0))?,
-            Symbol::Plus => {
-                path.extend(polyline([(x - r, y), (x + r, y)]));
-                path.extend(polyline([(x, y - r), (x, y + r)]));
+/// Draws equal symbols at points, as one path, whose edge is solid.
+pub fn markers<C>(points: Vec<C>, (symbol, r, line): Marker) -> CustomElement<C> {
+    let stroke = Stroke::solid(line.colour, line.width);
+    CustomElement::new(points, move |drawing, points| {
+        let mut path: Vec<Step> = Vec::new();
+        for (x, y) in points {
+            let mut corners = |places: &[Point]| {
+                let places = places.iter().map(|(right, down)| (x + right * r, y + down * r));
+                path.extend(polygon(places));
+            };
+            match symbol {
+                Symbol::Cross => Cross::new((), r, stroke).draw(once((x, y)), drawing, (0, 0))?,
+                Symbol::Plus => {
+                    path.extend(polyline([(x - r, y), (x + r, y)]));
+                    path.extend(polyline([(x, y - r), (x, y + r)]));
+                }
+                Symbol::Disc | Symbol::Ring => path.extend(circle((x, y), r)),
+                Symbol::OpenSquare => corners(&[(-1, -1), (1, -1), (1, 1), (-1, 1)]),
+                Symbol::OpenTriangle => corners(&[(-1, 1), (0, -1), (1, 1)]),
+                Symbol::OpenDiamond => corners(&[(0, -1), (1, 0), (0, 1), (-1, 0)]),
             }
-            Symbol::Disc | Symbol::Ring => path.extend(circle((x, y), r)),
-            Symbol::OpenSquare => corners(&[(-1, -1), (1, -1), (1, 1), (-1, 1)]),
-            Symbol::OpenTriangle => corners(&[(-1, 1), (0, -1), (1, 1)]),
-            Symbol::OpenDiamond => corners(&[(0, -1), (1, 0), (0, 1), (-1, 0)]),
         }
-    }
-    let fill = match symbol {
-        Symbol::Disc => Some((colour, 100)),
-        Symbol::Cross => return Ok(()),
-        Symbol::Plus => None,
-        _ => Some((WHITE, 100)),
-    };
-    drawing.shape(path, fill, Some(stroke));
-    Ok(())
+        let fill = match symbol {
+            Symbol::Disc => Some((line.colour, 100)),
+            Symbol::Cross => return Ok(()),
+            Symbol::Plus => None,
+            _ => Some((WHITE, 100)),
+        };
+        drawing.shape(path, fill, Some(stroke));
+        Ok(())
+    })
 }

@@ -70,13 +70,13 @@ impl Figure {
 
     /// Returns the picture as an SVG file.
     pub fn svg(&self) -> String {
-        self.drawing.svg(&self.id, &self.title, &self.description.text)
+        self.drawing.svg(false, &self.id, &self.title, &self.description.text) + "\n"
     }
 
     /// Returns the picture as an element of a page.
     pub fn on_page(&self) -> String {
         if self.files.is_empty() {
-            return self.drawing.on_page(&self.id, &self.title, &self.description.text);
+            return self.drawing.svg(true, &self.id, &self.title, &self.description.text);
         }
         let [name, _] = self.names();
         format!("<img src=\"figures/{name}\" alt=\"{}\"/>", escape(&self.description.text))

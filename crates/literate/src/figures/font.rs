@@ -1,13 +1,10 @@
 //! Sets labels in type, as glyph outlines of the two shipped faces: a figure looks the same
 //! everywhere.
 
-use std::sync::OnceLock;
-
-use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
-
 use super::error::Error;
 use super::markup::{self, Face, Level};
 use super::path::Step;
+use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
 
 /// Units of an em in both faces; the outlines and the layout below are in these units.
 pub const EM: i32 = 1000;
@@ -42,33 +39,22 @@ pub struct Placed {
     pub small: bool,
 }
 
-/// A label set in type: its glyphs and its width, in em units.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Line {
-    /// In reading order, without blanks.
-    pub glyphs: Vec<Placed>,
-    pub width: i32,
-}
-
-fn font(face: Face) -> Result<&'static FontRef<'static>, Error> {
-    static FACES: OnceLock<Option<[FontRef<'static>; 2]>> = OnceLock::new();
-    let read = || {
-        let regular = include_bytes!("../../fonts/LibertinusSerif-Regular.otf");
-        let italic = include_bytes!("../../fonts/LibertinusSerif-Italic.otf");
-        let [regular, italic] = [&regular[..], italic].map(FontRef::try_from_slice);
-        Some([regular.ok()?, italic.ok()?])
+fn font(face: Face) -> Result<FontRef<'static>, Error> {
+    let file: &[u8] = match face {
+        Face::Regular => include_bytes!("../../fonts/LibertinusSerif-Regular.otf"),
+        Face::Italic => include_bytes!("../../fonts/LibertinusSerif-Italic.otf"),
     };
-    let faces = FACES.get_or_init(read).as_ref();
-    let unreadable = || Error::Drawing("a shipped font file cannot be read".into());
-    faces.map(|faces| &faces[face as usize]).ok_or_else(unreadable)
+    let unreadable = |_| Error::Drawing("a shipped font file cannot be read".into());
+    FontRef::try_from_slice(file).map_err(unreadable)
 }
 
-/// Sets a label in type.
+/// Sets a label in type: returns its glyphs, in reading order and without blanks, and its width in
+/// em units.
 ///
 /// # Errors
 /// [`Error::Glyph`] names a character that the face lacks: a figure with a missing letter is wrong.
-pub fn set(label: &str) -> Result<Line, Error> {
-    let mut line = Line::default();
+pub fn set(label: &str) -> Result<(Vec<Placed>, i32), Error> {
+    let (mut glyphs, mut width): (Vec<Placed>, i32) = (Vec::new(), 0);
     // `x` is the pen, `start` is where a raised part stands above a lowered one.
     let (mut x, mut start, mut lift) = (0, 0, 0);
     let mut before = (Face::Regular, Level::Base);
@@ -77,12 +63,12 @@ pub fn set(label: &str) -> Result<Line, Error> {
         match (before.1, piece.level) {
             (Level::Base, _) => start = x,
             (Level::Sub, Level::Sup) => {
-                for glyph in line.glyphs.iter_mut().rev().take_while(|glyph| glyph.y < 0) {
+                for glyph in glyphs.iter_mut().rev().take_while(|glyph| glyph.y < 0) {
                     glyph.y -= STACK_SHIFT;
                 }
                 (x, lift) = (start, STACK_SHIFT);
             }
-            (_, Level::Base) => (x, lift) = (line.width + SCRIPT_SPACE, 0),
+            (_, Level::Base) => (x, lift) = (width + SCRIPT_SPACE, 0),
             _ => {}
         }
         let slanted = before.0 == Face::Italic && piece.face == Face::Regular;
@@ -102,19 +88,19 @@ pub fn set(label: &str) -> Result<Line, Error> {
             }
             if !character.is_whitespace() {
                 let (face, glyph, small) = (piece.face, id.0, scale != EM);
-                line.glyphs.push(Placed { face, glyph, x, y, small });
+                glyphs.push(Placed { face, glyph, x, y, small });
             }
             x += (face.h_advance_unscaled(id) * scale as f32 / EM as f32).round() as i32;
         }
-        line.width = line.width.max(x);
+        width = width.max(x);
         before = (piece.face, piece.level);
     }
-    Ok(line)
+    Ok((glyphs, width))
 }
 
 /// Returns the width of a label whose em is `size`.
 pub fn width(label: &str, size: i32) -> Result<i32, Error> {
-    Ok(set(label)?.width * size / EM)
+    Ok(set(label)?.1 * size / EM)
 }
 
 /// Returns the name of a glyph inside a drawing.

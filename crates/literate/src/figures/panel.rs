@@ -90,9 +90,7 @@ pub struct Panel {
     /// The panel as a drawing area of plotters, in units of the data.
     pub area: DrawingArea<Drawing, Cartesian2d<Axis, Axis>>,
     pub frame: Frame,
-    /// The horizontal axis.
     pub x: Axis,
-    /// The vertical axis.
     pub y: Axis,
     drawing: Rc<RefCell<Drawing>>,
     pub(super) record: Rc<RefCell<Record>>,
@@ -180,7 +178,7 @@ impl Panel {
 
     /// Writes words at a point of the sheet.
     fn text_on_sheet(&self, text: &str, at: Point, style: TextStyle<'static>) -> Drawn {
-        Ok(self.area.use_screen_coord().draw(&Text::new(text.to_string(), at, style))?)
+        Ok(self.area.use_screen_coord().draw_text(text, &style, at)?)
     }
 
     /// Draws both axes: spines at the left and below, ticks outwards, numbers, labels.

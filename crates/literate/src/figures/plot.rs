@@ -3,7 +3,6 @@
 
 use super::axis::{self, Axis};
 use super::drawing::Frame;
-use super::elements::Marker;
 use super::error::Error;
 use super::figure::{Description, Figure};
 use super::font;
@@ -21,8 +20,7 @@ enum SeriesKind {
 }
 
 struct Series {
-    /// Its place in the list of names.
-    name: usize,
+    name: String,
     kind: SeriesKind,
     /// With an error of zero where there is none.
     points: Vec<(f64, Estimate)>,
@@ -40,7 +38,6 @@ struct AxisOptions {
 pub struct Plot {
     x: AxisOptions,
     y: AxisOptions,
-    names: Vec<String>,
     series: Vec<Series>,
     mark_size: i32,
 }
@@ -59,7 +56,6 @@ impl Plot {
         self
     }
 
-    /// Labels the vertical axis.
     pub fn y(mut self, label: &str) -> Self {
         self.y.label = label.into();
         self
@@ -72,7 +68,6 @@ impl Plot {
         self.x(label)
     }
 
-    /// Labels the vertical axis and makes it logarithmic.
     pub fn log_y(mut self, label: &str) -> Self {
         self.y.is_log = true;
         self.y(label)
@@ -84,7 +79,6 @@ impl Plot {
         self
     }
 
-    /// Shows y from `low` to `high`.
     pub fn y_range(mut self, low: f64, high: f64) -> Self {
         self.y.range = Some([low, high]);
         self
@@ -97,11 +91,7 @@ impl Plot {
     }
 
     fn add(mut self, name: &str, kind: SeriesKind, points: Vec<(f64, Estimate)>) -> Self {
-        if !self.names.iter().any(|known| known == name) {
-            self.names.push(name.into());
-        }
-        let name = self.names.iter().position(|known| known == name).unwrap_or_default();
-        self.series.push(Series { name, kind, points });
+        self.series.push(Series { name: name.into(), kind, points });
         self
     }
 
@@ -126,27 +116,18 @@ impl Plot {
         self.add(name, SeriesKind::Curve(Box::new(function)), Vec::new())
     }
 
+    fn has_place(&self, (x, y): (f64, f64)) -> bool {
+        (x > 0.0 || !self.x.is_log) && (y > 0.0 || !self.y.is_log)
+    }
+
     /// Returns all points that the axes have a place for, with the ends of bars.
     fn data(&self) -> Vec<(f64, f64)> {
         let mut data = Vec::new();
         for (x, y) in self.series.iter().flat_map(|series| &series.points) {
             data.extend([0.0, -y.error, y.error].map(|by| (*x, y.value + by)));
         }
-        data.retain(|(x, y)| (*x > 0.0 || !self.x.is_log) && (*y > 0.0 || !self.y.is_log));
+        data.retain(|point| self.has_place(*point));
         data
-    }
-
-    /// Refuses a plot without a series, and a series that the axes have no place for.
-    fn check_series(&self) -> Result<(), Error> {
-        if self.series.is_empty() {
-            return Err(Error::NoSeries);
-        }
-        let shown = |x: f64, y: f64| (x > 0.0 || !self.x.is_log) && (y > 0.0 || !self.y.is_log);
-        let is_empty = |one: &&Series| !one.points.iter().any(|(x, y)| shown(*x, y.value));
-        match self.series.iter().find(is_empty) {
-            Some(one) => Err(Error::Empty(self.names[one.name].clone())),
-            None => Ok(()),
-        }
     }
 
     /// Returns the axes that hold all data, after evaluating the functions at 401 places.
@@ -180,37 +161,39 @@ impl Plot {
     /// of plotters.
     pub fn draw(mut self) -> Result<(Sheet, Panel), Error> {
         let (x, y) = self.axes();
-        self.check_series()?;
-        let has_names = self.names.len() > 1;
+        let first = self.series.first().ok_or(Error::NoSeries)?;
+        let has_names = self.series.iter().any(|series| series.name != first.name);
         let left = panel::widest_number(&y)? + panel::LABEL_LEFT + 2 * TEXT;
         let mut right = WIDTH as i32 - 150 - panel::widest_number(&x)? / 2;
-        let mut ends = Vec::new();
-        for (name, colour) in self.names.into_iter().zip(COLOURS.into_iter().cycle()) {
-            if has_names {
-                right = right.min(WIDTH as i32 - font::width(&name, SMALL)? - 200);
+        for Series { name, points, .. } in &self.series {
+            if !points.iter().any(|(x, y)| self.has_place((*x, y.value))) {
+                return Err(Error::Empty(name.clone()));
             }
-            ends.push((name, Vec::new(), colour));
+            if has_names {
+                right = right.min(WIDTH as i32 - font::width(name, SMALL)? - 200);
+            }
         }
         let frame = Frame::new(left, 250, right, 4250);
         let sheet = Sheet::new((frame.bottom + panel::LABEL_BELOW + 2 * TEXT) as u32);
         let panel = sheet.panel(frame, x, y)?.outside(Outside::Cut);
-        for Series { name: place, kind, points } in &self.series {
-            let (name, named, colour) = &mut ends[*place];
+        let mut ends: Vec<(String, Vec<(f64, f64)>, RGBColor)> = Vec::new();
+        for Series { name, kind, points } in self.series {
+            let place = ends.iter().position(|end| end.0 == name).unwrap_or(ends.len());
+            let colour = COLOURS[place % COLOURS.len()];
+            let stroke = Stroke::dashed(colour, LINE, DASHES[place % DASHES.len()]);
+            let thin = Stroke::solid(colour, THIN);
             let places: Vec<(f64, f64)> = points.iter().map(|(x, y)| (*x, y.value)).collect();
-            let stroke = Stroke::dashed(*colour, LINE, DASHES[place % DASHES.len()]);
-            let marker =
-                |symbol| -> Marker { (symbol, self.mark_size, Stroke::solid(*colour, THIN)) };
             match kind {
-                SeriesKind::Line | SeriesKind::Curve(_) => {
-                    panel.curve(name, &places, stroke)?;
-                }
+                SeriesKind::Line | SeriesKind::Curve(_) => panel.curve(&name, &places, stroke)?,
                 SeriesKind::Markers(symbol) if points.iter().all(|(_, y)| y.error == 0.0) => {
-                    panel.markers(name, &places, marker(*symbol))?;
+                    panel.markers(&name, &places, (symbol, self.mark_size, thin))?;
                 }
-                SeriesKind::Markers(symbol) => panel.estimates(name, points, marker(*symbol))?,
+                SeriesKind::Markers(symbol) => {
+                    panel.estimates(&name, &points, (symbol, self.mark_size, thin))?;
+                }
             }
-            if named.is_empty() {
-                *named = places;
+            if place == ends.len() {
+                ends.push((name, places, colour));
             }
         }
         if has_names {

@@ -70,12 +70,6 @@ pub(super) const PALETTE: [(&str, RGBColor); 13] = [
     ("page", WHITE),
 ];
 
-/// Yields the name of each colour in style sheets, and the colour as `#rrggbb`.
-pub(super) fn palette() -> impl Iterator<Item = (&'static str, String)> {
-    let shown = |RGBColor(r, g, b)| format!("#{r:02x}{g:02x}{b:02x}");
-    PALETTE.into_iter().map(move |(name, colour)| (name, shown(colour)))
-}
-
 /// Returns the colour of one of up to four values of an ordered parameter, counted from zero: the
 /// larger the value, the darker. The value that matters most may be [`RED`] instead.
 pub fn ordered(place: usize, count: usize) -> RGBColor {

@@ -7,7 +7,7 @@
 use super::drawing::{Drawing, Element, Fill, Glyphs, Label};
 use super::font;
 use super::path::{Point, Step};
-use super::style::{self, Stroke, WHITE, WIDTH, palette};
+use super::style::{PALETTE, Stroke, WHITE, WIDTH};
 use plotters::style::RGBColor;
 use std::fmt::Write as _;
 
@@ -55,7 +55,7 @@ pub fn outlines(glyphs: &Glyphs) -> String {
 
 /// Returns the class that paints a colour as the `fill` or the `stroke` of a shape.
 fn class(paint: &str, colour: RGBColor) -> String {
-    let named = style::PALETTE.iter().find(|named| named.1 == colour);
+    let named = PALETTE.iter().find(|named| named.1 == colour);
     format!("{paint}-{}", named.map_or("ink", |named| named.0))
 }
 
@@ -112,22 +112,15 @@ fn label(label: &Label, on_page: bool) -> String {
 }
 
 impl Drawing {
-    /// Writes a file; `id` must be unique on a page that shows several drawings.
-    pub fn svg(&self, id: &str, title: &str, description: &str) -> String {
-        self.write(false, id, title, description) + "\n"
-    }
-
-    /// Writes an element of a page, which holds the rules of colours and the outlines of glyphs.
-    pub fn on_page(&self, id: &str, title: &str, description: &str) -> String {
-        self.write(true, id, title, description.trim())
-    }
-
-    fn write(&self, on_page: bool, id: &str, title: &str, description: &str) -> String {
+    /// Writes an element of a page, which holds the rules of colours and the outlines of glyphs, or
+    /// a file. `id` must be unique on a page that shows several drawings.
+    pub fn svg(&self, on_page: bool, id: &str, title: &str, description: &str) -> String {
         let (mut namespace, mut head) = ("", String::new());
         if !on_page {
             namespace = " xmlns=\"http://www.w3.org/2000/svg\"";
             let mut rules = String::new();
-            for (name, colour) in palette() {
+            for (name, RGBColor(r, g, b)) in PALETTE {
+                let colour = format!("#{r:02x}{g:02x}{b:02x}");
                 let _ = write!(rules, ".fill-{name}{{fill:{colour}}}");
                 let _ = writeln!(rules, ".stroke-{name}{{stroke:{colour}}}");
             }
