@@ -15,10 +15,12 @@ use std::iter::once;
 /// Symbol, half its width, and the line of an open symbol, whose colour fills a closed one.
 pub type Marker = (Symbol, i32, Stroke);
 
+type Draw = dyn Fn(&mut Drawing, Vec<Point>) -> Outcome;
+
 /// An element that plotters lacks: points, and how it is drawn at their places on the sheet.
 pub struct CustomElement<C> {
     points: Vec<C>,
-    draw: Box<dyn Fn(&mut Drawing, Vec<Point>) -> Outcome>,
+    draw: Box<Draw>,
 }
 
 impl<C> CustomElement<C> {

@@ -176,7 +176,7 @@ impl Plot {
         let frame = Frame::new(left, 250, right, 4250);
         let sheet = Sheet::new((frame.bottom + panel::LABEL_BELOW + 2 * TEXT) as u32);
         let panel = sheet.panel(frame, x, y)?.outside(Outside::Cut);
-        let mut ends: Vec<(String, Vec<(f64, f64)>, RGBColor)> = Vec::new();
+        let mut ends: Vec<(String, Vec<_>, _)> = Vec::new();
         for Series { name, kind, points } in self.series {
             let place = ends.iter().position(|end| end.0 == name).unwrap_or(ends.len());
             let colour = COLOURS[place % COLOURS.len()];
