@@ -86,7 +86,7 @@ static LIBRARY: LazyLock<Library> =
 /// What documents make of a text.
 fn prose(text: &str) -> Result<(), Error> {
     let (values, templates) = (&QUICK.values, Templates::of([("report.md", text)]));
-    let filler = Filler::new(&templates)?.with(values);
+    let filler = Filler::new(&templates, values)?;
     let filled = filler.prose(&Document::REPORT)?;
     let sources = &QUICK.paper.project.sources;
     let (mut blocks, _) = parse::parse(&filled, values, &filler.declared, sources).whole()?;

@@ -108,7 +108,7 @@ pub fn make_report(
     out: &Path,
 ) -> Result<(Files, Vec<Check>), Failure> {
     let Session { templates, progress, .. } = session;
-    Filler::new(templates)?;
+    Filler::new(templates, &Registry::default())?;
     let published = paper.published(session)?;
     let results = paper.results(&paper.experiments, session)?;
     results.tables()?;

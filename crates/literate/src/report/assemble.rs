@@ -65,7 +65,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
 fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     let mut values = input.values.clone();
     values.extend(scorecard(input.claims))?;
-    let mut filler = Filler::new(input.templates)?.with(&values);
+    let mut filler = Filler::new(input.templates, &values)?;
     check_texts(input, &filler.declared)?;
     filler.insert("claims", &input.claims.iter().map(row).collect::<Vec<_>>());
     filler.insert("figures", &ledger::figures(input.figures));

@@ -12,9 +12,8 @@ use crate::input::{line_and_column, plain};
 use crate::prose::Templates;
 use crate::table::{Table, nearest};
 use serde_json::Value as Json;
-use std::collections::{BTreeMap, BTreeSet};
-use std::sync::{Arc, OnceLock};
-use tera::{Context, Delimiters, ErrorKind, Kwargs, State, Tera};
+use std::collections::BTreeSet;
+use tera::{Context, Delimiters, Kwargs, State, Tera};
 
 /// Tera, set up with the templates, and the names that they may use.
 #[derive(Clone, Debug)]
@@ -24,16 +23,24 @@ pub struct Filler {
     /// Phrases with numbers that the prose may have.
     pub declared: Declared,
     context: Context,
-    /// Ids of the values and cells that have no number.
-    empty: Arc<OnceLock<BTreeSet<String>>>,
     /// Values and tables, as the context has them.
     names: Json,
 }
 
 impl Filler {
-    /// Sets Tera up with all `.md`, `.tex` and `.html` files, without values yet.
-    pub fn new(templates: &Templates) -> Result<Self, Error> {
+    /// Sets Tera up with all `.md`, `.tex` and `.html` files, and with values: `v.name` and
+    /// `group.name` are marks, `raw.name` and `raw.group.name` plain numbers. Cells of tables are
+    /// `table["row"].column`, their keys `keys.table.key` and `keys.table.rows`.
+    pub fn new(templates: &Templates, values: &Registry) -> Result<Self, Error> {
+        let declared = Declared::read(templates.text("literals.toml")?)
+            .map_err(|error| Error::Template(templates.place(&error.to_string())))?;
+        // Tables for figures alone are long, and no template needs them.
+        let named = |table: &&Table| templates.iter().any(|(_, text)| text.contains(table.name()));
+        let tables: Vec<&Table> = values.tables().filter(named).collect();
+        let cells = tables.iter().copied().flat_map(Table::cells);
+        let empty = values.iter().chain(cells).filter(|value| value.number == Number::None);
         let mut tera = Tera::new();
+        register(&mut tera, empty.map(|value| value.id.clone()).collect());
         let delimiters = Delimiters {
             block_start: "<%".into(),
             block_end: "%>".into(),
@@ -44,62 +51,16 @@ impl Filler {
         };
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
-        let empty = Arc::default();
-        register(&mut tera, &empty);
-        let declared = Declared::read(templates.text("literals.toml")?)
-            .map_err(|error| Error::Template(templates.place(&error.to_string())))?;
-        let (context, names) = (Context::new(), Json::Null);
-        let templates = templates.clone();
-        let mut filler = Filler { tera, templates, declared, context, empty, names };
-        set.map_err(|error| filler.failure(&error))?;
-        let sources: Vec<(String, String)> = filler.templates.iter().filter_map(source).collect();
-        filler.tera.add_raw_templates(sources).map_err(|error| filler.failure(&error))?;
+        let names = names(values, &tables);
+        let mut context = Context::new();
+        for (group, names) in names.as_object().into_iter().flatten() {
+            context.insert(group.clone(), names);
+        }
+        let mut filler = Filler { tera, templates: templates.clone(), declared, context, names };
+        let sources: Vec<(String, String)> = templates.iter().filter_map(source).collect();
+        let added = set.and_then(|()| filler.tera.add_raw_templates(sources));
+        added.map_err(|error| filler.failure(&error))?;
         Ok(filler)
-    }
-
-    /// Adds values: `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain
-    /// numbers. Cells of tables are `table["row"].column`, their keys `keys.table.key` and
-    /// `keys.table.rows`.
-    pub fn with(mut self, values: &Registry) -> Self {
-        // Tables for figures alone are long, and no template needs them.
-        let named =
-            |table: &&Table| self.templates.iter().any(|(_, text)| text.contains(table.name()));
-        let (mut marks, mut numbers, mut keys) = (Json::Null, Json::Null, Json::Null);
-        let cells = values.tables().filter(named).flat_map(Table::cells);
-        let empty = values.iter().chain(cells).filter(|value| value.number == Number::None);
-        let _ = self.empty.set(empty.map(|value| value.id.clone()).collect());
-        for value in values.iter() {
-            let name = &value.id;
-            let group = if name.contains('.') { "" } else { "v." };
-            put(&mut marks, &format!("{group}{name}"), as_mark(value));
-            put(&mut numbers, name, raw(value));
-        }
-        for table in values.tables().filter(named) {
-            let rows = |cell_json: fn(&Value) -> Json| {
-                let row = |cells: BTreeMap<&str, &Value>| {
-                    cells
-                        .into_iter()
-                        .map(|(column, cell)| (column.to_string(), cell_json(cell)))
-                        .collect()
-                };
-                let mut rows: BTreeMap<String, Json> =
-                    table.named().into_iter().map(|(name, cells)| (name, row(cells))).collect();
-                // A table of one row without keys is that row.
-                rows.remove("").unwrap_or_else(|| rows.into_iter().collect())
-            };
-            put(&mut marks, table.name(), rows(as_mark));
-            put(&mut numbers, table.name(), rows(raw));
-            put(&mut keys, &format!("{}.rows", table.name()), table.rows().collect());
-            for key in table.keys() {
-                put(&mut keys, &format!("{}.{key}", table.name()), table.called(key).into());
-            }
-        }
-        (marks["raw"], marks["keys"]) = (numbers, keys);
-        for (group, names) in marks.as_object().into_iter().flatten() {
-            self.context.insert(group.clone(), names);
-        }
-        self.names = marks;
-        self
     }
 
     /// Adds a name that is no value: the rows of the claims, the list of figures.
@@ -128,32 +89,22 @@ impl Filler {
         Ok(filled)
     }
 
-    /// Checks the names of numbers in conditions, since Tera takes an unknown name for *false*, and
-    /// that no plain number is shown.
+    /// Checks the names of numbers in conditions, since Tera takes an unknown name for *false*.
     fn conditions(&self, path: &str, text: &str) -> Result<(), Error> {
-        let fault = |at, what: String| {
-            let place = line_and_column(text, at);
-            Err(Error::Template(self.templates.place(&format!("{path}:{place}: {what}"))))
-        };
-        for (at, _) in text.match_indices('«') {
-            let inside = text[at..].trim_start_matches(['«', '-', ' ']);
-            if let Some(rest) = inside.strip_prefix("raw.") {
-                let end = steps(rest).last().map_or(0, |step| step.end);
-                let (name, group) =
-                    (&rest[..end], if rest[..end].contains('.') { "" } else { "v." });
-                let what = "is a plain number, for conditions";
-                let what = format!("raw.{name} {what}; write «{group}{name}» to show it");
-                return fault(text.len() - inside.len(), what);
-            }
-        }
         let uses = |group| text.match_indices(group).map(|(at, _)| at);
         for at in uses("raw.").chain(uses("keys.")) {
             let begins = !text[..at].ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
             if let Some(what) = self.missing(&text[at..]).filter(|_| begins) {
-                return fault(at, what);
+                return Err(self.fault(path, at, &what));
             }
         }
         Ok(())
+    }
+
+    /// What is wrong at an offset of a template.
+    fn fault(&self, path: &str, at: usize, what: &str) -> Error {
+        let place = line_and_column(self.templates.text(path).unwrap_or_default(), at);
+        Error::Template(self.templates.place(&format!("{path}:{place}: {what}")))
     }
 
     /// Returns which part of a name, `table["row"].column`, does not exist, with the nearest that
@@ -191,57 +142,44 @@ impl Filler {
         found.join(", ")
     }
 
-    /// An error of Tera in one line: file, line, column, what is wrong.
+    /// An error of Tera in one line: file, line, column, what is wrong. Tera writes a message, an
+    /// arrow to the place, and the line.
     fn failure(&self, error: &tera::Error) -> Error {
-        let (ErrorKind::RenderingError(report) | ErrorKind::SyntaxError(report)) = error.kind()
-        else {
-            // For unknown filters and functions Tera writes a message, an arrow to the place, and
-            // the line.
-            let message = error.to_string();
-            let what = message.split(" --> ").next().unwrap_or_default().replace("error: ", "");
-            let place = message.split("--> ").nth(1).and_then(|rest| rest.lines().next());
-            let place = place.map(|place| self.templates.place(&format!("{place}: ")));
-            let place = place.unwrap_or_default();
-            return Error::Template(format!("{place}{}", what.trim()));
-        };
-        let path = report.filename();
+        let report = error.to_string();
+        let (what, place) = report.split_once("--> ").unwrap_or((&report, ""));
+        let what = what.split(" Available fields: ").next().unwrap_or_default();
+        let what = plain(what.trim_start_matches("error: ").trim_end());
+        // Tera names its usual signs.
+        let signs = [("%}", "%>"), ("{%", "<%"), ("}}", "»"), ("{{", "«")];
+        let what = signs.iter().fold(what, |what, (theirs, ours)| what.replace(theirs, ours));
+        let place: Vec<&str> = place.lines().next().unwrap_or_default().split(':').collect();
+        let [path, line, column] = place[..] else { return Error::Template(what) };
         let text = self.templates.text(path).unwrap_or_default();
-        let (line, column) = (report.span().start_line, report.span().start_col);
+        let [line, column] = [line, column].map(|from_one| from_one.parse().unwrap_or(1) - 1);
         // The columns are those of the text with its place marks.
-        let begun = text.split_inclusive('\n').take(line - 1).map(str::len).sum::<usize>();
+        let begun = text.split_inclusive('\n').take(line).map(str::len).sum::<usize>();
         let marked = if path.ends_with(".md") { marked(text) } else { text.into() };
-        let before = marked.lines().nth(line - 1).unwrap_or_default().chars().take(column);
+        let before = marked.lines().nth(line).unwrap_or_default().chars().take(column);
         let typed = |piece| match piece {
             Piece::Text(text) => text.len(),
             Piece::Value { .. } => 0,
         };
         let at = begun + pieces(&before.collect::<String>()).into_iter().map(typed).sum::<usize>();
-        let place = line_and_column(text, at);
-        let tag = text.get(..at).and_then(|before| before.rfind('«')).unwrap_or(at);
-        let inside = text[tag..].trim_start_matches(['«', '-', ' ']);
-        let (inside, closed) = match inside.find(['«', '»', '\n']) {
-            Some(end) => (&inside[..end], inside[end..].starts_with('»')),
-            None => (inside, false),
+        let Some(tag) = text.get(..at).and_then(|before| before.rfind('«')) else {
+            return self.fault(path, at, &what);
         };
-        if text[tag..].starts_with('«') && !closed {
-            let place = line_and_column(text, tag);
-            let what = "this « has no » on its line; close it";
-            return Error::Template(self.templates.place(&format!("{path}:{place}: {what}")));
+        let inside = text[tag..].trim_start_matches(['«', '-', ' ']);
+        let (inside, rest) = inside.split_at(inside.find(['«', '»', '\n']).unwrap_or(inside.len()));
+        if !rest.starts_with('»') {
+            return self.fault(path, tag, "this « has no » on its line; close it");
         }
-        let what = self.missing(inside).unwrap_or_else(|| {
-            if report.message().contains(NOT_TRUE) {
-                return format!(
-                    "{NOT_TRUE}: {inside}, where {}; correct the sentence",
-                    self.numbers(inside)
-                );
+        let what = self.missing(inside).unwrap_or_else(|| match what.contains(NOT_TRUE) {
+            true => {
+                format!("{what}: {inside}, where {}; correct the sentence", self.numbers(inside))
             }
-            let what =
-                plain(report.message().split(" Available fields: ").next().unwrap_or_default());
-            // Tera names its usual signs.
-            let ours = |what: String, (theirs, ours): &(&str, &str)| what.replace(theirs, ours);
-            [("%}", "%>"), ("{%", "<%"), ("}}", "»"), ("{{", "«")].iter().fold(what, ours)
+            false => what,
         });
-        Error::Template(self.templates.place(&format!("{path}:{place}: {what}")))
+        self.fault(path, at, &what)
     }
 }
 
@@ -297,20 +235,46 @@ fn raw(value: &Value) -> Json {
     }
 }
 
-fn as_mark(value: &Value) -> Json {
-    mark::framed(&value.id, "").into()
+/// Returns the tree of all names that templates may use.
+fn names(values: &Registry, tables: &[&Table]) -> Json {
+    let mut names = Json::Null;
+    let mut add = |path: &[&str], value: &Value| {
+        let group: &[&str] = if path.len() == 1 { &["v"] } else { &[] };
+        put(&mut names, &[group, path].concat(), mark::framed(&value.id, "").into());
+        put(&mut names, &[&["raw"], path].concat(), raw(value));
+    };
+    for value in values.iter() {
+        add(&value.id.split('.').collect::<Vec<_>>(), value);
+    }
+    for table in tables {
+        for (row, cells) in table.named() {
+            for (column, cell) in cells {
+                // A table of one row without keys is that row.
+                let row = Some(row.as_str()).filter(|row| !row.is_empty());
+                let path = table.name().split('.').chain(row).chain([column]);
+                add(&path.collect::<Vec<_>>(), cell);
+            }
+        }
+    }
+    for table in tables {
+        let name: Vec<&str> = ["keys"].into_iter().chain(table.name().split('.')).collect();
+        put(&mut names, &[&name[..], &["rows"]].concat(), table.rows().collect());
+        for key in table.keys() {
+            put(&mut names, &[&name[..], &[key]].concat(), table.called(key).into());
+        }
+    }
+    names
 }
 
-/// Puts something under a name with dots into a tree of objects.
-fn put(tree: &mut Json, name: &str, thing: Json) {
-    let place = name.split('.').fold(tree, |tree, part| &mut tree[part]);
-    *place = thing;
+/// Puts something under a path into a tree of objects.
+fn put(tree: &mut Json, path: &[&str], thing: Json) {
+    *path.iter().fold(tree, |tree, part| &mut tree[*part]) = thing;
 }
 
 /// Registers the filters on values, of which `otherwise` has words in place of no number;
 /// `literal` for a number that the prose may type with a reason; `holds` for a condition on which
 /// words rest; and `code` for an item of the source, which [`super::parse`] makes a listing.
-fn register(tera: &mut Tera, empty: &Arc<OnceLock<BTreeSet<String>>>) {
+fn register(tera: &mut Tera, empty: BTreeSet<String>) {
     let with = |text: &str, word: &str| {
         let what =
             || tera::Error::message(format!("`{word}` is a filter for values such as v.name"));
@@ -325,10 +289,9 @@ fn register(tera: &mut Tera, empty: &Arc<OnceLock<BTreeSet<String>>>) {
             )),
         }
     });
-    let empty = empty.clone();
     tera.register_filter("otherwise", move |text: &str, arguments: Kwargs, _: &State| {
         let words: String = arguments.must_get("words")?;
-        let is_empty = |id| empty.get().is_some_and(|empty| empty.contains(&id));
+        let is_empty = |id| empty.contains(&id);
         Ok::<_, tera::Error>(if mark::ids(text).any(is_empty) { words } else { text.into() })
     });
     tera.register_function("literal", |arguments: Kwargs, _: &State| {

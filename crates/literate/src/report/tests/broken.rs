@@ -11,7 +11,7 @@ a⏎«v.half_heigth» => 15:4 => v.half_heigth: there is no such name; nearest: 
 at «v.half_height now => 14:4 => this « has no » on its line
 rises«holds(that=raw.half_height > 0.2)», so => 14:7 => the words before are no longer true: holds(that=raw.half_height > 0.2), where raw.half_height is 0.11652
 rises«holds(that=raw.half_heigth > 0.2)» => 14:18 => nearest: half_height
-at «raw.half_height» => 14:5 => raw.half_height is a plain number, for conditions; write «v.half_height»
+at «raw.half_height» => 14:4 => hard-coded number 0.11652;
 at «nothing.at_all» => 14:5 => nothing
 a <% if raw.half_height > 1 %>b => 1 => nexpected end
 «v.half_height | nofilter» => 14: => nofilter
