@@ -4,7 +4,7 @@ use super::bibliography::Library;
 use super::card::{Cards, links};
 use super::claims::{row, scorecard};
 use super::document::{self, Block, Inline};
-use super::edition::{Document, Edition};
+use super::edition::Document;
 use super::error::Error;
 use super::filled::{Filled, Places};
 use super::filler::Filler;
@@ -48,9 +48,8 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     let mut files = data_files(input, &values, &ledger)?;
     let mut errors = Vec::new();
     let shown = write_documents(input, &parts, &mut filler, &mut files, &mut errors)?;
-    for Part { document, blocks, places } in &parts {
-        let links = check_links(blocks, *document, &labels, &files, input.edition);
-        errors.extend(links.into_iter().map(|error| places.locate(error)));
+    for part in &parts {
+        errors.extend(check_links(part, &labels, &files, input));
     }
     all_in_order(errors)?;
     let Input { edition, project, experiments, .. } = *input;
@@ -272,40 +271,24 @@ fn data(file: &DataFile) -> (String, Vec<u8>) {
 
 /// Returns an error for each link that leads neither to a place of its document, nor to a file or
 /// folder of the report or of the project, nor to the web.
-fn check_links(
-    blocks: &[Block],
-    here: Document,
-    labels: &Labels,
-    files: &Files,
-    edition: &Edition,
-) -> Vec<Error> {
+fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_>) -> Vec<Error> {
     let committed = || files.keys().map(String::as_str).filter(|path| !is_generated(path));
-    let is_page = |to: &str| edition.documents.iter().any(|document| document.page == to);
+    let is_page = |to: &str| input.edition.documents.iter().any(|document| document.page == to);
     let leads = |to: &str| match (to.split_once("://"), to.strip_prefix('#')) {
         (Some((scheme, _)), _) => ["https", "http"].contains(&scheme),
         (_, Some(id)) => {
             let label = labels.get(&id.replacen('-', ":", 1));
-            !id.contains(':') && label.is_some_and(|label| label.document == here)
+            !id.contains(':') && label.is_some_and(|label| label.document == part.document)
         }
-        // `illustrate` has checked links to the project, which may be rewritten since.
-        _ if to.starts_with('.') || to.starts_with("mailto:") || is_page(to) => true,
-        _ if to == SUMS => true,
+        _ if to.starts_with("../") => input.project.exists(&to[3..]),
+        _ if to.starts_with("mailto:") || is_page(to) || to == SUMS => true,
         _ => committed().any(|path| path == to || path.starts_with(&format!("{to}/"))),
     };
-    let mut errors = Vec::new();
-    document::visit(blocks, &mut |inline| {
-        if let Inline::Link { to, .. } = inline
-            && !leads(to)
-        {
-            errors.push(no_file(to, committed()));
-        }
-    });
-    errors
-}
-
-fn no_file<'a>(to: &str, files: impl Iterator<Item = &'a str>) -> Error {
-    let what = format!("a link to {to}: there is no such file or place; correct or remove it");
-    Error::unknown(format!("({to}"), what, files)
+    let error = |(to, place)| {
+        let what = format!("a link to {to}: there is no such file or place; correct or remove it");
+        Error::unknown(format!("({to}"), what, committed()).at(place)
+    };
+    part.places.links().filter(|(to, _)| !leads(to)).map(error).collect()
 }
 
 /// Adds alternative texts, data and code to the figures of a document, and makes links to files of
@@ -319,13 +302,13 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> (Vec<String>, Vec<Erro
                 "the paper draws no figure {name:?}; use figures/NAME.svg of one that it draws"
             );
             let names = input.figures.iter().map(|figure| figure.id.as_str());
-            errors.push(Error::unknown(format!("({name}"), what, names));
+            errors.push(Error::unknown(format!("!{name}"), what, names));
             continue;
         };
         let names = figure.names();
         if files[0] != names[0] {
             let what = Error::Picture(files[0].clone()).to_string();
-            errors.push(Error::Named { thing: format!("({name}"), what });
+            errors.push(Error::Named { thing: format!("!{name}"), what });
         }
         *files = names;
         *alt = figure.description.text.clone();
@@ -343,15 +326,6 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> (Vec<String>, Vec<Erro
         }
         shown.push(figure.id.clone());
     }
-    document::rewrite(blocks, &mut |inline| {
-        let Inline::Link { to, .. } = &inline else { return vec![inline] };
-        match to.strip_prefix("../") {
-            Some(path) if !input.project.exists(path) => {
-                errors.push(no_file(to, std::iter::empty()));
-                vec![inline]
-            }
-            _ => document::relative_link(inline, input.top),
-        }
-    });
+    document::rewrite(blocks, &mut |inline| document::relative_link(inline, input.top));
     (shown, errors)
 }

@@ -205,27 +205,22 @@ pub fn in_one_line(words: &str) -> String {
 /// Splits a text of an author, `3 $\times$ 4`, into words and formulas. A dollar sign alone, and
 /// one that Markdown would not take for mathematics, as in `$5 and $6`, is a word.
 pub fn words_and_maths(text: &str) -> Vec<Inline> {
-    let (mut out, mut words, mut rest) = (Vec::new(), String::new(), text);
-    while let Some((before, after)) = rest.split_once('$') {
-        words += before;
-        let formula = after.split_once('$').filter(|(tex, beyond)| {
-            let fits = !tex.is_empty() && tex.trim() == *tex;
-            fits && !beyond.starts_with(|c: char| c.is_ascii_digit())
-        });
-        let Some((tex, beyond)) = formula else {
-            (words, rest) = (words + "$", after);
-            continue;
-        };
-        if !words.is_empty() {
-            out.push(Inline::Text(std::mem::take(&mut words)));
-        }
-        out.push(Inline::Maths(tex.into()));
-        rest = beyond;
+    let formula = |text: &str| {
+        text.match_indices('$').find_map(|(at, _)| {
+            let (tex, beyond) = text[at + 1..].split_once('$')?;
+            let fits = !tex.is_empty() && tex.trim() == tex;
+            let is_price = beyond.starts_with(|c: char| c.is_ascii_digit());
+            (fits && !is_price).then_some((at, tex.len()))
+        })
+    };
+    let (mut out, mut rest) = (Vec::new(), text);
+    while let Some((at, length)) = formula(rest) {
+        out.push(Inline::Text(rest[..at].into()));
+        out.push(Inline::Maths(rest[at + 1..][..length].into()));
+        rest = &rest[at + length + 2..];
     }
-    words += rest;
-    if !words.is_empty() {
-        out.push(Inline::Text(words));
-    }
+    out.push(Inline::Text(rest.into()));
+    out.retain(|piece| *piece != Inline::Text(String::new()));
     out
 }
 
@@ -283,24 +278,7 @@ pub fn continues(block: &Block) -> bool {
 }
 
 /// All running texts of a block, in reading order, nested ones too.
-fn texts(block: &Block) -> Vec<&Vec<Inline>> {
-    match block {
-        Block::Heading { text, .. } | Block::Paragraph(text) => vec![text],
-        Block::Lab { caption, .. } => vec![caption],
-        Block::Figure { caption, origin, .. } | Block::Listing { caption, origin, .. } => {
-            vec![caption, origin]
-        }
-        Block::Table(Table { caption, head, rows, .. }) => {
-            [caption].into_iter().chain(head).chain(rows.iter().flatten()).collect()
-        }
-        Block::List { items, .. } => items.iter().flatten().flat_map(texts).collect(),
-        Block::Quote(blocks) => blocks.iter().flat_map(texts).collect(),
-        Block::Code { .. } | Block::Bibliography(_) => Vec::new(),
-    }
-}
-
-/// The same texts, to be changed.
-fn texts_mut(block: &mut Block) -> Vec<&mut Vec<Inline>> {
+fn texts(block: &mut Block) -> Vec<&mut Vec<Inline>> {
     match block {
         Block::Heading { text, .. } | Block::Paragraph(text) => vec![text],
         Block::Lab { caption, .. } => vec![caption],
@@ -310,43 +288,28 @@ fn texts_mut(block: &mut Block) -> Vec<&mut Vec<Inline>> {
         Block::Table(Table { caption, head, rows, .. }) => {
             [caption].into_iter().chain(head).chain(rows.iter_mut().flatten()).collect()
         }
-        Block::List { items, .. } => items.iter_mut().flatten().flat_map(texts_mut).collect(),
-        Block::Quote(blocks) => blocks.iter_mut().flat_map(texts_mut).collect(),
+        Block::List { items, .. } => items.iter_mut().flatten().flat_map(texts).collect(),
+        Block::Quote(blocks) => blocks.iter_mut().flat_map(texts).collect(),
         Block::Code { .. } | Block::Bibliography(_) => Vec::new(),
     }
 }
 
 /// Calls `visit` on each piece of running text of the blocks, nested ones too.
-pub fn visit<'a>(blocks: &'a [Block], visit: &mut impl FnMut(&'a Inline)) {
-    for text in blocks.iter().flat_map(texts) {
-        visit_inlines(text, visit);
-    }
-}
-
-fn visit_inlines<'a>(inlines: &'a [Inline], visit: &mut impl FnMut(&'a Inline)) {
-    for inline in inlines {
-        visit_inlines(inner(inline), visit);
-        visit(inline);
-    }
-}
-
-fn inner(inline: &Inline) -> &[Inline] {
-    match inline {
-        Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => inner,
-        Inline::Link { shown, .. } => shown,
-        _ => &[],
-    }
+pub fn visit(blocks: &mut [Block], visit: &mut impl FnMut(&mut Inline)) {
+    rewrite(blocks, &mut |mut inline| {
+        visit(&mut inline);
+        vec![inline]
+    });
 }
 
 /// Replaces each piece of running text of the blocks by what `change` returns for it.
 pub fn rewrite(blocks: &mut [Block], change: &mut impl FnMut(Inline) -> Vec<Inline>) {
-    for text in blocks.iter_mut().flat_map(texts_mut) {
+    for text in blocks.iter_mut().flat_map(texts) {
         rewrite_inlines(text, change);
     }
 }
 
 fn rewrite_inlines(inlines: &mut Vec<Inline>, change: &mut impl FnMut(Inline) -> Vec<Inline>) {
-    let mut out = Vec::with_capacity(inlines.len());
     for mut inline in std::mem::take(inlines) {
         match &mut inline {
             Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => {
@@ -355,9 +318,8 @@ fn rewrite_inlines(inlines: &mut Vec<Inline>, change: &mut impl FnMut(Inline) ->
             Inline::Link { shown, .. } => rewrite_inlines(shown, change),
             _ => {}
         }
-        out.extend(change(inline));
+        inlines.extend(change(inline));
     }
-    *inlines = out;
 }
 
 /// Makes a link to a file of the project, `../src/main.rs`, relative to the folder of the report,
@@ -392,7 +354,11 @@ fn words(inlines: &[Inline], maths: &dyn Fn(&str) -> String) -> String {
             Inline::Reference { shown, .. } => shown.clone(),
             Inline::Anchor { number, .. } => number.clone(),
             Inline::Value { shown, .. } => words(&printed(shown), maths),
-            other => words(inner(other), maths),
+            Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => {
+                words(inner, maths)
+            }
+            Inline::Link { shown, .. } => words(shown, maths),
+            Inline::Unresolved { .. } => String::new(),
         };
     }
     out

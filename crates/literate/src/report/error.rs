@@ -30,8 +30,8 @@ pub enum Error {
     Markup(String),
     #[error("{place}: {error}")]
     At { place: String, error: Box<Error> },
-    /// Something that the prose names, by which its place is found: `#fig:3` an id, `@fig:3` a
-    /// reference, `(path` a link or a picture.
+    /// Something that the prose names, by which its place is found, as
+    /// [`Places`](super::filled::Places) has it.
     #[error("{}", one_line(what, MAX_LENGTH))]
     Named { thing: String, what: String },
     #[error(
@@ -78,7 +78,7 @@ impl Error {
         what: String,
         names: impl IntoIterator<Item = &'a str>,
     ) -> Error {
-        let name = thing.trim_start_matches(['#', '@', '(']);
+        let name = thing.trim_start_matches(['#', '@', '(', '!']);
         let nearest = nearest(name, names.into_iter()).join(", ");
         let nearest = if nearest.is_empty() { nearest } else { format!("; nearest: {nearest}") };
         Error::Named { thing, what: what + &nearest }

@@ -69,8 +69,8 @@ impl Filled {
     }
 }
 
-/// Offsets of what errors can name: `#fig:3` an id, `@fig:3` a reference, `(path` a link, `$tex` a
-/// formula.
+/// Offsets of what errors can name: `#fig:3` an id, `@fig:3` a reference, `(path` a link, `!name` a
+/// picture, `$tex` a formula.
 #[derive(Clone, Debug)]
 pub struct Places<'a> {
     filled: &'a Filled,
@@ -84,6 +84,12 @@ impl<'a> Places<'a> {
 
     pub fn add(&mut self, thing: String, offset: usize) {
         self.found.push((thing, offset));
+    }
+
+    /// Where all links lead to, each with its place.
+    pub fn links(&self) -> impl Iterator<Item = (&str, String)> {
+        let all = self.found.iter().map(|(thing, at)| (thing.strip_prefix('('), at));
+        all.filter_map(|(to, at)| Some((to?, self.filled.place(*at))))
     }
 
     /// Whether something noted has this name.

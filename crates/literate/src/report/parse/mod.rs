@@ -310,8 +310,7 @@ impl<'a> Reader<'a> {
         let (name, files) = (name.to_string(), [file.to_string(), format!("{name}.pdf")]);
         let id = id.unwrap_or_else(|| format!("fig:{name}"));
         self.id("fig", &id, at)?;
-        self.places.add(format!("({name}"), at);
-        self.places.add(format!("({}", files[0]), at);
+        self.places.add(format!("!{name}"), at);
         let given = id.trim_start_matches("fig:");
         let digits = given.trim_start_matches(|c: char| c.is_ascii_uppercase());
         let is_number = !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit());
