@@ -23,7 +23,7 @@ use serde_json::Value;
 pub struct Args {
     /// Evaluate this, one of the names below.
     #[arg(value_name = "QUANTITY", required_unless_present = "list", hide_possible_values = true,
-        value_parser = PossibleValuesParser::new(QUANTITIES.iter().map(|quantity| quantity.name)))]
+        value_parser = PossibleValuesParser::new(QUANTITIES.map(|[name, ..]| name)))]
     quantity: Option<String>,
     /// List all quantities with their equations and what they need.
     #[arg(long)]
@@ -78,81 +78,51 @@ struct Answer {
     inputs: Inputs,
 }
 
-/// One quantity of the theory: its equation, its meaning, its inputs.
-struct Quantity {
-    name: &'static str,
-    equation: &'static str,
-    meaning: &'static str,
-    needs: &'static [&'static str],
-    evaluate: fn(&Inputs) -> Result<Value, Error>,
-}
-
-const N: &[&str] = &["N"];
-const N_P: &[&str] = &["N", "p"];
-const N_K: &[&str] = &["N", "k"];
-const N_P_K: &[&str] = &["N", "p", "k"];
-const SIGMA: &[&str] = &["sigma", "oscillator"];
-
-const fn quantity(
-    [name, equation, meaning]: [&'static str; 3],
-    needs: &'static [&'static str],
-    evaluate: fn(&Inputs) -> Result<Value, Error>,
-) -> Quantity {
-    Quantity { name, equation, meaning, needs, evaluate }
-}
-
-use SampleSpace::{FiveClasses, Simple};
-
-const QUANTITIES: &[Quantity] = &[
-    quantity(["p-crit", "Eq. (18)", "p at which Φ gets a stationary point"], N, |i| {
-        jump::p_crit(i.vertices()).map(Value::from)
-    }),
-    quantity(["p-jump", "Sec. 7", "infimum of p with k* > 1 (N ≥ 4)"], N, |i| {
-        Ok(jump::p_jump(Simple, i.vertices())?.p.into())
-    }),
-    quantity(["k-after-jump", "Sec. 7", "k* just after the jump (N ≥ 4)"], N, |i| {
-        Ok(jump::p_jump(Simple, i.vertices())?.k_after.into())
-    }),
-    quantity(["k-star", "Sec. 6", "most likely number of impacts; the lowest of several"], N_P, {
-        |i| Ok(i.law(Simple)?.k_star().into())
-    }),
-    quantity(["mean-impacts", "Sec. 6", "μ, the expected number of impacts"], N_P, |i| {
-        Ok(i.law(Simple)?.mean().into())
-    }),
-    quantity(["probability", "Eqs. (9), (10)", "P(X = k)"], N_P_K, |i| {
-        i.law(Simple)?.probability(i.k.unwrap_or_default()).map(Value::from)
-    }),
-    quantity(
-        ["log-circuits", "Eq. (7)", "ln φ_N(k), number of simple circuits of length k"],
-        N_K,
-        |i| counting::log_phi(i.vertices(), i.k.unwrap_or_default()).map(Value::from),
-    ),
-    quantity(
-        ["p-of-sigma", "Eqs. (20) to (25)", "p(σ), that a gap closes by itself"],
-        SIGMA,
-        |i| i.relation()?.p().map(Value::from),
-    ),
-    quantity(["log-p-of-sigma", "Eqs. (20) to (25)", "ln p(σ)"], SIGMA, |i| {
-        i.relation()?.log_p().map(Value::from)
-    }),
-    quantity(["higher-p-jump", "Eq. (38)", "p-jump of the five classes (N ≥ 2)"], N, |i| {
-        Ok(jump::p_jump(FiveClasses, i.vertices())?.p.into())
-    }),
-    quantity(
-        ["higher-k-after-jump", "Eq. (38)", "k-after-jump of the five classes (N ≥ 2)"],
-        N,
-        |i| Ok(jump::p_jump(FiveClasses, i.vertices())?.k_after.into()),
-    ),
-    quantity(["higher-k-star", "Eq. (38)", "k-star of the five classes"], N_P, |i| {
-        Ok(i.law(FiveClasses)?.k_star().into())
-    }),
-    quantity(["higher-mean-impacts", "Eq. (38)", "mean-impacts of the five classes"], N_P, |i| {
-        Ok(i.law(FiveClasses)?.mean().into())
-    }),
-    quantity(["higher-probability", "Eq. (38)", "probability in the five classes"], N_P_K, |i| {
-        i.law(FiveClasses)?.probability(i.k.unwrap_or_default()).map(Value::from)
-    }),
+/// The quantities of the theory: name, equation, needed inputs (`oscillator` stands for ω, Ω and
+/// d), meaning. Those with `higher-` are of five classes of circuits, the others of simple ones.
+const QUANTITIES: [[&str; 4]; 14] = [
+    ["p-crit", "Eq. (18)", "N", "p at which Φ gets a stationary point"],
+    ["p-jump", "Sec. 7", "N", "infimum of p with k* > 1 (N ≥ 4)"],
+    ["k-after-jump", "Sec. 7", "N", "k* just after the jump (N ≥ 4)"],
+    ["k-star", "Sec. 6", "N p", "most likely number of impacts; the lowest of several"],
+    ["mean-impacts", "Sec. 6", "N p", "μ, the expected number of impacts"],
+    ["probability", "Eqs. (9), (10)", "N p k", "P(X = k)"],
+    ["log-circuits", "Eq. (7)", "N k", "ln φ_N(k), number of simple circuits of length k"],
+    ["p-of-sigma", "Eqs. (20) to (25)", "sigma oscillator", "p(σ), that a gap closes by itself"],
+    ["log-p-of-sigma", "Eqs. (20) to (25)", "sigma oscillator", "ln p(σ)"],
+    ["higher-p-jump", "Eq. (38)", "N", "p-jump of the five classes (N ≥ 2)"],
+    ["higher-k-after-jump", "Eq. (38)", "N", "k-after-jump of the five classes (N ≥ 2)"],
+    ["higher-k-star", "Eq. (38)", "N p", "k-star of the five classes"],
+    ["higher-mean-impacts", "Eq. (38)", "N p", "mean-impacts of the five classes"],
+    ["higher-probability", "Eq. (38)", "N p k", "probability in the five classes"],
 ];
+
+fn evaluate(name: &str, inputs: &Inputs) -> Result<Value, Error> {
+    let (name, space) = match name.strip_prefix("higher-") {
+        Some(name) => (name, SampleSpace::FiveClasses),
+        None => (name, SampleSpace::Simple),
+    };
+    let (n, k) = (inputs.vertices.unwrap_or(VERTICES), inputs.k.unwrap_or_default());
+    let law = || Law::new(space, n, inputs.p.unwrap_or_default());
+    let relation = || {
+        let Inputs { sigma, spacing, omega, forcing_frequency, .. } = *inputs;
+        let [sigma, spacing, omega, forcing_frequency] =
+            [sigma, spacing, omega, forcing_frequency].map(|x| x.unwrap_or(f64::NAN));
+        ImpactProbability::new(sigma, spacing, omega, forcing_frequency)
+    };
+    Ok(match name {
+        "p-crit" => jump::p_crit(n)?.into(),
+        "p-jump" => jump::p_jump(space, n)?.p.into(),
+        "k-after-jump" => jump::p_jump(space, n)?.k_after.into(),
+        "k-star" => law()?.k_star().into(),
+        "mean-impacts" => law()?.mean().into(),
+        "probability" => law()?.probability(k)?.into(),
+        "log-circuits" => counting::log_phi(n, k)?.into(),
+        "p-of-sigma" => relation()?.p()?.into(),
+        "log-p-of-sigma" => relation()?.log_p()?.into(),
+        _ => Value::Null,
+    })
+}
 
 impl Inputs {
     /// Fills in the defaults of the inputs that the quantity needs.
@@ -160,8 +130,8 @@ impl Inputs {
     /// # Errors
     /// Exit code 2 for an option that it does not use, which is a misunderstanding, and for one
     /// that is missing.
-    fn of(mut self, quantity: &Quantity) -> Result<Inputs, Failure> {
-        let (name, needs) = (quantity.name, |need: &str| quantity.needs.contains(&need));
+    fn of(mut self, name: &str, needed: &str) -> Result<Inputs, Failure> {
+        let needs = |need: &str| needed.split(' ').any(|needed| needed == need);
         let given = serde_json::to_value(&self).unwrap_or_default();
         let unused = |option: &&String| match option.as_str() {
             "masses" | "vertices" => !needs("N"),
@@ -173,9 +143,8 @@ impl Inputs {
             let what = format!("--{option}: {name} does not depend on it; leave it out");
             return Err(Failure::input(what));
         }
-        let missing =
-            |need: &&&str| !["N", "oscillator"].contains(*need) && given[**need].is_null();
-        if let Some(need) = quantity.needs.iter().find(missing) {
+        let missing = |need: &&str| !["N", "oscillator"].contains(need) && given[*need].is_null();
+        if let Some(need) = needed.split(' ').find(missing) {
             let what = format!("--{need}: {name} needs it; see `eval --help`");
             return Err(Failure::input(what));
         }
@@ -191,30 +160,15 @@ impl Inputs {
         }
         Ok(self)
     }
-
-    fn vertices(&self) -> usize {
-        self.vertices.unwrap_or(VERTICES)
-    }
-
-    fn law(&self, space: SampleSpace) -> Result<Law, Error> {
-        Law::new(space, self.vertices(), self.p.unwrap_or_default())
-    }
-
-    fn relation(&self) -> Result<ImpactProbability, Error> {
-        let [sigma, spacing, omega, forcing_frequency] =
-            [self.sigma, self.spacing, self.omega, self.forcing_frequency]
-                .map(|x| x.unwrap_or(f64::NAN));
-        ImpactProbability::new(sigma, spacing, omega, forcing_frequency)
-    }
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    let asked = |quantity: &&Quantity| args.quantity.as_deref() == Some(quantity.name);
-    let Some(quantity) = QUANTITIES.iter().find(asked).filter(|_| !args.list) else {
+    let asked = |[name, ..]: &&[&str; 4]| args.quantity.as_deref() == Some(name);
+    let Some([quantity, _, needs, _]) = QUANTITIES.iter().find(asked).filter(|_| !args.list) else {
         return print(&list());
     };
-    let inputs = args.inputs.of(quantity)?;
-    let value = (quantity.evaluate)(&inputs).map_err(|error| {
+    let inputs = args.inputs.of(quantity, needs)?;
+    let value = evaluate(quantity, &inputs).map_err(|error| {
         // --masses gives N too.
         let what = error.to_string();
         match (inputs.masses, what.strip_prefix("vertices:")) {
@@ -222,24 +176,24 @@ pub fn run(args: Args) -> Result<(), Failure> {
             _ => Failure::input(format!("--{what}")),
         }
     })?;
-    if quantity.name == "p-crit" && value.as_f64() > Some(1.0) {
+    if *quantity == "p-crit" && value.as_f64() > Some(1.0) {
         warn("p_crit is above 1, so no probability reaches it: N is too small");
     }
-    let answer = Answer { quantity: quantity.name, value, inputs };
+    let answer = Answer { quantity, value, inputs };
     let json = serde_json::to_string(&answer).map_err(|error| Failure::check(error.to_string()))?;
     print(&(json + "\n"))
 }
 
 /// One line for each quantity: name, equation, inputs, meaning.
 fn list() -> String {
-    let option = |need: &&str| match *need {
+    let option = |need: &str| match need {
         "N" => "[N]".into(),
         "oscillator" => "[ω Ω d]".into(),
         need => format!("--{need}"),
     };
-    let line = |q: &Quantity| {
-        let needs: Vec<String> = q.needs.iter().map(option).collect();
-        format!("{:<20} {:<18} {:<16} {}\n", q.name, q.equation, needs.join(" "), q.meaning)
+    let line = |[name, equation, needs, meaning]: &[&str; 4]| {
+        let needs: Vec<String> = needs.split(' ').map(option).collect();
+        format!("{name:<20} {equation:<18} {:<16} {meaning}\n", needs.join(" "))
     };
     QUANTITIES.iter().map(line).collect()
 }

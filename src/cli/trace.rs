@@ -2,18 +2,16 @@
 
 use super::range::{Values, values, within};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use impact_chain::LATEST;
-use impact_chain::State;
-use impact_chain::methods::Cost;
-use impact_chain::{Engine, Error, Graze, Impact, Scenario, rounding};
+use impact_chain::methods::{Cost, Method};
+use impact_chain::{Counters, Engine, Error, Graze, Impact, LATEST, Scenario, State, rounding};
 use impact_paper::experiments::alive;
 use impact_paper::params::MethodName;
 use literate::Failure;
 use literate::cli::terminal::{warn, written as printed};
 use literate::input::{self, one_line, plain};
-use std::fmt::{self, Write as _};
+use std::fmt;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read, StdoutLock, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
@@ -156,10 +154,6 @@ initial:  "rest" (at equilibrium), "zero" (no free part),
           {"at": {"positions": [x_1, ...], "velocities": [v_1, ...]}} (from the left wall),
           {"random": {"sigma": s, "seed": k}} (normal free parts)."#;
 
-/// Bytes that are printed at once, in whole lines: a signal that ends the program leaves no half of
-/// a number.
-const BLOCK: usize = 16 << 10;
-
 pub fn run(args: Args) -> Result<(), Failure> {
     if args.at.is_some() && args.method != MethodName::Certified {
         return Err(Failure::input("--at: only the method certified prints states; leave it out"));
@@ -173,18 +167,17 @@ pub fn run(args: Args) -> Result<(), Failure> {
         (Some(_), false) => "time,mass,position,velocity\n",
         (Some(_), true) => "scenario,time,mass,position,velocity\n",
     };
+    let method = args.method.with(setting(&args)?);
+    let latest = Arc::new(AtomicU64::new(0));
     let mut printer = Printer {
-        out: io::stdout().lock(),
-        lines: String::new(),
+        out: BufWriter::new(io::stdout().lock()),
         header,
         prefix: String::new(),
         written: Ok(()),
+        latest: Arc::clone(&latest),
     };
-    let latest = Arc::new(AtomicU64::new(0));
-    let _alive = alive({
-        let latest = Arc::clone(&latest);
-        move || Some(format!("trace: at t = {:?}", f64::from_bits(latest.load(Relaxed))))
-    });
+    let _alive =
+        alive(move || Some(format!("trace: at t = {:?}", f64::from_bits(latest.load(Relaxed)))));
     let piped = args.scenario == Path::new("-");
     let name = if piped { "standard input".into() } else { args.scenario.display().to_string() };
     let unread = |error: io::Error| {
@@ -193,7 +186,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if !args.lines {
         let path = &args.scenario;
         let text = if piped { input::read_from(io::stdin()) } else { input::read(path) };
-        return trace(&args, &name, &text.map_err(unread)?, &mut printer, &latest);
+        return trace(&args, &*method, &name, &text.map_err(unread)?, &mut printer);
     }
     let mut file: Box<dyn BufRead> = if piped {
         Box::new(io::stdin().lock())
@@ -209,7 +202,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let name = format!("{name}, line {number}");
         printer.prefix = format!("{number},");
         let text = input::read_from(line.as_slice()).map_err(unread)?;
-        trace(&args, &name, &text, &mut printer, &latest)?;
+        trace(&args, &*method, &name, &text, &mut printer)?;
     }
     printed(printer.flush())
 }
@@ -217,32 +210,39 @@ pub fn run(args: Args) -> Result<(), Failure> {
 /// The longest line of a scenario, in bytes.
 const LONGEST: u64 = 64 << 20;
 
-/// Prints rows in blocks of whole lines.
+/// Prints rows in blocks of whole ones: a signal that ends the program leaves no half of a number.
 struct Printer {
-    out: StdoutLock<'static>,
-    lines: String,
+    out: BufWriter<StdoutLock<'static>>,
     /// The first line, until it is printed.
     header: &'static str,
     /// What each row begins with.
     prefix: String,
     written: io::Result<()>,
+    /// The bits of the time of the latest impact.
+    latest: Arc<AtomicU64>,
 }
 
 impl Printer {
     fn row(&mut self, row: fmt::Arguments) {
-        // A run that is refused at its start prints nothing.
-        self.lines.push_str(std::mem::take(&mut self.header));
-        let _ = writeln!(self.lines, "{}{row}", self.prefix);
-        if self.lines.len() >= BLOCK && self.written.is_ok() {
-            self.written = self.out.write_all(self.lines.as_bytes());
-            self.lines.clear();
+        let row = format!("{}{row}\n", self.prefix);
+        self.header();
+        self.write(&row);
+    }
+
+    /// Begins the table; a run that is refused at its start prints nothing.
+    fn header(&mut self) {
+        let header = std::mem::take(&mut self.header);
+        self.write(header);
+    }
+
+    fn write(&mut self, text: &str) {
+        if self.written.is_ok() {
+            self.written = self.out.write_all(text.as_bytes());
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
         std::mem::replace(&mut self.written, Ok(()))?;
-        self.out.write_all(self.lines.as_bytes())?;
-        self.lines.clear();
         self.out.flush()
     }
 }
@@ -251,19 +251,18 @@ impl Printer {
 /// for.
 fn trace(
     args: &Args,
+    method: &dyn Method,
     name: &str,
     text: &str,
     printer: &mut Printer,
-    latest: &AtomicU64,
 ) -> Result<(), Failure> {
     let scenario = Scenario::from_json(text).map_err(|error| in_file(name, error))?;
-    let mut cost = Cost::default();
     let ran = match &args.at {
-        Some(times) => states(&scenario, times, printer, latest, &mut cost),
-        None => impacts(args, &scenario, printer, latest, &mut cost)?,
+        Some(times) => states(&scenario, times, printer),
+        None => impacts(args, method, &scenario, printer),
     };
     if ran.is_ok() {
-        printer.lines.push_str(std::mem::take(&mut printer.header));
+        printer.header();
     }
     // What was found before a run was stopped is printed.
     if let Err(error) = printer.flush() {
@@ -272,7 +271,9 @@ fn trace(
     // With many scenarios each note names the one that it is about.
     let of_line = if args.lines { format!("{name}: ") } else { String::new() };
     let note = |text: String| warn(&(of_line.clone() + &text));
-    warn_of_doubts(&cost, &note);
+    if let Ok(cost) = &ran {
+        warn_of_doubts(cost, &note);
+    }
     let width = rounding::width(&scenario);
     let closed = matches!(args.method, MethodName::Certified | MethodName::Sampled);
     if closed
@@ -284,22 +285,20 @@ fn trace(
              errors grow from impact to impact"
         ));
     }
-    ran.map_err(|error| in_file(name, error))
+    ran.map(|_| ()).map_err(|error| in_file(name, error))
 }
 
 /// Prints the impacts of a scenario.
 fn impacts(
     args: &Args,
+    method: &dyn Method,
     scenario: &Scenario,
     printer: &mut Printer,
-    latest: &AtomicU64,
-    cost: &mut Cost,
-) -> Result<Result<(), Error>, Failure> {
-    let (method, start) = (args.method.with(setting(args)?), State::of(scenario));
+) -> Result<Cost, Error> {
     let most = args.max_impacts.unwrap_or(u64::MAX);
     let mut all = 0;
     let mut sink = |Impact { time, gap, closing_speed }: Impact| {
-        latest.store(time.to_bits(), Relaxed);
+        printer.latest.store(time.to_bits(), Relaxed);
         if all < most {
             printer.row(format_args!("{time:?},{gap},{closing_speed:?}"));
             all += 1;
@@ -307,22 +306,15 @@ fn impacts(
         all < most && printer.written.is_ok()
     };
     let until = if most == 0 { 0.0 } else { args.until.unwrap_or_default() };
-    let ran = method.run((scenario, &start, until), &mut sink);
-    Ok(ran.map(|counted| *cost = counted))
+    method.run((scenario, &State::of(scenario), until), &mut sink)
 }
 
 /// Prints time, place and velocity of each mass at each of several times.
-fn states(
-    scenario: &Scenario,
-    times: &[f64],
-    printer: &mut Printer,
-    latest: &AtomicU64,
-    cost: &mut Cost,
-) -> Result<(), Error> {
+fn states(scenario: &Scenario, times: &[f64], printer: &mut Printer) -> Result<Cost, Error> {
     let mut engine = Engine::new(scenario)?;
     for &time in times {
         engine.run(time, |impact| {
-            latest.store(impact.time.to_bits(), Relaxed);
+            printer.latest.store(impact.time.to_bits(), Relaxed);
             true
         })?;
         let state = engine.state(time)?;
@@ -333,11 +325,9 @@ fn states(
             break;
         }
     }
-    let counters = engine.counters();
-    cost.impacts = counters.impacts;
-    cost.simultaneous = counters.simultaneous;
-    (cost.undecided, cost.first_graze) = (counters.undecided, engine.first_graze());
-    Ok(())
+    let Counters { impacts, simultaneous, undecided, .. } = engine.counters();
+    let first_graze = engine.first_graze();
+    Ok(Cost { impacts, simultaneous, undecided, first_graze, ..Cost::default() })
 }
 
 /// Reports impacts whose order is a choice, and grazes that rounding hides.

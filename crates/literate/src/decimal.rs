@@ -1,6 +1,6 @@
 //! Rounds numbers to decimal digits, once, from their exact values.
 
-/// The largest number of digits that can be asked for: a double ends at its 1074th decimal.
+/// More digits than a double has, which ends at its 1074th decimal; no more can be asked for.
 pub(crate) const MAX_DIGITS: usize = 1100;
 
 /// A decimal number without its sign: an integer, divided by a power of ten.
@@ -12,17 +12,68 @@ pub(crate) struct Decimal {
 }
 
 impl Decimal {
-    /// Reads a number such as 1.5e-4.
+    /// Reads a number such as 1.5e-4; zero has no decimals.
     fn read(text: &str) -> Decimal {
-        let (mantissa, exponent) = scientific(text);
-        let decimals = mantissa.split_once('.').map_or(0, |(_, after)| after.len());
-        let digits = mantissa.replace('.', "").trim_start_matches('0').into();
-        Decimal { digits, places: decimals as i32 - exponent }
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
+        let decimals = mantissa.split_once('.').map_or(0, |(_, after)| after.len()) as i32;
+        let digits: String = mantissa.replace('.', "").trim_start_matches('0').into();
+        let places = if digits.is_empty() { 0 } else { decimals - exponent.parse().unwrap_or(0) };
+        Decimal { digits, places }
+    }
+
+    /// Returns all digits of |x|.
+    pub fn exact(x: f64) -> Decimal {
+        Decimal::read(&format!("{:.MAX_DIGITS$e}", x.abs()))
+    }
+
+    /// Returns the shortest decimal that reads back to the same double as |x|.
+    pub fn shortest(x: f64) -> Decimal {
+        Decimal::read(&format!("{:e}", x.abs()))
+    }
+
+    /// Returns |n|.
+    pub fn integer(n: i128) -> Decimal {
+        Decimal::read(&n.unsigned_abs().to_string())
+    }
+
+    /// Returns the exponent of the leading digit, or that of the last decimal of zero.
+    pub fn exponent(&self) -> i32 {
+        self.digits.len().saturating_sub(1) as i32 - self.places
     }
 
     /// Multiplies by a power of ten.
     pub fn times_ten(self, power: i32) -> Decimal {
         Decimal { places: self.places - power, ..self }
+    }
+
+    /// Rounds to a decimal place, a half to an even digit; a negative place rounds to tens,
+    /// hundreds, …
+    pub fn rounded(&self, places: i32) -> Decimal {
+        let more = (places - self.places).clamp(0, MAX_DIGITS as i32) as usize;
+        let less = (self.places - places).max(0) as usize;
+        let digits = match self.digits.len().checked_sub(less) {
+            _ if self.digits.is_empty() => String::new(),
+            Some(kept) if less > 0 => {
+                let (kept, rest) = self.digits.split_at(kept);
+                let half = rest.trim_end_matches('0').cmp("5");
+                let is_odd = kept.ends_with(['1', '3', '5', '7', '9']);
+                if half.is_gt() || half.is_eq() && is_odd { next(kept) } else { kept.into() }
+            }
+            Some(_) => self.digits.clone() + &"0".repeat(more),
+            None => String::new(),
+        };
+        Decimal { digits, places }
+    }
+
+    /// Rounds to so many significant digits; zero has none.
+    pub fn significant(&self, digits: usize) -> Decimal {
+        if self.digits.is_empty() {
+            return self.rounded(0);
+        }
+        let digits = digits.clamp(1, MAX_DIGITS) as i32;
+        let found = self.rounded(digits - 1 - self.exponent());
+        // 9.96 rounds to 10.0, which has a digit more.
+        if found.digits.len() as i32 > digits { found.rounded(found.places - 1) } else { found }
     }
 
     /// Writes it without a power of ten.
@@ -41,62 +92,12 @@ impl Decimal {
     }
 }
 
-/// Returns the shortest decimal that reads back to the same double as |x|.
-pub(crate) fn shortest(x: f64) -> Decimal {
-    let decimal = Decimal::read(&format!("{:e}", x.abs()));
-    if x == 0.0 { Decimal { places: 0, ..decimal } } else { decimal }
-}
-
-/// Rounds |x| to so many significant digits.
-pub(crate) fn significant(x: f64, digits: usize) -> Decimal {
-    let after = digits.clamp(1, MAX_DIGITS) - 1;
-    if x == 0.0 { shortest(x) } else { Decimal::read(&format!("{:.after$e}", x.abs())) }
-}
-
-/// Rounds |x| to a decimal place; a negative one rounds to tens, hundreds, …
-pub(crate) fn rounded(x: f64, places: i32) -> Decimal {
-    let digits = leading(x, EXACT) + 1 + places;
-    let digits = match digits {
-        1.. if x != 0.0 => {
-            let found = significant(x, digits as usize);
-            // 9.96 rounds to 10.0, which has a digit more.
-            if found.places < places { found.digits + "0" } else { found.digits }
-        }
-        0 if is_above_half(x) => "1".into(),
-        _ => String::new(),
-    };
-    Decimal { digits, places }
-}
-
-/// So many digits tell every double from a power of ten that it is not.
-const EXACT: usize = 25;
-
-/// Returns whether the digits of x are above 5, 50, 500, …
-fn is_above_half(x: f64) -> bool {
-    let (mantissa, _) = scientific(&format!("{:.*e}", MAX_DIGITS, x.abs()));
-    mantissa.trim_end_matches(['0', '.']) > "5"
-}
-
-/// Rounds an integer to significant digits, a half to an even digit.
-pub(crate) fn rounded_integer(n: i128, digits: usize) -> Decimal {
-    let n = n.unsigned_abs();
-    let rest = n.to_string().len().saturating_sub(digits.max(1)) as u32;
-    let unit = 10_u128.pow(rest);
-    let (whole, part) = (n / unit, 2 * (n % unit));
-    let up = part > unit || part == unit && whole % 2 == 1;
-    let digits = (whole + u128::from(up)).to_string();
-    Decimal { digits: digits.trim_start_matches('0').into(), places: -(rest as i32) }
-}
-
-/// Returns the exponent of the leading digit of x, rounded to so many significant digits; 0 for 0.
-pub(crate) fn leading(x: f64, digits: usize) -> i32 {
-    scientific(&format!("{:.*e}", digits - 1, x)).1
-}
-
-/// Splits "1.5e-4" into "1.5" and −4.
-fn scientific(text: &str) -> (String, i32) {
-    let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
-    (mantissa.to_string(), exponent.parse().unwrap_or(0))
+/// Adds one to the last of some digits.
+fn next(digits: &str) -> String {
+    let before = digits.trim_end_matches('9');
+    let (head, last) = before.split_at(before.len().saturating_sub(1));
+    let last = last.parse().unwrap_or(0) + 1;
+    format!("{head}{last}{}", "0".repeat(digits.len() - before.len()))
 }
 
 #[cfg(test)]
@@ -108,7 +109,8 @@ mod tests {
         for (value, places, text) in
             [(5.0, -1, "0"), (5.1, -1, "10"), (15.0, -1, "20"), (96.0, -1, "100"), (1e23, -22, "1")]
         {
-            assert!(rounded(value, places).written().starts_with(text), "{value}");
+            let rounded = Decimal::exact(value).rounded(places).written();
+            assert!(rounded.starts_with(text), "{value}");
         }
     }
 }

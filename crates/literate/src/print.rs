@@ -3,9 +3,7 @@
 //! [`print()`] returns the digits as data, [`Shown`]; each format writes them in its markup. Only
 //! the decimal conversion of Rust is used, which rounds exactly and alike on every platform.
 
-use crate::decimal::{
-    Decimal, MAX_DIGITS, leading, rounded, rounded_integer, shortest, significant,
-};
+use crate::decimal::Decimal;
 use crate::value::{Digits, Number, Value};
 
 /// What filters of a template change of a value.
@@ -46,25 +44,26 @@ pub fn print(number: &Number, style: Style) -> Shown {
         // No table has such a number, but a message may.
         Number::Real { value, .. } if !value.is_finite() => return Shown::Words(value.to_string()),
         Number::Integer(n) => {
+            let integer = Decimal::integer(n);
             let numeral = match style.digits {
-                Some(Digits::Significant(digits)) => {
-                    numeral(rounded_integer(n, digits).times_ten(power))
-                }
-                _ if style.percent => numeral(rounded_integer(n, usize::MAX).times_ten(power)),
-                _ => Numeral { digits: grouped(n), ..Numeral::default() },
+                Some(Digits::Significant(n)) => numeral(integer.significant(n).times_ten(power)),
+                _ if style.percent => numeral(integer.times_ten(power)),
+                _ => Numeral { digits: grouped(integer.written()), ..Numeral::default() },
             };
             (n < 0, numeral)
         }
         Number::Real { value, digits } => {
             let numeral = match style.digits.unwrap_or(digits) {
                 Digits::Error(error) => with_error(value, error, power),
-                Digits::Significant(n) => numeral(significant(value, n).times_ten(power)),
+                Digits::Significant(n) => {
+                    numeral(Decimal::exact(value).significant(n).times_ten(power))
+                }
                 Digits::Decimals(n) => {
-                    let places = (n.min(MAX_DIGITS) as i32).max(power);
-                    let digits = rounded(value, places).times_ten(power).written();
+                    let places = (n as i32).max(power);
+                    let digits = Decimal::exact(value).rounded(places).times_ten(power).written();
                     Numeral { digits, ..Numeral::default() }
                 }
-                Digits::Full => numeral(shortest(value).times_ten(power)),
+                Digits::Full => numeral(Decimal::shortest(value).times_ten(power)),
             };
             (value < 0.0, numeral)
         }
@@ -141,38 +140,29 @@ impl Numeral {
 
 const NARROW_SPACE: char = '\u{202f}';
 
-/// Returns whether a real number of this size is written with a power of ten: below 10^−3 and from
-/// 10^6 on.
-fn shows_power(exponent: i32) -> bool {
-    !(-3..6).contains(&exponent)
-}
-
-/// Chooses whether a number is written with a power of ten.
+/// Writes a number with a power of ten below 10^−3 and from 10^6 on.
 fn numeral(number: Decimal) -> Numeral {
-    let exponent = match number.digits.len() {
-        0 => -number.places,
-        length => length as i32 - 1 - number.places,
-    };
-    match shows_power(exponent) {
-        true => {
+    match number.exponent() {
+        -3..6 => Numeral { digits: number.written(), ..Numeral::default() },
+        exponent => {
             let digits = number.times_ten(-exponent).written();
             Numeral { digits, exponent: Some(exponent), ..Numeral::default() }
         }
-        false => Numeral { digits: number.written(), ..Numeral::default() },
     }
 }
 
 /// Prints a number with its error in brackets, both times a power of ten: one digit of the error,
 /// or two after a leading 1.
 fn with_error(x: f64, error: f64, power: i32) -> Numeral {
-    if error <= 0.0 {
-        return numeral(shortest(x).times_ten(power));
+    if error <= 0.0 || !error.is_finite() {
+        return numeral(Decimal::shortest(x).times_ten(power));
     }
-    let starts_with_1 = |text: String| text.starts_with('1');
-    let two = starts_with_1(format!("{error:.1e}")) || starts_with_1(format!("{error:.0e}"));
-    let places = i32::from(two) - leading(error, 1);
-    let number = numeral(rounded(x, places).times_ten(power));
-    let error = rounded(error, places).times_ten(power - number.exponent.unwrap_or(0));
+    let error = Decimal::exact(error);
+    let one = error.significant(1);
+    let two = one.digits == "1" || error.significant(2).digits.starts_with('1');
+    let places = i32::from(two) - one.exponent();
+    let number = numeral(Decimal::exact(x).rounded(places).times_ten(power));
+    let error = error.rounded(places).times_ten(power - number.exponent.unwrap_or(0));
     // In units of the last digit, unless it reaches over the point: 0.1165(4), but 16.0(1.2).
     let reaches_over = error.digits.len() as i32 > error.places;
     let error = if reaches_over { error.written() } else { error.digits };
@@ -180,8 +170,7 @@ fn with_error(x: f64, error: f64, power: i32) -> Numeral {
 }
 
 /// Writes digits in groups of three from five digits on, with a narrow space that does not break.
-fn grouped(n: i128) -> String {
-    let digits = n.unsigned_abs().to_string();
+fn grouped(digits: String) -> String {
     if digits.len() < 5 {
         return digits;
     }
@@ -204,9 +193,10 @@ impl Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use impact_numerics::estimates::with_error;
 
     fn error(value: f64, error: f64) -> Shown {
-        print(&Value::ensemble("x", value, error, 9).number, Style::default())
+        print(&with_error(value, error).into(), Style::default())
     }
 
     fn real(value: f64, digits: usize) -> Shown {
@@ -252,7 +242,7 @@ mod tests {
     #[test]
     fn each_markup_has_its_minus_power_and_percent() {
         let big = print(&Number::Integer(1_234_567), Style::default());
-        let number = Value::ensemble("x", 0.9453, 0.0081, 400).number;
+        let number = with_error(0.9453, 0.0081).into();
         let percent = print(&number, Style { percent: true, ..Style::default() });
         for (shown, [markdown, tex, plain]) in [
             (real(-3.25, 3), ["−3.25", "-3.25", "-3.25"]),

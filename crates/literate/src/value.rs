@@ -151,7 +151,7 @@ pub struct Value {
 }
 
 impl Value {
-    fn new(id: impl Into<String>, number: Number, kind: Kind) -> Self {
+    pub(crate) fn new(id: impl Into<String>, number: Number, kind: Kind) -> Self {
         Value {
             id: id.into(),
             number,
@@ -165,9 +165,8 @@ impl Value {
     }
 
     /// Makes an exact integer.
-    pub fn integer(id: impl Into<String>, n: impl TryInto<i128>) -> Self {
-        let n = n.try_into().map_or(Number::None, Number::Integer);
-        Value::new(id, n, Kind::Exact)
+    pub fn integer(id: impl Into<String>, n: impl Into<Number>) -> Self {
+        Value::new(id, n.into(), Kind::Exact)
     }
 
     /// Makes a real number that was computed without chance, printed with `significant` digits.
@@ -177,15 +176,9 @@ impl Value {
     }
 
     /// Makes an average over `realisations`, printed with the digits that its error allows.
-    pub fn ensemble(
-        id: impl Into<String>,
-        value: f64,
-        standard_error: f64,
-        realisations: u64,
-    ) -> Self {
-        let digits = Digits::Error(standard_error);
-        let kind = Kind::Ensemble { realisations, standard_error };
-        Value::new(id, Number::Real { value, digits }, kind)
+    pub fn ensemble(id: impl Into<String>, found: Estimate, realisations: u64) -> Self {
+        let kind = Kind::Ensemble { realisations, standard_error: found.error };
+        Value::new(id, found.into(), kind)
     }
 
     /// Makes a value that is words.

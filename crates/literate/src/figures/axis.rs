@@ -6,7 +6,7 @@
 
 use super::error::Error;
 use super::markup::spelled;
-use crate::decimal::{Decimal, significant};
+use crate::decimal::Decimal;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use pxfm::{f_exp10, f_log10};
@@ -259,7 +259,7 @@ pub(super) fn decimal(m: i32, exponent: i32) -> f64 {
 
 /// Returns a positive number as n · 10^power, rounded to twelve digits; none if it is not finite.
 fn decimal_of(number: f64) -> Option<(i128, i32)> {
-    let Decimal { digits, places } = significant(number, 12);
+    let Decimal { digits, places } = Decimal::exact(number).significant(12);
     let n: i128 = digits.parse().ok()?;
     Some((n / 10_i128.pow(zeros(n)), zeros(n) as i32 - places))
 }

@@ -1,7 +1,7 @@
 //! Makes a table: each call adds a column, keys first.
 
 use super::rows::{Column, Table, called};
-use crate::value::{Kind, Number, Origin, Value, origin_of};
+use crate::value::{Digits, Kind, Number, Origin, Value, origin_of};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeSet;
 use std::panic::Location;
@@ -42,37 +42,22 @@ fn markdown(unit: &str) -> String {
     }
 }
 
-/// Makes a cell of what was chosen or counted, or without a number.
-fn as_chosen(number: impl Into<Number>) -> Value {
-    Value { number: number.into(), ..Value::real("", 0.0, 1) }
-}
-
-/// Makes a cell of words, or without a number.
-fn as_text(words: impl Into<Number>) -> Value {
-    Value { number: words.into(), ..Value::text("", "") }
-}
-
-/// Adds a column of cells, each finished in the same way.
-fn add(table: &mut Table, column: Column, cells: Vec<Value>, finish: &dyn Fn(Value) -> Value) {
-    table.columns.push(column);
-    for (cell, (_, row)) in cells.into_iter().zip(&mut table.rows) {
-        row.push(finish(cell));
-    }
-}
-
 impl<'a, R> Building<'a, R> {
-    fn put(
+    /// Adds a column: the cell of a row is made of what the author's code gets of it.
+    fn put<T, F: Fn(&R) -> T>(
         mut self,
         (name, unit): (&'static str, &'static str),
         meaning: &str,
-        item: Origin,
-        cell: impl Fn(&R) -> Value,
+        get: F,
+        cell: impl Fn(&R, T) -> (Number, Kind),
     ) -> Self {
-        let cells = self.rows.iter().map(cell).collect();
-        let item = self.origin.as_ref().unwrap_or(&item);
-        add(&mut self.table, Column { name, unit }, cells, &|cell: Value| {
-            cell.unit(markdown(unit)).note(meaning).source(item.clone(), self.experiment)
-        });
+        let item = self.origin.clone().unwrap_or_else(origin_of::<F>);
+        self.table.columns.push(Column { name, unit });
+        for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
+            let (number, kind) = cell(row, get(row));
+            let value = Value::new("", number, kind).unit(markdown(unit)).note(meaning);
+            cells.push(value.source(item.clone(), self.experiment));
+        }
         self
     }
 
@@ -109,13 +94,13 @@ impl<'a, R> Building<'a, R> {
         get: F,
     ) -> Self {
         self.count_key(name);
-        self.put((name, unit), "", origin_of::<F>(), |row: &R| as_chosen(get(row)))
+        self.put((name, unit), "", get, |_, key| (key.into(), Kind::Deterministic))
     }
 
     /// Adds a key that is a name.
     pub fn text_key<F: Fn(&R) -> String>(mut self, name: &'static str, get: F) -> Self {
         self.count_key(name);
-        self.put((name, "text"), "", origin_of::<F>(), |row: &R| Value::text("", get(row)))
+        self.put((name, "text"), "", get, |_, words| (words.into(), Kind::Exact))
     }
 
     /// Adds a number from chance with its standard error; none where the sample decides nothing.
@@ -127,13 +112,13 @@ impl<'a, R> Building<'a, R> {
         get: F,
     ) -> Self {
         let number = self.number.clone();
-        let cell = |row: &R| match get(row) {
-            Some(Estimate { value, error, .. }) => {
-                Value::ensemble("", value, error, number(row) as u64)
+        self.put((name, unit), meaning, get, |row, found| match found {
+            Some(Estimate { error, .. }) => {
+                let realisations = number(row) as u64;
+                (found.into(), Kind::Ensemble { realisations, standard_error: error })
             }
-            None => as_text(Number::None),
-        };
-        self.put((name, unit), meaning, origin_of::<F>(), cell)
+            None => (Number::None, Kind::Exact),
+        })
     }
 
     /// Adds a number that was computed without chance, with so many significant digits, or none.
@@ -145,11 +130,11 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         get: F,
     ) -> Self {
-        let cell = |row: &R| match get(row).into() {
-            Some(value) => Value::real("", value, digits),
-            None => as_text(Number::None),
-        };
-        self.put((name, unit), meaning, origin_of::<F>(), cell)
+        let digits = Digits::Significant(digits);
+        self.put((name, unit), meaning, get, |_, value| match value.into() {
+            Some(value) => (Number::Real { value, digits }, Kind::Deterministic),
+            None => (Number::None, Kind::Exact),
+        })
     }
 
     /// Adds words that were computed, or none.
@@ -159,7 +144,7 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         get: F,
     ) -> Self {
-        self.put((name, "text"), meaning, origin_of::<F>(), |row: &R| as_text(get(row)))
+        self.put((name, "text"), meaning, get, |_, words| (words.into(), Kind::Exact))
     }
 
     /// Marks all cells so far as measured: they are an input.
@@ -178,16 +163,15 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         get: F,
     ) -> Self {
-        self.put((name, unit), meaning, origin_of::<F>(), |row: &R| as_chosen(get(row)))
+        self.put((name, unit), meaning, get, |_, chosen| (chosen.into(), Kind::Deterministic))
     }
 
     /// Adds a count, shown as an integer up to a million and with its leading digits beyond.
     pub fn count<F: Fn(&R) -> u64>(self, name: &'static str, meaning: &str, get: F) -> Self {
-        let cell = |row: &R| match get(row) {
-            n if n < 1_000_000 => Value::integer("", n),
-            n => Value::real("", n as f64, 2),
-        };
-        self.put((name, "1"), meaning, origin_of::<F>(), cell)
+        self.put((name, "1"), meaning, get, |_, n| match n {
+            ..1_000_000 => (n.into(), Kind::Exact),
+            _ => (Number::from(n).significant(2), Kind::Deterministic),
+        })
     }
 
     /// Gives cells of a column the id of the number that they are: one that another table or a

@@ -172,9 +172,9 @@ struct Given {
 impl Given {
     fn made(self) -> Result<Files, Error> {
         let mut values = Registry::default();
-        values.add(Value::ensemble("half_height", 0.11652, 0.0004, 1000))?;
+        values.add(Value::ensemble("half_height", with_error(0.11652, 0.0004), 1000))?;
         values.add(Value::real("tiny", 8.87e-4, 3).data_only())?;
-        values.add(Value::ensemble("kept", 0.945, 0.008, 400).data_only())?;
+        values.add(Value::ensemble("kept", with_error(0.945, 0.008), 400).data_only())?;
         values.add(Value::integer("count", 12345).data_only())?;
         let empty = Value::real("empty", 0.0, 1).data_only();
         values.add(Value { number: values::Number::None, ..empty })?;
