@@ -14,8 +14,6 @@ pub struct Label {
     pub shown: String,
     /// The document in which it stands.
     pub document: Document,
-    /// Id of the place to which references lead.
-    to: String,
 }
 
 /// All labels of all documents, by id.
@@ -24,12 +22,13 @@ pub struct Labels {
     labels: BTreeMap<String, Label>,
     /// Number of statements that have a place so far.
     statements: usize,
+    /// The sign of the verdict of each statement.
+    signs: BTreeMap<String, char>,
 }
 
 impl Labels {
-    fn add(&mut self, id: &str, shown: &str, document: Document, to: &str) -> Option<Error> {
-        let label = Label { shown: shown.into(), document, to: to.into() };
-        self.labels.insert(id.to_string(), label)?;
+    fn add(&mut self, id: &str, shown: &str, document: Document) -> Option<Error> {
+        self.labels.insert(id.to_string(), Label { shown: shown.into(), document })?;
         let what = format!("{id}: two things in the report have this id; give one of them another");
         Some(Error::Named { thing: format!("#{id}"), what })
     }
@@ -93,7 +92,7 @@ impl Labels {
                 _ => continue,
             };
             if let Some(id) = id {
-                errors.extend(self.add(&id, &number, document, &id));
+                errors.extend(self.add(&id, &number, document));
             }
         }
         rewrite(blocks, &mut |mut inline| {
@@ -101,13 +100,13 @@ impl Labels {
                 Inline::Anchor { id, number } => {
                     self.statements += 1;
                     *number = self.statements.to_string();
-                    errors.extend(self.add(id, number, document, id));
+                    errors.extend(self.add(id, number, document));
                 }
                 Inline::Display { id: Some(id), number, .. } => {
                     if number.is_empty() {
                         *number = next("eq");
                     }
-                    errors.extend(self.add(id, &format!("({number})"), document, id));
+                    errors.extend(self.add(id, &format!("({number})"), document));
                 }
                 _ => {}
             }
@@ -116,28 +115,17 @@ impl Labels {
         Error::all(errors)
     }
 
-    /// Adds labels for the verdict of each statement that has a place: `row:id` and `mark:id` show
-    /// its sign and number, `sign:id` its sign alone.
+    /// Takes the verdicts, which `row:id`, `mark:id` and `sign:id` show, and refuses the place of a
+    /// statement that there is not.
     pub fn add_verdicts(&mut self, claims: &[Check]) -> Result<(), Error> {
+        self.signs = claims.iter().map(|claim| (claim.id.clone(), claim.verdict.sign())).collect();
         let mut errors = Vec::new();
         for id in self.labels.keys().filter_map(|id| id.strip_prefix("claim:")) {
-            if !claims.iter().any(|claim| claim.id == id) {
+            if !self.signs.contains_key(id) {
                 let what = format!("[!claim:{id}]: there is no statement with this id");
-                let ids = claims.iter().map(|claim| claim.id.as_str());
+                let ids = self.signs.keys().map(String::as_str);
                 errors.push(Error::unknown(format!("#claim:{id}"), what, ids));
             }
-        }
-        for Check { id, verdict, .. } in claims {
-            let to = format!("claim:{id}");
-            let Some(Label { shown, document, .. }) = self.labels.get(&to).cloned() else {
-                continue;
-            };
-            let sign = verdict.sign();
-            for kind in ["row", "mark"] {
-                let words = format!("{sign}\u{a0}{shown}");
-                errors.extend(self.add(&format!("{kind}:{id}"), &words, document, &to));
-            }
-            errors.extend(self.add(&format!("sign:{id}"), &sign.to_string(), document, &to));
         }
         Error::all(errors)
     }
@@ -195,36 +183,34 @@ impl Labels {
 
     /// References of one kind, `[@fig:3; @fig:8a]`.
     fn refer(&self, ids: &[String], here: Document) -> Result<Vec<Inline>, Error> {
-        let words = |text: &str| Inline::Text(text.to_string());
         let (asked, several) = (kind(&ids[0]), ids.len() > 1);
         let lower = asked.to_lowercase();
-        let name = Name::of(&lower).filter(|_| ids.iter().all(|id| kind(id) == asked));
-        let name = name.ok_or_else(|| mixed(ids))?;
-        let name = match (asked == lower, several) {
-            (true, false) => name.short,
-            (true, true) => name.plural,
-            (false, false) => name.long,
-            (false, true) => name.long_plural,
-        };
-        let mut out = Vec::new();
+        let names = names(&lower).filter(|_| ids.iter().all(|id| kind(id) == asked));
+        let names = names.ok_or_else(|| mixed(ids))?;
+        let name = names[usize::from(asked != lower)][usize::from(several)];
         let is_verdict = name.is_empty();
+        let words = |text: &str| Inline::Text(text.to_string());
+        let mut out = Vec::new();
         if several && !is_verdict {
             out.push(words(&format!("{name}\u{a0}")));
         }
         for (i, id) in ids.iter().enumerate() {
-            let lower_id = format!("{lower}{}", &id[asked.len()..]);
-            let label = self.get(&lower_id).filter(|label| !label.shown.is_empty());
-            let Label { shown, document, to } = label.ok_or_else(|| self.unknown(id, &lower_id))?;
+            let own = &id[asked.len()..];
+            let to = format!("{}{own}", if is_verdict { "claim" } else { &lower });
+            let label = self.get(&to).filter(|label| !label.shown.is_empty());
+            let Label { shown, document } = label.ok_or_else(|| self.unknown(id, &to))?;
             if i > 0 {
                 let last = i + 1 == ids.len() && !is_verdict;
                 out.push(words(if last { " and " } else { ", " }));
             }
-            let shown = match several || is_verdict {
-                true => shown.clone(),
-                false => format!("{name}\u{a0}{shown}"),
+            let shown = match self.signs.get(own.trim_start_matches(':')) {
+                Some(sign) if lower == "sign" => sign.to_string(),
+                Some(sign) if is_verdict => format!("{sign}\u{a0}{shown}"),
+                _ if several => shown.clone(),
+                _ => format!("{name}\u{a0}{shown}"),
             };
             let within = (*document != here).then_some(*document);
-            out.push(Inline::Reference { to: to.clone(), within, shown });
+            out.push(Inline::Reference { to, within, shown });
         }
         Ok(if lower == "row" { vec![Inline::Raised(out)] } else { out })
     }
@@ -249,7 +235,7 @@ fn kind(id: &str) -> &str {
 
 /// Whether an id is a key of references.bib, which may have a colon too, and no kind of id.
 fn is_key(id: &str) -> bool {
-    !id.contains(':') || Name::of(&kind(id).to_lowercase()).is_none()
+    !id.contains(':') || names(&kind(id).to_lowercase()).is_none()
 }
 
 fn mixed(ids: &[String]) -> Error {
@@ -299,28 +285,18 @@ pub(super) fn check_kind(kind: &str, id: &str) -> Result<(), Error> {
     Err(Error::Markup(format!("the id {id:?} is not valid: write {kind}: {what}")))
 }
 
-/// What references call the things of one kind.
-struct Name {
-    short: &'static str,
-    plural: &'static str,
-    long: &'static str,
-    long_plural: &'static str,
-}
-
-impl Name {
-    /// Returns the name of a kind, such as `fig`; none if there is no such kind.
-    fn of(kind: &str) -> Option<Name> {
-        let [short, plural, long, long_plural] = match kind {
-            "eq" => ["Eq.", "Eqs.", "Equation", "Equations"],
-            "fig" => ["Fig.", "Figs.", "Figure", "Figures"],
-            "sec" => ["Sec.", "Secs.", "Section", "Sections"],
-            "tab" => ["Table", "Tables", "Table", "Tables"],
-            "claim" => ["claim", "claims", "Claim", "Claims"],
-            "lst" => ["Listing", "Listings", "Listing", "Listings"],
-            // The sign of a verdict needs no name.
-            "row" | "mark" | "sign" => [""; 4],
-            _ => return None,
-        };
-        Some(Name { short, plural, long, long_plural })
-    }
+/// What references call the things of a kind, such as `fig`: one and several of them, in short and
+/// in full. None if there is no such kind.
+fn names(kind: &str) -> Option<[[&'static str; 2]; 2]> {
+    Some(match kind {
+        "eq" => [["Eq.", "Eqs."], ["Equation", "Equations"]],
+        "fig" => [["Fig.", "Figs."], ["Figure", "Figures"]],
+        "sec" => [["Sec.", "Secs."], ["Section", "Sections"]],
+        "tab" => [["Table", "Tables"]; 2],
+        "claim" => [["claim", "claims"], ["Claim", "Claims"]],
+        "lst" => [["Listing", "Listings"]; 2],
+        // The sign of a verdict needs no name.
+        "row" | "mark" | "sign" => [[""; 2]; 2],
+        _ => return None,
+    })
 }

@@ -7,17 +7,11 @@
 
 use super::document::{self, Block, Inline, Table, place_on_page};
 use pulldown_cmark::Alignment;
-use std::borrow::Cow;
 
 /// Writes a document.
 pub fn write(blocks: &[Block]) -> String {
     let blocks = blocks.iter().map(|one| block(one).trim_end().to_string());
     blocks.filter(|text| !text.is_empty()).collect::<Vec<_>>().join("\n\n") + "\n"
-}
-
-/// Writes running text.
-pub fn inlines(inlines: &[Inline]) -> String {
-    Writer { in_table: false }.all(inlines)
 }
 
 fn lines(text: &str, before: &str) -> String {
@@ -81,9 +75,8 @@ fn block(block: &Block) -> String {
 }
 
 fn table(table: &Table) -> String {
-    let writer = Writer { in_table: true };
     let row = |cells: &[Vec<Inline>]| {
-        let cells: Vec<String> = cells.iter().map(|cell| writer.all(cell)).collect();
+        let cells: Vec<String> = cells.iter().map(|cell| inlines(cell)).collect();
         format!("| {} |\n", cells.join(" | "))
     };
     let rule = |align: &Alignment| match align {
@@ -126,137 +119,111 @@ pub fn escaped(text: &str) -> String {
         match piece {
             // A bar would end a cell.
             Inline::Maths(tex) => out += &format!("${}$", tex.digits().replace('|', r"\vert{}")),
-            words => Writer { in_table: true }.text(&document::plain(&[words]), &mut out),
+            words => write_text(&document::plain(&[words]), &mut out),
         }
     }
     out
 }
 
-struct Writer {
-    in_table: bool,
+/// Writes running text.
+pub fn inlines(list: &[Inline]) -> String {
+    // Values are text and formulas, so that neighbours of mathematics are seen.
+    let flat = list.iter().flat_map(|inline| match inline {
+        Inline::Value { shown, .. } => document::printed(shown),
+        other => vec![other.clone()],
+    });
+    let (mut out, mut in_formula) = (String::new(), false);
+    for inline in flat {
+        match &inline {
+            Inline::Maths(formula) => {
+                out.push_str(if in_formula { "" } else { "$" });
+                out.push_str(&maths(&formula.digits()));
+                in_formula = true;
+            }
+            // Words that touch the closing dollar move inside, and so does a formula behind them.
+            Inline::Text(words) if in_formula => {
+                let (glued, rest) = words.split_at(glued(words));
+                if !glued.is_empty() {
+                    out.push_str(&format!(r"\text{{{glued}}}"));
+                }
+                if !rest.is_empty() {
+                    out.push('$');
+                    write_text(rest, &mut out);
+                    in_formula = false;
+                }
+            }
+            other => {
+                out.push_str(if in_formula { "$" } else { "" });
+                write_inline(other, &mut out);
+                in_formula = false;
+            }
+        }
+    }
+    out + if in_formula { "$" } else { "" }
 }
 
-impl Writer {
-    fn all(&self, inlines: &[Inline]) -> String {
-        let mut out = String::new();
-        let flat = flat(inlines);
-        let mut i = 0;
-        while i < flat.len() {
-            if let Inline::Maths(formula) = &*flat[i] {
-                // Words that touch the closing dollar move inside.
-                let mut formula = maths(&formula.digits());
-                let mut rest = "";
-                while let Some(Inline::Text(text)) = flat.get(i + 1).map(Cow::as_ref) {
-                    let (glued, after) = text.split_at(glued(text));
-                    (i, rest) = (i + 1, after);
-                    if !glued.is_empty() {
-                        formula.push_str(&format!(r"\text{{{glued}}}"));
-                    }
-                    // And so does a formula behind them.
-                    match flat.get(i + 1).map(Cow::as_ref) {
-                        Some(Inline::Maths(next)) if rest.is_empty() => {
-                            formula.push_str(&maths(&next.digits()))
-                        }
-                        _ => break,
-                    }
-                    i += 1;
-                }
-                out.push_str(&format!("${formula}$"));
-                self.text(rest, &mut out);
-            } else {
-                self.one(&flat[i], &mut out);
-            }
-            i += 1;
+fn write_inline(inline: &Inline, out: &mut String) {
+    match inline {
+        Inline::Text(text) => write_text(text, out),
+        Inline::Soft if out.ends_with('\n') => (),
+        Inline::Soft => out.push('\n'),
+        Inline::Code(code) => {
+            let fence = fence(code, 1);
+            let blank = if code.starts_with('`') || code.ends_with('`') { " " } else { "" };
+            out.push_str(&format!("{fence}{blank}{code}{blank}{fence}"));
         }
-        out
-    }
-
-    fn one(&self, inline: &Inline, out: &mut String) {
-        match inline {
-            Inline::Text(text) => self.text(text, out),
-            Inline::Soft if self.in_table => out.push(' '),
-            Inline::Soft if out.ends_with('\n') => (),
-            Inline::Soft => out.push('\n'),
-            Inline::Code(code) => {
-                let fence = fence(code, 1);
-                let blank = if code.starts_with('`') || code.ends_with('`') { " " } else { "" };
-                out.push_str(&format!("{fence}{blank}{code}{blank}{fence}"));
+        Inline::Emphasis(inner) => out.push_str(&format!("*{}*", inlines(inner))),
+        Inline::Raised(inner) => out.push_str(&format!("<sup>{}</sup>", inlines(inner))),
+        Inline::Strong(inner) => out.push_str(&format!("**{}**", inlines(inner))),
+        Inline::Display { formula, id, number } => {
+            out.truncate(out.trim_end_matches([' ', '\n']).len());
+            if !out.is_empty() {
+                out.push_str("\n\n");
             }
-            Inline::Emphasis(inner) => out.push_str(&format!("*{}*", self.all(inner))),
-            Inline::Raised(inner) => out.push_str(&format!("<sup>{}</sup>", self.all(inner))),
-            Inline::Strong(inner) => out.push_str(&format!("**{}**", self.all(inner))),
-            Inline::Display { formula, id, number } => {
-                while out.ends_with([' ', '\n']) {
-                    out.pop();
-                }
-                if !out.is_empty() {
-                    out.push_str("\n\n");
-                }
-                let mut tag = String::new();
-                if let Some(id) = id {
-                    out.push_str(&format!("{}\n\n", anchor(id)));
-                    tag = format!("\n\\tag{{{number}}}");
-                }
-                out.push_str(&format!("$$\n{}{tag}\n$$\n\n", maths(&formula.digits())));
+            let mut tag = String::new();
+            if let Some(id) = id {
+                out.push_str(&format!("{}\n\n", anchor(id)));
+                tag = format!("\n\\tag{{{number}}}");
             }
-            // Formulas are written above, and values are flat.
-            Inline::Maths(_) | Inline::Value { .. } => (),
-            Inline::Link { to, shown } => out.push_str(&format!("[{}]({to})", self.all(shown))),
-            Inline::Reference { to, within, shown } => {
-                let file = within.map_or("", |document| document.markdown);
-                let place = place_on_page(to);
-                out.push('[');
-                self.text(shown, out);
-                out.push_str(&format!("]({file}#{place})"));
-            }
-            Inline::Anchor { id, number } => out.push_str(&format!("{}{number}", anchor(id))),
-            Inline::Unresolved { ids, .. } => out.push_str(&ids.join("; ")),
+            out.push_str(&format!("$$\n{}{tag}\n$$\n\n", maths(&formula.digits())));
         }
-    }
-
-    fn text(&self, text: &str, out: &mut String) {
-        // After a displayed equation the line starts anew.
-        let text = if out.ends_with('\n') { text.trim_start() } else { text };
-        let starts_line = out.is_empty() || out.ends_with('\n');
-        let chars: Vec<char> = text.chars().collect();
-        let marker = if starts_line { marker_length(&chars) } else { None };
-        for (i, &c) in chars.iter().enumerate() {
-            let inside_word = i > 0
-                && chars[i - 1].is_alphanumeric()
-                && chars.get(i + 1).is_some_and(|next| next.is_alphanumeric());
-            let escape = match c {
-                '\\' | '*' | '`' | '<' | '$' | '~' => true,
-                // Not what names a character.
-                '&' => {
-                    chars[i + 1..].iter().find(|c| !c.is_alphanumeric() && **c != '#') == Some(&';')
-                }
-                // Not what defines a link.
-                '[' => starts_line && i == 0 && text.contains("]:"),
-                '_' => !inside_word,
-                '|' => self.in_table,
-                '(' => i > 0 && chars[i - 1] == ']',
-                _ => marker == Some(i),
-            };
-            if escape {
-                out.push('\\');
-            }
-            out.push(c);
+        Inline::Link { to, shown } => out.push_str(&format!("[{}]({to})", inlines(shown))),
+        Inline::Reference { to, within, shown } => {
+            let file = within.map_or("", |document| document.markdown);
+            out.push('[');
+            write_text(shown, out);
+            out.push_str(&format!("]({file}#{})", place_on_page(to)));
         }
+        Inline::Anchor { id, number } => out.push_str(&format!("{}{number}", anchor(id))),
+        Inline::Unresolved { ids, .. } => out.push_str(&ids.join("; ")),
+        // Part of the running text.
+        Inline::Maths(_) | Inline::Value { .. } => (),
     }
 }
 
-/// The pieces with values as text and formulas, so that neighbours of mathematics are seen.
-fn flat(inlines: &[Inline]) -> Vec<Cow<'_, Inline>> {
-    let mut out = Vec::with_capacity(inlines.len());
-    for inline in inlines {
-        match inline {
-            Inline::Value { shown, .. } => {
-                out.extend(document::printed(shown).into_iter().map(Cow::Owned));
-            }
-            other => out.push(Cow::Borrowed(other)),
-        }
+/// Escapes what Markdown would read in words.
+fn write_text(text: &str, out: &mut String) {
+    // After a displayed equation the line starts anew.
+    let text = if out.ends_with('\n') { text.trim_start() } else { text };
+    let starts_line = out.is_empty() || out.ends_with('\n');
+    let chars: Vec<char> = text.chars().collect();
+    let marker = if starts_line { marker_length(&chars) } else { None };
+    let is_word = |c: Option<&char>| c.is_some_and(|c| c.is_alphanumeric());
+    for (i, &c) in chars.iter().enumerate() {
+        let (before, after) = (i.checked_sub(1).map(|i| &chars[i]), &chars[i + 1..]);
+        let escape = match c {
+            '\\' | '*' | '`' | '<' | '$' | '~' | '|' => true,
+            // Not what names a character.
+            '&' => after.iter().find(|c| !c.is_alphanumeric() && **c != '#') == Some(&';'),
+            // Not what defines a link.
+            '[' => starts_line && i == 0 && text.contains("]:"),
+            '_' => !(is_word(before) && is_word(after.first())),
+            '(' => before == Some(&']'),
+            _ => marker == Some(i),
+        };
+        out.extend(escape.then_some('\\'));
+        out.push(c);
     }
-    out
 }
 
 /// Where a backslash stops words at the start of a line from becoming a list, a heading, a quote.
@@ -277,47 +244,46 @@ fn glued(text: &str) -> usize {
     text.find(|c| !touches(c)).unwrap_or(text.len())
 }
 
+/// What Markdown would read in a formula, and macros with the same meaning.
+const RESPELT: [(&str, &str); 13] = [
+    (r"\,", r"\thinspace"),
+    (r"\:", r"\thinspace"),
+    (r"\;", r"\thinspace"),
+    (r"\>", r"\thinspace"),
+    (r"\!", r"\negthinspace"),
+    (r"\{", r"\lbrace"),
+    (r"\}", r"\rbrace"),
+    (r"\|", r"\Vert"),
+    (r"\\", r"\cr"),
+    ("*", r"\ast"),
+    ("<", r"\lt"),
+    (">", r"\gt"),
+    ("|", r"\vert"),
+];
+
 /// TeX that survives Markdown.
 fn maths(tex: &str) -> String {
-    let chars: Vec<char> = tex.chars().collect();
-    let mut out = String::with_capacity(tex.len());
-    let mut i = 0;
-    let word = |out: &mut String, name: &str, next: Option<&char>| {
-        out.push_str(name);
-        if next.is_some_and(char::is_ascii_alphabetic) {
-            out.push(' ');
-        }
-    };
-    while i < chars.len() {
-        let next = chars.get(i + 1);
-        let after = chars.get(i + 2);
-        match (chars[i], next) {
-            ('\\', Some(c)) => {
-                i += 1;
-                match c {
-                    ',' | ':' | ';' | '>' => word(&mut out, r"\thinspace", after),
-                    '!' => word(&mut out, r"\negthinspace", after),
-                    '{' => word(&mut out, r"\lbrace", after),
-                    '}' => word(&mut out, r"\rbrace", after),
-                    '|' => word(&mut out, r"\Vert", after),
-                    '\\' if after != Some(&'[') => word(&mut out, r"\cr", after),
-                    c => out.extend(['\\', *c]),
-                }
+    let (mut out, mut rest) = (String::with_capacity(tex.len()), tex);
+    while let Some(c) = rest.chars().next() {
+        let respelt = RESPELT.iter().find(|(sign, _)| rest.starts_with(sign));
+        let respelt = respelt.filter(|_| !rest.starts_with(r"\\["));
+        // A macro begins with two characters that belong together.
+        let count = if c == '\\' { 2 } else { 1 };
+        let length = rest.chars().take(count).map(char::len_utf8).sum();
+        let (sign, after) = rest.split_at(length);
+        out.push_str(respelt.map_or(sign, |(_, name)| name));
+        let before = tex[..tex.len() - rest.len()].chars().next_back();
+        let next = after.chars().next();
+        let splits = match respelt {
+            Some(_) => next.is_some_and(|next| next.is_ascii_alphabetic()),
+            None => {
+                c == '_'
+                    && next.is_some_and(char::is_alphanumeric)
+                    && !before.is_some_and(char::is_alphanumeric)
             }
-            ('*', next) => word(&mut out, r"\ast", next),
-            ('<', next) => word(&mut out, r"\lt", next),
-            ('>', next) => word(&mut out, r"\gt", next),
-            ('|', next) => word(&mut out, r"\vert", next),
-            ('_', Some(next)) => {
-                out.push('_');
-                let before = i.checked_sub(1).map(|j| chars[j]);
-                if next.is_alphanumeric() && !before.is_some_and(char::is_alphanumeric) {
-                    out.push(' ');
-                }
-            }
-            (c, _) => out.push(c),
-        }
-        i += 1;
+        };
+        out.extend(splits.then_some(' '));
+        rest = after;
     }
     out
 }
