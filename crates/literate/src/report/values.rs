@@ -6,12 +6,12 @@ use crate::input::is_control;
 use crate::source::Sources;
 use crate::table::Table;
 pub use crate::value::{Digits, Kind, Number, Origin, Value, origin};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// All values of a report, by id.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct Registry {
     values: BTreeMap<String, Value>,
@@ -25,7 +25,7 @@ impl Registry {
         if let Some(before) = self.values.get(&value.id) {
             return Err(Error::twice(&value.id, &before.source, &value.source));
         }
-        self.put(value);
+        self.values.insert(value.id.clone(), value);
         Ok(())
     }
 
@@ -70,11 +70,6 @@ impl Registry {
         values.into_iter().try_for_each(|value| self.add(value))
     }
 
-    /// Puts a value in the place of the one with its id.
-    pub fn put(&mut self, value: Value) {
-        self.values.insert(value.id.clone(), value);
-    }
-
     /// The value with this id.
     pub fn get(&self, id: &str) -> Option<&Value> {
         self.values.get(id).or_else(|| self.cell(id))
@@ -112,9 +107,8 @@ fn showable(value: &Value) -> Result<(), Error> {
 
 /// Reads a values.json.
 pub fn read(text: &str) -> Result<Registry, Error> {
-    let fault = |what: String| Error::Template(format!("values.json: {what}"));
-    let values: BTreeMap<String, Value> =
-        serde_json::from_str(text).map_err(|e| fault(e.to_string()))?;
+    let values = serde_json::from_str(text)
+        .map_err(|error| Error::Template(format!("values.json: {error}")))?;
     Ok(Registry { values, ..Registry::default() })
 }
 
@@ -126,10 +120,8 @@ mod tests {
     fn an_id_has_one_owner_and_a_number_is_finite() {
         let mut registry = Registry::default();
         registry.add(Value::integer("edges", 16)).unwrap();
-        assert!(matches!(
-            registry.add(Value::integer("edges", 17)),
-            Err(Error::DuplicateId { .. })
-        ));
-        assert!(registry.add(Value::real("x", f64::NAN, 2)).is_err());
+        for wrong in [Value::integer("edges", 17), Value::real("x", f64::NAN, 2)] {
+            registry.add(wrong).unwrap_err();
+        }
     }
 }
