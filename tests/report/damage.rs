@@ -89,7 +89,11 @@ fn prose(text: &str) -> Result<(), Error> {
     let filler = Filler::new(&templates, values)?;
     let filled = filler.prose(&Document::REPORT)?;
     let sources = &QUICK.paper.project.sources;
-    let (mut blocks, _) = parse::parse(&filled, values, &filler.declared, sources).whole()?;
+    let parsed = parse::parse(&filled, values, &filler.declared, sources);
+    if let Some(error) = parsed.errors.into_iter().next() {
+        return Err(error);
+    }
+    let mut blocks = parsed.blocks;
     let (here, mut labels) = (Document::REPORT, Labels::default());
     labels.number_all(&mut blocks, here)?;
     labels.resolve(&mut blocks, here, &LIBRARY)?;

@@ -18,6 +18,7 @@ use super::parse::Parsed;
 use super::values::{Registry, Value};
 use super::{html, latex, ledger, lint, markdown, parse, search};
 use crate::figures::{DataFile, Figure};
+use crate::input::one_line;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -296,21 +297,19 @@ fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_
 fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> (Vec<String>, Vec<Error>) {
     let (mut shown, mut errors) = (Vec::new(), Vec::new());
     for block in blocks.iter_mut() {
-        let Block::Figure { name, files, alt, origin, .. } = block else { continue };
-        let Some(figure) = input.figure(name) else {
+        let Block::Figure { files, alt, origin, .. } = block else { continue };
+        let path = |figure: &Figure| format!("figures/{}", figure.names()[0]);
+        let Some(figure) = input.figures.iter().find(|figure| path(figure) == files[0]) else {
             let what = format!(
-                "the paper draws no figure {name:?}; use figures/NAME.svg of one that it draws"
+                "there is no figure {}; use figures/NAME.svg of a figure of the paper; a file becomes one by Figure::picture",
+                one_line(&files[0], 200)
             );
-            let names = input.figures.iter().map(|figure| figure.id.as_str());
-            errors.push(Error::unknown(format!("!{name}"), what, names));
+            let paths: Vec<String> = input.figures.iter().map(path).collect();
+            let paths = paths.iter().map(String::as_str);
+            errors.push(Error::unknown(format!("!{}", files[0]), what, paths));
             continue;
         };
-        let names = figure.names();
-        if files[0] != names[0] {
-            let what = Error::Picture(files[0].clone()).to_string();
-            errors.push(Error::Named { thing: format!("!{name}"), what });
-        }
-        *files = names;
+        *files = figure.names();
         *alt = figure.description.text.clone();
         let words = |words: &str| Inline::Text(words.into());
         let data: Vec<String> =

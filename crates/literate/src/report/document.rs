@@ -22,8 +22,8 @@ pub enum Block {
     },
     /// A paragraph; displayed equations stand inside it.
     Paragraph(Vec<Inline>),
-    /// A figure, with the names of its files for pages and for LaTeX; the origin says where its
-    /// data and code are.
+    /// A figure, with the names of its files for pages and for LaTeX, until it is found the path
+    /// in the prose; the origin says where its data and code are.
     Figure {
         id: String,
         number: String,

@@ -35,11 +35,6 @@ pub enum Error {
     #[error("{}", one_line(what, MAX_LENGTH))]
     Named { thing: String, what: String },
     #[error(
-        "there is no figure {:?}; use figures/NAME.svg of a figure of the paper; a file becomes one by Figure::picture",
-        one_line(.0, 200)
-    )]
-    Picture(String),
-    #[error(
         "the character '{}' (U+{:04X}) is not known in LaTeX; write it as TeX between $ signs, or in words",
         one_line(&.0.to_string(), 1), u32::from(*.0)
     )]

@@ -111,7 +111,7 @@ impl Filler {
     /// does; none if the name is right or names no value. A computed row may be any row.
     fn missing(&self, expression: &str) -> Option<String> {
         let mut here = &self.names;
-        for (at, Step { key, is_row, end }) in steps(expression).into_iter().enumerate() {
+        for (at, (key, end)) in steps(expression).into_iter().enumerate() {
             let names = here.as_object()?;
             match key.map_or(names.values().next(), |key| names.get(key)) {
                 Some(next) => here = next,
@@ -119,9 +119,9 @@ impl Filler {
                 None if at == 0 => return None,
                 None => {
                     let key = key.filter(|key| !key.is_empty())?;
-                    let (whole, kind) = (&expression[..end], if is_row { "row" } else { "name" });
                     let nearest = nearest(key, names.keys().map(String::as_str)).join(", ");
-                    return Some(format!("{whole}: there is no such {kind}; nearest: {nearest}"));
+                    let whole = &expression[..end];
+                    return Some(format!("{whole}: there is no such name; nearest: {nearest}"));
                 }
             }
         }
@@ -133,11 +133,9 @@ impl Filler {
         let mut found = Vec::new();
         for (at, _) in expression.match_indices("raw.") {
             let steps = steps(&expression[at..]);
-            let Some(Step { end, .. }) = steps.last() else { continue };
-            let number = steps.iter().try_fold(&self.names, |here, step| here.get(step.key?));
-            if let Some(number) = number {
-                found.push(format!("{} is {number}", &expression[at..at + end]));
-            }
+            let end = steps.last().map_or(0, |(_, end)| *end);
+            let number = steps.iter().try_fold(&self.names, |here, (key, _)| here.get((*key)?));
+            found.extend(number.map(|number| format!("{} is {number}", &expression[at..at + end])));
         }
         found.join(", ")
     }
@@ -183,34 +181,28 @@ impl Filler {
     }
 }
 
-/// A part of a name: `table`, `["row"]`, `.column`.
-struct Step<'a> {
-    /// None of a row that is computed.
-    key: Option<&'a str>,
-    is_row: bool,
-    /// Where it ends in the expression.
-    end: usize,
-}
-
-/// Reads the parts of the name with which an expression begins.
-fn steps(expression: &str) -> Vec<Step<'_>> {
-    let (mut steps, mut rest) = (Vec::new(), expression);
+/// Reads the name with which an expression begins, `table["row"].column`: its keys, none for a row
+/// that is computed, each with where it ends in the expression.
+fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
+    let (mut steps, mut end) = (Vec::new(), 0);
     loop {
-        let (key, is_row, after) = if let Some(inner) = rest.strip_prefix('[') {
-            let Some((key, after)) = inner.split_once(']') else { return steps };
+        let rest = &expression[end..];
+        let key = if let Some(inner) = rest.strip_prefix('[') {
+            let Some((key, _)) = inner.split_once(']') else { return steps };
+            end += key.len() + 2;
             let quoted = key.strip_prefix('"').and_then(|key| key.strip_suffix('"'));
-            (quoted.filter(|key| !key.contains('"')), true, after)
+            quoted.filter(|key| !key.contains('"'))
         } else {
             let name = rest.strip_prefix('.').unwrap_or(rest);
             let other = |c: char| !(c.is_alphanumeric() || c == '_');
-            let (key, after) = name.split_at(name.find(other).unwrap_or(name.len()));
-            (Some(key), false, after)
+            let name = &name[..name.find(other).unwrap_or(name.len())];
+            end += usize::from(rest.starts_with('.')) + name.len();
+            Some(name)
         };
-        steps.push(Step { key, is_row, end: expression.len() - after.len() });
-        if !after.starts_with(['.', '[']) {
+        steps.push((key, end));
+        if !expression[end..].starts_with(['.', '[']) {
             return steps;
         }
-        rest = after;
     }
 }
 

@@ -99,14 +99,14 @@ impl Reader<'_> {
     }
 
     fn span(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Inline, Error> {
-        // This is a reference and not a link.
-        if let Tag::Link { link_type: LinkType::ShortcutUnknown, dest_url, .. } = &tag {
+        if let Tag::Link { link_type, dest_url, .. } = &tag
+            && matches!(link_type, LinkType::ShortcutUnknown | LinkType::Autolink)
+        {
             while !matches!(self.next(), None | Some((Event::End(_), _))) {}
-            return self.reference(dest_url, range.start);
-        }
-        // An address between < and > is shown as it is.
-        if let Tag::Link { link_type: LinkType::Autolink, dest_url, .. } = &tag {
-            while !matches!(self.next(), None | Some((Event::End(_), _))) {}
+            if *link_type == LinkType::ShortcutUnknown {
+                return self.reference(dest_url, range.start);
+            }
+            // An address between < and > is shown as it is.
             let to = self.plain(dest_url)?;
             return Ok(Inline::Link { to: to.clone(), shown: vec![Inline::Text(to)] });
         }

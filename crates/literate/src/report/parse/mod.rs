@@ -28,13 +28,6 @@ pub struct Parsed<'a> {
     pub errors: Vec<Error>,
 }
 
-impl<'a> Parsed<'a> {
-    /// Returns the tree if all of the document could be read.
-    pub fn whole(self) -> Result<(Vec<Block>, Places<'a>), Error> {
-        Error::all(self.errors).map(|()| (self.blocks, self.places))
-    }
-}
-
 /// Parses filled Markdown, in which `values` replace marks and `declared` phrases may have numbers.
 pub fn parse<'a>(
     filled: &'a Filled,
@@ -305,12 +298,11 @@ impl<'a> Reader<'a> {
         if !plain(&behind).trim().is_empty() {
             return Err(markup(ALONE));
         }
-        let file = path.strip_prefix("figures/").unwrap_or_default();
-        let (name, _) = file.rsplit_once('.').ok_or_else(|| Error::Picture(path.into()))?;
-        let (name, files) = (name.to_string(), [file.to_string(), format!("{name}.pdf")]);
+        let name = path.trim_start_matches("figures/").split('.').next().unwrap_or_default();
+        let (name, files) = (name.to_string(), [path.to_string(), String::new()]);
         let id = id.unwrap_or_else(|| format!("fig:{name}"));
         self.id("fig", &id, at)?;
-        self.places.add(format!("!{name}"), at);
+        self.places.add(format!("!{path}"), at);
         let given = id.trim_start_matches("fig:");
         let digits = given.trim_start_matches(|c: char| c.is_ascii_uppercase());
         let is_number = !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit());

@@ -36,9 +36,9 @@ Seen [@rice1945, Sec. 3] => 14:6 => ids alone
 [!claim:rise2] => 14:1 => there is no statement with this id; nearest: rise
 [mice](javascript://x) => 14:1 => a link to javascript://x
 Seen [@mice1945] => 14:6 => [@mice1945]: nothing
-![Words.](figures/fig09.svg) => 14:1 => the paper draws no figure "fig09"; use figures/NAME.svg of one that it draws; nearest: fig03
-![Words.](figures/fig03.png){#fig:x} => 14:1 => there is no figure "fig03.png"
-![Words.](photo.png) => 14:1 => a file becomes one by Figure::picture
+![Words.](figures/fig09.svg) => 14:1 => there is no figure figures/fig09.svg; use figures/NAME.svg of a figure of the paper; a file becomes one by Figure::picture; nearest: figures/fig03.svg
+![Words.](figures/fig03.png){#fig:x} => 14:1 => there is no figure figures/fig03.png; 
+![Words.](photo.png) => 14:1 => there is no figure photo.png; 
 ![Words.](figures/fig03.svg){#eq:a} => 14:1 => write fig: followed by
 $$ x $$ {#fig:a} => 14:1 => write eq: followed by
 ## A {#sec:a}⏎⏎## B {#sec:a} => 16:1 => have this id
