@@ -11,7 +11,7 @@ use impact_paper::params::SEED;
 use literate::Failure;
 use literate::cli::terminal::{Threads, print, progress, warn};
 use literate::experiments::cutting::Cutting;
-use literate::figures::{DataFile, shortest};
+use literate::table::{DataFile, shortest};
 use std::ops::Range;
 
 /// Run an ensemble of random chains at each σ and print a row for each σ

@@ -57,7 +57,7 @@ fn draw_line<const N: usize>(sheet: &SheetArea, points: [(i32, i32); N], width: 
 }
 
 fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Drawn {
-    let rest = Stroke::dashed(GREY, HAIR, Dash::Short);
+    let rest = Stroke::dashed(GREY, HAIR, SHORT);
     sheet.draw(&line(vec![(root, 740), (root, FLOOR)], rest))?;
     // A clamped stem with a load at its end: s²(3 − s)/2.
     let stem: [(i32, i32); 41] = std::array::from_fn(|i| {

@@ -20,7 +20,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let intervals: Vec<_> = intervals.collect();
     panel.bars("mean of those with an impact", &intervals, 0, INTERVAL)?;
     printed(&panel, comparison::at(&means, printed_threshold()).unwrap_or(0.0))?;
-    let broken = Stroke::dashed(GREY, LINE, Dash::Short);
+    let broken = Stroke::dashed(GREY, LINE, SHORT);
     panel.curve("mean of all", &all, broken)?;
     panel.markers("mean of those with an impact", &means, CROSSES)?;
     let end = (panel.x.hi, n as f64);
@@ -28,7 +28,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     panel.label("mean of all", reaches(&all, 7.0), (3, 0), GREY)?;
     if let Some(half) = half_height {
         let level = n as f64 / 2.0;
-        let guide = Stroke::dashed(GREY, HAIR, Dash::Dotted);
+        let guide = Stroke::dashed(GREY, HAIR, DOTTED);
         panel.guide("half height", &[(panel.x.lo, level), (half, level)], guide)?;
         let text = format!("half of {n} at {}", short(half, 4));
         panel.label(&text, (panel.x.lo, level), (2, -1), INK)?;

@@ -46,7 +46,7 @@ fn most_likely([p_jump, jump]: [f64; 2], panel: &Panel) -> Drawn {
     stairs.extend(stairs.last().map(|last| (1.0, last.1)));
     panel.curve("most likely number, 1", &[(panel.x.lo, 1.0), (p_jump, 1.0)], CURVE)?;
     panel.curve("most likely number", &stairs, CURVE)?;
-    let dotted = Stroke::dashed(GREEN, THIN, Dash::Dotted);
+    let dotted = Stroke::dashed(GREEN, THIN, DOTTED);
     panel.guide("jump", &[(p_jump, 1.0), (p_jump, jump)], dotted)?;
     let look = |mark| (mark, 50, Stroke::solid(GREEN, THIN));
     panel.markers("before the jump", &[(p_jump, 1.0)], look(Symbol::Disc))?;

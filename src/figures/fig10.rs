@@ -81,7 +81,7 @@ fn sign(panel: &Panel, p: f64) -> Drawn {
 fn weight(panel: &Panel, highest: &[usize], shown: &[f64]) -> Drawn {
     panel.columns("weight", shown, Stroke::solid(GREEN, THIN))?;
     let first = shown.first().copied().unwrap_or(0.0);
-    let level = Stroke::dashed(INK, HAIR, Dash::Short);
+    let level = Stroke::dashed(INK, HAIR, SHORT);
     panel.guide("height at k = 1", &[(0.5, first), (panel.x.hi, first)], level)?;
     for &k in highest {
         let at = (k as f64, shown[k - 1]);

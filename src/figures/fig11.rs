@@ -22,7 +22,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let decades = sheet.lettered("(b)", Frame::new(1300, 4130, 8150, 7530), sigma(), y)?;
     let decades = decades.outside(Outside::Cut);
 
-    let (main, rest) = (Stroke::solid(BLUE, LINE), Stroke::dashed(GREY, LINE, Dash::Short));
+    let (main, rest) = (Stroke::solid(BLUE, LINE), Stroke::dashed(GREY, LINE, SHORT));
     // Both vanish with σ.
     let from_zero = |points: &[(f64, f64)]| [&[(0.0, 0.0)], points].concat();
     linear.curve("p for a start from rest", &from_zero(&from_rest), rest)?;
@@ -36,7 +36,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (level, bottom) = (results.number("theory.jump.p_jump")?, decades.y.lo);
     let jump = results.number("theory.relation.sigma_jump")?;
     let jump_rest = results.number("theory.relation.sigma_jump_rest")?;
-    let guide = Stroke::dashed(INK, HAIR, Dash::Dotted);
+    let guide = Stroke::dashed(INK, HAIR, DOTTED);
     decades.guide("jump of k*", &[(0.0, level), (jump, level), (jump, bottom)], guide)?;
     decades.guide("jump from rest", &[(jump_rest, level), (jump_rest, bottom)], guide)?;
     let text = format!("*k*^{{∗}} jumps at *p* = {}", short(level, 4));

@@ -15,11 +15,11 @@ const SUM: Stroke = Stroke::solid(GREY, THIN);
 
 /// The five classes in the order of Eq. (38).
 const CLASSES: [Class; 5] = [
-    ("simple circuits", "*ϕ*_{*N*}", GREEN, Dash::Long),
-    ("one vertex twice", "*ϕ*_{*N*}^{1}", PURPLE, Dash::Short),
-    ("one vertex three times", "*ϕ*_{*N*}^{1,0}", ORANGE, Dash::Twice),
-    ("one vertex four times", "*ϕ*_{*N*}^{1,0,0}", BLUE, Dash::Dotted),
-    ("two vertices twice", "*ϕ*_{*N*}^{2}", INK, Dash::Alternate),
+    ("simple circuits", "*ϕ*_{*N*}", GREEN, LONG),
+    ("one vertex twice", "*ϕ*_{*N*}^{1}", PURPLE, SHORT),
+    ("one vertex three times", "*ϕ*_{*N*}^{1,0}", ORANGE, TWICE),
+    ("one vertex four times", "*ϕ*_{*N*}^{1,0,0}", BLUE, DOTTED),
+    ("two vertices twice", "*ϕ*_{*N*}^{2}", INK, ALTERNATE),
 ];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {

@@ -9,7 +9,7 @@ use crate::params::{CONVERGENCE_P, VERTICES as N};
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(3450);
     let line = Stroke::solid(GREEN, LINE);
-    let broken = Stroke::dashed(BLUE, LINE, Dash::Long);
+    let broken = Stroke::dashed(BLUE, LINE, LONG);
     let mut seen = Vec::new();
     let top = largest(&CONVERGENCE_P.map(|p| largest(&five(p)).max(largest(&simple(p)))));
     for (i, at) in CONVERGENCE_P.into_iter().enumerate() {

@@ -13,7 +13,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
     let (simple, higher) = (curve(results, "simple")?, curve(results, "higher")?);
     panel.curve("simple circuits", &simple, Stroke::solid(GREEN, LINE))?;
-    let blue = Stroke::dashed(BLUE, LINE, Dash::Long);
+    let blue = Stroke::dashed(BLUE, LINE, LONG);
     panel.curve("five classes", &higher, blue)?;
     let simulated = means(results)?;
     printed(&panel, 0.6 * n as f64)?;

@@ -5,8 +5,7 @@ use super::prelude::*;
 use crate::experiments::segments::Segment;
 
 /// RGBColor and dash of each mass.
-const MASSES: [(RGBColor, Dash); 3] =
-    [(BLUE, Dash::Solid), (GREEN, Dash::Long), (ORANGE, Dash::Alternate)];
+const MASSES: [(RGBColor, Dash); 3] = [(BLUE, SOLID), (GREEN, LONG), (ORANGE, ALTERNATE)];
 
 /// Draws one of the two figures; `order` are the gaps in the order of their impacts.
 pub fn draw(

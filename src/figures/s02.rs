@@ -66,7 +66,7 @@ fn times(sheet: &Sheet, found: &Table) -> Drawn {
     }
     panel.label_ends(&drawn)?;
     // T^{−2} through (10, 0.1).
-    panel.guide("power", &[(10.0, 0.1), (1e4, 1e-7)], Stroke::dashed(INK, THIN, Dash::Short))?;
+    panel.guide("power", &[(10.0, 0.1), (1e4, 1e-7)], Stroke::dashed(INK, THIN, SHORT))?;
     panel.label("∝ *T*^{ −2}", (60.0, 2.8e-3), (-1, 1), INK)
 }
 

@@ -30,8 +30,8 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Draw
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.first().protocol.transient)];
     let lines = [
-        ("circuits, Eq. (25)", "simple", Stroke::dashed(BLUE, LINE, Dash::Short), 50.0),
-        ("circuits, from rest", "rest", Stroke::dashed(PURPLE, LINE, Dash::Long), 62.0),
+        ("circuits, Eq. (25)", "simple", Stroke::dashed(BLUE, LINE, SHORT), 50.0),
+        ("circuits, from rest", "rest", Stroke::dashed(PURPLE, LINE, LONG), 62.0),
     ];
     for (name, column, stroke, height) in lines {
         let mut curve = theory.curve(&[], "sigma", column)?;
@@ -82,7 +82,7 @@ fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
         drawn.push((name, points, colour));
     }
     panel.label_ends(&drawn)?;
-    let straight = Stroke::dashed(INK, THIN, Dash::Short);
+    let straight = Stroke::dashed(INK, THIN, SHORT);
     panel.guide("constant speed", &[(10.0, 1.0), (1e3, 100.0)], straight)?;
     panel.label("∝ *t*", (200.0, 20.0), (-1, -1), INK)
 }

@@ -29,7 +29,7 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
     let panel =
         sheet.lettered("(a)", Frame::new(1150, 430, 6000, 3930), x, y)?.outside(Outside::Cut);
     let bound = results.number("theory.relation.sigma_kept_half")?;
-    panel.level("bound by seeds", bound, Stroke::dashed(INK, THIN, Dash::Dotted))?;
+    panel.level("bound by seeds", bound, Stroke::dashed(INK, THIN, DOTTED))?;
     panel.label("bound from rest, *n* = 100", (10.0, bound), (1, 1), INK)?;
     let map = results.table("protocol.cells")?;
     let map = map.curve(&[("window", WINDOW)], "transient", "half_height_all")?;
@@ -38,8 +38,7 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
     for (place, masses) in lengths.iter().enumerate() {
         let longest = place + 1 == lengths.len();
         for (column, name, colour) in BRANCHES {
-            let (mark, dash) =
-                if longest { (Symbol::Disc, Dash::Solid) } else { (Symbol::Ring, Dash::Short) };
+            let (mark, dash) = if longest { (Symbol::Disc, SOLID) } else { (Symbol::Ring, SHORT) };
             let points = halves.series(&[("masses", *masses)], "transient", column)?;
             let look = (mark, MEDIUM, Stroke::dashed(colour, THIN, dash));
             let name = format!("{name}, *n* = {masses}");
@@ -66,8 +65,7 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
     let ends = [transients.first(), transients.last()];
     let mut labels = Vec::new();
     for (place, transient) in ends.into_iter().flatten().enumerate() {
-        let (mark, dash) =
-            if place == 0 { (Symbol::Ring, Dash::Short) } else { (Symbol::Disc, Dash::Solid) };
+        let (mark, dash) = if place == 0 { (Symbol::Ring, SHORT) } else { (Symbol::Disc, SOLID) };
         for (column, name, colour) in BRANCHES {
             let points =
                 shares.series(&[("masses", masses), ("transient", *transient)], "sigma", column)?;

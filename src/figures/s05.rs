@@ -39,7 +39,7 @@ fn shares(sheet: &Sheet) -> Drawn {
         panel.curve(&name, &before, stroke)?;
         panel.curve(&name, &after, stroke)?;
         let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
-        panel.guide("jump", &jump, Stroke::dashed(colour, THIN, Dash::Dotted))?;
+        panel.guide("jump", &jump, Stroke::dashed(colour, THIN, DOTTED))?;
         let start = (RANGE.0, 1.0 / vertices as f64);
         panel.label(
             &format!("*N* = {}", power_of_ten(vertices.ilog10() as i32)),

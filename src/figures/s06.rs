@@ -36,7 +36,7 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
         (cost_axis().without_numbers(), error.column("error of the next impact's time (1/omega)"));
     let errors =
         sheet.lettered("(a)", Frame::new(1300, 430, 8250, 4330), x, y)?.outside(Outside::Edge);
-    errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, Dash::Short))?;
+    errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, SHORT))?;
     errors.label("missed above", (errors.x.hi, DISPLACED), (-1, -1), INK)?;
 
     let tried = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);

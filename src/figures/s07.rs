@@ -58,7 +58,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
 
     chaos(&by_error, race)?;
     if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|t| t[1] < top) {
-        let line = Stroke::dashed(GREY, LINE, Dash::Short);
+        let line = Stroke::dashed(GREY, LINE, SHORT);
         by_time.level("what chaos allows in double precision", ceiling, line)?;
         let end = (by_time.x.hi, ceiling);
         by_time.label("what chaos allows in double precision", end, (-1, -1), GREY)?;
@@ -66,7 +66,7 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     let run = &race.parameters.growth;
     let others = programs(measured, run.chain.masses);
     for (program, points) in &others {
-        let stroke = Stroke::dashed(GREY, HAIR, Dash::Dotted);
+        let stroke = Stroke::dashed(GREY, HAIR, DOTTED);
         by_time.unrecorded().curve(program, points, stroke)?;
     }
     let time = |e: &Entry| match e.setting.method {
@@ -121,7 +121,7 @@ fn chaos(panel: &Panel, race: &Race) -> Drawn {
     let band = Polygon::new(below.chain(above).collect::<Vec<_>>(), GREY.mix(0.35));
     panel.draw_series("interval of the growth", [band])?;
     let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
-    let stroke = Stroke::dashed(GREY, LINE, Dash::Short);
+    let stroke = Stroke::dashed(GREY, LINE, SHORT);
     panel.outside(Outside::Cut).curve("what chaos allows", &line, stroke)
 }
 

@@ -35,7 +35,7 @@ pub const MAIN: Frame = Frame::new(1200, 430, 8150, 4430);
 pub fn printed(panel: &Panel, from: f64) -> Drawn {
     let printed = printed_threshold();
     let line = [(printed, from), (printed, panel.y.hi)];
-    panel.guide("printed", &line, Stroke::dashed(INK, THIN, Dash::Dotted))?;
+    panel.guide("printed", &line, Stroke::dashed(INK, THIN, DOTTED))?;
     panel.label(&format!("paper: {printed}"), line[1], (0, -1), INK)
 }
 

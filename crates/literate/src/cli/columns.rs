@@ -1,7 +1,6 @@
 //! Reads the data files of a report, for columns that no prose names.
 
-use crate::figures::DataFile;
-use crate::table::table_of;
+use crate::table::{DataFile, table_of};
 
 /// The columns of a data file, with all cells as text.
 pub(super) struct Columns {

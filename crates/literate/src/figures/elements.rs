@@ -4,7 +4,7 @@
 use super::backend::Outcome;
 use super::drawing::Drawing;
 use super::path::{Point, Step, circle, polygon, polyline};
-use super::style::{Dash, Stroke, Symbol, WHITE};
+use super::style::{SOLID, Stroke, Symbol, WHITE};
 use plotters::element::{
     Cross, Drawable, DynElement, IntoDynElement, PathElement, PointCollection,
 };
@@ -54,7 +54,7 @@ impl<C> Drawable<Drawing> for CustomElement<C> {
 
 /// Draws a line through points: an element of plotters if it is solid.
 pub fn line<C: Clone + 'static>(points: Vec<C>, stroke: Stroke) -> DynElement<'static, Drawing, C> {
-    if stroke.dash == Dash::Solid {
+    if stroke.dash == SOLID {
         return PathElement::new(points, stroke).into_dyn();
     }
     let dashed = move |drawing: &mut Drawing, mut points: Vec<Point>| {

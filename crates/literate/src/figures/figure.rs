@@ -2,8 +2,8 @@
 
 use super::drawing::Drawing;
 use super::error::Error;
-use super::record::DataFile;
 use super::svg::escape;
+use crate::table::DataFile;
 
 /// A figure: the picture, what it shows in words, and its data.
 #[derive(Clone, Debug, Default, PartialEq)]

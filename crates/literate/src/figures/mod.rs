@@ -22,7 +22,6 @@ mod svg;
 pub use drawing::{Drawing, Glyphs};
 pub use error::{Drawn, Error};
 pub use figure::{Description, Figure};
-pub use record::{DataFile, shortest};
 pub use svg::{escape, outlines};
 
 /// What a figure is drawn with, for one line of imports.
@@ -34,8 +33,9 @@ pub mod prelude {
     pub use super::panel::{Outside, Panel, Sheet, SheetArea};
     pub use super::plot::Plot;
     pub use super::style::*;
-    pub use super::{DataFile, Description, Drawn, Error, Figure};
+    pub use super::{Description, Drawn, Error, Figure};
     pub use crate::describe;
+    pub use crate::table::DataFile;
     pub use plotters::element::{EmptyElement, PathElement, Polygon, Rectangle, Text};
     pub use plotters::style::text_anchor::{HPos, VPos};
     pub use plotters::style::{Color, RGBColor};

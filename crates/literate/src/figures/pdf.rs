@@ -85,7 +85,7 @@ impl Writer<'_> {
         if let Some(stroke) = stroke {
             let [r, g, b] = shares(stroke.colour);
             content.set_stroke_rgb(r, g, b).set_line_width(stroke.width as f32);
-            let dashes = stroke.dashes().iter().map(|length| *length as f32);
+            let dashes = stroke.dash.iter().map(|length| *length as f32);
             content.set_dash_pattern(dashes, 0.0);
         }
         let at = |(x, y): Point| (x as f32, y as f32);

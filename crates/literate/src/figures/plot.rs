@@ -43,7 +43,7 @@ pub struct Plot {
 }
 
 const COLOURS: [RGBColor; 6] = [INK, BLUE, RED, GREEN, ORANGE, PURPLE];
-const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Alternate];
+const DASHES: [Dash; 4] = [SOLID, LONG, SHORT, ALTERNATE];
 
 impl Plot {
     pub fn new() -> Self {

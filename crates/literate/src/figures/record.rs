@@ -2,9 +2,8 @@
 
 use super::axis::Axis;
 use super::markup::spelled;
-use crate::table::Table;
+use crate::table::{DataFile, shortest};
 use impact_numerics::statistics::Estimate;
-use std::borrow::Cow;
 
 /// A point of a series: x, and those known of value, standard error and both ends of a bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,54 +104,6 @@ impl Record {
         }
         Some(DataFile { name: format!("{}.csv", self.suffix), header, rows })
     }
-}
-
-/// One CSV file with a header that names each column and its unit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DataFile {
-    /// File name, such as `fig09a.csv`.
-    pub name: String,
-    /// Column names with units, such as `sigma (d omega^2)`; 1 stands for a pure number.
-    pub header: Vec<String>,
-    /// The rows, each as long as the header.
-    pub rows: Vec<Vec<String>>,
-}
-
-impl DataFile {
-    /// Makes the file of a whole table of an experiment.
-    pub fn of(table: &Table) -> Self {
-        let (header, rows) = table.data();
-        DataFile { name: Self::name_of(table.name()), header, rows }
-    }
-
-    /// Returns the name of the file of a table `experiment.table`.
-    pub fn name_of(table: &str) -> String {
-        format!("{}.csv", table.replace('.', "-"))
-    }
-
-    /// Writes the file: comma separated, one line a row, each ended by a line feed.
-    pub fn csv(&self) -> String {
-        let mut out = String::new();
-        for line in std::iter::once(&self.header).chain(&self.rows) {
-            out += &(line.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n");
-        }
-        out
-    }
-}
-
-/// Quotes a cell of a CSV file if it has to be.
-fn quoted(cell: &str) -> Cow<'_, str> {
-    if cell.contains([',', '"', '\n']) {
-        format!("\"{}\"", cell.replace('"', "\"\"")).into()
-    } else {
-        cell.into()
-    }
-}
-
-/// Formats a number for files: the shortest decimal that reads back to the same double.
-pub fn shortest(value: f64) -> String {
-    let shown = format!("{value:?}");
-    shown.strip_suffix(".0").map_or(shown.clone(), String::from)
 }
 
 #[cfg(test)]

@@ -131,14 +131,8 @@ impl Panel {
     }
 
     /// Draws a curve with symbols at its points.
-    pub fn marked_curve(
-        &self,
-        name: &str,
-        points: Points,
-        stroke: Stroke,
-        marker: Marker,
-    ) -> Drawn {
-        self.curve(name, points, stroke)?;
+    pub fn marked_curve(&self, name: &str, points: Points, line: Stroke, marker: Marker) -> Drawn {
+        self.curve(name, points, line)?;
         self.markers(name, points, marker)
     }
 
@@ -193,15 +187,10 @@ impl Panel {
     }
 
     /// Draws estimates with a line through them, cut at the frame.
-    pub fn joined_estimates(
-        &self,
-        name: &str,
-        estimates: &[(f64, Estimate)],
-        marker: Marker,
-    ) -> Drawn {
-        let points: Vec<_> = estimates.iter().map(|(x, y)| (*x, y.value)).collect();
+    pub fn joined_estimates(&self, name: &str, found: &[(f64, Estimate)], marker: Marker) -> Drawn {
+        let points: Vec<_> = found.iter().map(|(x, y)| (*x, y.value)).collect();
         self.guide(name, &points, marker.2)?;
-        self.estimates(name, estimates, marker)
+        self.estimates(name, found, marker)
     }
 }
 

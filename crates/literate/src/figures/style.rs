@@ -84,18 +84,16 @@ impl From<Stroke> for ShapeStyle {
     }
 }
 
-/// How a line is broken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dash {
-    Solid,
-    Long,
-    Short,
-    Dotted,
-    Alternate,
-    Twice,
-}
+/// How a line is broken: the lengths of its strokes and of the gaps between them.
+pub type Dash = &'static [u32];
 
-/// RGBColor, thickness and dash of a line.
+pub const SOLID: Dash = &[];
+pub const LONG: Dash = &[150, 75];
+pub const SHORT: Dash = &[70, 50];
+pub const DOTTED: Dash = &[24, 54];
+pub const ALTERNATE: Dash = &[150, 60, 26, 60];
+pub const TWICE: Dash = &[120, 50, 26, 50, 26, 50];
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stroke {
     pub colour: RGBColor,
@@ -105,23 +103,11 @@ pub struct Stroke {
 
 impl Stroke {
     pub const fn solid(colour: RGBColor, width: u32) -> Self {
-        Stroke { colour, width, dash: Dash::Solid }
+        Stroke { colour, width, dash: SOLID }
     }
 
     pub const fn dashed(colour: RGBColor, width: u32, dash: Dash) -> Self {
         Stroke { colour, width, dash }
-    }
-
-    /// Returns the lengths of strokes and of the gaps between them; none for an unbroken line.
-    pub fn dashes(&self) -> &'static [u32] {
-        match self.dash {
-            Dash::Solid => &[],
-            Dash::Long => &[150, 75],
-            Dash::Short => &[70, 50],
-            Dash::Dotted => &[24, 54],
-            Dash::Twice => &[120, 50, 26, 50, 26, 50],
-            Dash::Alternate => &[150, 60, 26, 60],
-        }
     }
 }
 

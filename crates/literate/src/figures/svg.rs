@@ -74,7 +74,7 @@ fn shape(path: &[Step], fill: &Fill, stroke: &Option<Stroke>) -> String {
     if let Some(stroke) = stroke {
         classes.push(class("stroke", stroke.colour));
         more += &format!(" stroke-width=\"{}\"", stroke.width);
-        let dashes: Vec<String> = stroke.dashes().iter().map(u32::to_string).collect();
+        let dashes: Vec<String> = stroke.dash.iter().map(u32::to_string).collect();
         if !dashes.is_empty() {
             more += &format!(" stroke-dasharray=\"{}\"", dashes.join(" "));
         }

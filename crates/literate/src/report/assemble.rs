@@ -17,8 +17,9 @@ use super::mark::ids;
 use super::parse::Parsed;
 use super::values::{Registry, Value};
 use super::{html, latex, ledger, lint, markdown, parse, search};
-use crate::figures::{DataFile, Figure};
+use crate::figures::Figure;
 use crate::input::one_line;
+use crate::table::DataFile;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 

@@ -8,10 +8,9 @@ use super::edition::Edition;
 use super::ledger::Ledger;
 use super::values::{Digits, Kind, Number, Registry, Value};
 use crate::experiments::{AnyExperiment, Profile};
-use crate::figures::DataFile;
 use crate::print::{Style, print};
 use crate::project::Project;
-use crate::table::table_of;
+use crate::table::{DataFile, table_of};
 use serde_json::Value as Json;
 
 /// A card: a title and rows, for any format.

@@ -15,6 +15,7 @@ mod missing;
 mod rows;
 
 pub use building::Building;
+pub use data::{DataFile, shortest};
 pub use find::{Tables, cell, number_at, table, table_of};
 pub use missing::{Missing, nearest};
 pub(crate) use rows::called;

@@ -6,12 +6,12 @@ mod documents;
 
 use super::*;
 use crate::claims::{Check, Kind};
+use crate::figures::Figure;
 use crate::figures::prelude::{HPos, INK, Sheet, VPos, words};
-use crate::figures::{DataFile, Figure};
 use crate::project::Project;
 use crate::prose::Templates;
 use crate::source::toy;
-use crate::table::Table;
+use crate::table::{DataFile, Table};
 use impact_numerics::estimates::with_error;
 use std::sync::Arc;
 
