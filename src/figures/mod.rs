@@ -19,7 +19,6 @@ mod fig13;
 mod fig14;
 mod fig15;
 mod graph;
-mod motion;
 mod rivals;
 mod s01;
 mod s02;
@@ -34,47 +33,36 @@ mod simulated;
 
 pub use literate::figures::*;
 
-use crate::experiments::sweep;
-use crate::experiments::{AnyExperiment, Results};
 use crate::experiments::{
     BIAS, BRANCHES, MEASURED, NUCLEATION, PROTOCOL, RACE, SCALE, SEEDS, SEGMENTS, SPACE_TIME,
-    SWEEP, THEORY,
+    SWEEP, THEORY, sweep,
 };
 use literate::FigureSpec;
 
-#[track_caller]
-const fn drawing(
-    name: &'static str,
-    needs: &'static [&'static dyn AnyExperiment],
-    draw: fn(&Results) -> Result<Figure, Error>,
-) -> FigureSpec {
-    FigureSpec::new(name, needs, draw)
-}
-
 /// All figures: first the paper's, then those of this edition.
 pub const ALL: [FigureSpec; 24] = [
-    drawing("fig01", &[], |_| fig01::draw()),
-    drawing("fig02", &[&SWEEP], |all| fig02::draw(sweep::main(all)?)),
-    drawing("fig03", &[&SWEEP], fig03::draw),
-    drawing("fig04", &[], |_| fig04::draw()),
-    drawing("fig05", &[&SEGMENTS], |all| fig05::draw(all.of(&SEGMENTS)?)),
-    drawing("fig06", &[&SEGMENTS], |all| fig06::draw(all.of(&SEGMENTS)?)),
-    drawing("fig07", &[&THEORY], |_| fig07::draw()),
-    drawing("fig08", &[&THEORY], fig08::draw),
-    drawing("fig09", &[&THEORY], fig09::draw),
-    drawing("fig10", &[&THEORY], |_| fig10::draw()),
-    drawing("fig11", &[&THEORY], fig11::draw),
-    drawing("fig12", &[&SWEEP, &THEORY], fig12::draw),
-    drawing("fig13", &[&THEORY], fig13::draw),
-    drawing("fig14", &[&THEORY], fig14::draw),
-    drawing("fig15", &[&SWEEP, &THEORY], fig15::draw),
-    drawing("s01", &[&SPACE_TIME], |all| s01::draw(all.of(&SPACE_TIME)?)),
-    drawing("s02", &[&NUCLEATION, &SWEEP], s02::draw),
-    drawing("s03", &[&SEEDS, &SWEEP, &PROTOCOL, &THEORY], s03::draw),
-    drawing("s04", &[&BRANCHES, &PROTOCOL, &THEORY], s04::draw),
-    drawing("s05", &[&THEORY], s05::draw),
-    drawing("s06", &[&RACE], |all| s06::draw(all.of(&RACE)?)),
-    drawing("s07", &[&RACE, &MEASURED], |all| s07::draw(all.of(&RACE)?, all.of(&MEASURED)?)),
-    drawing("s08", &[&BIAS, &MEASURED], |all| s08::draw(all.of(&BIAS)?, all.of(&MEASURED)?)),
-    drawing("s09", &[&SCALE, &MEASURED], |all| s09::draw(all.of(&SCALE)?, all.of(&MEASURED)?)),
+    FigureSpec::new("fig01", &[], |_| fig01::draw()),
+    FigureSpec::new("fig02", &[&SWEEP], |results| fig02::draw(sweep::main(results)?)),
+    FigureSpec::new("fig03", &[&SWEEP], fig03::draw),
+    FigureSpec::new("fig04", &[], |_| fig04::draw()),
+    FigureSpec::new("fig05", &[&SEGMENTS], |results| fig05::draw(results.of(&SEGMENTS)?)),
+    FigureSpec::new("fig06", &[&SEGMENTS], |results| fig06::draw(results.of(&SEGMENTS)?)),
+    FigureSpec::new("fig07", &[&THEORY], |_| fig07::draw()),
+    FigureSpec::new("fig08", &[&THEORY], fig08::draw),
+    FigureSpec::new("fig09", &[&THEORY], fig09::draw),
+    FigureSpec::new("fig10", &[&THEORY], |_| fig10::draw()),
+    FigureSpec::new("fig11", &[&THEORY], fig11::draw),
+    FigureSpec::new("fig12", &[&SWEEP, &THEORY], fig12::draw),
+    FigureSpec::new("fig13", &[&THEORY], fig13::draw),
+    FigureSpec::new("fig14", &[&THEORY], fig14::draw),
+    FigureSpec::new("fig15", &[&SWEEP, &THEORY], fig15::draw),
+    FigureSpec::new("s01", &[&SPACE_TIME], |results| s01::draw(results.of(&SPACE_TIME)?)),
+    FigureSpec::new("s02", &[&NUCLEATION, &SWEEP], s02::draw),
+    FigureSpec::new("s03", &[&SEEDS, &SWEEP, &PROTOCOL, &THEORY], s03::draw),
+    FigureSpec::new("s04", &[&BRANCHES, &PROTOCOL, &THEORY], s04::draw),
+    FigureSpec::new("s05", &[&THEORY], s05::draw),
+    FigureSpec::new("s06", &[&RACE], |results| s06::draw(results.of(&RACE)?)),
+    FigureSpec::new("s07", &[&RACE, &MEASURED], s07::draw),
+    FigureSpec::new("s08", &[&BIAS, &MEASURED], s08::draw),
+    FigureSpec::new("s09", &[&SCALE, &MEASURED], s09::draw),
 ];

@@ -43,7 +43,17 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     if let Some((time, gap)) = run.times.first().zip(run.gaps.first()) {
         near.label("closes by itself", (*time, f64::from(*gap)), (2, 4), RED)?;
     }
-    Ok(sheet.finish("One long run", description(run)))
+    let description = describe!(
+        "(a) Gap against time for {} impacts of one run of {} masses at σ = {}: the thicker, the more impacts. They form horizontal \
+         bands that begin at {} red discs and widen in bursts; {} of {} gaps are reached by the end. (b) Its beginning, a tick for each.",
+        run.times.len(),
+        run.parameters.chain.masses,
+        run.parameters.sigma,
+        run.starts().len(),
+        run.firsts().iter().flatten().count(),
+        run.width(),
+    );
+    Ok(sheet.finish("One long run", description))
 }
 
 fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {
@@ -99,19 +109,6 @@ fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Drawn {
     panel.unrecorded().markers("starts", &starts, START)?;
     panel.record("starts", starts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     Ok(())
-}
-
-fn description(run: &SpaceTime) -> Description {
-    describe!(
-        "(a) Gap against time for {} impacts of one run of {} masses at σ = {}: the thicker, the more impacts. They form horizontal \
-         bands that begin at {} red discs and widen in bursts; {} of {} gaps are reached by the end. (b) Its beginning, a tick for each.",
-        run.times.len(),
-        run.parameters.chain.masses,
-        run.parameters.sigma,
-        run.starts().len(),
-        run.firsts().iter().flatten().count(),
-        run.width(),
-    )
 }
 
 fn thousandths(time: f64) -> f64 {

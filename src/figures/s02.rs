@@ -16,7 +16,14 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8600);
     chains(&sheet, table("nucleation.chains")?, shares, table("sweep.rows")?)?;
     times(&sheet, missing)?;
-    Ok(sheet.finish("Gaps that close by themselves", description(missing)?))
+    let sigmas = missing.distinct("sigma")?;
+    let description = describe!(
+        "(a) Share of chains with an impact against σ: measured points on steep curves, farther left for longer chains. (b) What is \
+         missing of p after T, for σ from {} to {}: lines like 1/T².",
+        sigmas.first().copied().unwrap_or_default(),
+        sigmas.last().copied().unwrap_or_default(),
+    );
+    Ok(sheet.finish("Gaps that close by themselves", description))
 }
 
 fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn {
@@ -68,14 +75,4 @@ fn times(sheet: &Sheet, found: &Table) -> Drawn {
     // T^{−2} through (10, 0.1).
     panel.guide("power", &[(10.0, 0.1), (1e4, 1e-7)], Stroke::dashed(INK, THIN, SHORT))?;
     panel.label("∝ *T*^{ −2}", (60.0, 2.8e-3), (-1, 1), INK)
-}
-
-fn description(missing: &Table) -> Result<Description, Error> {
-    let sigmas = missing.distinct("sigma")?;
-    Ok(describe!(
-        "(a) Share of chains with an impact against σ: measured points on steep curves, farther left for longer chains. (b) What is \
-         missing of p after T, for σ from {} to {}: lines like 1/T².",
-        sigmas.first().copied().unwrap_or_default(),
-        sigmas.last().copied().unwrap_or_default(),
-    ))
 }

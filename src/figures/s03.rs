@@ -21,7 +21,13 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let advance = table("seeds.advance")?;
     advances(&sheet, advance)?;
     halves(&sheet, table("seeds.rise")?, table("seeds.scores")?)?;
-    Ok(sheet.finish("From one gap to many: nucleation and growth", description(advance)?))
+    let sigmas = advance.distinct("sigma")?;
+    let [low, high] = [sigmas.first(), sigmas.last()].map(|end| end.copied().unwrap_or_default());
+    let description = describe!(
+        "(a) Mean count of all against σ: simulated points along the prediction from seeds; circuits steeper. (b) Advance \
+         against time at σ from {low} to {high}: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.",
+    );
+    Ok(sheet.finish("From one gap to many: nucleation and growth", description))
 }
 
 fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Drawn {
@@ -100,13 +106,4 @@ fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Drawn {
     panel.estimates("simulation", &found, look)?;
     panel.label("simulation", (150.0, 0.1355), (1, 0), RED)?;
     panel.label("from seeds", (300.0, 0.109), (-1, 0), INK)
-}
-
-fn description(advance: &Table) -> Result<Description, Error> {
-    let sigmas = advance.distinct("sigma")?;
-    let [low, high] = [sigmas.first(), sigmas.last()].map(|end| end.copied().unwrap_or_default());
-    Ok(describe!(
-        "(a) Mean count of all against σ: simulated points along the prediction from seeds; circuits steeper. (b) Advance \
-         against time at σ from {low} to {high}: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.",
-    ))
 }

@@ -19,7 +19,20 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8800);
     half_heights(&sheet, results, halves, &lengths)?;
     shares(&sheet, results.table("branches.shares")?, longest)?;
-    Ok(sheet.finish("Chains from rest and from above", description(halves, longest)?))
+    let ends = |column| -> Result<String, Error> {
+        let places = halves.curve(&[("masses", longest)], "transient", column)?;
+        let ends = places.first().zip(places.last());
+        Ok(ends.map_or("none".into(), |(first, last)| {
+            format!("from {} to {}", short(first.1, 3), short(last.1, 3))
+        }))
+    };
+    let description = describe!(
+        "(a) Half height against T: from rest it falls, {}; from above it rises, {}. (b) Share of gaps with an impact against σ, \
+         early and late: two curves far apart that approach.",
+        ends("from_rest")?,
+        ends("from_above")?,
+    );
+    Ok(sheet.finish("Chains from rest and from above", description))
 }
 
 fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64]) -> Drawn {
@@ -90,20 +103,4 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
         panel.label_nearby(&name, at, side, colour)?;
     }
     Ok(())
-}
-
-fn description(halves: &Table, masses: f64) -> Result<Description, Error> {
-    let ends = |column| -> Result<String, Error> {
-        let places = halves.curve(&[("masses", masses)], "transient", column)?;
-        let ends = places.first().zip(places.last());
-        Ok(ends.map_or("none".into(), |(first, last)| {
-            format!("from {} to {}", short(first.1, 3), short(last.1, 3))
-        }))
-    };
-    Ok(describe!(
-        "(a) Half height against T: from rest it falls, {}; from above it rises, {}. (b) Share of gaps with an impact against σ, \
-         early and late: two curves far apart that approach.",
-        ends("from_rest")?,
-        ends("from_above")?,
-    ))
 }

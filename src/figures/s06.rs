@@ -3,7 +3,7 @@
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look};
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
-use crate::params::MethodName::{self, *};
+use crate::params::MethodName::*;
 
 /// Where the names stand in the upper panel.
 const NAMES: [Place; 6] = [
@@ -50,32 +50,25 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     let misses = Frame::new(1300, 4950, 8250, 7250);
     let misses = sheet.lettered("(b)", misses, cost_axis(), axis)?.outside(Outside::Edge);
 
-    let spread = |e: &Entry| Some((e.setting.method, (e.work?, e.errors?[0], e.errors?[1])));
-    let share = |e: &Entry| e.misses as f64 / e.tried.max(1) as f64;
-    let missed = by_method(&race.entries, |e| Some((e.setting.method, (e.work?, share(e)))));
-    let spreads = by_method(&race.entries, spread);
-    for (method, bars) in &spreads {
-        let thin = Stroke { width: HAIR, ..look(*method).2 };
-        errors.bars(method.title(), bars, 0, thin)?;
+    let method = |e: &Entry| e.setting.method;
+    let spread = |e: &Entry| Some((method(e), (e.work?, e.errors?[0], e.errors?[1])));
+    let median = |e: &Entry| Some((method(e), (e.work?, e.errors?[0])));
+    let missed = |e: &Entry| Some((method(e), (e.work?, e.misses as f64 / e.tried.max(1) as f64)));
+    for (method, bars) in by_method(&race.entries, spread) {
+        let thin = Stroke { width: HAIR, ..look(method).2 };
+        errors.bars(method.title(), &bars, 0, thin)?;
     }
-    let median = |(method, bars): (MethodName, Vec<(f64, f64, f64)>)| {
-        (method, bars.iter().map(|bar| (bar.0, bar.1)).collect())
-    };
-    let medians = spreads.into_iter().map(median).collect();
-    rivals::draw(&errors, &medians, &NAMES)?;
-    rivals::draw(&misses, &missed, &MISSED)?;
-    Ok(sheet.finish("Error and misses of the next impact", description(race)))
-}
-
-fn description(race: &Race) -> Description {
-    let certified = race.entries.iter().find(|e| e.setting.method == Certified);
+    rivals::draw(&errors, &by_method(&race.entries, median), &NAMES)?;
+    rivals::draw(&misses, &by_method(&race.entries, missed), &MISSED)?;
+    let certified = race.entries.iter().find(|e| method(e) == Certified);
     let largest = certified.and_then(|entry| Some(entry.errors?[1]));
-    describe!(
+    let description = describe!(
         "Against counted work, a mark for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
          impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
          next impact is missed.",
         race.parameters.growth.chain.masses,
         race.parameters.growth.sigma,
         largest.map_or("unknown".into(), |error| short(error, 2)),
-    )
+    );
+    Ok(sheet.finish("Error and misses of the next impact", description))
 }

@@ -3,8 +3,8 @@
 
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look, programs};
-use crate::experiments::Measured;
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
+use crate::experiments::{MEASURED, RACE, Results};
 use crate::params::MethodName::*;
 use impact_numerics::statistics::Estimate;
 
@@ -44,7 +44,8 @@ fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
     Some([growth.interval[1], growth.value, growth.interval[0]].map(|rate| folds / rate))
 }
 
-pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let (race, measured) = (results.of(&RACE)?, results.of(&MEASURED)?);
     let sheet = Sheet::new(8700);
     let top = (race.parameters.until / 50.0).ceil() * 50.0;
     let x = Axis::decades(0, 4, 1, "measured time of an impact over the engine’s")
@@ -102,7 +103,16 @@ pub fn draw(race: &Race, measured: &Measured) -> Result<Figure, Error> {
     }
     by_time.label_nearby("fixed steps", (150.0, 14.0), (0, -1), INK)?;
     by_error.label_nearby("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
-    Ok(sheet.finish("How long a run is true", description(race)))
+    let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
+    let description = describe!(
+        "Time up to which a run has every impact right, mean of {} chains, n = {}, σ = {}: (a) against measured time over the \
+         engine's, the engine at the top left; (b) against the median error of one impact, with the line that the growth λ = \
+         {growth} allows.",
+        race.parameters.chains,
+        run.chain.masses,
+        run.sigma,
+    );
+    Ok(sheet.finish("How long a run is true", description))
 }
 
 fn horizon_axis(top: f64) -> Axis {
@@ -123,16 +133,4 @@ fn chaos(panel: &Panel, race: &Race) -> Drawn {
     let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
     let stroke = Stroke::dashed(GREY, LINE, SHORT);
     panel.outside(Outside::Cut).curve("what chaos allows", &line, stroke)
-}
-
-fn description(race: &Race) -> Description {
-    let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
-    describe!(
-        "Time up to which a run has every impact right, mean of {} chains, n = {}, σ = {}: (a) against measured time over the \
-         engine's, the engine at the top left; (b) against the median error of one impact, with the line that the growth λ = \
-         {growth} allows.",
-        race.parameters.chains,
-        race.parameters.growth.chain.masses,
-        race.parameters.growth.sigma,
-    )
 }

@@ -2,9 +2,8 @@
 //! interval; methods are sorted by the time that they take.
 
 use super::prelude::*;
-use crate::experiments::Measured;
-use crate::experiments::accuracy::bias::Biases;
 use crate::experiments::accuracy::tables::{Compared, compared};
+use crate::experiments::{BIAS, MEASURED, Results};
 use crate::params::{MethodName::Certified, Setting};
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
@@ -24,7 +23,8 @@ const ROW: i32 = 255;
 /// A method with its time and its difference, in per cent.
 type Row = (f64, Setting, Estimate);
 
-pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let (biases, measured) = (results.of(&BIAS)?, results.of(&MEASURED)?);
     let rows = compared(biases);
     let (sigmas, number) = (&biases.parameters.chains, biases.parameters.settings.len() as i32);
     let height = number * ROW;
@@ -51,7 +51,15 @@ pub fn draw(biases: &Biases, measured: &Measured) -> Result<Figure, Error> {
     for (name, right) in [("difference (%)", 7200), ("time (s)", 8250)] {
         sheet.area.draw_text(name, &style, (right, 420))?;
     }
-    Ok(sheet.finish("Error of a mean, by method", description(biases, &rows)))
+    let clear = |row: &&Compared| row.share.is_some_and(|off| off.value.abs() > CLEAR * off.error);
+    let description = describe!(
+        "Difference of the mean number of impacting gaps from the engine's, with 95 % intervals, at {} σ; rows are methods with a step or \
+         tolerance, by rising time. {} of {} differences are clear (discs).",
+        sigmas.len(),
+        rows.iter().filter(clear).count(),
+        rows.len(),
+    );
+    Ok(sheet.finish("Error of a mean, by method", description))
 }
 
 /// Draws a row for the engine, if its time is known, and one for each method below it. Returns the
@@ -107,15 +115,4 @@ fn rows_of(
         write(&short(*time, 2), 8250, row)?;
     }
     Ok(panel)
-}
-
-fn description(biases: &Biases, rows: &[Compared]) -> Description {
-    let clear = |row: &&Compared| row.share.is_some_and(|off| off.value.abs() > CLEAR * off.error);
-    describe!(
-        "Difference of the mean number of impacting gaps from the engine's, with 95 % intervals, at {} σ; rows are methods with a step or \
-         tolerance, by rising time. {} of {} differences are clear (discs).",
-        biases.parameters.chains.len(),
-        rows.iter().filter(clear).count(),
-        rows.len(),
-    )
 }

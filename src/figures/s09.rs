@@ -2,9 +2,8 @@
 
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look};
-use crate::experiments::Measured;
-use crate::experiments::accuracy::scale::Scale as Costs;
-use crate::experiments::measured::{Measurement, What};
+use crate::experiments::measured::What;
+use crate::experiments::{MEASURED, Results, SCALE};
 use crate::params::MethodName::*;
 
 const NAMES: [Place; 5] = [
@@ -15,12 +14,8 @@ const NAMES: [Place; 5] = [
     (Verlet, FINEST, (2, 0), Some("Verlet, time stepping")),
 ];
 
-/// The measured times of the engine with one chain on one thread.
-fn of_engine(measured: &Measured) -> Vec<&Measurement> {
-    measured.of(What::Engine).filter(|row| row.chains == 1 && row.note.is_empty()).collect()
-}
-
-pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let (scale, measured) = (results.of(&SCALE)?, results.of(&MEASURED)?);
     let sheet = Sheet::new(6650);
     // Somewhat wider than the sizes, which would stand on the other axis.
     let masses = || Axis::decades(0, 5, 1, "number of masses *n*").between(7.0, 1.4e4);
@@ -31,29 +26,27 @@ pub fn draw(scale: &Costs, measured: &Measured) -> Result<Figure, Error> {
     let all = by_method(scale, |row| Some((row.0.method, (row.1 as f64, row.2))));
     rivals::draw(&counted, &all, &NAMES)?;
 
-    let rows = of_engine(measured);
-    let times = rows.iter().filter_map(|row| row.microseconds_per_impact);
+    // The engine with one chain on one thread.
+    let alone = measured.of(What::Engine).filter(|row| row.chains == 1 && row.note.is_empty());
+    let line = alone.filter_map(|row| Some((row.n as f64, row.microseconds_per_impact?)));
+    let line: Vec<_> = line.collect();
+    let times = line.iter().map(|point| point.1);
     let y = Axis::decades_around(times, 1, "µs per impact").label_1_2_5();
     let (x, y) = (masses(), y.column("time per impact (us)"));
     let clock = sheet.lettered("(b)", Frame::new(1200, 4050, 8250, 5750), x, y)?;
     let red = look(Certified);
-    let line: Vec<_> =
-        rows.iter().filter_map(|row| Some((row.n as f64, row.microseconds_per_impact?))).collect();
     clock.marked_curve("engine", &line, red.2, red)?;
     if let Some(last) = line.last() {
         clock.label("engine", *last, (0, -2), RED)?;
     }
-    Ok(sheet.finish("Cost of an impact against n", description(scale, &rows)))
-}
-
-fn description(scale: &Costs, rows: &[&Measurement]) -> Description {
     let most = scale.iter().rfind(|row| row.0.method == Certified);
-    let counted =
-        most.map_or("none".into(), |(_, n, work)| format!("{} at n = {n}", short(*work, 2)));
-    let last = rows.last().and_then(|row| Some((row.n, row.microseconds_per_impact?)));
-    let timed = last.map_or("none".into(), |(n, time)| format!("{} at n = {n}", short(time, 2)));
-    describe!(
+    let counted = most.map(|(_, n, work)| format!("{} at n = {n}", short(*work, 2)));
+    let timed = line.last().map(|(n, time)| format!("{} at n = {n}", short(*time, 2)));
+    let description = describe!(
         "Cost against the number of masses n, all axes logarithmic. (a) Evaluations per impact: this engine lowest and nearly level, \
-         {counted}; Runge–Kutta grows with n. (b) Microseconds per impact of this engine, {timed}."
-    )
+         {}; Runge–Kutta grows with n. (b) Microseconds per impact of this engine, {}.",
+        counted.unwrap_or("none".into()),
+        timed.unwrap_or("none".into()),
+    );
+    Ok(sheet.finish("Cost of an impact against n", description))
 }
