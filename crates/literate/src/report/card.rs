@@ -58,9 +58,7 @@ impl Card {
         let Some(experiment) = all.find(|experiment| experiment.name() == name) else { return };
         self.item("experiment", &experiment.item(), cards.project);
         let profile = cards.values.profile().unwrap_or(Profile::Full);
-        let pairs = settings(&experiment.parameters(profile)).into_iter();
-        let pairs = pairs.map(|(name, setting)| format!("{name}: {setting}"));
-        self.words("its parameters", pairs.collect::<Vec<_>>().join("; "));
+        self.words("its parameters", settings(&experiment.parameters(profile)));
     }
 }
 
@@ -246,28 +244,25 @@ fn lead(value: &Value) -> String {
     }
 }
 
-/// Returns name and setting of each parameter, the seed among them. A nested field gets both names;
-/// a field with several values lists them, or the first and the last of more than eight.
-fn settings(parameters: &Json) -> Vec<(String, String)> {
+/// Writes the parameters, the seed among them: `runs: 3; seed: 7`. A nested field has both names;
+/// one with several values lists them, or the first and the last of more than eight.
+fn settings(parameters: &Json) -> String {
     let mut all = Vec::new();
     collect("", parameters, &mut all);
-    let listed = |values: &[String]| match values {
-        [first, .., last] if values.len() > 8 => format!("{} from {first} to {last}", values.len()),
-        few => few.join(", "),
+    let listed = |(name, values): (String, Vec<String>)| match values.as_slice() {
+        [first, .., last] if values.len() > 8 => {
+            format!("{name}: {} from {first} to {last}", values.len())
+        }
+        few => format!("{name}: {}", few.join(", ")),
     };
-    all.into_iter().map(|(name, values)| (name, listed(&values))).collect()
+    all.into_iter().map(listed).collect::<Vec<_>>().join("; ")
 }
 
 /// Adds the values of a field, each once.
 fn collect(name: &str, value: &Json, into: &mut Vec<(String, Vec<String>)>) {
     let shown = match value {
         Json::Null => return,
-        Json::Array(list) => {
-            for one in list {
-                collect(name, one, into);
-            }
-            return;
-        }
+        Json::Array(list) => return list.iter().for_each(|one| collect(name, one, into)),
         Json::Object(fields) => {
             for (field, value) in fields {
                 let whole = format!("{name} {}", field.replace('_', " "));
@@ -294,9 +289,7 @@ mod tests {
     fn parameters_of_parameters_have_both_names() {
         let parameters = serde_json::json!({"seed": 7, "chain": {"masses": 3}, "r": [0.5, 0.25],
             "runs": [{"from": 1.0, "to": 2}, {"from": 1.0, "to": 3}], "none": null});
-        let shown: Vec<String> =
-            settings(&parameters).iter().map(|(k, v)| format!("{k}={v}")).collect();
-        let all = ["chain masses=3", "r=0.5, 0.25", "runs from=1", "runs to=2, 3", "seed=7"];
-        assert_eq!(shown, all);
+        let all = "chain masses: 3; r: 0.5, 0.25; runs from: 1; runs to: 2, 3; seed: 7";
+        assert_eq!(settings(&parameters), all);
     }
 }

@@ -39,28 +39,24 @@ fn sentence(text: &Text) -> String {
 
 /// Makes a formula of each symbol with an index or a star, such as p_crit or k*.
 fn symbols(text: &str) -> String {
-    let (mut out, mut rest) = (String::new(), text);
-    while let Some(at) = rest.find(['_', '*']) {
-        let letter = rest[..at].chars().next_back().filter(|c| c.is_alphabetic());
-        let before = &rest[..at - letter.map_or(0, char::len_utf8)];
-        let (mark, after) = rest[at..].split_at(1);
-        let end = after.find(|c: char| !c.is_alphanumeric()).unwrap_or(after.len());
-        let (index, beyond) = after.split_at(if mark == "_" { end } else { 0 });
-        let alone = !before.ends_with(|c: char| c.is_alphanumeric() || c == '_');
-        match letter.map(|letter| if letter == 'φ' { r"\phi".into() } else { letter.to_string() })
-        {
-            Some(tex) if alone && mark == "*" => out.push_str(&format!("{before}${tex}^*$")),
-            Some(tex) if alone && index.chars().count() == 1 => {
-                out.push_str(&format!("{before}${tex}_{index}$"))
-            }
-            Some(tex) if alone && end > 0 => {
-                out.push_str(&format!(r"{before}${tex}_{{\mathrm{{{index}}}}}$"))
-            }
-            _ => out.push_str(&rest[..rest.len() - beyond.len()]),
+    let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '*';
+    let chars: Vec<char> = text.chars().collect();
+    let words = chars.chunk_by(|a, b| is_part(*a) == is_part(*b));
+    words.map(|word| symbol(word).unwrap_or_else(|| word.iter().collect())).collect()
+}
+
+fn symbol(word: &[char]) -> Option<String> {
+    let (letter, rest) = word.split_first().filter(|(letter, _)| letter.is_alphabetic())?;
+    let tex = if *letter == 'φ' { r"\phi".into() } else { letter.to_string() };
+    match rest {
+        ['*'] => Some(format!("${tex}^*$")),
+        ['_', index] if index.is_alphanumeric() => Some(format!("${tex}_{index}$")),
+        ['_', _, ..] if rest[1..].iter().all(|c| c.is_alphanumeric()) => {
+            let index: String = rest[1..].iter().collect();
+            Some(format!(r"${tex}_{{\mathrm{{{index}}}}}$"))
         }
-        rest = beyond;
+        _ => None,
     }
-    out + rest
 }
 
 /// Returns the printed numbers as values: the groups `paper` (parameters) and `printed`

@@ -7,7 +7,7 @@ pub(super) mod shared;
 mod table;
 
 use super::document::{self, Block, Formula, Inline};
-use super::document::{heading_place, place_on_page, printed, spelt};
+use super::document::{heading_place, place_on_page, spelt};
 use super::edition::Document;
 use super::error::Error;
 use super::input::Input;
@@ -217,29 +217,31 @@ impl<'a> Page<'a> {
         let mut pieces: Vec<(String, bool)> = Vec::new();
         for (i, piece) in list.iter().enumerate() {
             let before = i.checked_sub(1).and_then(|before| list.get(before));
-            let is_maths = |piece: Option<&Inline>| matches!(piece, Some(Inline::Maths(_)));
-            let is_value = |piece: Option<&Inline>| matches!(piece, Some(Inline::Value { .. }));
-            let Inline::Text(words) = piece else {
-                let opens = pieces
-                    .last()
-                    .is_some_and(|(text, _)| text.ends_with(OPENING) || text == "\u{a0}");
-                let kept = match is_maths(Some(piece)) {
-                    true => opens || is_value(before),
-                    false => is_value(Some(piece)) && (is_maths(before) || opens),
-                };
-                pieces.push((self.inline(piece), kept));
-                continue;
-            };
-            // `$x =$ 3`.
-            if words == " " && matches!(before, Some(Inline::Maths(formula)) if relates(formula)) {
-                pieces.push(("\u{a0}".into(), true));
-                continue;
+            let after_maths = matches!(before, Some(Inline::Maths(_)));
+            match piece {
+                // `$x =$ 3`.
+                Inline::Text(words) if words == " " && before.is_some_and(relates) => {
+                    pieces.push(("\u{a0}".into(), true));
+                }
+                Inline::Text(words) => {
+                    let rest = if after_maths { words.trim_start_matches(CLOSING) } else { words };
+                    let (closing, rest) = words.split_at(words.len() - rest.len());
+                    let (rest, opening) = rest.split_at(rest.trim_end_matches(OPENING).len());
+                    let parts = [(closing, true), (rest, false), (opening, false)];
+                    let parts = parts.into_iter().filter(|(words, _)| !words.is_empty());
+                    pieces.extend(parts.map(|(words, kept)| (text(words), kept)));
+                }
+                piece => {
+                    let last = pieces.last().map_or("", |(text, _)| text);
+                    let opens = last.ends_with(OPENING) || last == "\u{a0}";
+                    let kept = match piece {
+                        Inline::Maths(_) => opens || matches!(before, Some(Inline::Value { .. })),
+                        Inline::Value { .. } => opens || after_maths,
+                        _ => false,
+                    };
+                    pieces.push((self.inline(piece), kept));
+                }
             }
-            let closing = if is_maths(before) { words.trim_start_matches(CLOSING) } else { words };
-            let (closing, rest) = words.split_at(words.len() - closing.len());
-            let (rest, opening) = rest.split_at(rest.trim_end_matches(OPENING).len());
-            pieces.extend([(text(closing), true), (text(rest), false), (text(opening), false)]);
-            pieces.retain(|(text, _)| !text.is_empty());
         }
         let together = pieces.chunk_by(|_, (_, kept)| *kept);
         let group = |group: &[(String, bool)]| match group {
@@ -267,23 +269,18 @@ impl<'a> Page<'a> {
             Inline::Strong(inner) => format!("<strong>{}</strong>", self.inlines(inner)),
             Inline::Maths(formula) => self.formula(formula, MathDisplay::Inline),
             Inline::Display { formula, id, number } => {
-                let formula = self.formula(formula, MathDisplay::Block);
-                let name = if id.is_some() { number } else { "without number" };
-                let name = format!("Equation {name}");
-                let (id, number) = match id.as_deref().map(place_on_page) {
-                    Some(id) => (
-                        format!(" id=\"{id}\""),
-                        format!("<a class=\"number\" href=\"#{id}\">({number})</a>"),
-                    ),
-                    None => Default::default(),
+                let (name, id, tag) = match id.as_deref().map(place_on_page) {
+                    Some(id) => {
+                        let tag = format!("<a class=\"number\" href=\"#{id}\">({number})</a>");
+                        (number.as_str(), format!(" id=\"{id}\""), tag)
+                    }
+                    None => ("without number", String::new(), String::new()),
                 };
-                let formula = scroll(&name, &formula);
-                format!("<div class=\"equation\"{id}>{formula}{number}</div>\n")
+                let formula = self.formula(formula, MathDisplay::Block);
+                let formula = scroll(&format!("Equation {name}"), &formula);
+                format!("<div class=\"equation\"{id}>{formula}{tag}</div>\n")
             }
-            Inline::Value { id, shown: Shown::Number(numeral) } => {
-                self.value(id, &number(numeral, "\u{a0}%"))
-            }
-            Inline::Value { id, shown } => self.value(id, &self.inlines(&printed(shown))),
+            Inline::Value { id, shown } => self.value(id, shown, '\u{a0}'),
             Inline::Link { to, shown } => {
                 // A document is another file here.
                 let of = self.input.edition.documents.iter().find(|of| of.markdown == to);
@@ -316,10 +313,7 @@ impl<'a> Page<'a> {
     }
 
     fn formula(&self, formula: &Formula, display: MathDisplay) -> String {
-        let value = |id: &str, shown: &Shown| match shown {
-            Shown::Words(words) => self.value(id, &text(words)),
-            Shown::Number(numeral) => self.value(id, &number(numeral, "\u{202f}%")),
-        };
+        let value = |id: &str, shown: &Shown| self.value(id, shown, '\u{202f}');
         mathml::write(formula, display, value).unwrap_or_else(|what| {
             // The error names the whole formula, by which its place is found.
             self.errors.borrow_mut().push(Error::Maths { tex: formula.digits(), what });
@@ -327,20 +321,24 @@ impl<'a> Page<'a> {
         })
     }
 
-    /// Writes a value, which opens its card. (Browsers break lines around a `<button>` but not
-    /// within text.)
-    fn value(&self, id: &str, shown: &str) -> String {
+    /// Writes a value, which opens its card, with this blank before a percent sign. (Browsers break
+    /// lines around a `<button>` but not within text.)
+    fn value(&self, id: &str, shown: &Shown, blank: char) -> String {
         self.values.borrow_mut().insert(id.to_string());
         // A line that ends in an attribute would be read as a blank.
         let id = text(id).replace('\n', "&#10;");
+        let shown = match shown {
+            Shown::Words(words) => text(&document::in_one_line(words)),
+            Shown::Number(numeral) => number(numeral, blank),
+        };
         format!(
             "<span role=\"button\" tabindex=\"0\" class=\"value\" data-card=\"{id}\">{shown}</span>"
         )
     }
 }
 
-/// A printed number as text, its power raised; `percent` is the sign and the space before it.
-fn number(numeral: &Numeral, percent: &str) -> String {
+/// A printed number as text, its power raised.
+fn number(numeral: &Numeral, blank: char) -> String {
     let mut out = String::new();
     if !numeral.is_power_alone() {
         out += &numeral.signed("−");
@@ -350,7 +348,10 @@ fn number(numeral: &Numeral, percent: &str) -> String {
         let minus = if exponent < 0 { "−" } else { "" };
         let _ = write!(out, "{times}10<sup>{minus}{}</sup>", exponent.unsigned_abs());
     }
-    out + if numeral.percent { percent } else { "" }
+    if numeral.percent {
+        out.extend([blank, '%']);
+    }
+    out
 }
 
 /// Wraps what scrolls sideways where it is too wide.
@@ -364,8 +365,9 @@ fn code(words: &str) -> String {
     format!("<pre tabindex=\"0\"><code>{}</code></pre>\n", text(words.trim_end()))
 }
 
-/// Whether a formula ends before its right side.
-fn relates(formula: &Formula) -> bool {
+/// Whether it is a formula that ends before its right side.
+fn relates(inline: &Inline) -> bool {
+    let Inline::Maths(formula) = inline else { return false };
     let ends = ["=", "<", ">", r"\approx", r"\le", r"\ge", r"\lt", r"\gt", r"\pm"];
     let tex = formula.digits();
     ends.iter().any(|end| tex.trim_end().ends_with(end))
@@ -382,7 +384,7 @@ mod tests {
         let shown = |value: f64, digits, percent| {
             let style = Style { percent, ..Style::default() };
             match print(&Value::real("x", value, digits).number, style) {
-                Shown::Number(numeral) => number(&numeral, "\u{202f}%"),
+                Shown::Number(numeral) => number(&numeral, '\u{202f}'),
                 Shown::Words(words) => words,
             }
         };
