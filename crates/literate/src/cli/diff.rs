@@ -4,7 +4,7 @@ use super::columns::Columns;
 use super::terminal::{print, shown};
 use crate::claims::Check;
 use crate::failure::Failure;
-use crate::input::{count, is_control, one_line};
+use crate::input::{count, is_control, one_line, regular};
 use crate::print::{Style, print as printed};
 use crate::report::folder::{self, SUMS};
 use crate::report::ledger::{self, Ledger};
@@ -77,7 +77,7 @@ fn standing(name: &str) -> Result<Files, Failure> {
     let paths = folder::walk(root)?;
     let read = |path: String| {
         let fault = |error| Failure::io(&error, format!("{name}: {path}"), "is it a report?");
-        let bytes = folder::read(root, &path).map_err(fault)?;
+        let bytes = regular(&root.join(&path)).map_err(fault)?;
         Ok((path, bytes))
     };
     paths.into_iter().filter(|path| !folder::is_generated(path)).map(read).collect()

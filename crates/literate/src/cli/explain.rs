@@ -79,7 +79,7 @@ fn shown(card: &Card) -> String {
     if !card.lead.is_empty() {
         out += &format!("  {}\n", clean(&card.lead));
     }
-    for (name, text) in card.rows.iter().filter(|(name, _)| *name != "id") {
+    for (name, text) in card.rows.iter().filter(|(name, _)| !["id", "ledger"].contains(name)) {
         let file = match text.as_slice() {
             [Inline::Link { to, .. }] => to.strip_prefix("../"),
             _ => None,

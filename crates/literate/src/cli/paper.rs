@@ -5,7 +5,7 @@ use super::terminal::{print, shown};
 use crate::build::make_report;
 use crate::experiments::{AnyExperiment, Profile, Session};
 use crate::failure::Failure;
-use crate::input::{count, one_line};
+use crate::input::{count, one_line, regular_text};
 use crate::paper::{FigureSpec, Paper};
 use crate::report::values;
 use crate::report::{Files, files_of, folder};
@@ -135,8 +135,7 @@ fn refuse_over_other(profile: Profile, out: &Path, is_whole: bool) -> Result<(),
 
 /// Returns the profile of the report in a folder; none if there is no report.
 pub(super) fn profile_in(root: &Path) -> Option<Profile> {
-    let text = String::from_utf8(folder::read(root, "values.json").ok()?).ok()?;
-    values::read(&text).ok()?.profile()
+    values::read(&regular_text(&root.join("values.json")).ok()?).ok()?.profile()
 }
 
 fn dry_run(session: &Session<'_>, needs: &[&'static dyn AnyExperiment]) -> Result<(), Failure> {

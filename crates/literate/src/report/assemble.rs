@@ -90,11 +90,10 @@ fn all_in_order(errors: Vec<Error>) -> Result<(), Error> {
     let mut errors: Vec<Error> = errors.into_iter().flat_map(Error::each).collect();
     errors.sort_by_cached_key(|error| {
         let text = error.to_string();
-        let mut parts = text.splitn(4, ':');
-        let (file, line) = (parts.next().unwrap_or_default(), parts.next().unwrap_or_default());
-        let column = parts.next().unwrap_or_default();
-        let number = |text: &str| text.parse().unwrap_or(usize::MAX);
-        (file.to_string(), number(line), number(column))
+        let mut place = text.splitn(4, ':');
+        let file = place.next().unwrap_or_default().to_string();
+        let mut number = || place.next().and_then(|n| n.parse().ok()).unwrap_or(usize::MAX);
+        (file, number(), number())
     });
     errors.dedup_by_key(|error| error.to_string());
     Error::all(errors)
@@ -102,19 +101,17 @@ fn all_in_order(errors: Vec<Error>) -> Result<(), Error> {
 
 /// Refuses hard-coded numbers in the reasons of checks and the descriptions of figures.
 fn check_texts(input: &Input<'_>, declared: &Declared) -> Result<(), Error> {
-    let mut errors = Vec::new();
-    for claim in input.claims {
+    let reasons = input.claims.iter().map(|claim| {
         let place = format!("the reason of {}", claim.id);
-        errors.extend(lint::check(&place, &claim.reason, declared).err());
-    }
-    for figure in input.figures {
+        lint::check(&place, &claim.reason, declared)
+    });
+    let descriptions = input.figures.iter().map(|figure| {
         // What stands in braces is computed where the figure is drawn.
         let parts = figure.description.typed.split('{');
         let typed = parts.map(|part| part.split_once('}').map_or(part, |(_, typed)| typed));
-        let place = format!("what {} shows", figure.id);
-        errors.extend(lint::check(&place, &typed.collect::<String>(), declared).err());
-    }
-    Error::all(errors)
+        lint::check(&format!("what {} shows", figure.id), &typed.collect::<String>(), declared)
+    });
+    Error::all(reasons.chain(descriptions).filter_map(Result::err).collect())
 }
 
 /// Reads all documents into trees, with their figures, numbers and references. Returns all errors,
@@ -318,8 +315,8 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> (Vec<String>, Vec<Erro
         let code = input.project.sources.file(&figure.source).map(|file| format!("../{file}"));
         for (name, files) in [("Data: ", data), ("Code: ", code.into_iter().collect())] {
             if !files.is_empty() {
-                origin.push(words(if origin.is_empty() { "" } else { " " }));
-                origin.push(words(name));
+                let blank = if origin.is_empty() { "" } else { " " };
+                origin.push(words(&format!("{blank}{name}")));
                 origin.extend(links(&files));
                 origin.push(words("."));
             }

@@ -204,6 +204,8 @@ impl Cards<'_> {
             card.row(name, words_and_maths(&words));
         }
         card.item("judged by", &(self.edition.judged_by)(&claim.id), self.project);
+        let (to, shown) = (card.id.clone(), "the row of this statement".into());
+        card.row("ledger", vec![Inline::Reference { to, within: None, shown }]);
         Some(card)
     }
 }

@@ -259,12 +259,16 @@ pub fn heading_place(id: Option<&str>, number: Option<&str>, words: &[Inline]) -
 
 /// Returns the id of a place on a page: `fig-3` for `fig:3`.
 pub fn place_on_page(id: &str) -> String {
+    place(id).replace([':', '.'], "-")
+}
+
+/// Returns an id without signs that TeX or a page would read, which a key of references.bib may
+/// have.
+pub fn place(id: &str) -> String {
     let mut place = String::new();
     for c in id.chars() {
         match c {
-            ':' | '.' => place.push('-'),
-            c if c.is_alphanumeric() || "-_".contains(c) => place.push(c),
-            // A key of references.bib may have any sign.
+            c if c.is_ascii_alphanumeric() || ":-_.".contains(c) => place.push(c),
             c => place += &format!("-{:x}", u32::from(c)),
         }
     }

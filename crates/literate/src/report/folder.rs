@@ -80,11 +80,6 @@ pub fn read_sums(text: &str) -> Option<Digests> {
     text.lines().map(entry).collect::<Option<Digests>>().filter(|list| !list.is_empty())
 }
 
-/// A file below a folder.
-pub fn read(folder: &Path, path: &str) -> io::Result<Vec<u8>> {
-    input::regular(&folder.join(path))
-}
-
 /// Names in a folder; none if it is not there.
 fn names(folder: &Path) -> Result<Vec<String>, Error> {
     let name = |entry: io::Result<std::fs::DirEntry>| {
@@ -130,7 +125,7 @@ pub fn is_generated(path: &str) -> bool {
 
 /// Reads a list of a folder; none if it is not there or not a list.
 fn list(folder: &Path, name: &str) -> Option<Digests> {
-    read_sums(&String::from_utf8(read(folder, name).ok()?).ok()?)
+    read_sums(&String::from_utf8(input::regular(&folder.join(name)).ok()?).ok()?)
 }
 
 /// The digests of committed files in the list of a folder. None if the folder has other files and
@@ -149,7 +144,7 @@ pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
     ours.extend(list(folder, BUILT).unwrap_or_default());
     let paths = ours.keys().filter(|_| whole).chain(files.keys());
     let paths = paths.filter(|path| ![SUMS, BUILT].contains(&path.as_str()));
-    let is_edited = |path: &&String| match read(folder, path) {
+    let is_edited = |path: &&String| match input::regular(&folder.join(path)) {
         Ok(bytes) => ours.get(*path) != Some(&sha256(&bytes)) && files.get(*path) != Some(&bytes),
         Err(error) => !is_absent(&error),
     };
@@ -206,7 +201,7 @@ pub fn write(folder: &Path, files: &Files, force: bool) -> Result<(), Error> {
 
 /// Returns a line for each file of a folder that is missing, differs or is not expected.
 fn faults(folder: &Path, expected: &Digests) -> Result<Vec<String>, Error> {
-    let fault = |(path, digest): (&String, &String)| match read(folder, path) {
+    let fault = |(path, digest): (&String, &String)| match input::regular(&folder.join(path)) {
         Ok(bytes) if sha256(&bytes) == *digest => None,
         Ok(_) => Some(format!("differs  {path}")),
         Err(error) if is_absent(&error) => Some(format!("missing  {path}")),
@@ -255,7 +250,7 @@ mod tests {
     }
 
     fn standing(folder: &Path) -> Files {
-        let one = |path: String| (path.clone(), read(folder, &path).unwrap());
+        let one = |path: String| (path.clone(), input::regular(&folder.join(path)).unwrap());
         walk(folder).unwrap().into_iter().map(one).collect()
     }
 

@@ -1,7 +1,7 @@
 //! Writes the tree as a document for LaTeX; what surrounds it is the template report.tex.
 
 use super::document::{Block, Formula, Inline, Table, title};
-use super::document::{continues, is_abstract, is_equation, plain, printed, spelt};
+use super::document::{continues, is_abstract, is_equation, place, plain, printed, spelt};
 use super::edition::{Document, Edition};
 use super::error::Error;
 use super::tex;
@@ -155,18 +155,6 @@ const HANGING: &str = "\\begin{list}{}{\\leftmargin=1.5em\\itemindent=-1.5em\\it
 /// A place that `\hyperref[…]` finds.
 fn label(id: &str) -> String {
     format!("\\phantomsection\\label{{{}}}", place(id))
-}
-
-/// An id without signs that TeX would read, which a key of references.bib may have.
-fn place(id: &str) -> String {
-    let mut place = String::new();
-    for c in id.chars() {
-        match c {
-            c if c.is_ascii_alphanumeric() || ":-_.".contains(c) => place.push(c),
-            c => place += &format!("-{:x}", u32::from(c)),
-        }
-    }
-    place
 }
 
 /// Running text.

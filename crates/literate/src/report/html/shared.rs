@@ -34,11 +34,7 @@ pub fn files(
         let unknown = || Error::Template(format!("there is no value {id}"));
         let card = cards.get(id).ok_or_else(unknown)?;
         let mut numbers = Vec::new();
-        let is_claim = id.starts_with("claim:");
-        let shown = "the row of this statement".to_string();
-        let ledger = Inline::Reference { to: id.clone(), within: None, shown };
-        let ledger = is_claim.then(|| ("ledger", vec![ledger]));
-        for (name, text) in card.rows.iter().chain(&ledger) {
+        for (name, text) in &card.rows {
             let place = |inline: &Inline| match inline.clone() {
                 Inline::Reference { to, shown, .. } => {
                     let within = labels.get(&to).map(|label| label.document);
