@@ -43,11 +43,10 @@ fn parameters(e: &Evidence<'_>) -> Judged {
         (1.0, printed("mass")?),
     ];
     let same_square = (square - printed("forcing_frequency_squared")?).abs() <= 4.0 * f64::EPSILON;
-    let reads = e.statement.printed
-        == format!("n = {n}, d = m = ω = {d}, Ω = √{}, r = {r}", square.round());
+    let same = same_square && pairs.iter().all(|(ours, printed)| ours == printed);
+    let words = format!("n = {n}, d = m = ω = {d}, Ω = √{}, r = {r}", square.round());
     let found = text!("n = {}, d = {}, ω = {}, Ω² = {:1}, r = {}", n, d, omega, square, r);
-    let same = pairs.iter().all(|(ours, printed)| ours == printed);
-    Ok(e.found(found, reads && same_square && same).within("none", "the same numbers").note(
+    Ok(e.found(found, same && e.statement.printed == words).within("none", "the same numbers").note(
         "The paper prints neither initial condition nor transient nor window; for these it refers \
          to Homer (1999).",
     ))
@@ -78,13 +77,9 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     let [Some(first), Some(last)] = [means.first(), means.last()] else {
         return Err(Undecided);
     };
-    let check = if few == 0 || few == means.len() {
-        let reason =
-            "ours: “very few” as a twentieth of all gaps, at two thirds of the printed threshold";
-        e.found(found, few > 0).within(text!("at most {:2}", limit), reason)
-    } else {
-        e.open(found)
-    };
+    let reason =
+        "ours: “very few” as a twentieth of all gaps, at two thirds of the printed threshold";
+    let check = by_windows(e, found, [few, means.len()], text!("at most {:2}", limit), reason);
     Ok(check.note(text!(
         "Of {} pairs of transient T and window W, which are not printed, {} give at most {:2}, a twentieth of all \
          gaps: from {} in the shortest window after the shortest transient to {} in the longest. Only {} of {} \
@@ -103,18 +98,10 @@ fn none_below(e: &Evidence<'_>) -> Judged {
     }
     let limit = 1.0 / VERY_FEW;
     let none = shares.iter().filter(|share| **share <= limit).count();
-    let [Some(least), Some(most)] =
-        [f64::min, f64::max].map(|pick| shares.iter().copied().reduce(pick))
-    else {
-        return Err(Undecided);
-    };
+    let [least, most] = ends(shares.iter().copied()).ok_or(Undecided)?;
     let found = text!("at σ = {} {} of the realisations have an impact", row.sigma, here);
-    let check = if none == 0 || none == shares.len() {
-        let reason = "ours: “no impacts” as in at most a twentieth of the realisations, at two thirds of the printed threshold";
-        e.found(found, none > 0).within(text!("at most {:1}", limit), reason)
-    } else {
-        e.open(found)
-    };
+    let reason = "ours: “no impacts” as in at most a twentieth of the realisations, at two thirds of the printed threshold";
+    let check = by_windows(e, found, [none, shares.len()], text!("at most {:1}", limit), reason);
     Ok(check.note(text!(
         "In the {} windows of the map of protocols the share lies from {:2} to {:2}; in {} of them it is at most \
          {:1}.",
@@ -149,9 +136,9 @@ fn rise_exists(e: &Evidence<'_>) -> Judged {
     let width = e.estimate("sweep.rise.kept_width")?;
     let half = e.estimate("sweep.rise.half_height")?;
     let columns = ["alone_quarter", "alone_half", "alone_three_quarters"];
-    let alone = e.numbers("theory.relation", columns)?;
+    let [quarter, middle, three_quarters] = e.numbers("theory.relation", columns)?;
     let share = width.value / half.value;
-    let limit = limit_of_sharp(alone);
+    let limit = 0.5 * (three_quarters - quarter) / middle;
     let [a, b] = [&width, &half].map(|x| (x.error / x.value) * (x.error / x.value));
     let error = share * (a + b).sqrt();
     let found =
@@ -167,21 +154,13 @@ fn rise_exists(e: &Evidence<'_>) -> Judged {
     let share_in =
         |window: &Curve| Some(window.rise.kept_width?.value / window.rise.half_height?.value);
     let shares: Vec<f64> = windows.iter().filter_map(share_in).collect();
-    let least = shares.iter().copied().reduce(f64::min);
-    let most = shares.iter().copied().reduce(f64::max);
-    if let Some((least, most)) = least.zip(most) {
+    if let Some([least, most]) = ends(shares.iter().copied()) {
         let range = " In {} of the {} windows of the map of protocols the share is known, and lies from {:2} to {:2}.";
         note = note.then(text!(range, shares.len(), windows.len(), least, most));
     }
     let agrees = share <= limit + e.level()?.quantile * error;
     let tolerance = text!("at most {:2}", limit);
     Ok(e.found(found, agrees).within(tolerance, reason).note(note))
-}
-
-/// Returns the largest width over half height that is called sharp, from the σ at which a quarter,
-/// half and three quarters of independent gaps close.
-fn limit_of_sharp([quarter, half, three_quarters]: [f64; 3]) -> f64 {
-    0.5 * (three_quarters - quarter) / half
 }
 
 const WITH_AN_IMPACT: &str = "Judged by the mean of the realisations with at least one impact.";
@@ -249,8 +228,7 @@ fn onset(e: &Evidence<'_>) -> Judged {
 fn mode_rise(e: &Evidence<'_>) -> Judged {
     let [low, high] = e.numbers("sweep.mode", ["half_from", "half_to"])?;
     let [from, to] = e.statement.interval()?;
-    let text = text!("between σ = {} and {}", low, high);
-    let found = with_protocol(e, text)?;
+    let found = with_protocol(e, text!("between σ = {} and {}", low, high))?;
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
     let halves = map.curves.iter().filter_map(|curve| mode_half(curve, map.ensemble.chain.gaps()));
     let ranges: Vec<[f64; 2]> = halves.collect();
@@ -310,19 +288,15 @@ fn without_impact(e: &Evidence<'_>) -> Judged {
     let found = e.results.of(&TWO_MASSES)?;
     let least = found.excess.iter().map(|pair| pair[0]).reduce(f64::min).ok_or(Undecided)?;
     let safe = e.number("two_masses.bound.force")?;
-    let text = text!(
-        "{} impacts below the force that the amplitudes allow; smallest force with an impact, over that bound: {:6}",
-        found.violations,
-        least
-    );
+    let text = "{} impacts below the force that the amplitudes allow; smallest force with an impact, over that bound: {:6}";
     let reason =
         "a gap whose amplitudes add up to less than d never closes; rounding of the bracket aside";
-    Ok(e.found(text, found.violations == 0 && least >= 1.0 - 1e-9 && safe > 0.0)
+    let agrees = found.violations == 0 && least >= 1.0 - 1e-9 && safe > 0.0;
+    let note =
+        "No direction of the forces lets the masses meet below an amplitude of {:4} on each.";
+    Ok(e.found(text!(text, found.violations, least), agrees)
         .within("none below 1", reason)
-        .note(text!(
-            "No direction of the forces lets the masses meet below an amplitude of {:4} on each.",
-            safe
-        )))
+        .note(text!(note, safe)))
 }
 
 fn walls_like_masses(e: &Evidence<'_>) -> Judged {
@@ -331,7 +305,7 @@ fn walls_like_masses(e: &Evidence<'_>) -> Judged {
     let agrees = difference.value.abs() <= allowed + e.level()?.quantile * difference.error;
     Ok(e.found(text!("σ½ of the mean of all differs by {}", difference), agrees)
         .within(
-            plus_minus(allowed),
+            text!("± {:1}", allowed),
             "ours: half a unit of the digit in which the threshold is printed; and the statistical error at the level of the table",
         )
         .note(
@@ -358,19 +332,4 @@ fn percolation(e: &Evidence<'_>) -> Judged {
         "The paper names a likeness and no number. The threshold of percolation becomes sharp in a large system; this rise, \
          after the same transient, does not.",
     ))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_rise_without_spreading_is_not_sharp() {
-        // σ at which a quarter, half and three quarters of the gaps close by themselves, from rest.
-        let alone = [0.192, 0.273, 0.42];
-        let limit = limit_of_sharp(alone);
-        assert!((alone[2] - alone[0]) / alone[1] > limit, "gaps that close by themselves");
-        // The mean grows in proportion to σ and saturates.
-        assert!((0.75 - 0.25) / 0.5 > limit, "a linear response");
-    }
 }

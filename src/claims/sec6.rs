@@ -55,20 +55,15 @@ fn mean_zero(e: &Evidence<'_>) -> Judged {
     ))
 }
 
-/// Returns the least and the largest mean of the simulation, over all gaps, and those of the
-/// theory, over N.
-fn ends(e: &Evidence<'_>) -> Result<[[f64; 2]; 2], Error> {
-    let points = e.results.table("sweep.rows")?.curve(&[], "sigma", "mean")?;
-    let means = || points.iter().map(|(_, mean)| *mean);
-    let least = means().reduce(f64::min).ok_or(Undecided)?;
-    let most = means().fold(0.0, f64::max);
-    let gaps = e.number("sweep.run.gaps")?;
-    let theory = e.numbers("theory.mean", ["at_zero", "at_one"])?;
-    Ok([[least, most].map(|mean| mean / gaps), theory.map(|mean| mean / VERTICES as f64)])
-}
-
+/// The least and the largest mean of the simulation, over all gaps, and those of the theory, over
+/// N.
 fn like_simulation(e: &Evidence<'_>) -> Judged {
-    let [[low, high], [least, most]] = ends(e)?;
+    let points = e.results.table("sweep.rows")?.curve(&[], "sigma", "mean")?;
+    let means = ends(points.iter().map(|(_, mean)| *mean)).ok_or(Undecided)?;
+    let gaps = e.number("sweep.run.gaps")?;
+    let [low, high] = means.map(|mean| mean / gaps);
+    let theory = e.numbers("theory.mean", ["at_zero", "at_one"])?;
+    let [least, most] = theory.map(|mean| mean / VERTICES as f64);
     let text = "simulated from {:2} to {:2} of N as σ grows, theory from {:2} to {:2} as p grows";
     Ok(e.open(text!(text, low, high, least, most)).note(
         "The paper names a likeness of curves over different axes, and no quantity. Any two curves that rise from few \

@@ -52,12 +52,8 @@ fn inflexion(e: &Evidence<'_>) -> Judged {
     let columns = ["p_crit", "k_touch", "p_flat", "k_flat"];
     let [crit, touch, p, k] = e.numbers("theory.jump", columns)?;
     let allowed = 1e-13;
-    let found = text!(
-        "with Γ functions for the factorials at p = {:6}, k = {:3}; p_crit = {:6}",
-        p,
-        k,
-        crit
-    );
+    let found = "with Γ functions for the factorials at p = {:6}, k = {:3}; p_crit = {:6}";
+    let found = text!(found, p, k, crit);
     Ok(e.found(found, (p / crit - 1.0).abs() <= allowed)
         .within(text!("{:1} relative", allowed), "rounding")
         .explained(

@@ -76,9 +76,11 @@ fn no_impact(e: &Evidence<'_>) -> Judged {
         let begun = counted.kept + row.rejected;
         let bound = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma));
         let interval = wilson(begun as u64, ran as u64, 1.0 - e.level()?.each);
-        let Some((bound, [low, high])) = bound.ok().zip(interval) else { continue };
+        let found = share(begun as u64, ran as u64);
+        let (Ok(bound), Some([low, high]), Some(found)) = (bound, interval, found) else {
+            continue;
+        };
         above += usize::from(low > bound);
-        let Some(found) = share(begun as u64, ran as u64) else { continue };
         if (0.05..0.95).contains(&bound) {
             let sentence = match shares_of_bound.is_empty() {
                 true => "share of chains {} of {:2} at σ = {}",
@@ -145,15 +147,10 @@ fn p_poor(e: &Evidence<'_>) -> Judged {
     let means = e.results.table("sweep.rows")?.curve(&[], "sigma", "mean")?;
     let ours = needed(&means).ok_or(Undecided)?;
     let windows = windows(e)?;
-    let times: Vec<f64> = windows.iter().filter_map(|means| Some(needed(means)? / p)).collect();
-    let least = times.iter().copied().reduce(f64::min).ok_or(Undecided)?;
-    let found = text!(
-        "p = {:2} at σ = {}, where the theory needs {:2} for the simulated mean",
-        p,
-        sigma,
-        ours
-    );
-    Ok(e.found(found, ours >= 2.0 * p && least >= 2.0)
+    let times = windows.iter().filter_map(|means| Some(needed(means)? / p));
+    let least = times.reduce(f64::min).ok_or(Undecided)?;
+    let found = "p = {:2} at σ = {}, where the theory needs {:2} for the simulated mean";
+    Ok(e.found(text!(found, p, sigma, ours), ours >= 2.0 * p && least >= 2.0)
         .within("at least twice", "ours: “poor” as less than half of what is needed")
         .note(text!(
             "In all windows of the map with T ≥ {} at least {:2} times as much is needed. The paper suspects p; that \
@@ -184,10 +181,8 @@ fn large_sigma(e: &Evidence<'_>) -> Judged {
     let all = VERTICES as f64;
     let constant = largest_distance(&means, &[(0.0, all), (1.0, all)]).ok_or(Undecided)?[0];
     let windows = windows(e)?;
-    let mut far = distance;
-    for means in &windows {
-        far = largest_distance(means, &curve).map_or(far, |[distance, ..]| far.max(distance));
-    }
+    let distances = windows.iter().filter_map(|means| largest_distance(means, &curve));
+    let far = distances.map(|[distance, ..]| distance).fold(distance, f64::max);
     let found = text!("largest distance from σ = {} on: {:2} gaps", LARGE_SIGMA, distance);
     let check = if distance >= constant {
         e.open(found)
@@ -197,8 +192,7 @@ fn large_sigma(e: &Evidence<'_>) -> Judged {
             "ours: a tenth of all gaps",
         )
     };
-    Ok(check
-        .note(text!(
+    Ok(check.note(text!(
             "Reached at σ = {}; in all windows of the map with T ≥ {} at most {:2}. But the constant N is at most \
              {:2} away: both curves approach all gaps, whatever the theory, so nothing is tested here. The theory \
              misses {:2} of its {} vertices, the simulation {:2} of its {} gaps.",
@@ -218,12 +212,9 @@ fn threshold_shift(e: &Evidence<'_>) -> Judged {
     let agree = halves.iter().filter(|half| near(half)).count();
     let found =
         text!("half height of the theory at σ = {:4}, of the simulation at {}", theory, half);
-    let check = if agree == 0 || agree == halves.len() {
-        let reason = "ours: a curve that is moved by more agrees nowhere along the rise";
-        e.found(found, agree > 0).within("within a fifth of one another", reason)
-    } else {
-        e.open(found)
-    };
+    let tolerance = "within a fifth of one another";
+    let reason = "ours: a curve that is moved by more agrees nowhere along the rise";
+    let check = by_windows(e, found, [agree, halves.len()], tolerance, reason);
     Ok(check.note(text!(
         "Along the rise the protocol, which is not printed, decides: in {} of {} windows of the map both half heights are \
          within a fifth of one another. The paper itself finds the agreement poor at small σ.",
@@ -249,21 +240,6 @@ fn mean_is_easier(e: &Evidence<'_>) -> Judged {
         .note("Median over the rows from onset to half height."))
 }
 
-/// Returns the half heights from rest and with random free parts, of the mean of all, for each
-/// transient T that has both.
-fn half_heights_of_starts(e: &Evidence<'_>) -> Result<Vec<(f64, Estimate, Estimate)>, Error> {
-    let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
-    let mut both = Vec::new();
-    for curve in &ensemble(e.results.of(&LENGTHS)?, "random")?.curves {
-        let Protocol { transient, window } = curve.protocol;
-        let rest = map.curve(transient, window).and_then(|curve| curve.rise.half_height_all);
-        if let Some((rest, random)) = rest.zip(curve.rise.half_height_all) {
-            both.push((transient, rest, random));
-        }
-    }
-    Ok(both)
-}
-
 /// Part of the distance between theory and simulation is due to the start that the theory assumes,
 /// and not to r.
 fn restitution_omitted(e: &Evidence<'_>) -> Judged {
@@ -277,16 +253,18 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     let mut note = Text::from(
         "The paper says “perhaps”, and does not print its start. In smaller samples the share is",
     );
-    for (i, (time, rest, random)) in half_heights_of_starts(e)?.iter().enumerate() {
-        let share = share_of_start(*rest, *random, theory);
-        let sentence = if i == 0 { " {} for T = {}" } else { ", {} for {}" };
-        note = note.then(text!(sentence, share, *time));
+    let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
+    let mut sentence = " {} for T = {}";
+    for curve in &ensemble(e.results.of(&LENGTHS)?, "random")?.curves {
+        let Protocol { transient, window } = curve.protocol;
+        let rest = map.curve(transient, window).and_then(|curve| curve.rise.half_height_all);
+        if let Some((rest, random)) = rest.zip(curve.rise.half_height_all) {
+            note = note.then(text!(sentence, share_of_start(rest, random, theory), transient));
+            sentence = ", {} for {}";
+        }
     }
-    let found = text!(
-        "from rest the start makes up {} of the distance between theory and simulation",
-        share
-    );
-    Ok(e.open(found).note(note.then(text!(
+    let found = "from rest the start makes up {} of the distance between theory and simulation";
+    Ok(e.open(text!(found, share)).note(note.then(text!(
         ". The theory assumes random free parts, for which nothing of the distance is due to the start. From r = {} \
          to {} the half height moves by {}, more than with the start.",
         *lowest, *highest, moved
@@ -300,28 +278,16 @@ fn share_at(found: &[Counted], [r, sigma]: [f64; 2], pick: fn(&Total) -> u64) ->
     Some(pick(total) as f64 / total.impacts.max(1) as f64)
 }
 
-/// Returns the restitutions that were run, from the lowest, and the σ of the sweep that were run
-/// with each.
-fn restitutions(e: &Evidence<'_>) -> Result<(Vec<f64>, Vec<f64>), Error> {
-    let restitutions = e.results.table("restitution.curves")?.distinct("r")?;
-    let lowest = restitutions.first().ok_or(Undecided)?;
-    let lowest = ensemble(e.results.of(&RESTITUTION)?, &format!("r = {lowest}"))?;
-    let swept = e.results.table("sweep.rows")?.distinct("sigma")?;
-    let largest = swept.last().copied().unwrap_or(0.0);
-    let sigmas = lowest.ensemble.sigmas.iter().copied().filter(|sigma| *sigma <= largest);
-    Ok((restitutions, sigmas.collect()))
-}
-
 /// Judges whether the paper's r makes a share of impacts negligible that another r does not, at all
 /// σ. Where no r has more, none ensures it.
 fn ensured(e: &Evidence<'_>, what: &str, pick: fn(&Total) -> u64) -> Judged {
-    let (restitutions, sigmas) = restitutions(e)?;
-    let [r, lowest] = [e.published.parameter("restitution")?, restitutions[0]];
+    let restitutions = e.results.table("restitution.curves")?.distinct("r")?;
+    let (r, lowest) = (e.published.parameter("restitution")?, restitutions[0]);
     let found = e.results.of(&RESTITUTION)?;
     let share = |r, sigma| share_at(found, [r, sigma], pick);
     // Share at the paper's r and at the lowest, and the largest of any r, for each σ.
     let mut shares = Vec::new();
-    for sigma in sigmas {
+    for sigma in e.results.table("sweep.rows")?.distinct("sigma")? {
         if let Some((ours, without)) = share(r, sigma).zip(share(lowest, sigma)) {
             let largest = restitutions.iter().filter_map(|r| share(*r, sigma)).fold(0.0, f64::max);
             shares.push((sigma, ours, without, largest));
@@ -329,14 +295,8 @@ fn ensured(e: &Evidence<'_>, what: &str, pick: fn(&Total) -> u64) -> Judged {
     }
     let decides = |ours: f64, without: f64| ours <= NEGLIGIBLE && without > NEGLIGIBLE;
     let (sigma, ours, without, _) = *shares.last().ok_or(Undecided)?;
-    let text = text!(
-        "at σ = {} a share of {:1} at r = {}, {:1} at r = {}",
-        sigma,
-        ours,
-        r,
-        without,
-        lowest
-    );
+    let text = "at σ = {} a share of {:1} at r = {}, {:1} at r = {}";
+    let text = text!(text, sigma, ours, r, without, lowest);
     let tolerance = "at most {:1} at the paper's r, more at the lowest, at each σ";
     let check = e
         .found(text, shares.iter().all(|row| decides(row.1, row.2)))

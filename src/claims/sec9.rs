@@ -171,11 +171,8 @@ fn mean_large_p(e: &Evidence<'_>) -> Judged {
 /// An explanation by orders that are counted, where those that are left out weigh more.
 fn explains_agreement(e: &Evidence<'_>) -> Judged {
     let doubling = e.number("theory.higher.doubling")?;
-    let found = text!(
-        "at p = {} one more doubled vertex multiplies the weight by {:3}",
-        HIGHER_P[2],
-        doubling
-    );
+    let found = "at p = {} one more doubled vertex multiplies the weight by {:3}";
+    let found = text!(found, HIGHER_P[2], doubling);
     Ok(e.open(found).note(
         "An explanation is not a number. The orders that are left out outweigh those that are counted, and theory and \
          simulation both approach all gaps whatever the weights are.",
@@ -224,11 +221,8 @@ fn relation_matters(e: &Evidence<'_>) -> Judged {
     let columns = ["sigma_jump", "sigma_jump_rest", "sigma_jump_higher"];
     let [simple, rest, higher] = e.numbers("theory.relation", columns)?;
     let (relation, higher) = ((rest - simple).abs(), (higher - simple).abs());
-    let found = text!(
-        "another relation moves the jump by {:3} in σ, higher orders by {:2}",
-        relation,
-        higher
-    );
+    let found = "another relation moves the jump by {:3} in σ, higher orders by {:2}";
+    let found = text!(found, relation, higher);
     Ok(e.found(found, relation > higher)
         .within("the first is larger", "a comparison of two computed numbers")
         .note("The other relation is that of a start from rest."))
@@ -236,12 +230,8 @@ fn relation_matters(e: &Evidence<'_>) -> Judged {
 
 fn improves(e: &Evidence<'_>) -> Judged {
     let [simple, higher] = e.numbers("sweep.against_theory", ["simple", "higher"])?;
-    let found = text!(
-        "distance to the simulated means below σ = {:1}: {:3} gaps without, {:3} with higher orders",
-        LARGE_SIGMA,
-        simple,
-        higher
-    );
+    let found = "distance to the simulated means below σ = {:1}: {:3} gaps without, {:3} with higher orders";
+    let found = text!(found, LARGE_SIGMA, simple, higher);
     let improved = |[simple, higher]: [f64; 2]| higher < simple && higher >= 0.8 * simple;
     let table = e.results.table("theory.curve")?;
     let column = |name| table.curve(&[], "sigma", name);

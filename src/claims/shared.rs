@@ -4,7 +4,7 @@ use crate::experiments::ensembles::named;
 use crate::experiments::rise::Counted;
 pub use literate::claims::Basis::{OurMeasure, PrintedDigit, Rounding};
 pub use literate::claims::Error::{self, Undecided};
-pub use literate::claims::{Evidence, Judged, Kind, Rule, Text};
+pub use literate::claims::{Check, Evidence, Judged, Kind, Rule, Text};
 pub use literate::text;
 
 /// Finds the chains of this name among those of an experiment.
@@ -12,9 +12,24 @@ pub fn ensemble<'a>(found: &'a [Counted], name: &str) -> Result<&'a Counted, Err
     named(found, name).ok_or(Undecided)
 }
 
-/// Returns a tolerance to both sides.
-pub fn plus_minus(half: f64) -> Text {
-    text!("± {:1}", half)
+/// Returns the least and the largest of some numbers.
+pub fn ends(numbers: impl Iterator<Item = f64> + Clone) -> Option<[f64; 2]> {
+    Some([numbers.clone().reduce(f64::min)?, numbers.reduce(f64::max)?])
+}
+
+/// Starts a check by the windows of the map of protocols, so many of which agree with what was
+/// printed. If some agree and others do not, the protocol decides, which is not printed.
+pub fn by_windows(
+    e: &Evidence<'_>,
+    found: Text,
+    [agree, all]: [usize; 2],
+    tolerance: impl Into<Text>,
+    reason: &str,
+) -> Check {
+    match agree == 0 || agree == all {
+        true => e.found(found, agree > 0).within(tolerance, reason),
+        false => e.open(found),
+    }
 }
 
 /// Returns half a unit of the last digit in which the paper prints the threshold.
