@@ -23,81 +23,60 @@ impl Kind {
     }
 }
 
-/// What a verdict rests on; where several things decide, the weakest.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Basis {
+/// Defines an enum whose variants are saved and printed as their texts.
+macro_rules! words {
+    ($(#[$about:meta])* $name:ident: $($(#[$what:meta])* $variant:ident = $text:literal,)*) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+        pub enum $name {
+            $($(#[$what])* #[serde(rename = $text)] $variant,)*
+        }
+
+        impl $name {
+            /// All, in the order of tables.
+            pub const ALL: [$name; [$($text),*].len()] = [$($name::$variant),*];
+
+            /// Returns it in words.
+            pub fn words(self) -> &'static str {
+                match self {
+                    $($name::$variant => $text,)*
+                }
+            }
+        }
+    };
+}
+
+words! {
+    /// What a verdict rests on, the strongest first; where several things decide, the weakest.
+    Basis:
     /// Whole numbers, orders and inequalities, which agree or do not.
     #[default]
-    #[serde(rename = "exact")]
-    Exact,
+    Exact = "exact",
     /// Agreement within the rounding of double precision.
-    #[serde(rename = "rounding")]
-    Rounding,
+    Rounding = "rounding",
     /// Half a unit of the last digit that the paper printed.
-    #[serde(rename = "printed digit")]
-    PrintedDigit,
+    PrintedDigit = "printed digit",
     /// Standard errors at the [level](super::Level) of all statistical checks.
-    #[serde(rename = "statistics")]
-    Statistics,
+    Statistics = "statistics",
     /// A measure that we chose, for a statement in words.
-    #[serde(rename = "our measure")]
-    OurMeasure,
+    OurMeasure = "our measure",
 }
 
-impl Basis {
-    /// Every basis of a statement, the strongest first.
-    pub const ALL: [Basis; 5] =
-        [Basis::Exact, Basis::Rounding, Basis::PrintedDigit, Basis::Statistics, Basis::OurMeasure];
-
-    /// Returns the basis in words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Basis::Exact => "exact",
-            Basis::Rounding => "rounding",
-            Basis::PrintedDigit => "printed digit",
-            Basis::Statistics => "statistics",
-            Basis::OurMeasure => "our measure",
-        }
-    }
-}
-
-/// The verdict on a statement or a relation, in the order of a scorecard.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Verdict {
+words! {
+    /// The verdict on a statement or a relation, in the order of a scorecard.
+    Verdict:
     /// What is found lies within the tolerance.
-    #[serde(rename = "reproduced")]
-    Reproduced,
+    Reproduced = "reproduced",
     /// It does not, and the difference has the size that our explanation predicts.
-    #[serde(rename = "differs and explained")]
-    DiffersAndExplained,
+    DiffersAndExplained = "differs and explained",
     /// It does not, or our explanation of a difference fails.
-    #[serde(rename = "differs")]
-    Differs,
+    Differs = "differs",
     /// The results do not decide.
     #[default]
-    #[serde(rename = "cannot be judged")]
-    CannotBeJudged,
+    CannotBeJudged = "cannot be judged",
 }
 
 impl Verdict {
-    /// Every verdict, in the order of a scorecard.
-    pub const ALL: [Verdict; 4] = [
-        Verdict::Reproduced,
-        Verdict::DiffersAndExplained,
-        Verdict::Differs,
-        Verdict::CannotBeJudged,
-    ];
-
-    /// Returns the verdict in words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Verdict::Reproduced => "reproduced",
-            Verdict::DiffersAndExplained => "differs and explained",
-            Verdict::Differs => "differs",
-            Verdict::CannotBeJudged => "cannot be judged",
-        }
-    }
-
     /// Returns the verdict as a sign, which needs no colour.
     pub fn sign(self) -> char {
         match self {

@@ -33,11 +33,9 @@ pub enum Error {
     Undecided,
     #[error("check {id}: {error}")]
     Check { id: String, error: Box<Error> },
-    #[error("a number of it is {0}; correct it, or return `Undecided` where there is none")]
-    NotFinite(Text),
-    /// A rule that needs the number of statistical checks does not count as one of them.
-    #[error("the rule of {0} allows for standard errors; add `.statistical()` to it")]
-    NotStatistical(String),
+    /// Something that its author has to correct.
+    #[error("{0}")]
+    Rule(String),
 }
 
 impl Error {
@@ -73,9 +71,11 @@ impl Evidence<'_> {
     /// Returns the level of each statistical check.
     ///
     /// # Errors
-    /// [`Error::NotStatistical`] if the rule is not a statistical one.
+    /// [`Error::Rule`] if the rule is not a statistical one.
     pub fn level(&self) -> Result<Level, Error> {
-        self.level.ok_or_else(|| Error::NotStatistical(self.statement.id.clone()))
+        let (id, remedy) = (&self.statement.id, "add `.statistical()` to it");
+        let what = || format!("the rule of {id} allows for standard errors; {remedy}");
+        self.level.ok_or_else(|| Error::Rule(what()))
     }
 
     /// Returns the number with an address.

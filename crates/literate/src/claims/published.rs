@@ -58,18 +58,20 @@ pub struct Statement {
     line: usize,
 }
 
-/// What is wrong with a file of published statements.
+/// What is wrong with a file of published statements, after its line if it has one.
 #[derive(Debug, thiserror::Error)]
-pub enum PublishedError {
-    #[error("published.toml:{0}")]
-    Line(String),
-    #[error("published.toml: no {what} {id:?}; add it, or remove the check that asks for it")]
-    Missing { what: &'static str, id: String },
-    #[error(
-        "published.toml:{line}: the id {id:?}: its check needs the number in printed = {printed:?}; write it as \
-         `value`, with `decimals`, as many as were printed"
-    )]
-    NoNumber { line: usize, id: String, printed: String },
+#[error("published.toml:{0}")]
+pub struct PublishedError(String);
+
+impl PublishedError {
+    fn at(line: usize, id: &str, what: &str) -> PublishedError {
+        PublishedError(format!("{line}: the id {:?}: {what}", one_line(id, 80)))
+    }
+
+    fn missing(what: &str, id: &str) -> PublishedError {
+        let remedy = "add it, or remove the check that asks for it";
+        PublishedError(format!(" no {what} {id:?}; {remedy}"))
+    }
 }
 
 impl Published {
@@ -80,13 +82,14 @@ impl Published {
     /// line.
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
         let mut published: Published =
-            toml::from_str(text).map_err(|error| PublishedError::Line(toml_fault(text, &error)))?;
+            toml::from_str(text).map_err(|error| PublishedError(toml_fault(text, &error)))?;
         published.text = text.into();
         for at in 0..published.statements.len() {
-            published.statements[at].line = published.line(&published.statements[at].id);
-            if let Err(what) = published.statements[at].read_number() {
-                return Err(published.fault(&published.statements[at].id, what));
-            }
+            let line = published.line(&published.statements[at].id);
+            let statement = &mut published.statements[at];
+            statement.line = line;
+            let read = statement.read_number();
+            read.map_err(|what| PublishedError::at(line, &statement.id, what))?;
         }
         for Parameter { id, value, .. } in &published.parameters {
             if !value.is_finite() {
@@ -107,8 +110,7 @@ impl Published {
 
     /// Makes an error of the entry with this id, with its line.
     fn fault(&self, id: &str, what: &str) -> PublishedError {
-        let line = self.line(id);
-        PublishedError::Line(format!("{line}: the id {:?}: {what}", one_line(id, 80)))
+        PublishedError::at(self.line(id), id, what)
     }
 
     /// Makes the error of a statement with other printed words than those that its rule judges.
@@ -122,7 +124,7 @@ impl Published {
     /// Returns the statement with this id.
     pub fn statement(&self, id: &str) -> Result<&Statement, PublishedError> {
         let found = self.statements.iter().find(|statement| statement.id == id);
-        found.ok_or_else(|| PublishedError::Missing { what: "statement", id: id.into() })
+        found.ok_or_else(|| PublishedError::missing("statement", id))
     }
 
     /// Finds the last line of the file, from 1, that gives an entry this id; 1 if there is none.
@@ -142,8 +144,7 @@ impl Published {
     /// Returns the number that the paper chose under this id.
     pub fn parameter(&self, id: &str) -> Result<f64, PublishedError> {
         let found = self.parameters.iter().find(|parameter| parameter.id == id);
-        let missing = || PublishedError::Missing { what: "parameter", id: id.into() };
-        found.map(|parameter| parameter.value).ok_or_else(missing)
+        found.map(|one| one.value).ok_or_else(|| PublishedError::missing("parameter", id))
     }
 }
 
@@ -165,15 +166,13 @@ impl Statement {
             let agrees = self.value.is_none_or(|given| given == value)
                 && self.decimals.is_none_or(|given| given == decimals);
             (self.value, self.decimals) = (Some(value), Some(decimals));
-            return if agrees {
-                Ok(())
-            } else {
-                Err("printed and value are not one number; leave value out")
+            return match agrees {
+                true => Ok(()),
+                false => Err("printed and value are not one number; leave value out"),
             };
         }
         let Some(value) = self.value else { return Ok(()) };
-        let whole = (value.fract() == 0.0).then_some(0);
-        let decimals = self.decimals.or(whole);
+        let decimals = self.decimals.or((value.fract() == 0.0).then_some(0));
         let decimals = decimals.ok_or("value needs `decimals`: write as many as were printed")?;
         let is_rounded = match decimals {
             ..0 => value % power_of_ten(-decimals) == 0.0,
@@ -183,10 +182,9 @@ impl Statement {
             return Err("value is not a number with so many `decimals`");
         }
         // As a number, per cent or per mille.
-        let mut ways = [0, 2, 3]
-            .into_iter()
-            .map(|shift| written(value * power_of_ten(shift), (decimals - shift).max(0)));
-        if value.fract() != 0.0 && !ways.any(|way| self.printed.contains(&way)) {
+        let way = |shift| written(value * power_of_ten(shift), (decimals - shift).max(0));
+        if value.fract() != 0.0 && ![0, 2, 3].map(way).iter().any(|way| self.printed.contains(way))
+        {
             return Err("value does not stand in printed; write both as they were printed");
         }
         self.decimals = Some(decimals);
@@ -212,8 +210,14 @@ impl Statement {
 
     /// Returns the printed number.
     pub fn number(&self) -> Result<f64, PublishedError> {
-        let (line, id, printed) = (self.line, self.id.clone(), self.printed.clone());
-        self.value.ok_or(PublishedError::NoNumber { line, id, printed })
+        self.value.ok_or_else(|| {
+            let printed = &self.printed;
+            let what = format!(
+                "its check needs the number in printed = {printed:?}; write it as `value`, with \
+                 `decimals`, as many as were printed"
+            );
+            PublishedError::at(self.line, &self.id, &what)
+        })
     }
 
     /// Returns half a unit of the last printed digit.

@@ -91,7 +91,9 @@ impl Rule {
         };
         for text in [&check.found, &check.tolerance, &check.note] {
             if let Some(number) = text.0.iter().find(|number| !number.is_finite()) {
-                return Err(Error::NotFinite(Text::from(number.clone())));
+                let remedy = "correct it, or return `Undecided` where there is none";
+                let number = Text::from(number.clone());
+                return Err(Error::Rule(format!("a number of it is {number}; {remedy}")));
             }
         }
         check.basis = self.basis.unwrap_or(check.basis);

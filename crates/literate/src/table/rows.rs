@@ -64,7 +64,7 @@ impl Table {
         let (row, column) = rest.rsplit_once('.').unwrap_or(("", rest));
         let row = row.trim_start_matches('[').trim_end_matches(']');
         match self.rows().any(|name| name == row) {
-            true => no_such("column", column, self.columns.iter().map(|column| column.name)),
+            true => no_such("column", column, self.names()),
             false => no_such("row", row, self.rows()),
         }
     }
@@ -72,12 +72,9 @@ impl Table {
     /// Finds the place of a column.
     #[track_caller]
     pub(super) fn column(&self, name: &str) -> Result<usize, Missing> {
-        match self.columns.iter().position(|column| column.name == name) {
+        match self.names().position(|column| column == name) {
             Some(at) => Ok(at),
-            None => {
-                let what = no_such("column", name, self.columns.iter().map(|column| column.name));
-                Err(Missing::new(self.name, what))
-            }
+            None => Err(Missing::new(self.name, no_such("column", name, self.names()))),
         }
     }
 
@@ -157,9 +154,14 @@ impl Table {
         self.rows.iter().flat_map(|(_, cells)| cells)
     }
 
+    /// Returns the names of the columns.
+    fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.columns.iter().map(|column| column.name)
+    }
+
     /// Returns the names of the keys.
     pub fn keys(&self) -> impl Iterator<Item = &'static str> {
-        self.columns[..self.keys].iter().map(|column| column.name)
+        self.names().take(self.keys)
     }
 
     /// Returns the names of all rows, in order.
@@ -176,25 +178,17 @@ impl Table {
             let mut names = vec![String::new()];
             for ((key, all), cell) in keys.iter().zip(cells) {
                 let written = called(&cell.number);
-                let mut ways = Vec::new();
-                if all.first() == Some(&written) {
-                    ways.push("first");
+                let ends =
+                    [("first", all.first()), ("last", all.last()), (&written, Some(&written))];
+                let shorter = std::mem::take(&mut names);
+                for (way, _) in ends.into_iter().filter(|(_, end)| *end == Some(&written)) {
+                    names.extend(shorter.iter().map(|name| match name.as_str() {
+                        "" => format!("{key}={way}"),
+                        name => format!("{name},{key}={way}"),
+                    }));
                 }
-                if all.last() == Some(&written) {
-                    ways.push("last");
-                }
-                ways.push(&written);
-                let mut longer = Vec::new();
-                for name in &names {
-                    let separator = if name.is_empty() { "" } else { "," };
-                    for way in &ways {
-                        longer.push(format!("{name}{separator}{key}={way}"));
-                    }
-                }
-                names = longer;
             }
-            let row: BTreeMap<_, _> =
-                self.columns.iter().map(|column| column.name).zip(cells).collect();
+            let row: BTreeMap<_, _> = self.names().zip(cells).collect();
             found.extend(names.into_iter().map(|name| (name, row.clone())));
         }
         found
