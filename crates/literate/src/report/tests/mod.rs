@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 const BIB: &str = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
 
-const SAMPLE: &str = r#"# A title
+const SAMPLE: &str = r#"# Impact\_dynamics & large % systems: R&D $\sigma_{1/2}$
 
 ## Introduction {#sec:introduction}
 
@@ -69,6 +69,26 @@ Lab toy: You run *them*.
 fn f() -> σ { 1 }
 ```
 
+$a$–$b$ is \` and ``a `b` c``, \~\~c\~\~, \&lt; d.
+
+\[x\]: yes
+
+````
+```
+12
+```
+````
+
+[DOI](https://doi.org/10.1/S0(98)00123-4)
+
+| a | b |
+|---|---|
+| \[q\] | c |
+
+- \[z\] a
+
+![The set-up.](figures/photo.svg)
+
 By [@lst:kick], in words.
 
 Listing: What $\delta v$ does. {#lst:kick}
@@ -94,10 +114,15 @@ fn has(report: &Files, parts: &str) {
     }
 }
 
+/// A title is plain text where no markup is read; signs that another reader of Markdown, or TeX,
+/// would take for markup are escaped.
 #[test]
-fn each_format_has_its_markup() {
-    let claims = vec![claim("rise"), claim("jump")];
-    let report = Given { claims, ..given(SAMPLE) }.made().unwrap();
+fn each_format_shows_what_is_meant() {
+    let [svg, pdf] = [&b"<svg/>"[..], b"%PDF-1.5"];
+    let picture = Figure::picture(&[svg, pdf], "The set-up", crate::describe!("Balls on [rods]."));
+    let picture = Figure { id: "photo".into(), ..picture.unwrap() };
+    let (claims, figures) = (vec![claim("rise"), claim("jump")], vec![figure(), picture]);
+    let report = Given { claims, figures, ..given(SAMPLE) }.made().unwrap();
     has(
         &report,
         r##"
@@ -133,7 +158,22 @@ report.tex => ⏎By \hyperref[lst:kick]{Listing~1}, in words.⏎
 report.tex => \section*{Listings}
 report.tex => \phantomsection\label{lst:kick}\textbf{Listing 1.} What $\delta v$ does. \texttt{toy::\allowbreak{}flight
 report.tex => \begin{alltt}⏎/// A jump of the velocity by \ensuremath{\omega} `kick`
-report.tex => (&mut self, kick: f64, p: &Phases<M>) \{⏎    self.a -= kick * p.sin;⏎"##,
+report.tex => (&mut self, kick: f64, p: &Phases<M>) \{⏎    self.a -= kick * p.sin;⏎
+report.md => $a\text{–}b$ is \` and ``a `b` c``, \~\~c\~\~, \&lt; d.
+report.md => ⏎\[x]: yes⏎
+report.md => ⏎````⏎```⏎12⏎```⏎````⏎
+report.md => (https://doi.org/10.1/S0(98)00123-4)
+report.md => ![Balls on \[rods\].](figures/photo.svg)
+report.tex => {figures/photo.pdf}
+report.tex => ⏎{}[q] & c
+report.tex => \item {}[z] a
+report.tex => \title{Impact\_dynamics \& large \% systems: R\&D $\sigma_{1/2}$}
+report.tex => pdftitle={Impact\_dynamics \& large \% systems: R\&D sigma\_1/2}
+report.html => <title>Impact_dynamics &amp; large % systems: R&amp;D σ_1/2</title>
+report.html => <img src="figures/photo.svg" alt="Balls on [rods]."/>
+figures/photo.svg => <svg/>
+figures/photo.pdf => %PDF-1.5
+SHA256SUMS =>   figures/photo.svg⏎"##,
     );
     let [markdown, tex] = ["report.md", "report.tex"].map(|path| file(&report, path));
     assert!(!markdown.contains("\n\n\n"), "{markdown}");
@@ -164,7 +204,7 @@ struct Given {
     files: Vec<(&'static str, String)>,
     edition: Edition,
     lab: Option<&'static str>,
-    figure: Figure,
+    figures: Vec<Figure>,
     claims: Vec<Check>,
     table: Option<Table>,
 }
@@ -187,7 +227,7 @@ impl Given {
             values: &values,
             rows: &Default::default(),
             claims: &self.claims,
-            figures: &[self.figure],
+            figures: &self.figures,
             lab: self.lab,
             top: Some("../"),
             edition: &self.edition,
@@ -207,7 +247,7 @@ fn given(prose: &str) -> Given {
         files: vec![("report.md", prose.into())],
         edition: Edition { authors, date: "2026-11-24", equations: vec![equation], ..edition },
         lab: None,
-        figure: figure(),
+        figures: vec![figure()],
         claims: vec![claim("rise")],
         table: None,
     }
@@ -285,42 +325,12 @@ data/index.html => <a href="fig03.csv">fig03.csv</a></td><td>"##,
 }
 
 #[test]
-fn a_picture_from_a_file_is_shown_in_all_formats() {
-    let [svg, pdf] = [&b"<svg/>"[..], b"%PDF-1.5"];
-    let description = crate::describe!("Balls on [rods].");
-    let picture = Figure::picture(&[svg, pdf], "The set-up", description).unwrap();
-    let prose = PROSE.replace("figures/fig03.svg", "figures/photo.svg");
-    let figure = Figure { id: "photo".into(), ..picture };
-    let report = Given { figure, ..given(&prose) }.made().unwrap();
-    has(
-        &report,
-        r##"
-figures/photo.svg => <svg/>
-figures/photo.pdf => %PDF-1.5
-report.md => ![Balls on \[rods\].](figures/photo.svg)
-report.tex => {figures/photo.pdf}
-report.html => <img src="figures/photo.svg" alt="Balls on [rods]."/>
-SHA256SUMS =>   figures/photo.svg⏎"##,
-    );
-}
-
-/// A title is plain text where no markup is read, and markup of each format else.
-#[test]
-fn titles_are_clean() {
-    let title = r"# Impact\_dynamics & large % systems: R&D $\sigma_{1/2}$";
-    has(
-        &assembled(&PROSE.replace("# Title", title)).unwrap(),
-        r##"
-report.html => <title>Impact_dynamics &amp; large % systems: R&amp;D σ_1/2</title>
-report.tex => \title{Impact\_dynamics \& large \% systems: R\&D $\sigma_{1/2}$}
-report.tex => pdftitle={Impact\_dynamics \& large \% systems: R\&D sigma\_1/2}"##,
-    );
-}
-
-#[test]
 fn numerals_that_were_typed_outside_the_prose_are_refused() {
     let n = 12;
-    let drawn = |description| Given { figure: Figure { description, ..figure() }, ..given(PROSE) };
+    let drawn = |description| {
+        let figures = vec![Figure { description, ..figure() }];
+        Given { figures, ..given(PROSE) }
+    };
     drawn(crate::describe!("{n} of {}, k = 1.", n + 1)).made().unwrap();
     let judged = vec![claim("rise").within("", "within 12 of it")];
     for (given, words) in [
@@ -338,22 +348,4 @@ fn what_is_not_shown_is_refused() {
     assert!(matches!(fails("«v.half_height»", "half"), Error::Unused(id) if id == "half_height"));
     assert!(matches!(fails("![The rise.](figures/fig03.svg)", ""), Error::NotShown(_)));
     assert!(matches!(fails("\\tag{18}", ""), Error::NoEquation(number) if number == "18"));
-}
-
-/// Signs that another reader of Markdown, or TeX, would take for markup are escaped.
-#[test]
-fn each_format_shows_what_is_meant() {
-    let text = "$a$–$b$ is \\` and ``a `b` c``, \\~\\~c\\~\\~, \\&lt; d.\n\n\\[x\\]: yes\n\n\
-        ````\n```\n12\n````\n\n[DOI](https://doi.org/10.1/S0(98)00123-4)\n\n\
-        | a | b |\n|---|---|\n| \\[q\\] | c |\n\n- \\[z\\] a\n";
-    has(
-        &assembled(&format!("{PROSE}\n\n{text}")).unwrap(),
-        r##"
-report.md => $a\text{–}b$ is \` and ``a `b` c``, \~\~c\~\~, \&lt; d.
-report.md => ⏎\[x]: yes⏎
-report.md => ⏎````⏎```⏎12⏎````⏎
-report.md => (https://doi.org/10.1/S0(98)00123-4)
-report.tex => ⏎{}[q] & c
-report.tex => \item {}[z] a"##,
-    );
 }
