@@ -17,52 +17,62 @@ impl Reader<'_> {
     /// Running text up to the end of what contains it, or the next block.
     pub(super) fn inlines(&mut self) -> Result<Vec<Inline>, Error> {
         let mut out = Vec::new();
-        while let Some(event) = self.peek() {
-            match event {
-                Event::End(_) => break,
-                Event::Start(tag) if is_block(tag) => break,
-                _ => {}
-            }
-            let Some((event, range)) = self.next() else { break };
-            match event {
-                Event::Text(text) => self.text(&text, range, &mut out)?,
-                Event::Code(code) => {
-                    let digits = |(_, numeral): &(usize, String)| {
-                        numeral.starts_with(|c: char| c.is_numeric())
-                    };
-                    let found = lint::words(&self.filled.text, range, self.declared);
-                    self.hard_coded(found.into_iter().filter(digits));
-                    out.push(Inline::Code(self.plain(&code)?));
-                }
-                Event::InlineMath(_) if self.hides > 0 => {
-                    return Err(markup(
-                        "GitHub does not render a formula inside emphasis or a link; move it out",
-                    ));
-                }
-                Event::InlineMath(tex) => {
-                    self.stands_free(range.start)?;
-                    self.check_numbers(&range);
-                    out.push(Inline::Maths(self.formula(&tex, range.start)?));
-                }
-                Event::DisplayMath(tex) => {
-                    self.check_numbers(&range);
-                    out.push(self.display(&tex, range)?);
-                }
-                Event::SoftBreak => out.push(Inline::Soft),
-                Event::Start(tag) => out.push(self.span(tag, range)?),
-                _ => return Err(markup(ELSE)),
-            }
+        let ends = |event: &Event<'_>| {
+            matches!(event, Event::End(_)) || matches!(event, Event::Start(tag) if is_block(tag))
+        };
+        while let Some((event, range)) = self.events.next_if(|(event, _)| !ends(event)) {
+            let start = range.start;
+            let read = self.inline(event, range, &mut out);
+            read.map_err(|error| error.at(self.filled.place(start)))?;
         }
         Ok(out)
     }
 
     /// The same where no displayed equation can stand.
     pub(super) fn line(&mut self) -> Result<Vec<Inline>, Error> {
+        let start = self.events.peek().map_or(0, |(_, range)| range.start);
         let inlines = self.inlines()?;
-        match inlines.iter().any(|inline| matches!(inline, Inline::Display { .. })) {
-            true => Err(markup("an equation between $$ must stand in a paragraph; write $…$ here")),
-            false => Ok(inlines),
+        if inlines.iter().any(|inline| matches!(inline, Inline::Display { .. })) {
+            let what = "an equation between $$ must stand in a paragraph; write $…$ here";
+            return Err(markup(what).at(self.filled.place(start)));
         }
+        Ok(inlines)
+    }
+
+    fn inline(
+        &mut self,
+        event: Event<'_>,
+        range: Range<usize>,
+        out: &mut Vec<Inline>,
+    ) -> Result<(), Error> {
+        out.push(match event {
+            Event::Text(text) => return self.text(&text, range, out),
+            Event::Code(code) => {
+                let is_digits =
+                    |(_, numeral): &(usize, String)| numeral.starts_with(|c: char| c.is_numeric());
+                let found = lint::words(&self.filled.text, range, self.declared);
+                self.hard_coded(found.into_iter().filter(is_digits));
+                Inline::Code(self.plain(&code)?)
+            }
+            Event::InlineMath(_) if self.hides > 0 => {
+                return Err(markup(
+                    "GitHub does not render a formula inside emphasis or a link; move it out",
+                ));
+            }
+            Event::InlineMath(tex) => {
+                self.stands_free(range.start)?;
+                self.check_numbers(&range);
+                Inline::Maths(self.formula(&tex, range.start)?)
+            }
+            Event::DisplayMath(tex) => {
+                self.check_numbers(&range);
+                self.display(&tex, range)?
+            }
+            Event::SoftBreak => Inline::Soft,
+            Event::Start(tag) => self.span(tag, range)?,
+            _ => return Err(markup(ELSE)),
+        });
+        Ok(())
     }
 
     /// Notes hard-coded numbers that people typed.
@@ -102,7 +112,7 @@ impl Reader<'_> {
         if let Tag::Link { link_type, dest_url, .. } = &tag
             && matches!(link_type, LinkType::ShortcutUnknown | LinkType::Autolink)
         {
-            while !matches!(self.next(), None | Some((Event::End(_), _))) {}
+            while !matches!(self.events.next(), None | Some((Event::End(_), _))) {}
             if *link_type == LinkType::ShortcutUnknown {
                 return self.reference(dest_url, range.start);
             }
@@ -114,8 +124,7 @@ impl Reader<'_> {
         self.hides += usize::from(hides);
         let shown = self.line()?;
         self.hides -= usize::from(hides);
-        self.at = range.start;
-        self.next();
+        self.events.next();
         Ok(match tag {
             Tag::Emphasis => Inline::Emphasis(shown),
             Tag::Strong => Inline::Strong(shown),
@@ -139,7 +148,6 @@ impl Reader<'_> {
         for one in reference.split(';') {
             let id = one.trim().strip_prefix('@').filter(|id| !id.contains([',', ' ', '\n', '@']));
             let Some(id) = id.filter(|id| !id.is_empty()) else {
-                self.at = at;
                 let what = "ids alone stand in these brackets, with `;` between them, as in \
                             [@fig:2; @fig:3]; write a page or section into the sentence";
                 return Err(markup(format!("[{}]: {what}", one.trim())));
@@ -182,8 +190,9 @@ impl Reader<'_> {
         if let Some((at, what)) = leftover(source, range.start, text)
             && at >= self.quiet
         {
-            (self.at, self.quiet) = (at, at + source[at..].find("\n\n").unwrap_or(source.len()));
-            return Err(markup(if self.filled.is_typed(at) { what } else { GROUP }));
+            self.quiet = at + source[at..].find("\n\n").unwrap_or(source.len());
+            let what = if self.filled.is_typed(at) { what } else { GROUP };
+            return Err(markup(what).at(self.filled.place(at)));
         }
         self.hard_coded(lint::words(source, range.clone(), self.declared));
         // A backslash before a backslash is meant.
@@ -246,7 +255,7 @@ impl Reader<'_> {
             behind.trim_start_matches(' ').strip_prefix("{#").and_then(|id| id.split_once('}'));
         if let Some((id, rest)) = id {
             self.id_at = range.end..self.filled.text.len() - rest.len();
-            self.id("eq", id, self.at)?;
+            self.id("eq", id, range.start)?;
         }
         let mut id = id.map(|(id, _)| id.to_string());
         let (mut tex, mut number) = (tex.to_string(), String::new());
@@ -254,7 +263,7 @@ impl Reader<'_> {
             let (tag, after) =
                 after.split_once('}').ok_or_else(|| markup(r"a \tag{ that is not closed"))?;
             let tag_id = format!("eq:{tag}");
-            self.id("eq", &tag_id, self.at)?;
+            self.id("eq", &tag_id, range.start)?;
             (id, number, tex) = (Some(tag_id), tag.into(), format!("{}{}", before.trim(), after));
         }
         let formula = self.formula(tex.trim(), range.start)?;

@@ -60,7 +60,6 @@ pub fn parse<'a>(
         values,
         declared,
         sources,
-        at: 0,
         id_at: 0..0,
         quiet: 0,
         within: 0,
@@ -84,8 +83,6 @@ struct Reader<'a> {
     values: &'a Registry,
     declared: &'a Declared,
     sources: &'a Sources,
-    /// Where in the filled text what is being read begins.
-    at: usize,
     /// Where an id begins and ends that is no text: behind a caption, a picture or an equation.
     id_at: Range<usize>,
     /// Where a formula ends that Markdown has cut; only its first error is reported.
@@ -110,13 +107,10 @@ impl<'a> Reader<'a> {
         self.events.peek().map(|(event, _)| event)
     }
 
-    /// The next event; what is wrong with it stands where it begins.
-    fn next(&mut self) -> Option<(Event<'a>, Range<usize>)> {
-        let found = self.events.next()?;
-        if !matches!(found.0, Event::End(_)) {
-            self.at = found.1.start;
-        }
-        Some(found)
+    /// Goes on behind the next event if that begins this, and returns where it stands.
+    fn begins(&mut self, begun: impl Fn(&Tag<'_>) -> bool) -> Option<Range<usize>> {
+        let next = |(event, _): &(Event<'_>, _)| matches!(event, Event::Start(tag) if begun(tag));
+        self.events.next_if(next).map(|(_, range)| range)
     }
 
     fn source(&self, range: &Range<usize>) -> &'a str {
@@ -134,28 +128,21 @@ impl<'a> Reader<'a> {
         check_kind(kind, id)
     }
 
-    /// Reads blocks up to the end of what contains them. After an error reading goes on with the
+    /// Reads blocks up to the end of what contains them. What is wrong stands at the begin of its
+    /// block unless a piece of text has a place of its own. After an error reading goes on with the
     /// next block, except in lists and quotations.
     fn blocks(&mut self) -> Result<Vec<Block>, Error> {
-        let (mut blocks, within) = (Vec::new(), self.within);
+        let (mut blocks, within) = (Vec::new(), self.within > 0);
         while let Some((event, Range { start, end })) = self.events.peek().cloned() {
             if matches!(event, Event::End(_)) {
                 break;
             }
-            match self.block() {
-                Ok(block) if within > 0 && !stands_within(&block) => {
-                    self.at = start;
-                    let what = "a heading, figure, listing or captioned table cannot stand in a list or quotation";
-                    return Err(markup(what));
-                }
-                Ok(Block::Listing { id, item, .. }) if id.is_empty() => {
-                    let what = "needs a paragraph `Listing: caption {#lst:id}` right before it";
-                    self.note(start, markup(format!("the listing of `{item}` {what}")));
-                }
+            let block = self.block().and_then(|block| may_stand(block, within));
+            match block.map_err(|error| error.at(self.filled.place(start))) {
                 Ok(block) => blocks.push(block),
-                Err(error) if within > 0 => return Err(error),
+                Err(error) if within => return Err(error),
                 Err(error) => {
-                    self.note(self.at, error);
+                    self.found.push(error);
                     (self.within, self.hides) = (0, 0);
                     while self.events.next_if(|(_, range)| range.start < end).is_some() {}
                 }
@@ -179,7 +166,6 @@ impl<'a> Reader<'a> {
             let range = self.events.peek().map_or(0..0, |(_, range)| range.clone());
             return self.paragraph(range);
         };
-        self.at = range.start;
         let block = match tag {
             Tag::Paragraph => {
                 let block = self.paragraph(range);
@@ -201,7 +187,6 @@ impl<'a> Reader<'a> {
                     ));
                 }
                 let text = self.line()?;
-                self.at = range.start;
                 let leads = |inline: &Inline| {
                     matches!(inline, Inline::Link { .. } | Inline::Unresolved { .. })
                 };
@@ -215,10 +200,9 @@ impl<'a> Reader<'a> {
             Tag::BlockQuote(_) => Block::Quote(self.inner()?),
             Tag::List(start) => {
                 let mut items = Vec::new();
-                while let Some(Event::Start(Tag::Item)) = self.peek() {
-                    self.next();
+                while self.begins(|tag| *tag == Tag::Item).is_some() {
                     items.push(self.inner()?);
-                    self.next();
+                    self.events.next();
                 }
                 Block::List { start, items }
             }
@@ -226,7 +210,7 @@ impl<'a> Reader<'a> {
             Tag::Table(columns) => self.table(columns)?,
             _ => return Err(markup(ELSE)),
         };
-        self.next();
+        self.events.next();
         Ok(block)
     }
 
@@ -238,14 +222,13 @@ impl<'a> Reader<'a> {
         let id = with_id.map(|(_, id)| id.to_string());
         if let Some(Event::Start(Tag::Image { dest_url, .. })) = self.peek() {
             let path = dest_url.to_string();
-            self.next();
+            self.events.next();
             self.id_at = id_at;
             return self.figure(&path, range.start, id);
         }
         let caption = CAPTIONS.iter().find(|(word, _)| source.starts_with(word));
         self.id_at = if caption.is_some() { id_at } else { 0..0 };
         let mut inlines = self.inlines()?;
-        self.at = range.start;
         if let Some((word, kind)) = caption {
             id.iter().try_for_each(|id| self.id(kind, id, range.start))?;
             if let Some(Inline::Text(last)) = inlines.last_mut() {
@@ -263,7 +246,6 @@ impl<'a> Reader<'a> {
                     (*listing_id, *caption) = (id, inlines);
                 }
                 _ => {
-                    self.at = range.start;
                     return Err(markup(
                         "a caption must be followed by its table, or have an id {#lst:…} and be followed by its code",
                     ));
@@ -292,9 +274,8 @@ impl<'a> Reader<'a> {
     /// `fig:S1` do.
     fn figure(&mut self, path: &str, at: usize, id: Option<String>) -> Result<Block, Error> {
         let caption = self.line()?;
-        self.next();
+        self.events.next();
         let behind = self.inlines()?;
-        self.at = at;
         if !plain(&behind).trim().is_empty() {
             return Err(markup(ALONE));
         }
@@ -316,9 +297,8 @@ impl<'a> Reader<'a> {
         let mut text = String::new();
         while let Some(Event::Text(piece)) = self.peek() {
             text.push_str(piece);
-            self.next();
+            self.events.next();
         }
-        self.at = range.start;
         let last = self.source(range).trim_end().lines().skip(1).last();
         let closed = last.is_some_and(|line| line.trim_start().starts_with(['`', '~']));
         let CodeBlockKind::Fenced(language) = kind else { return Err(markup(FENCE)) };
@@ -340,24 +320,24 @@ impl<'a> Reader<'a> {
 
     fn table(&mut self, columns: Vec<Alignment>) -> Result<Block, Error> {
         let mut rows = Vec::new();
-        while let Some(Event::Start(Tag::TableHead | Tag::TableRow)) = self.peek() {
-            let Some((_, range)) = self.next() else { break };
+        let is_row = |tag: &Tag<'_>| matches!(tag, Tag::TableHead | Tag::TableRow);
+        while let Some(range) = self.begins(is_row) {
             // Markdown silently cuts and fills rows.
             let (count, all) = (cells_of(self.source(&range)), columns.len());
             if count != all {
-                return Err(markup(format!(
+                let what = format!(
                     "a row has {count} cells in a table of {all} columns; write a bar within a cell as \\|"
-                )));
+                );
+                return Err(markup(what).at(self.filled.place(range.start)));
             }
             let mut cells = Vec::new();
-            while let Some(Event::Start(Tag::TableCell)) = self.peek() {
-                self.next();
+            while self.begins(|tag| *tag == Tag::TableCell).is_some() {
                 self.in_cell = true;
                 cells.push(self.line()?);
                 self.in_cell = false;
-                self.next();
+                self.events.next();
             }
-            self.next();
+            self.events.next();
             rows.push(cells);
         }
         let head = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
@@ -377,12 +357,20 @@ fn cells_of(row: &str) -> usize {
     row.matches('|').count() - row.matches(r"\|").count() + 1
 }
 
-/// Whether a block may stand in a list or a quotation, where nothing is numbered.
-fn stands_within(block: &Block) -> bool {
-    match block {
-        Block::Paragraph(_) | Block::List { .. } | Block::Quote(_) | Block::Code { .. } => true,
-        Block::Table(table) => table.number.is_none(),
-        _ => false,
+/// Refuses a listing without a caption, and in lists and quotations what has a number.
+fn may_stand(block: Block, within: bool) -> Result<Block, Error> {
+    match &block {
+        Block::Listing { id, item, .. } if id.is_empty() => Err(markup(format!(
+            "the listing of `{item}` needs a paragraph `Listing: caption {{#lst:id}}` right before it"
+        ))),
+        Block::Paragraph(_) | Block::List { .. } | Block::Quote(_) | Block::Code { .. } => {
+            Ok(block)
+        }
+        Block::Table(Table { number: None, .. }) => Ok(block),
+        _ if within => Err(markup(
+            "a heading, figure, listing or captioned table cannot stand in a list or quotation",
+        )),
+        _ => Ok(block),
     }
 }
 
