@@ -228,8 +228,9 @@ fn write_documents(
             }
         };
         let mut text = markdown::write(blocks);
-        if document.is_signed(edition) {
-            let byline = format!("\n\n*{}*\n\n", markdown::escaped(&edition.byline()));
+        let byline = edition.byline(*document);
+        if !byline.is_empty() {
+            let byline = format!("\n\n*{}*\n\n", markdown::escaped(&byline));
             text = text.replacen("\n\n", &byline, 1);
         }
         files.insert(document.markdown.into(), text.into_bytes());

@@ -36,13 +36,15 @@ impl Edition {
         }
     }
 
-    pub(super) fn byline(&self) -> String {
+    /// What stands below the title of a document: authors and date, where it is printed.
+    pub(super) fn byline(&self, document: Document) -> String {
         let author = |(name, affiliation): &(&str, &str)| match affiliation.is_empty() {
             true => name.to_string(),
             false => format!("{name} ({affiliation})"),
         };
         let date = Some(self.date.to_string()).filter(|date| !date.is_empty());
-        self.authors.iter().map(author).chain(date).collect::<Vec<_>>().join(", ")
+        let all = self.authors.iter().map(author).chain(date).collect::<Vec<_>>().join(", ");
+        if document.print.is_some() { all } else { String::new() }
     }
 
     /// The authors as BibTeX takes them. A name that ends in a word without a capital, as that of a
@@ -103,11 +105,6 @@ impl Document {
         print: Some("report"),
         repeats: false,
     };
-
-    /// Whether authors and date stand below its title: where it is printed, and there are any.
-    pub(super) fn is_signed(&self, edition: &Edition) -> bool {
-        self.print.is_some() && !edition.byline().is_empty()
-    }
 
     /// Paths of its prose in the templates, in its order; none if there is no such file.
     pub fn files<'a>(&self, templates: &'a Templates) -> Vec<&'a str> {

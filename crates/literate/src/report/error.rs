@@ -9,8 +9,6 @@ const MAX_LENGTH: usize = 1000;
 /// What is wrong with a report, with the place where it can be corrected.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    #[error("{id}: {first} and {second} have this id; give one of them another")]
-    DuplicateId { id: String, first: String, second: String },
     #[error("{0} has no number; say what stands there, by «… | otherwise(words=\"…\")»")]
     NoNumber(String),
     #[error(
@@ -63,8 +61,10 @@ pub enum Error {
 impl Error {
     /// Makes the error of an id that two items give to what they compute.
     pub(crate) fn twice(id: &str, first: &str, second: &str) -> Error {
-        let item = |item: &str| if item.is_empty() { "a value".into() } else { item.into() };
-        Error::DuplicateId { id: id.into(), first: item(first), second: item(second) }
+        let [first, second] =
+            [first, second].map(|item| if item.is_empty() { "a value" } else { item });
+        let what = "have this id; give one of them another";
+        Error::Template(format!("{id}: {first} and {second} {what}"))
     }
 
     /// Something that the prose names and that is not there, with the names that are most like it.

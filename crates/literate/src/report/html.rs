@@ -68,7 +68,7 @@ pub fn write(
         "authors": text(&edition.bibtex_authors()),
         "bibtex": text(&latex::inlines(title)),
         "heading": heading,
-        "byline": if here.is_signed(edition) { text(&edition.byline()) } else { String::new() },
+        "byline": text(&edition.byline(here)),
         "sections": sections,
         "figures": figures,
         "body": body,

@@ -59,8 +59,12 @@ impl Reader<'_> {
                     "GitHub does not render a formula inside emphasis or a link; move it out",
                 ));
             }
+            Event::InlineMath(_) if self.filled.text[..range.start].ends_with(touches) => {
+                return Err(markup(
+                    "GitHub does not render a formula right after a word or a number; put a space between them, or move the word into the formula",
+                ));
+            }
             Event::InlineMath(tex) => {
-                self.stands_free(range.start)?;
                 self.check_numbers(&range);
                 Inline::Maths(self.formula(&tex, range.start)?)
             }
@@ -94,18 +98,6 @@ impl Reader<'_> {
         let tex: String = tex.char_indices().map(typed).collect();
         let found = lint::formula(&lint::without_literals(&tex));
         self.hard_coded(found.map(|numeral| (range.start, numeral)));
-    }
-
-    /// Refuses a formula right after a word: GitHub renders one only after a space or an opening
-    /// bracket.
-    fn stands_free(&self, at: usize) -> Result<(), Error> {
-        let touches = |c: char| c.is_alphanumeric() || ")]$".contains(c) || c == mark::CLOSE;
-        match self.filled.text[..at].ends_with(touches) {
-            true => Err(markup(
-                "GitHub does not render a formula right after a word or a number; put a space between them, or move the word into the formula",
-            )),
-            false => Ok(()),
-        }
     }
 
     fn span(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Inline, Error> {
@@ -144,16 +136,13 @@ impl Reader<'_> {
             self.id("claim", id, at)?;
             return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
         }
-        let mut ids = Vec::new();
-        for one in reference.split(';') {
-            let id = one.trim().strip_prefix('@').filter(|id| !id.contains([',', ' ', '\n', '@']));
-            let Some(id) = id.filter(|id| !id.is_empty()) else {
-                let what = "ids alone stand in these brackets, with `;` between them, as in \
-                            [@fig:2; @fig:3]; write a page or section into the sentence";
-                return Err(markup(format!("[{}]: {what}", one.trim())));
-            };
-            ids.push(id.to_string());
-        }
+        let is_id = |id: &&str| !id.is_empty() && !id.contains([',', ' ', '\n', '@']);
+        let id = |one: &str| Some(one.trim().strip_prefix('@').filter(is_id)?.to_string());
+        let Some(ids) = reference.split(';').map(id).collect::<Option<Vec<_>>>() else {
+            let what = "ids alone stand in these brackets, with `;` between them, as in \
+                        [@fig:2; @fig:3]; write a page or section into the sentence";
+            return Err(markup(format!("[{reference}]: {what}")));
+        };
         for id in ids.iter().cloned().chain([ids.join("; ")]) {
             self.places.add(format!("@{id}"), at);
         }
@@ -289,6 +278,11 @@ impl Reader<'_> {
         }
         Ok(print(&value.number, mark::style(filters)))
     }
+}
+
+/// Whether a formula cannot follow: GitHub renders one only after a space or an opening bracket.
+fn touches(c: char) -> bool {
+    c.is_alphanumeric() || ")]$".contains(c) || c == mark::CLOSE
 }
 
 const LEFTOVER: &str = "unclosed markup; complete it, or write a backslash before a sign that is \
