@@ -46,10 +46,11 @@ fn parameters(e: &Evidence<'_>) -> Judged {
     let same = same_square && pairs.iter().all(|(ours, printed)| ours == printed);
     let words = format!("n = {n}, d = m = ω = {d}, Ω = √{}, r = {r}", square.round());
     let found = text!("n = {}, d = {}, ω = {}, Ω² = {:1}, r = {}", n, d, omega, square, r);
-    Ok(e.found(found, same && e.statement.printed == words).within("none", "the same numbers").note(
-        "The paper prints neither initial condition nor transient nor window; for these it refers \
-         to Homer (1999).",
-    ))
+    let note = "The paper prints neither initial condition nor transient nor window; for these it refers to Homer \
+         (1999).";
+    Ok(e.found(found, same && e.statement.printed == words)
+        .within("none", "the same numbers")
+        .note(note))
 }
 
 /// Finds the row of the sweep with the largest σ below about two thirds of the printed threshold
@@ -80,12 +81,10 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     let reason =
         "ours: “very few” as a twentieth of all gaps, at two thirds of the printed threshold";
     let check = by_windows(e, found, [few, means.len()], text!("at most {:2}", limit), reason);
-    Ok(check.note(text!(
-        "Of {} pairs of transient T and window W, which are not printed, {} give at most {:2}, a twentieth of all \
-         gaps: from {} in the shortest window after the shortest transient to {} in the longest. Only {} of {} \
-         realisations have an impact, but in these impacts spread.",
-        means.len(), few, limit, *first, *last, row.kept, row.ran
-    )))
+    let note = "Of {} pairs of transient T and window W, which are not printed, {} give at most {:2}, a twentieth of \
+         all gaps: from {} in the shortest window after the shortest transient to {} in the longest. Only {} of {} \
+         realisations have an impact, but in these impacts spread.";
+    Ok(check.note(text!(note, means.len(), few, limit, *first, *last, row.kept, row.ran)))
 }
 
 /// By the share of the realisations with an impact, in each window of the map of protocols.
@@ -100,13 +99,12 @@ fn none_below(e: &Evidence<'_>) -> Judged {
     let none = shares.iter().filter(|share| **share <= limit).count();
     let [least, most] = ends(shares.iter().copied()).ok_or(Undecided)?;
     let found = text!("at σ = {} {} of the realisations have an impact", row.sigma, here);
-    let reason = "ours: “no impacts” as in at most a twentieth of the realisations, at two thirds of the printed threshold";
+    let reason = "ours: “no impacts” as in at most a twentieth of the realisations, at two thirds of the printed \
+         threshold";
     let check = by_windows(e, found, [none, shares.len()], text!("at most {:1}", limit), reason);
-    Ok(check.note(text!(
-        "In the {} windows of the map of protocols the share lies from {:2} to {:2}; in {} of them it is at most \
-         {:1}.",
-        shares.len(), least, most, none, limit
-    )))
+    let note = "In the {} windows of the map of protocols the share lies from {:2} to {:2}; in {} of them it is at \
+         most {:1}.";
+    Ok(check.note(text!(note, shares.len(), least, most, none, limit)))
 }
 
 /// A jump stays in one step of the grid, however fine; a slope is shared by all.
@@ -117,17 +115,12 @@ fn jump(e: &Evidence<'_>) -> Judged {
     let found =
         text!("largest step of the mean, between σ that are {} apart: {:2} gaps", step, one);
     let reason = "ours: a jump is a step of half the height or more";
+    let why = "The rise is steep but gradual: over two steps of the grid the mean of the realisations with an impact \
+         increases {:2} times as much as over one (a slope gives 2, a jump 1); the largest step of the mean of all \
+         is {:2}.";
     Ok(e.found(found, one >= half)
         .within(text!("a step of at least {:3}", half), reason)
-        .explained(
-            text!(
-                "The rise is steep but gradual: over two steps of the grid the mean of the realisations with an \
-                 impact increases {:2} times as much as over one (a slope gives 2, a jump 1); the largest step of \
-                 the mean of all is {:2}.",
-                two / one, all
-            ),
-            two / one > 1.5,
-        ))
+        .explained(text!(why, two / one, all), two / one > 1.5))
 }
 
 /// Against a chain in which each gap closes by itself: its rise from a quarter to three quarters,
@@ -143,8 +136,8 @@ fn rise_exists(e: &Evidence<'_>) -> Judged {
     let error = share * (a + b).sqrt();
     let found =
         text!("a quarter to three quarters of all gaps within {} of σ½", with_error(share, error));
-    let reason = "ours: half of what the same rise takes where impacts do not spread and each gap closes by itself; and the \
-                  statistical error";
+    let reason = "ours: half of what the same rise takes where impacts do not spread and each gap closes by itself; \
+         and the statistical error";
     let mut note = Text::from(WITH_AN_IMPACT);
     if let Ok(width) = e.estimate("sweep.rise.width") {
         let more = " The mean of all rises from a tenth to nine tenths within Δσ = {}.";
@@ -172,10 +165,9 @@ fn repeated(e: &Evidence<'_>) -> Judged {
     let [impacts, gaps] = e.numbers(&row, ["impacts", "mean"])?;
     let each = impacts / gaps;
     let found = text!("{:2} impacts for each gap that has any, at σ = {}", each, threshold);
-    Ok(e.open(found).note(
-        "In the window of our protocol. Impacts go on, so a longer window has more and a short one cannot have many: the window, \
-         which is not printed, decides.",
-    ))
+    let note = "In the window of our protocol. Impacts go on, so a longer window has more and a short one cannot \
+         have many: the window, which is not printed, decides.";
+    Ok(e.open(found).note(note))
 }
 
 /// Says why a place of the rise cannot be judged: in how many windows of the map it has the printed
@@ -233,12 +225,10 @@ fn mode_rise(e: &Evidence<'_>) -> Judged {
     let halves = map.curves.iter().filter_map(|curve| mode_half(curve, map.ensemble.chain.gaps()));
     let ranges: Vec<[f64; 2]> = halves.collect();
     let meets = ranges.iter().filter(|[low, high]| *low <= to && *high >= from).count();
-    Ok(e.open(found).note(text!(
-        "The protocol, which is not printed, decides. The mode is known to the range of σ in which its bootstrap \
-         interval reaches over half of all gaps; of the {} protocols with such a range {} have one that meets the \
-         printed digits. It follows the mean.",
-        ranges.len(), meets
-    )))
+    let note = "The protocol, which is not printed, decides. The mode is known to the range of σ in which its \
+         bootstrap interval reaches over half of all gaps; of the {} protocols with such a range {} have one that \
+         meets the printed digits. It follows the mean.";
+    Ok(e.open(found).note(text!(note, ranges.len(), meets)))
 }
 
 /// Share of impacts that may be called negligible (ours).
@@ -257,15 +247,13 @@ fn three_way(e: &Evidence<'_>) -> Judged {
     let by_chance = (-room..=room + phases).contains(&excess);
     let found =
         text!("{} of {:2} impacts within {:1} of one next to it", seen, impacts, NEAR_SIMULTANEOUS);
-    let reason = "ours: one in a thousand; and the count must be what one expects by chance, but for hits \
-                  that masses in contact pass on to one another at once, one for each contact phase";
+    let reason = "ours: one in a thousand; and the count must be what one expects by chance, but for hits that \
+         masses in contact pass on to one another at once, one for each contact phase";
+    let note = "The share within δ falls in proportion to δ, and would reach the tolerance at δ = {:1}; by chance \
+         one expects {:2} such impacts, and none at δ = 0.";
     Ok(e.found(found, share <= NEGLIGIBLE && by_chance)
         .within(text!("a share of {:1}", NEGLIGIBLE), reason)
-        .note(text!(
-            "The share within δ falls in proportion to δ, and would reach the tolerance at δ = {:1}; by chance one \
-             expects {:2} such impacts, and none at δ = 0.",
-            NEAR_SIMULTANEOUS * NEGLIGIBLE * impacts / expected, expected
-        )))
+        .note(text!(note, NEAR_SIMULTANEOUS * NEGLIGIBLE * impacts / expected, expected)))
 }
 
 fn sticking(e: &Evidence<'_>) -> Judged {
@@ -275,20 +263,19 @@ fn sticking(e: &Evidence<'_>) -> Judged {
         return Err(Undecided);
     }
     let found = text!("{} contact phases in {:2} impacts", phases, impacts);
+    let note = "Two masses alone can stick only if their forces differ by more than d ω². {} impacts were slower \
+         than {:1}.";
     Ok(e.found(found, phases / impacts <= NEGLIGIBLE)
         .within(text!("a share of {:1}", NEGLIGIBLE), "ours: one in a thousand")
-        .note(text!(
-            "Two masses alone can stick only if their forces differ by more than d ω². {} impacts were slower than \
-             {:1}.",
-            slow, SLOW
-        )))
+        .note(text!(note, slow, SLOW)))
 }
 
 fn without_impact(e: &Evidence<'_>) -> Judged {
     let found = e.results.of(&TWO_MASSES)?;
     let least = found.excess.iter().map(|pair| pair[0]).reduce(f64::min).ok_or(Undecided)?;
     let safe = e.number("two_masses.bound.force")?;
-    let text = "{} impacts below the force that the amplitudes allow; smallest force with an impact, over that bound: {:6}";
+    let text = "{} impacts below the force that the amplitudes allow; smallest force with an impact, over that \
+         bound: {:6}";
     let reason =
         "a gap whose amplitudes add up to less than d never closes; rounding of the bracket aside";
     let agrees = found.violations == 0 && least >= 1.0 - 1e-9 && safe > 0.0;
@@ -303,15 +290,13 @@ fn walls_like_masses(e: &Evidence<'_>) -> Judged {
     let difference = e.estimate("starts.variants[chain=ring].difference")?;
     let allowed = half_unit(e)?;
     let agrees = difference.value.abs() <= allowed + e.level()?.quantile * difference.error;
+    let reason = "ours: half a unit of the digit in which the threshold is printed; and the statistical error at the \
+         level of the table";
+    let note = "A ring has N = n gaps, a chain between walls N = n + 1. After longer transients a ring rises \
+         somewhat earlier.";
     Ok(e.found(text!("σ½ of the mean of all differs by {}", difference), agrees)
-        .within(
-            text!("± {:1}", allowed),
-            "ours: half a unit of the digit in which the threshold is printed; and the statistical error at the level of the table",
-        )
-        .note(
-            "A ring has N = n gaps, a chain between walls N = n + 1. After longer transients a ring rises somewhat \
-             earlier.",
-        ))
+        .within(text!("± {:1}", allowed), reason)
+        .note(note))
 }
 
 /// The threshold of percolation sharpens with size. The paper compares without a quantity.
@@ -328,8 +313,7 @@ fn percolation(e: &Evidence<'_>) -> Judged {
         }
         _ => "chains of one length only".into(),
     };
-    Ok(e.open(found).note(
-        "The paper names a likeness and no number. The threshold of percolation becomes sharp in a large system; this rise, \
-         after the same transient, does not.",
-    ))
+    let note = "The paper names a likeness and no number. The threshold of percolation becomes sharp in a large \
+         system; this rise, after the same transient, does not.";
+    Ok(e.open(found).note(note))
 }

@@ -28,25 +28,21 @@ fn different_orbits(e: &Evidence<'_>) -> Judged {
     let text = "{} different orders of impacts for the {} simple circuits of {} gaps";
     let found = text!(text, orders, circuits, gaps);
     let sets = ((1_u64 << gaps as u32) - 1) as f64;
-    Ok(e.found(found, orders == circuits).within("none", "integers are exact").explained(
-        text!(
-            "But two impacts without a common mass may change places, and every mass still has its impacts in the same \
-             order. In this sense all simple circuits through the same gaps are one: a mass can tell {} apart, as many \
-             as there are sets of gaps.",
-            classes
-        ),
-        classes == sets,
-    ))
+    let why = "But two impacts without a common mass may change places, and every mass still has its impacts in the \
+         same order. In this sense all simple circuits through the same gaps are one: a mass can tell {} apart, as \
+         many as there are sets of gaps.";
+    Ok(e.found(found, orders == circuits)
+        .within("none", "integers are exact")
+        .explained(text!(why, classes), classes == sets))
 }
 
 fn realised(e: &Evidence<'_>) -> Judged {
     let both = e.results.of(&SEGMENTS)?;
     let found = [&both.fig05, &both.fig06].map(|segment| segment.names().len());
     let text = "periodic orbits with the {} and the {} impacts of two circuits";
-    Ok(e.open(text!(text, found[0], found[1])).note(
-        "We searched for the orbits of Figs. 5 and 6 only, and chose the forces for them. For all circuits, or for given forces, \
-         it is not shown.",
-    ))
+    let note = "We searched for the orbits of Figs. 5 and 6 only, and chose the forces for them. For all circuits, \
+         or for given forces, it is not shown.";
+    Ok(e.open(text!(text, found[0], found[1])).note(note))
 }
 
 /// Different impacts of a chain in the window, as Sec. 6 counts them.
@@ -57,8 +53,8 @@ fn few_and_many(e: &Evidence<'_>) -> Judged {
     let mean = |sigma: f64| e.estimate(&format!("sweep.rows[sigma={sigma}].mean"));
     let (few, many) = (mean(low)?, mean(high)?);
     let found = text!("{} different impacts at σ = {}, {} at {}", few, low, many, high);
-    Ok(e.open(found).note(
-        "What is found are means of realisations with at least one impact. That they consist of periodic orbits is an \
-         assumption that no simulation can test, since the chain is chaotic; impacts in an orbit cannot be counted.",
-    ))
+    let note = "What is found are means of realisations with at least one impact. That they consist of periodic \
+         orbits is an assumption that no simulation can test, since the chain is chaotic; impacts in an orbit cannot \
+         be counted.";
+    Ok(e.open(found).note(note))
 }

@@ -47,10 +47,11 @@ fn orbit(e: &Evidence<'_>, figure: usize) -> Judged {
         period,
         apart
     ));
+    let note = "A solution of the equations of motion with the period of the forces, which were chosen for it; the \
+         figure draws another, which is not periodic. How likely such forces are is not said.";
     Ok(e.found(text, agrees)
         .within(text!("{:1}", allowed), "rounding, which the impacts of a period enlarge")
-        .note("A solution of the equations of motion with the period of the forces, which were chosen for it; the figure draws \
-               another, which is not periodic. How likely such forces are is not said."))
+        .note(note))
 }
 
 /// Returns how many bodies the impacts in some gaps of a chain involve, both walls being one body.
@@ -77,38 +78,32 @@ fn masses_of_circuit(e: &Evidence<'_>) -> Judged {
     let found = bodies(&gaps, segment.masses);
     let printed = found as f64 == e.statement.number()?;
     let text = text!("{} for Fig. 5; k + 1 for {} of {} sets of gaps", found, right, sets);
-    Ok(e.found(text, printed && right == sets).within("none", "integers are exact").explained(
-        "A circuit whose gaps are neighbours, as on a ring, has k + 1 bodies, and the printed example is one. A gap apart from \
-         the others brings two bodies, and the last gap of the whole ring none.",
-        printed && as_predicted,
-    ))
+    let why = "A circuit whose gaps are neighbours, as on a ring, has k + 1 bodies, and the printed example is one. \
+         A gap apart from the others brings two bodies, and the last gap of the whole ring none.";
+    Ok(e.found(text, printed && right == sets)
+        .within("none", "integers are exact")
+        .explained(why, printed && as_predicted))
 }
 
 /// Lengths that are about N, here as in the next statement: the largest, and three below it.
 fn eq8(e: &Evidence<'_>) -> Judged {
     let [far, from] = e.numbers("theory.lengths", ["largest_far", "from"])?;
     let found = text!("at most {:2} for k < {}", far, from);
-    Ok(e.found(found, far <= 0.1).within(
-        text!("at most {:1}", 0.1),
-        "ours: “far below one” as at most a tenth; “about N” as within three of it",
-    ))
+    let reason = "ours: “far below one” as at most a tenth; “about N” as within three of it";
+    Ok(e.found(found, far <= 0.1).within(text!("at most {:1}", 0.1), reason))
 }
 
 fn eq8_next(e: &Evidence<'_>) -> Judged {
     let columns = ["before_last", "exceptions"];
     let [ratio, exceptions] = e.numbers("theory.lengths", columns)?;
     let n = VERTICES as f64;
+    let reason = "ours: “far below one” as at most a tenth";
+    let why = "The ratio at k = N − 1 is N/(N − 1), above one. Above a tenth are the {} lengths next to N, where \
+         most circuits are.";
     Ok(e.found(text!("at k = N − 1: {:4}", ratio), exceptions == 0.0)
-        .within(
-            text!("at most {:1}", 0.1),
-            "ours: “far below one” as at most a tenth",
-        )
+        .within(text!("at most {:1}", 0.1), reason)
         .explained(
-            text!(
-                "The ratio at k = N − 1 is N/(N − 1), above one. Above a tenth are the {} lengths next to N, where \
-                 most circuits are.",
-                exceptions
-            ),
+            text!(why, exceptions),
             (ratio * (n - 1.0) / n - 1.0).abs() < 1e-13 && exceptions == 3.0,
         ))
 }

@@ -30,29 +30,27 @@ fn rise(e: &Evidence<'_>) -> Judged {
     let mean = |p: f64| e.number(&format!("theory.distribution[p={p}].mean"));
     let (few, many, n) = (mean(a)?, mean(c)?, VERTICES as f64);
     let found = text!("μ from {:3} to {:3} while p goes from {} to {}", few, many, a, c);
-    Ok(e.found(found, few < 0.1 * n && many > 0.75 * n).within(
-        "from below a tenth to above three quarters of N",
-        "ours: what “rapidly towards the size of the whole system” asks at least",
-    ))
+    let reason = "ours: what “rapidly towards the size of the whole system” asks at least";
+    Ok(e.found(found, few < 0.1 * n && many > 0.75 * n)
+        .within("from below a tenth to above three quarters of N", reason))
 }
 
 fn step(e: &Evidence<'_>) -> Judged {
     let [largest, second] = e.numbers("theory.mean", ["largest_step", "other_steps"])?;
     let found = text!("one step of height {}, all others {}", largest, second);
-    Ok(e.found(found, largest * 10.0 >= VERTICES as f64 && second == 1.0).within(
-        "one step of ten or more, all others of one",
-        "ours: “large” as at least a tenth of N; a step function of integers has ones",
-    ))
+    let reason = "ours: “large” as at least a tenth of N; a step function of integers has ones";
+    Ok(e.found(found, largest * 10.0 >= VERTICES as f64 && second == 1.0)
+        .within("one step of ten or more, all others of one", reason))
 }
 
 fn mean_zero(e: &Evidence<'_>) -> Judged {
     let least = e.number("theory.mean.at_zero")?;
     let found = text!("μ = {:1} as p → 0+", least);
-    Ok(e.found(found, least == e.statement.number()?).within("none", "an integer is exact").explained(
-        "At p = 0 Eq. (9) is 0/0. As p goes to zero the circuits of one edge hold all the weight, and μ goes to one; zero \
-         is the number of a graph without edges. The mode at p = 0 is read in the same way.",
-        least == 1.0,
-    ))
+    let why = "At p = 0 Eq. (9) is 0/0. As p goes to zero the circuits of one edge hold all the weight, and μ goes \
+         to one; zero is the number of a graph without edges. The mode at p = 0 is read in the same way.";
+    Ok(e.found(found, least == e.statement.number()?)
+        .within("none", "an integer is exact")
+        .explained(why, least == 1.0))
 }
 
 /// The least and the largest mean of the simulation, over all gaps, and those of the theory, over
@@ -65,8 +63,7 @@ fn like_simulation(e: &Evidence<'_>) -> Judged {
     let theory = e.numbers("theory.mean", ["at_zero", "at_one"])?;
     let [least, most] = theory.map(|mean| mean / VERTICES as f64);
     let text = "simulated from {:2} to {:2} of N as σ grows, theory from {:2} to {:2} as p grows";
-    Ok(e.open(text!(text, low, high, least, most)).note(
-        "The paper names a likeness of curves over different axes, and no quantity. Any two curves that rise from few \
-         to all would have it. With the relation of σ and p they can be compared, in Section 8.",
-    ))
+    let note = "The paper names a likeness of curves over different axes, and no quantity. Any two curves that rise \
+         from few to all would have it. With the relation of σ and p they can be compared, in Section 8.";
+    Ok(e.open(text!(text, low, high, least, most)).note(note))
 }

@@ -37,13 +37,10 @@ fn through_zero(e: &Evidence<'_>) -> Judged {
     let [all, failed] = compared(e)?;
     let found = text!("f passes zero at some p ≤ 1 for {} of {} k", all - failed, all);
     let last = jump::f(VERTICES, 1.0, VERTICES as f64 - 1.0);
-    Ok(e.found(found, failed == 0).within("none", INTEGER).explained(
-        text!(
-            "At k = N − 1 f is p (N − 1) − N, which is {:1} at p = 1 and less before; so k* ends at N − 1.",
-            last
-        ),
-        failed == 1 && last < 0.0,
-    ))
+    let why = "At k = N − 1 f is p (N − 1) − N, which is {:1} at p = 1 and less before; so k* ends at N − 1.";
+    Ok(e.found(found, failed == 0)
+        .within("none", INTEGER)
+        .explained(text!(why, last), failed == 1 && last < 0.0))
 }
 
 /// A forward difference is zero half a step before the derivative.
@@ -54,37 +51,31 @@ fn inflexion(e: &Evidence<'_>) -> Judged {
     let allowed = 1e-13;
     let found = "with Γ functions for the factorials at p = {:6}, k = {:3}; p_crit = {:6}";
     let found = text!(found, p, k, crit);
+    let why = "f has a double zero there, at k = {:4}, but f is the forward difference of Φ and not its derivative, \
+         whose double zero comes at a smaller p, half a step further on. On the integers Φ is not stationary. It \
+         falls at {} of {} steps up to p_crit, as the paper says.";
     Ok(e.found(found, (p / crit - 1.0).abs() <= allowed)
         .within(text!("{:1} relative", allowed), "rounding")
         .explained(
-            text!(
-                "f has a double zero there, at k = {:4}, but f is the forward difference of Φ and not its \
-                 derivative, whose double zero comes at a smaller p, half a step further on. On the integers Φ is \
-                 not stationary. It falls at {} of {} steps up to p_crit, as the paper says.",
-                touch, steps - failed, steps
-            ),
+            text!(why, touch, steps - failed, steps),
             off <= allowed && failed == 0 && steps > 0 && (k - touch - 0.5).abs() < 0.05,
         ))
 }
 
 fn extrema(e: &Evidence<'_>) -> Judged {
     let [all, failed] = compared(e)?;
-    Ok(e.all_cases(all, failed).note(text!(
-        "Neighbours of ⌈k₋⌉ and ⌈k₊⌉, since f is a forward difference. The first local maximum on the integers \
-         appears at p = {:8}, a little above p_crit.",
-        e.number("theory.first_maximum.p")?
-    )))
+    let note = "Neighbours of ⌈k₋⌉ and ⌈k₊⌉, since f is a forward difference. The first local maximum on the \
+         integers appears at p = {:8}, a little above p_crit.";
+    Ok(e.all_cases(all, failed).note(text!(note, e.number("theory.first_maximum.p")?)))
 }
 
 fn p_crit(e: &Evidence<'_>) -> Judged {
     let [formula, found, k] = e.numbers("theory.jump", ["p_crit", "p_crit_found", "k_touch"])?;
     let allowed = 1e-13;
     let text = text!("the zeros appear at p = {:15}", found);
+    let reason = "rounding: the largest value of f is known to a few units in the last place";
     Ok(e.found(text, (found / formula - 1.0).abs() <= allowed)
-        .within(
-            text!("{:1} relative", allowed),
-            "rounding: the largest value of f is known to a few units in the last place",
-        )
+        .within(text!("{:1} relative", allowed), reason)
         .note(text!("They appear at k = {:4}, not at an integer.", k)))
 }
 
@@ -98,12 +89,10 @@ fn still_one(e: &Evidence<'_>) -> Judged {
 fn leaps(e: &Evidence<'_>) -> Judged {
     let [crit, leap, k_after] = e.numbers("theory.jump", ["p_crit", "p_jump", "k_after"])?;
     let found = text!("from 1 to {} at p = {:15}", k_after, leap);
+    let note = "The paper prints p_crit only; the jump comes {:3} % later.";
     Ok(e.found(found, k_after >= 10.0 && leap > crit)
         .within("ten or more, above p_crit", "ours: “much larger” as at least ten times")
-        .note(text!(
-            "The paper prints p_crit only; the jump comes {:3} % later.",
-            100.0 * (leap / crit - 1.0)
-        )))
+        .note(text!(note, 100.0 * (leap / crit - 1.0))))
 }
 
 fn limit(e: &Evidence<'_>) -> Judged {

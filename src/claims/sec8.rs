@@ -16,23 +16,13 @@ use impact_numerics::statistics::{Estimate, wilson};
 pub fn rules() -> Vec<Rule> {
     vec![
         Rule::new("sec8_expected_jump", expected_jump).on(OurMeasure),
-        equality(
-            "sec8_separation",
-            1e-13,
-            "Against the equations of motion solved by variation of constants, at five times.",
-        )
-        .reads("Eq. (19)"),
+        equality("sec8_separation", 1e-13, SOLVED).reads("Eq. (19)"),
         Rule::new("sec8_no_impact", no_impact)
             .on(OurMeasure)
             .statistical()
             .reads("1 − p = P(Y₀ + Y₁/|ω² − Ω²| < d)"),
         defined("sec8_amplitude").reads("Eq. (21)"),
-        equality(
-            "sec8_densities",
-            1e-12,
-            "The probability of Y ≤ x at five x and three σ, against the integral of the two normal \
-         densities over a disc; the second also at |ω² − Ω²| = 1/2.",
-        ),
+        equality("sec8_densities", 1e-12, INTEGRATED),
         Rule::new("sec8_eq25", eq25).on(Rounding).reads("Eq. (25)"),
         Rule::new("sec8_p_small", p_small).on(OurMeasure).reads("extremely small for σ < {}"),
         Rule::new("sec8_p_poor", p_poor).on(OurMeasure),
@@ -45,6 +35,11 @@ pub fn rules() -> Vec<Rule> {
     ]
 }
 
+const SOLVED: &str =
+    "Against the equations of motion solved by variation of constants, at five times.";
+const INTEGRATED: &str = "The probability of Y ≤ x at five x and three σ, against the integral of the two normal \
+         densities over a disc; the second also at |ω² − Ω²| = 1/2.";
+
 fn eq25(e: &Evidence<'_>) -> Judged {
     let note =
         "Closed form against the double integral at five σ where the latter has digits left.";
@@ -55,12 +50,11 @@ fn eq25(e: &Evidence<'_>) -> Judged {
 fn expected_jump(e: &Evidence<'_>) -> Judged {
     let [slope, variance] = e.numbers("theory.jump", ["slope", "variance_over_p"])?;
     let found = text!("dμ/dp = {:4} at p_jump", slope);
+    let why = "Only the most likely number jumps. The slope of μ is the variance of X over p, finite for every \
+         finite N.";
     Ok(e.found(found, !slope.is_finite())
         .within("no finite slope", "ours: a jump has no slope")
-        .explained(
-            "Only the most likely number jumps. The slope of μ is the variance of X over p, finite for every finite N.",
-            (slope / variance - 1.0).abs() < 1e-6,
-        ))
+        .explained(why, (slope / variance - 1.0).abs() < 1e-6))
 }
 
 /// Eq. (20) in the simulation: a chain with random free parts that overlaps at its start, or has an
@@ -97,18 +91,14 @@ fn no_impact(e: &Evidence<'_>) -> Judged {
         return Err(Undecided);
     }
     let least = shares_of_bound.into_iter().fold(f64::INFINITY, f64::min);
+    let reason = "intervals at the level of the table; two thirds are ours, for gaps that share a mass and come near \
+         their infimum too late";
+    let note = "Chains with random free parts, as Eq. (20) supposes. {} of these {} chains overlap at the start, \
+         which Eq. (20) counts as impacts. The bound is 1 − ∏ (1 − p) over all gaps with p of Eq. (25); chains come \
+         to at least {:2} of it.";
     Ok(e.found(text, above == 0 && below == 0)
-        .within(
-            "none above its bound, none below two thirds of it",
-            "intervals at the level of the table; two thirds are ours, for gaps that share a mass \
-             and come near their infimum too late",
-        )
-        .note(text!(
-            "Chains with random free parts, as Eq. (20) supposes. {} of these {} chains overlap at the start, which \
-             Eq. (20) counts as impacts. The bound is 1 − ∏ (1 − p) over all gaps with p of Eq. (25); chains come to \
-             at least {:2} of it.",
-            overlaps, chains, least
-        )))
+        .within("none above its bound, none below two thirds of it", reason)
+        .note(text!(note, overlaps, chains, least)))
 }
 
 /// Less of a whole than this cannot be seen in a figure (ours).
@@ -122,16 +112,12 @@ fn p_small(e: &Evidence<'_>) -> Judged {
     let printed = e.statement.number()?;
     let p = e.number(&format!("theory.gap[sigma={printed}].p"))?;
     let found = text!("p = {:3} at σ = {}", p, printed);
+    let reason = "ours: “extremely small” as a fiftieth of what a probability can be";
+    let note = "It is not small for the theory: p reaches p_crit at σ = {:4} and p_jump at {:4}, below the printed \
+         value.";
     Ok(e.found(found, p <= EXTREMELY_SMALL)
-        .within(
-            text!("at most {:1}", EXTREMELY_SMALL),
-            "ours: “extremely small” as a fiftieth of what a probability can be",
-        )
-        .note(text!(
-            "It is not small for the theory: p reaches p_crit at σ = {:4} and p_jump at {:4}, below the printed \
-             value.",
-            crit, jump
-        )))
+        .within(text!("at most {:1}", EXTREMELY_SMALL), reason)
+        .note(text!(note, crit, jump)))
 }
 
 /// The p with which the theory would have the simulated mean, over that of Eq. (25), where the
@@ -150,13 +136,11 @@ fn p_poor(e: &Evidence<'_>) -> Judged {
     let times = windows.iter().filter_map(|means| Some(needed(means)? / p));
     let least = times.reduce(f64::min).ok_or(Undecided)?;
     let found = "p = {:2} at σ = {}, where the theory needs {:2} for the simulated mean";
+    let note = "In all windows of the map with T ≥ {} at least {:2} times as much is needed. The paper suspects p; \
+         that the theory itself is at fault the numbers do not exclude, since Eq. (20) gives what it supposes.";
     Ok(e.found(text!(found, p, sigma, ours), ours >= 2.0 * p && least >= 2.0)
         .within("at least twice", "ours: “poor” as less than half of what is needed")
-        .note(text!(
-            "In all windows of the map with T ≥ {} at least {:2} times as much is needed. The paper suspects p; that \
-             the theory itself is at fault the numbers do not exclude, since Eq. (20) gives what it supposes.",
-            RELEASED, least
-        )))
+        .note(text!(note, RELEASED, least)))
 }
 
 /// A shorter transient counts the first impacts of a chain that has just been released (ours).
@@ -187,17 +171,14 @@ fn large_sigma(e: &Evidence<'_>) -> Judged {
     let check = if distance >= constant {
         e.open(found)
     } else {
-        e.found(found, far <= limit).within(
-            text!("at most {:3}, and less than N is away", limit),
-            "ours: a tenth of all gaps",
-        )
+        let tolerance = text!("at most {:3}, and less than N is away", limit);
+        e.found(found, far <= limit).within(tolerance, "ours: a tenth of all gaps")
     };
-    Ok(check.note(text!(
-            "Reached at σ = {}; in all windows of the map with T ≥ {} at most {:2}. But the constant N is at most \
-             {:2} away: both curves approach all gaps, whatever the theory, so nothing is tested here. The theory \
-             misses {:2} of its {} vertices, the simulation {:2} of its {} gaps.",
-            at, RELEASED, far, constant, VERTICES as f64 - theory, VERTICES, gaps - mean, gaps
-        )))
+    let note = "Reached at σ = {}; in all windows of the map with T ≥ {} at most {:2}. But the constant N is at most \
+         {:2} away: both curves approach all gaps, whatever the theory, so nothing is tested here. The theory misses \
+         {:2} of its {} vertices, the simulation {:2} of its {} gaps.";
+    let [missed, left] = [all - theory, gaps - mean];
+    Ok(check.note(text!(note, at, RELEASED, far, constant, missed, VERTICES, left, gaps)))
 }
 
 /// By the half heights in all windows of the map of protocols: of theory and simulation, each of
@@ -215,11 +196,9 @@ fn threshold_shift(e: &Evidence<'_>) -> Judged {
     let tolerance = "within a fifth of one another";
     let reason = "ours: a curve that is moved by more agrees nowhere along the rise";
     let check = by_windows(e, found, [agree, halves.len()], tolerance, reason);
-    Ok(check.note(text!(
-        "Along the rise the protocol, which is not printed, decides: in {} of {} windows of the map both half heights are \
-         within a fifth of one another. The paper itself finds the agreement poor at small σ.",
-        agree, halves.len()
-    )))
+    let note = "Along the rise the protocol, which is not printed, decides: in {} of {} windows of the map both half \
+         heights are within a fifth of one another. The paper itself finds the agreement poor at small σ.";
+    Ok(check.note(text!(note, agree, halves.len())))
 }
 
 fn mean_is_easier(e: &Evidence<'_>) -> Judged {
@@ -305,19 +284,21 @@ fn ensured(e: &Evidence<'_>, what: &str, pick: fn(&Total) -> u64) -> Judged {
     let Some((until, ..)) = negligible.last() else {
         return Ok(check.note(what));
     };
-    let more = " At strong forces r decides. But up to σ = {} no r that was run has more than that, so none ensures it.";
+    let more = " At strong forces r decides. But up to σ = {} no r that was run has more than that, so none ensures \
+         it.";
     let threshold = e.published.statement("sec2_half_height")?.number()?;
     let note = Text::from(what).then(text!(more, *until));
     Ok(check.explained(note, decides(ours, without) && *until >= threshold))
 }
 
 fn restitution_ensures(e: &Evidence<'_>) -> Judged {
-    let what = "Contact phases over impacts. Two masses alone can stick only if their forces differ by more than d ω².";
+    let what = "Contact phases over impacts. Two masses alone can stick only if their forces differ by more than d \
+         ω².";
     ensured(e, what, |total| total.contact_phases)
 }
 
 fn restitution_multiple(e: &Evidence<'_>) -> Judged {
-    let what = "Impacts near in time to one in a gap beside theirs, over all, as in Section 2. Which the paper means by \
-                “multiple” it does not say.";
+    let what = "Impacts near in time to one in a gap beside theirs, over all, as in Section 2. Which the paper means \
+         by “multiple” it does not say.";
     ensured(e, what, |total| total.near.last().copied().unwrap_or(0))
 }

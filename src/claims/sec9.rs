@@ -8,32 +8,31 @@ use crate::params::{CONVERGENCE_P, HIGHER_P, REMARK_P};
 
 pub fn rules() -> Vec<Rule> {
     vec![
-    Rule::new("sec9_fig6_repeats", fig6_repeats),
-    cases(
-        "sec9_eq29",
-        "Circuits through one vertex twice, by the lengths of their loops, on graphs of one to six vertices.",
-    )
-    .reads("(N − 1)!/(N − (k − 1))!"),
-    Rule::new("sec9_eq30", eq30).reads("γ(k, 2)/2 · (N − 1)!/(N − (k − 1))!"),
-    cases("sec9_eq32", "Every n up to ten, one sum at a time.").reads("(n − 1)!/((j − 1)! (n − j)!)"),
-    Rule::new("sec9_eq33", class_range).reads("(k − 1)/2 · N!/(N − (k − 1))!"),
-    Rule::new("sec9_eq35", class_range).reads("valid for k > {}"),
-    Rule::new("sec9_eq36", class_range).reads("valid for k > {}"),
-    Rule::new("sec9_eq37", class_range).reads("valid for k > {}"),
-Rule::new("sec9_eq38", eq38).reads("Eq. (38)"),
-    Rule::new("sec9_even_small_p", even_small_p).on(OurMeasure).reads("significant at p = {}"),
-    Rule::new("sec9_dominate", dominate).on(OurMeasure),
-    Rule::new("sec9_convergence", convergence).on(OurMeasure),
-    Rule::new("sec9_mean_large_p", mean_large_p).on(OurMeasure),
-    Rule::new("sec9_explains_agreement", explains_agreement).on(OurMeasure),
-    Rule::new("sec9_mean_small_p", mean_small_p).on(OurMeasure),
-    Rule::new("sec9_higher_jump", higher_jump).on(OurMeasure),
-    Rule::new("sec9_fig15_modest", fig15_modest).on(OurMeasure),
-    Rule::new("sec9_relation_matters", relation_matters).on(OurMeasure),
-    Rule::new("sec10_improves", improves).on(OurMeasure),
-]
+        Rule::new("sec9_fig6_repeats", fig6_repeats),
+        cases("sec9_eq29", LOOPS).reads("(N − 1)!/(N − (k − 1))!"),
+        Rule::new("sec9_eq30", eq30).reads("γ(k, 2)/2 · (N − 1)!/(N − (k − 1))!"),
+        cases("sec9_eq32", SUMS).reads("(n − 1)!/((j − 1)! (n − j)!)"),
+        Rule::new("sec9_eq33", class_range).reads("(k − 1)/2 · N!/(N − (k − 1))!"),
+        Rule::new("sec9_eq35", class_range).reads("valid for k > {}"),
+        Rule::new("sec9_eq36", class_range).reads("valid for k > {}"),
+        Rule::new("sec9_eq37", class_range).reads("valid for k > {}"),
+        Rule::new("sec9_eq38", eq38).reads("Eq. (38)"),
+        Rule::new("sec9_even_small_p", even_small_p).on(OurMeasure).reads("significant at p = {}"),
+        Rule::new("sec9_dominate", dominate).on(OurMeasure),
+        Rule::new("sec9_convergence", convergence).on(OurMeasure),
+        Rule::new("sec9_mean_large_p", mean_large_p).on(OurMeasure),
+        Rule::new("sec9_explains_agreement", explains_agreement).on(OurMeasure),
+        Rule::new("sec9_mean_small_p", mean_small_p).on(OurMeasure),
+        Rule::new("sec9_higher_jump", higher_jump).on(OurMeasure),
+        Rule::new("sec9_fig15_modest", fig15_modest).on(OurMeasure),
+        Rule::new("sec9_relation_matters", relation_matters).on(OurMeasure),
+        Rule::new("sec10_improves", improves).on(OurMeasure),
+    ]
 }
 
+const LOOPS: &str = "Circuits through one vertex twice, by the lengths of their loops, on graphs of one to six \
+         vertices.";
+const SUMS: &str = "Every n up to ten, one sum at a time.";
 const INTEGER: &str = "integers are exact";
 
 fn fig6_repeats(e: &Evidence<'_>) -> Judged {
@@ -52,13 +51,11 @@ fn eq30(e: &Evidence<'_>) -> Judged {
     let [printed, counted] = e.numbers("theory.higher", ["eq30_printed", "eq30_counted"])?;
     let [compared, failed] = compared(e)?;
     let found = text!("Eq. (30) gives {:1}, enumeration {}", printed, counted);
+    let why = "A factor N is missing, the choice of the vertex that is visited twice; Eq. (33) has it. With it the \
+         formula agrees in {} of {} cases.";
     Ok(e.found(found, printed == counted)
         .within("none", INTEGER)
-        .explained(text!(
-            "A factor N is missing, the choice of the vertex that is visited twice; Eq. (33) has it. With it the \
-             formula agrees in {} of {} cases.",
-            compared, compared
-        ), failed == 0 && compared > 0))
+        .explained(text!(why, compared, compared), failed == 0 && compared > 0))
 }
 
 /// Of Eqs. (33) to (37), by the number in the id.
@@ -70,12 +67,9 @@ fn class_range(e: &Evidence<'_>) -> Judged {
     // A printed "k > 3" means from 4 on; without a printed range every length is meant.
     let printed_from = e.statement.value.map_or(1.0, |k| k + 1.0);
     let agrees = right_from == printed_from && failed == 0.0 && compared > 3.0;
-    let why = text!(
-        "One length below, on three vertices, the formula gives {} and enumeration finds {}: sequences that repeat a \
-         shorter one.",
-        formula,
-        counted
-    );
+    let why = "One length below, on three vertices, the formula gives {} and enumeration finds {}: sequences that \
+         repeat a shorter one.";
+    let why = text!(why, formula, counted);
     let found = text!("right from k = {} on", right_from);
     let check = e.found(found, agrees).within("none", INTEGER);
     Ok(match e.statement.value {
@@ -92,12 +86,11 @@ fn eq38(e: &Evidence<'_>) -> Judged {
     let [in_range, wrong_in_range] =
         e.numbers("theory.cases[statement=sec9_eq38_in_range]", ["compared", "failed"])?;
     let found = text!("right in {} of {} cases", all - wrong, all);
+    let why = "No smallest k is printed. From k = 3 on, where each formula is used in the range that is printed with \
+         it, {} of {} cases agree. For k = 1 and 2, which the distribution needs too, formulas are used below their \
+         range.";
     Ok(e.found(found, wrong == 0 && all > 0).within("none", INTEGER).explained(
-        text!(
-            "No smallest k is printed. From k = 3 on, where each formula is used in the range that is printed with it, {} of \
-             {} cases agree. For k = 1 and 2, which the distribution needs too, formulas are used below their range.",
-            in_range - wrong_in_range, in_range
-        ),
+        text!(why, in_range - wrong_in_range, in_range),
         wrong_in_range == 0.0 && in_range > 0.0,
     ))
 }
@@ -114,15 +107,16 @@ fn even_small_p(e: &Evidence<'_>) -> Judged {
     let found = text!("higher orders hold {:2} %", 100.0 * (1.0 - share));
     let predicted = 100.0 * first_order / (1.0 + first_order);
     let by_different = 1.0 - e.number("theory.higher.simple_by_different")?;
+    let why = "A doubled vertex has relative weight p k²/2, which is below one for the small k that hold nearly \
+         everything; this first order alone predicts {:2} %, and further orders less than as much again. They \
+         dominate only in the tail. With a factor p for each different impact, and not for each edge as Section 4 \
+         prints, they hold {:2} %.";
     Ok(e.found(found, 1.0 - share >= VISIBLE)
         .within("at least 5 %", "ours: the least that can be seen in a figure")
-        .explained(text!(
-            "A doubled vertex has relative weight p k²/2, which is below one for the small k that hold nearly \
-             everything; this first order alone predicts {:2} %, and further orders less than as much again. They \
-             dominate only in the tail. With a factor p for each different impact, and not for each edge as Section \
-             4 prints, they hold {:2} %.",
-            predicted, 100.0 * by_different
-        ), higher > first_order && higher < 2.0 * first_order))
+        .explained(
+            text!(why, predicted, 100.0 * by_different),
+            higher > first_order && higher < 2.0 * first_order,
+        ))
 }
 
 fn dominate(e: &Evidence<'_>) -> Judged {
@@ -132,10 +126,8 @@ fn dominate(e: &Evidence<'_>) -> Judged {
     let p = HIGHER_P[2];
     let share = of_five(e, p, "simple")?;
     let found = text!("simple circuits hold {:2} at p = {}", share, p);
-    Ok(e.found(found, share <= 0.01 && falls).within(
-        text!("at most {:1}", 0.01),
-        "ours: “insignificant” as at most one in a hundred, and falling with p",
-    ))
+    let reason = "ours: “insignificant” as at most one in a hundred, and falling with p";
+    Ok(e.found(found, share <= 0.01 && falls).within(text!("at most {:1}", 0.01), reason))
 }
 
 fn convergence(e: &Evidence<'_>) -> Judged {
@@ -147,16 +139,13 @@ fn convergence(e: &Evidence<'_>) -> Judged {
     let (p_last, last) = later.last().copied().unwrap_or((f64::NAN, f64::NAN));
     let found = text!("total variation distance {:3} at p = {}, {:3} at {}", a, p_a, b, p_b);
     let near = p_b <= p_last && b <= VISIBLE;
+    let reason =
+        "ours: the least that can be seen in a figure, as for higher orders at the smallest p";
+    let why = "The distance falls at every p that was computed, to {:2} at p = {}; the two come together only beyond \
+         the p of the figure. It is a shift of all k by about one: see the means.";
     Ok(e.found(found, falls && near)
-        .within(
-            text!("falling, and at most {:1} in panel (b)", VISIBLE),
-            "ours: the least that can be seen in a figure, as for higher orders at the smallest p",
-        )
-        .explained(text!(
-            "The distance falls at every p that was computed, to {:2} at p = {}; the two come together only beyond \
-             the p of the figure. It is a shift of all k by about one: see the means.",
-            last, p_last
-        ), falls && later.len() > 2 && b < 0.5 * a))
+        .within(text!("falling, and at most {:1} in panel (b)", VISIBLE), reason)
+        .explained(text!(why, last, p_last), falls && later.len() > 2 && b < 0.5 * a))
 }
 
 fn mean_large_p(e: &Evidence<'_>) -> Judged {
@@ -173,10 +162,9 @@ fn explains_agreement(e: &Evidence<'_>) -> Judged {
     let doubling = e.number("theory.higher.doubling")?;
     let found = "at p = {} one more doubled vertex multiplies the weight by {:3}";
     let found = text!(found, HIGHER_P[2], doubling);
-    Ok(e.open(found).note(
-        "An explanation is not a number. The orders that are left out outweigh those that are counted, and theory and \
-         simulation both approach all gaps whatever the weights are.",
-    ))
+    let note = "An explanation is not a number. The orders that are left out outweigh those that are counted, and \
+         theory and simulation both approach all gaps whatever the weights are.";
+    Ok(e.open(found).note(note))
 }
 
 fn mean_small_p(e: &Evidence<'_>) -> Judged {
@@ -193,16 +181,12 @@ fn higher_jump(e: &Evidence<'_>) -> Judged {
     let shift = higher / simple - 1.0;
     let found =
         text!("p_jump = {:6}, to k* = {}; for simple circuits {:6}", higher, k_after, simple);
+    let reason = "both are known to the last bit; “jump” as in Section 7";
+    let note = "A change by {:2} %. With a factor p for each different impact, and not for each edge as Section 4 \
+         prints, k* climbs in steps of {} and nothing jumps.";
     Ok(e.found(found, shift.abs() > 1e-9 && k_after >= 10.0)
-        .within(
-            "another p, and a step of ten or more",
-            "both are known to the last bit; “jump” as in Section 7",
-        )
-        .note(text!(
-            "A change by {:2} %. With a factor p for each different impact, and not for each edge as Section 4 \
-             prints, k* climbs in steps of {} and nothing jumps.",
-            100.0 * shift, by_different
-        )))
+        .within("another p, and a step of ten or more", reason)
+        .note(text!(note, 100.0 * shift, by_different)))
 }
 
 fn fig15_modest(e: &Evidence<'_>) -> Judged {
@@ -210,11 +194,10 @@ fn fig15_modest(e: &Evidence<'_>) -> Judged {
     let allowed = half_unit(e)?;
     let found =
         text!("largest change {:3} at σ = {}; the half height moves by {:2}", change, at, shift);
-    Ok(e.found(found, at < LARGE_SIGMA && shift.abs() <= allowed).within(
-        text!("below σ = {:1}; by at most {:1}", LARGE_SIGMA, allowed),
-        "ours: “small σ” as what is not large in Section 8; “modest” as half a unit of the \
-         digit in which the paper prints the threshold",
-    ))
+    let reason = "ours: “small σ” as what is not large in Section 8; “modest” as half a unit of the digit in which \
+         the paper prints the threshold";
+    Ok(e.found(found, at < LARGE_SIGMA && shift.abs() <= allowed)
+        .within(text!("below σ = {:1}; by at most {:1}", LARGE_SIGMA, allowed), reason))
 }
 
 fn relation_matters(e: &Evidence<'_>) -> Judged {
@@ -242,15 +225,9 @@ fn improves(e: &Evidence<'_>) -> Judged {
         let [simple, higher] = curves.each_ref().map(|curve| comparison::distance(means, curve));
         better += usize::from(simple.zip(higher).is_some_and(|(a, b)| improved([a, b])));
     }
+    let reason = "ours: “slightly”; the distance is the root of the mean square over all rows";
+    let note = "It decreases so in {} of the {} windows of the map of protocols with T ≥ {}.";
     Ok(e.found(found, improved([simple, higher]) && better == windows.len())
-        .within(
-            "a decrease by at most a fifth",
-            "ours: “slightly”; the distance is the root of the mean square over all rows",
-        )
-        .note(text!(
-            "It decreases so in {} of the {} windows of the map of protocols with T ≥ {}.",
-            better,
-            windows.len(),
-            RELEASED
-        )))
+        .within("a decrease by at most a fifth", reason)
+        .note(text!(note, better, windows.len(), RELEASED)))
 }
