@@ -12,27 +12,13 @@ pub(super) struct Columns {
 impl Columns {
     /// Reads comma-separated values, of which cells in quotation marks may have any sign.
     pub(super) fn read(text: &str) -> Columns {
-        let (mut rows, mut row, mut cell) = (Vec::new(), Vec::new(), String::new());
-        let (mut quoted, mut before) = (false, ' ');
-        for c in text.chars() {
-            match c {
-                '"' => {
-                    if !quoted && before == '"' {
-                        cell.push('"');
-                    }
-                    quoted = !quoted;
-                }
-                ',' if !quoted => row.push(std::mem::take(&mut cell)),
-                '\n' if !quoted => {
-                    row.push(std::mem::take(&mut cell));
-                    rows.push(std::mem::take(&mut row));
-                }
-                c => cell.push(c),
-            }
-            before = c;
-        }
-        let heads = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
-        Columns { heads, rows }
+        let bare = |cell: &str| {
+            let inside = cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"'));
+            inside.unwrap_or(cell).replace("\"\"", "\"")
+        };
+        let mut rows =
+            unquoted(text.trim_end(), '\n').map(|row| unquoted(row, ',').map(bare).collect());
+        Columns { heads: rows.next().unwrap_or_default(), rows: rows.collect() }
     }
 
     /// Returns a line for each column with cells that differ, and for each that one of both lacks.
@@ -74,11 +60,7 @@ impl Columns {
             let mut keys = keys.iter().flat_map(|(keys, _)| keys.split(','));
             keys.all(|key| {
                 let (name, wanted) = key.split_once('=').unwrap_or((key, ""));
-                let cell = self.column(name).map(|column| row[column].as_str());
-                let same = |cell: &str| cell.parse::<f64>().ok() == wanted.parse::<f64>().ok();
-                cell.is_some_and(|cell| {
-                    cell == wanted || wanted.parse::<f64>().is_ok() && same(cell)
-                })
+                self.column(name).is_some_and(|column| row[column] == wanted)
             })
         };
         for row in self.rows.iter().filter(is_meant) {
@@ -87,6 +69,15 @@ impl Columns {
         }
         Some(out)
     }
+}
+
+/// Splits a text at a sign where that does not stand between quotation marks.
+fn unquoted(text: &str, sign: char) -> impl Iterator<Item = &str> {
+    let mut is_quoted = false;
+    text.split(move |c| {
+        is_quoted ^= c == '"';
+        c == sign && !is_quoted
+    })
 }
 
 /// Describes a column or a cell of a table of a report, whose files `read` returns; none if there

@@ -1,8 +1,10 @@
 //! Writes to the terminal, ends on signals, and starts threads; verbs that a paper adds use it too.
 
-use crate::experiments::{Progress, say};
+use crate::experiments::{Progress, end_all, say};
 use crate::failure::{Failure, INTERRUPTED};
 use crate::input::one_line;
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -56,11 +58,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
 
 /// Makes Ctrl-C, SIGTERM and SIGHUP end the program and the programs that it runs within a second,
 /// with exit code 130. Files that are being put into place are first all there.
-#[cfg(unix)]
 pub(super) fn install_signals() {
-    use crate::experiments::end_all;
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    use signal_hook::iterator::Signals;
     let follow = |mut signals: Signals| {
         let ended = move || {
             if signals.forever().next().is_some() {
@@ -81,17 +79,12 @@ pub(super) fn install_signals() {
 }
 
 /// Returns whether the program was started with this signal ignored, as by `nohup`.
-#[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
     mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }
-
-/// Leaves it to the system to end the program.
-#[cfg(not(unix))]
-pub(super) fn install_signals() {}
 
 /// Returns the progress of work that a signal ends.
 pub fn progress() -> Progress {
@@ -130,11 +123,10 @@ impl Threads {
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::experiments::{Command, Results, Session, Store};
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use std::fs::write;
     use std::process::{Child, Command as Program, Stdio};
 

@@ -221,7 +221,7 @@ impl AnyExperiment for Command {
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests {
     use super::super::{Progress, Results, Store};
     use super::*;

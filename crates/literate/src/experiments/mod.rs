@@ -16,7 +16,6 @@ mod store;
 pub use command::Command;
 pub use error::Error;
 pub use experiment::{AnyExperiment, Experiment, Found};
-#[cfg(unix)]
 pub(crate) use process::end_all;
 pub use profile::Profile;
 pub use progress::{Progress, alive, be_quiet, say};

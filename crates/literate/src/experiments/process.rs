@@ -1,6 +1,7 @@
 //! Runs other programs, and ends them with this one.
 
 use std::io::{self, Write};
+use std::os::unix::process::CommandExt;
 use std::process::{Command, Output, Stdio};
 use std::sync::Mutex;
 
@@ -13,8 +14,7 @@ static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
 /// If it cannot be started.
 pub(super) fn run(command: &mut Command, text: String) -> io::Result<Output> {
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    #[cfg(unix)]
-    std::os::unix::process::CommandExt::process_group(command, 0);
+    command.process_group(0);
     let mut child = command.spawn()?;
     let group = child.id();
     running().push(group);
@@ -32,7 +32,6 @@ fn running() -> std::sync::MutexGuard<'static, Vec<u32>> {
 }
 
 /// Sends a signal, such as TERM, to all programs that run and to those that they started.
-#[cfg(unix)]
 pub(crate) fn end_all(signal: &str) {
     for group in running().iter() {
         // The shell's `kill`, for not every system has a program of that name.
