@@ -72,12 +72,11 @@ fn number_verdict_and_files_are_told_in_each_form() {
     let out = answer(here, "diff a b");
     for line in [
         "  sec7_jump: reproduced -> differs; tolerance: ten or more, above p_crit -> ± 0.0001 | more\n",
-        "1 check and 4 numbers, and 1 column of data changed\n",
-        "  data/fig12.csv: ",
-        "; the first 1 -> 0.75\n",
+        "1 check and 4 numbers changed\n",
         ", +3.00 σ\n  theory.jump.p_jump: 0.01303",
         "; Δ +1.00e-9\n  new: new, a b\n  theory.jump.p_crit: gone, was 0.012210\n",
-        "  differs  data/fig12.csv\n",
+        "  differs  data/fig12.csv: 1 of ",
+        " lines; the first theory,0.021,1 -> theory,0.021,0.75\n",
         "  new      data/new.csv\n",
         "  gone     data/fig07.csv\n",
         "  differs  values.json\n",

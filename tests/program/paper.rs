@@ -195,7 +195,7 @@ fn a_rerun_finds_what_the_list_cannot() {
     let (code, out, note) =
         crate::run(here, &format!("verify r --rerun --results saved {templates}"));
     assert_eq!(code, 1, "{out}{note}");
-    assert!(note.contains("5 files; `paper --out r --force --profile quick "), "{note}");
+    assert!(note.contains("5 files; with the same options `paper --force` writes"), "{note}");
     let lines: Vec<&str> = out.lines().skip(1).collect();
     let names = [
         "differs  SHA256SUMS",

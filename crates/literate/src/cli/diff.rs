@@ -1,6 +1,5 @@
 //! The verb `diff`.
 
-use super::columns::Columns;
 use super::terminal::{print, shown};
 use crate::claims::Check;
 use crate::failure::Failure;
@@ -38,16 +37,13 @@ pub(super) fn run(args: Args) -> Result<(), Failure> {
     let [old, new] = [&args.old, &args.new].map(|name| shown(Path::new(name)));
     let checks = checks(&before.ledger, &after.ledger);
     let numbers = numbers(&before.values, &after.values);
-    let columns = columns(&before.files, &after.files);
     let counts = [count(checks.len(), "check"), count(numbers.len(), "number")];
-    let more = count(columns.len(), "column");
-    let more = if columns.is_empty() { String::new() } else { format!(", and {more} of data") };
-    let all = [checks, numbers, columns, files(&before.files, &after.files)].concat();
+    let all = [checks, numbers, files(&before.files, &after.files)].concat();
     // A report, and the name of a file, may hold commands of a terminal.
     let lines = all.iter().map(|line| line.replace(is_control, " ") + "\n");
     print(&match all.is_empty() {
         true => format!("{old} and {new}: nothing differs\n"),
-        false => format!("{}{more} changed\n{}", counts.join(" and "), lines.collect::<String>()),
+        false => format!("{} changed\n{}", counts.join(" and "), lines.collect::<String>()),
     })
 }
 
@@ -109,31 +105,31 @@ fn committed(name: &str) -> Result<Files, Failure> {
     paths.map(|path| Ok((path.to_string(), blob(path)?))).collect()
 }
 
-/// Returns a line for each column that differs in a data file of both reports: prose names few of
-/// their numbers.
-fn columns(before: &Files, after: &Files) -> Vec<String> {
-    let mut lines = Vec::new();
-    for (path, old) in before.iter().filter(|(path, _)| path.ends_with(".csv")) {
-        let Some(new) = after.get(path).filter(|new| *new != old) else { continue };
-        let [old, new] = [old, new].map(|bytes| Columns::read(&String::from_utf8_lossy(bytes)));
-        lines.extend(old.changes(&new, path));
-    }
-    lines
-}
-
 /// Lists files that one report lacks, and files that differ.
 fn files(before: &Files, after: &Files) -> Vec<String> {
     let paths: BTreeSet<&String> = before.keys().chain(after.keys()).collect();
-    let line = |path: &String| {
-        let what = match (before.get(path), after.get(path)) {
-            (None, _) => "new",
-            (_, None) => "gone",
-            (old, new) if old != new => "differs",
-            _ => return None,
-        };
-        Some(format!("  {what:8} {path}"))
+    let line = |path: &String| match (before.get(path), after.get(path)) {
+        (None, _) => Some(format!("  new      {path}")),
+        (_, None) => Some(format!("  gone     {path}")),
+        (Some(old), Some(new)) if old == new => None,
+        (Some(old), Some(new)) if path.ends_with(".csv") => {
+            Some(format!("  differs  {path}: {}", rows(old, new)))
+        }
+        _ => Some(format!("  differs  {path}")),
     };
     paths.into_iter().filter(|path| *path != SUMS).filter_map(line).collect()
+}
+
+/// Says how the rows of a data file changed: prose names few of their numbers.
+fn rows(old: &[u8], new: &[u8]) -> String {
+    let [old, new] = [old, new].map(String::from_utf8_lossy);
+    let all = old.lines().count();
+    if all != new.lines().count() {
+        return format!("{all} -> {} lines", new.lines().count());
+    }
+    let pairs = old.lines().zip(new.lines()).filter(|(old, new)| old != new);
+    let first = pairs.clone().map(|(old, new)| format!("the first {old} -> {new}")).next();
+    format!("{} of {all} lines; {}", pairs.count(), first.unwrap_or_default())
 }
 
 /// Lists checks of which the verdict, the expected number or the tolerance changed.

@@ -1,6 +1,5 @@
 //! The verb `explain`.
 
-use super::columns::column;
 use super::terminal::print;
 use crate::failure::Failure;
 use crate::input::{is_control, one_line, regular_text};
@@ -8,6 +7,7 @@ use crate::paper::Paper;
 use crate::report::card::{Card, Cards};
 use crate::report::document::{Inline, spelt};
 use crate::report::{Error, ledger, values};
+use crate::table::{DataFile, table_of};
 use std::path::{Path, PathBuf};
 
 /// Say where a number, a figure, an equation or a statement of the report comes from
@@ -36,14 +36,13 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let ledger = ledger::read(&read(&folder, "ledger.json")?).map_err(fault)?;
     let Paper { edition, project, experiments, .. } = paper;
     let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
-    let mut columns = String::new();
+    let mut rows = String::new();
     let mut found = if args.ids.is_empty() { cards.ids() } else { Vec::new() };
     for asked in &args.ids {
         let ids = cards.find(asked);
         if ids.is_empty() {
-            let data = |path: &str| regular_text(&folder.join(path)).ok();
-            if let Some(text) = column(asked, data) {
-                columns.extend(text.lines().map(|line| clean(line) + "\n"));
+            if let Some(text) = rows_of(asked, &folder) {
+                rows += &text;
                 continue;
             }
             let asked = one_line(asked, 60);
@@ -57,7 +56,26 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let found: Vec<Card> = found.iter().filter_map(|id| cards.get(id)).collect();
     let text = |card: &Card| if in_short { line(card) } else { shown(card) };
     let found = found.iter().map(text).collect::<Vec<_>>().join(if in_short { "" } else { "\n" });
-    print(&(found + &columns))
+    print(&(found + &rows))
+}
+
+/// Returns the rows that an address means in a data file, below the names and units of its columns:
+/// prose names few of them. None if there is no such file or column.
+fn rows_of(asked: &str, folder: &Path) -> Option<String> {
+    let address = asked.trim().trim_start_matches("v.").replace(['"', ' '], "");
+    let path = format!("data/{}", DataFile::name_of(table_of(&address)?));
+    let text = regular_text(&folder.join(&path)).ok()?;
+    let (table, column) = address.rsplit_once('.')?;
+    let (head, rows) = text.split_once('\n')?;
+    head.split(',').find(|name| name.split(" (").next() == Some(column))?;
+    let keys = table.trim_end_matches(']').split_once('[').map_or("", |(_, keys)| keys);
+    let values: Vec<&str> =
+        keys.split(',').filter_map(|key| Some(key.split_once('=')?.1)).collect();
+    let is_meant =
+        |row: &&str| values.iter().all(|value| row.split(',').any(|cell| cell == *value));
+    let lines = [head].into_iter().chain(rows.lines().filter(is_meant));
+    let lines: String = lines.map(|line| format!("  {}\n", clean(line))).collect();
+    Some(format!("{}: in {path}\n{lines}", clean(&address)))
 }
 
 fn read(paper: &Path, name: &str) -> Result<String, Failure> {

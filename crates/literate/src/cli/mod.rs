@@ -2,7 +2,6 @@
 //! paper adds.
 
 mod check;
-mod columns;
 mod common;
 mod diff;
 mod explain;

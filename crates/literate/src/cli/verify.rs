@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::Paper;
 use crate::report::folder;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Check a report against its SHA256SUMS, and with --rerun against what this program makes
 ///
@@ -48,22 +48,10 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     if faults.is_empty() {
         print(&format!("{place}: {files} files, all as {} lists them\n", folder::SUMS))?;
     }
-    let profile = profile_in(&folder);
-    let mut again = format!("paper --out {} --force", quoted(&folder));
-    if let Some(profile) = profile {
-        again += &format!(" --profile {}", profile.name());
-    }
-    if let Some(templates) = &templates {
-        again += &format!(" --templates {}", quoted(templates));
-    }
     if rerun {
         let none = || Failure::input(format!("{place}: values.json names no profile"));
-        let profile = profile.ok_or_else(none)?;
+        let profile = profile_in(&folder).ok_or_else(none)?;
         let store = results.as_deref().map_or(Store::nowhere(), Store::open);
-        again += &match &results {
-            Some(results) => format!(" --results {}", quoted(results)),
-            None => " --rerun all".into(),
-        };
         let session = paper.session(templates.as_deref(), profile, store, progress())?;
         let made = threads.run(|| make_report(paper, &session, &folder))?.0;
         let (files, differences) = folder::compare(&folder, &made)?;
@@ -80,14 +68,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     print(&(faults.join("\n") + "\n"))?;
     let number = count(faults.len(), "file");
     Err(Failure::check(format!(
-        "{place}: faults in {number}; `{again}` writes the report again; \
-         move unlisted files yourself"
+        "{place}: faults in {number}; with the same options `paper --force` writes it again, and \
+         `paper --force --rerun all` without saved results; move unlisted files yourself"
     )))
-}
-
-/// Quotes a path for a shell.
-fn quoted(path: &Path) -> String {
-    let path = shown(path);
-    let is_plain = |c: char| c.is_alphanumeric() || "/._-".contains(c);
-    if path.chars().all(is_plain) { path } else { format!("'{}'", path.replace('\'', r"'\''")) }
 }
