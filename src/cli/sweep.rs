@@ -9,7 +9,7 @@ use impact_paper::experiments::Progress;
 use impact_paper::experiments::ensembles::CUTTING;
 use impact_paper::params::SEED;
 use literate::Failure;
-use literate::cli::terminal::{Threads, print, progress, warn};
+use literate::cli::terminal::{Threads, print, warn};
 use literate::experiments::cutting::Cutting;
 use literate::table::{DataFile, shortest};
 use std::ops::Range;
@@ -164,7 +164,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
             "--transient, --window: they end after t = 1e12; give shorter ones",
         ));
     }
-    let progress = progress();
+    let progress = Progress::on_stderr();
     let rows = args.threads.run(|| rows(ensemble, &progress))?;
     let header = COLUMNS.map(|(name, _)| name.to_string()).into();
     print(&DataFile { name: "sweep.csv".into(), header, rows }.csv())

@@ -4,11 +4,13 @@
 #[path = "../examples/feigenbaum/main.rs"]
 mod feigenbaum;
 
+use literate::cli::terminal::is_ignored;
 use literate::experiments::{Profile, Progress, Store};
 use literate::input::sha256;
-use literate::make_report;
+use literate::{INTERRUPTED, make_report};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 #[test]
 fn the_second_paper_is_made_and_its_run_is_used_again() {
@@ -57,18 +59,29 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
 }
 
 #[test]
-#[ignore = "is a program that the next test starts"]
+#[ignore = "is a program that the next tests start"]
 fn a_program() {
     let Ok(line) = std::env::var("LITERATE_LINE") else { return };
-    let code = feigenbaum::paper().run(line.split(' ').map(Into::into).collect());
+    let mut paper = feigenbaum::paper();
+    if let Ok(words) = std::env::var("LITERATE_COMMAND") {
+        let command = literate::experiments::Command::new("toy", words.leak());
+        paper = paper.experiment(Box::leak(Box::new(command)));
+    }
+    let code = paper.run(line.split(' ').map(Into::into).collect());
     std::process::exit(code.into());
 }
 
-/// The example as a program in a folder: exit code, standard output and standard error.
-fn run(folder: &Path, line: &str) -> (i32, String, String) {
+/// The example as a program in a folder.
+fn program(folder: &Path, line: &str) -> Command {
     let mut program = Command::new(std::env::current_exe().unwrap());
     program.args(["--ignored", "--exact", "a_program"]).current_dir(folder);
-    let output = program.env("LITERATE_LINE", format!("feigenbaum {line}")).output().unwrap();
+    program.env("LITERATE_LINE", format!("feigenbaum {line}"));
+    program
+}
+
+/// Its exit code, standard output and standard error.
+fn run(folder: &Path, line: &str) -> (i32, String, String) {
+    let output = program(folder, line).output().unwrap();
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
 }
@@ -103,4 +116,34 @@ fn the_advice_of_verify_works_as_it_is_printed() {
     assert!(code == 0 && note.contains("cascade: run\n"), "{note}");
     let (code, _, note) = made("paper --rerun cascades");
     assert!(code == 2 && note.contains("no experiment \"cascades\"; nearest: cascade"), "{note}");
+}
+
+#[test]
+fn a_signal_also_ends_the_programs_that_commands_started() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path().display();
+    let wait = format!("touch {here}/$1-ready; sleep 600 & wait");
+    let inner = format!("trap 'touch {here}/$1-ended; exit' TERM; {wait}");
+    std::fs::write(folder.path().join("inner.sh"), inner).unwrap();
+    let outer = format!("sh {here}/inner.sh $1 & wait");
+    std::fs::write(folder.path().join("outer.sh"), outer).unwrap();
+    let exists = |mark: String| folder.path().join(mark).exists();
+    for (signal, number) in [("INT", SIGINT), ("TERM", SIGTERM), ("HUP", SIGHUP)] {
+        if is_ignored(number) {
+            continue;
+        }
+        let line = format!("run --templates examples/feigenbaum --results {here}/results");
+        let mut program = program(Path::new(env!("CARGO_MANIFEST_DIR")), &line);
+        program.env("LITERATE_COMMAND", format!("sh {here}/outer.sh {signal}"));
+        let mut program = program.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        while !exists(format!("{signal}-ready")) {
+            assert_eq!(program.try_wait().unwrap(), None, "ended too early");
+            std::thread::sleep(std::time::Duration::from_millis(20));
+        }
+        let line = format!("kill -s {signal} {}", program.id());
+        assert!(Command::new("sh").args(["-c", &line]).status().unwrap().success());
+        let output = program.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(INTERRUPTED.into()), "{signal}: {output:?}");
+        assert!(exists(format!("{signal}-ended")), "{signal}: {output:?}");
+    }
 }

@@ -1,8 +1,8 @@
 //! Options, scores and the verdict that several verbs share.
 
-use super::terminal::{Threads, progress, warn};
+use super::terminal::{Threads, warn};
 use crate::claims::{Basis, Check, Kind, Verdict, score};
-use crate::experiments::{Profile, Session, Store};
+use crate::experiments::{Profile, Progress, Session, Store};
 use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::Paper;
@@ -39,7 +39,7 @@ impl Sources {
             ));
         }
         let store = Store::open(&self.results(paper));
-        paper.session(self.templates.as_deref(), self.profile, store, progress())
+        paper.session(self.templates.as_deref(), self.profile, store, Progress::on_stderr())
     }
 }
 

@@ -1,22 +1,18 @@
 //! Writes to the terminal, ends on signals, and starts threads; verbs that a paper adds use it too.
 
-use crate::experiments::{Progress, end_all, say};
+use crate::experiments::{end_all, say, stop};
 use crate::failure::{Failure, INTERRUPTED};
 use crate::input::one_line;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, LazyLock};
 
 /// The stack of a working thread in bytes; the default is less.
 const STACK: usize = 8 << 20;
 
 /// How many threads can be asked for.
 const MOST: usize = 1024;
-
-static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 
 /// Prints one line on standard error, after the name of the program.
 pub fn warn(line: &str) {
@@ -62,7 +58,7 @@ pub(super) fn install_signals() {
     let follow = |mut signals: Signals| {
         let ended = move || {
             if signals.forever().next().is_some() {
-                STOP.store(true, std::sync::atomic::Ordering::Relaxed);
+                stop();
                 end_all("TERM");
                 std::thread::sleep(std::time::Duration::from_millis(700));
                 end_all("KILL");
@@ -79,16 +75,11 @@ pub(super) fn install_signals() {
 }
 
 /// Returns whether the program was started with this signal ignored, as by `nohup`.
-fn is_ignored(signal: i32) -> bool {
+pub fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
     mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
-}
-
-/// Returns the progress of work that a signal ends.
-pub fn progress() -> Progress {
-    Progress::on_stderr(Arc::clone(&STOP))
 }
 
 /// The option of a verb that works on several threads.
@@ -120,60 +111,5 @@ impl Threads {
             Failure::input(format!("--threads: {error}; give a smaller number of threads"))
         })?;
         pool.install(work)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::experiments::{Command, Results, Session, Store};
-    use std::fs::write;
-    use std::process::{Child, Command as Program, Stdio};
-
-    /// Starts the test below as a program, which runs a command.
-    fn started(line: &str) -> Child {
-        let mut program = Program::new(std::env::current_exe().unwrap());
-        program.args(["--ignored", "--exact", "cli::terminal::tests::a_program"]);
-        program.env("LITERATE_LINE", line).stdout(Stdio::null()).stderr(Stdio::piped());
-        program.spawn().unwrap()
-    }
-
-    #[test]
-    #[ignore = "is a program that other tests start"]
-    fn a_program() {
-        let Ok(line) = std::env::var("LITERATE_LINE") else { return };
-        install_signals();
-        let session = Session::toy(Store::nowhere(), progress());
-        let command = Box::leak(Box::new(Command::new("toy", Box::leak(line.into_boxed_str()))));
-        let _ = Results::run(&[command], &[], &session);
-        std::thread::park();
-    }
-
-    #[test]
-    fn a_signal_also_ends_the_programs_that_commands_started() {
-        let folder = tempfile::tempdir().unwrap();
-        let here = folder.path().display();
-        let wait = format!("touch {here}/$1-ready; sleep 600 & wait");
-        let inner = format!("trap 'touch {here}/$1-ended; exit' TERM; {wait}");
-        write(folder.path().join("inner.sh"), inner).unwrap();
-        write(folder.path().join("outer.sh"), format!("sh {here}/inner.sh $1 & wait")).unwrap();
-        let exists = |mark: String| folder.path().join(mark).exists();
-        let mut programs = vec![("INT", SIGINT), ("TERM", SIGTERM), ("HUP", SIGHUP)];
-        programs.retain(|(_, number)| !is_ignored(*number));
-        let start = |(signal, _)| (signal, started(&format!("sh {here}/outer.sh {signal}")));
-        let mut programs: Vec<(&str, Child)> = programs.into_iter().map(start).collect();
-        for (signal, program) in &mut programs {
-            while !exists(format!("{signal}-ready")) {
-                assert_eq!(program.try_wait().unwrap(), None, "ended too early");
-                std::thread::sleep(std::time::Duration::from_millis(20));
-            }
-            let line = format!("kill -s {signal} {}", program.id());
-            assert!(Program::new("sh").args(["-c", &line]).status().unwrap().success());
-        }
-        for (signal, program) in programs {
-            let output = program.wait_with_output().unwrap();
-            assert_eq!(output.status.code(), Some(INTERRUPTED.into()), "{signal}: {output:?}");
-            assert!(exists(format!("{signal}-ended")), "{signal}: {output:?}");
-        }
     }
 }

@@ -1,9 +1,9 @@
 //! The verb `verify`.
 
 use super::paper::profile_in;
-use super::terminal::{Threads, print, progress, shown};
+use super::terminal::{Threads, print, shown};
 use crate::build::make_report;
-use crate::experiments::Store;
+use crate::experiments::{Progress, Store};
 use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::Paper;
@@ -52,7 +52,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         let none = || Failure::input(format!("{place}: values.json names no profile"));
         let profile = profile_in(&folder).ok_or_else(none)?;
         let store = results.as_deref().map_or(Store::nowhere(), Store::open);
-        let session = paper.session(templates.as_deref(), profile, store, progress())?;
+        let session = paper.session(templates.as_deref(), profile, store, Progress::on_stderr())?;
         let made = threads.run(|| make_report(paper, &session, &folder))?.0;
         let (files, differences) = folder::compare(&folder, &made)?;
         if differences.is_empty() {

@@ -18,6 +18,7 @@ pub use error::Error;
 pub use experiment::{AnyExperiment, Experiment, Found};
 pub(crate) use process::end_all;
 pub use profile::Profile;
+pub(crate) use progress::stop;
 pub use progress::{Progress, alive, be_quiet, say};
 pub use results::{DerivedTables, Results};
 pub use session::Session;

@@ -1,5 +1,5 @@
-//! Shows progress as plain lines on standard error, a few seconds apart, and has the flag that ends
-//! a run. Nothing of it goes into a result.
+//! Shows progress as plain lines on standard error, a few seconds apart, and says whether a run is
+//! to end. Nothing of it goes into a result.
 
 use super::Error;
 use std::io::Write;
@@ -13,32 +13,38 @@ const LINE_EVERY: u64 = 5;
 
 static QUIET: AtomicBool = AtomicBool::new(false);
 
+static STOP: AtomicBool = AtomicBool::new(false);
+
 /// Shows no progress from now on.
 pub fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// Shows the progress of an experiment, and has the flag that ends it.
-#[derive(Clone, Debug)]
+/// Asks all work to end.
+pub(crate) fn stop() {
+    STOP.store(true, Ordering::Relaxed);
+}
+
+/// Shows the progress of an experiment, and says whether it is to end.
+#[derive(Clone, Copy, Debug)]
 pub struct Progress {
     quiet: bool,
-    stop: Arc<AtomicBool>,
 }
 
 impl Progress {
-    /// Makes one that shows nothing and is never stopped: for tests.
+    /// Makes one that shows nothing: for tests.
     pub fn silent() -> Self {
-        Progress { quiet: true, stop: Arc::default() }
+        Progress { quiet: true }
     }
 
-    /// Makes one that prints on standard error; `stop` ends the work.
-    pub fn on_stderr(stop: Arc<AtomicBool>) -> Self {
-        Progress { quiet: QUIET.load(Ordering::Relaxed), stop }
+    /// Makes one that prints on standard error.
+    pub fn on_stderr() -> Self {
+        Progress { quiet: QUIET.load(Ordering::Relaxed) }
     }
 
     /// Returns whether the work was asked to end. This costs one relaxed load.
     pub fn stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        STOP.load(Ordering::Relaxed)
     }
 
     /// Returns [`Error::Interrupted`] if the work was asked to end.
