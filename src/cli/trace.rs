@@ -176,8 +176,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         written: Ok(()),
         latest: Arc::clone(&latest),
     };
-    let _alive =
-        alive(move || Some(format!("trace: at t = {:?}", f64::from_bits(latest.load(Relaxed)))));
+    let _alive = alive(move || format!("trace: at t = {:?}", f64::from_bits(latest.load(Relaxed))));
     let piped = args.scenario == Path::new("-");
     let name = if piped { "standard input".into() } else { args.scenario.display().to_string() };
     let unread = |error: io::Error| {

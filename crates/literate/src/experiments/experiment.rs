@@ -144,7 +144,7 @@ pub trait AnyExperiment: Sync {
     /// Returns the name that values and saved files carry.
     fn name(&self) -> &'static str;
 
-    /// Checks that the files on which its result depends are there and are all declared.
+    /// Checks that the files on which its result depends are there.
     ///
     /// # Errors
     /// [`Error::Input`] with the experiment's name and that of the file.
@@ -223,11 +223,8 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
     }
 
     fn check(&self, project: &Project) -> Result<(), Error> {
-        let mut checked = project.check_listed(self.code);
-        if self.is_saved() {
-            checked = checked.and_then(|()| project.check_named(self.code));
-        }
-        checked.map_err(|(problem, remedy)| Error::input(self.name, problem, remedy))
+        let listed = project.check_listed(self.code);
+        listed.map_err(|(problem, remedy)| Error::input(self.name, problem, remedy))
     }
 
     fn code(&self, project: &Project) -> BTreeMap<String, String> {

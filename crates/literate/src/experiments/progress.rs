@@ -57,11 +57,8 @@ impl Progress {
         let (name, began, done) = (name.to_string(), Instant::now(), Arc::new(AtomicU64::new(0)));
         let position = Arc::clone(&done);
         // At equal times, for the first unit may be a long one.
-        let lines = (!self.quiet).then(|| {
-            let share =
-                move || progress_text(position.load(Ordering::Relaxed), total, began.elapsed());
-            alive(move || Some(format!("{name}: {}", share())))
-        });
+        let share = move || progress_text(position.load(Ordering::Relaxed), total, began.elapsed());
+        let lines = (!self.quiet).then(|| alive(move || format!("{name}: {}", share())));
         Stage { done, _lines: lines }
     }
 
@@ -78,34 +75,28 @@ pub fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// Ends the lines of [`alive`] when it is dropped.
-#[derive(Debug)]
-pub struct Alive {
-    _ends: Sender<()>,
-}
-
-/// Prints a line every few seconds, with the time that passed, while there is one to print.
-pub fn alive(line: impl Fn() -> Option<String> + Send + 'static) -> Alive {
+/// Prints a line every few seconds, with the time that passed, until what it returns is dropped.
+pub fn alive(line: impl Fn() -> String + Send + 'static) -> Sender<()> {
     let (ends, ended) = channel();
     let began = Instant::now();
     let speak = move || {
         while ended.recv_timeout(Duration::from_secs(LINE_EVERY)) == Err(RecvTimeoutError::Timeout)
         {
-            if let Some(line) = line().filter(|_| !QUIET.load(Ordering::Relaxed)) {
-                say(&format!("{line}, after {} s", began.elapsed().as_secs()));
+            if !QUIET.load(Ordering::Relaxed) {
+                say(&format!("{}, after {} s", line(), began.elapsed().as_secs()));
             }
         }
     };
     // Without a thread nothing is printed.
     let _ = std::thread::Builder::new().stack_size(1 << 20).spawn(speak);
-    Alive { _ends: ends }
+    ends
 }
 
 /// One stage of an experiment, shared by the threads that work on it.
 #[derive(Debug)]
 pub struct Stage {
     done: Arc<AtomicU64>,
-    _lines: Option<Alive>,
+    _lines: Option<Sender<()>>,
 }
 
 impl Stage {

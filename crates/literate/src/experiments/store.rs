@@ -164,9 +164,8 @@ impl Store {
     pub fn remove(&self, identity: &Identity, is_to_run: bool) -> Result<(), Error> {
         let stem = format!("{}-", identity.file_stem());
         let is_unit = |path: &PathBuf| {
-            let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-            let number = name.strip_prefix(&stem).and_then(|rest| rest.strip_suffix(".json"));
-            number.is_some_and(|number| number.bytes().all(|b| b.is_ascii_digit()))
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            name.starts_with(&stem) && name.ends_with(".json")
         };
         let files = self.folder.iter().filter_map(|folder| folder.read_dir().ok()).flatten();
         let units = files.flatten().map(|entry| entry.path()).filter(is_unit);
