@@ -286,8 +286,7 @@ impl<'a> Reader<'a> {
         self.places.add(format!("!{path}"), at);
         let given = id.trim_start_matches("fig:");
         let digits = given.trim_start_matches(|c: char| c.is_ascii_uppercase());
-        let is_number = !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit());
-        let number = if is_number { given.into() } else { String::new() };
+        let number = if digits.parse::<u32>().is_ok() { given.into() } else { String::new() };
         let (alt, origin) = Default::default();
         Ok(Block::Figure { id, number, name, files, alt, origin, caption })
     }
