@@ -66,43 +66,34 @@ fn is_number_word(word: &str) -> bool {
 /// are skipped.
 pub fn words(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize, String)> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let mut found = Vec::new();
-    let mut at = part.start;
-    // Skip the rest of a word that began before this part and was checked there.
-    let mut inside = text[..at].ends_with(is_word);
+    let (mut found, mut at) = (Vec::new(), part.start);
+    // The rest of a word that began before this part was checked there.
+    if text[..at].ends_with(is_word) {
+        at = part.end - text[at..part.end].trim_start_matches(is_word).len();
+    }
     while let Some(c) = text[at..part.end].chars().next() {
-        let rest = &text[at..part.end];
-        let length = match c {
-            OPEN => rest.find(CLOSE).map_or(rest.len(), |end| end + CLOSE.len_utf8()),
+        let (start, rest) = (at, &text[at..part.end]);
+        let is_literal = c.is_numeric() && text[..start].ends_with('\\');
+        at += match c {
+            _ if is_literal => literal_length(rest),
+            OPEN => rest.find(CLOSE).unwrap_or(rest.len()),
             c if is_word(c) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
             c => c.len_utf8(),
         };
-        let word = &rest[..length];
-        at += length;
-        if std::mem::replace(&mut inside, false) {
-            continue;
-        }
-        let start = at - length;
-        let numeral = if c.is_numeric() && text[..start].ends_with('\\') {
-            at = start + literal_length(rest);
-            continue;
-        } else if c.is_numeric() {
-            let numeral = rest.split(|c: char| !(c.is_numeric() || ".,".contains(c))).next();
-            let numeral = numeral.unwrap_or_default().trim_end_matches(['.', ',']);
+        let word = &text[start..at];
+        let mut numeral = "";
+        if c.is_numeric() && !is_literal {
+            let signs = rest.split(|c: char| !(c.is_numeric() || ".,".contains(c))).next();
+            numeral = signs.unwrap_or_default().trim_end_matches(['.', ',']);
             at = at.max(start + numeral.len());
-            numeral
-        } else if c.is_alphabetic() && is_number_word(word) {
+        } else if is_number_word(word) {
             // With a hyphen before a word that is not a number it names a kind: *two-sided*.
             let next = text[at..].strip_prefix('-').unwrap_or_default();
             let next = next.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
-            if !next.is_empty() && !is_number_word(next) && next != "one" {
-                continue;
-            }
-            word
-        } else {
-            continue;
-        };
-        if !declared.allows(text, start, numeral) {
+            let names_kind = !next.is_empty() && !is_number_word(next) && next != "one";
+            numeral = if names_kind { "" } else { word };
+        }
+        if !numeral.is_empty() && !declared.allows(text, start, numeral) {
             found.push((start, numeral.to_string()));
         }
     }
