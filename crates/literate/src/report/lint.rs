@@ -3,6 +3,7 @@
 
 use super::error::Error;
 use super::mark::{CLOSE, OPEN};
+use super::tex;
 use crate::input::toml_fault;
 use serde::Deserialize;
 use std::ops::Range;
@@ -158,17 +159,9 @@ fn sides(tex: &str) -> Vec<String> {
             tex = format!("{before}{}{after}", if number { word } else { "" });
         }
     }
-    let (mut sides, mut depth, mut rest) = (vec![String::new()], 0_i32, tex.as_str());
-    while let Some(c) = rest.chars().next() {
-        let letters = rest.chars().skip(1).take_while(char::is_ascii_alphabetic).count();
-        let length = match c {
-            '\\' if letters > 0 => 1 + letters,
-            '\\' => 1 + rest.chars().nth(1).map_or(0, char::len_utf8),
-            c => c.len_utf8(),
-        };
-        let (sign, after) = rest.split_at(length);
-        rest = after;
-        depth += i32::from("{([".contains(c)) - i32::from("})]".contains(c));
+    let (mut sides, mut depth) = (vec![String::new()], 0_i32);
+    for sign in tex::signs(&tex) {
+        depth += i32::from("{([".contains(sign)) - i32::from("})]".contains(sign));
         match sides.last_mut() {
             Some(side) if depth > 0 || !among(BETWEEN, sign) => {
                 side.push_str(if among(AROUND, sign) { "" } else { sign });

@@ -142,40 +142,45 @@ static ALLOWED: LazyLock<BTreeSet<&str>> = LazyLock::new(|| {
 
 const ENVIRONMENTS: [&str; 5] = ["aligned", "cases", "matrix", "pmatrix", "bmatrix"];
 
-/// Returns what is wrong with a formula: its first macro or environment that not every format
-/// supports.
-pub fn refused(tex: &str) -> Option<String> {
+/// The signs of a formula: a macro, as `\alpha`, a backslash with what it escapes, or a character.
+pub fn signs(tex: &str) -> impl Iterator<Item = &str> {
     let mut rest = tex;
-    while let Some((before, after)) = rest.split_once('\\') {
-        if let Some(what) = bare(before) {
-            return Some(what);
-        }
-        let name = &after[..after.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(after.len())];
-        rest = &after[name.len()..];
-        if name.is_empty() && after.starts_with('\\') && !tex.contains(r"\begin{") {
-            return Some(r"a line break \\ must stand in \begin{aligned}".into());
-        } else if name.is_empty() {
-            // `\,` and its like: one character, which may be a backslash.
-            rest = after.get(after.chars().next().map_or(0, char::len_utf8)..).unwrap_or_default();
-        } else if name == "operatorname" {
-            return Some(r"\operatorname is not rendered by GitHub; write \mathrm{…}".into());
-        } else if !ALLOWED.contains(name) {
-            let nearest = nearest(name, ALLOWED.iter().copied()).join(r", \");
-            return Some(format!(r"\{name} is not supported by every format; nearest: \{nearest}"));
-        } else if name == "begin"
-            && !ENVIRONMENTS.iter().any(|known| rest.starts_with(&format!("{{{known}}}")))
-        {
-            return Some(format!("an environment must be one of {}", ENVIRONMENTS.join(", ")));
-        }
-    }
-    bare(rest)
+    std::iter::from_fn(move || {
+        let first = rest.chars().next()?;
+        let after = &rest[first.len_utf8()..];
+        let length = match after.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(after.len()) {
+            _ if first != '\\' => 0,
+            0 => after.chars().next().map_or(0, char::len_utf8),
+            letters => letters,
+        };
+        let (sign, after) = rest.split_at(first.len_utf8() + length);
+        rest = after;
+        Some(sign)
+    })
 }
 
-/// Returns the first sign between macros that must be escaped in LaTeX. (An environment needs its
-/// &.)
-fn bare(between: &str) -> Option<String> {
-    let sign = between.chars().find(|c| matches!(c, '%' | '#' | '$'))?;
-    Some(format!("{sign} must be escaped in LaTeX; write \\{sign}"))
+/// Returns what is wrong with a formula: an environment, or its first macro, that not every format
+/// supports, or a sign that must be escaped in LaTeX. (An environment needs its &.)
+pub fn refused(tex: &str) -> Option<String> {
+    let mut environments = tex.split(r"\begin{").skip(1).filter_map(|rest| rest.split('}').next());
+    if !environments.all(|name| ENVIRONMENTS.contains(&name)) {
+        return Some(format!("an environment must be one of {}", ENVIRONMENTS.join(", ")));
+    }
+    signs(tex).find_map(|sign| {
+        Some(match sign {
+            "%" | "#" | "$" => format!("{sign} must be escaped in LaTeX; write \\{sign}"),
+            r"\\" if !tex.contains(r"\begin{") => {
+                r"a line break \\ must stand in \begin{aligned}".into()
+            }
+            r"\operatorname" => r"\operatorname is not rendered by GitHub; write \mathrm{…}".into(),
+            _ => {
+                let name = sign.strip_prefix('\\').filter(|name| !ALLOWED.contains(name))?;
+                name.starts_with(|c: char| c.is_ascii_alphabetic()).then_some(())?;
+                let nearest = nearest(name, ALLOWED.iter().copied()).join(r", \");
+                format!(r"{sign} is not supported by every format; nearest: \{nearest}")
+            }
+        })
+    })
 }
 
 /// Spells a text in which formulas stand between dollar signs.
@@ -189,24 +194,14 @@ pub fn spelt(text: &str) -> String {
 /// `\frac{1}{2}` as `1/2`. A name that is not known stands without its backslash.
 pub fn spell(tex: &str) -> String {
     let mut out = String::new();
-    let mut rest = tex;
-    while let Some(c) = rest.chars().next() {
-        rest = &rest[c.len_utf8()..];
-        match c {
-            '\\' => {
-                let letters = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
-                let sign = rest.chars().next().map_or(0, char::len_utf8);
-                let (name, after) = rest.split_at(if letters > 0 { letters } else { sign });
-                rest = after;
-                if matches!(name, "begin" | "end") {
-                    rest = rest.split_once('}').map_or("", |(_, after)| after);
-                }
-                out.push_str(named(name));
-            }
-            '}' if rest.starts_with('{') => out.push('/'),
-            '{' | '}' | '&' => (),
-            '~' => out.push(' '),
-            c => out.push(c),
+    let mut signs = signs(tex).peekable();
+    while let Some(sign) = signs.next() {
+        match sign {
+            r"\begin" | r"\end" => while signs.next().is_some_and(|sign| sign != "}") {},
+            "}" if signs.peek() == Some(&"{") => out.push('/'),
+            "{" | "}" | "&" => (),
+            "~" => out.push(' '),
+            sign => out.push_str(sign.strip_prefix('\\').map_or(sign, named)),
         }
     }
     out
