@@ -37,11 +37,8 @@ impl Card {
         }
     }
 
-    fn words(&mut self, name: &'static str, text: impl Into<String>) {
-        let text = text.into();
-        if !text.is_empty() {
-            self.row(name, vec![Inline::Text(text)]);
-        }
+    fn words(&mut self, name: &'static str, text: &str) {
+        self.row(name, words_and_maths(text));
     }
 
     fn item(&mut self, name: &'static str, item: &str, project: &Project) {
@@ -58,7 +55,7 @@ impl Card {
         let Some(experiment) = all.find(|experiment| experiment.name() == name) else { return };
         self.item("experiment", &experiment.item(), cards.project);
         let profile = cards.values.profile().unwrap_or(Profile::Full);
-        self.words("its parameters", settings(&experiment.parameters(profile)));
+        self.words("its parameters", &settings(&experiment.parameters(profile)));
     }
 }
 
@@ -108,14 +105,16 @@ impl Cards<'_> {
                 return vec![card.id];
             }
         }
-        let all = self.ids();
-        let part = all.iter().filter(|id| !lower.is_empty() && id.to_lowercase().contains(&lower));
-        let part: Vec<String> = part.cloned().collect();
-        let digits = |value: &&Value| !lower.is_empty() && value.plain().starts_with(&asked);
-        match part.is_empty() {
-            false => part,
-            true => self.values.iter().filter(digits).map(|value| value.id.clone()).collect(),
+        if lower.is_empty() {
+            return Vec::new();
         }
+        let mut found = self.ids();
+        found.retain(|id| id.to_lowercase().contains(&lower));
+        if found.is_empty() {
+            let digits = self.values.iter().filter(|value| value.plain().starts_with(&asked));
+            found.extend(digits.map(|value| value.id.clone()));
+        }
+        found
     }
 
     fn value(&self, id: &str) -> Option<Card> {
@@ -128,16 +127,16 @@ impl Cards<'_> {
         let mut card = Card { lead: lead(value), ..Card::of(value.id.clone(), title) };
         if matches!(value.number, Number::Real { .. }) {
             let full = Style { digits: Some(Digits::Full), ..Style::default() };
-            card.words("in full", print(&value.number, full).plain());
+            card.words("in full", &print(&value.number, full).plain());
         }
         if let Kind::Ensemble { realisations, standard_error } = &value.kind {
-            card.words("standard error", standard_error.to_string());
+            card.words("standard error", &standard_error.to_string());
             if *realisations > 0 {
-                card.words("n", realisations.to_string());
+                card.words("n", &realisations.to_string());
             }
         }
         if let Kind::Printed { place } = &value.kind {
-            card.words("place", place.clone());
+            card.words("place", place);
         }
         card.item("computed by", &value.source, self.project);
         let home = self.ledger.equations.iter().find(|equation| equation.home == value.source);
@@ -146,7 +145,7 @@ impl Cards<'_> {
             card.row("equation", vec![Inline::Reference { to, within: None, shown }]);
         }
         card.experiment(&value.experiment, self);
-        card.row("note", words_and_maths(&value.note));
+        card.words("note", &value.note);
         let mut data = vec!["values.json".to_string()];
         data.extend(table_of(&value.id).map(|t| format!("data/{}", DataFile::name_of(t))));
         card.row("data", links(&data));
@@ -160,7 +159,7 @@ impl Cards<'_> {
         let figure = figures.find(|f| is(&f.label) || is(&format!("fig:{}", f.number)))?;
         let title = vec![Inline::Text(figure.title.clone())];
         let mut card = Card::of(figure.label.clone(), title);
-        card.words("shows", figure.description.clone());
+        card.words("shows", &figure.description);
         card.row("picture", links([&figure.picture]));
         card.row("data", links(&figure.data));
         card.item("drawn by", &figure.source, self.project);
@@ -174,14 +173,14 @@ impl Cards<'_> {
         let equation = self.ledger.equations.iter().find(|equation| equation.number == number)?;
         let title = words_and_maths(&equation.what);
         let mut card = Card::of(format!("eq:{number}"), title);
-        card.words("stands in", format!("Sec. {}", equation.section));
+        card.words("stands in", &format!("Sec. {}", equation.section));
         card.item("home", &equation.home, self.project);
         if let Some(towards) = &equation.step_towards {
-            card.words("is", format!("a step towards {towards}"));
+            card.words("is", &format!("a step towards {towards}"));
         }
         let values = self.values.iter().filter(|value| value.source == equation.home);
         let values: Vec<&str> = values.map(|value| value.id.as_str()).collect();
-        card.words("values", values.join(", "));
+        card.words("values", &values.join(", "));
         Some(card)
     }
 
@@ -193,16 +192,12 @@ impl Cards<'_> {
         let [first, rest] = [words.get(..1), words.get(1..)].map(Option::unwrap_or_default);
         let why = claim.difference().map_or_else(String::new, |why| format!(" ({why})"));
         card.lead = format!("{}{rest}{why}.", first.to_uppercase());
-        for (name, words) in [
-            ("paper", claim.expected.clone()),
-            ("here", claim.found.to_string()),
-            ("tolerance", claim.tolerance.to_string()),
-            ("because", claim.reason.clone()),
-            ("note", claim.note.to_string()),
-            ("stands in", claim.place.clone()),
-        ] {
-            card.row(name, words_and_maths(&words));
-        }
+        card.words("paper", &claim.expected);
+        card.words("here", &claim.found.to_string());
+        card.words("tolerance", &claim.tolerance.to_string());
+        card.words("because", &claim.reason);
+        card.words("note", &claim.note.to_string());
+        card.words("stands in", &claim.place);
         card.item("judged by", &(self.edition.judged_by)(&claim.id), self.project);
         let (to, shown) = (card.id.clone(), "the row of this statement".into());
         card.row("ledger", vec![Inline::Reference { to, within: None, shown }]);

@@ -2,16 +2,14 @@
 
 use super::document::{Formula, Part};
 use crate::print::Shown;
-use math_core::{LatexToMathML, MathCoreConfig, MathDisplay};
+use math_core::{LatexToMathML, MathDisplay};
 use std::sync::LazyLock;
 
-static CONVERTER: LazyLock<Option<LatexToMathML>> =
-    LazyLock::new(|| LatexToMathML::new(MathCoreConfig::default()).ok());
+static CONVERTER: LazyLock<LatexToMathML> = LazyLock::new(LatexToMathML::default);
 
 /// Converts TeX without values.
 fn convert(tex: &str, display: MathDisplay) -> Result<String, String> {
-    let converter = CONVERTER.as_ref().ok_or("no converter")?;
-    let made = converter.convert_with_local_state(tex, display);
+    let made = CONVERTER.convert_with_local_state(tex, display);
     made.map(|made| made.mathml).map_err(|error| error.to_string())
 }
 

@@ -51,6 +51,7 @@ pub fn files(
         }
         all.insert(id, (page.inlines(&card.title), text(&card.lead), numbers));
     }
+    Error::all(page.errors.into_inner())?;
     let json = serde_json::to_string(&(rows, all)).unwrap_or_default();
     let mut files = Files::from([("cards.js".into(), format!("CARDS = {json};\n").into_bytes())]);
     let font = |(name, bytes): (&str, &[u8])| (format!("fonts/{name}.woff2"), bytes.to_vec());
