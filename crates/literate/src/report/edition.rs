@@ -2,7 +2,6 @@
 
 use super::ledger::EquationEntry;
 use crate::prose::Templates;
-use crate::source::Sources;
 
 /// What a report says of itself, and the documents of which it is made.
 #[derive(Clone, Debug)]
@@ -57,21 +56,6 @@ impl Edition {
             names.push(if is_group { format!("{{{name}}}") } else { name.to_string() });
         }
         names.join(" and ")
-    }
-
-    /// Metadata in the head of each page: names of `<meta>` and their content.
-    pub(super) fn about(&self, sources: &Sources) -> Vec<(&'static str, String)> {
-        let Sources { name, version, .. } = sources;
-        let authors: Vec<&str> = self.authors.iter().map(|author| author.0).collect();
-        let about = [
-            ("author", authors.join(", ")),
-            ("citation_author", authors.join("; ")),
-            ("citation_title", name.to_string()),
-            ("citation_publication_date", self.date.into()),
-            ("version", version.to_string()),
-            ("license", self.license.into()),
-        ];
-        about.into_iter().filter(|(_, words)| !words.is_empty()).collect()
     }
 }
 

@@ -18,7 +18,7 @@ use crate::print::{Numeral, Shown};
 use math_core::MathDisplay;
 use serde_json::{Value as Json, json};
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 /// Returns what the template report.html inserts, and the ids of the cards that the page opens.
@@ -28,12 +28,8 @@ pub fn write(
     input: &Input<'_>,
 ) -> Result<(Json, BTreeSet<String>), Error> {
     let page = Page::new(input);
-    let (title, edition) = (document::title(blocks)?, input.edition);
-    let meta: Vec<_> = edition
-        .about(&input.project.sources)
-        .into_iter()
-        .map(|(name, words)| (name, text(&words)))
-        .collect();
+    let (title, edition, sources) =
+        (document::title(blocks)?, input.edition, &input.project.sources);
     let (heading, body) = (page.inlines(title), page.blocks(blocks));
     let (mut sections, mut figures) = (Vec::new(), Vec::new());
     for block in blocks {
@@ -53,20 +49,21 @@ pub fn write(
         }
     }
     let year = edition.date.split('-').next().unwrap_or_default();
-    let key = format!("{}{year}{}", input.project.sources.name, here.prose);
+    let key = format!("{}{year}{}", sources.name, here.prose);
     let key: String = key.chars().filter(char::is_ascii_alphanumeric).collect();
     let documents = edition.documents.iter().map(|of| (of.page, text(of.name)));
     let parts = json!({
         "file": here.page,
         "markdown": here.markdown,
-        // A template that loops through a map does not keep its order.
-        "about": meta.iter().cloned().collect::<BTreeMap<_, _>>(),
-        "meta": meta,
+        "name": text(sources.name),
+        "version": text(sources.version),
+        "license": text(edition.license),
+        "date": text(edition.date),
+        "authors": edition.authors.iter().map(|(name, _)| text(name)).collect::<Vec<_>>(),
         "documents": documents.collect::<Vec<_>>(),
         "title": text(&spelt(title)),
         "key": key,
-        "authors": text(&edition.bibtex_authors()),
-        "bibtex": text(&latex::inlines(title)),
+        "bibtex": [text(&edition.bibtex_authors()), text(&latex::inlines(title))],
         "heading": heading,
         "byline": text(&edition.byline(here)),
         "sections": sections,
