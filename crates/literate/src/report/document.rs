@@ -265,14 +265,11 @@ pub fn place_on_page(id: &str) -> String {
 /// Returns an id without signs that TeX or a page would read, which a key of references.bib may
 /// have.
 pub fn place(id: &str) -> String {
-    let mut place = String::new();
-    for c in id.chars() {
-        match c {
-            c if c.is_ascii_alphanumeric() || ":-_.".contains(c) => place.push(c),
-            c => place += &format!("-{:x}", u32::from(c)),
-        }
-    }
-    place
+    let escaped = |c: char| match c.is_ascii_alphanumeric() || ":-_.".contains(c) {
+        true => c.to_string(),
+        false => format!("-{:x}", u32::from(c)),
+    };
+    id.chars().map(escaped).collect()
 }
 
 /// Whether a paragraph continues the sentence before it.

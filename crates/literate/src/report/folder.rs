@@ -125,7 +125,7 @@ pub fn is_generated(path: &str) -> bool {
 
 /// Reads a list of a folder; none if it is not there or not a list.
 fn list(folder: &Path, name: &str) -> Option<Digests> {
-    read_sums(&String::from_utf8(input::regular(&folder.join(name)).ok()?).ok()?)
+    read_sums(&input::regular_text(&folder.join(name)).ok()?)
 }
 
 /// The digests of committed files in the list of a folder. None if the folder has other files and

@@ -137,16 +137,13 @@ fn write_block(block: &Block) -> String {
 
 /// Words as bookmarks of a PDF show them: ASCII without markup.
 fn bookmark(text: &[Inline]) -> String {
-    let mut words = String::new();
-    for c in spelt(text).chars() {
-        match c {
-            '–' => words.push('-'),
-            '\u{a0}' => words.push(' '),
-            c if c.is_ascii() => words.push(c),
-            c => words += tex::letter(c).unwrap_or_default(),
-        }
-    }
-    tex::text(&words)
+    let ascii = |c: char| match c {
+        '–' => "-".into(),
+        '\u{a0}' => " ".into(),
+        c if c.is_ascii() => c.to_string(),
+        c => tex::letter(c).unwrap_or_default().into(),
+    };
+    tex::text(&spelt(text).chars().map(ascii).collect::<String>())
 }
 
 /// The list of references: its second lines are indented.

@@ -44,42 +44,29 @@ pub fn unknown(tex: &str) -> BTreeSet<char> {
 
 /// Names the characters beyond ASCII in a formula, so that they may stand in `\text{…}` too.
 pub fn maths(tex: &str) -> String {
-    let mut out = String::with_capacity(tex.len());
-    for c in tex.chars() {
-        match in_text(c) {
-            _ if c.is_ascii() => out.push(c),
-            Some(tex) => out.push_str(&format!(r"\text{{{tex}}}")),
-            None => out.push_str(&text(c.encode_utf8(&mut [0; 4]))),
-        }
-    }
-    out
+    let named = |c: char| match in_text(c) {
+        _ if c.is_ascii() => c.to_string(),
+        Some(tex) => format!(r"\text{{{tex}}}"),
+        None => text(&c.to_string()),
+    };
+    tex.chars().map(named).collect()
 }
 
 /// Writes a value that leads to its card by the macro `\origin` of the template.
 pub fn value(id: &str, shown: &str) -> String {
-    let is_plain = |c: u8| c.is_ascii_alphanumeric() || b"._:=,-".contains(&c);
-    let mut address = String::new();
-    for c in id.bytes() {
-        match is_plain(c) {
-            true => address.push(char::from(c)),
-            false => address += &format!("\\%{c:02X}"),
-        }
-    }
+    let escaped = |c: u8| match c.is_ascii_alphanumeric() || b"._:=,-".contains(&c) {
+        true => char::from(c).to_string(),
+        false => format!("\\%{c:02X}"),
+    };
+    let address: String = id.bytes().map(escaped).collect();
     format!("\\origin{{{address}}}{{{shown}}}")
 }
 
 /// Escapes a block of code inside `alltt`, where only `\`, `{` and `}` are special.
 pub fn code(code: &str) -> String {
-    let mut out = String::with_capacity(code.len());
-    for c in code.chars() {
-        match c {
-            '\\' => out.push_str(r"\textbackslash{}"),
-            '{' | '}' => out.extend(['\\', c]),
-            c if c.is_ascii() => out.push(c),
-            c => out.push_str(&text(&c.to_string())),
-        }
-    }
-    out
+    let is_plain = |c: char| c.is_ascii() && !['\\', '{', '}'].contains(&c);
+    let escaped = |c: char| if is_plain(c) { c.to_string() } else { text(&c.to_string()) };
+    code.chars().map(escaped).collect()
 }
 
 fn in_text(c: char) -> Option<&'static str> {
