@@ -56,39 +56,33 @@ fn body(blocks: &[Block]) -> String {
 }
 
 fn listings(blocks: &[Block]) -> String {
-    let mut out = String::new();
-    for block in blocks {
-        let Block::Listing { id, number, caption, item, file, text, .. } = block else { continue };
-        if out.is_empty() {
-            out.push_str(LISTINGS);
-        }
+    let listing = |block: &Block| {
+        let Block::Listing { id, number, caption, item, file, text, .. } = block else {
+            return None;
+        };
         let (item, file) = (breakable(&tex::text(item)), breakable(&tex::text(file)));
-        out.push_str(&format!(
+        Some(format!(
             "\n\\begin{{samepage}}\n\\noindent{}\\textbf{{Listing {number}.}} {} \
              \\texttt{{{item}}}, from \\texttt{{{file}}}.\n\\end{{samepage}}\n\
              {{\\scriptsize\\begin{{alltt}}\n{}\n\\end{{alltt}}}}\n",
             label(id),
             inlines(caption),
             tex::code(text.trim_end())
-        ));
-    }
-    out
+        ))
+    };
+    blocks.iter().filter_map(listing).collect()
 }
-
-const LISTINGS: &str = "\\clearpage\n\\phantomsection\\section*{Listings}\n\
-                        \\addcontentsline{toc}{section}{Listings}\n";
 
 fn write_block(block: &Block) -> String {
     match block {
         // The template has the title.
         Block::Heading { level: 1, .. } => String::new(),
         Block::Heading { level, number, id, text } => {
-            let command = ["section", "subsection", "subsubsection"];
-            let command = command.get(usize::from(*level) - 2).unwrap_or(&"paragraph");
+            let command = if *level == 2 { "section" } else { "subsection" };
             let label = id.as_deref().map(|id| format!("\\label{{{id}}}")).unwrap_or_default();
-            let mut words = inlines(text);
-            if words != bookmark(text) {
-                words = format!("\\texorpdfstring{{{words}}}{{{}}}", bookmark(text));
+            let (mut words, bookmark) = (inlines(text), bookmark(text));
+            if words != bookmark {
+                words = format!("\\texorpdfstring{{{words}}}{{{bookmark}}}");
             }
             match number {
                 Some(_) => format!("\\{command}{{{words}}}{label}"),
