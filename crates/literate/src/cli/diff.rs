@@ -5,10 +5,11 @@ use crate::claims::Check;
 use crate::failure::Failure;
 use crate::input::{count, is_control, one_line, regular};
 use crate::print::{Style, print as printed};
+use crate::report::document::{spelt, words_and_maths};
 use crate::report::folder::{self, SUMS};
 use crate::report::ledger::{self, Ledger};
 use crate::report::values::{self, Digits, Registry, Value};
-use crate::report::{Error, Files, tex};
+use crate::report::{Error, Files};
 use crate::table::number;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -183,7 +184,7 @@ fn change(id: &str, both: [Option<&Value>; 2]) -> (f64, String) {
     let [old, new] = both.map(|value| value.map(Value::plain));
     // In full where their digits do not show the difference.
     let style = Style { digits: (old == new).then_some(Digits::Full), ..Style::default() };
-    let shown = |value: &Value| tex::spelt(&printed(&value.number, style).plain());
+    let shown = |value: &Value| spelt(&words_and_maths(&printed(&value.number, style).plain()));
     let [old, new] = both.map(|value| value.map(shown));
     let mut line = fate(id, [old.as_deref(), new.as_deref()]);
     let [Some(old), Some(new)] = both else { return (-1.0, line) };

@@ -65,35 +65,37 @@ impl Labels {
         for block in blocks.iter_mut() {
             let (id, number) = match block {
                 Block::Heading { level, number, id, .. } => {
-                    if number.is_some() && *level == 2 {
-                        (section, subsection) = (next("sec"), 0);
-                        *number = Some(section.clone());
-                    } else if number.is_some() && *level == 3 {
-                        subsection += 1;
-                        *number = Some(format!("{section}.{subsection}"));
+                    match number {
+                        Some(number) if *level == 2 => {
+                            (section, subsection) = (next("sec"), 0);
+                            number.clone_from(&section);
+                        }
+                        Some(number) => {
+                            subsection += 1;
+                            *number = format!("{section}.{subsection}");
+                        }
+                        None => (),
                     }
-                    (id.clone(), number.clone().unwrap_or_default())
+                    (id.as_deref(), number.as_deref().unwrap_or_default())
                 }
                 // A repeated figure has its label in another document.
                 Block::Figure { id, number, .. } if !document.repeats => {
                     if number.is_empty() {
                         *number = next("fig");
                     }
-                    (Some(id.clone()), number.clone())
+                    (Some(id.as_str()), number.as_str())
                 }
                 Block::Listing { id, number, .. } => {
                     *number = next("lst");
-                    (Some(id.clone()), number.clone())
+                    (Some(id.as_str()), number.as_str())
                 }
                 Block::Table(Table { id, number: Some(number), .. }) => {
                     *number = next("tab");
-                    (id.clone(), number.clone())
+                    (id.as_deref(), number.as_str())
                 }
                 _ => continue,
             };
-            if let Some(id) = id {
-                errors.extend(self.add(&id, &number, document));
-            }
+            errors.extend(id.and_then(|id| self.add(id, number, document)));
         }
         rewrite(blocks, &mut |mut inline| {
             match &mut inline {

@@ -170,13 +170,6 @@ pub fn refused(tex: &str) -> Option<String> {
     })
 }
 
-/// Spells a text in which formulas stand between dollar signs.
-pub fn spelt(text: &str) -> String {
-    let piece =
-        |(i, piece): (usize, &str)| if i % 2 == 0 { piece.to_string() } else { spell(piece) };
-    text.split('$').enumerate().map(piece).collect()
-}
-
 /// Spells a formula in characters: `p_{\mathrm{crit}}` as `p_crit`, `\sigma^{-3}` as `σ^-3`,
 /// `\frac{1}{2}` as `1/2`. A name that is not known stands without its backslash.
 pub fn spell(tex: &str) -> String {
