@@ -13,7 +13,7 @@ pub fn draw() -> Result<Figure, Error> {
     let sheet = Sheet::new(4350);
     let top = largest(&share);
     let x = Axis::linear(SHOWN - 0.5, N as f64 + 0.5, 2.0, 2, "length *k*");
-    let y = upwards_from_zero(top, "*ϕ*_{*N*}(*k*) / *ϕ*_{*N*}^{tot}");
+    let y = Axis::up_to(top, "*ϕ*_{*N*}(*k*) / *ϕ*_{*N*}^{tot}");
     let columns = sheet.lettered("(a)", Frame::new(1150, 480, 4050, 3380), x, y)?;
     let columns = columns.with_suffix("");
     columns.columns("share of circuits", &share, Stroke::solid(GREEN, THIN))?;

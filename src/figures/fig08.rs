@@ -10,7 +10,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let mut seen = Vec::new();
     let top = DISTRIBUTION_P.into_iter().map(|p| largest(&simple(p))).fold(0.0, f64::max);
     let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 4, "*k*");
-    let y = upwards_from_zero(top, "*P*(*X* = *k*)");
+    let y = Axis::up_to(top, "*P*(*X* = *k*)");
     let panel = sheet.panel(Frame::new(1150, 230, 8200, 4230), x, y)?;
     for (i, at) in DISTRIBUTION_P.into_iter().enumerate() {
         let cell = |column| results.number(&format!("theory.distribution[p={at}].{column}"));

@@ -32,7 +32,7 @@ pub fn draw() -> Result<Figure, Error> {
         let mut columns = simple(at);
         columns.truncate(shown as usize);
         let room = if i == 0 { 1.0 } else { 1.02 };
-        let y = upwards_from_zero(room * largest(&columns), "Φ_{*N*,*p*}(*k*) / Γ_{*N*,*p*}");
+        let y = Axis::up_to(room * largest(&columns), "Φ_{*N*,*p*}(*k*) / Γ_{*N*,*p*}");
         let right = sheet.panel(Frame::new(5250, edge, 8250, edge + 1700), k(), y)?;
         let right = right.with_suffix(&format!("{letter}-phi"));
         // At the jump two columns are the highest.

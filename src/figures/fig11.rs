@@ -15,7 +15,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (from_rest, p) = (column("p_rest")?, column("p")?);
     let end = p.last().map_or(0.4, |point| point.0);
     let sigma = || Axis::linear(0.0, end, 0.1, 5, FORCING);
-    let y = upwards_from_zero(p.iter().chain(&from_rest).map(|p| p.1).fold(0.0, f64::max), "*p*");
+    let y = Axis::up_to(p.iter().chain(&from_rest).map(|p| p.1).fold(0.0, f64::max), "*p*");
     let linear = Frame::new(1300, 430, 8150, 3430);
     let linear = sheet.lettered("(a)", linear, sigma().without_numbers(), y)?;
     let y = Axis::decades(LOWEST, 0, 2, "*p*");

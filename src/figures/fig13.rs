@@ -40,10 +40,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let y = match lowest {
             Some(lowest) => Axis::decades(lowest, 0, 4, label),
             // The detail shows the higher orders: the simple circuits leave it at its upper edge.
-            None if i == 1 => {
-                upwards_from_zero(1.5 * largest(&contributions(p)[1..].concat()), label)
-            }
-            None => upwards_from_zero(largest(&five(p)), label),
+            None if i == 1 => Axis::up_to(1.5 * largest(&contributions(p)[1..].concat()), label),
+            None => Axis::up_to(largest(&five(p)), label),
         };
         let (left, top) = (1200 + 4050 * (i as i32 % 2), 480 + 3300 * (i as i32 / 2));
         let frame = Frame::new(left, top, left + 2950, top + 2100);

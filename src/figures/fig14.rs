@@ -15,7 +15,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     for (i, at) in CONVERGENCE_P.into_iter().enumerate() {
         let (simple, higher) = (simple(at), five(at));
         let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "*k*");
-        let y = upwards_from_zero(top, "*P*(*X* = *k*)");
+        let y = Axis::up_to(top, "*P*(*X* = *k*)");
         let left = 1080 + 4150 * i as i32;
         let panel = sheet.panel(Frame::new(left, 480, left + 2970, 2580), x, y)?;
         let p = short(at, 3);

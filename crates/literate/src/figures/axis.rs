@@ -1,8 +1,7 @@
 //! Places values on an axis: its scale, range, ticks and labels, all in units of the data.
 //!
 //! An axis is a coordinate of plotters: `map` gives the place on the sheet, `key_points` the ticks.
-//! The logarithmic coordinate of plotters takes the platform's logarithm; ours is a linear one over
-//! log10 of the data, taken with a portable function.
+//! A logarithmic one is linear over log10 of the data, taken with a portable function.
 
 use super::error::Error;
 use super::markup::spelled;
@@ -22,7 +21,6 @@ pub struct Tick {
 }
 
 impl Tick {
-    /// Returns its label, empty if there is none.
     pub(super) fn name(&self) -> &str {
         self.label.as_deref().unwrap_or_default()
     }
@@ -149,6 +147,12 @@ impl Axis {
         Axis::decades(low, high.max(low + 1), every, label)
     }
 
+    /// Makes an axis from zero up to a round number at or above `largest`.
+    pub fn up_to(largest: f64, label: &str) -> Self {
+        let step = round_step(largest);
+        Axis::linear(0.0, (largest / step - 1e-9).ceil() * step, step, 1, label)
+    }
+
     /// Returns the part of the axis from `lo` to `hi`.
     pub fn between(mut self, lo: f64, hi: f64) -> Self {
         (self.lo, self.hi) = (lo, hi);
@@ -187,12 +191,10 @@ impl Axis {
         }
     }
 
-    /// Returns the value at a position.
     pub fn value(&self, position: f64) -> f64 {
         if self.is_log { f_exp10(position) } else { position }
     }
 
-    /// Returns the positions of both ends.
     pub fn ends(&self) -> (f64, f64) {
         (self.position(self.lo), self.position(self.hi))
     }
@@ -243,13 +245,17 @@ impl Ranged for Axis {
 }
 
 /// Returns the smallest and the largest value; none if there is no value.
-pub(super) fn range(mut values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
-    let first = values.next()?;
-    let (mut low, mut high) = (first, first);
-    for value in values {
-        (low, high) = (low.min(value), high.max(value));
-    }
-    Some([low, high])
+pub(super) fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    values
+        .map(|value| [value; 2])
+        .reduce(|[low, high], [value, _]| [low.min(value), high.max(value)])
+}
+
+/// Returns a round number of which about five make a span.
+pub(super) fn round_step(span: f64) -> f64 {
+    let unit = decimal(1, power(span));
+    let steps = [0.2, 0.25, 0.5, 1.0, 2.0].map(|step| step * unit);
+    steps.into_iter().find(|step| span / step - 1e-9 <= 5.0).unwrap_or(2.5 * unit)
 }
 
 /// Returns m · 10^exponent with the bits of the literal.
@@ -264,13 +270,10 @@ fn decimal_of(number: f64) -> Option<(i128, i32)> {
     Some((n / 10_i128.pow(zeros(n)), zeros(n) as i32 - places))
 }
 
-/// Returns the number of zeros at the end of a number, none for zero.
-fn zeros(mut n: i128) -> u32 {
-    let mut zeros = 0;
-    while n != 0 && n % 10 == 0 {
-        (n, zeros) = (n / 10, zeros + 1);
-    }
-    zeros
+/// Returns the number of zeros at the end of a number that is not zero.
+fn zeros(n: i128) -> u32 {
+    let digits = n.to_string();
+    (digits.len() - digits.trim_end_matches('0').len()) as u32
 }
 
 /// Returns the power of ten of the first digit of the largest number.
@@ -306,6 +309,28 @@ pub fn in_powers(number: f64) -> String {
 
 pub fn power_of_ten(exponent: i32) -> String {
     format!("10^{{{}}}", exponent.to_string().replace('-', "−"))
+}
+
+/// Formats a number with about `digits` significant digits, for notes and descriptions; a tiny one
+/// as a multiple of a power of ten.
+pub fn short(value: f64, digits: usize) -> String {
+    if value != 0.0 && value.abs() < 1e-3 {
+        let shown = format!("{:.*e}", digits.saturating_sub(1), value);
+        return shown.replace('-', "−").replace('e', "·10^");
+    }
+    let decimals = (digits as i32 - 1 - power(value)).max(0) as usize;
+    let shown = number(value, decimals);
+    if shown.contains('.') {
+        shown.trim_end_matches('0').trim_end_matches('.').to_string()
+    } else {
+        shown
+    }
+}
+
+/// Returns the power of ten of the first digit of a number, zero for zero.
+fn power(number: f64) -> i32 {
+    let shown = format!("{number:e}");
+    shown.split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or_default()
 }
 
 #[cfg(test)]

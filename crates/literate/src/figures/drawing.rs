@@ -1,13 +1,34 @@
-//! Lists the shapes of a figure, which [`super::svg`] and [`super::pdf`] write.
+//! Collects what plotters draws as a list of shapes, which [`super::svg`] and [`super::pdf`] write:
+//! the backend of all figures.
 //!
 //! The grid is a hundredth of a millimetre at column width, so whole numbers are fine enough for
 //! smooth curves. Labels are outlines (see [`super::font`]); nothing depends on the machine.
+//!
+//! plotters has coordinates, drawing areas, elements and series. Axes ([`super::axis`]), a few
+//! elements ([`super::elements`]), fonts and the writers are ours, because of these limits of
+//! plotters, none of which a figure of ours meets:
+//!
+//! - An area moves points outside it onto its edge, so that a curve is silently wrong. Ours are as
+//!   large as the sheet, and [`super::panel::Panel::cut`] cuts curves at the frame.
+//! - `DashedPathElement` has dashes of one length, takes the platform's `hypot`, and makes hundreds
+//!   of paths of a curve. A dashed curve of ours is one path.
+//! - `LogCoord` and `TriangleMarker` take the platform's mathematics, so that bytes differ between
+//!   machines. Ours take portable functions or none.
+//! - `ErrorBar` draws a disc over the symbol. Ours has caps only.
+//! - A style has no fill with an edge, no dash, and no rim of words ([`super::style::rimmed`]).
 
+use super::error::Error;
 use super::font::{self, Placed};
-use super::path::{Point, Step, inside};
-use super::style::Stroke;
-use plotters::style::RGBColor;
+use super::markup;
+use super::path::{Point, Step, circle, inside, polygon, polyline};
+use super::style::{PALETTE, Stroke, WIDTH, is_rimmed};
+use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{FontTransform, RGBColor};
+use plotters_backend::{
+    BackendColor, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
+};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// A rectangle of the sheet in grid units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,9 +89,35 @@ pub struct Drawing {
     pub glyphs: Glyphs,
 }
 
+/// Whether something could be drawn.
+pub(super) type Outcome = Result<(), DrawingErrorKind<Error>>;
+
+/// Returns a colour, which must be one of ours: others have no form for light and for dark pages.
+fn in_palette(colour: BackendColor) -> Result<RGBColor, Error> {
+    let (r, g, b) = colour.rgb;
+    let known = PALETTE.iter().any(|(_, known)| *known == RGBColor(r, g, b));
+    let missing = || Error::Drawing(format!("#{r:02x}{g:02x}{b:02x} is no colour of the prelude"));
+    known.then_some(RGBColor(r, g, b)).ok_or_else(missing)
+}
+
 impl Drawing {
     pub(super) fn shape(&mut self, path: Vec<Step>, fill: Fill, stroke: Option<Stroke>) {
         self.elements.push(Element::Shape(path, fill, stroke));
+    }
+
+    /// Adds a path, filled or as a line; one of an invisible colour is left out.
+    fn path(&mut self, path: Vec<Step>, style: &impl BackendStyle, filled: bool) -> Outcome {
+        let alpha = style.color().alpha;
+        if alpha == 0.0 {
+            return Ok(());
+        }
+        let colour = in_palette(style.color())?;
+        if filled {
+            self.shape(path, Some((colour, (100.0 * alpha).round() as u8)), None);
+        } else {
+            self.shape(path, None, Some(Stroke::solid(colour, style.stroke_width())));
+        }
+        Ok(())
     }
 
     /// Tells whether a rectangle is free of lines, of symbols and of words that read from left to
@@ -81,6 +128,131 @@ impl Drawing {
             Element::Label(label) if !label.upwards => !stands_in(label, frame),
             _ => true,
         })
+    }
+}
+
+impl DrawingBackend for Drawing {
+    type ErrorType = Error;
+
+    fn get_size(&self) -> (u32, u32) {
+        (WIDTH, self.height)
+    }
+
+    fn ensure_prepared(&mut self) -> Outcome {
+        Ok(())
+    }
+
+    fn present(&mut self) -> Outcome {
+        Ok(())
+    }
+
+    fn draw_pixel(&mut self, (x, y): Point, colour: BackendColor) -> Outcome {
+        self.draw_rect((x, y), (x + 1, y + 1), &colour, true)
+    }
+
+    /// Draws a straight line from its upper end. It continues the stroke before it if both look
+    /// alike, so that thousands of ticks are one path.
+    fn draw_line<S: BackendStyle>(&mut self, a: Point, b: Point, style: &S) -> Outcome {
+        let (from, to) = if a.1 <= b.1 { (a, b) } else { (b, a) };
+        self.path(polyline([from, to]), style, false)?;
+        if let [.., Element::Shape(path, None, before), Element::Shape(more, None, stroke)] =
+            &mut self.elements[..]
+            && before == stroke
+        {
+            path.append(more);
+            self.elements.pop();
+        }
+        Ok(())
+    }
+
+    fn draw_rect<S: BackendStyle>(
+        &mut self,
+        (left, top): Point,
+        (right, bottom): Point,
+        style: &S,
+        fill: bool,
+    ) -> Outcome {
+        let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+        self.path(polygon(corners), style, fill)
+    }
+
+    /// Draws a line through points; repeated points are left out.
+    fn draw_path<S: BackendStyle, I: IntoIterator<Item = Point>>(
+        &mut self,
+        points: I,
+        style: &S,
+    ) -> Outcome {
+        let mut points: Vec<Point> = points.into_iter().collect();
+        points.dedup();
+        self.path(polyline(points), style, false)
+    }
+
+    fn draw_circle<S: BackendStyle>(
+        &mut self,
+        centre: Point,
+        radius: u32,
+        style: &S,
+        fill: bool,
+    ) -> Outcome {
+        self.path(circle(centre, radius as i32), style, fill)
+    }
+
+    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = Point>>(
+        &mut self,
+        points: I,
+        style: &S,
+    ) -> Outcome {
+        self.path(polygon(points), style, true)
+    }
+
+    /// Sets words in the shipped fonts, whatever the font of the style; see `markup`. Nothing is
+    /// drawn for no words.
+    fn draw_text<S: BackendTextStyle>(&mut self, words: &str, style: &S, at: Point) -> Outcome {
+        let (mut glyphs, width) = font::set(words)?;
+        if glyphs.is_empty() {
+            return Ok(());
+        }
+        let dx = match style.anchor().h_pos {
+            HPos::Left => 0,
+            HPos::Center => -width / 2,
+            HPos::Right => -width,
+        };
+        let dy = match style.anchor().v_pos {
+            VPos::Top => -font::CAP_HEIGHT,
+            VPos::Center => -font::CAP_HEIGHT / 2,
+            VPos::Bottom => 0,
+        };
+        for placed in &mut glyphs {
+            (placed.x, placed.y) = (placed.x + dx, placed.y + dy);
+            if let Entry::Vacant(place) = self.glyphs.entry(font::id(placed)) {
+                place.insert(font::outline(placed)?);
+            }
+        }
+        let colour = in_palette(style.color())?;
+        self.elements.push(Element::Label(Label {
+            words: markup::plain(words),
+            at,
+            size: style.size() as i32,
+            colour,
+            upwards: match style.transform() {
+                FontTransform::None => false,
+                FontTransform::Rotate270 => true,
+                _ => return Err(Error::Drawing(format!("{words:?} would stand head down")).into()),
+            },
+            rim: is_rimmed(style),
+            glyphs,
+        }));
+        Ok(())
+    }
+
+    /// Returns the width of words and the height of a capital.
+    fn estimate_text_size<S: BackendTextStyle>(
+        &self,
+        words: &str,
+        style: &S,
+    ) -> Result<(u32, u32), DrawingErrorKind<Error>> {
+        let size = style.size() as i32;
+        Ok((font::width(words, size)? as u32, (font::CAP_HEIGHT * size / font::EM) as u32))
     }
 }
 

@@ -1,8 +1,7 @@
 //! Adds the elements that plotters lacks: lines with a pattern of dashes, arrows, symbols with an
 //! edge, dense ticks, and error bars of caps alone.
 
-use super::backend::Outcome;
-use super::drawing::Drawing;
+use super::drawing::{Drawing, Outcome};
 use super::path::{Point, Step, circle, polygon, polyline};
 use super::style::{SOLID, Stroke, Symbol, WHITE};
 use plotters::element::{
@@ -63,18 +62,6 @@ pub fn line<C: Clone + 'static>(points: Vec<C>, stroke: Stroke) -> DynElement<'s
         Ok(())
     };
     CustomElement::new(points, dashed).into_dyn()
-}
-
-/// Draws a bar between two points, with caps of half a width, none if it is zero.
-pub(super) fn error_bar<C>(ends: [C; 2], half: i32, stroke: Stroke) -> CustomElement<C> {
-    let style = ShapeStyle::from(stroke);
-    CustomElement::new(ends.into(), move |drawing, points| {
-        drawing.draw_path(points.iter().copied(), &style)?;
-        for (x, y) in points.into_iter().filter(|_| half > 0) {
-            drawing.draw_path([(x - half, y), (x + half, y)], &style)?;
-        }
-        Ok(())
-    })
 }
 
 /// Draws upright ticks of a width at points, as high as the stroke is thick; those in one row that

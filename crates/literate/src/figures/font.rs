@@ -135,13 +135,3 @@ pub fn outline(placed: &Placed) -> Result<Vec<Step>, Error> {
     steps.push(Step::Close);
     Ok(steps)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_missing_character_is_an_error() {
-        assert!(matches!(set("⌊k⌋"), Err(Error::Glyph { character: '⌊', .. })));
-    }
-}

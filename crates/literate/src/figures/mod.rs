@@ -2,13 +2,11 @@
 //! into a page and as PDF.
 
 mod axis;
-mod backend;
 mod drawing;
 mod elements;
 mod error;
 mod figure;
 mod font;
-mod helpers;
 mod markup;
 mod panel;
 mod path;
@@ -26,12 +24,12 @@ pub use svg::{escape, outlines};
 
 /// What a figure is drawn with, for one line of imports.
 pub mod prelude {
-    pub use super::axis::{Axis, Tick, in_powers, number, power_of_ten};
+    pub use super::axis::{Axis, Tick, in_powers, number, power_of_ten, short};
     pub use super::drawing::Frame;
     pub use super::elements::{Marker, arrow, line, markers, ticks};
-    pub use super::helpers::*;
-    pub use super::panel::{Outside, Panel, Sheet, SheetArea};
+    pub use super::panel::{LETTERS, Outside, Panel, Sheet, SheetArea};
     pub use super::plot::Plot;
+    pub use super::series::{largest, over_k};
     pub use super::style::*;
     pub use super::{Description, Drawn, Error, Figure};
     pub use crate::describe;

@@ -98,6 +98,9 @@ pub struct Panel {
     pub(super) outside: Outside,
 }
 
+/// The letters of panels.
+pub const LETTERS: [&str; 6] = ["(a)", "(b)", "(c)", "(d)", "(e)", "(f)"];
+
 const TICK: i32 = 85;
 const MINOR_TICK: i32 = 50;
 const GAP: i32 = 70;

@@ -209,8 +209,8 @@ fn without_errors(points: &[(f64, f64)]) -> Vec<(f64, Estimate)> {
 
 impl AxisOptions {
     /// Makes the axis of the range that was asked for, or the one that holds these values: whole
-    /// decades, or a margin of a twenty-fifth. A linear one has ticks at 1, 2 or 5 times a power of
-    /// ten, a logarithmic one of less than two decades labels 1, 2 and 5.
+    /// decades, or a margin of a twenty-fifth. A linear one has about five numbers, a logarithmic
+    /// one of less than two decades labels 1, 2 and 5.
     fn axis(&self, values: impl Iterator<Item = f64>) -> Axis {
         let found = axis::range(values.filter(|value| value.is_finite()));
         let [low, high] = self.range.or(found).unwrap_or([0.1, 1.0]);
@@ -231,18 +231,8 @@ impl AxisOptions {
             None if low == 0.0 => 0.5,
             None => low.abs() / 2.0,
         };
-        let (from, to) = (low - margin, high + margin);
         let span = if high > low { high - low } else { 2.0 * margin };
-        let rough = format!("{:e}", span / 5.0);
-        let (digits, power) = rough.split_once('e').unwrap_or(("1", "0"));
-        let (step, minor) = match digits.parse().unwrap_or(1.0) {
-            d if d < 1.5 => ("1", 5),
-            d if d < 3.5 => ("2", 2),
-            d if d < 7.5 => ("5", 5),
-            _ => ("10", 5),
-        };
-        let step = format!("{step}e{power}").parse().unwrap_or(span);
-        Axis::linear(from, to, step, minor, &self.label)
+        Axis::linear(low - margin, high + margin, axis::round_step(span), 2, &self.label)
     }
 }
 
@@ -264,35 +254,24 @@ mod tests {
 
     #[test]
     fn numbers_of_an_axis_are_exact_and_differ_or_its_range_is_refused() {
-        for (is_log, values, label, numbers) in [
-            (false, &[0.3, 12.8, f64::NAN][..], "*x* (s)", "0 2 4 6 8 10 12"),
-            (false, &[1e-2, 9e-2], "*x* (s)", "0.02 0.04 0.06 0.08"),
-            (false, &[3.0, 3.0], "*x* (s)", "1.5 2.0 2.5 3.0 3.5 4.0 4.5"),
-            (
-                false,
-                &[1e-10, 5e-10],
-                "*x* (s)",
-                "1·10^{−10} 2·10^{−10} 3·10^{−10} 4·10^{−10} 5·10^{−10}",
-            ),
-            (
-                false,
-                &[1.0, 1.00000000001],
-                "*x* − 1 (s)",
-                "0 0.2·10^{−11} 0.4·10^{−11} 0.6·10^{−11} 0.8·10^{−11} 1.0·10^{−11}",
-            ),
-            (
-                false,
-                &[1e25, 3e25],
-                "*x* (s)",
-                "1.0·10^{25} 1.5·10^{25} 2.0·10^{25} 2.5·10^{25} 3.0·10^{25}",
-            ),
-            (true, &[0.02, 30.0], "*x* (s)", "10^{−2} 10^{−1} 10^{0} 10^{1} 10^{2}"),
+        for (is_log, values, numbers) in [
+            (false, &[0.3, 12.8, f64::NAN][..], "0 2.5 5.0 7.5 10.0 12.5"),
+            (false, &[1e-2, 9e-2], "0.02 0.04 0.06 0.08"),
+            (false, &[3.0, 3.0], "2 3 4"),
+            (false, &[-3.0, 0.5], "−3 −2 −1 0"),
+            (false, &[1e-10, 5e-10], "1·10^{−10} 2·10^{−10} 3·10^{−10} 4·10^{−10} 5·10^{−10}"),
+            (false, &[1e25, 3e25], "1.0·10^{25} 1.5·10^{25} 2.0·10^{25} 2.5·10^{25} 3.0·10^{25}"),
+            (true, &[0.02, 30.0], "10^{−2} 10^{−1} 10^{0} 10^{1} 10^{2}"),
         ] {
             let (axis, shown) = axis(is_log, values);
             axis.check().unwrap();
-            assert_eq!((axis.label.as_str(), shown.as_str()), (label, numbers));
-            assert_eq!(axis.column_name(), "x (s)");
+            assert_eq!((axis.label.as_str(), shown.as_str()), ("*x* (s)", numbers));
         }
+        // Numbers that would be long count from one of them.
+        let (near, numbers) = axis(false, &[1.0, 1.00000000001]);
+        let expected = "0 0.25·10^{−11} 0.50·10^{−11} 0.75·10^{−11} 1.00·10^{−11}";
+        assert_eq!((near.label.as_str(), numbers.as_str()), ("*x* − 1 (s)", expected));
+        assert_eq!(near.column_name(), "x (s)");
         for ends in [[-1.7e308, 1.7e308], [1.0, 1.0 + f64::EPSILON], [1e17, 1e17 + 64.0]] {
             assert!(matches!(axis(false, &ends).0.check(), Err(Error::Axis { .. })), "{ends:?}");
         }
@@ -335,8 +314,9 @@ mod tests {
         let plot = Plot::new().line("*σ*", &[(0.0, 1.0), (5.0, f64::NAN)]);
         let wrong = plot.finish("A", describe!("A")).unwrap_err().to_string();
         assert!(wrong.starts_with("row 2 of the series \"sigma\", (5, NaN), is not finite"));
-        let small = Plot::new().line("a", &[(1.0, 1e-10), (1.00000000001, 5e-10)]);
-        small.finish("A", describe!("A")).unwrap();
+        let missing = Plot::new().line("⌊k⌋", &points).line("a", &points);
+        let wrong = missing.finish("A", describe!("A")).unwrap_err();
+        assert!(matches!(wrong, Error::Glyph { character: '⌊', .. }));
         let wide = Plot::new().line("a", &[(0.0, -1.7e308), (1.0, 1.7e308)]);
         assert!(matches!(wide.finish("A", describe!("A")), Err(Error::Axis { .. })));
         // What would be an empty frame.

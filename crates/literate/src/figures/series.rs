@@ -7,7 +7,7 @@
 //! the frame where that is refused.
 
 use super::drawing::{Drawing, Element};
-use super::elements::{CustomElement, Marker, error_bar, line, markers};
+use super::elements::{CustomElement, Marker, line, markers};
 use super::error::{Drawn, Error};
 use super::markup::spelled;
 use super::panel::{Outside, Panel};
@@ -16,7 +16,8 @@ use super::record::DataPoint;
 use super::style::Stroke;
 use impact_numerics::statistics::Estimate;
 use plotters::element::{Drawable, PointCollection, Polygon};
-use plotters::style::Color;
+use plotters::style::{Color, ShapeStyle};
+use plotters_backend::DrawingBackend;
 
 /// Points in units of the data.
 type Points<'a> = &'a [(f64, f64)];
@@ -37,7 +38,6 @@ impl Panel {
         self.push(Element::Close)
     }
 
-    /// Draws where a series starts or ends.
     fn push(&self, element: Element) -> Drawn {
         let mark = CustomElement::new(Vec::new(), move |drawing, _| {
             drawing.elements.push(element.clone());
@@ -166,7 +166,17 @@ impl Panel {
         let ends = quiet.places(name, &lows)?.into_iter().zip(quiet.places(name, &highs)?);
         self.record(name, bars.iter().copied());
         let shown = ends.zip(bars).filter(|(_, bar)| !is_cut || self.x.contains(bar.0));
-        self.draw_series(name, shown.map(|((low, high), _)| error_bar([low, high], half, stroke)))
+        let style = ShapeStyle::from(stroke);
+        let bar = |((low, high), _)| {
+            CustomElement::new(vec![low, high], move |drawing, ends| {
+                drawing.draw_path(ends.iter().copied(), &style)?;
+                for (x, y) in ends.into_iter().filter(|_| half > 0) {
+                    drawing.draw_path([(x - half, y), (x + half, y)], &style)?;
+                }
+                Ok(())
+            })
+        };
+        self.draw_series(name, shown.map(bar))
     }
 
     /// Draws estimates with bars of one standard error. What lies outside the frame is left out,
@@ -192,6 +202,16 @@ impl Panel {
         self.guide(name, &points, marker.2)?;
         self.estimates(name, found, marker)
     }
+}
+
+/// Returns the points (k, value) of a series whose first value belongs to k = 1.
+pub fn over_k(values: &[f64]) -> Vec<(f64, f64)> {
+    values.iter().enumerate().map(|(i, &v)| ((i + 1) as f64, v)).collect()
+}
+
+/// Returns the largest of a series, zero if it is empty.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
 }
 
 #[cfg(test)]
