@@ -26,8 +26,7 @@ impl Tick {
     }
 }
 
-/// One axis of a panel.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
     pub lo: f64,
     pub hi: f64,
@@ -59,7 +58,7 @@ impl Axis {
         let fine = step / minor as f64;
         let slack = 1e-9;
         let (first, last) = ((lo / fine - slack).ceil(), (hi / fine + slack).floor());
-        let mut axis = Axis::new(false, [lo, hi], label, Vec::new());
+        let mut axis = Axis { lo, hi, label: label.into(), ..Axis::default() };
         let (count, farthest) = (last - first, first.abs().max(last.abs()));
         let Some((digits, power)) = decimal_of(step) else { return axis };
         if !count.is_finite() || count > 1e4 || farthest > 1e15 {
@@ -89,14 +88,12 @@ impl Axis {
         axis
     }
 
-    /// Says in the label that the numbers count from n · 10^power, and in the column that data do
-    /// not.
+    /// Says in the label that the numbers count from n · 10^power; those of data files do not.
     fn counted_from(mut self, n: i128, power: i32) -> Self {
         self.column = Some(self.column_name());
         let (n, power) = (n / 10_i128.pow(zeros(n)), power + zeros(n) as i32);
-        let from = exact(n, power, leading(&[n]) + power);
         let sign = if n < 0 { '+' } else { '−' };
-        let from = format!(" {sign} {}", from.trim_start_matches('−'));
+        let from = format!(" {sign} {}", exact(n.abs(), power, leading(&[n]) + power));
         let unit = self.label.rfind(" (").filter(|_| self.label.ends_with(')'));
         self.label.insert_str(unit.unwrap_or(self.label.len()), &from);
         self
@@ -116,10 +113,6 @@ impl Axis {
         Err(Error::Axis { label: spelled(&self.label), low: self.lo, high: self.hi })
     }
 
-    fn new(is_log: bool, [lo, hi]: [f64; 2], label: &str, ticks: Vec<Tick>) -> Self {
-        Axis { lo, hi, is_log, label: label.into(), column: None, ticks }
-    }
-
     /// Makes a logarithmic axis from 10^`lo` to 10^`hi`, labelled every `every` decades. If `every`
     /// exceeds five, the decades between two labels have no tick.
     pub fn decades(lo: i32, hi: i32, every: i32, label: &str) -> Self {
@@ -135,11 +128,11 @@ impl Axis {
                 ticks.extend((2..10).map(|m| Tick { at: decimal(m, exponent), label: None }));
             }
         }
-        Axis::new(true, [lo, hi].map(|end| decimal(1, end)), label, ticks)
+        let [lo, hi] = [lo, hi].map(|end| decimal(1, end));
+        Axis { lo, hi, is_log: true, label: label.into(), column: None, ticks }
     }
 
-    /// Makes a logarithmic axis of the decades that hold all positive values, labelled every
-    /// `every`.
+    /// Makes a logarithmic axis of the decades that hold all positive values.
     pub fn decades_around(values: impl Iterator<Item = f64>, every: i32, label: &str) -> Self {
         let values = values.filter(|value| *value > 0.0 && value.is_finite());
         let [low, high] = range(values.map(f_log10)).unwrap_or([0.0, 1.0]);
@@ -207,11 +200,6 @@ impl Axis {
         lo - slack <= at && at <= hi + slack
     }
 
-    /// Tells whether the tick at a value is a major one: has a label, if only an empty one.
-    pub(super) fn is_major(&self, value: f64) -> bool {
-        self.ticks.iter().any(|tick| tick.at == value && tick.label.is_some())
-    }
-
     /// Removes label and numbers, for a panel that shares the axis of the panel below.
     pub fn without_numbers(mut self) -> Self {
         self.column = Some(self.column_name());
@@ -232,11 +220,8 @@ impl Ranged for Axis {
         RangedCoordf64::from(lo..hi).map(&self.position(*value), limit)
     }
 
-    /// Returns the ticks, or those with a label if bold points are asked for.
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        let all = hint.weight().allow_light_points();
-        let ticks = self.ticks.iter().filter(|tick| all || tick.label.is_some());
-        ticks.map(|tick| tick.at).take(hint.max_num_points()).collect()
+        self.ticks.iter().map(|tick| tick.at).take(hint.max_num_points()).collect()
     }
 
     fn range(&self) -> Range<f64> {
@@ -253,7 +238,7 @@ pub(super) fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 
 /// Returns a round number of which about five make a span.
 pub(super) fn round_step(span: f64) -> f64 {
-    let unit = decimal(1, power(span));
+    let unit = decimal(1, Decimal::shortest(span).exponent());
     let steps = [0.2, 0.25, 0.5, 1.0, 2.0].map(|step| step * unit);
     steps.into_iter().find(|step| span / step - 1e-9 <= 5.0).unwrap_or(2.5 * unit)
 }
@@ -266,8 +251,8 @@ pub(super) fn decimal(m: i32, exponent: i32) -> f64 {
 /// Returns a positive number as n · 10^power, rounded to twelve digits; none if it is not finite.
 fn decimal_of(number: f64) -> Option<(i128, i32)> {
     let Decimal { digits, places } = Decimal::exact(number).significant(12);
-    let n: i128 = digits.parse().ok()?;
-    Some((n / 10_i128.pow(zeros(n)), zeros(n) as i32 - places))
+    let kept = digits.trim_end_matches('0');
+    Some((kept.parse().ok()?, (digits.len() - kept.len()) as i32 - places))
 }
 
 /// Returns the number of zeros at the end of a number that is not zero.
@@ -278,8 +263,8 @@ fn zeros(n: i128) -> u32 {
 
 /// Returns the power of ten of the first digit of the largest number.
 fn leading(numbers: &[i128]) -> i32 {
-    let largest = numbers.iter().map(|number| number.unsigned_abs()).max();
-    largest.and_then(u128::checked_ilog10).unwrap_or(0) as i32
+    let largest = numbers.iter().map(|number| number.abs()).max();
+    Decimal::integer(largest.unwrap_or(0)).exponent()
 }
 
 /// Writes n · 10^power on an axis whose largest number has its first digit at 10^`most`.
@@ -289,8 +274,8 @@ fn exact(n: i128, power: i32, most: i32) -> String {
     }
     let sign = if n < 0 { "−" } else { "" };
     let is_plain = power >= -5 && most <= 5;
-    let places = if is_plain { -power } else { most - power };
-    let digits = Decimal { digits: n.unsigned_abs().to_string(), places }.written();
+    let power = if is_plain { power } else { power - most };
+    let digits = Decimal::integer(n).times_ten(power).written();
     if is_plain {
         sign.to_owned() + &digits
     } else {
@@ -318,19 +303,13 @@ pub fn short(value: f64, digits: usize) -> String {
         let shown = format!("{:.*e}", digits.saturating_sub(1), value);
         return shown.replace('-', "−").replace('e', "·10^");
     }
-    let decimals = (digits as i32 - 1 - power(value)).max(0) as usize;
-    let shown = number(value, decimals);
+    let decimals = digits as i32 - 1 - Decimal::shortest(value).exponent();
+    let shown = number(value, decimals.max(0) as usize);
     if shown.contains('.') {
         shown.trim_end_matches('0').trim_end_matches('.').to_string()
     } else {
         shown
     }
-}
-
-/// Returns the power of ten of the first digit of a number, zero for zero.
-fn power(number: f64) -> i32 {
-    let shown = format!("{number:e}");
-    shown.split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -343,10 +322,8 @@ mod tests {
 
     #[test]
     fn ticks_are_exact_multiples_and_powers() {
-        let axis = Axis::linear(0.0, 0.4, 0.1, 2, "σ");
-        assert_eq!((labels(&axis), axis.ticks.len()), (vec!["0", "0.1", "0.2", "0.3", "0.4"], 9));
-        let axis = Axis::linear(-1.0, 1.0, 0.5, 1, "");
-        assert_eq!(labels(&axis), ["−1.0", "−0.5", "0", "0.5", "1.0"]);
+        let axis = Axis::linear(-0.1, 0.3, 0.1, 2, "σ");
+        assert_eq!((labels(&axis), axis.ticks.len()), (vec!["−0.1", "0", "0.1", "0.2", "0.3"], 9));
         let axis = Axis::decades(-3, 0, 1, "p");
         assert_eq!(labels(&axis), ["10^{−3}", "10^{−2}", "10^{−1}", "10^{0}"]);
         assert_eq!(axis.ticks.len(), 4 + 3 * 8);

@@ -1,9 +1,6 @@
 //! Collects what plotters draws as a list of shapes, which [`super::svg`] and [`super::pdf`] write:
 //! the backend of all figures.
 //!
-//! The grid is a hundredth of a millimetre at column width, so whole numbers are fine enough for
-//! smooth curves. Labels are outlines (see [`super::font`]); nothing depends on the machine.
-//!
 //! plotters has coordinates, drawing areas, elements and series. Axes ([`super::axis`]), a few
 //! elements ([`super::elements`]), fonts and the writers are ours, because of these limits of
 //! plotters, none of which a figure of ours meets:
@@ -48,7 +45,6 @@ impl Frame {
 /// The inside of a shape: its colour, and its opacity in hundredths; none if it is clear.
 pub type Fill = Option<(RGBColor, u8)>;
 
-/// Words as glyphs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     /// The words, for screen readers.
@@ -120,8 +116,7 @@ impl Drawing {
         Ok(())
     }
 
-    /// Tells whether a rectangle is free of lines, of symbols and of words that read from left to
-    /// right.
+    /// Tells whether a rectangle is free of lines, symbols and words from left to right.
     pub fn is_free(&self, frame: Frame) -> bool {
         self.elements.iter().all(|element| match element {
             Element::Shape(path, _, Some(_)) => !crosses(path, frame),
@@ -243,16 +238,6 @@ impl DrawingBackend for Drawing {
             glyphs,
         }));
         Ok(())
-    }
-
-    /// Returns the width of words and the height of a capital.
-    fn estimate_text_size<S: BackendTextStyle>(
-        &self,
-        words: &str,
-        style: &S,
-    ) -> Result<(u32, u32), DrawingErrorKind<Error>> {
-        let size = style.size() as i32;
-        Ok((font::width(words, size)? as u32, (font::CAP_HEIGHT * size / font::EM) as u32))
     }
 }
 

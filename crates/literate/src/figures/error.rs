@@ -6,7 +6,6 @@ use plotters::drawing::DrawingAreaErrorKind;
 use plotters_backend::DrawingErrorKind;
 use thiserror::Error;
 
-/// Why a figure cannot be drawn.
 #[derive(Debug, Error)]
 pub enum Error {
     #[error("a figure lacks its data: {0}")]

@@ -5,7 +5,6 @@ use super::error::Error;
 use super::svg::escape;
 use crate::table::DataFile;
 
-/// A figure: the picture, what it shows in words, and its data.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
     /// The id in the list of the paper, with which the names of its files begin.
@@ -40,11 +39,11 @@ impl Figure {
             };
             figure.files.push((format, bytes.to_vec()));
         }
-        let formats: Vec<&str> = figure.files.iter().map(|(format, _)| *format).collect();
-        if formats.iter().all(|format| *format == "pdf") {
+        let is_all = |format| figure.files.iter().all(|file| file.0 == format);
+        if is_all("pdf") {
             return Err(Error::Picture("cannot be shown on pages; add an svg, png or jpg".into()));
         }
-        if formats.iter().all(|format| *format == "svg") {
+        if is_all("svg") {
             return Err(Error::Picture("cannot be shown in LaTeX; add a pdf, png or jpg".into()));
         }
         Ok(figure)
@@ -68,7 +67,6 @@ impl Figure {
         self.files.iter().map(|(format, bytes)| (name(format), bytes.clone())).collect()
     }
 
-    /// Returns the picture as an SVG file.
     pub fn svg(&self) -> String {
         self.drawing.svg(false, &self.id, &self.title, &self.description.text) + "\n"
     }

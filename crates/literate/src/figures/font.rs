@@ -31,7 +31,6 @@ const SLANT_SPACE: i32 = 40;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placed {
     pub face: Face,
-    /// Glyph number in the face.
     pub glyph: u16,
     pub x: i32,
     pub y: i32,
@@ -49,10 +48,7 @@ fn font(face: Face) -> Result<FontRef<'static>, Error> {
 }
 
 /// Sets a label in type: returns its glyphs, in reading order and without blanks, and its width in
-/// em units.
-///
-/// # Errors
-/// [`Error::Glyph`] names a character that the face lacks: a figure with a missing letter is wrong.
+/// em units. A character that the face lacks is an error.
 pub fn set(label: &str) -> Result<(Vec<Placed>, i32), Error> {
     let (mut glyphs, mut width): (Vec<Placed>, i32) = (Vec::new(), 0);
     // `x` is the pen, `start` is where a raised part stands above a lowered one.
@@ -105,10 +101,8 @@ pub fn width(label: &str, size: i32) -> Result<i32, Error> {
 
 /// Returns the name of a glyph inside a drawing.
 pub fn id(placed: &Placed) -> String {
-    match placed.face {
-        Face::Regular => format!("r{}", placed.glyph),
-        Face::Italic => format!("i{}", placed.glyph),
-    }
+    let face = if placed.face == Face::Italic { 'i' } else { 'r' };
+    format!("{face}{}", placed.glyph)
 }
 
 /// Returns the outline of a glyph in em units, y upwards.

@@ -17,7 +17,6 @@ pub enum Level {
     Sup,
 }
 
-/// Characters of one face at one height.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Piece {
     pub face: Face,

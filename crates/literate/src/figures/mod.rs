@@ -1,5 +1,4 @@
-//! Draws figures: frames, axes, curves and labels as one list of shapes, which is written as SVG,
-//! into a page and as PDF.
+//! Draws figures as lists of shapes, which are written as SVG, into pages and as PDF.
 
 mod axis;
 mod drawing;
@@ -33,7 +32,6 @@ pub mod prelude {
     pub use super::style::*;
     pub use super::{Description, Drawn, Error, Figure};
     pub use crate::describe;
-    pub use crate::table::DataFile;
     pub use plotters::element::{EmptyElement, PathElement, Polygon, Rectangle, Text};
     pub use plotters::style::text_anchor::{HPos, VPos};
     pub use plotters::style::{Color, RGBColor};

@@ -2,7 +2,7 @@
 //!
 //! All methods fail if a label has a character that the shipped fonts lack.
 
-use super::axis::Axis;
+use super::axis::{Axis, Tick};
 use super::drawing::{Drawing, Frame};
 use super::elements::CustomElement;
 use super::error::{Drawn, Error};
@@ -46,7 +46,8 @@ impl Sheet {
         let place = (frame.left..frame.right, frame.bottom..frame.top);
         let plane = Cartesian2d::new(x.clone(), y.clone(), place);
         let area = DrawingArea::from(&self.drawing).apply_coord_spec(plane);
-        let record = Rc::new(RefCell::new(Record::new(&x, &y)));
+        let record = Record { x: x.column_name(), y: y.column_name(), ..Record::default() };
+        let record = Rc::new(RefCell::new(record));
         self.records.borrow_mut().push(record.clone());
         let (drawing, outside) = (self.drawing.clone(), Outside::Refuse);
         let panel = Panel { area, frame, x, y, drawing, record, recorded: true, outside };
@@ -61,8 +62,7 @@ impl Sheet {
         Ok(panel)
     }
 
-    /// Closes the figure. Its data is what its panels have recorded, a file for each. The paper
-    /// gives it its id.
+    /// Closes the figure, with a data file for each panel that has recorded something.
     pub fn finish(self, title: &str, description: Description) -> Figure {
         let drawing = self.drawing.take();
         let records = self.records.take();
@@ -71,14 +71,13 @@ impl Sheet {
     }
 }
 
-/// What to do with data outside the frame. On a logarithmic axis all that is not positive lies
-/// outside, below.
+/// What to do with data outside the frame; what is not positive is outside a logarithmic axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outside {
     /// It is a mistake.
     Refuse,
-    /// The panel shows a part of the data on purpose: cut at the frame. What is not positive is
-    /// left out on a logarithmic axis, of the record too.
+    /// The panel shows a part of the data on purpose: cut at the frame. What a logarithmic axis has
+    /// no place for is left out of the data file too.
     Cut,
     /// It is shown at the edge.
     Edge,
@@ -116,17 +115,12 @@ const CLEARANCE: i32 = 45;
 /// From one line of words to the next.
 const LINE_HEIGHT: i32 = 340;
 
-/// Returns the width of the widest number of an axis.
 pub(super) fn widest_number(axis: &Axis) -> Result<i32, Error> {
-    let mut widest = 0;
-    for tick in &axis.ticks {
-        widest = widest.max(font::width(tick.name(), SMALL)?);
-    }
-    Ok(widest)
+    let wider = |widest: i32, tick: &Tick| Ok(widest.max(font::width(tick.name(), SMALL)?));
+    axis.ticks.iter().try_fold(0, wider)
 }
 
-/// Moves heights that are closer than `least` to both sides, until all are that far apart; their
-/// order stays.
+/// Moves heights that are closer than `least` apart, to both sides; their order stays.
 fn spread(heights: &[i32], least: i32) -> Vec<i32> {
     let mut order: Vec<usize> = (0..heights.len()).collect();
     order.sort_by_key(|&i| heights[i]);
@@ -141,24 +135,8 @@ fn spread(heights: &[i32], least: i32) -> Vec<i32> {
     places
 }
 
-/// Returns which point of words is their anchor if they stand in this direction from it.
-fn anchor((right, down): (i32, i32)) -> (HPos, VPos) {
-    let h = match right.signum() {
-        -1 => HPos::Right,
-        0 => HPos::Center,
-        _ => HPos::Left,
-    };
-    let v = match down.signum() {
-        -1 => VPos::Bottom,
-        0 => VPos::Center,
-        _ => VPos::Top,
-    };
-    (h, v)
-}
-
 impl Panel {
-    /// Returns the panel with a file of its data whose name ends in `suffix`, after the id of the
-    /// figure.
+    /// Returns the panel with a data file whose name is the figure's id and this.
     pub fn with_suffix(self, suffix: &str) -> Self {
         self.record.borrow_mut().suffix = suffix.replace(['(', ')'], "");
         self
@@ -174,18 +152,16 @@ impl Panel {
         Panel { outside, ..self.clone() }
     }
 
-    /// Writes words at a point of the data, moved on the sheet.
     fn text(&self, text: &str, at: (f64, f64), moved: Point, style: TextStyle<'static>) -> Drawn {
         Ok(self.area.draw(&(EmptyElement::at(at) + Text::new(text.to_string(), moved, style)))?)
     }
 
-    /// Writes words at a point of the sheet.
     fn text_on_sheet(&self, text: &str, at: Point, style: TextStyle<'static>) -> Drawn {
         Ok(self.area.use_screen_coord().draw_text(text, &style, at)?)
     }
 
     /// Draws both axes: spines at the left and below, ticks outwards, numbers, labels.
-    pub(super) fn draw_axes(&self) -> Drawn {
+    fn draw_axes(&self) -> Drawn {
         let Frame { left, top, right, bottom } = self.frame;
         let hair = ShapeStyle::from(Stroke::solid(INK, HAIR));
         let corners = [(self.x.lo, self.y.hi), (self.x.lo, self.y.lo), (self.x.hi, self.y.lo)];
@@ -194,7 +170,10 @@ impl Panel {
             drawing.draw_line(corners[1], corners[2], &hair)
         });
         self.area.draw(&spines)?;
-        let tick = |axis: &Axis, value: f64| if axis.is_major(value) { TICK } else { MINOR_TICK };
+        let tick = |axis: &Axis, value: f64| {
+            let is_major = axis.ticks.iter().any(|tick| tick.at == value && tick.label.is_some());
+            if is_major { TICK } else { MINOR_TICK }
+        };
         let draw_tick = |drawing: &mut Drawing, line: MeshLine<'_, Axis, Axis>| {
             let (from, to) = match line {
                 MeshLine::XMesh((x, y), _, value) => ((x, y), (x, y + tick(&self.x, *value))),
@@ -222,8 +201,7 @@ impl Panel {
         self.text_on_sheet(&self.y.label, at, style.transform(FontTransform::Rotate270))
     }
 
-    /// Writes the letter of a panel, "(a)", above its upper left corner, and ends the name of its
-    /// file with it.
+    /// Writes the letter of a panel, "(a)", above it, and ends the name of its data file with it.
     pub fn letter(&self, text: &str) -> Drawn {
         self.clone().with_suffix(text);
         let at = (self.frame.left + 60, self.frame.top - 80);
@@ -237,6 +215,10 @@ impl Panel {
         self.text_on_sheet(parameter, corner, words(SMALL, INK, HPos::Right, VPos::Bottom))
     }
 
+    pub(super) fn contains(&self, (x, y): (f64, f64)) -> bool {
+        self.x.contains(x) && self.y.contains(y)
+    }
+
     /// Names a curve or a symbol in its colour, near a point of the data: so many millimetres to
     /// the right of it and below it. `(1, 0)` is right of the point, `(0, -1)` above it.
     pub fn label(
@@ -246,7 +228,16 @@ impl Panel {
         (right, down): (i32, i32),
         colour: RGBColor,
     ) -> Drawn {
-        let (h, v) = anchor((right, down));
+        let h = match right {
+            ..0 => HPos::Right,
+            0 => HPos::Center,
+            1.. => HPos::Left,
+        };
+        let v = match down {
+            ..0 => VPos::Bottom,
+            0 => VPos::Center,
+            1.. => VPos::Top,
+        };
         self.text(text, at, (100 * right, 100 * down), rimmed(SMALL, colour, h, v))
     }
 
@@ -288,13 +279,11 @@ impl Panel {
             && self.drawing.borrow().is_free(room)
     }
 
-    /// Names curves, each given by name, points and colour, at their right ends in this panel;
-    /// names that would touch move apart.
+    /// Names curves (name, points, colour) at their right ends; names that would touch move apart.
     pub fn label_ends<P: AsRef<[(f64, f64)]>>(&self, curves: &[(String, P, RGBColor)]) -> Drawn {
         let mut ends = Vec::new();
         for (text, points, colour) in curves {
-            let inside = |p: &&(f64, f64)| self.x.contains(p.0) && self.y.contains(p.1);
-            if let Some(end) = points.as_ref().iter().rfind(inside) {
+            if let Some(end) = points.as_ref().iter().rfind(|point| self.contains(**point)) {
                 ends.push((self.area.map_coordinate(end), text, *colour));
             }
         }

@@ -8,7 +8,7 @@ use super::svg::PIXELS_PER_HUNDRED;
 use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, TextStr};
 use plotters::style::RGBColor;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 impl Drawing {
     /// Writes a PDF file.
@@ -17,7 +17,7 @@ impl Drawing {
         let width = 0.75 * (WIDTH * PIXELS_PER_HUNDRED / 100) as f32;
         let scale = width / WIDTH as f32;
         let height = scale * self.height as f32;
-        let mut writer = Writer { drawing: self, content: Content::new(), opacities: [].into() };
+        let mut writer = Writer { drawing: self, content: Content::new(), states: [].into() };
         writer.content.transform([scale, 0.0, 0.0, -scale, 0.0, height]);
         let (right, bottom) = (WIDTH as i32, self.height as i32);
         let page = polygon([(0, 0), (right, 0), (right, bottom), (0, bottom)]);
@@ -38,8 +38,8 @@ impl Drawing {
         page.parent(tree).media_box(Rect::new(0.0, 0.0, width, height)).contents(content);
         let mut resources = page.resources();
         let mut states = resources.ext_g_states();
-        for hundredths in &writer.opacities {
-            let mut state = states.insert(Name(state(*hundredths).as_bytes())).dict();
+        for (name, hundredths) in &writer.states {
+            let mut state = states.insert(Name(name.as_bytes())).dict();
             state.pair(Name(b"ca"), f32::from(*hundredths) / 100.0);
         }
         states.finish();
@@ -51,11 +51,6 @@ impl Drawing {
     }
 }
 
-/// Returns the name of the graphics state of an opacity.
-fn state(hundredths: u8) -> String {
-    format!("o{hundredths}")
-}
-
 /// Returns red, green and blue as parts of one.
 fn shares(RGBColor(r, g, b): RGBColor) -> [f32; 3] {
     [r, g, b].map(|part| f32::from(part) / 255.0)
@@ -64,8 +59,8 @@ fn shares(RGBColor(r, g, b): RGBColor) -> [f32; 3] {
 struct Writer<'a> {
     drawing: &'a Drawing,
     content: Content,
-    /// Opacities in use, in hundredths.
-    opacities: BTreeSet<u8>,
+    /// Graphics states in use, by their names: opacities in hundredths.
+    states: BTreeMap<String, u8>,
 }
 
 impl Writer<'_> {
@@ -74,8 +69,9 @@ impl Writer<'_> {
         content.save_state();
         if let Some((colour, opacity)) = fill {
             if opacity < 100 {
-                self.opacities.insert(opacity);
-                content.set_parameters(Name(state(opacity).as_bytes()));
+                let name = format!("o{opacity}");
+                content.set_parameters(Name(name.as_bytes()));
+                self.states.insert(name, opacity);
             }
             let [r, g, b] = shares(colour);
             content.set_fill_rgb(r, g, b);

@@ -13,15 +13,13 @@ use impact_numerics::statistics::Estimate;
 use plotters::style::RGBColor;
 use pxfm::f_log10;
 
-enum SeriesKind {
-    Line,
-    Markers(Symbol),
-    Curve(Box<dyn Fn(f64) -> f64>),
-}
+type Function = Box<dyn Fn(f64) -> f64>;
 
 struct Series {
     name: String,
-    kind: SeriesKind,
+    /// None for a line.
+    symbol: Option<Symbol>,
+    function: Option<Function>,
     /// With an error of zero where there is none.
     points: Vec<(f64, Estimate)>,
 }
@@ -90,30 +88,32 @@ impl Plot {
         self
     }
 
-    fn add(mut self, name: &str, kind: SeriesKind, points: Vec<(f64, Estimate)>) -> Self {
-        self.series.push(Series { name: name.into(), kind, points });
+    fn add(mut self, name: &str, points: Vec<(f64, Estimate)>, symbol: Option<Symbol>) -> Self {
+        self.series.push(Series { name: name.into(), points, symbol, function: None });
         self
     }
 
     /// Adds a line through points (x, y).
     pub fn line(self, name: &str, points: &[(f64, f64)]) -> Self {
-        self.add(name, SeriesKind::Line, without_errors(points))
+        self.add(name, without_errors(points), None)
     }
 
     /// Adds symbols at points (x, y).
     pub fn points(self, name: &str, points: &[(f64, f64)], symbol: Symbol) -> Self {
-        self.add(name, SeriesKind::Markers(symbol), without_errors(points))
+        self.add(name, without_errors(points), Some(symbol))
     }
 
     /// Adds discs at estimates with bars of one standard error, as a table gives them.
     pub fn estimates(self, name: &str, estimates: &[(f64, Estimate)]) -> Self {
-        self.add(name, SeriesKind::Markers(Symbol::Disc), estimates.to_vec())
+        self.add(name, estimates.to_vec(), Some(Symbol::Disc))
     }
 
     /// Adds a function of x across the plot; the range of y follows from it only where there is no
     /// other data.
-    pub fn curve(self, name: &str, function: impl Fn(f64) -> f64 + 'static) -> Self {
-        self.add(name, SeriesKind::Curve(Box::new(function)), Vec::new())
+    pub fn curve(mut self, name: &str, function: impl Fn(f64) -> f64 + 'static) -> Self {
+        let function: Option<Function> = Some(Box::new(function));
+        self.series.push(Series { name: name.into(), points: Vec::new(), symbol: None, function });
+        self
     }
 
     fn has_place(&self, (x, y): (f64, f64)) -> bool {
@@ -122,12 +122,9 @@ impl Plot {
 
     /// Returns all points that the axes have a place for, with the ends of bars.
     fn data(&self) -> Vec<(f64, f64)> {
-        let mut data = Vec::new();
-        for (x, y) in self.series.iter().flat_map(|series| &series.points) {
-            data.extend([0.0, -y.error, y.error].map(|by| (*x, y.value + by)));
-        }
-        data.retain(|point| self.has_place(*point));
-        data
+        let points = self.series.iter().flat_map(|series| &series.points);
+        let ends = points.flat_map(|(x, y)| [0.0, -y.error, y.error].map(|by| (*x, y.value + by)));
+        ends.filter(|point| self.has_place(*point)).collect()
     }
 
     /// Returns the axes that hold all data, after evaluating the functions at 401 places.
@@ -136,10 +133,9 @@ impl Plot {
         let x = self.x.axis(data.iter().map(|point| point.0));
         let (from, to) = x.ends();
         for series in &mut self.series {
-            if let SeriesKind::Curve(function) = &series.kind {
-                let places = (0..=400).map(|i| from + (to - from) * f64::from(i) / 400.0);
-                let values = places.map(|place| x.value(place));
-                let points = values.map(|x| (x, with_error(function(x), 0.0)));
+            if let Some(function) = &series.function {
+                let place = |i| x.value(from + (to - from) * f64::from(i) / 400.0);
+                let points = (0..=400).map(place).map(|x| (x, with_error(function(x), 0.0)));
                 series.points = points.filter(|(_, y)| y.value.is_finite()).collect();
             }
         }
@@ -150,8 +146,7 @@ impl Plot {
         (x, y)
     }
 
-    /// Draws the figure. Fails for a number that is not finite, and for a label with a character
-    /// that the shipped fonts lack.
+    /// Draws the figure. A number that is not finite, or a character that no font has, is an error.
     pub fn finish(self, title: &str, description: Description) -> Result<Figure, Error> {
         let (sheet, _) = self.draw()?;
         Ok(sheet.finish(title, description))
@@ -177,20 +172,18 @@ impl Plot {
         let sheet = Sheet::new((frame.bottom + panel::LABEL_BELOW + 2 * TEXT) as u32);
         let panel = sheet.panel(frame, x, y)?.outside(Outside::Cut);
         let mut ends: Vec<(String, Vec<_>, _)> = Vec::new();
-        for Series { name, kind, points } in self.series {
+        for Series { name, symbol, points, .. } in self.series {
             let place = ends.iter().position(|end| end.0 == name).unwrap_or(ends.len());
             let colour = COLOURS[place % COLOURS.len()];
             let stroke = Stroke::dashed(colour, LINE, DASHES[place % DASHES.len()]);
             let thin = Stroke::solid(colour, THIN);
             let places: Vec<(f64, f64)> = points.iter().map(|(x, y)| (*x, y.value)).collect();
-            match kind {
-                SeriesKind::Line | SeriesKind::Curve(_) => panel.curve(&name, &places, stroke)?,
-                SeriesKind::Markers(symbol) if points.iter().all(|(_, y)| y.error == 0.0) => {
-                    panel.markers(&name, &places, (symbol, self.mark_size, thin))?;
+            match symbol.map(|symbol| (symbol, self.mark_size, thin)) {
+                None => panel.curve(&name, &places, stroke)?,
+                Some(marker) if points.iter().all(|(_, y)| y.error == 0.0) => {
+                    panel.markers(&name, &places, marker)?;
                 }
-                SeriesKind::Markers(symbol) => {
-                    panel.estimates(&name, &points, (symbol, self.mark_size, thin))?;
-                }
+                Some(marker) => panel.estimates(&name, &points, marker)?,
             }
             if place == ends.len() {
                 ends.push((name, places, colour));
@@ -311,20 +304,20 @@ mod tests {
             let high = figure.drawing.height as i32;
             assert!((1..WIDTH as i32).contains(&x) && (1..high).contains(&y), "{}", label.words);
         }
-        let plot = Plot::new().line("*σ*", &[(0.0, 1.0), (5.0, f64::NAN)]);
-        let wrong = plot.finish("A", describe!("A")).unwrap_err().to_string();
+        let small = Plot::new().line("a", &[(1.0, 1e-10), (1.00000000001, 5e-10)]);
+        small.finish("A", describe!("A")).unwrap();
+        let fails = |plot: Plot| plot.finish("A", describe!("A")).unwrap_err();
+        let wrong = fails(Plot::new().line("*σ*", &[(0.0, 1.0), (5.0, f64::NAN)])).to_string();
         assert!(wrong.starts_with("row 2 of the series \"sigma\", (5, NaN), is not finite"));
-        let missing = Plot::new().line("⌊k⌋", &points).line("a", &points);
-        let wrong = missing.finish("A", describe!("A")).unwrap_err();
-        assert!(matches!(wrong, Error::Glyph { character: '⌊', .. }));
-        let wide = Plot::new().line("a", &[(0.0, -1.7e308), (1.0, 1.7e308)]);
-        assert!(matches!(wide.finish("A", describe!("A")), Err(Error::Axis { .. })));
+        let missing = fails(Plot::new().line("a", &points).line("⌊k⌋", &points));
+        assert!(matches!(missing, Error::Glyph { character: '⌊', .. }));
+        let wide = fails(Plot::new().line("a", &[(0.0, -1.7e308), (1.0, 1.7e308)]));
+        assert!(matches!(wide, Error::Axis { .. }));
         // What would be an empty frame.
-        let empty = [Plot::new().line("a", &[]), Plot::new().log_y("b").line("a", &[(1.0, -2.0)])];
-        for plot in empty {
-            assert!(matches!(plot.finish("A", describe!("A")), Err(Error::Empty(_))));
+        for plot in [Plot::new().line("a", &[]), Plot::new().log_y("b").line("a", &[(1.0, -2.0)])] {
+            assert!(matches!(fails(plot), Error::Empty(_)));
         }
-        assert!(matches!(Plot::new().finish("A", describe!("A")), Err(Error::NoSeries)));
+        assert!(matches!(fails(Plot::new()), Error::NoSeries));
         let plot = Plot::new().log_x("*k*").x_range(2.0, 60.0).y_range(0.0, 1.0).mark_size(80);
         let (_, panel) = plot.points("a", &[(5.0, 0.5), (70.0, 0.5)], Symbol::Ring).draw().unwrap();
         assert_eq!((panel.x.lo, panel.x.hi, panel.y.lo, panel.y.hi), (2.0, 60.0, 0.0, 1.0));

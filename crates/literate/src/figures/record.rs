@@ -1,6 +1,5 @@
 //! Records what a panel draws as the rows of its data file, so that authors write no data files.
 
-use super::axis::Axis;
 use super::markup::spelled;
 use crate::table::{DataFile, shortest};
 use impact_numerics::statistics::Estimate;
@@ -38,33 +37,26 @@ impl DataPoint {
     /// Merges a row of the same x unless a number that both know differs; returns whether it did.
     fn merge(&mut self, new: &DataPoint) -> bool {
         let mut pairs = self.known.iter().zip(&new.known);
-        let agree = pairs.all(|(a, b)| a.is_none() || b.is_none() || a == b);
-        if self.x != new.x || !agree {
-            return false;
+        let agree = pairs.all(|(a, b)| a.is_none() || b.is_none() || a == b) && self.x == new.x;
+        if agree {
+            self.known = std::array::from_fn(|i| self.known[i].or(new.known[i]));
         }
-        for (known, new) in self.known.iter_mut().zip(new.known) {
-            *known = known.or(new);
-        }
-        true
+        agree
     }
 }
 
 /// The series of a panel, each with its rows.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Record {
     /// The end of the file's name, after the figure's id: the panel's letter, or nothing.
-    pub(super) suffix: String,
-    x: String,
-    y: String,
-    series: Vec<(String, Vec<DataPoint>)>,
+    pub suffix: String,
+    /// Names of the columns, with their units.
+    pub x: String,
+    pub y: String,
+    pub series: Vec<(String, Vec<DataPoint>)>,
 }
 
 impl Record {
-    pub(super) fn new(x: &Axis, y: &Axis) -> Self {
-        let (x, y) = (x.column_name(), y.column_name());
-        Record { suffix: String::new(), x, y, series: Vec::new() }
-    }
-
     /// Adds rows to a series: bars, symbols and curves of one name are one set of rows, by rising
     /// x.
     pub(super) fn add(&mut self, name: &str, rows: impl IntoIterator<Item = DataPoint>) {
@@ -96,12 +88,11 @@ impl Record {
         let mut header = vec!["series (text)".to_string(), self.x.clone(), self.y.clone()];
         let unit = self.y.rfind(" (").map_or("", |at| &self.y[at..]);
         header.extend(columns.iter().skip(1).map(|&i| format!("{}{unit}", KNOWN[i])));
-        let mut rows = Vec::new();
-        for (name, point) in points {
-            let mut cells = vec![name.clone(), shortest(point.x)];
-            cells.extend(columns.iter().map(|&i| point.known[i].map_or(String::new(), shortest)));
-            rows.push(cells);
-        }
+        let cells = |(name, point): &(&String, &DataPoint)| {
+            let known = columns.iter().map(|&i| point.known[i].map_or(String::new(), shortest));
+            [name.to_string(), shortest(point.x)].into_iter().chain(known).collect()
+        };
+        let rows = points.iter().map(cells).collect();
         Some(DataFile { name: format!("{}.csv", self.suffix), header, rows })
     }
 }
@@ -112,10 +103,8 @@ mod tests {
 
     #[test]
     fn a_series_is_one_set_of_rows_whatever_it_is_drawn_with() {
-        let x = Axis::linear(0.0, 1.0, 0.5, 1, "*σ*").column("sigma (d omega^2)");
-        let y = Axis::linear(0.0, 1.0, 0.5, 1, "*t*, or so (1/*ω*)");
-        let mut record = Record::new(&x, &y);
-        record.suffix = "a".into();
+        let (x, y) = ("sigma (d omega^2)".into(), "t, or so (1/omega)".into());
+        let mut record = Record { suffix: "a".into(), x, y, ..Record::default() };
         assert_eq!(record.file(), None);
         record.add("*σ* = 3", [(0.3, 0.1, 0.9).into()]);
         let twice = [(0.5, 0.5), (0.5, 0.5), (0.5, 0.6), (0.1, 0.2)];

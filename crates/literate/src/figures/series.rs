@@ -1,10 +1,7 @@
 //! Draws data in a panel: curves, symbols, areas and bars, as series of plotters elements.
 //!
-//! Each series is recorded as it was given, in its units, before anything is cut: curves, symbols,
-//! bars, estimates and columns. Guides are no data.
-//!
-//! All methods return [`Error::Outside`] for a number that is not finite, and for a point outside
-//! the frame where that is refused.
+//! Each is recorded as it was given, in its units, before anything is cut; guides are no data. A
+//! number that is not finite is refused, and a point outside the frame where the panel says so.
 
 use super::drawing::{Drawing, Element};
 use super::elements::{CustomElement, Marker, line, markers};
@@ -56,10 +53,6 @@ impl Panel {
     /// Tells whether the axes have a place for a point.
     fn has_place(&self, (x, y): (f64, f64)) -> bool {
         self.x.position(x).is_finite() && self.y.position(y).is_finite()
-    }
-
-    fn contains(&self, (x, y): (f64, f64)) -> bool {
-        self.x.contains(x) && self.y.contains(y)
     }
 
     /// Records points and returns those that can be drawn. Of those to be cut, the ones that the
@@ -184,13 +177,10 @@ impl Panel {
     pub fn estimates(&self, name: &str, estimates: &[(f64, Estimate)], marker: Marker) -> Drawn {
         let shown = |(x, y): &&(f64, Estimate)| self.has_place((*x, y.value));
         self.record(name, estimates.iter().filter(shown).copied());
-        let (mut bars, mut points) = (Vec::new(), Vec::new());
-        for &(x, y) in estimates {
-            points.push((x, y.value));
-            if self.contains((x, y.value)) {
-                bars.push((x, y.value - y.error, y.value + y.error));
-            }
-        }
+        let points: Vec<_> = estimates.iter().map(|(x, y)| (*x, y.value)).collect();
+        let inside = estimates.iter().filter(|(x, y)| self.contains((*x, y.value)));
+        let bar = |&(x, y): &(f64, Estimate)| (x, y.value - y.error, y.value + y.error);
+        let bars: Vec<_> = inside.map(bar).collect();
         let quiet = self.unrecorded();
         quiet.outside(Outside::Edge).bars(name, &bars, 35, marker.2)?;
         quiet.outside(Outside::Cut).markers(name, &points, marker)
@@ -231,16 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_that_leaves_and_returns_becomes_two_parts() {
-        let panel = Sheet::new(3000).panel(FRAME, axis(), axis()).unwrap();
-        let parts = panel.cut(&[(0.1, 0.5), (0.3, 1.5), (0.5, 0.5), (0.6, 0.4)]);
-        assert_eq!((parts.len(), parts[0][1], parts[1].len()), (2, (0.2, 1.0), 3));
-        assert_eq!(panel.cut(&[(-1.0, 0.5), (2.0, 0.5)]), [vec![(0.0, 0.5), (1.0, 0.5)]]);
-        assert!(panel.cut(&[(0.1, 2.0), (0.9, 3.0)]).is_empty());
-    }
-
-    #[test]
-    fn data_outside_the_frame_is_an_error_and_not_moved_onto_it() {
+    fn data_outside_the_frame_is_refused_or_cut_and_not_moved_onto_it() {
         let panel = Sheet::new(3000).panel(FRAME, axis(), axis()).unwrap();
         let corners = [(0.0, 0.0), (1.0, 1.0)].map(|corner| panel.area.map_coordinate(&corner));
         assert_eq!(corners, [(1000, 1100), (2000, 100)]);
@@ -252,6 +233,11 @@ mod tests {
         assert!(panel.columns("columns", &[1.1], LINE).is_err());
         // A wall that is touched within rounding is inside.
         panel.curve("wall", &[(0.0, -1e-17), (1.0, 1.0 + 1e-15)], LINE).unwrap();
+        // A curve that leaves and returns becomes two parts.
+        let parts = panel.cut(&[(0.1, 0.5), (0.3, 1.5), (0.5, 0.5), (0.6, 0.4)]);
+        assert_eq!((parts.len(), parts[0][1], parts[1].len()), (2, (0.2, 1.0), 3));
+        assert_eq!(panel.cut(&[(-1.0, 0.5), (2.0, 0.5)]), [vec![(0.0, 0.5), (1.0, 0.5)]]);
+        assert!(panel.cut(&[(0.1, 2.0), (0.9, 3.0)]).is_empty());
         let panel = panel.outside(Outside::Cut);
         panel.curve("curve", &beyond, LINE).unwrap();
         let drawn = panel.bars("bars", &[(0.5, 0.1, 0.2), (0.5, 0.1, f64::NAN)], 0, LINE);

@@ -1,8 +1,9 @@
 //! Fixes the style of all figures: sizes, colours, dashes and symbols.
 //!
-//! Lengths are in grid units: hundredths of a millimetre on the printed column. The hues are those
-//! of Okabe and Ito (2008), which colour-blind readers distinguish, the orange darker for its
-//! contrast with paper. A colour never stands alone: a symbol, a dash or a name says the same.
+//! Lengths are in grid units: hundredths of a millimetre on the printed column. Whole ones are fine
+//! enough for smooth curves. The hues are those of Okabe and Ito (2008), which colour-blind readers
+//! distinguish, the orange darker for its contrast with paper. A colour never stands alone: a
+//! symbol, a dash or a name says the same.
 
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontDesc, RGBColor, ShapeStyle, TextStyle};
@@ -111,7 +112,6 @@ impl Stroke {
     }
 }
 
-/// The symbol at a data point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symbol {
     Cross,

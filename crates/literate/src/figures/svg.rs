@@ -1,10 +1,9 @@
 //! Writes a drawing as SVG: as a file, or as an element of a page.
 //!
-//! `viewBox` scales the grid. The document has a title, a description and a role. Colours are
-//! classes: a file holds their rules, a page has them in its style sheet, for light and dark. All
-//! drawings of a page share the outlines of glyphs.
+//! Colours are classes: a file holds their rules, a page has them in its style sheet, for light and
+//! dark. All drawings of a page share the outlines of glyphs.
 
-use super::drawing::{Drawing, Element, Fill, Glyphs, Label};
+use super::drawing::{Drawing, Element, Fill, Frame, Glyphs, Label};
 use super::font;
 use super::path::{Point, Step};
 use super::style::{PALETTE, Stroke, WHITE, WIDTH};
@@ -20,7 +19,7 @@ pub fn escape(text: &str) -> String {
 }
 
 /// Writes the data of a path, each step relative to the end of the last one.
-pub fn path_data(steps: &[Step]) -> String {
+fn path_data(steps: &[Step]) -> String {
     let (mut d, mut at) = (String::new(), (0, 0));
     for step in steps {
         let by = |to: &Point| (to.0 - at.0, to.1 - at.1);
@@ -138,13 +137,9 @@ impl Drawing {
         );
         for element in &self.elements {
             out += &match element {
-                Element::Open(name, frame) => format!(
-                    "<g class=\"data\" data-name=\"{}\" data-frame=\"{} {} {} {}\">",
-                    escape(name),
-                    frame.left,
-                    frame.top,
-                    frame.right,
-                    frame.bottom
+                Element::Open(name, Frame { left, top, right, bottom }) => format!(
+                    "<g class=\"data\" data-name=\"{}\" data-frame=\"{left} {top} {right} {bottom}\">",
+                    escape(name)
                 ),
                 Element::Close => "</g>".into(),
                 Element::Shape(path, fill, stroke) => shape(path, fill, stroke),
