@@ -76,7 +76,7 @@ pub fn words(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize,
         let (start, rest) = (at, &text[at..part.end]);
         let is_literal = c.is_numeric() && text[..start].ends_with('\\');
         at += match c {
-            _ if is_literal => literal_length(rest),
+            _ if is_literal => rest.find(ends_literal).unwrap_or(rest.len()),
             OPEN => rest.find(CLOSE).unwrap_or(rest.len()),
             c if is_word(c) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
             c => c.len_utf8(),
@@ -101,41 +101,35 @@ pub fn words(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize,
     found
 }
 
-/// How much is meant literally where a number stands behind a backslash, as in `Python \3.11` and
-/// `doi:\10.1000/182`: all up to the next blank.
-fn literal_length(rest: &str) -> usize {
-    let ends = |c: char| c.is_whitespace() || c == '|' || c == OPEN;
-    rest.find(ends).unwrap_or(rest.len())
+/// Whether a character ends what is meant literally from a number behind a backslash on, as in
+/// `Python \3.11` and `doi:\10.1000/182`.
+fn ends_literal(c: char) -> bool {
+    c.is_whitespace() || c == '|' || c == OPEN
 }
 
-/// Splits a text at the backslashes before numbers that are meant literally, and leaves these out.
-/// A backslash before a backslash is meant.
-fn between_literals(text: &str) -> Vec<&str> {
-    let (mut pieces, mut begin, mut after_backslash) = (Vec::new(), 0, false);
-    for (at, c) in text.char_indices() {
-        if after_backslash && c.is_ascii_digit() {
-            pieces.push(&text[begin..at - 1]);
-            begin = at;
-        }
-        after_backslash = c == '\\' && !after_backslash;
-    }
-    pieces.push(&text[begin..]);
-    pieces
+/// Returns the digit of a sign `\3`: the number that it begins is meant literally.
+fn literal_digit(sign: &str) -> Option<&str> {
+    sign.strip_prefix('\\').filter(|digit| digit.starts_with(|c: char| c.is_ascii_digit()))
 }
 
 /// Returns a text without the backslashes before numbers that are meant literally.
 pub fn literal(text: &str) -> String {
-    between_literals(text).concat()
+    tex::signs(text).map(|sign| literal_digit(sign).unwrap_or(sign)).collect()
 }
 
 /// Returns a formula in which a letter stands for what is meant literally.
 pub fn without_literals(tex: &str) -> String {
-    let pieces = between_literals(tex).into_iter().enumerate();
-    let shown = |(i, piece): (usize, &str)| match i {
-        0 => piece.to_string(),
-        _ => format!("x{}", &piece[literal_length(piece)..]),
-    };
-    pieces.map(shown).collect()
+    let (mut out, mut signs) = (String::new(), tex::signs(tex));
+    while let Some(sign) = signs.next() {
+        match literal_digit(sign) {
+            Some(_) => {
+                out.push('x');
+                out.extend(signs.find(|sign| sign.ends_with(ends_literal)));
+            }
+            None => out.push_str(sign),
+        }
+    }
+    out
 }
 
 /// Signs that end a side of a relation.
