@@ -221,23 +221,16 @@ fn listed(people: &[Person]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::markdown;
     use super::*;
 
-    /// The list of all entries, each after what a citation shows, with emphasis between stars; or
-    /// the fault.
+    /// The list of all entries in Markdown, each after what a citation shows; or the fault.
     fn list(text: &str) -> Result<Vec<String>, String> {
         let library = Library::read(text).map_err(|error| error.to_string())?;
         let keys = library.keys().map(String::from).collect();
-        let piece = |part: &Inline| match part {
-            Inline::Emphasis(inner) => format!("*{}*", plain(inner)),
-            Inline::Link { to, .. } => format!("<{to}>"),
-            Inline::Maths(tex) => format!("${}$", tex.digits()),
-            other => plain(std::slice::from_ref(other)),
-        };
-        let entry = |entry: &Reference| {
-            let text: String = entry.text().iter().map(piece).collect();
-            format!("{}, {}: {text}", entry.names, entry.year)
-        };
+        let shown = |entry: &Reference| markdown::inlines(&entry.text());
+        let entry =
+            |entry: &Reference| format!("{}, {}: {}", entry.names, entry.year, shown(entry));
         Ok(library.list(&keys).iter().map(entry).collect())
     }
 
@@ -252,12 +245,12 @@ mod tests {
             @book{f, author={Rice, Stephen O.}, title={Alone}, year={1960}}
             @software{e, author={{A Group}}, title={Code}, date={2025-03-01}, url={https://x.org/}}";
         let expected = [
-            "A Group, 2025: A Group. (2025). *Code* [Computer software]. <https://x.org/>",
+            "A Group, 2025: A Group. (2025). *Code* [Computer software]. [https://x.org/](https://x.org/)",
             "Rice, 1960: Rice, S. O. (1960). *Alone*.",
             "Rice et al., 1955: Rice, S. O., A, J.-M., et al. (1955). *Whole*. P.",
             "Rice & di Bernardo, 1954a: Rice, S. O., & di Bernardo, M. (1954a). Noise & $x_1$ (2nd ed.). Dover, New York.",
             "Rice & di Bernardo, 1954b: Rice, S. O., & di Bernardo, M. (1954b). *T* [Doctoral dissertation]. U of B.",
-            "Šidák, 1967: Šidák, Z. (1967). Rectangles. *J. Stat.*, *62*(3–4), 626–633. <https://doi.org/10.1/x(2)>",
+            "Šidák, 1967: Šidák, Z. (1967). Rectangles. *J. Stat.*, *62*(3–4), 626–633. [https://doi.org/10.1/x(2)](https://doi.org/10.1/x(2))",
         ];
         // Who stands alone comes first, and accents are sorted as letters.
         assert_eq!(list(text).unwrap(), expected);
@@ -271,9 +264,9 @@ mod tests {
 @article{k, author={A}, title={Why?}, journal={Phys. Lett.}, year={in press}} => A, in press: A. (in press). Why? *Phys. Lett.*
 @book{k, author={A}, title={Why?}, edition={11}, year=1} => A, 1: A. (1). *Why?* (11th ed.).
 @book{k, author={A}, title={O!}, publisher={P.}, edition={Revised}, year=1} => A, 1: A. (1). *O!* (Revised ed.). P.
-@book{k, author={A}, title={On \$5, 50\%}, year=1} => A, 1: A. (1). *On $5, 50%*.
-@book{k, author={A}, title={T}, doi={https://dx.doi.org/10.1/a\_b}, url={https://doi.org/10.1/a}, year=1} => A, 1: A. (1). *T*. <https://doi.org/10.1/a_b>
-@book{k, author={A}, title={T~U}, doi={DOI: 10.1/a}, year=1} => A, 1: A. (1). *T·U*. <https://doi.org/10.1/a>
+@book{k, author={A}, title={On \$5, 50\%}, year=1} => A, 1: A. (1). *On \$5, 50%*.
+@book{k, author={A}, title={T}, doi={https://dx.doi.org/10.1/a\_b}, url={https://doi.org/10.1/a}, year=1} => A, 1: A. (1). *T*. [https://doi.org/10.1/a_b](https://doi.org/10.1/a_b)
+@book{k, author={A}, title={T~U}, doi={DOI: 10.1/a}, year=1} => A, 1: A. (1). *T·U*. [https://doi.org/10.1/a](https://doi.org/10.1/a)
 @misc{a, author={B}, title={c}, year={1999}} => references.bib: a has the type @misc
 @book{a, author={B}, title={c}} => references.bib: a lacks its year or date
 @book{a, author={}, title={c}, year={1}} => references.bib: a lacks its author
