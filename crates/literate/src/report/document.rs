@@ -160,14 +160,11 @@ pub enum Part {
 impl Formula {
     /// Returns the whole formula as TeX, in which `value` writes the values.
     pub fn tex(&self, value: impl Fn(&str, &Shown) -> String) -> String {
-        let mut out = String::new();
-        for part in &self.0 {
-            match part {
-                Part::Tex(tex) => out += tex,
-                Part::Value { id, shown } => out += &value(id, shown),
-            }
-        }
-        out
+        let part = |part: &Part| match part {
+            Part::Tex(tex) => tex.clone(),
+            Part::Value { id, shown } => value(id, shown),
+        };
+        self.0.iter().map(part).collect()
     }
 
     /// Returns the whole formula as TeX, with the digits of its values.

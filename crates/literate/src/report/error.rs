@@ -95,12 +95,8 @@ impl Error {
         }
     }
 
-    pub(crate) fn all(mut errors: Vec<Error>) -> Result<(), Error> {
-        match errors.len() {
-            0 => Ok(()),
-            1 => errors.pop().map_or(Ok(()), Err),
-            _ => Err(Error::Several(errors)),
-        }
+    pub(crate) fn all(errors: Vec<Error>) -> Result<(), Error> {
+        if errors.is_empty() { Ok(()) } else { Err(Error::Several(errors)) }
     }
 
     /// Returns the errors of which it is made, one by one.
