@@ -230,11 +230,6 @@ pub fn title(blocks: &[Block]) -> Result<&[Inline], Error> {
     found.ok_or_else(|| Error::Markup("a report begins with its title, `# Words`".into()))
 }
 
-/// Whether it is a displayed equation alone.
-pub fn is_equation(block: &Block) -> bool {
-    matches!(block, Block::Paragraph(inlines) if matches!(inlines[..], [Inline::Display { .. }]))
-}
-
 /// Whether it is the heading of the abstract, which extends to the next heading.
 pub fn is_abstract(block: &Block) -> bool {
     matches!(block, Block::Heading { text, .. } if plain(text) == "Abstract")
@@ -269,10 +264,16 @@ pub fn place(id: &str) -> String {
     id.chars().map(escaped).collect()
 }
 
-/// Whether a paragraph continues the sentence before it.
-pub fn continues(block: &Block) -> bool {
-    let Block::Paragraph(inlines) = block else { return false };
-    matches!(inlines.first(), Some(Inline::Text(text)) if text.starts_with(char::is_lowercase))
+/// Whether a sentence goes on from one paragraph to the next, with or after a displayed equation.
+pub fn goes_on(before: &Block, next: &Block) -> bool {
+    let (Block::Paragraph(before), Block::Paragraph(next)) = (before, next) else { return false };
+    match (before.as_slice(), next.as_slice()) {
+        (_, [Inline::Display { .. }]) => true,
+        ([Inline::Display { .. }], [Inline::Text(text), ..]) => {
+            text.starts_with(char::is_lowercase)
+        }
+        _ => false,
+    }
 }
 
 /// All running texts of a block, in reading order, nested ones too.

@@ -1,7 +1,7 @@
 //! Writes the tree as a document for LaTeX; what surrounds it is the template report.tex.
 
 use super::document::{Block, Formula, Inline, Table, title};
-use super::document::{continues, is_abstract, is_equation, place, plain, printed, spelt};
+use super::document::{goes_on, is_abstract, place, plain, printed, spelt};
 use super::edition::{Document, Edition};
 use super::error::Error;
 use super::tex;
@@ -41,10 +41,7 @@ fn body(blocks: &[Block]) -> String {
         }
         // An equation belongs to the sentence around it: no paragraph begins before it, nor after
         // it when the sentence goes on.
-        let goes_on = before.is_some_and(|before| {
-            matches!(before, Block::Paragraph(_)) && is_equation(block)
-                || is_equation(before) && continues(block)
-        });
+        let goes_on = before.is_some_and(|before| goes_on(before, block));
         out.push_str(if out.is_empty() || goes_on { "" } else { "\n" });
         let text = write_block(block);
         if !text.is_empty() {

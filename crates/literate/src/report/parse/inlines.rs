@@ -155,24 +155,23 @@ impl Reader<'_> {
         out: &mut Vec<Inline>,
     ) -> Result<(), Error> {
         let source = &self.filled.text;
-        let within = |offset: usize| offset.clamp(range.start, range.end) - range.start;
-        let (before, after) = (within(self.id_at.start), within(self.id_at.end));
-        if before < after {
-            // The id is in one piece of text, or at the end of several.
-            let begin = range.start;
-            let [first, last] =
-                [text.get(..before), text.get(after..)].map(Option::unwrap_or_default);
-            self.text(first, begin..begin + before, out)?;
-            return self.text(last, begin + after..range.end, out);
-        }
-        if *text == source[range.clone()]
-            && let Some((at, id)) = mentioned(source, range.clone())
-        {
-            let (begin, end) = (at - range.start, at - range.start + 1 + id.len());
-            self.text(&text[..begin], range.start..at, out)?;
-            self.places.add(format!("@{id}"), at);
-            out.push(Inline::Unresolved { ids: vec![id.into()], in_sentence: true });
-            return self.text(&text[end..], range.start + end..range.end, out);
+        // An id is in one piece of text, or at the end of several.
+        let id_at = self.id_at.start.max(range.start)..self.id_at.end.min(range.end);
+        let cut = match id_at.is_empty() {
+            false => Some(id_at.clone()),
+            true if *text == source[range.clone()] => mentioned(source, range.clone()),
+            true => None,
+        };
+        if let Some(cut) = cut {
+            let [from, to] = [cut.start - range.start, cut.end - range.start];
+            let [before, after] = [text.get(..from), text.get(to..)].map(Option::unwrap_or_default);
+            self.text(before, range.start..cut.start, out)?;
+            if cut != id_at {
+                let id = source[cut.start + 1..cut.end].to_string();
+                self.places.add(format!("@{id}"), cut.start);
+                out.push(Inline::Unresolved { ids: vec![id], in_sentence: true });
+            }
+            return self.text(after, cut.end..range.end, out);
         }
         if let Some((at, what)) = leftover(source, range.start, text)
             && at >= self.quiet
@@ -333,9 +332,8 @@ fn leftover(source: &str, start: usize, text: &str) -> Option<(usize, &'static s
     Some((start + i, what.map_or(LEFTOVER, |(_, what)| what)))
 }
 
-/// Finds the first citation or reference without brackets, `@rice1945`, in a part of the text:
-/// where its `@` stands, and the id behind it.
-fn mentioned(source: &str, part: Range<usize>) -> Option<(usize, &str)> {
+/// Finds the first citation or reference without brackets, `@rice1945`, in a part of the text.
+fn mentioned(source: &str, part: Range<usize>) -> Option<Range<usize>> {
     for (at, _) in source[part.clone()].match_indices('@') {
         let at = part.start + at;
         let free = source[..at].chars().next_back();
@@ -346,7 +344,7 @@ fn mentioned(source: &str, part: Range<usize>) -> Option<(usize, &str)> {
         if free.is_none_or(|c| c.is_whitespace() || "(“‘–—".contains(c))
             && id.starts_with(char::is_alphanumeric)
         {
-            return Some((at, id));
+            return Some(at..at + 1 + id.len());
         }
     }
     None

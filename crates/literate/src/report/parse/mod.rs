@@ -103,10 +103,6 @@ struct Reader<'a> {
 const CAPTIONS: [(&str, &str); 2] = [("Table: ", "tab"), ("Listing: ", "lst")];
 
 impl<'a> Reader<'a> {
-    fn peek(&mut self) -> Option<&Event<'a>> {
-        self.events.peek().map(|(event, _)| event)
-    }
-
     /// Goes on behind the next event if that begins this, and returns where it stands.
     fn begins(&mut self, begun: impl Fn(&Tag<'_>) -> bool) -> Option<Range<usize>> {
         let next = |(event, _): &(Event<'_>, _)| matches!(event, Event::Start(tag) if begun(tag));
@@ -220,7 +216,7 @@ impl<'a> Reader<'a> {
         let with_id = source.strip_suffix('}').and_then(|source| source.rsplit_once("{#"));
         let id_at = with_id.map_or(0..0, |(words, _)| range.start + words.len()..range.end);
         let id = with_id.map(|(_, id)| id.to_string());
-        if let Some(Event::Start(Tag::Image { dest_url, .. })) = self.peek() {
+        if let Some((Event::Start(Tag::Image { dest_url, .. }), _)) = self.events.peek() {
             let path = dest_url.to_string();
             self.events.next();
             self.id_at = id_at;
@@ -294,7 +290,7 @@ impl<'a> Reader<'a> {
     /// A block of code, or the listing of an item of the source.
     fn code(&mut self, kind: CodeBlockKind<'_>, range: &Range<usize>) -> Result<Block, Error> {
         let mut text = String::new();
-        while let Some(Event::Text(piece)) = self.peek() {
+        while let Some((Event::Text(piece), _)) = self.events.peek() {
             text.push_str(piece);
             self.events.next();
         }
