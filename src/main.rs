@@ -32,7 +32,7 @@ pub fn paper() -> Paper {
         figures: figures::ALL.to_vec(),
         rules: claims::rules(),
         values: vec![contents::values],
-        rows: vec![contents::rows],
+        rows: Some(contents::rows),
         lab: Some(lab::lab),
         ..paper
     }

@@ -10,7 +10,6 @@ use crate::report::claims::printed;
 use crate::report::filler::Filler;
 use crate::report::{Files, Input, Registry, Value, assemble};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -119,14 +118,7 @@ pub fn make_report(
     let statements: Vec<Check> =
         checks.iter().filter(|check| check.kind.is_printed()).cloned().collect();
     let values = paper.registry(&results, &published)?;
-    let mut rows = BTreeMap::new();
-    for more in &paper.rows {
-        for (name, row) in more(&results, &statements)? {
-            if rows.insert(name, row).is_some() {
-                return Err(Failure::input(format!("rows {name} are made twice; rename one")));
-            }
-        }
-    }
+    let rows = paper.rows.map(|rows| rows(&results, &statements)).transpose()?.unwrap_or_default();
     let lab = paper.lab.map(|lab| lab(session, &results)).transpose()?.flatten();
     progress.check()?;
     let report = assemble(&Input {

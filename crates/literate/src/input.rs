@@ -84,12 +84,8 @@ pub fn files_in(top: &Path, place: &str) -> Result<Vec<String>, Error> {
 
 /// Computes the SHA-256 of the files that [`files_in`] lists, of whatever size.
 pub fn hashes(top: &Path, place: &str) -> Result<BTreeMap<String, String>, Error> {
-    let mut hashes = BTreeMap::new();
-    for path in files_in(top, place)? {
-        let hash = sha256(std::fs::read(top.join(&path))?);
-        hashes.insert(path, hash);
-    }
-    Ok(hashes)
+    let hash = |path: String| Ok((path.clone(), sha256(std::fs::read(top.join(path))?)));
+    files_in(top, place)?.into_iter().map(hash).collect()
 }
 
 /// Returns whether the error says that there is no such file.

@@ -81,7 +81,7 @@ pub struct Paper {
     /// How each statement of `published.toml` is judged, and relations between numbers.
     pub rules: Vec<Rule>,
     pub values: Vec<Values>,
-    pub rows: Vec<Rows>,
+    pub rows: Option<Rows>,
     /// What pages load to compute.
     pub lab: Option<Lab>,
 }
@@ -104,7 +104,7 @@ impl Paper {
             figures: Vec::new(),
             rules: Vec::new(),
             values: Vec::new(),
-            rows: Vec::new(),
+            rows: None,
             lab: None,
         }
     }

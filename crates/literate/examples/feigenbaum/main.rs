@@ -90,12 +90,6 @@ fn tables(cascade: &[Orbit]) -> Vec<Table> {
 /// Fig. 1: where orbits go, against the parameter.
 fn diagram(results: &Results) -> Result<Figure, FigureError> {
     let limit = results.table("cascade.limit")?;
-    let sheet = Sheet::new(5150);
-    let panel = sheet.panel(
-        Frame::new(1100, 300, 8100, 4200),
-        Axis::linear(2.8, 4.0, 0.2, 2, "parameter *r*"),
-        Axis::linear(0.0, 1.0, 0.25, 1, "*x*"),
-    )?;
     let mut points = Vec::new();
     for i in 0..=200 {
         let r = 2.8 + 1.2 * f64::from(i) / 200.0;
@@ -107,7 +101,8 @@ fn diagram(results: &Results) -> Result<Figure, FigureError> {
             }
         }
     }
-    panel.markers("orbits", &points, (Symbol::Disc, 9, Stroke::solid(INK, 4)))?;
+    let plot = Plot::new().x("parameter *r*").x_range(2.8, 4.0).y("*x*").y_range(0.0, 1.0);
+    let (sheet, panel) = plot.points("orbits", &points, Symbol::Disc).mark_size(9).draw()?;
     let onset = limit.number(&[], "onset")?;
     let line = [(onset, 0.0), (onset, 1.0)];
     panel.guide("onset", &line, Stroke::solid(BLUE, THIN))?;

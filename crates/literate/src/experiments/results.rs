@@ -5,7 +5,6 @@ use super::{AnyExperiment, Command, Error, Experiment, Found, Profile, Session};
 use crate::input::count;
 use crate::table::{Table, Tables, number_at, table};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 /// Makes tables of the results and tables of several experiments; none if one of these was not run.
@@ -16,24 +15,29 @@ pub type DerivedTables = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 pub struct Results {
     /// The sample sizes.
     pub profile: Profile,
-    /// The experiments, and the tables that need several of them.
-    made_by: (Vec<&'static dyn AnyExperiment>, Vec<DerivedTables>),
-    /// Of each experiment that was run, by its name.
-    found: BTreeMap<&'static str, Found>,
+    /// The experiments that were run, in their order.
+    found: Vec<(&'static dyn AnyExperiment, Found)>,
+    /// The tables that need several of them.
+    derived: Vec<DerivedTables>,
     /// Or why they are refused.
     tables: OnceLock<Result<Tables, String>>,
 }
 
 impl Results {
     pub fn of<P, T: Json, U>(&self, experiment: &Experiment<P, T, U>) -> Result<&T, Error> {
-        let found = self.found.get(experiment.name).and_then(|found| found.downcast_ref());
-        found.ok_or(Error::NotRun(experiment.name))
+        self.found(experiment.name)?.downcast_ref().ok_or(Error::NotRun(experiment.name))
+    }
+
+    fn found(&self, name: &'static str) -> Result<&Found, Error> {
+        let found = self.found.iter().find(|(experiment, _)| experiment.name() == name);
+        found.map(|(_, found)| found).ok_or(Error::NotRun(name))
     }
 
     /// Returns the result of an experiment for a test to change; tables are made anew.
     pub fn of_mut<P, T: Json, U>(&mut self, experiment: &Experiment<P, T, U>) -> Option<&mut T> {
         self.tables = OnceLock::new();
-        Arc::get_mut(self.found.get_mut(experiment.name)?)?.downcast_mut()
+        let (_, found) = self.found.iter_mut().find(|(one, _)| one.name() == experiment.name)?;
+        Arc::get_mut(found)?.downcast_mut()
     }
 
     /// Returns the tables of all results, by name.
@@ -57,19 +61,15 @@ impl Results {
     pub(crate) fn made_up(tables: Vec<Table>) -> Self {
         let tables: Tables =
             tables.into_iter().map(|table| (table.name(), Arc::new(table))).collect();
-        let (made_by, found) = (Default::default(), BTreeMap::new());
-        Results { profile: Profile::Full, made_by, found, tables: OnceLock::from(Ok(tables)) }
+        let (found, derived) = Default::default();
+        Results { profile: Profile::Full, found, derived, tables: OnceLock::from(Ok(tables)) }
     }
 
     fn made(&self) -> Result<Tables, String> {
-        let (experiments, derived) = &self.made_by;
-        let tables = |experiment: &&dyn AnyExperiment| match self.found.get(experiment.name()) {
-            Some(found) => experiment.tables(found),
-            None => Vec::new(),
-        };
-        let tables = experiments.par_iter().with_max_len(1).map(tables);
+        let found = self.found.par_iter().with_max_len(1);
+        let tables = found.map(|(experiment, found)| experiment.tables(found));
         let mut all = tables.collect::<Vec<_>>().concat();
-        for tables in derived {
+        for tables in &self.derived {
             all.extend(tables(self, &all).into_iter().flatten());
         }
         let mut tables = Tables::new();
@@ -94,7 +94,7 @@ impl Results {
 
     /// Returns the bytes of a file that a command wrote.
     pub fn file(&self, command: &Command, path: &str) -> Result<Vec<u8>, Error> {
-        let found = self.found.get(command.name).ok_or(Error::NotRun(command.name))?;
+        let found = self.found(command.name)?;
         let problem = format!("{} wrote no such file", command.name);
         let missing = Error::input(path, problem, "add it to its `writes`");
         command.file(found, path).ok_or(missing)
@@ -123,12 +123,12 @@ impl Results {
             open.extend(units);
         }
         session.announce(&count(stale, "experiment"), &open)?;
-        let mut found = BTreeMap::new();
+        let mut found = Vec::new();
         for experiment in experiments {
-            found.insert(experiment.name(), experiment.found(session)?);
+            found.push((*experiment, experiment.found(session)?));
         }
         session.progress.check()?;
-        let made_by = (experiments.to_vec(), derived.to_vec());
-        Ok(Results { profile: session.profile, made_by, found, tables: OnceLock::new() })
+        let (profile, derived) = (session.profile, derived.to_vec());
+        Ok(Results { profile, found, derived, tables: OnceLock::new() })
     }
 }
