@@ -1,25 +1,17 @@
 //! A paper that computes its numbers: from experiments to the documents that people read, on any
 //! subject. The [manual] has two pages: how to write a paper, and prose. `examples/feigenbaum` is a
-//! whole paper, in 170 lines of Rust: `cargo run -p literate --example feigenbaum -- paper --out
-//! FOLDER`.
+//! whole paper: `cargo run -p literate-paper --example feigenbaum -- paper --out FOLDER`.
 //!
-//! 1. An [experiment](experiments) has parameters for each [profile](experiments::Profile) and a
-//!    run. Its result is saved in a [store](experiments::Store), and used again as long as
-//!    parameters, seed and the code that it depends on are the same. One that is
-//!    [cut](experiments::cutting) into units can run on several machines.
-//! 2. Its numbers stand in [tables](table): a column declares unit and digits of its cells, and a
-//!    cell has an address, `cascade.orbits[n=3].delta`, by which prose, figures, claims and cards
-//!    name it. Single numbers are [values](value).
-//! 3. A [figure](figures) is one list of shapes, written as SVG, into the page and as PDF, with its
-//!    data as CSV.
+//! 1. An [experiment](experiments) has parameters for each profile and a run. Its result is saved,
+//!    and used again as long as parameters and the code that it depends on are the same.
+//! 2. Its numbers stand in [tables](table); a cell has an address, `cascade.orbits[n=3].delta`, by
+//!    which prose, figures, claims and cards name it. Single numbers are [values](value).
+//! 3. A [figure](figures) is one list of shapes, written as SVG and PDF, with its data as CSV.
 //! 4. A printed [statement](claims) is compared with the result; its verdict is a function of
 //!    numbers, and can fail.
-//! 5. The [report](mod@report) fills people's prose with all of it: Markdown, LaTeX and HTML, a
-//!    ledger of the claims, all values as data, a card for each number. A numeral that nobody
-//!    computed is refused by file and line.
-//! 6. A [`Paper`] is all of it, with its folders ([`Project`], [project]) and its [command
-//!    line](cli); [`prelude`] has the imports of a paper, [`input`] reads its files, and
-//!    [`Failure`] is any error with its exit code.
+//! 5. The [report](mod@report) fills people's prose with all of it: Markdown, LaTeX and HTML.
+//! 6. A [`Paper`] is all of it, with its folders ([`Project`]) and its [command line](cli);
+//!    [`prelude`] has the imports of a paper.
 //!
 //! A table, and a number by its address:
 //!

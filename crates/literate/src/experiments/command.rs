@@ -303,8 +303,7 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7, 0.12345], [2, null, 0.1, null, null, null]]}
             ("python3 a.py ../b.csv", "../b.csv lies outside"),
             ("true", "x: No such file"),
         ] {
-            let reads: &[&str] = if line == "true" { &["x"] } else { &[] };
-            let command = Command { reads, ..Command::new("toy", line) };
+            let command = Command { reads: &["x"], ..Command::new("toy", line) };
             let error = command.inputs(folder.path()).unwrap_err();
             assert!(error.starts_with(fault), "{line}: {error}");
         }
@@ -314,32 +313,31 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7, 0.12345], [2, null, 0.1, null, null, null]]}
     fn what_goes_wrong_is_shown() {
         let folder = tempfile::tempdir().unwrap();
         let table = |fields: &str| format!("echo '{{\"a\": {{\"columns\": [\"b\"], {fields}}}}}'");
-        for (script, line, shown) in [
+        let fields = "\"columns\": [], \"rows\": []";
+        for (script, shown) in [
             (
                 "echo a >&2; echo no needle >&2; exit 3",
-                "sh toy.sh",
                 "toy: `sh toy.sh` ended with exit status: 3; it said:\na\nno needle",
             ),
-            ("echo Hello; echo '{}]'", "sh toy.sh", "it printed:\nHello\n{}]"),
-            (&table("\"rows\": [[1, 2]]"), "sh toy.sh", "a: row 1 has 2 cells for 1 names"),
-            (&table("\"rows\": [[[]]]"), "sh toy.sh", "row 1 has more than a number"),
+            ("echo Hello; echo '{}]'", "it printed:\nHello\n{}]"),
+            (&table("\"rows\": [[1, 2]]"), "a: row 1 has 2 cells for 1 names"),
+            (&table("\"rows\": [[[]]]"), "row 1 has more than a number"),
+            (&table("\"rows\": [[1], [2]]"), "printed a: two rows have the keys []; add a key"),
             (
                 &table("\"rows\": [], \"units\": {\"B\": \"m\"}"),
-                "sh toy.sh",
                 "units: there is no column B; nearest: b",
             ),
             (
-                "echo '{\"a\": {\"columns\": [], \"rows\": []}, \"a\": {\"columns\": [], \"rows\": []}}'",
-                "sh toy.sh",
+                &format!("echo '{{\"a\": {{{fields}}}, \"a\": {{{fields}}}}}'"),
                 "there are two tables a",
             ),
-            ("", "no-such-program", "cannot be started: "),
-            ("", "sh toy.sh a.png", "did not write a.png"),
+            ("", "did not write a.png"),
         ] {
-            let writes: &[&str] = if line.ends_with("png") { &["a.png"] } else { &[] };
-            let command = Command { writes, ..Command::new("toy", line) };
+            let command = Command { writes: &["a.png"], ..Command::new("toy", "sh toy.sh") };
             let error = run(folder.path(), script, command).unwrap_err().to_string();
             assert!(error.contains(shown), "{error}");
         }
+        let error = run(folder.path(), "", Command::new("toy", "no-such-program")).unwrap_err();
+        assert!(error.to_string().contains("cannot be started: "), "{error}");
     }
 }

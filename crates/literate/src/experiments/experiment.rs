@@ -57,20 +57,17 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     /// Returns the saved result if it is fresh, else that of a run, which is then saved. Units in
     /// the store are not run again; each of the others is saved as soon as it is done.
     pub fn get(&self, session: &Session<'_>) -> Result<T, Error> {
-        if let How::Read(read) = &self.how {
-            return read(session);
-        }
+        let (identity, progress) = (self.identity(session), &session.progress);
         let parameters = self.finite_parameters(session.profile)?;
-        let identity = self.identity(session);
-        session.saved(&identity, || match &self.how {
+        match &self.how {
             How::Read(read) => read(session),
-            How::Whole(run, _) => run(&parameters, &session.progress),
-            How::Cut(_, cutting) => {
+            How::Whole(run, _) => session.saved(&identity, || run(&parameters, progress)),
+            How::Cut(_, cutting) => session.saved(&identity, || {
                 let units = cutting.units(&parameters);
                 let (parts, _) = self.parts(&units, &parameters, &identity, session)?;
-                cutting.joined(&parameters, &units, parts, &session.progress)
-            }
-        })
+                cutting.joined(&parameters, &units, parts, progress)
+            }),
+        }
     }
 
     /// Returns its parameters. JSON, by which a saved result is known, has null for a number that
