@@ -28,7 +28,7 @@ pub fn values(_: &Results, _: &Published) -> Result<Vec<Value>, Failure> {
         Value::real("family_level", FAMILY_LEVEL, 1),
         Value::text("version", env!("CARGO_PKG_VERSION")),
     ];
-    Ok(values.map(|value| value.source(origin(claims::level), "")).into())
+    Ok(values.map(|value| value.source(origin(claims::level))).into())
 }
 
 /// The rows of the generated tables, by the name that templates use, with heads and words that

@@ -161,17 +161,13 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if args.at.as_ref().is_some_and(|times| !times.is_sorted()) {
         return Err(Failure::input("--at: the times fall; give rising ones"));
     }
-    let header = match (&args.at, args.lines) {
-        (None, false) => "time,gap,closing_speed\n",
-        (None, true) => "scenario,time,gap,closing_speed\n",
-        (Some(_), false) => "time,mass,position,velocity\n",
-        (Some(_), true) => "scenario,time,mass,position,velocity\n",
-    };
+    let number = if args.lines { "scenario," } else { "" };
+    let columns = if args.at.is_some() { "mass,position,velocity" } else { "gap,closing_speed" };
     let method = args.method.with(setting(&args)?);
     let latest = Arc::new(AtomicU64::new(0));
     let mut printer = Printer {
         out: BufWriter::new(io::stdout().lock()),
-        header,
+        header: format!("{number}time,{columns}\n"),
         prefix: String::new(),
         written: Ok(()),
         latest: Arc::clone(&latest),
@@ -213,7 +209,7 @@ const LONGEST: u64 = 64 << 20;
 struct Printer {
     out: BufWriter<StdoutLock<'static>>,
     /// The first line, until it is printed.
-    header: &'static str,
+    header: String,
     /// What each row begins with.
     prefix: String,
     written: io::Result<()>,
@@ -223,18 +219,12 @@ struct Printer {
 
 impl Printer {
     fn row(&mut self, row: fmt::Arguments) {
-        let row = format!("{}{row}\n", self.prefix);
-        self.header();
-        self.write(&row);
+        self.print(format!("{}{row}\n", self.prefix));
     }
 
-    /// Begins the table; a run that is refused at its start prints nothing.
-    fn header(&mut self) {
-        let header = std::mem::take(&mut self.header);
-        self.write(header);
-    }
-
-    fn write(&mut self, text: &str) {
+    /// Prints some rows, after the header, for a run that is refused at its start prints nothing.
+    fn print(&mut self, rows: String) {
+        let text = std::mem::take(&mut self.header) + &rows;
         if self.written.is_ok() {
             self.written = self.out.write_all(text.as_bytes());
         }
@@ -261,7 +251,7 @@ fn trace(
         None => impacts(args, method, &scenario, printer),
     };
     if ran.is_ok() {
-        printer.header();
+        printer.print(String::new());
     }
     // What was found before a run was stopped is printed.
     if let Err(error) = printer.flush() {
@@ -275,10 +265,8 @@ fn trace(
     }
     let width = rounding::width(&scenario);
     let closed = matches!(args.method, MethodName::Certified | MethodName::Sampled);
-    if closed
-        && width > rounding::REPORTED * scenario.spacing
-        && matches!(ran, Ok(_) | Err(Error::Work { .. }))
-    {
+    let began = matches!(ran, Ok(_) | Err(Error::Work { .. }));
+    if closed && began && width > rounding::REPORTED * scenario.spacing {
         note(format!(
             "rounding of large amplitudes may move each impact at closing speed v by {width:.1e}/v, and \
              errors grow from impact to impact"

@@ -86,7 +86,7 @@ impl Paper {
         let mut registry = Registry::default();
         registry.extend(printed(published))?;
         let profile = Value::text("profile", results.profile.name());
-        registry.add(profile.source(crate::value::origin(Paper::registry), "").data_only())?;
+        registry.add(profile.source(crate::value::origin(Paper::registry)).data_only())?;
         for values in &self.values {
             for value in values(results, published)? {
                 registry.add(value)?;

@@ -131,10 +131,9 @@ pub struct Value {
     /// one dot, is `«printed.threshold»`.
     pub id: String,
     pub number: Number,
-    /// Its unit as Markdown, empty for a pure number; its card has it.
+    /// Its unit as Markdown, as `$1/\omega$`; empty for a pure number.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub unit: String,
-    /// Where it comes from.
     pub kind: Kind,
     /// Path of the item that computed it, as the compiler writes it: `my_paper::jump::p_jump`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -200,21 +199,9 @@ impl Value {
         Value::new(id, number, Kind::Printed { place: place.into() })
     }
 
-    /// Sets its unit (Markdown, as `$1/\omega$`).
-    pub fn unit(mut self, unit: impl Into<String>) -> Self {
-        self.unit = unit.into();
-        self
-    }
-
-    /// Sets the path of the item that computed it and the experiment it was read from.
-    pub fn source(mut self, item: Origin, experiment: impl Into<String>) -> Self {
+    /// Sets the path of the item that computed it.
+    pub fn source(mut self, item: Origin) -> Self {
         self.source = item.0;
-        self.experiment = experiment.into();
-        self
-    }
-
-    pub fn note(mut self, note: impl Into<String>) -> Self {
-        self.note = note.into();
         self
     }
 
@@ -252,13 +239,8 @@ pub fn origin<F>(_: F) -> Origin {
 
 /// Returns the same for a function that is known by its type.
 pub fn origin_of<F>() -> Origin {
-    origin_from(std::any::type_name::<F>())
-}
-
-/// Returns the origin from the name of a function's type.
-fn origin_from(path: &str) -> Origin {
     // A closure counts as the function in which it stands.
-    let path = path.replace("::{{closure}}", "");
+    let path = std::any::type_name::<F>().replace("::{{closure}}", "");
     let (Some(from), Some(to)) = (path.find('<'), path.rfind('>')) else { return Origin(path) };
     // A method that stands in another module than its type is `module::<impl other::Type>::method`;
     // of one of a generic type the parameters go.

@@ -81,7 +81,7 @@ pub fn printed(published: &Published) -> Vec<Value> {
 pub fn scorecard(claims: &[Check]) -> Vec<Value> {
     let value = |name: String, count: usize| {
         let id = format!("score.{}", name.replace(' ', "_"));
-        Value::integer(id, count).source(origin(scorecard), "").data_only()
+        Value::integer(id, count).source(origin(scorecard)).data_only()
     };
     let (judged, definitions): (Vec<&Check>, Vec<&Check>) =
         claims.iter().partition(|claim| claim.kind == Kind::Statement);

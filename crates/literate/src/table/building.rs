@@ -10,7 +10,6 @@ use std::rc::Rc;
 /// A table that is being made, of rows R.
 pub struct Building<'a, R> {
     rows: &'a [R],
-    experiment: &'static str,
     /// Returns the realisations behind a row.
     number: Rc<dyn Fn(&R) -> usize + 'a>,
     /// What computed the cells, if that is not the code of their column.
@@ -26,11 +25,10 @@ impl Table {
         rows: &'a [R],
         number: impl Fn(&R) -> usize + 'a,
     ) -> Building<'a, R> {
-        let experiment = name.split('.').next().unwrap_or_default();
         let empty = rows.iter().map(|_| (String::new(), Vec::new())).collect();
         let place = Location::caller();
         let table = Table { name, columns: Vec::new(), keys: 0, rows: empty, place, fault: None };
-        Building { rows, experiment, number: Rc::new(number), origin: None, table }
+        Building { rows, number: Rc::new(number), origin: None, table }
     }
 }
 
@@ -52,11 +50,13 @@ impl<'a, R> Building<'a, R> {
         cell: impl Fn(&R, T) -> (Number, Kind),
     ) -> Self {
         let item = self.origin.clone().unwrap_or_else(origin_of::<F>);
+        let experiment = self.table.name.split('.').next().unwrap_or_default();
         self.table.columns.push(Column { name, unit });
         for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
             let (number, kind) = cell(row, get(row));
-            let value = Value::new("", number, kind).unit(markdown(unit)).note(meaning);
-            cells.push(value.source(item.clone(), self.experiment));
+            let value = Value::new("", number, kind).source(item.clone());
+            let (unit, note, experiment) = (markdown(unit), meaning.into(), experiment.into());
+            cells.push(Value { unit, note, experiment, ..value });
         }
         self
     }
@@ -94,13 +94,13 @@ impl<'a, R> Building<'a, R> {
         get: F,
     ) -> Self {
         self.count_key(name);
-        self.put((name, unit), "", get, |_, key| (key.into(), Kind::Deterministic))
+        self.chosen(name, unit, "", get)
     }
 
     /// Adds a key that is a name.
     pub fn text_key<F: Fn(&R) -> String>(mut self, name: &'static str, get: F) -> Self {
         self.count_key(name);
-        self.put((name, "text"), "", get, |_, words| (words.into(), Kind::Exact))
+        self.words(name, "", get)
     }
 
     /// Adds a number from chance with its standard error; none where the sample decides nothing.
