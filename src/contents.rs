@@ -8,7 +8,7 @@
 use crate::claims::{self, Basis, Check, FAMILY_LEVEL, Kind, Published, Verdict};
 use crate::experiments::accuracy::case::Outcome;
 use crate::experiments::accuracy::tables::titled;
-use crate::experiments::accuracy::trials::{Trial, Trials, right, trouble};
+use crate::experiments::accuracy::trials::{Trial, right, trouble};
 use crate::experiments::{Results, TRIALS};
 use literate::Failure;
 use literate::report::framed;
@@ -17,9 +17,6 @@ use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 
 /// The level of the checks, and the version of the program.
-///
-/// # Errors
-/// None.
 pub fn values(_: &Results, _: &Published) -> Result<Vec<Value>, Failure> {
     let level = claims::level();
     let values = [
@@ -33,9 +30,6 @@ pub fn values(_: &Results, _: &Published) -> Result<Vec<Value>, Failure> {
 
 /// The rows of the generated tables, by the name that templates use, with heads and words that
 /// depend on the results.
-///
-/// # Errors
-/// If a result is missing.
 pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure> {
     let trials = results.of(&TRIALS)?;
     let statements: Vec<&Check> =
@@ -45,12 +39,13 @@ pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str
     let methods = || trials.parameters.settings.chunk_by(|a, b| a.method == b.method);
     let heads: Vec<String> = methods().map(titled).collect();
     let sizes: Vec<usize> = methods().map(<[_]>::len).collect();
+    let scenes = trials.parameters.scenes.iter().zip(&trials.found);
     Ok(BTreeMap::from([
         ("scorecard", Verdict::ALL.iter().map(|verdict| score(*verdict, &statements)).collect()),
         ("basis_table", Basis::ALL.iter().filter_map(|basis| split(*basis, &statements)).collect()),
         ("strip", by_section.chunk_by(|a, b| section(a) == section(b)).map(strip).collect()),
         ("scene_heads", json!(heads)),
-        ("scene_table", scene_table(trials, &sizes)),
+        ("scene_table", scenes.map(|(all, found)| scene(&all.what, found, &sizes)).collect()),
     ]))
 }
 
@@ -87,12 +82,6 @@ fn mark(name: &str) -> String {
     framed(&format!("score.{}", name.replace(' ', "_")), "")
 }
 
-/// The rows of the table of scenes.
-fn scene_table(trials: &Trials, sizes: &[usize]) -> Json {
-    let scenes = trials.parameters.scenes.iter().zip(&trials.found);
-    scenes.map(|(all, found)| scene(&all.what, found, sizes)).collect()
-}
-
 /// What goes wrong most often in a scene with each method, at its settings from coarse to fine, and
 /// in how many cases; and whether failures end with an error or with a wrong result that looks like
 /// a right one. No method here warns of a result that it gives. `sizes` are the numbers of settings
@@ -104,11 +93,9 @@ fn scene(what: &str, trials: &[Trial], sizes: &[usize]) -> Json {
         (Some(trouble), wrong, all) if wrong == all => format!("all {}", trouble.words()),
         (Some(trouble), wrong, _) => format!("{wrong} {}", trouble.words()),
     };
-    let (mut cells, mut rest) = (Vec::new(), trials);
+    let (mut cells, mut all) = (Vec::new(), trials.iter());
     for &size in sizes {
-        let (of_method, others) = rest.split_at(size);
-        rest = others;
-        let mut outcomes: Vec<String> = of_method.iter().map(outcome).collect();
+        let mut outcomes: Vec<String> = all.by_ref().take(size).map(outcome).collect();
         outcomes.dedup();
         // Of two numbers of the same failure, the words stand once.
         if let [coarse, fine] = &mut outcomes[..] {

@@ -13,9 +13,6 @@ use serde_json::json;
 const MODULE: &str = "target/page.wasm";
 
 /// The file; none without the engine.
-///
-/// # Errors
-/// If a result was not run, or the prose has no script.
 pub fn lab(session: &Session<'_>, results: &Results) -> Result<Option<String>, Failure> {
     let found = session.project.find(MODULE).and_then(|path| input::regular(&path).ok());
     match found.filter(|module| module.starts_with(b"\0asm")) {
@@ -29,9 +26,6 @@ pub fn lab(session: &Session<'_>, results: &Results) -> Result<Option<String>, F
 }
 
 /// The file, from the module in WebAssembly and the script.
-///
-/// # Errors
-/// If a result was not run.
 pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Failure> {
     let (replays, sweep) = (results.of(&REPLAY)?, sweep::main(results)?);
     let runs = replays.parameters.iter().zip(&replays.found);

@@ -34,16 +34,12 @@ fn parameters(e: &Evidence<'_>) -> Judged {
     let (n, d, omega, r) =
         (chain.masses, chain.spacing, chain.natural_frequency, chain.restitution);
     let square = chain.forcing_frequency * chain.forcing_frequency;
-    let printed = |id| e.published.parameter(id);
-    let pairs = [
-        (n as f64, printed("masses")?),
-        (d, printed("spacing")?),
-        (omega, printed("natural_frequency")?),
-        (r, printed("restitution")?),
-        (1.0, printed("mass")?),
-    ];
-    let same_square = (square - printed("forcing_frequency_squared")?).abs() <= 4.0 * f64::EPSILON;
-    let same = same_square && pairs.iter().all(|(ours, printed)| ours == printed);
+    let printed = e.published.parameter("forcing_frequency_squared")?;
+    let mut same = (square - printed).abs() <= 4.0 * f64::EPSILON;
+    let ours = [("masses", n as f64), ("spacing", d), ("natural_frequency", omega)];
+    for (id, ours) in ours.into_iter().chain([("restitution", r), ("mass", 1.0)]) {
+        same &= e.published.parameter(id)? == ours;
+    }
     let words = format!("n = {n}, d = m = ω = {d}, Ω = √{}, r = {r}", square.round());
     let found = text!("n = {}, d = {}, ω = {}, Ω² = {:1}, r = {}", n, d, omega, square, r);
     let note = "The paper prints neither initial condition nor transient nor window; for these it refers to Homer \

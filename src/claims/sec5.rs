@@ -42,11 +42,8 @@ fn orbit(e: &Evidence<'_>, figure: usize) -> Judged {
         && drawn.names() == asked
         && reads.contains(&e.statement.printed)
         && found.len() as f64 == e.statement.number()?;
-    let text = Text::from(found.join(", ")).then(text!(
-        "; after a period of {:4} again, to {:1}",
-        period,
-        apart
-    ));
+    let text = "{}; after a period of {:4} again, to {:1}";
+    let text = text!(text, found.join(", "), period, apart);
     let note = "A solution of the equations of motion with the period of the forces, which were chosen for it; the \
          figure draws another, which is not periodic. How likely such forces are is not said.";
     Ok(e.found(text, agrees)

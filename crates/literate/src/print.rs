@@ -9,7 +9,6 @@ use crate::value::{Digits, Number, Value};
 /// What filters of a template change of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Style {
-    /// Writes it in per cent.
     pub percent: bool,
     /// Other digits than those of the value.
     pub digits: Option<Digits>,

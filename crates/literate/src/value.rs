@@ -16,9 +16,7 @@ pub enum Number {
     /// An exact integer of at most 64 bits, with a sign or without.
     Integer(i128),
     Real {
-        /// The number, to full precision.
         value: f64,
-        /// How many digits of it are meant.
         digits: Digits,
     },
     /// Words, for the few values that are not numbers (a version, a profile, a list).
@@ -110,16 +108,9 @@ pub enum Kind {
     /// Computed without chance: a closed form, a root, a sum.
     Deterministic,
     /// An average over realisations.
-    Ensemble {
-        /// Number of realisations behind it.
-        realisations: u64,
-        standard_error: f64,
-    },
-    /// Printed in the paper, at this place.
-    Printed {
-        /// Section, figure or equation of the paper.
-        place: String,
-    },
+    Ensemble { realisations: u64, standard_error: f64 },
+    /// Printed in the paper, at this section, figure or equation.
+    Printed { place: String },
     /// Measured once on a machine (times), and an input since then.
     Measured,
 }
@@ -141,7 +132,6 @@ pub struct Value {
     /// The experiment whose results it was read from; empty for parameters.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub experiment: String,
-    /// A remark for the reader.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
     /// Kept in `values.json` for readers of the data; no template needs to name it.
@@ -163,7 +153,6 @@ impl Value {
         }
     }
 
-    /// Makes an exact integer.
     pub fn integer(id: impl Into<String>, n: impl Into<Number>) -> Self {
         Value::new(id, n.into(), Kind::Exact)
     }
@@ -180,7 +169,6 @@ impl Value {
         Value::new(id, found.into(), kind)
     }
 
-    /// Makes a value that is words.
     pub fn text(id: impl Into<String>, text: impl Into<String>) -> Self {
         Value::new(id, Number::Text(text.into()), Kind::Exact)
     }

@@ -95,7 +95,6 @@ pub struct Check {
     /// The author's word for a difference that is explained, such as `misprint`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub why: String,
-    /// Its id; that of a statement as in `published.toml`.
     pub id: String,
     /// Where it was printed; empty for a relation.
     pub place: String,

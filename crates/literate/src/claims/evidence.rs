@@ -68,20 +68,14 @@ pub struct Evidence<'a> {
 }
 
 impl Evidence<'_> {
-    /// Returns the level of each statistical check.
-    ///
-    /// # Errors
-    /// [`Error::Rule`] if the rule is not a statistical one.
+    /// Returns the level of each statistical check, for a rule that is one.
     pub fn level(&self) -> Result<Level, Error> {
         let (id, remedy) = (&self.statement.id, "add `.statistical()` to it");
         let what = || format!("the rule of {id} allows for standard errors; {remedy}");
         self.level.ok_or_else(|| Error::Rule(what()))
     }
 
-    /// Returns the number with an address.
-    ///
-    /// # Errors
-    /// [`Error::Undecided`] if the sample is too small for this number.
+    /// Returns the number with an address; without one the statement is undecided.
     #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
         let cell = table::cell(self.results.tables()?, address)?;

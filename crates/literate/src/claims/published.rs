@@ -19,7 +19,6 @@ pub struct Published {
     text: String,
 }
 
-/// A number that the paper chose.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table [[parameter]]")]
 pub struct Parameter {
@@ -75,11 +74,8 @@ impl PublishedError {
 }
 
 impl Published {
-    /// Reads the file.
-    ///
-    /// # Errors
-    /// If it has another form, an id stands twice, or a number is not what was printed, with the
-    /// line.
+    /// Reads the file. In an error is the line of what has another form, an id that stands twice,
+    /// or a number that is not what was printed.
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
         let mut published: Published =
             toml::from_str(text).map_err(|error| PublishedError(toml_fault(text, &error)))?;
@@ -121,7 +117,6 @@ impl Published {
         self.fault(id, &what)
     }
 
-    /// Returns the statement with this id.
     pub fn statement(&self, id: &str) -> Result<&Statement, PublishedError> {
         let found = self.statements.iter().find(|statement| statement.id == id);
         found.ok_or_else(|| PublishedError::missing("statement", id))
@@ -208,7 +203,6 @@ impl Statement {
         Some(written(self.value?, self.decimals?))
     }
 
-    /// Returns the printed number.
     pub fn number(&self) -> Result<f64, PublishedError> {
         self.value.ok_or_else(|| {
             let printed = &self.printed;
@@ -220,7 +214,6 @@ impl Statement {
         })
     }
 
-    /// Returns half a unit of the last printed digit.
     pub fn half_unit(&self) -> f64 {
         let decimals = self.decimals.unwrap_or(0);
         format!("0.5e{}", -decimals).parse().unwrap_or(f64::NAN)

@@ -62,7 +62,6 @@ impl Rule {
         self.relation.is_none()
     }
 
-    /// Computes the check of a statement or relation.
     fn check(
         &self,
         statement: &Statement,
