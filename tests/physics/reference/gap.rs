@@ -86,11 +86,11 @@ impl<R: Real> Gap<R> {
         if start >= *to {
             return Ok(None);
         }
-        let mut left = start.clone();
+        let (rough, mut left) = (self.rough(), start.clone());
         while left < *to {
             let right = left.clone() + R::of(0.4);
             let right = if right < *to { right } else { to.clone() };
-            if let Some(root) = self.search(left, right.clone())? {
+            if let Some(root) = self.search(&rough, left, right.clone())? {
                 return Ok(Some(root));
             }
             left = right;
@@ -98,18 +98,37 @@ impl<R: Real> Gap<R> {
         Ok(None)
     }
 
-    /// Depth first, left first: a piece is excluded by its enclosure, decided by the signs at its
-    /// ends where Δ is monotone, cut at its extremum where Δ' is, and halved otherwise.
-    fn search(&self, from: R, to: R) -> Result<Option<R>, String> {
-        let [_, _, third] = self.bounds();
+    /// The gap in doubles.
+    fn rough(&self) -> Gap<f64> {
+        Gap {
+            spacing: self.spacing.near(),
+            frequencies: self.frequencies.iter().map(R::near).collect(),
+            amplitudes: self.amplitudes.iter().map(|[a, b]| [a.near(), b.near()]).collect(),
+        }
+    }
+
+    /// Depth first, left first: a piece is excluded by its enclosure (in doubles where these are
+    /// enough), decided by the signs at its ends where Δ is monotone, cut at its extremum where Δ'
+    /// is, and halved otherwise.
+    fn search(&self, rough: &Gap<f64>, from: R, to: R) -> Result<Option<R>, String> {
+        let [_, bend, third] = self.bounds();
+        // More than the errors of Δ, Δ' and Δ'' in doubles, those of the phases included.
+        let fastest = rough.frequencies.iter().fold(1.0, |most: f64, w| most.max(w.abs()));
+        let noise = 1e-13 * (self.scale() + bend) * (1.0 + fastest * to.near().abs());
         let mut stack = vec![Piece { from, to }];
         while let Some(Piece { from, to }) = stack.pop() {
             let half = R::of(0.5) * (to.clone() - from.clone());
             let middle = from.clone() + half.clone();
             let h = half.near() * (1.0 + 1e-14);
+            let stays_open = |[f, g, k]: [f64; 3], noise: f64| {
+                let falls = g.abs() * h + 0.5 * k.abs() * h * h + third * h * h * h / 6.0;
+                f - noise > falls * (1.0 + 1e-13)
+            };
+            if stays_open(rough.jet(&middle.near()), noise) {
+                continue;
+            }
             let [f, g, k] = self.jet(&middle).map(|x| x.near());
-            let bend = 0.5 * k.abs() * h * h + third * h * h * h / 6.0;
-            if f > (g.abs() * h + bend) * (1.0 + 1e-13) {
+            if stays_open([f, g, k], 0.0) {
                 continue;
             }
             if g.abs() > (k.abs() * h + 0.5 * third * h * h) * (1.0 + 1e-13) {
@@ -119,7 +138,7 @@ impl<R: Real> Gap<R> {
                 continue;
             }
             if k.abs() > third * h * (1.0 + 1e-13) {
-                if let Some(root) = self.unimodal(from, to, k > 0.0) {
+                if let Some(root) = self.unimodal(rough, from, to, k > 0.0) {
                     return Ok(Some(root));
                 }
                 continue;
@@ -134,13 +153,21 @@ impl<R: Real> Gap<R> {
     }
 
     /// The first root in a piece where Δ'' keeps its sign.
-    fn unimodal(&self, from: R, to: R, convex: bool) -> Option<R> {
+    fn unimodal(&self, rough: &Gap<f64>, from: R, to: R, convex: bool) -> Option<R> {
         let slope = |t: &R| self.jet(t)[1].clone();
         let zero = R::of(0.0);
         let turns = (slope(&from) < zero) != (slope(&to) < zero);
         if !turns {
             let falls = slope(&to) < zero;
             return (falls && self.closed(&to)).then(|| self.bisect(from, to, 0));
+        }
+        // A convex Δ is above its tangent, which near the minimum is nearly level.
+        let low = R::of(rough.bisect(from.near(), to.near(), 1));
+        if convex && low > from && low < to {
+            let [f, g, _] = self.jet(&low).map(|x| x.near());
+            if f > g.abs() * (to.clone() - from.clone()).near() * (1.0 + 1e-13) {
+                return None;
+            }
         }
         let turn = self.bisect(from.clone(), to.clone(), if convex { 1 } else { 2 });
         let (left, right) = if convex { (from, turn) } else { (turn, to) };
@@ -170,14 +197,14 @@ impl<R: Real> Gap<R> {
             } else {
                 from = best.clone();
             }
-            let mut next = best.clone() - f / slope;
+            let newton = best.clone() - f / slope;
             let wide = to.clone() - from.clone();
-            if step % 3 == 2 && wide.near() > 1e-6 || !(next > from && next < to) {
-                next = from.clone() + R::of(0.5) * wide.clone();
-            }
-            let change = (next.clone() - best.clone()).near().abs();
+            let halves = step % 3 == 2 && wide.near() > 1e-6 || !(newton > from && newton < to);
+            let next = if halves { from.clone() + R::of(0.5) * wide } else { newton };
+            let change = (next.clone() - best).near().abs() / next.near().abs().max(1e-3);
             best = next;
-            if change <= 4.0 * R::EPS * best.near().abs().max(1e-3) {
+            // A step of Newton's method doubles the digits.
+            if change <= if halves { 4.0 * R::EPS } else { 1e-4 * R::EPS.sqrt() } {
                 break;
             }
         }

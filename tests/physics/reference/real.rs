@@ -7,7 +7,7 @@ use impact_numerics::double_double::{DoubleDouble, sin_cos};
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A real number of more than double precision.
+/// A real number: a double where bounds are enough, else of more precision.
 pub trait Real:
     Clone
     + Debug
@@ -29,6 +29,22 @@ pub trait Real:
 
     /// Sine and cosine, with an absolute error of a few [`Real::EPS`] times max(1, |x|).
     fn sin_cos(&self) -> (Self, Self);
+}
+
+impl Real for f64 {
+    const EPS: f64 = f64::EPSILON;
+
+    fn of(x: f64) -> f64 {
+        x
+    }
+
+    fn near(&self) -> f64 {
+        *self
+    }
+
+    fn sin_cos(&self) -> (f64, f64) {
+        f64::sin_cos(*self)
+    }
 }
 
 pub type Dd = DoubleDouble;
