@@ -1,4 +1,4 @@
-//! The program as its users run it.
+//! The program as its users run it, and the report in memory.
 
 mod bad_input;
 mod check;
@@ -6,6 +6,8 @@ mod diff;
 mod explain;
 mod own;
 mod paper;
+#[path = "../report/mod.rs"]
+mod report;
 mod saved;
 
 use sha2::{Digest, Sha256};
@@ -133,17 +135,34 @@ fn put(folder: &Path, files: &Files) {
     }
 }
 
-/// What an undisturbed run of the quick profile makes.
+/// Runs one of three shards of the quick profile, and returns its standard output and error.
+fn shard(folder: &Path, i: usize, results: &str) -> (String, String) {
+    let line = format!("run --profile quick --shard {i}/3 --results {results} --threads {i}");
+    let (code, text, note) = run(folder, &line);
+    assert_eq!(code, 0, "{text}{note}");
+    (text, note)
+}
+
+/// What the quick profile makes of three shards, run in another order and on other numbers of
+/// threads. (A test of saved results compares it with a run of the whole.)
 struct Quick {
-    report: Files,
+    shards: [Files; 3],
     results: Files,
+    report: Files,
 }
 
 static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
+    for i in [3, 1, 2] {
+        let (_, note) = shard(here, i, &i.to_string());
+        let begins = format!("shard {i}/3: ");
+        assert!(note.starts_with(&begins) && note.contains(" to run, "), "{note}");
+    }
+    let shards = [1, 2, 3].map(|i| files(&here.join(i.to_string())));
+    shards.iter().for_each(|shard| put(&here.join("results"), shard));
     let paper = "paper --profile quick --out report --results results --threads 4 --templates";
     let (code, _, note) = run(here, &format!("{paper} {TEMPLATES}"));
     assert_eq!(code, 0, "{note}");
-    Quick { report: tree(&here.join("report")), results: files(&here.join("results")) }
+    Quick { shards, results: files(&here.join("results")), report: tree(&here.join("report")) }
 });

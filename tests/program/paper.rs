@@ -168,12 +168,6 @@ fn a_rerun_finds_what_the_list_cannot() {
     put(&here.join("r"), &QUICK.report);
     put(&here.join("saved"), &QUICK.results);
 
-    // Without saved results, by the profile that the report names, on another number of threads.
-    let (code, out, note) = crate::run(here, &format!("verify r --rerun --threads 1 {templates}"));
-    assert_eq!(code, 0, "{out}{note}");
-    assert!(note.contains("sweep: run\n"), "{note}");
-    assert!(out.contains("made again with the quick profile, the same bytes"), "{out}");
-
     // A forger who keeps the list right.
     let edit = |name: &str, change: &dyn Fn(String) -> String| {
         let path = here.join("r").join(name);

@@ -2,44 +2,22 @@
 //! several machines gives the bytes of one.
 
 use crate::{
-    EXPERIMENTS, Files, PROGRAM, QUICK, TEMPLATES, digest, files, forged, program, put, run,
+    EXPERIMENTS, Files, PROGRAM, QUICK, TEMPLATES, digest, files, forged, program, put, run, shard,
 };
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use std::sync::LazyLock;
 use std::time::Duration;
 
-/// One of three shards, into a separate folder or a common one.
-fn shard(folder: &Path, i: usize, results: &str) -> (String, String) {
-    let line = format!("run --profile quick --shard {i}/3 --results {results} --threads {i}");
-    let (code, text, note) = run(folder, &line);
-    assert_eq!(code, 0, "{text}{note}");
-    (text, note)
-}
-
-/// What three shards save, in another order and on other numbers of threads.
-static SHARDS: LazyLock<[Files; 3]> = LazyLock::new(|| {
-    let folder = tempfile::tempdir().unwrap();
-    for i in [3, 1, 2] {
-        let (_, note) = shard(folder.path(), i, &i.to_string());
-        assert!(
-            note.starts_with(&format!("shard {i}/3: ")) && note.contains(" to run, "),
-            "{note}"
-        );
-    }
-    [1, 2, 3].map(|i| files(&folder.path().join(i.to_string())))
-});
-
-/// All of them copied into the folder `results`.
+/// What three shards save, copied into the folder `results`.
 fn together() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    SHARDS.iter().for_each(|shard| put(&folder.path().join("results"), shard));
+    QUICK.shards.iter().for_each(|shard| put(&folder.path().join("results"), shard));
     folder
 }
 
-/// Joins what is in `results`, which is then what one machine saves, and returns standard error.
+/// Joins what is in `results`, and returns standard error.
 fn joined(folder: &Path) -> String {
     let (code, text, note) = run(folder, "run --profile quick --results results");
     assert_eq!(code, 0, "{text}{note}");
@@ -98,11 +76,11 @@ fn each_reason_is_told_and_nothing_else_is_run_again() {
 }
 
 #[test]
-fn shards_in_one_folder_give_the_bytes_of_one_machine() {
+fn shards_in_one_folder_are_joined_once() {
     let folder = together();
     let folder = folder.path();
-    let units: usize = SHARDS.iter().map(Files::len).sum();
-    assert!(units > 60 && SHARDS.iter().all(|shard| shard.len() > units / 6), "{units}");
+    let units: usize = QUICK.shards.iter().map(Files::len).sum();
+    assert!(units > 60 && QUICK.shards.iter().all(|shard| shard.len() > units / 6), "{units}");
     assert_eq!(files(&folder.join("results")).len(), units, "each in one shard");
     assert!(stale(folder, "results").contains("sweep: run; 18 of 18 units there\n"));
     let note = joined(folder);
@@ -131,8 +109,9 @@ fn a_unit_that_is_missing_or_not_to_be_used_is_run_again() {
             Some(bytes) => fs::write(&path, bytes).unwrap(),
             None => fs::remove_file(&path).unwrap(),
         }
-        let place = SHARDS.iter().position(|shard| shard.contains_key("sweep-quick-0007.json"));
-        let (i, there) = (place.unwrap() + 1, SHARDS[place.unwrap()].len() - 1);
+        let has = |shard: &Files| shard.contains_key("sweep-quick-0007.json");
+        let i = QUICK.shards.iter().position(has).unwrap() + 1;
+        let there = QUICK.shards[i - 1].len() - 1;
         let (text, note) = shard(folder, i, "results");
         assert_eq!(text, format!("results: shard {i}/3: 1 unit run, {there} already saved\n"));
         let line = says.map(|says| format!("sweep: 1 unit run again, {says}"));
@@ -144,9 +123,10 @@ fn a_unit_that_is_missing_or_not_to_be_used_is_run_again() {
     assert_eq!(note.matches("run again").count(), 1, "{note}");
 }
 
-/// Killed without a chance to tidy up, at several moments, a run loses no unit that it saved.
+/// Killed without a chance to tidy up, at several moments, a run loses no unit that it saved; and
+/// goes on in a report that is made again, to the bytes of the shards.
 #[test]
-fn a_killed_run_goes_on_where_it_was() {
+fn a_killed_run_goes_on_to_the_bytes_of_shards() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     for wait in [100, 700] {
@@ -156,12 +136,17 @@ fn a_killed_run_goes_on_where_it_was() {
         let _ = child.kill();
         child.wait().unwrap();
         for (name, bytes) in files(&folder.join("results")) {
-            let unit = SHARDS.iter().find_map(|shard| shard.get(&name));
+            let unit = QUICK.shards.iter().find_map(|shard| shard.get(&name));
             assert!(unit.or(QUICK.results.get(&name)) == Some(&bytes), "{name} after {wait} ms");
         }
     }
-    let note = joined(folder);
-    assert!(!note.contains("run again"), "{note}");
+    // By the profile that the report names, on one thread.
+    put(&folder.join("report"), &QUICK.report);
+    let verify = "verify report --rerun --threads 1 --results results --templates";
+    let (code, out, note) = run(folder, &format!("{verify} {TEMPLATES}"));
+    assert!(code == 0 && note.contains(": run") && !note.contains("run again"), "{out}{note}");
+    assert!(out.contains("made again with the quick profile, the same bytes"), "{out}");
+    assert!(files(&folder.join("results")) == QUICK.results);
 }
 
 /// A job array on a real Slurm gives the bytes of one machine, even if a task is killed on its way.

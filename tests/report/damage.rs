@@ -1,7 +1,7 @@
 //! Text from outside that is nearly right: for each of its readers a valid text is damaged in a
 //! seeded way. No reader panics or hangs, and each fault is reported in one line.
 
-use crate::QUICK;
+use super::QUICK;
 use impact_chain::Scenario;
 use impact_numerics::random::generator;
 use impact_paper::claims::Published;

@@ -3,7 +3,7 @@
 //! bounded: a reader of five minutes, half an hour or a day must not find that one has grown beyond
 //! its time. (The browser test bounds the pages, and `.ci/latex` those in print.)
 
-use crate::QUICK;
+use super::QUICK;
 use literate::report::{Document, Files};
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
@@ -90,7 +90,7 @@ fn every_link_lands_wherever_the_report_is_written() {
         };
         QUICK.paper.edition.documents.iter().map(text).collect()
     };
-    crate::links_land(texts, 200, 150);
+    super::links_land(texts, 200, 150);
 }
 
 /// Mathematics comes through Markdown as it was written, escapes, stars and lows included: between

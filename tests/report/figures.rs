@@ -1,7 +1,7 @@
 //! Every figure: well-formed, inside its frame, labelled, described, with its data, and the same
 //! bytes each time.
 
-use crate::QUICK;
+use super::QUICK;
 use impact_paper::experiments::{Progress, SEGMENTS, SPACE_TIME, Store};
 use impact_paper::figures;
 use impact_paper::params::{Profile, VERTICES};

@@ -1,7 +1,7 @@
 //! The pages as a browser and a reader meet them: read by an XML parser, with the results of the
 //! quick profile.
 
-use crate::QUICK;
+use super::QUICK;
 use literate::report::Files;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
@@ -58,7 +58,7 @@ fn every_link_lands_wherever_the_report_is_written() {
         };
         (all(["href", "src"]), all(["id", "id"]))
     };
-    crate::links_land(
+    super::links_land(
         |report| {
             let page = |of: &literate::report::Document| {
                 let text = std::str::from_utf8(&report[of.page]).unwrap();

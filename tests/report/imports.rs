@@ -1,8 +1,8 @@
 //! Reads the imports of all crates and of src, and refuses those that DESIGN.md does not allow,
 //! circles, and those of saved results that are not listed with them.
 
-use crate::QUICK;
-use crate::structure::{files, root};
+use super::QUICK;
+use super::structure::{files, root};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

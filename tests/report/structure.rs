@@ -1,7 +1,7 @@
 //! Rules about the source that no compiler checks: no path of a machine, and a README that is
 //! current.
 
-use crate::QUICK;
+use super::QUICK;
 use literate::report::ledger::EquationEntry;
 use std::fs;
 use std::path::{Path, PathBuf};

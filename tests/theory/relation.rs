@@ -38,7 +38,7 @@ impl Case {
         let reach = int(24) * &width;
         let low = if peak > reach { peak.clone() - &reach } else { int(0) };
         let high = if peak.clone() + &reach < self.d { peak + reach } else { self.d.clone() };
-        let integral = gauss.integrate(&low, &high, 12, |x| {
+        let integral = gauss.integrate(&low, &high, 6, |x| {
             let rest = (self.d.clone() - &x) * &self.q;
             let exponent = self.exponent(&x) + self.exponent(&rest) - &least;
             x / (int(2) * &self.s * &self.s) * exp(-exponent)
@@ -49,7 +49,7 @@ impl Case {
 
     /// 1 − p: an integral of positive terms.
     fn complement(&self, gauss: &Gauss) -> Big {
-        gauss.integrate(&int(0), &self.d, 12, |x| {
+        gauss.integrate(&int(0), &self.d, 6, |x| {
             let rest = (self.d.clone() - &x) * &self.q;
             let inner = int(1) - exp(-self.exponent(&rest));
             let free = exp(-self.exponent(&x));

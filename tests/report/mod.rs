@@ -1,5 +1,5 @@
-//! The report and what it is made of: templates, figures, pages, damaged texts, and rules about the
-//! source.
+//! The report in memory and what it is made of: templates, figures, pages, damaged texts, and rules
+//! about the source.
 
 mod damage;
 mod documents;
@@ -13,7 +13,7 @@ mod program;
 mod prose;
 mod structure;
 
-use impact_paper::experiments::{ALL, Progress, Results, Store};
+use impact_paper::experiments::{ALL, Progress, Results, Session, Store};
 use impact_paper::params::Profile;
 use impact_paper::{claims, contents};
 use literate::Paper;
@@ -23,7 +23,6 @@ use literate::report::{Document, Files, Input, Registry, assemble};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
-use tempfile::TempDir;
 
 struct Quick {
     paper: Paper,
@@ -34,17 +33,22 @@ struct Quick {
     elsewhere: [Files; 2],
     results: Results,
     values: Registry,
-    /// Where the results are saved.
-    saved: TempDir,
+}
+
+/// The results that the program saved, with the session that read them.
+fn results(paper: &Paper) -> (Session<'_>, Results) {
+    let saved = tempfile::tempdir().unwrap();
+    crate::put(saved.path(), &crate::QUICK.results);
+    let (store, quiet) = (Store::open(saved.path()), Progress::silent());
+    let session = paper.session(None, Profile::Quick, store, quiet).unwrap();
+    let results = paper.results(ALL, &session).unwrap();
+    (session, results)
 }
 
 impl Quick {
     /// The results once more, to be changed.
     fn results_again(&self) -> Results {
-        let store = Store::open(self.saved.path());
-        let (paper, quiet) = (&self.paper, Progress::silent());
-        let session = paper.session(None, Profile::Quick, store, quiet).unwrap();
-        paper.results(ALL, &session).unwrap()
+        results(&self.paper).1
     }
 
     /// A document as hosts show it.
@@ -98,11 +102,7 @@ fn links_land(files: impl Fn(&Files) -> Links, least: usize, across: usize) {
 
 static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let paper = program::paper();
-    let saved = tempfile::tempdir().unwrap();
-    let store = Store::open(saved.path());
-    let session = paper.session(None, Profile::Quick, store, Progress::silent()).unwrap();
-    // Run, then read again as it was saved.
-    let [_, results] = [(); 2].map(|()| paper.results(ALL, &session).unwrap());
+    let (session, results) = results(&paper);
     let published = paper.published(&session).unwrap();
     let mut claims = claims::judge_all(&published, &claims::rules(), &results).unwrap();
     claims.retain(|check| check.kind.is_printed());
@@ -125,9 +125,7 @@ static QUICK: LazyLock<Quick> = LazyLock::new(|| {
         };
         assemble(&input).unwrap_or_else(|error| panic!("{error}"))
     };
-    let report = made(Some("../"));
-    assert!(report == made(Some("../")), "the same input gives other bytes");
-    let elsewhere = [made(Some("../../")), made(None)];
-    let templates = session.templates.clone();
-    Quick { paper: program::paper(), templates, figures, report, elsewhere, results, values, saved }
+    let [report, below, alone] = [Some("../"), Some("../../"), None].map(made);
+    let (templates, elsewhere) = (session.templates.clone(), [below, alone]);
+    Quick { paper: program::paper(), templates, figures, report, elsewhere, results, values }
 });
