@@ -49,13 +49,11 @@ impl Edition {
     /// The authors as BibTeX takes them. A name that ends in a word without a capital, as that of a
     /// group, stands in braces, or BibTeX would take its last word for the name of a family.
     pub(super) fn bibtex_authors(&self) -> String {
-        let mut names = Vec::new();
-        for (name, _) in &self.authors {
-            let last = name.split_whitespace().last().unwrap_or_default();
-            let is_group = last.starts_with(char::is_lowercase);
-            names.push(if is_group { format!("{{{name}}}") } else { name.to_string() });
-        }
-        names.join(" and ")
+        let author = |(name, _): &(&str, _)| match name.rsplit(char::is_whitespace).next() {
+            Some(last) if last.starts_with(char::is_lowercase) => format!("{{{name}}}"),
+            _ => name.to_string(),
+        };
+        self.authors.iter().map(author).collect::<Vec<_>>().join(" and ")
     }
 }
 

@@ -199,8 +199,10 @@ pub fn write(folder: &Path, files: &Files, force: bool) -> Result<(), Error> {
     Ok(())
 }
 
-/// Returns a line for each file of a folder that is missing, differs or is not expected.
-fn faults(folder: &Path, expected: &Digests) -> Result<Vec<String>, Error> {
+/// Compares a folder with the files that are expected; returns how many there are, and a line for
+/// each that is missing, differs or is not expected. Files that are built may be missing.
+fn faults(folder: &Path, mut expected: Digests) -> Result<(usize, Vec<String>), Error> {
+    expected.retain(|path, _| !is_generated(path) || folder.join(path).exists());
     let fault = |(path, digest): (&String, &String)| match input::regular(&folder.join(path)) {
         Ok(bytes) if sha256(&bytes) == *digest => None,
         Ok(_) => Some(format!("differs  {path}")),
@@ -209,28 +211,23 @@ fn faults(folder: &Path, expected: &Digests) -> Result<Vec<String>, Error> {
     };
     let strange = walk(folder)?.into_iter().filter(|path| !expected.contains_key(path));
     let strange = strange.map(|path| format!("unlisted {path}"));
-    Ok(expected.iter().filter_map(fault).chain(strange).collect())
+    Ok((expected.len(), expected.iter().filter_map(fault).chain(strange).collect()))
 }
 
-/// Compares a folder with its lists; returns how many files these name, and a line for each fault.
-/// Files that are built may be missing.
+/// Compares a folder with its lists.
 pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
     let place = folder.join(SUMS);
     let text = input::regular_text(&place).map_err(failed(&place))?;
     let mut all = read_sums(&text).ok_or_else(|| Error::NoList(folder.display().to_string()))?;
     all.extend(list(folder, BUILT).unwrap_or_default());
-    all.retain(|path, _| !is_generated(path) || folder.join(path).exists());
-    let mut faults = faults(folder, &all)?;
+    let (count, mut faults) = faults(folder, all)?;
     faults.retain(|fault| ![SUMS, BUILT].iter().any(|list| *fault == format!("unlisted {list}")));
-    Ok((all.len(), faults))
+    Ok((count, faults))
 }
 
-/// Compares a folder with a whole report, byte by byte; returns how many files were compared, and a
-/// line for each fault. Generated files may be missing, but may not differ.
+/// Compares a folder with a whole report, byte by byte.
 pub fn compare(folder: &Path, files: &Files) -> Result<(usize, Vec<String>), Error> {
-    let compared = |(path, _): &(&String, _)| !is_generated(path) || folder.join(path).exists();
-    let all = digests(files.iter().filter(compared));
-    Ok((all.len(), faults(folder, &all)?))
+    faults(folder, digests(files.iter()))
 }
 
 #[cfg(test)]

@@ -257,9 +257,9 @@ impl<'a> Page<'a> {
             Inline::Soft => "\n".into(),
             // Long paths may break at their joints.
             Inline::Code(code) => {
-                let code = text(code).replace('/', "/<wbr\u{0}>").replace("::", "::<wbr\u{0}>");
-                let code = code.replace(',', ",<wbr\u{0}>").replace('[', "<wbr\u{0}>[");
-                format!("<code>{}</code>", code.replace('\u{0}', "/"))
+                let code = text(code).replace('/', "/\0").replace("::", "::\0");
+                let code = code.replace(',', ",\0").replace('[', "\0[");
+                format!("<code>{}</code>", code.replace('\0', "<wbr/>"))
             }
             Inline::Emphasis(inner) => format!("<em>{}</em>", self.inlines(inner)),
             Inline::Raised(inner) => format!("<sup>{}</sup>", self.inlines(inner)),

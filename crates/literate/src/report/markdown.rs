@@ -6,6 +6,7 @@
 //! what follows a closing `$` without a space (`$n$-th`) moves inside.
 
 use super::document::{self, Block, Inline, Table, place_on_page};
+use super::tex;
 use pulldown_cmark::Alignment;
 
 /// Writes a document.
@@ -263,27 +264,20 @@ const RESPELT: [(&str, &str); 13] = [
 
 /// TeX that survives Markdown.
 fn maths(tex: &str) -> String {
-    let (mut out, mut rest) = (String::with_capacity(tex.len()), tex);
-    while let Some(c) = rest.chars().next() {
-        let respelt = RESPELT.iter().find(|(sign, _)| rest.starts_with(sign));
-        let respelt = respelt.filter(|_| !rest.starts_with(r"\\["));
-        // A macro begins with two characters that belong together.
-        let count = if c == '\\' { 2 } else { 1 };
-        let length = rest.chars().take(count).map(char::len_utf8).sum();
-        let (sign, after) = rest.split_at(length);
-        out.push_str(respelt.map_or(sign, |(_, name)| name));
-        let before = tex[..tex.len() - rest.len()].chars().next_back();
-        let next = after.chars().next();
+    let signs: Vec<&str> = tex::signs(tex).collect();
+    let mut out = String::with_capacity(tex.len());
+    for (i, sign) in signs.iter().enumerate() {
+        let next = signs.get(i + 1).and_then(|next| next.chars().next());
+        let respelt = RESPELT.iter().find(|(from, _)| from == sign);
+        let respelt = respelt.filter(|_| (*sign, next) != (r"\\", Some('[')));
+        out.push_str(respelt.map_or(sign, |(_, to)| to));
+        let is_word = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
+        let before = i.checked_sub(1).and_then(|before| signs[before].chars().next_back());
         let splits = match respelt {
             Some(_) => next.is_some_and(|next| next.is_ascii_alphabetic()),
-            None => {
-                c == '_'
-                    && next.is_some_and(char::is_alphanumeric)
-                    && !before.is_some_and(char::is_alphanumeric)
-            }
+            None => *sign == "_" && is_word(next) && !is_word(before),
         };
         out.extend(splits.then_some(' '));
-        rest = after;
     }
     out
 }

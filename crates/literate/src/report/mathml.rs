@@ -1,6 +1,7 @@
 //! Converts formulas from TeX to MathML Core.
 
 use super::document::{Formula, Part};
+use super::tex;
 use crate::print::Shown;
 use math_core::{LatexToMathML, MathDisplay};
 use std::sync::LazyLock;
@@ -56,11 +57,10 @@ pub fn write(
 
 /// Opening braces less closing ones, `\left` and environments among them.
 fn braces(tex: &str) -> i32 {
-    let count = |text: &str| tex.matches(text).count() as i32;
-    count("{") - count(r"\{") - count("}") + count(r"\}") + count(r"\left")
-        - count(r"\right")
-        - count(r"\leftarrow")
-        + count(r"\rightarrow")
-        + count(r"\begin")
-        - count(r"\end")
+    let depth = |sign| match sign {
+        "{" | r"\left" | r"\begin" => 1,
+        "}" | r"\right" | r"\end" => -1,
+        _ => 0,
+    };
+    tex::signs(tex).map(depth).sum()
 }

@@ -20,15 +20,13 @@ impl Page<'_> {
     /// Writes a table without its caption.
     pub(super) fn table(&self, table: &Table) -> String {
         let Table { columns, head, rows, .. } = table;
-        let longest =
-            |i: usize| rows.iter().filter_map(|row| row.get(i)).map(|c| plain(c).len()).max();
-        let longest: Vec<usize> = (0..columns.len()).filter_map(longest).collect();
+        let longest = |i: usize| rows.iter().map(|row| plain(&row[i]).len()).max().unwrap_or(0);
+        let longest: Vec<usize> = (0..columns.len()).map(longest).collect();
         let class = |i: usize| {
-            let long = |length: &usize| WIDTHS.iter().find(|(least, _)| length > least);
-            let class = match columns.get(i) {
-                Some(Alignment::Right) => Some("right"),
-                Some(Alignment::Center) => Some("centre"),
-                _ => longest.get(i).and_then(long).map(|(_, class)| *class),
+            let class = match columns[i] {
+                Alignment::Right => Some("right"),
+                Alignment::Center => Some("centre"),
+                _ => WIDTHS.iter().find(|(least, _)| longest[i] > *least).map(|(_, class)| *class),
             };
             class.map_or(String::new(), |class| format!(" class=\"{class}\""))
         };
