@@ -8,6 +8,8 @@
 use super::document::{self, Block, Inline, Table, place_on_page};
 use super::tex;
 use pulldown_cmark::Alignment;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// Writes a document.
 pub fn write(blocks: &[Block]) -> String {
@@ -246,21 +248,12 @@ fn glued(text: &str) -> usize {
 }
 
 /// What Markdown would read in a formula, and macros with the same meaning.
-const RESPELT: [(&str, &str); 13] = [
-    (r"\,", r"\thinspace"),
-    (r"\:", r"\thinspace"),
-    (r"\;", r"\thinspace"),
-    (r"\>", r"\thinspace"),
-    (r"\!", r"\negthinspace"),
-    (r"\{", r"\lbrace"),
-    (r"\}", r"\rbrace"),
-    (r"\|", r"\Vert"),
-    (r"\\", r"\cr"),
-    ("*", r"\ast"),
-    ("<", r"\lt"),
-    (">", r"\gt"),
-    ("|", r"\vert"),
-];
+static RESPELT: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
+    tex::pairs(
+        r"\, \thinspace  \: \thinspace  \; \thinspace  \> \thinspace  \! \negthinspace
+          \{ \lbrace  \} \rbrace  \| \Vert  \\ \cr  * \ast  < \lt  > \gt  | \vert",
+    )
+});
 
 /// TeX that survives Markdown.
 fn maths(tex: &str) -> String {
@@ -268,9 +261,8 @@ fn maths(tex: &str) -> String {
     let mut out = String::with_capacity(tex.len());
     for (i, sign) in signs.iter().enumerate() {
         let next = signs.get(i + 1).and_then(|next| next.chars().next());
-        let respelt = RESPELT.iter().find(|(from, _)| from == sign);
-        let respelt = respelt.filter(|_| (*sign, next) != (r"\\", Some('[')));
-        out.push_str(respelt.map_or(sign, |(_, to)| to));
+        let respelt = RESPELT.get(sign).filter(|_| (*sign, next) != (r"\\", Some('[')));
+        out.push_str(respelt.unwrap_or(sign));
         let is_word = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
         let before = i.checked_sub(1).and_then(|before| signs[before].chars().next_back());
         let splits = match respelt {

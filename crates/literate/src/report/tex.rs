@@ -70,26 +70,26 @@ pub fn code(code: &str) -> String {
 }
 
 fn in_text(c: char) -> Option<&'static str> {
-    Some(match c {
-        '\u{a0}' => "~",
-        '\u{202f}' | '\u{2009}' => r"\,",
-        '\u{2011}' => "-",
-        '–' => "--",
-        '—' => "---",
-        '‘' => "`",
-        '’' => "'",
-        '“' => "``",
-        '”' => "''",
-        '…' => r"\ldots{}",
-        '§' => r"\S{}",
-        '©' => r"\textcopyright{}",
-        '°' => r"\textdegree{}",
-        '«' => r"\guillemotleft{}",
-        '»' => r"\guillemotright{}",
-        '€' => r"\texteuro{}",
-        _ => return None,
-    })
+    match c {
+        '\u{a0}' => Some("~"),
+        '\u{202f}' | '\u{2009}' => Some(r"\,"),
+        c => TEXT.get(&*c.encode_utf8(&mut [0; 4])).copied(),
+    }
 }
+
+/// Reads words in pairs.
+pub fn pairs(list: &str) -> BTreeMap<&str, &str> {
+    let words: Vec<&str> = list.split_whitespace().collect();
+    words.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
+}
+
+/// Characters in running text.
+static TEXT: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
+    pairs(
+        r"– --  — ---  ‑ -  ‘ `  ’ '  “ ``  ” ''  … \ldots{}  § \S{}  © \textcopyright{}
+          ° \textdegree{}  « \guillemotleft{}  » \guillemotright{}  € \texteuro{}",
+    )
+});
 
 const MATHS: &str = r"
     α \alpha  β \beta  γ \gamma  δ \delta  ε \varepsilon  ζ \zeta  η \eta  θ \theta  κ \kappa
@@ -102,11 +102,8 @@ const MATHS: &str = r"
     ⁹ ^9  ⁻ ^-  ₀ _0  ₁ _1  ₂ _2  ₃ _3  ₄ _4  ₅ _5  ₆ _6  ₇ _7  ₈ _8  ₉ _9  ₊ _+  ₋ _-  ½ \frac12
     ¼ \frac14";
 
-/// The same as a map, which spells formulas too.
-static TEX: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
-    let words: Vec<&str> = MATHS.split_whitespace().collect();
-    words.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
-});
+/// Characters in formulas, which spells formulas too.
+static TEX: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| pairs(MATHS));
 
 /// Returns the name of a letter: `sigma` for σ.
 pub fn letter(c: char) -> Option<&'static str> {
@@ -187,24 +184,21 @@ pub fn spell(tex: &str) -> String {
     out
 }
 
+/// Names that no character has in [`MATHS`].
+static SPELT: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
+    pairs("epsilon ε  varphi φ  leq ≤  geq ≥  lt <  gt >  vert |  sqrt √  dots …  ldots …")
+});
+
 fn named(name: &str) -> &str {
     match name {
-        "epsilon" => "ε",
-        "varphi" => "φ",
-        "leq" => "≤",
-        "geq" => "≥",
-        "lt" => "<",
-        "gt" => ">",
-        "vert" => "|",
-        "sqrt" => "√",
-        "dots" | "ldots" => "…",
         "mathrm" | "mathit" | "mathbf" | "mathbb" | "mathcal" | "mathsf" | "boldsymbol"
         | "text" | "left" | "right" | "operatorname" | "frac" | "dfrac" | "tfrac" | "bar"
         | "hat" | "tilde" | "vec" | "dot" | "ddot" | "overline" | "begin" | "end" | "!" => "",
         "," | ";" | ":" | " " | "quad" | "qquad" | "thinspace" | "\\" => " ",
         other => {
             let is = |tex: &str| tex.strip_prefix('\\') == Some(other);
-            TEX.iter().find(|(_, tex)| is(tex)).map_or(other, |(character, _)| character)
+            let named = TEX.iter().find(|(_, tex)| is(tex)).map(|(character, _)| character);
+            named.or(SPELT.get(other)).unwrap_or(&other)
         }
     }
 }
