@@ -378,16 +378,16 @@ mod tests {
 
     #[test]
     fn digits_are_text() {
-        let shown = |value: f64, digits, percent| {
+        for (value, digits, percent, html) in [
+            (-3.25, 3, false, "−3.25"),
+            (8.87e-4, 3, false, "8.87\u{202f}×\u{202f}10<sup>−4</sup>"),
+            (1e-9, 1, false, "10<sup>−9</sup>"),
+            (0.945, 3, true, "94.5\u{202f}%"),
+        ] {
             let style = Style { percent, ..Style::default() };
-            match print(&Value::real("x", value, digits).number, style) {
-                Shown::Number(numeral) => number(&numeral, '\u{202f}'),
-                Shown::Words(words) => words,
-            }
-        };
-        assert_eq!(shown(-3.25, 3, false), "−3.25");
-        assert_eq!(shown(8.87e-4, 3, false), "8.87\u{202f}×\u{202f}10<sup>−4</sup>");
-        assert_eq!(shown(1e-9, 1, false), "10<sup>−9</sup>");
-        assert_eq!(shown(0.945, 3, true), "94.5\u{202f}%");
+            let shown = print(&Value::real("x", value, digits).number, style);
+            let Shown::Number(numeral) = shown else { panic!("{shown:?}") };
+            assert_eq!(number(&numeral, '\u{202f}'), html);
+        }
     }
 }

@@ -97,22 +97,19 @@ impl Labels {
             };
             errors.extend(id.and_then(|id| self.add(id, number, document)));
         }
-        rewrite(blocks, &mut |mut inline| {
-            match &mut inline {
-                Inline::Anchor { id, number } => {
-                    self.statements += 1;
-                    *number = self.statements.to_string();
-                    errors.extend(self.add(id, number, document));
-                }
-                Inline::Display { id: Some(id), number, .. } => {
-                    if number.is_empty() {
-                        *number = next("eq");
-                    }
-                    errors.extend(self.add(id, &format!("({number})"), document));
-                }
-                _ => {}
+        visit(blocks, &mut |inline| match inline {
+            Inline::Anchor { id, number } => {
+                self.statements += 1;
+                *number = self.statements.to_string();
+                errors.extend(self.add(id, number, document));
             }
-            vec![inline]
+            Inline::Display { id: Some(id), number, .. } => {
+                if number.is_empty() {
+                    *number = next("eq");
+                }
+                errors.extend(self.add(id, &format!("({number})"), document));
+            }
+            _ => (),
         });
         Error::all(errors)
     }
@@ -256,13 +253,11 @@ fn cite(
 ) -> Result<Vec<Inline>, Error> {
     let mut out = Vec::new();
     for key in keys {
-        let Some(Reference { names, year, .. }) = list.iter().find(|entry| entry.key == *key)
-        else {
-            let what = format!(
-                "[@{key}]: nothing in the report and no entry of references.bib has this id"
-            );
-            return Err(Error::unknown(format!("@{key}"), what, library.keys()));
-        };
+        let entry = list.iter().find(|entry| entry.key == *key);
+        let Reference { names, year, .. } = entry.ok_or_else(|| {
+            let what = "nothing in the report and no entry of references.bib has this id";
+            Error::unknown(format!("@{key}"), format!("[@{key}]: {what}"), library.keys())
+        })?;
         let (to, within) = (format!("ref:{key}"), None);
         if in_sentence {
             let shown = format!("{names} ({year})");
