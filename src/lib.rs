@@ -19,9 +19,6 @@
 //!   [speed and accuracy](../../../paper/methods.html#sec-accuracy).
 //! - What is shown: [`figures`], [`claims`], [`contents`] and the engine in the page ([`lab`]);
 //!   `src/main.rs` puts it together. Where each equation is: [`mod@equations`].
-//!
-//! Imports flow one way: `impact-numerics` → `impact-chain` → `impact-circuits` (crates) →
-//! `experiments` → `figures`, `claims` → `contents`; `params` may be read by all.
 // Macros that print panic on a closed pipe or a full disk: `literate::cli::terminal` does not.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![warn(clippy::print_stderr, clippy::print_stdout)]

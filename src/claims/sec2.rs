@@ -166,29 +166,6 @@ fn repeated(e: &Evidence<'_>) -> Judged {
     Ok(e.open(found).note(note))
 }
 
-/// Says why a place of the rise cannot be judged: in how many windows of the map it has the printed
-/// digits, and where it lies after each transient.
-fn not_judged(e: &Evidence<'_>, place: fn(&Rise) -> Option<Estimate>) -> Result<Text, Error> {
-    let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
-    let printed = round_to_printed(map, e.statement.interval()?, place);
-    let mut text = text!(
-        "The protocol, which is not printed, decides. The printed digits come from {} of {} pairs of transient T and window W. \
-         From the narrowest W to the widest that has such a place:",
-        printed,
-        map.curves.len()
-    );
-    let mut sentence = " {} to {} for T = {}";
-    let same_transient = |a: &Curve, b: &Curve| a.protocol.transient == b.protocol.transient;
-    for windows in map.curves.chunk_by(same_transient) {
-        let places: Vec<Estimate> = windows.iter().filter_map(|curve| place(&curve.rise)).collect();
-        if let [Some(first), Some(last)] = [places.first(), places.last()] {
-            text = text.then(text!(sentence, *first, *last, windows[0].protocol.transient));
-        }
-        sentence = ", {} to {} for {}";
-    }
-    Ok(text.then("."))
-}
-
 /// Adds the protocol of the sweep to what is found.
 fn with_protocol(e: &Evidence<'_>, found: Text) -> Result<Text, Error> {
     let [transient, window] = e.numbers("sweep.run", ["transient", "window"])?;
@@ -196,19 +173,39 @@ fn with_protocol(e: &Evidence<'_>, found: Text) -> Result<Text, Error> {
 }
 
 fn half_height(e: &Evidence<'_>) -> Judged {
-    let half = e.estimate("sweep.rise.half_height")?;
-    let found = with_protocol(e, text!("σ½ = {}", half))?;
-    let note = Text::from(WITH_AN_IMPACT).then(" ");
-    Ok(e.open(found).note(note.then(not_judged(e, |rise| rise.half_height)?)))
+    let found = text!("σ½ = {}", e.estimate("sweep.rise.half_height")?);
+    not_judged(e, found, WITH_AN_IMPACT, |rise| rise.half_height)
 }
 
 fn onset(e: &Evidence<'_>) -> Judged {
-    let onset = e.estimate("sweep.rise.onset")?;
-    let found = with_protocol(e, text!("σ = {}", onset))?;
-    let note = Text::from(
-        "Judged by the mean of all: where any realisation has an impact, the mean of those is above a twentieth. ",
-    );
-    Ok(e.open(found).note(note.then(not_judged(e, |rise| rise.onset)?)))
+    let found = text!("σ = {}", e.estimate("sweep.rise.onset")?);
+    let by = "Judged by the mean of all: where any realisation has an impact, the mean of those is above a twentieth.";
+    not_judged(e, found, by, |rise| rise.onset)
+}
+
+/// Leaves a place of the rise open, and says in how many windows of the map it has the printed
+/// digits, and where it lies after each transient.
+fn not_judged(
+    e: &Evidence<'_>,
+    found: Text,
+    by: &str,
+    place: fn(&Rise) -> Option<Estimate>,
+) -> Judged {
+    let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
+    let printed = round_to_printed(map, e.statement.interval()?, place);
+    let text = " The protocol, which is not printed, decides. The printed digits come from {} of {} pairs of transient \
+         T and window W. From the narrowest W to the widest that has such a place:";
+    let mut note = Text::from(by).then(text!(text, printed, map.curves.len()));
+    let mut sentence = " {} to {} for T = {}";
+    let same_transient = |a: &Curve, b: &Curve| a.protocol.transient == b.protocol.transient;
+    for windows in map.curves.chunk_by(same_transient) {
+        let places: Vec<Estimate> = windows.iter().filter_map(|curve| place(&curve.rise)).collect();
+        if let [Some(first), Some(last)] = [places.first(), places.last()] {
+            note = note.then(text!(sentence, *first, *last, windows[0].protocol.transient));
+        }
+        sentence = ", {} to {} for {}";
+    }
+    Ok(e.open(with_protocol(e, found)?).note(note.then(".")))
 }
 
 /// The mode passes half of all gaps within a range of σ; it agrees if this meets the printed

@@ -243,11 +243,9 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
         }
     }
     let found = "from rest the start makes up {} of the distance between theory and simulation";
-    Ok(e.open(text!(found, share)).note(note.then(text!(
-        ". The theory assumes random free parts, for which nothing of the distance is due to the start. From r = {} \
-         to {} the half height moves by {}, more than with the start.",
-        *lowest, *highest, moved
-    ))))
+    let more = ". The theory assumes random free parts, for which nothing of the distance is due to the start. From \
+         r = {} to {} the half height moves by {}, more than with the start.";
+    Ok(e.open(text!(found, share)).note(note.then(text!(more, *lowest, *highest, moved))))
 }
 
 /// Returns the share of all impacts that `pick` counts at r and σ; none where these were not run.

@@ -29,14 +29,11 @@ pub fn values(
     low: f64,
     high: f64,
 ) -> impl Fn(&str) -> Result<Values, String> + Clone + Send + Sync + 'static {
-    move |text| list_or_range(text, &within(low, high))
+    move |text| list_or_range(text, [low, high])
 }
 
-fn list_or_range(
-    text: &str,
-    within: &impl Fn(&str) -> Result<f64, String>,
-) -> Result<Values, String> {
-    let number = |text: &str| within(text).map_err(|what| format!("{text:?}: {what}"));
+fn list_or_range(text: &str, [low, high]: [f64; 2]) -> Result<Values, String> {
+    let number = |text: &str| within(low, high)(text).map_err(|what| format!("{text:?}: {what}"));
     let Some((from, rest)) = text.split_once("..") else {
         return text.split(',').map(number).collect();
     };

@@ -47,7 +47,7 @@ pub fn print(number: &Number, style: Style) -> Shown {
             let numeral = match style.digits {
                 Some(Digits::Significant(n)) => numeral(integer.significant(n).times_ten(power)),
                 _ if style.percent => numeral(integer.times_ten(power)),
-                _ => Numeral { digits: grouped(integer.written()), ..Numeral::default() },
+                _ => plain(grouped(integer.written())),
             };
             (n < 0, numeral)
         }
@@ -58,9 +58,8 @@ pub fn print(number: &Number, style: Style) -> Shown {
                     numeral(Decimal::exact(value).significant(n).times_ten(power))
                 }
                 Digits::Decimals(n) => {
-                    let places = (n as i32).max(power);
-                    let digits = Decimal::exact(value).rounded(places).times_ten(power).written();
-                    Numeral { digits, ..Numeral::default() }
+                    let rounded = Decimal::exact(value).rounded((n as i32).max(power));
+                    plain(rounded.times_ten(power).written())
                 }
                 Digits::Full => numeral(Decimal::shortest(value).times_ten(power)),
             };
@@ -142,12 +141,13 @@ const NARROW_SPACE: char = '\u{202f}';
 /// Writes a number with a power of ten below 10^−3 and from 10^6 on.
 fn numeral(number: Decimal) -> Numeral {
     match number.exponent() {
-        -3..6 => Numeral { digits: number.written(), ..Numeral::default() },
-        exponent => {
-            let digits = number.times_ten(-exponent).written();
-            Numeral { digits, exponent: Some(exponent), ..Numeral::default() }
-        }
+        -3..6 => plain(number.written()),
+        power => Numeral { exponent: Some(power), ..plain(number.times_ten(-power).written()) },
     }
+}
+
+fn plain(digits: String) -> Numeral {
+    Numeral { digits, ..Numeral::default() }
 }
 
 /// Prints a number with its error in brackets, both times a power of ten: one digit of the error,

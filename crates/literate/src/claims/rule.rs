@@ -62,15 +62,9 @@ impl Rule {
         self.relation.is_none()
     }
 
-    fn check(
-        &self,
-        statement: &Statement,
-        published: &Published,
-        results: &Results,
-        level: Level,
-    ) -> Judged {
-        let level = (self.statistical || !self.is_of_statement()).then_some(level);
-        let judged = self.judged(&Evidence { statement, results, published, level });
+    fn check(&self, evidence: Evidence<'_>) -> Judged {
+        let level = evidence.level.filter(|_| self.statistical || !self.is_of_statement());
+        let judged = self.judged(&Evidence { level, ..evidence });
         judged.map_err(|error| Error::Check { id: self.id.into(), error: Box::new(error) })
     }
 
@@ -119,19 +113,17 @@ pub fn judge_all(
         published.statement(rule.id)?;
     }
     results.tables()?;
-    let level = level_of(rules);
+    let level = Some(level_of(rules));
     let mut checks = Vec::new();
     for statement in &published.statements {
         let rule = rules.iter().find(|rule| rule.is_of_statement() && rule.id == statement.id);
-        checks.push(match rule {
-            Some(rule) => rule.check(statement, published, results, level)?,
-            None => Evidence { statement, results, published, level: None }.open("–"),
-        });
+        let evidence = Evidence { statement, results, published, level };
+        checks.push(rule.map_or(Ok(evidence.open("–")), |rule| rule.check(evidence))?);
     }
     for rule in rules {
         if let Some(relation) = rule.relation {
-            let statement = Statement::new(Kind::Relation, rule.id, relation);
-            checks.push(rule.check(&statement, published, results, level)?);
+            let statement = &Statement::new(Kind::Relation, rule.id, relation);
+            checks.push(rule.check(Evidence { statement, results, published, level })?);
         }
     }
     Ok(checks)
@@ -145,12 +137,12 @@ pub fn blind_to_their_number(
     rules: &[Rule],
     results: &Results,
 ) -> Vec<&'static str> {
-    let level = level_of(rules);
+    let level = Some(level_of(rules));
     let mut blind = Vec::new();
     for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
         let Ok(statement) = published.statement(rule.id) else { continue };
-        let Some(misprint) = statement.misprint() else { continue };
-        let judged = rule.check(&misprint, published, results, level);
+        let Some(statement) = &statement.misprint() else { continue };
+        let judged = rule.check(Evidence { statement, results, published, level });
         let verdict = judged.map(|check| check.verdict);
         if matches!(verdict, Ok(Verdict::Reproduced | Verdict::DiffersAndExplained)) {
             blind.push(rule.id);
