@@ -89,10 +89,17 @@ impl Filler {
         Ok(filled)
     }
 
-    /// Checks the names of numbers in conditions, since Tera takes an unknown name for *false*.
+    /// Checks the names of numbers in conditions, since Tera takes an unknown name for *false*, and
+    /// that no plain number is shown.
     fn conditions(&self, path: &str, text: &str) -> Result<(), Error> {
         let uses = |group| text.match_indices(group).map(|(at, _)| at);
         for at in uses("raw.").chain(uses("keys.")) {
+            if text[at..].starts_with("raw.")
+                && text[..at].trim_end_matches(['-', ' ']).ends_with('«')
+            {
+                let what = "a plain number is for conditions; write the value, as «v.name»";
+                return Err(self.fault(path, at, what));
+            }
             let begins = !text[..at].ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
             if let Some(what) = self.missing(&text[at..]).filter(|_| begins) {
                 return Err(self.fault(path, at, &what));
@@ -230,21 +237,24 @@ fn raw(value: &Value) -> Json {
 /// Returns the tree of all names that templates may use.
 fn names(values: &Registry, tables: &[&Table]) -> Json {
     let mut names = Json::Null;
-    let mut add = |path: &[&str], value: &Value| {
+    let mut add = |path: &[&str], value: Option<&Value>| {
         let group: &[&str] = if path.len() == 1 { &["v"] } else { &[] };
-        put(&mut names, &[group, path].concat(), mark::framed(&value.id, "").into());
-        put(&mut names, &[&["raw"], path].concat(), raw(value));
+        let mark = value.map(|value| mark::framed(&value.id, ""));
+        put(&mut names, &[group, path].concat(), mark.into());
+        put(&mut names, &[&["raw"], path].concat(), value.map_or(Json::Null, raw));
     };
     for value in values.iter() {
-        add(&value.id.split('.').collect::<Vec<_>>(), value);
+        add(&value.id.split('.').collect::<Vec<_>>(), Some(value));
     }
     for table in tables {
+        let name: Vec<&str> = table.name().split('.').collect();
+        // A table without rows has a name too.
+        add(&name, None);
         for (row, cells) in table.named() {
             for (column, cell) in cells {
                 // A table of one row without keys is that row.
-                let row = Some(row.as_str()).filter(|row| !row.is_empty());
-                let path = table.name().split('.').chain(row).chain([column]);
-                add(&path.collect::<Vec<_>>(), cell);
+                let row: &[&str] = if row.is_empty() { &[] } else { &[&row] };
+                add(&[&name, row, &[column]].concat(), Some(cell));
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Prose that is broken: each fault is named with its place.
 
-use super::{PROSE, assembled, file, unmarked};
+use super::{Given, PROSE, Table, assembled, file, given, unmarked};
 
 /// Broken prose, line and column of the error, and words of its message; lines without an arrow are
 /// headings.
@@ -11,7 +11,7 @@ a⏎«v.half_heigth» => 15:4 => v.half_heigth: there is no such name; nearest: 
 at «v.half_height now => 14:4 => this « has no » on its line
 rises«holds(that=raw.half_height > 0.2)», so => 14:7 => the words before are no longer true: holds(that=raw.half_height > 0.2), where raw.half_height is 0.11652
 rises«holds(that=raw.half_heigth > 0.2)» => 14:18 => nearest: half_height
-at «raw.half_height» => 14:4 => hard-coded number 0.11652;
+at «raw.half_height» => 14:5 => a plain number is for conditions; write the value
 at «nothing.at_all» => 14:5 => nothing
 a <% if raw.half_height > 1 %>b => 1 => nexpected end
 «v.half_height | nofilter» => 14: => nofilter
@@ -122,8 +122,11 @@ fn good_prose_passes() {
     let good = "Words \\*, \\_, \\$, me@x.org: C#, \\@sec:a, \\#, a * b, a_b, \\[a, b\\], a < b, \\^, \\~, \\-- and\n\n\
         [data](data), [code](../src/lib.rs), [out](https://x.org/10), `*` and $a_b * c^*$.\n\n\
         «literal(text=\"2007\", why=\"the year\")», two-sided, `f64`, $k = 3$, $x_{12} = «v.half_height»$\n\n```\n12\n```\n\n\
-        $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n«v.empty | otherwise(words=\"nothing\")», «v.count | otherwise(words=\"nothing\")»\n\n| a |\n|---|\n| «v.empty» |\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>";
-    let report = assembled(&format!("{PROSE}\n\n{good}\n")).unwrap();
+        $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n«v.empty | otherwise(words=\"nothing\")», «v.count | otherwise(words=\"nothing\")»\n\n| a |\n|---|\n| «v.empty» |\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>\
+        <% for row in keys.toy.none.rows %><% if raw.toy.none[row].x > 1 %>a<% endif %><% endfor %>";
+    let none = Table::of("toy.none", &[0.5; 0], |_| 0).key("x", "1", |x| *x).done();
+    let prose = format!("{PROSE}\n\n{good}\n");
+    let report = Given { table: Some(none), ..given(&prose) }.made().unwrap();
     let text = file(&report, "report.md");
     assert!(text.contains("nothing, 12") && text.contains("| – |"), "{text}");
 }
