@@ -1,6 +1,6 @@
 //! Writes the tree as a document for LaTeX; what surrounds it is the template report.tex.
 
-use super::document::{Block, Formula, Inline, Table, title};
+use super::document::{Block, Formula, Inline, Reference, Table, title};
 use super::document::{goes_on, is_abstract, place, plain, printed, spelt};
 use super::edition::{Document, Edition};
 use super::error::Error;
@@ -115,13 +115,11 @@ fn write_block(block: &Block) -> String {
         // Listings stand after the text, and paper runs nothing.
         Block::Listing { .. } | Block::Lab { .. } => String::new(),
         Block::Bibliography(entries) => {
-            let mut out = String::from(HANGING);
-            for entry in entries {
-                let text = inlines(&entry.text());
-                let name = label(&format!("ref:{}", entry.key));
-                out.push_str(&format!("\\item {name}{text}\n"));
-            }
-            out + "\\end{list}"
+            let item = |entry: &Reference| {
+                let place = label(&format!("ref:{}", entry.key));
+                format!("\\item {place}{}\n", inlines(&entry.text()))
+            };
+            format!("{HANGING}{}\\end{{list}}", entries.iter().map(item).collect::<String>())
         }
     }
 }
@@ -248,8 +246,8 @@ struct Column {
 
 impl Column {
     fn of(table: &Table, i: usize, align: Alignment) -> Self {
-        let cells = table.rows.iter().chain([&table.head]).filter_map(|row| row.get(i));
-        let cells: Vec<String> = cells.map(|cell| plain(cell)).collect();
+        let rows = table.rows.iter().chain([&table.head]);
+        let cells: Vec<String> = rows.map(|row| plain(&row[i])).collect();
         let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0).max(3);
         let words = cells.iter().flat_map(|cell| cell.split_whitespace());
         let word = words.map(|word| word.chars().count()).max().unwrap_or(0).min(24);
@@ -289,8 +287,9 @@ fn table(table: &Table) -> String {
         out.push_str(&format!("\\caption{{{}}}{label}\\\\\n", inlines(&table.caption)));
     }
     let head = row(&table.head);
-    out.push_str(&format!("\\toprule\n{head}\\midrule\n\\endfirsthead\n"));
-    out.push_str(&format!("\\toprule\n{head}\\midrule\n\\endhead\n\\bottomrule\n\\endlastfoot\n"));
+    for end in ["\\endfirsthead\n", "\\endhead\n\\bottomrule\n\\endlastfoot\n"] {
+        out.push_str(&format!("\\toprule\n{head}\\midrule\n{end}"));
+    }
     // Rows of several lines get a space between them.
     for cells in &table.rows {
         out.push_str(&row(cells));
@@ -304,8 +303,8 @@ fn table(table: &Table) -> String {
 /// is free beyond their longest words. The square root keeps a very long one from starving the
 /// others.
 fn shared(columns: &[Column], line: f64, free: f64) -> String {
-    let long = || columns.iter().filter(|column| column.width > SHORT);
-    let weights: f64 = long().map(|column| (column.width as f64).sqrt()).sum();
+    let long = columns.iter().filter(|column| column.width > SHORT);
+    let weights: f64 = long.map(|column| (column.width as f64).sqrt()).sum();
     let column = |Column { letter, width, least }: &Column| {
         if *width <= SHORT {
             return letter.to_string();
