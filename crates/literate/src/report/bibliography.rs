@@ -106,7 +106,8 @@ fn reference(entry: &Entry) -> Result<Reference, String> {
         rest.extend(between(" ", vec![link], ""));
     }
     let year = plain(&either(["year", "date"])?);
-    let year = year.split('-').next().unwrap_or_default().to_string();
+    let first = year.split('-').next().filter(|first| !first.is_empty());
+    let year = first.unwrap_or(&year).to_string();
     Ok(Reference {
         key: entry.key.clone(),
         names: names(&people),
@@ -261,7 +262,7 @@ mod tests {
 @article{k, author={van der Berg, Jan}, title={T}, journal={J}, year={1}} => van der Berg, 1: van der Berg, J. (1). T. *J*.
 @article{k, author={Jan van der Berg}, title={T}, journal={J}, year={1}} => van der Berg, 1: van der Berg, J. (1). T. *J*.
 @article{k, author={Knuth, III, Donald E.}, title={T}, journal={J}, year={1}} => Knuth, 1: Knuth, D. E., III. (1). T. *J*.
-@article{k, author={A}, title={Why?}, journal={Phys. Lett.}, year={in press}} => A, in press: A. (in press). Why? *Phys. Lett.*
+@article{k, author={A}, title={Why?}, journal={Phys. Lett.}, year={-300}} => A, -300: A. (-300). Why? *Phys. Lett.*
 @book{k, author={A}, title={Why?}, edition={11}, year=1} => A, 1: A. (1). *Why?* (11th ed.).
 @book{k, author={A}, title={O!}, publisher={P.}, edition={Revised}, year=1} => A, 1: A. (1). *O!* (Revised ed.). P.
 @book{k, author={A}, title={On \$5, 50\%}, year=1} => A, 1: A. (1). *On \$5, 50%*.

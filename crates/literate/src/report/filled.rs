@@ -65,7 +65,7 @@ impl Filled {
         let Origin { template, offset, tag, .. } = self.origin(offset);
         let typed = self.templates[template].1[offset..].trim_start_matches(['«', '-', ' ']);
         let number = |c: char| c.is_ascii_digit() || "\"'`(-".contains(c);
-        !tag || typed.starts_with(number) || typed.starts_with("raw.") || typed.starts_with("loop.")
+        !tag || typed.starts_with(number) || typed.starts_with("loop.")
     }
 }
 

@@ -65,11 +65,11 @@ impl Reader<'_> {
                 ));
             }
             Event::InlineMath(tex) => {
-                self.check_numbers(&tex, &range);
+                self.check_numbers(&range);
                 Inline::Maths(self.formula(&tex, range.start)?)
             }
             Event::DisplayMath(tex) => {
-                self.check_numbers(&tex, &range);
+                self.check_numbers(&range);
                 self.display(&tex, range)?
             }
             Event::SoftBreak => Inline::Soft,
@@ -89,9 +89,10 @@ impl Reader<'_> {
     }
 
     /// Notes a hard-coded number in a formula, in which what tags wrote counts as a letter.
-    fn check_numbers(&mut self, tex: &str, range: &Range<usize>) {
-        let begin = range.start + (range.len() - tex.len()) / 2;
-        let tex = tex.split(r"\tag").next().unwrap_or_default();
+    fn check_numbers(&mut self, range: &Range<usize>) {
+        let tex = self.source(range).trim_start_matches('$');
+        let begin = range.end - tex.len();
+        let tex = tex.trim_end_matches('$').split(r"\tag").next().unwrap_or_default();
         let typed = |(i, c)| if self.filled.is_typed(begin + i) { c } else { 'x' };
         let tex: String = tex.char_indices().map(typed).collect();
         let found = lint::formula(&lint::without_literals(&tex));

@@ -275,8 +275,9 @@ impl<'a> Reader<'a> {
         if !plain(&behind).trim().is_empty() {
             return Err(markup(ALONE));
         }
-        let name = path.trim_start_matches("figures/").split('.').next().unwrap_or_default();
-        let (name, files) = (name.to_string(), [path.to_string(), String::new()]);
+        let file = path.rsplit('/').next().unwrap_or_default();
+        let name = file.rsplit_once('.').map_or(file, |(name, _)| name).to_string();
+        let files = [path.to_string(), String::new()];
         let id = id.unwrap_or_else(|| format!("fig:{name}"));
         self.id("fig", &id, at)?;
         self.places.add(format!("!{path}"), at);

@@ -38,7 +38,7 @@ Seen [@rice1945, Sec. 3] => 14:6 => ids alone
 Seen [@mice1945] => 14:6 => [@mice1945]: nothing
 ![Words.](figures/fig09.svg) => 14:1 => there is no figure figures/fig09.svg; use figures/NAME.svg of a figure of the paper; a file becomes one by Figure::picture; nearest: figures/fig03.svg
 ![Words.](figures/fig03.png){#fig:x} => 14:1 => there is no figure figures/fig03.png; 
-![Words.](photo.png) => 14:1 => there is no figure photo.png; 
+![Words.](img/photo.png) => 14:1 => there is no figure img/photo.png; 
 ![Words.](figures/fig03.svg){#eq:a} => 14:1 => write fig: followed by
 $$ x $$ {#fig:a} => 14:1 => write eq: followed by
 ## A {#sec:a}⏎⏎## B {#sec:a} => 16:1 => have this id
