@@ -2,7 +2,6 @@
 //! transients.
 
 use super::ensembles::{Ensembles, ensembles};
-use super::half_height::HALF_HEIGHT;
 use crate::experiments::prelude::*;
 use crate::params;
 use impact_chain::Start;

@@ -1,7 +1,6 @@
 //! Maps the influence of the counting protocol: half height against transient T and window W.
 
 use super::ensembles::{Ensembles, ensembles};
-use super::half_height::{ANY_IMPACT, HALF_HEIGHT, OF_ACTIVE};
 use crate::experiments::prelude::*;
 use crate::params::{self, printed_interval};
 use impact_chain::Protocol;

@@ -4,9 +4,6 @@
 use crate::experiments::prelude::*;
 use crate::params::{Boundary, Profile, Protocol, SEED, Start, printed_threshold};
 use impact_chain::replay::{Forces, Replay, Request};
-use literate::experiments::Experiment;
-use literate::experiments::cutting::SECOND;
-use literate::experiments::experiment::How::Whole;
 
 /// Runs that a page repeats.
 pub const REPLAY: Experiment<ReplayRuns, Replays> = Experiment {
@@ -30,11 +27,10 @@ pub struct Replays {
 pub struct ReplayResult {
     pub impacts: u64,
     /// Different gaps with an impact in the window.
-    pub distinct: usize,
+    pub distinct: u64,
     pub contact_phases: u64,
     /// Runs of neighbouring gaps that closed at one instant.
     pub simultaneous: u64,
-    /// [`Replay::digest`].
     pub digest: String,
 }
 
@@ -52,6 +48,7 @@ pub fn runs(_: Profile) -> ReplayRuns {
     };
     let (chain, threshold) = (Chain::default, printed_threshold());
     let at_threshold = format!("Fig. 3 at σ = {threshold}");
+    let hit_twice = vec![[2.0, 1.0], [0.0; 2], [-2.0, -1.0]];
     let named = [
         (&at_threshold[..], drawn(threshold, chain())),
         ("Fig. 3 at σ = 0.05, without an impact", drawn(0.05, chain())),
@@ -64,10 +61,7 @@ pub fn runs(_: Profile) -> ReplayRuns {
         ("a thousand masses", drawn(0.16, Chain { masses: 1000, ..chain() })),
         ("chatter: one mass comes to rest at a wall", given(vec![[5.88, -4.94]], 0.2, 20.0)),
         ("contact: five masses are pressed together", given(pressed(), 0.2, 20.0)),
-        (
-            "ties: a mass is hit from both sides",
-            given(vec![[2.0, 1.0], [0.0; 2], [-2.0, -1.0]], 0.8, 100.0),
-        ),
+        ("ties: a mass is hit from both sides", given(hit_twice, 0.8, 100.0)),
         ("ties: a chain is its own mirror image", given(mirrored(), 0.8, 50.0)),
     ];
     named.map(|(name, asked)| (name.to_string(), asked)).into()
@@ -98,7 +92,7 @@ pub fn run(parameters: &ReplayRuns, progress: &Progress) -> Result<Replays, Erro
         let work = replay.engine().counters();
         Ok(ReplayResult {
             impacts: work.impacts,
-            distinct: replay.distinct(),
+            distinct: replay.distinct() as u64,
             contact_phases: work.contact_phases,
             simultaneous: work.simultaneous,
             digest: replay.digest(),
@@ -116,7 +110,7 @@ pub fn tables(all: &Replays) -> Vec<Table> {
         .count("masses", "masses", |((_, asked), _)| asked.chain.masses as u64)
         .chosen("until", TIME, "length of the run", |((_, asked), _)| Some(asked.until()))
         .count("impacts", "impacts", |(_, found)| found.impacts)
-        .count("distinct", "gaps with an impact in the window", |(_, found)| found.distinct as u64)
+        .count("distinct", "gaps with an impact in the window", |(_, found)| found.distinct)
         .count("contact_phases", "contact phases", |(_, found)| found.contact_phases)
         .count("simultaneous", "ties", |(_, found)| found.simultaneous)
         .words("sha256", "of all impacts: time, gap, speed", |(_, found)| found.digest.clone())

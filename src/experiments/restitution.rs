@@ -1,7 +1,6 @@
 //! Finds half heights of chains of several restitutions r.
 
 use super::ensembles::{Ensembles, ensembles};
-use super::half_height::{HALF_HEIGHT, half_height_all};
 use crate::experiments::prelude::*;
 use crate::params;
 

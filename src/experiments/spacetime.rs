@@ -5,9 +5,6 @@
 
 use crate::experiments::prelude::*;
 use crate::params::Runs;
-use literate::experiments::Experiment;
-use literate::experiments::cutting::SECOND;
-use literate::experiments::experiment::How::Whole;
 
 /// One long run.
 pub const SPACE_TIME: Experiment<Runs, SpaceTime> = Experiment {
@@ -37,16 +34,12 @@ pub fn run(parameters: &Runs, progress: &Progress) -> Result<SpaceTime, Error> {
             .map_err(|source| Error::failed("spacetime", source))?;
         if impacts.last().is_some_and(|last| last.time > 0.9 * parameters.until) {
             stage.advance(1);
-            let (times, gaps) =
-                impacts.into_iter().map(|impact| (impact.time, impact.gap as u32)).unzip();
+            let (times, gaps) = impacts.iter().map(|hit| (hit.time, hit.gap as u32)).unzip();
             return Ok(SpaceTime { parameters: parameters.clone(), times, gaps });
         }
     }
-    Err(Error::input(
-        "sigma",
-        format!("no run with {:?} has late impacts", parameters.sigma),
-        "give a larger one",
-    ))
+    let problem = format!("no run with {:?} has late impacts", parameters.sigma);
+    Err(Error::input("sigma", problem, "give a larger one"))
 }
 
 impl SpaceTime {
@@ -85,9 +78,9 @@ impl SpaceTime {
     }
 
     /// Returns how long each step of a front takes, the quickest first; starts are no steps.
-    pub fn advances(&self) -> Vec<f64> {
-        let mut advances: Vec<f64> =
-            self.waits().into_iter().filter_map(|(_, wait)| wait).collect();
+    fn advances(&self) -> Vec<f64> {
+        let steps = self.waits().into_iter().filter_map(|(_, wait)| wait);
+        let mut advances: Vec<f64> = steps.collect();
         advances.sort_by(f64::total_cmp);
         advances
     }
@@ -95,17 +88,16 @@ impl SpaceTime {
 
 pub fn tables(found: &SpaceTime) -> Vec<Table> {
     let advances = found.advances();
-    let step = |place: usize| advances.get(place).copied();
     let table = Table::of("spacetime.run", &[found], |_| 1)
         .chosen("sigma", SIGMA, "standard deviation σ", |found| Some(found.parameters.sigma))
         .chosen("until", TIME, "length of the run", |found| Some(found.parameters.until))
         .computed_by(origin(SpaceTime::starts))
         .count("starts", "gaps hit when neither neighbour was", |found| found.starts().len() as u64)
         .computed_by(origin(SpaceTime::advances))
-        .real("advance_median", TIME, 3, "median step of a front", |_| step(advances.len() / 2))
-        .real("advance_longest", TIME, 3, "longest step of a front", |_| {
-            step(advances.len().wrapping_sub(1))
+        .real("advance_median", TIME, 3, "median step of a front", |_| {
+            advances.get(advances.len() / 2).copied()
         })
+        .real("advance_longest", TIME, 3, "longest step of a front", |_| advances.last().copied())
         .done();
     vec![table]
 }
@@ -120,8 +112,8 @@ mod tests {
     fn a_small_run_is_read_right() {
         let chain = Chain { masses: 4, ..Chain::default() };
         let parameters = Runs { chain, ..Runs::spacetime(Profile::Quick) };
-        let times = vec![10.0, 12.0, 13.0, 14.0, 50.0, 60.0, 61.0];
-        let run = SpaceTime { parameters, times, gaps: vec![1, 2, 1, 0, 4, 1, 1] };
+        let (times, gaps) = (vec![10.0, 12.0, 13.0, 14.0, 50.0, 60.0], vec![1, 2, 1, 0, 4, 1]);
+        let run = SpaceTime { parameters, times, gaps };
         assert_eq!(run.firsts(), [Some(14.0), Some(10.0), Some(12.0), None, Some(50.0)]);
         assert_eq!(run.starts(), [1, 4]);
         assert_eq!(run.advances(), [2.0, 4.0]);

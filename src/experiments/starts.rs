@@ -2,7 +2,6 @@
 //! place of walls.
 
 use super::ensembles::{Ensembles, ensembles};
-use super::half_height::{HALF_HEIGHT, half_height_all};
 use crate::experiments::prelude::*;
 use crate::params;
 

@@ -7,9 +7,6 @@
 
 use crate::experiments::prelude::*;
 use crate::params::TwoMassesParams;
-use literate::experiments::Experiment;
-use literate::experiments::cutting::SECOND;
-use literate::experiments::experiment::How::Whole;
 
 pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
     name: "two_masses",
@@ -18,6 +15,10 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
     how: Whole(run, |parameters| parameters.directions.realisations as u64 * SECOND / 800),
     tables,
 };
+
+/// The worst directions for Ω > ω: opposite forces in the quadrature that the start from rest
+/// amplifies.
+const WORST: [[f64; 2]; 2] = [[0.0, 1.0], [0.0, -1.0]];
 
 /// The smallest forces that lead to an impact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,12 +41,8 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
     let directions = parameters.directions.realisations;
     let stage = progress.stage("two masses", directions as u64 + 1);
     // The last direction is the worst one.
-    let found = each(&stage, progress, 0..=directions, |index| {
-        let forcing = if index < directions {
-            parameters.directions.scenario(index as u64).forcing
-        } else {
-            worst(&parameters.directions.chain)
-        };
+    let drawn = (0..directions as u64).map(|index| parameters.directions.scenario(index).forcing);
+    let found = each(&stage, progress, drawn.chain([WORST.to_vec()]), |forcing| {
         thresholds(parameters, &forcing, progress)
     })?;
     let excess = |i: usize| {
@@ -61,45 +58,28 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
 
 /// Makes the tables of the bound, and of how near to its bound each direction has an impact.
 pub fn tables(found: &TwoMasses) -> Vec<Table> {
-    let bound = Table::of("two_masses.bound", &[found], |_| 0)
+    let bound = Table::of("two_masses.bound", &[&found.parameters.directions], |_| 0)
         .computed_by(origin(safe_force))
-        .real("force", SIGMA, 4, "force amplitude below which two masses never hit", |found| {
-            safe_force(&found.parameters.directions.chain)
+        .real("force", SIGMA, 4, "force amplitude below which two masses never hit", |of| {
+            safe_force(&of.chain)
         })
-        .count("directions", "random directions of the forcing", |found| {
-            found.parameters.directions.realisations as u64
-        })
+        .count("directions", "random directions of the forcing", |of| of.realisations as u64)
         .done();
+    const GREATEST: &str = "largest of the least forces with an impact, over bounds";
     let excess: Vec<_> = found.parameters.times.iter().zip(&found.excess).collect();
     let excess = Table::of("two_masses.excess", &excess, |_| 0)
         .key("time", TIME, |(time, _)| time.floor())
         .computed_by(origin(run))
-        .real(
-            "greatest",
-            "1",
-            6,
-            "largest of the least forces with an impact, over bounds",
-            |row| row.1[1],
-        )
+        .real("greatest", "1", 6, GREATEST, |row| row.1[1])
         .done();
     vec![bound, excess]
 }
 
 /// Returns the amplitude of each of two neighbouring masses below which R1 + R2 < d in their gap
-/// for every direction, after a start from rest: forces at most F differ by at most 2F, so R2 ≤
-/// 2F/|ω² − Ω²| and R1 ≤ max(1, Ω/ω) R2.
+/// for every direction, after a start from rest: forces at most F differ by at most 2F, so
+/// R2 ≤ 2F/|ω² − Ω²| and R1 ≤ max(1, Ω/ω) R2.
 pub fn safe_force(chain: &Chain) -> f64 {
-    bound(chain, &worst(chain))
-}
-
-/// Returns the worst directions: opposite forces in the quadrature that the start from rest
-/// amplifies.
-fn worst(chain: &Chain) -> Vec<[f64; 2]> {
-    if chain.forcing_frequency > chain.natural_frequency {
-        vec![[0.0, 1.0], [0.0, -1.0]]
-    } else {
-        vec![[1.0, 0.0], [-1.0, 0.0]]
-    }
+    bound(chain, &WORST)
 }
 
 /// Returns the factor on `forcing` below which R1 + R2 < d in every gap between walls, after a
@@ -123,11 +103,12 @@ fn thresholds(
     forcing: &[[f64; 2]],
     progress: &Progress,
 ) -> Result<(u64, Vec<f64>), Error> {
-    let bound = bound(&parameters.directions.chain, forcing);
+    let chain = &parameters.directions.chain;
+    let bound = bound(chain, forcing);
     let hits = |ratio: f64, until: f64| -> Result<bool, Error> {
         progress.check()?;
         let scaled = forcing.iter().map(|pair| pair.map(|x| ratio * bound * x)).collect();
-        let first = Scenario::given(&parameters.directions.chain, scaled)
+        let first = Scenario::given(chain, scaled)
             .and_then(|scenario| Engine::new(&scenario)?.next_impact(until));
         Ok(first.map_err(|source| Error::failed("two masses", source))?.is_some())
     };

@@ -33,8 +33,8 @@ impl Error {
     }
 }
 
-/// The largest number of vertices for which a quantity is computed: each takes a time that grows
-/// at most in proportion to N, some seconds at this bound.
+/// The largest number of vertices N for which a quantity is computed: its time grows at most in
+/// proportion to N, and is some seconds at this bound.
 pub const LARGEST_N: usize = 10_000_000;
 
 /// Refuses a number outside [low, high].

@@ -3,19 +3,34 @@
 //!
 //! The printed formulas count cyclic sequences as length!/length would, which is right only while
 //! no sequence can be a repetition of a shorter one. [`SampleSpace::FiveClasses`] counts distinct
-//! circuits.
+//! circuits. Exact counts are none beyond 128 bits.
 
-use crate::arrangements::arrangements;
 use crate::fraction::Fraction;
-use crate::sample_space::SampleSpace;
 use impact_numerics::double_double::DoubleDouble;
+
+/// The circuits that are possible.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SampleSpace {
+    /// Simple circuits only (Sec. 6).
+    Simple,
+    /// Simple circuits and the four classes of Sec. 9, counted as primitive circuits.
+    FiveClasses,
+    /// The same with the printed formulas of Sec. 9 taken at every length, although they fail for
+    /// one and for two different vertices.
+    FiveClassesPrinted,
+}
+
+/// Returns N (N − 1) … (N − count + 1): the ordered choices of `count` of N vertices.
+pub(crate) fn arrangements(big_n: usize, count: usize) -> Option<u128> {
+    let mut factors = (0..count).map(|i| big_n.saturating_sub(i) as u128);
+    factors.try_fold(1_u128, u128::checked_mul)
+}
 
 /// **Eq. (29)**
 ///
 /// Returns the number of paths from a given doubled vertex for a loop, back, and for another loop,
-/// k vertices in all: (N − 1)!/(N − (k − 1))!, for k ≥ 2; zero beyond N + 1; none beyond
-/// 128 bits. The way in which the k − 2 other vertices are divided between the loops does not
-/// matter:
+/// k vertices in all: (N − 1)!/(N − (k − 1))!, for k ≥ 2; zero beyond N + 1. The way in which the
+/// k − 2 other vertices are divided between the loops does not matter:
 ///
 /// **Eq. (26)** (step towards (30)): with γ_1 and γ_2 of them, k = (γ_1 + 1) + (γ_2 + 1).
 /// **Eq. (27)** (step towards (29)): (N − 1) … (N − γ_1) ways for the first loop,
@@ -28,7 +43,7 @@ pub fn doubled_paths(big_n: usize, k: usize) -> Option<u128> {
 /// **Eq. (30)**
 ///
 /// Returns φ_N^1(k) *as this equation prints it*: γ(k, 2)/2 times [`doubled_paths`]. A factor N,
-/// the choice of the doubled vertex, is missing; Eq. (33) has it. None beyond 128 bits.
+/// the choice of the doubled vertex, is missing; Eq. (33) has it.
 pub fn doubled_as_printed(big_n: usize, k: usize) -> Option<Fraction> {
     let splits = compositions(k, 2)?;
     Some(Fraction::new(splits.checked_mul(doubled_paths(big_n, k)?)?, 2))
@@ -37,7 +52,7 @@ pub fn doubled_as_printed(big_n: usize, k: usize) -> Option<Fraction> {
 /// **Eq. (32)**
 ///
 /// Returns γ(n, j), the number of ways to write n as an ordered sum of j positive integers: the
-/// binomial coefficient (n − 1 over j − 1), for n, j ≥ 1. None beyond 128 bits.
+/// binomial coefficient (n − 1 over j − 1), for n, j ≥ 1.
 ///
 /// **Eq. (31)** (step towards (32)): α_1 + … + α_j = n with every α_i > 0.
 pub fn compositions(n: usize, j: usize) -> Option<u128> {
@@ -55,14 +70,12 @@ pub fn compositions(n: usize, j: usize) -> Option<u128> {
 ///
 /// Returns φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: circuits of
 /// length k with one vertex visited twice and no other repeated. Fails at k = 2 (a loop run twice
-/// is no new circuit), where it gives N/2. None beyond 128 bits.
+/// is no new circuit), where it gives N/2.
 pub fn doubled(big_n: usize, k: usize) -> Option<Fraction> {
-    let choices = arrangements(big_n, k - 1)?;
-    Some(Fraction::new(choices.checked_mul(k as u128 - 1)?, 2))
+    printed(big_n, k, 2, k - 1, 2)
 }
 
-/// Returns (k − 1)!/(k − j)! · N!/(N − d)! / divisor, the common form of the printed
-/// formulas.
+/// Returns (k − 1)!/(k − j)! · N!/(N − d)! / divisor, the common form of the printed formulas.
 fn printed(big_n: usize, k: usize, j: usize, d: usize, divisor: u128) -> Option<Fraction> {
     let positions = arrangements(k - 1, j - 1)?;
     Some(Fraction::new(positions.checked_mul(arrangements(big_n, d)?)?, divisor))
@@ -70,18 +83,16 @@ fn printed(big_n: usize, k: usize, j: usize, d: usize, divisor: u128) -> Option<
 
 /// **Eq. (35)**
 ///
-/// Returns φ_N^{1,0}(k) as printed, for k ≥ 3: one vertex visited three times, 1/6 (k − 1)!/(k
-/// − 3)! N!/(N − (k − 2))!. Gives N/3 at k = 3, where there is no such circuit. None beyond
-/// 128 bits.
+/// Returns φ_N^{1,0}(k) as printed, for k ≥ 3: one vertex visited three times,
+/// 1/6 (k − 1)!/(k − 3)! N!/(N − (k − 2))!. Gives N/3 at k = 3, where there is no such circuit.
 pub fn three_visits(big_n: usize, k: usize) -> Option<Fraction> {
     printed(big_n, k, 3, k - 2, 6)
 }
 
 /// **Eq. (36)**
 ///
-/// Returns φ_N^{1,0,0}(k) as printed, for k ≥ 4: one vertex visited four times, 1/24 (k −
-/// 1)!/(k − 4)! N!/(N − (k − 3))!. Gives N/4 at k = 4, where there is no such circuit. None
-/// beyond 128 bits.
+/// Returns φ_N^{1,0,0}(k) as printed, for k ≥ 4: one vertex visited four times,
+/// 1/24 (k − 1)!/(k − 4)! N!/(N − (k − 3))!. Gives N/4 at k = 4, where there is no such circuit.
 pub fn four_visits(big_n: usize, k: usize) -> Option<Fraction> {
     printed(big_n, k, 4, k - 3, 24)
 }
@@ -90,7 +101,7 @@ pub fn four_visits(big_n: usize, k: usize) -> Option<Fraction> {
 ///
 /// Returns φ_N^2(k) as printed, for k ≥ 3: two vertices visited twice,
 /// 1/8 (k − 1)!/(k − 4)! N!/(N − (k − 2))!. Gives 3 N (N − 1)/4 at k = 4, where there are
-/// N (N − 1)/2. None beyond 128 bits.
+/// N (N − 1)/2.
 pub fn two_doubled(big_n: usize, k: usize) -> Option<Fraction> {
     printed(big_n, k, 4, k - 2, 8)
 }

@@ -50,19 +50,15 @@ pub struct ImpactProbability {
 ///
 /// **Eq. (22)**
 ///
-/// Returns the density of Y_0 at x: Rayleigh, since both differences are normal with variance
-/// 2σ².
+/// Returns the density of Y_0 at x ≥ 0: Rayleigh, as both differences are normal, of variance 2σ².
 pub fn density_free(x: f64, sigma: f64) -> f64 {
     density_forced(x, sigma, 1.0)
 }
 
 /// **Eq. (23)**
 ///
-/// Returns the density of Y_1/|ω² − Ω²| at x, `detuning` = |ω² − Ω²|.
+/// Returns the density of Y_1/|ω² − Ω²| at x ≥ 0, `detuning` = |ω² − Ω²|.
 pub fn density_forced(x: f64, sigma: f64, detuning: f64) -> f64 {
-    if x < 0.0 {
-        return 0.0;
-    }
     let rate = detuning / (2.0 * sigma);
     2.0 * rate * rate * x * pxfm::f_exp(-(rate * x) * (rate * x))
 }
@@ -101,11 +97,8 @@ fn saturation(x: f64) -> f64 {
 const NEARLY_ONE: f64 = 0.01;
 
 impl ImpactProbability {
-    /// Creates the law of a gap of masses d = `spacing` apart, with natural frequency ω and
+    /// Creates the law of a gap of masses d = `spacing` apart, with natural frequency ω and another
     /// forcing frequency Ω.
-    ///
-    /// # Errors
-    /// [`Error`] for a number out of range, or ω = Ω.
     pub fn new(sigma: f64, spacing: f64, omega: f64, forcing: f64) -> Result<Self, Error> {
         within("sigma", sigma, 1e-300, 1e6)?;
         // The ranges of a scenario.
@@ -127,9 +120,6 @@ impl ImpactProbability {
     }
 
     /// Creates the law of the paper's chain, ω = 1, Ω = √2, d = 1 (Fig. 11).
-    ///
-    /// # Errors
-    /// [`Error`] for σ out of range.
     pub fn of_paper(sigma: f64) -> Result<Self, Error> {
         let chain = Chain::default();
         Self::new(sigma, chain.spacing, chain.natural_frequency, chain.forcing_frequency)
@@ -142,8 +132,7 @@ impl ImpactProbability {
     }
 
     // listing: leading
-    /// Returns the leading exponent E and the factor B of p = B e^{−E}; both without
-    /// cancellation.
+    /// Returns the leading exponent E and the factor B of p = B e^{−E}; both without cancellation.
     fn leading(&self) -> (DoubleDouble, f64) {
         let (s, t) = self.scales();
         let ratio = s / t;
@@ -161,11 +150,8 @@ impl ImpactProbability {
 
     /// **Eq. (25)**
     ///
-    /// Returns p(σ), the probability that a gap closes by itself, in closed form and to about
-    /// 1e−15 relative at the exact doubles given.
-    ///
-    /// # Errors
-    /// [`Error`] if p is below the range of doubles.
+    /// Returns p(σ), the probability that a gap closes by itself, in closed form and to about 1e−15
+    /// relative at the exact doubles given.
     pub fn p(&self) -> Result<f64, Error> {
         let (exponent, factor) = self.leading();
         if exponent.to_f64() < NEARLY_ONE {
@@ -181,9 +167,6 @@ impl ImpactProbability {
     }
 
     /// Returns ln p(σ), to about 1e−15 relative for every σ.
-    ///
-    /// # Errors
-    /// [`Error`] if ln p is below the range of doubles.
     pub fn log_p(&self) -> Result<f64, Error> {
         let (exponent, factor) = self.leading();
         if exponent.hi.is_nan() || exponent.hi > 1e270 {
@@ -243,9 +226,6 @@ impl ImpactProbability {
     /// Returns the probability that a gap closes by itself after a start from rest. The integrand
     /// is periodic and analytic, so the trapezoidal rule converges faster than any power; the
     /// largest value of the exponential is taken out first, so small values keep their digits.
-    ///
-    /// # Errors
-    /// [`Error`] if it is below the range of doubles.
     pub fn p_from_rest(&self) -> Result<f64, Error> {
         let scale = square(self.half_ratio * self.detuning);
         let kappa = self.frequency_ratio.to_f64();
@@ -257,9 +237,8 @@ impl ImpactProbability {
         // The mean is at most one. Where even this is too small the mean would be that of a spike,
         // to which the rule converges slowly and in vain.
         if half * half >= f64::MIN_POSITIVE {
-            let mean =
-                half_period_mean(|theta| pxfm::f_exp(-rate * excess(kappa, reach_f64, theta)));
-            let p = (half * mean) * half;
+            let decay = |theta| pxfm::f_exp(-rate * excess(kappa, reach_f64, theta));
+            let p = (half * half_period_mean(decay)) * half;
             if p >= f64::MIN_POSITIVE {
                 return Ok(p.min(1.0));
             }

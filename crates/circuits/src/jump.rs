@@ -53,9 +53,6 @@ pub fn zeros(big_n: usize, p: f64) -> Option<[f64; 2]> {
 ///
 /// Returns p_crit = ((1 + √(N + 1))/N)², where f_{N,p} first touches zero: Φ gets a stationary
 /// point, as a function of real k. k* stays at 1 until [`p_jump`].
-///
-/// # Errors
-/// [`Error`] for N out of range.
 pub fn p_crit(big_n: usize) -> Result<f64, Error> {
     check_vertices(big_n)?;
     let root = (1.0 + (big_n as f64 + 1.0).sqrt()) / big_n as f64;
@@ -98,17 +95,12 @@ pub fn first_local_maximum(big_n: usize) -> Option<(usize, [usize; 2])> {
 }
 
 impl Law {
-    /// Returns k*, the most likely number of different impacts; the lowest of several.
+    /// Returns k*, the most likely number of different impacts; the lowest of several. That of
+    /// simple circuits is either 1 or the one local maximum, found from exact signs of f.
     pub fn k_star(&self) -> usize {
-        match self.space {
-            SampleSpace::Simple => self.simple_k_star(),
-            _ => self.sums().largest_at,
+        if self.space != SampleSpace::Simple {
+            return self.sums().largest_at;
         }
-    }
-
-    /// Returns k* of simple circuits: either 1 or the one local maximum, found from exact signs of
-    /// f.
-    fn simple_k_star(&self) -> usize {
         let top = local_maximum(self.big_n, self.p);
         if top == 1 || rises(self.big_n, self.p, 1) {
             return top;
@@ -131,13 +123,11 @@ pub struct Jump {
 }
 
 // listing: p_jump
-/// Finds the actual jump of k*: the infimum of p with k* > 1, and k* after it.
+/// Finds the actual jump of k*: the infimum of p with k* > 1, and k* after it. There is none for
+/// N ≤ 3, and with higher orders for N = 1.
 ///
 /// Φ(k)/Φ(1) grows with p for every k > 1, so "some Φ(k) exceeds Φ(1)" turns true once, and
 /// bisection over doubles finds the place to the last bit.
-///
-/// # Errors
-/// [`Error`] if k* = 1 for every p (N ≤ 3, or N = 1 with higher orders), or N is out of range.
 pub fn p_jump(space: SampleSpace, big_n: usize) -> Result<Jump, Error> {
     check_vertices(big_n)?;
     if !first_is_exceeded(space, big_n, DoubleDouble::ONE) {
@@ -181,8 +171,8 @@ pub fn limit_share(p_big_n: f64) -> f64 {
     (1.0 - 1.0 / p_big_n).max(0.0)
 }
 
-/// Returns the larger root of k² = 2 N (ln k − 1), to which k* jumps for many vertices, up to
-/// about ln k (ours); none for N ≤ e³, where there is no root.
+/// Returns the larger root of k² = 2 N (ln k − 1), to which k* jumps for many vertices, up to about
+/// ln k (ours); none for N ≤ e³, where there is no root.
 pub fn jump_rule(big_n: usize) -> Option<f64> {
     let big_n = big_n as f64;
     let beyond = |k: f64| k * k >= 2.0 * big_n * (pxfm::f_log(k) - 1.0);

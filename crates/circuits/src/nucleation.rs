@@ -53,8 +53,7 @@ use impact_numerics::quadrature::GaussLegendre;
 use impact_numerics::roots::crossing;
 use std::f64::consts::TAU;
 
-/// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the
-/// force.
+/// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
     /// M_T at each angle.
@@ -88,8 +87,7 @@ impl Reach {
         let directions: Vec<[f64; 2]> = directions(angles).collect();
         let mut radii = vec![0.0_f64; angles];
         let mut reaches = Vec::with_capacity(times.len());
-        let mut before = curve(chain, 0.0);
-        let mut i: u64 = 0;
+        let (mut before, mut i) = (curve(chain, 0.0), 0_u64);
         for time in times {
             while (i + 1) as f64 * step <= *time {
                 let (from, until) = (i as f64 * step, (i + 1) as f64 * step);
@@ -133,8 +131,8 @@ impl Reach {
             let least = spacing / radius;
             pxfm::f_exp(-0.5 * least * least / variance)
         };
-        self.radii.iter().filter(|radius| **radius > 0.0).map(beyond).fold(0.0, |sum, x| sum + x)
-            / self.radii.len() as f64
+        let all = self.radii.iter().filter(|radius| **radius > 0.0).map(beyond);
+        all.fold(0.0, |sum, x| sum + x) / self.radii.len() as f64
     }
 }
 
@@ -186,8 +184,7 @@ fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
     let shared = sigma * sigma;
     let determinant = v_1 * v_2 - shared * shared;
     let angles = reach.radii.len();
-    let cosines: Vec<f64> =
-        (0..angles).map(|i| pxfm::f_cos(TAU * i as f64 / angles as f64)).collect();
+    let cosines: Vec<f64> = directions(angles).map(|[cos, _]| cos).collect();
     // The part where the gap of the least radius `m` and the variance `v` decides.
     let decides = |(m, v): (f64, f64), (other_m, other_v): (f64, f64), twice_shared: f64| {
         rule.integrate(0.0, m / other_m, |t| {
@@ -261,9 +258,9 @@ impl Chances {
 
 /// Returns the σ at which half of such chains have a gap that closes by itself, to a relative
 /// error of about 1e-6; the sum over angles is less exact.
-pub fn half(chain: &Chain, reach: &Reach, fewer: &Reach) -> f64 {
+pub fn half(chain: &Chain, reach: &Reach) -> f64 {
     let share = |sigma: f64| {
-        Chances::new(chain, reach, fewer, sigma).at_least_one(chain.masses, chain.boundary)
+        Chances::new(chain, reach, reach, sigma).at_least_one(chain.masses, chain.boundary)
     };
     let logarithms = [0.02, 2.0].map(|times: f64| pxfm::f_log(times * chain.spacing));
     pxfm::f_exp(crossing(logarithms, 1e-6, |log_sigma| share(pxfm::f_exp(log_sigma)) - 0.5))

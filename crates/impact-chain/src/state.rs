@@ -9,6 +9,8 @@ use crate::topology::Topology;
 
 /// Positions and velocities of the masses 1..n at a time, from which a method starts.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "ensembles", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "ensembles", serde(deny_unknown_fields))]
 pub struct State {
     /// Time t, from 0 to 1e12.
     pub time: f64,

@@ -8,7 +8,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The value hi + lo, with |lo| at most half a unit in the last place of hi.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct DoubleDouble {
     /// The nearest double.
     pub hi: f64,
@@ -95,9 +95,8 @@ impl From<usize> for DoubleDouble {
 impl From<u128> for DoubleDouble {
     /// Exact below 2^106, wrong from 2^117 on.
     fn from(x: u128) -> Self {
-        let (upper, lower) =
-            ((x >> 53) as u64 as f64 * 9_007_199_254_740_992.0, x & ((1 << 53) - 1));
-        two_sum(upper, lower as u64 as f64)
+        let upper = (x >> 53) as u64 as f64 * 9_007_199_254_740_992.0;
+        two_sum(upper, (x & ((1 << 53) - 1)) as u64 as f64)
     }
 }
 
@@ -151,13 +150,6 @@ impl Div for DoubleDouble {
         let q3 = r.hi / other.hi;
         let q = quick_two_sum(q1, q2);
         q + DoubleDouble::from(q3)
-    }
-}
-
-impl PartialOrd for DoubleDouble {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        let d = *self - *other;
-        (d.hi + d.lo).partial_cmp(&0.0)
     }
 }
 

@@ -78,18 +78,14 @@ pub fn student_quantile(level: f64, freedom: usize) -> Option<f64> {
 
 /// Returns Wilson's interval of a proportion; none without trials.
 pub fn wilson(successes: u64, trials: u64, level: f64) -> Option<[f64; 2]> {
-    if trials == 0 {
-        return None;
-    }
-    let z = normal_quantile(level);
-    let n = trials as f64;
+    let (z, n) = (normal_quantile(level), trials as f64);
     let share = successes as f64 / n;
     let scale = 1.0 + z * z / n;
     let centre = share + z * z / (2.0 * n);
     let half = z * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
     let low = if successes == 0 { 0.0 } else { (centre - half) / scale };
     let high = if successes == trials { 1.0 } else { (centre + half) / scale };
-    Some([low, high])
+    (trials > 0).then_some([low, high])
 }
 
 /// Finds where y(x) rises to `level` for good: the last x from which on all values are at or above

@@ -2,7 +2,8 @@
 //! and the differences chain by chain.
 
 use crate::experiments::prelude::*;
-use crate::params::{BiasParams, Setting};
+use crate::params::{BiasParams, Runs, Setting};
+use rayon::prelude::*;
 
 /// All realisations by all methods.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,28 +18,20 @@ pub struct Biases {
 pub type GapCount = Option<u32>;
 
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
-    let mut all = Vec::new();
-    for chains in &parameters.chains {
-        for &(setting, realisations) in &parameters.settings {
-            all.extend((0..realisations as u64).map(|index| (chains, setting, index)));
-        }
-    }
-    let stage = progress.stage("error of the mean", all.len() as u64);
-    let counted = each(&stage, progress, all, |(chains, setting, index)| {
-        let window = (parameters.transient, chains.until);
-        let counted = count(setting, &chains.scenario(index), window, progress);
-        progress.check()?;
-        Ok(counted)
-    })?;
-    let mut counted = counted.into_iter();
-    let mut runs = Vec::new();
-    for _ in &parameters.chains {
-        let mut by_setting: Vec<Vec<GapCount>> = Vec::new();
-        for &(_, realisations) in &parameters.settings {
-            by_setting.push(counted.by_ref().take(realisations).collect());
-        }
-        runs.push(by_setting);
-    }
+    let stage = progress.stage("error of the mean", parameters.runs());
+    let settings = |chains: &Runs| {
+        let one = |&(setting, realisations): &(Setting, usize)| {
+            let count = |index| {
+                let scenario = chains.scenario(index);
+                let window = (parameters.transient, chains.until);
+                let counted = count(setting, &scenario, window, progress);
+                progress.check().map(|()| counted)
+            };
+            each(&stage, progress, 0..realisations as u64, count)
+        };
+        parameters.settings.par_iter().map(one).collect()
+    };
+    let runs = parameters.chains.par_iter().map(settings).collect::<Result<_, Error>>()?;
     Ok(Biases { runs, parameters: parameters.clone() })
 }
 

@@ -26,19 +26,10 @@ pub struct Case {
     pub difficulty: f64,
     /// The chain and its forcing, as [`Scenario::parse_json`] reads them.
     pub scenario: Json,
-    pub start: Start,
+    pub start: State,
     /// Time at which the run ends.
     pub until: f64,
     pub expected: Expected,
-}
-
-/// The state of the masses at the start.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Start {
-    pub time: f64,
-    pub positions: Vec<f64>,
-    pub velocities: Vec<f64>,
 }
 
 /// What must come out of a case.
@@ -133,25 +124,15 @@ pub fn scenes() -> Vec<Scene> {
 
 impl Case {
     /// Returns the chain of the case; the engine may refuse to run it.
-    ///
-    /// # Errors
-    /// As [`Scenario::parse_json`].
     pub fn chain(&self) -> Result<Scenario, Failure> {
         Scenario::parse_json(&self.scenario.to_string())
-    }
-
-    /// Returns the state from which it starts.
-    pub fn state(&self) -> State {
-        let Start { time, positions, velocities } = self.start.clone();
-        State { time, positions, velocities }
     }
 
     /// Runs a method and judges its impacts. The run ends as soon as the outcome is known.
     pub fn run(&self, method: &dyn Method) -> Outcome {
         let Ok(scenario) = self.chain() else { return Outcome::Refused };
-        let start = self.state();
         let mut seen = Vec::new();
-        let ran = method.run((&scenario, &start, self.until), &mut |impact| {
+        let ran = method.run((&scenario, &self.start, self.until), &mut |impact| {
             if self.expected.counts(&impact) {
                 seen.push(impact);
             }
@@ -260,9 +241,9 @@ mod tests {
             if self.0 == 0.0 {
                 return Ok(Cost::default());
             }
-            Certified.run((scenario, start, until), &mut |impact| {
-                let (time, speed) = (impact.time + self.0, impact.closing_speed * (1.0 + self.0));
-                sink(Impact { time, closing_speed: speed, ..impact })
+            Certified.run((scenario, start, until), &mut |Impact { time, gap, closing_speed }| {
+                let closing_speed = closing_speed * (1.0 + self.0);
+                sink(Impact { time: time + self.0, gap, closing_speed })
             })
         }
     }
@@ -275,9 +256,8 @@ mod tests {
                 if late == Outcome::Refused {
                     continue;
                 }
-                let nothing = |impacts: &Vec<_>| impacts.is_empty();
                 let expected = match &case.expected {
-                    Expected::Impacts { impacts, .. } if nothing(impacts) => [Outcome::Right; 2],
+                    Expected::Impacts { impacts, .. } if impacts.is_empty() => [Outcome::Right; 2],
                     Expected::Impacts { .. } => [Outcome::Late, Outcome::Missed],
                     Expected::Speed { .. } => [Outcome::WrongSpeed, Outcome::Missed],
                     Expected::Rest { .. } => [Outcome::Right; 2],

@@ -16,10 +16,8 @@ pub mod scale;
 pub mod tables;
 pub mod trials;
 
+use crate::experiments::prelude::*;
 use crate::params::{BiasParams, RaceParams, ScaleParams};
-use literate::experiments::Experiment;
-use literate::experiments::cutting::SECOND;
-use literate::experiments::experiment::How::Whole;
 
 /// Every method against the true motion.
 pub const RACE: Experiment<RaceParams, race::Race> = Experiment {

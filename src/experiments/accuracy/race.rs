@@ -47,8 +47,8 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// Mean time at which the runs left the truth; those that did not count with the end of the
-    /// run, so the mean is then a lower bound.
+    /// Returns the mean time at which the runs left the truth: a lower bound if some did not, which
+    /// count with the end of the run.
     pub fn horizon(&self) -> Option<Estimate> {
         mean(&self.runs).map(|mean| with_error(mean, standard_error(&self.runs).unwrap_or(0.0)))
     }
@@ -68,11 +68,11 @@ pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> 
         let hits = TrueMotion::of(&scenario, &State::of(&scenario)).run(parameters.until);
         Ok(Course { scenario, hits: hits.map_err(|source| Error::failed("race", source))? })
     })?;
-    let targets =
-        targets(parameters.segments, &courses).map_err(|source| Error::failed("race", source))?;
+    let targets = targets(parameters.segments, &courses);
+    let targets = targets.map_err(|source| Error::failed("race", source))?;
     let stage = progress.stage("methods against the truth", parameters.settings.len() as u64);
-    let entries = each(&stage, progress, parameters.settings.iter().copied(), |setting| {
-        entry(parameters, setting, &courses, &targets, progress)
+    let entries = each(&stage, progress, &parameters.settings, |setting| {
+        entry(parameters, *setting, &courses, &targets, progress)
     })?;
     Ok(Race { parameters: parameters.clone(), growth, entries })
 }

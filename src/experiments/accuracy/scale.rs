@@ -17,11 +17,11 @@ fn until(masses: usize, method: MethodName) -> f64 {
 
 pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error> {
     let mut cases = Vec::new();
-    for setting in &parameters.settings {
-        let ours = setting.method == MethodName::Certified;
-        let masses = parameters.masses.iter().filter(|n| ours || **n <= parameters.rivals);
-        cases.extend(masses.map(|n| (*setting, *n)));
+    for &setting in &parameters.settings {
+        cases.extend(parameters.masses.iter().map(|n| (setting, *n)));
     }
+    let ours = |setting: Setting| setting.method == MethodName::Certified;
+    cases.retain(|(setting, masses)| ours(*setting) || *masses <= parameters.rivals);
     let stage = progress.stage("work against size", cases.len() as u64);
     each(&stage, progress, cases, |(setting, masses)| {
         let chain = Chain { masses, ..Chain::default() };

@@ -2,7 +2,6 @@
 
 use super::pairs::{Branch, Pair, Quantity, distance, exponent, from_above, from_rest, interval};
 use super::run::Chains;
-use crate::experiments::half_height::HALF_HEIGHT;
 use crate::experiments::prelude::*;
 use impact_numerics::estimates::jackknife;
 

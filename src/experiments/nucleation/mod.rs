@@ -6,10 +6,8 @@ pub mod tables;
 
 pub use run::{First, Gaps, Nucleation, Theory};
 
+use crate::experiments::prelude::*;
 use crate::params::NucleationParams;
-use literate::experiments::Experiment;
-use literate::experiments::cutting::SECOND;
-use literate::experiments::experiment::How::Whole;
 
 /// First impacts of chains from rest.
 pub const NUCLEATION: Experiment<NucleationParams, Nucleation> = Experiment {

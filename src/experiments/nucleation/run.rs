@@ -87,7 +87,7 @@ fn expected(parameters: &NucleationParams) -> Theory {
             .collect()
     });
     let gaps = parameters.sigmas.par_iter().map(gaps).collect();
-    Theory { gaps, curve, half: half(chain, &ever, &ever) }
+    Theory { gaps, curve, half: half(chain, &ever) }
 }
 
 fn first(

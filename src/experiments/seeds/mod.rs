@@ -18,10 +18,8 @@ pub mod tables;
 pub use counting::ByDistance;
 pub use run::{Part, Seeds, Trace, run};
 
+use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
-use literate::experiments::Experiment;
-use literate::experiments::cutting::SECOND;
-use literate::experiments::experiment::How::Whole;
 
 /// How impacts spread from one gap that closes by itself.
 pub const SEEDS: Experiment<SeedsParams, Seeds> = Experiment {

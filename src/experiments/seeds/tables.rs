@@ -2,8 +2,8 @@
 
 use super::counting::{bits, ran};
 use super::fronts::{Fronts, beat, over};
-use super::growth::{Begin, GROUPS, Prediction, predictions};
-use super::{ByDistance, Seeds, Trace};
+use super::growth::{GROUPS, Prediction, predictions};
+use super::{ByDistance, Part, Seeds, Trace};
 use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
 use impact_numerics::estimates::jackknife;
@@ -20,25 +20,21 @@ struct RunsAtSigma<'a> {
 
 pub fn tables(seeds: &Seeds) -> Vec<Table> {
     let parameters = &seeds.parameters;
-    let groups: Vec<Vec<ByDistance>> = seeds
-        .rows
-        .par_iter()
-        .map(|part| {
-            let at = |group: usize| group * part.len() / GROUPS;
-            let group = |group| ByDistance::count(parameters, &part[at(group)..at(group + 1)]);
-            (0..GROUPS).map(group).collect()
-        })
-        .collect();
-    let row = |place: usize| {
-        let runs: Vec<(usize, &Trace)> = ran(&seeds.rows[place]).collect();
-        let fronts = runs.iter().map(|run| Fronts::of(parameters, *run)).collect();
-        let seen = ByDistance::sum(&groups[place], GROUPS);
-        let (sigma, groups) = (parameters.sigmas[place], &groups[place][..]);
-        RunsAtSigma { parameters, sigma, runs, seen, groups, fronts }
+    let grouped = |part: &Part| -> Vec<ByDistance> {
+        let at = |group: usize| group * part.len() / GROUPS;
+        let group = |group| ByDistance::count(parameters, &part[at(group)..at(group + 1)]);
+        (0..GROUPS).map(group).collect()
     };
-    let rows: Vec<RunsAtSigma<'_>> = (0..seeds.rows.len()).into_par_iter().map(row).collect();
-    let predicted = predictions(parameters, &groups, Begin::Gaps);
-    let clumped = predictions(parameters, &groups, Begin::Clumps);
+    let groups: Vec<Vec<ByDistance>> = seeds.rows.par_iter().map(grouped).collect();
+    let mut rows = Vec::new();
+    for ((part, groups), &sigma) in seeds.rows.iter().zip(&groups).zip(&parameters.sigmas) {
+        let runs: Vec<(usize, &Trace)> = ran(part).collect();
+        let fronts = runs.iter().map(|run| Fronts::of(parameters, *run)).collect();
+        let seen = ByDistance::sum(groups, None);
+        rows.push(RunsAtSigma { parameters, sigma, runs, seen, groups, fronts });
+    }
+    let predicted = predictions(parameters, &groups, false);
+    let clumped = predictions(parameters, &groups, true);
     vec![
         course(&rows),
         advance(&rows),
@@ -58,10 +54,8 @@ fn course(rows: &[RunsAtSigma<'_>]) -> Table {
     Table::of("seeds.course", &rows, |(row, _)| row.runs.len())
         .key("sigma", SIGMA, |(row, _)| row.sigma)
         .key("until", TIME, |(row, from)| row.end(*from) as f64 * row.parameters.bin)
-        .estimate("reached", "1", "gaps that were hit by then", |(row, from)| {
-            row.hit(0, row.end(*from))
-        })
-        .estimate("active", "1", "gaps that were hit in the window", |(row, from)| {
+        .estimate("reached", "1", "gaps hit by then", |(row, from)| row.hit(0, row.end(*from)))
+        .estimate("active", "1", "gaps hit in the window", |(row, from)| {
             row.hit(*from, row.parameters.window)
         })
         .done()
@@ -73,9 +67,7 @@ fn advance(rows: &[RunsAtSigma<'_>]) -> Table {
     Table::of("seeds.advance", &rows, |(row, _)| row.runs.len())
         .key("sigma", SIGMA, |(row, _)| row.sigma)
         .key("time", TIME, |(row, bin)| *bin as f64 * row.parameters.bin)
-        .real("advance", "1", 3, "gaps that a front has passed, to one side", |(row, bin)| {
-            row.seen.advance(*bin)
-        })
+        .real("advance", "1", 3, "gaps passed by a front", |(row, bin)| row.seen.advance(*bin))
         .done()
 }
 
@@ -83,9 +75,7 @@ fn fronts(rows: &[RunsAtSigma<'_>]) -> Table {
     Table::of("seeds.fronts", rows, |row| row.runs.len())
         .key("sigma", SIGMA, |row| row.sigma)
         .estimate("exponent", "1", "d ln(advance)/d ln t over the last three quarters", |row| {
-            jackknife(row.groups.len(), |left_out| {
-                ByDistance::sum(row.groups, left_out.unwrap_or(GROUPS)).exponent()
-            })
+            jackknife(GROUPS, |left_out| ByDistance::sum(row.groups, left_out).exponent())
         })
         .estimate("bursts", "1", "share of steps within a beat", |row| {
             over(&row.fronts, |sums| [sums.short, sums.steps])

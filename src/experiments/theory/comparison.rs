@@ -34,14 +34,17 @@ fn increases(means: &[(f64, f64)], finest: f64) -> Option<[f64; 2]> {
     found.reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]).map(|found| found.map(|x| x.max(0.0)))
 }
 
-/// Returns the root mean square distance of a theory curve from the simulated means, up to where σ
-/// is large.
+/// Returns the root mean square distance of a curve from means, at the σ that both have.
+pub(crate) fn root_mean_square(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64> {
+    let both = means.iter().filter_map(|&(sigma, mean)| Some(mean - at(curve, sigma)?));
+    let squares: Vec<f64> = both.map(|difference| difference * difference).collect();
+    (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+}
+
+/// Returns the same up to where σ is large.
 pub(crate) fn distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64> {
-    let small = means.iter().filter(|(sigma, _)| *sigma < LARGE_SIGMA);
-    let differences: Vec<f64> =
-        small.filter_map(|(sigma, mean)| Some(mean - at(curve, *sigma)?)).collect();
-    let squares = differences.iter().map(|difference| difference * difference);
-    (!differences.is_empty()).then(|| (squares.sum::<f64>() / differences.len() as f64).sqrt())
+    let small = means.iter().copied().filter(|(sigma, _)| *sigma < LARGE_SIGMA);
+    root_mean_square(&small.collect::<Vec<_>>(), curve)
 }
 
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
