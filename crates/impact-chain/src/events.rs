@@ -152,8 +152,8 @@ impl<const M: usize> Simulation<M> {
 
     pub fn run(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
         let end = Instant::at(until);
-        while let Some(k) = self.next_event(end) {
-            let impact = self.step(k)?;
+        while let Some((k, is_close)) = self.next_event(end) {
+            let impact = self.step(k, is_close)?;
             if self.work.undecided > 0 {
                 self.note_graze();
             }
@@ -183,13 +183,15 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// Goes to the next event up to `end`; returns its gap, or none if there is no event.
+    /// Goes to the next event up to `end`; returns its gap and, of an impact, whether another event
+    /// may be due at the same instant; none if there is no event.
     #[inline(always)]
-    fn next_event(&mut self, end: Instant) -> Option<usize> {
+    fn next_event(&mut self, end: Instant) -> Option<(usize, bool)> {
         let (mut k, mut at) = self.queue.first();
         // A search has no effect on other gaps, so its order among equal events does not matter.
         let order_matters = !matches!(self.gaps[k].awaits, Awaits::Search { .. });
-        if (at > end || order_matters) && self.queue.is_close(k) {
+        let is_close = (at > end || order_matters) && self.queue.is_close(k);
+        if is_close {
             let speed = |k: usize| match self.gaps[k].awaits {
                 Awaits::Impact(speed) => speed,
                 _ => 0.0,
@@ -200,12 +202,12 @@ impl<const M: usize> Simulation<M> {
             return None;
         }
         self.now = at;
-        Some(k)
+        Some((k, is_close))
     }
 
     /// Handles the event of gap k at the instant `now`; returns the impact if it is one.
     #[inline(always)]
-    fn step(&mut self, k: usize) -> Result<Option<Impact>, Error> {
+    fn step(&mut self, k: usize, is_close: bool) -> Result<Option<Impact>, Error> {
         match self.gaps[k].awaits {
             // Touching without speed is no impact, but contact may begin.
             Awaits::Impact(0.0) => {
@@ -216,7 +218,7 @@ impl<const M: usize> Simulation<M> {
             Awaits::Impact(speed) => {
                 let impact = self.count_impact(k, speed)?;
                 let phases = Phases::at(&self.rates, self.now);
-                if (self.gaps[k].origin == self.now) | self.queue.ties_with_neighbour(k) {
+                if is_close | (self.gaps[k].origin == self.now) {
                     self.count_tie(k);
                 }
                 self.collide(k, speed, &phases);
