@@ -97,7 +97,7 @@ fn targets(number: usize, courses: &[Course]) -> Result<Vec<Target>, impact_chai
             let (_, state) = &hits[i * last / wanted];
             let scenario = state.as_scenario(scenario)?;
             let state = State { time: 0.0, ..state.clone() };
-            let truth = TrueMotion::of(&scenario, &state);
+            let mut truth = TrueMotion::of(&scenario, &state);
             targets.extend(truth.next(LONGEST)?.map(|hit| {
                 let unit = f64::EPSILON * truth.scale(hit.gap) / hit.closing_speed;
                 Target { scenario, state, hit, unit }
