@@ -6,6 +6,7 @@
 
 mod accuracy;
 mod chosen;
+mod ensemble;
 mod ensembles;
 mod grid;
 mod methods;
@@ -15,6 +16,7 @@ mod runs;
 
 pub use accuracy::{BENCH, BiasParams, RaceParams, ScaleParams, trial_settings};
 pub use chosen::*;
+pub use ensemble::{Beyond, Ensemble, Heating, lowered};
 pub use ensembles::*;
 pub use grid::Grid;
 pub use impact_chain::{Boundary, Chain, Protocol, Start};

@@ -1,7 +1,7 @@
 //! Makes the rules that several sections have in common, and gives the others what they share.
 
+use crate::experiments::ensembles::Counted;
 use crate::experiments::ensembles::named;
-use crate::experiments::rise::Counted;
 use impact_numerics::statistics::Estimate;
 pub use literate::claims::Basis::{OurMeasure, PrintedDigit, Rounding};
 pub use literate::claims::Error::{self, Undecided};

@@ -3,11 +3,10 @@
 use super::range::{Values, values, within};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
 use impact_chain::rise::{Mean, RisePoint};
-use impact_chain::{Boundary, Chain, Counts, Engine, Ensemble, Protocol, Start};
-use impact_chain::{Graze, LATEST};
+use impact_chain::{Boundary, Chain, Counts, Engine, Graze, LATEST, Protocol, Start};
 use impact_paper::experiments::Progress;
 use impact_paper::experiments::ensembles::CUTTING;
-use impact_paper::params::SEED;
+use impact_paper::params::{Ensemble, SEED};
 use literate::Failure;
 use literate::cli::terminal::{Threads, print, progress, warn};
 use literate::experiments::cutting::Cutting;
@@ -200,7 +199,7 @@ fn warn_of_doubts(ensemble: &Ensemble, sigma: f64, counts: &Counts) {
             "sigma {sigma:?}: {failed} of {all} realisations ended early and are in no mean"
         ));
     }
-    if rejected as f64 > ensemble.most_rejected * all as f64 {
+    if !ensemble.compares(sigma, rejected) {
         warn(&format!(
             "sigma {sigma:?}: {rejected} of {all} starts overlapped and were rejected; the row is not \
              comparable with others"

@@ -1,15 +1,16 @@
 //! Makes experiments of ensembles of chains, which are cut into units by σ and realisation and
 //! joined to curves.
 
-use crate::params::Profile;
-use impact_chain::rise::{Counted, Curve};
-use impact_chain::{Counts, Ensemble};
+use crate::params::{Ensemble, Profile, Protocol};
+use impact_chain::counts::{Counts, Total};
+use impact_chain::rise::{Curve, RisePoint};
 use literate::experiments::cutting::{Cutting, Unit, UnitRow};
 use literate::experiments::experiment::How::Cut;
 use literate::experiments::progress::Stage;
 use literate::experiments::{Error, Experiment, Progress};
 use literate::table::Table;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// An experiment that is ensembles of chains.
 pub type Ensembles = Experiment<Vec<Ensemble>, Vec<Counted>, Counts>;
@@ -27,6 +28,61 @@ pub const fn ensembles(
 
 /// How ensembles are cut into units, and joined.
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> = Cutting { rows, part, join };
+
+/// An ensemble with its results.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Counted {
+    pub ensemble: Ensemble,
+    /// Totals of whole runs, for each σ.
+    pub runs: Vec<RunTotals>,
+    /// Counts against σ, for each window.
+    pub curves: Vec<Curve>,
+}
+
+/// The runs at one σ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunTotals {
+    /// Standard deviation σ of the amplitudes.
+    pub sigma: f64,
+    /// Realisations drawn.
+    pub realisations: usize,
+    /// Realisations with an overlapping start.
+    pub rejected: usize,
+    /// Realisations that the engine ended early.
+    pub failed: usize,
+    pub total: Total,
+}
+
+impl Counted {
+    /// Joins the counts at each σ and the curve of each window.
+    pub fn new(ensemble: Ensemble, counts: &[Counts], curves: Vec<Curve>) -> Counted {
+        let runs = |(&sigma, counts): (&f64, &Counts)| RunTotals {
+            sigma,
+            realisations: ensemble.realisations_at(sigma),
+            rejected: counts.rejected,
+            failed: counts.failed,
+            total: counts.total.clone(),
+        };
+        Counted { runs: ensemble.sigmas.iter().zip(counts).map(runs).collect(), curves, ensemble }
+    }
+
+    /// Returns the curve of a window, or none if there is no such window.
+    pub fn curve(&self, transient: f64, window: f64) -> Option<&Curve> {
+        self.curves.iter().find(|curve| curve.protocol == Protocol { transient, window })
+    }
+
+    /// Returns the curve of the first window.
+    pub fn first(&self) -> &Curve {
+        &self.curves[0]
+    }
+
+    /// Lists the rows of the first window with few overlapping starts.
+    pub fn comparable(&self) -> impl Iterator<Item = &RisePoint> {
+        let both = self.first().rows.iter().zip(&self.runs);
+        both.filter(|(row, runs)| self.ensemble.compares(row.sigma, runs.rejected))
+            .map(|(row, _)| row)
+    }
+}
 
 /// Lists each ensemble with each of its σ.
 fn cases(all: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
@@ -68,9 +124,14 @@ fn join(
     let counted = |one: &Ensemble| {
         let at_each = parts.by_ref().take(one.sigmas.len());
         let counts: Vec<Counts> = at_each.map(|parts| parts.into_iter().collect()).collect();
-        let curve = |window| {
+        let both = one.sigmas.iter().zip(&counts);
+        let compared: Vec<_> =
+            both.map(|(&sigma, counts)| one.compares(sigma, counts.rejected)).collect();
+        let gaps = one.chain.gaps() as f64 / one.pieces as f64;
+        let curve = |window: usize| {
             progress.check()?;
-            Ok(Curve::new(one, &counts, window))
+            let protocol = (window, one.protocols[window]);
+            Ok(Curve::new(protocol, &one.sigmas, &counts, &compared, gaps, one.seed))
         };
         let windows = (0..one.protocols.len()).into_par_iter().with_max_len(1);
         Ok(Counted::new(one.clone(), &counts, windows.map(curve).collect::<Result<_, Error>>()?))

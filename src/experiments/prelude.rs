@@ -1,9 +1,10 @@
 //! Gathers what most experiments use, and the units and words that several tables have.
 
+pub use crate::experiments::ensembles::Counted;
 pub use crate::experiments::ensembles::{each, named};
 pub use crate::params::Chain;
 pub use impact_chain::State;
-pub use impact_chain::rise::{Counted, Curve};
+pub use impact_chain::rise::Curve;
 pub use impact_chain::{Engine, Impact, Scenario};
 pub use impact_numerics::estimates::{average, difference, share, with_error};
 pub use impact_numerics::random::NormalPairs;

@@ -1,8 +1,9 @@
 //! Chooses the ensembles of chains: which chains, at which σ, and how many.
 
 use super::chosen::SECOND_SEED;
+use super::ensemble::{Beyond, Ensemble, Heating};
 use super::grid::Grid;
-use impact_chain::{Beyond, Boundary, Chain, Ensemble, Heating, Protocol, Start};
+use impact_chain::{Boundary, Chain, Protocol, Start};
 use literate::experiments::Profile;
 
 /// Windows (T, T + W] for all of these T and W, transients outer.

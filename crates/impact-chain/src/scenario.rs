@@ -109,27 +109,6 @@ impl Scenario {
         self.place(m) - m as f64 * self.spacing
     }
 
-    /// Returns the continuation from `time` when all forces change by `factor`, with time counted
-    /// from there: every phase is advanced by it. Positions and velocities are continuous, so the
-    /// free parts, `free` until then, take up the change of the forced response.
-    pub fn lowered(&self, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
-        let omega = self.natural_frequency;
-        let mut parts = advanced(free, omega * time);
-        let mut components = Vec::new();
-        for (frequency, forces) in self.components() {
-            let mut amplitudes = advanced(forces, frequency * time);
-            let lost = (1.0 - factor) / (omega * omega - frequency * frequency);
-            for ([a, b], force) in parts.iter_mut().zip(&mut amplitudes) {
-                *a += lost * force[0];
-                *b += lost * frequency / omega * force[1];
-                *force = force.map(|x| factor * x);
-            }
-            components.push(Overtone { frequency, amplitudes });
-        }
-        let forcing = components.remove(0).amplitudes;
-        Scenario { initial: Initial::Free(parts), forcing, overtones: components, ..self.clone() }
-    }
-
     /// Lists the components of the forcing: frequency, and amplitudes of each mass.
     pub fn components(&self) -> impl Iterator<Item = (f64, &[[f64; 2]])> {
         let further = self.overtones.iter().map(|o| (o.frequency, o.amplitudes.as_slice()));
@@ -160,10 +139,4 @@ impl Scenario {
     pub fn gaps(&self) -> usize {
         self.boundary.gaps(self.forcing.len())
     }
-}
-
-/// Advances the phase of each a cos φ + b sin φ by `angle`.
-fn advanced(pairs: &[[f64; 2]], angle: f64) -> Vec<[f64; 2]> {
-    let (sin, cos) = pxfm::f_sincos(angle);
-    pairs.iter().map(|[a, b]| [a * cos + b * sin, b * cos - a * sin]).collect()
 }

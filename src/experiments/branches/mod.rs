@@ -7,8 +7,8 @@ pub mod tables;
 
 pub use run::Chains;
 
-use crate::params;
-use impact_chain::{Counts, Ensemble};
+use crate::params::{self, Ensemble};
+use impact_chain::Counts;
 use literate::experiments::Experiment;
 use literate::experiments::experiment::How::Cut;
 

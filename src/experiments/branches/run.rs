@@ -7,7 +7,8 @@
 
 use crate::experiments::ensembles::{part, rows};
 use crate::experiments::prelude::*;
-use impact_chain::{Counts, Ensemble};
+use crate::params::Ensemble;
+use impact_chain::Counts;
 use literate::experiments::cutting::Cutting;
 
 /// The counts of an ensemble, chain by chain.

@@ -1,30 +1,8 @@
-//! Describes an ensemble: random chains at several σ, and the windows in which they are counted.
+//! Defines an ensemble: random chains at several σ, and the windows in which they are counted.
 
-use crate::Chain;
+use impact_chain::counts::{Counts, Watch};
+use impact_chain::{Chain, Engine, Error, Initial, NormalPairs, Protocol, Scenario};
 use serde::{Deserialize, Serialize};
-
-/// The window (T, T + W] in which gaps with an impact are counted (ours; Sec. 2 has only "a
-/// suitable transient time").
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Protocol {
-    /// Transient T that is dropped, in units of 1/ω.
-    pub transient: f64,
-    /// Window W, in units of 1/ω.
-    pub window: f64,
-}
-
-impl Default for Protocol {
-    fn default() -> Self {
-        Protocol { transient: 500.0, window: 200.0 }
-    }
-}
-
-impl Protocol {
-    /// Returns the end of the window, T + W.
-    pub fn end(&self) -> f64 {
-        self.transient + self.window
-    }
-}
 
 /// A stronger force before the count begins; then all forces are lowered to σ at unchanged
 /// positions and velocities.
@@ -122,6 +100,11 @@ impl Ensemble {
         self.beyond.filter(|less| sigma > less.above)
     }
 
+    /// Whether so few of these starts at a σ overlap that it has a part in the places of the rise.
+    pub fn compares(&self, sigma: f64, rejected: usize) -> bool {
+        rejected as f64 <= self.most_rejected * self.realisations_at(sigma) as f64
+    }
+
     /// Estimates the impacts of one realisation.
     pub fn work(&self, sigma: f64) -> u64 {
         let until = self.until(sigma);
@@ -134,4 +117,69 @@ impl Ensemble {
             None => work(&self.chain, sigma, until),
         }
     }
+
+    /// Runs a realisation at a σ, `index` after the first, and counts its impacts; ends early, with
+    /// incomplete counts, when `stopped` returns true.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if the chain is not allowed.
+    pub fn realisation(
+        &self,
+        sigma: f64,
+        index: u64,
+        stopped: impl Fn() -> bool,
+    ) -> Result<Counts, Error> {
+        let index = self.first + index;
+        let mut watch = Watch::new(&self.chain, &self.protocols);
+        let engine = self.started(sigma, index, &stopped);
+        let mut counts = watch.run(engine, index, self.until(sigma), &stopped)?;
+        for (distinct, window) in counts.distinct.iter_mut().zip(&self.protocols) {
+            *distinct = match distinct[0] {
+                Some(_) => self.cut(&watch.hit(window)),
+                None => vec![None; self.pieces],
+            };
+        }
+        Ok(counts)
+    }
+
+    /// Counts the gaps that are hit in each piece.
+    fn cut(&self, hit: &[bool]) -> Vec<Option<u32>> {
+        let ends = |piece| piece * hit.len() / self.pieces;
+        let count = |piece| hit[ends(piece)..ends(piece + 1)].iter().map(|&hit| u32::from(hit));
+        (0..self.pieces).map(|piece| Some(count(piece).sum())).collect()
+    }
+
+    /// Returns an engine at the time from which transients are measured.
+    fn started(&self, sigma: f64, index: u64, stopped: &dyn Fn() -> bool) -> Result<Engine, Error> {
+        let mut normals = NormalPairs::new(&self.stream, self.seed, index);
+        let Some(Heating { sigma: hot, time }) = self.heating else {
+            return Engine::new(&Scenario::draw(&self.chain, sigma, &mut normals));
+        };
+        let scenario = Scenario::draw(&self.chain, hot, &mut normals);
+        let mut engine = Engine::new(&scenario)?;
+        engine.run(time, |_| !stopped())?;
+        Engine::new(&lowered(&scenario, &engine.free_parts(), time, sigma / hot))
+    }
+}
+
+/// Returns the continuation of a scenario from `time` when its forces change by `factor`, with time
+/// counted from there: every phase is advanced by it. Positions and velocities are continuous, so
+/// the free parts, `free` until then, take up the change of the forced response.
+pub fn lowered(scenario: &Scenario, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
+    let (omega, frequency) = (scenario.natural_frequency, scenario.forcing_frequency);
+    let mut parts = advanced(free, omega * time);
+    let mut forcing = advanced(&scenario.forcing, frequency * time);
+    let lost = (1.0 - factor) / (omega * omega - frequency * frequency);
+    for ([a, b], force) in parts.iter_mut().zip(&mut forcing) {
+        *a += lost * force[0];
+        *b += lost * frequency / omega * force[1];
+        *force = force.map(|x| factor * x);
+    }
+    Scenario { initial: Initial::Free(parts), forcing, ..scenario.clone() }
+}
+
+/// Advances the phase of each a cos φ + b sin φ by `angle`.
+fn advanced(pairs: &[[f64; 2]], angle: f64) -> Vec<[f64; 2]> {
+    let (sin, cos) = pxfm::f_sincos(angle);
+    pairs.iter().map(|[a, b]| [a * cos + b * sin, b * cos - a * sin]).collect()
 }
