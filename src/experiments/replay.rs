@@ -54,8 +54,8 @@ pub struct ReplayResult {
     pub contact_phases: u64,
     /// Runs of neighbouring gaps that closed at one instant.
     pub simultaneous: u64,
-    /// SHA-256 over the impacts, in hexadecimal: of each the time, the gap as the engine numbers it,
-    /// and the closing speed; eight bytes each, the lowest first, doubles bit by bit.
+    /// SHA-256 over the impacts, in hexadecimal: of each the time, the gap as the engine numbers
+    /// it, and the closing speed; eight bytes each, the lowest first, doubles bit by bit.
     pub digest: String,
 }
 

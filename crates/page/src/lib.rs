@@ -101,9 +101,9 @@ impl Page {
     }
 }
 
-/// T, W and the scenario from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a ring, start 0 rest,
-/// 1 zero or 2 random), then σ, seed and realisation of the stream that the text names; without
-/// one, α and β of each mass.
+/// Reads T, W and a scenario from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a
+/// ring, start 0 rest, 1 zero or 2 random), then σ, seed and realisation of the stream that the
+/// text names; without one, α and β of each mass.
 fn request(numbers: &[f64], stream: &str) -> Result<([f64; 2], Scenario), String> {
     let [
         transient,

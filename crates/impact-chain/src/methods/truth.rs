@@ -153,8 +153,8 @@ impl TrueMotion {
         [dd(self.scenario.spacing) + (right[0] - left[0]), right[1] - left[1]]
     }
 
-    /// Returns the amplitudes R₁ and R₂ of the free and the forced part of a gap, as long as neither
-    /// side is hit.
+    /// Returns the amplitudes R₁ and R₂ of the free and the forced part of a gap, as long as
+    /// neither side is hit.
     fn amplitudes(&self, gap: usize) -> [f64; 2] {
         [&self.free, &self.forced].map(|parts| {
             let [left, right] = [gap, gap + 1].map(|m| parts[m].map(DoubleDouble::to_f64));
