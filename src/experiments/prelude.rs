@@ -1,7 +1,6 @@
 //! Gathers what most experiments use, and the units and words that several tables have.
 
-pub use crate::experiments::ensembles::Counted;
-pub use crate::experiments::ensembles::{each, named};
+pub use crate::experiments::ensembles::{Counted, each, named};
 pub use crate::params::Chain;
 pub use impact_chain::State;
 pub use impact_chain::rise::Curve;

@@ -3,7 +3,7 @@
 
 use crate::experiments::prelude::*;
 use crate::params::{Boundary, Profile, Protocol, SEED, Start, printed_threshold};
-use impact_chain::{Error as Failure, NormalPairs};
+use impact_chain::Error as Failure;
 use literate::input::sha256;
 use std::collections::BTreeSet;
 
