@@ -1,14 +1,13 @@
 //! Holds the row of masses for integrators: displacements, velocities, forces, impact law.
 
-use super::method::{Cost, Task};
-use super::steps::{Step, steps};
-use super::tally::{Stop, Tally};
+use super::method::Task;
+use super::steps::Step;
 use crate::forcing::Component;
 use crate::impact::jumps;
 use crate::scenario::COMPONENTS;
 use crate::search::clock::Instant;
 use crate::topology::Topology;
-use crate::{Boundary, Error, Scenario, Sink, State};
+use crate::{Boundary, Error};
 
 /// (sin, cos) of the phase of each component of the forcing.
 pub type Phases = [(f64, f64); COMPONENTS];
@@ -27,10 +26,13 @@ pub struct Bodies {
     pub u: Vec<f64>,
     /// Velocities; 0 for the walls.
     pub v: Vec<f64>,
+    /// The phases at the end of the last step, and its length.
+    pub phases: Phases,
+    pub last: f64,
 }
 
 impl Bodies {
-    pub fn new(scenario: &Scenario, start: &State) -> Result<Bodies, Error> {
+    pub fn new((scenario, start, _): Task) -> Result<Bodies, Error> {
         scenario.check_uniform()?;
         let u = start.displacements(scenario)?;
         let masses = scenario.forcing.len();
@@ -43,8 +45,11 @@ impl Bodies {
             forcing: Component::forces(scenario),
             v: vec![0.0; u.len()],
             u,
+            phases: [(0.0, 1.0); COMPONENTS],
+            last: 0.0,
         };
         row.v[1..=masses].copy_from_slice(&start.velocities);
+        row.phases = row.phases_at(Instant::at(start.time));
         Ok(row)
     }
 
@@ -73,7 +78,7 @@ impl Bodies {
         self.v[right] += jumps[1];
     }
 
-    pub fn phases(&self, at: Instant) -> Phases {
+    pub fn phases_at(&self, at: Instant) -> Phases {
         let mut phases = [(0.0, 1.0); COMPONENTS];
         for (phase, component) in phases.iter_mut().zip(&self.forcing) {
             *phase = component.phase(at);
@@ -87,15 +92,15 @@ impl Bodies {
         for (out, u) in out.iter_mut().zip(u) {
             *out = -self.stiffness * u;
         }
-        for (component, (sin, cos)) in self.forcing.iter().zip(self.phases(at)) {
+        for (component, (sin, cos)) in self.forcing.iter().zip(self.phases_at(at)) {
             add_forces(component, [cos, sin], out);
         }
     }
 
-    /// Returns the acceleration of one body in flight.
-    pub fn acceleration(&self, m: usize, phases: &Phases) -> f64 {
+    /// Returns the acceleration of one body in flight at the end of the last step.
+    pub fn acceleration(&self, m: usize) -> f64 {
         let mut sum = -self.stiffness * self.u[m];
-        for (component, (sin, cos)) in self.forcing.iter().zip(phases) {
+        for (component, (sin, cos)) in self.forcing.iter().zip(&self.phases) {
             sum += component.cos[m] * cos + component.sin[m] * sin;
         }
         sum
@@ -118,6 +123,15 @@ impl Bodies {
             add_forces(component, [c, s], v);
             add_forces(component, [drift[1] * c, drift[1] * s], u);
         }
+    }
+
+    /// Makes a step of Verlet with all bodies. Between steps their velocities are those half of the
+    /// last step ago, so that each step goes over the masses once.
+    pub fn leap(&mut self, step: &Step) {
+        let (kick, phases) = (0.5 * (self.last + step.h), self.phases);
+        let waves = |i: usize| [kick * phases[i].1, kick * phases[i].0];
+        self.fly([1.0, -kick * self.stiffness], waves, [0.0, step.h]);
+        (self.phases, self.last) = (self.phases_at(step.to), step.h);
     }
 
     /// Whether any gap is shut at displacements `u`. The test is cheap, as it mostly fails.
@@ -167,28 +181,4 @@ pub fn push(topology: &Topology, k: usize, impulse: f64, out: &mut [f64]) {
     let [inverse_left, inverse_right] = topology.inverse_masses(k);
     out[left] -= impulse * inverse_left;
     out[right] += impulse * inverse_right;
-}
-
-/// A method with a fixed step.
-pub trait Stepper {
-    /// Advances the row by one step and hands its impacts to the tally.
-    fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop>;
-}
-
-/// Runs a method with a fixed step, made by `begin` from the start.
-pub fn run_steps<S: Stepper>(
-    (scenario, start, until): Task,
-    step: f64,
-    sink: Sink,
-    begin: impl FnOnce(&Bodies) -> S,
-) -> Result<Cost, Error> {
-    let mut row = Bodies::new(scenario, start)?;
-    let mut steps = steps(scenario, start, until, step)?;
-    let mut tally = Tally::new(scenario, sink);
-    let mut stepper = begin(&row);
-    let ended = steps.try_for_each(|step| {
-        tally.cost.steps += 1;
-        stepper.step(&mut row, &step, &mut tally)
-    });
-    tally.finish(ended)
 }

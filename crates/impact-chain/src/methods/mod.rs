@@ -18,6 +18,7 @@ mod flights;
 mod method;
 mod moreau_jean;
 mod penalty;
+mod rival;
 mod runge_kutta;
 mod sampled;
 mod sign_change;

@@ -2,12 +2,13 @@
 
 use super::bodies::Bodies;
 use super::dormand_prince::Stages;
-use super::method::{Cost, Method, Task};
+use super::method::Task;
+use super::rival::{Rival, Run};
 use super::sign_change::{closing_time, is_rounding};
-use super::steps::{check_end, check_tolerance};
+use super::steps::check_tolerance;
 use super::tally::{Stop, Tally};
+use crate::Error;
 use crate::search::clock::Instant;
-use crate::{Error, Sink};
 
 /// The pair of Dormand and Prince with a tolerance; a gap that is negative at the end of a step is
 /// an event, bisected on the dense output; the earliest ends the step, and integration starts
@@ -33,27 +34,21 @@ pub struct RungeKutta {
 /// The first step, in units of 1/max(ω, Ω).
 const FIRST: f64 = 0.01;
 
-impl Method for RungeKutta {
-    fn name(&self) -> &'static str {
-        "runge-kutta"
-    }
+impl Rival for RungeKutta {
+    const NAME: &'static str = "runge-kutta";
 
-    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        let row = Bodies::new(scenario, start)?;
+    fn begin(&self, task: Task) -> Result<Run, Error> {
+        let (scenario, start, until) = task;
+        let (row, now) = (Bodies::new(task)?, Instant::at(start.time));
         check_tolerance(self.tolerance)?;
-        check_end(until)?;
-        let mut tally = Tally::new(scenario, sink);
-        let now = Instant::at(start.time);
-        tally.cost.evaluations += row.masses();
         let stages = Stages::new(&row, now);
-        let mut run = Run { stages, row, now, tolerance: self.tolerance };
+        let mut steps = Steps { stages, row, now, tolerance: self.tolerance };
         let first = FIRST / scenario.fastest();
-        let ended = run.integrate(Instant::at(until), first, &mut tally);
-        tally.finish(ended)
+        Ok(Box::new(move |tally| steps.integrate(Instant::at(until), first, tally)))
     }
 }
 
-struct Run {
+struct Steps {
     /// The row; its displacements and velocities are up to date at impacts only.
     row: Bodies,
     stages: Stages,
@@ -61,8 +56,9 @@ struct Run {
     tolerance: f64,
 }
 
-impl Run {
+impl Steps {
     fn integrate(&mut self, end: Instant, first: f64, tally: &mut Tally) -> Result<(), Stop> {
+        tally.cost.evaluations += self.row.masses();
         let mut wanted = first;
         while self.now < end {
             let left = end.since(self.now);

@@ -1,8 +1,8 @@
 //! Cuts time into equal steps, and checks the ranges of steps, tolerances and end times.
 
+use super::method::Task;
 use crate::error::{Error, within};
 use crate::search::clock::{Instant, LATEST};
-use crate::{Scenario, State};
 
 pub const MAX_STEPS: f64 = 1e10;
 
@@ -16,15 +16,12 @@ pub struct Step {
     pub h: f64,
 }
 
-/// Lists the steps of length `h` from `start` to `until`, in order.
+/// Lists the steps of length `h` of a task, in order.
 pub fn steps(
-    scenario: &Scenario,
-    start: &State,
-    until: f64,
+    (scenario, start, until): Task,
     h: f64,
-) -> Result<impl Iterator<Item = Step>, Error> {
+) -> Result<impl Iterator<Item = Step> + use<>, Error> {
     within("step", h, SHORTEST, 1.0 / scenario.fastest())?;
-    check_end(until)?;
     let count = ((until - start.time).max(0.0) / h).ceil();
     if count > MAX_STEPS {
         return Err(too_many(count, "step"));

@@ -82,12 +82,4 @@ impl<'a> Tally<'a> {
         }
         Ok(())
     }
-
-    /// Returns the cost of a run, or the error that ended it.
-    pub fn finish(self, ended: Result<(), Stop>) -> Result<Cost, Error> {
-        match ended {
-            Err(Stop::Failed(error)) => Err(error),
-            Err(Stop::BySink) | Ok(()) => Ok(self.cost),
-        }
-    }
 }

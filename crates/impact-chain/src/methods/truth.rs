@@ -5,10 +5,9 @@
 //! of it with 106 bits. Chaos enlarges 1e−31 to 1e−3 in about twice the time in which it enlarges
 //! the rounding of doubles, so runs are right far beyond the horizon of any method.
 
-use super::method::{Cost, Method, Task};
-use super::steps::check_end;
-use super::tally::{Stop, Tally};
-use crate::{Boundary, Error, Scenario, Sink, State};
+use super::method::Task;
+use super::rival::{Rival, Run};
+use crate::{Boundary, Error, Scenario, State};
 use impact_numerics::double_double::{DoubleDouble, sin_cos};
 
 /// The true motion as a method.
@@ -23,13 +22,10 @@ fn refused(field: &str, problem: impl Into<String>) -> Error {
     Error::input(field, problem, "use another method")
 }
 
-impl Method for Truth {
-    fn name(&self) -> &'static str {
-        "truth"
-    }
+impl Rival for Truth {
+    const NAME: &'static str = "truth";
 
-    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        check_end(until)?;
+    fn begin(&self, (scenario, start, until): Task) -> Result<Run, Error> {
         if scenario.boundary == Boundary::Ring {
             return Err(refused("boundary", "truth supports walls only"));
         }
@@ -38,17 +34,14 @@ impl Method for Truth {
         }
         scenario.check_uniform()?;
         start.displacements(scenario)?;
-        let mut tally = Tally::new(scenario, sink);
         let mut motion = TrueMotion::of(scenario, start);
-        let mut run = || -> Result<(), Stop> {
+        Ok(Box::new(move |tally| {
             while let Some(hit) = motion.next(until)? {
                 motion.advance(&hit);
                 tally.impact(hit.gap, hit.time.to_f64(), hit.closing_speed)?;
             }
             Ok(())
-        };
-        let ended = run();
-        tally.finish(ended)
+        }))
     }
 }
 
