@@ -3,7 +3,7 @@
 use super::range::{Values, values, within};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
 use impact_chain::rise::{Mean, RisePoint};
-use impact_chain::{Boundary, Chain, Counts, Engine, Graze, LATEST, Protocol, Start};
+use impact_chain::{Boundary, Chain, Counts, Graze, LATEST, Protocol, Start};
 use impact_paper::experiments::Progress;
 use impact_paper::experiments::ensembles::CUTTING;
 use impact_paper::params::{Ensemble, SEED};
@@ -152,11 +152,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
         seed: args.seed,
         ..Ensemble::default()
     };
-    // Each thread has a chain, and a few words for each of its gaps; each realisation leaves its
-    // counts.
+    // Each thread has a chain, 300 bytes a mass, and a few words for each of its gaps; each
+    // realisation leaves its counts.
     let threads = args.threads.number() as u128;
-    let chain = Engine::memory(args.masses, 1) + 64 * args.masses as u128;
-    let needed = threads * chain + (1 << 10) * realisations as u128;
+    let needed = threads * 360 * args.masses as u128 + (1 << 10) * realisations as u128;
     fits(needed)?;
     if end > LATEST {
         return Err(Failure::input(

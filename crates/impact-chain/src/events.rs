@@ -11,8 +11,9 @@ use super::flight::{Motion, Phases, Rates, response};
 use super::force::Force;
 use super::impact::{Impact, Sink};
 use super::simulation::{Awaits, Gap, Simulation, clamp_width};
+use super::state::AT_REST;
 use super::topology::Topology;
-use super::{Error, Initial, Scenario};
+use super::{Error, Scenario};
 use crate::search::clock::Instant;
 use crate::search::earliest::Earliest;
 use crate::search::first_root::Search;
@@ -31,11 +32,8 @@ const OVERLAP: f64 = 1e-12;
 /// shut: roundings of amplitudes and sums add up to 5 · 2^-53.
 const SHUT_AT_START: f64 = 4.0 * f64::EPSILON;
 
-/// Rate of a shut gap at t = 0, over the speed of the faster of its sides, up to which rounding
-/// explains it: it is at rest.
-pub(crate) const AT_REST: f64 = 1e-12;
-
-/// The same over the sum of the terms of these speeds.
+/// Rate of a shut gap at t = 0, over the sum of the terms of the speeds of its sides, up to which
+/// rounding explains it: it is at rest.
 const AT_REST_OF_TERMS: f64 = 64.0 * f64::EPSILON;
 
 impl<const M: usize> Simulation<M> {
@@ -55,14 +53,7 @@ impl<const M: usize> Simulation<M> {
             let amplitudes = scenario.amplitudes::<M>(j);
             let forced: [[f64; 2]; M] =
                 std::array::from_fn(|m| response(w, frequencies.big_omegas[m], amplitudes[m]));
-            let [a, b] = match &scenario.initial {
-                Initial::Rest => frequencies
-                    .big_omegas
-                    .iter()
-                    .zip(forced)
-                    .fold([0.0; 2], |[a, b], (big_w, [c, s])| [a - c, b - big_w / w * s]),
-                Initial::Free(parts) => parts[j],
-            };
+            let [a, b] = scenario.free_part(j);
             motions[j + 1] = Motion { a, b, forced, ..motions[j + 1] };
             responses[j + 1] = forced;
         }

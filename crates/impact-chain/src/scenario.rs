@@ -1,6 +1,7 @@
 //! Defines a scenario: one chain, its forcing and its start.
 
 use crate::error::{Error, pairs_within};
+use crate::flight::response;
 use crate::{Boundary, Chain, Start};
 use impact_numerics::random::NormalPairs;
 
@@ -107,6 +108,18 @@ impl Scenario {
     /// Returns the distance of the place of body m from m d.
     pub(crate) fn shift(&self, m: usize) -> f64 {
         self.place(m) - m as f64 * self.spacing
+    }
+
+    /// Returns the free part (a, b) of mass j, counted from 0.
+    pub(crate) fn free_part(&self, j: usize) -> [f64; 2] {
+        if let Initial::Free(parts) = &self.initial {
+            return parts[j];
+        }
+        let w = self.natural_frequency;
+        self.components().fold([0.0; 2], |[a, b], (big_w, amplitudes)| {
+            let [c, s] = response(w, big_w, amplitudes[j]);
+            [a - c, b - big_w / w * s]
+        })
     }
 
     /// Lists the components of the forcing: frequency, and amplitudes of each mass.

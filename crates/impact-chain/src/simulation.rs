@@ -4,6 +4,7 @@ use super::error::Error;
 use super::flight::{Motion, Phases, Rates};
 use super::force::Force;
 use super::impact::jumps;
+use super::state::State;
 use super::topology::Topology;
 use crate::search::clock::Instant;
 use crate::search::earliest::Earliest;
@@ -229,20 +230,16 @@ impl<const M: usize> Simulation<M> {
     }
 
     // These three are documented in `Engine`, under the same names.
-    pub fn positions(&self, time: f64) -> Result<Vec<f64>, Error> {
+    pub fn state(&self, time: f64) -> Result<State, Error> {
         let phases = self.phases_in_flight(time)?;
-        let mut positions = Vec::with_capacity(self.motions.len());
+        let (mut positions, mut velocities) = (Vec::new(), Vec::new());
         for (j, motion) in self.masses() {
+            let parts = motion.parts(&phases);
             let centre = j as f64 * self.spacing + motion.offset;
-            positions.push(centre + motion.parts(&phases).displacement());
+            positions.push(centre + parts.displacement());
+            velocities.push(parts.velocity(&self.search.frequencies));
         }
-        Ok(positions)
-    }
-
-    pub fn velocities(&self, time: f64) -> Result<Vec<f64>, Error> {
-        let phases = self.phases_in_flight(time)?;
-        let frequencies = &self.search.frequencies;
-        Ok(self.masses().map(|(_, motion)| motion.parts(&phases).velocity(frequencies)).collect())
+        Ok(State { time, positions, velocities })
     }
 
     pub fn contacts(&self, time: f64) -> Result<Vec<(usize, f64)>, Error> {

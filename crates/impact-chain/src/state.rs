@@ -1,7 +1,6 @@
 //! Describes a state of the masses at any time, and the scenario that starts there.
 
 use crate::error::{Error, within};
-use crate::events::AT_REST;
 use crate::forcing::{response_at_zero, rotate_phases};
 use crate::scenario::{Initial, Scenario};
 use crate::search::clock::{Instant, LATEST};
@@ -19,6 +18,10 @@ pub struct State {
     /// The velocities of the masses 1..n.
     pub velocities: Vec<f64>,
 }
+
+/// Rate of a shut gap, over the speed of the faster of its sides, up to which rounding explains it:
+/// it is at rest.
+pub(crate) const AT_REST: f64 = 1e-12;
 
 /// A gap is shut up to rounding when its width is below this many roundings of its place, of a
 /// displacement next to it, and of the distance it moves within the rounding of the time.

@@ -22,9 +22,6 @@ pub struct Earliest {
 }
 
 impl Earliest {
-    /// Bytes for each key; the number of keys is rounded up to a power of two.
-    pub const BYTES: usize = size_of::<Instant>() + 2 * size_of::<u64>();
-
     /// Creates `len` ≥ 1 keys, all [`Instant::NEVER`].
     pub fn new(len: usize) -> Self {
         let width = len.next_power_of_two();
