@@ -76,14 +76,6 @@ impl Default for Ensemble {
     }
 }
 
-/// Estimates the impacts of a run up to `time`, plus one for the first search of each mass: to cut
-/// work into units and to show progress. No result depends on it.
-fn work(chain: &Chain, sigma: f64, time: f64) -> u64 {
-    // Impacts per unit of time and mass, of the paper's chain, roughly.
-    let rate = (1.6 * (sigma - 0.085)).clamp(0.0, 0.3);
-    (chain.masses as f64 * (1.0 + time * rate)) as u64
-}
-
 impl Ensemble {
     /// Returns the number of realisations at a σ.
     pub fn realisations_at(&self, sigma: f64) -> usize {
@@ -105,17 +97,18 @@ impl Ensemble {
         rejected as f64 <= self.most_rejected * self.realisations_at(sigma) as f64
     }
 
-    /// Estimates the impacts of one realisation.
+    /// Estimates the impacts of one realisation, plus one for the first search of each mass: to cut
+    /// work into units and to show progress. No result depends on it.
     pub fn work(&self, sigma: f64) -> u64 {
-        let until = self.until(sigma);
-        match self.heating {
+        // Impacts per unit of time and mass, of the paper's chain, roughly.
+        let rate = |sigma: f64| (1.6 * (sigma - 0.085)).clamp(0.0, 0.3);
+        let impacts = match self.heating {
             // After a stronger force impacts go on at lower σ, roughly as those from rest at
             // σ + 0.03.
-            Some(Heating { sigma: hot, time }) => {
-                work(&self.chain, hot, time) + work(&self.chain, sigma + 0.03, until)
-            }
-            None => work(&self.chain, sigma, until),
-        }
+            Some(hot) => hot.time * rate(hot.sigma) + self.until(sigma) * rate(sigma + 0.03),
+            None => self.until(sigma) * rate(sigma),
+        };
+        (self.chain.masses as f64 * (1.0 + impacts)) as u64
     }
 
     /// Runs a realisation at a σ, `index` after the first, and counts its impacts; ends early, with

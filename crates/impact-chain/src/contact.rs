@@ -23,6 +23,7 @@ use crate::search::outcome::Next;
 use crate::search::window::next_window;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::iter::successors;
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
 pub(super) const CONTACT_SPEED: f64 = 1e-10;
@@ -46,15 +47,14 @@ impl<const M: usize> Simulation<M> {
     /// Decides whether the impact of gap k at `speed` is so slow that contact may begin, or hits a
     /// cluster.
     pub(super) fn involves_contact(&self, k: usize, speed: f64) -> bool {
-        let near = self.topology.adjacent(k);
         self.restitution * speed <= CONTACT_SPEED * self.spacing * self.search.frequencies.omega
-            || near.into_iter().flatten().any(|near| self.gaps[near].in_contact)
+            || self.topology.near(k).any(|near| self.gaps[near].in_contact)
     }
 
     /// Carries out an impact of gap k at `speed` that involves contact.
     pub(super) fn collide_in_contact(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
         let mut freed = Vec::new();
-        for near in self.topology.adjacent(k).into_iter().flatten() {
+        for near in self.topology.near(k) {
             if self.gaps[near].in_contact {
                 freed.extend(self.free_cluster(near, phases));
             }
@@ -73,7 +73,7 @@ impl<const M: usize> Simulation<M> {
             changed.insert(near, Changed { width: 0.0, rate, settled });
         }
         changed.insert(k, Changed { width: 0.0, rate, settled: self.is_settled(0.0, rate) });
-        for near in self.topology.adjacent(k).into_iter().flatten() {
+        for near in self.topology.near(k) {
             if let Entry::Vacant(place) = changed.entry(near) {
                 let jump = self.jump_of_gap(near, k, jumps);
                 let mut gap = self.changed(near, phases, jump);
@@ -128,7 +128,7 @@ impl<const M: usize> Simulation<M> {
             if !known[&k].settled {
                 continue;
             }
-            for near in self.topology.adjacent(k).into_iter().flatten() {
+            for near in self.topology.near(k) {
                 if known.contains_key(&near) {
                     continue;
                 }
@@ -169,7 +169,7 @@ impl<const M: usize> Simulation<M> {
             }
         }
         for &k in known.keys() {
-            for near in self.topology.adjacent(k).into_iter().flatten() {
+            for near in self.topology.near(k) {
                 if !known.contains_key(&near) && !self.gaps[near].in_contact {
                     self.renew_and_search(near, p, jump(near));
                 }
@@ -247,8 +247,8 @@ impl<const M: usize> Simulation<M> {
     fn jumps_of_run(&self, gaps: &[usize], rates: &[f64]) -> [f64; 2] {
         let members = self.members(gaps);
         // Each relative to the first.
-        let mut velocities = vec![0.0];
         let mut last = 0.0;
+        let mut velocities = vec![last];
         for rate in rates {
             last += rate;
             velocities.push(last);
@@ -332,17 +332,11 @@ impl<const M: usize> Simulation<M> {
 
     /// Frees the cluster that gap k belongs to; returns its gaps, left to right.
     fn free_cluster(&mut self, k: usize, phases: &Phases<M>) -> Vec<usize> {
-        let mut gaps = std::collections::VecDeque::from([k]);
         let contact = |side: usize, k: usize| {
             self.topology.adjacent(k)[side].filter(|&near| self.gaps[near].in_contact)
         };
-        while let Some(before) = contact(0, gaps[0]) {
-            gaps.push_front(before);
-        }
-        while let Some(after) = contact(1, gaps[gaps.len() - 1]) {
-            gaps.push_back(after);
-        }
-        let gaps = Vec::from(gaps);
+        let first = successors(Some(k), |&k| contact(0, k)).last();
+        let gaps: Vec<usize> = successors(first, |&k| contact(1, k)).collect();
         self.make_free(&gaps, phases);
         for &k in &gaps {
             self.gaps[k].in_contact = false;

@@ -83,21 +83,15 @@ impl Total {
         self.simultaneous += other.simultaneous;
         self.undecided += other.undecided;
         self.first_graze = self.first_graze.or(other.first_graze);
-        for (sum, n) in self.near.iter_mut().zip(other.near) {
-            *sum += n;
-        }
-        for (sum, n) in self.slow.iter_mut().zip(other.slow) {
+        let near = self.near.iter_mut().zip(other.near);
+        for (sum, n) in near.chain(self.slow.iter_mut().zip(other.slow)) {
             *sum += n;
         }
     }
 }
 
 /// Appends each row of `next` to the row of the same window.
-fn extend<T>(rows: &mut Vec<Vec<T>>, next: Vec<Vec<T>>) {
-    if rows.is_empty() {
-        *rows = next;
-        return;
-    }
+fn extend<T>(rows: &mut [Vec<T>], next: Vec<Vec<T>>) {
     for (row, next) in rows.iter_mut().zip(next) {
         row.extend(next);
     }
@@ -105,7 +99,8 @@ fn extend<T>(rows: &mut Vec<Vec<T>>, next: Vec<Vec<T>>) {
 
 impl FromIterator<Counts> for Counts {
     fn from_iter<I: IntoIterator<Item = Counts>>(all: I) -> Self {
-        let mut whole = Counts::default();
+        let mut all = all.into_iter();
+        let mut whole = all.next().unwrap_or_default();
         for one in all {
             extend(&mut whole.distinct, one.distinct);
             extend(&mut whole.impacts, one.impacts);

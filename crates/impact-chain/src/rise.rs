@@ -140,13 +140,10 @@ impl RisePoint {
         let kept: Vec<f64> = all.iter().copied().filter(|&k| k > 0.0).collect();
         let mut kept_counts = counts.clone();
         kept_counts[0] = 0;
-        let (mut impacts, mut masses) = (Vec::new(), Vec::new());
-        for (&run_impacts, &run_masses) in found.impacts[window].iter().zip(&found.masses[window]) {
-            if run_impacts > 0 {
-                impacts.push(run_impacts as f64);
-                masses.push(f64::from(run_masses));
-            }
-        }
+        let runs = found.impacts[window].iter().zip(&found.masses[window]);
+        let hit = runs.filter(|(impacts, _)| **impacts > 0);
+        let (impacts, masses): (Vec<_>, Vec<_>) =
+            hit.map(|(&impacts, &masses)| (impacts as f64, f64::from(masses))).unzip();
         RisePoint {
             sigma,
             ran: all.len(),

@@ -89,12 +89,8 @@ impl<const M: usize> Simulation<M> {
     /// Takes new frames of the gaps next to gap k, whose masses' velocities have just jumped by
     /// `jumps`, and searches their next impacts.
     pub(super) fn renew_adjacent(&mut self, k: usize, phases: &Phases<M>, jumps: [f64; 2]) {
-        let [before, after] = self.topology.adjacent(k);
-        for near in [before, after].into_iter().flatten() {
+        for near in self.topology.near(k) {
             self.renew_and_search(near, phases, self.jump_of_gap(near, k, jumps));
-            if before == after {
-                break;
-            }
         }
     }
 
@@ -244,13 +240,8 @@ impl<const M: usize> Simulation<M> {
 
     pub fn contacts(&self, time: f64) -> Result<Vec<(usize, f64)>, Error> {
         let phases = self.phases_in_flight(time)?;
-        let mut contacts = Vec::new();
-        for (k, gap) in self.gaps.iter().enumerate() {
-            if gap.in_contact {
-                contacts.push((self.topology.label(k), self.forces[k].value(&phases)));
-            }
-        }
-        Ok(contacts)
+        let gaps = (0..self.gaps.len()).filter(|&k| self.gaps[k].in_contact);
+        Ok(gaps.map(|k| (self.topology.label(k), self.forces[k].value(&phases))).collect())
     }
 
     pub fn free_parts(&self) -> Vec<[f64; 2]> {

@@ -71,7 +71,7 @@ impl State {
                 |m: usize| self.velocities.get(m.wrapping_sub(1)).copied().unwrap_or(0.0);
             let [before, after] = [left, right].map(velocity);
             let fastest = before.abs().max(after.abs());
-            let rounding = self.rounding(place, fastest);
+            let rounding = UNITS * f64::EPSILON * (place.abs() + self.time * fastest);
             if width < -rounding {
                 return Err(Error::Overlap { gap: topology.label(k), depth: -width });
             }
@@ -85,12 +85,6 @@ impl State {
             }
         }
         Ok(u)
-    }
-
-    /// Returns the largest width of a gap at `place` that rounding of this state explains; `speed`
-    /// is that of the faster of its sides.
-    pub(crate) fn rounding(&self, place: f64, speed: f64) -> f64 {
-        UNITS * f64::EPSILON * (place.abs() + self.time * speed)
     }
 
     fn validate(&self, n: usize) -> Result<(), Error> {

@@ -70,8 +70,7 @@ impl Gaps {
                 let speed = -gap.rate;
                 self.flights.hit(k, speed, &phases);
                 gap.rate = self.flights.restitution * speed;
-                let [left, right] = self.flights.topology.adjacent(k);
-                for j in [left, right.filter(|right| Some(*right) != left)].into_iter().flatten() {
+                for j in self.flights.topology.near(k) {
                     tally.cost.evaluations += 1;
                     let neighbour = self.flights.gap_at(j, 0.0, &phases);
                     self.advance_gap(j, now, neighbour);

@@ -47,17 +47,11 @@ pub trait Method: Sync {
     fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error>;
 
     /// Returns the first impact, or none if there is no impact.
-    ///
-    /// # Errors
-    /// As [`Method::run`].
     fn first(&self, task: Task) -> Result<Option<Impact>, Error> {
         Ok(collect(1, |sink| self.run(task, sink))?.pop())
     }
 
     /// Returns all impacts, in order.
-    ///
-    /// # Errors
-    /// As [`Method::run`].
     fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
         collect(usize::MAX, |sink| self.run(task, sink))
     }

@@ -13,7 +13,6 @@
 mod advancement;
 mod bodies;
 mod certified;
-mod dormand_prince;
 mod flights;
 mod method;
 mod moreau_jean;

@@ -27,8 +27,8 @@ impl<R: Rival> Method for R {
         let run = self.begin(task)?;
         let mut tally = Tally::new(scenario, sink);
         match run(&mut tally) {
-            Err(Stop::Failed(error)) => Err(error),
-            Err(Stop::BySink) | Ok(()) => Ok(tally.cost),
+            Err(Some(error)) => Err(error),
+            Err(None) | Ok(()) => Ok(tally.cost),
         }
     }
 }

@@ -71,23 +71,16 @@ impl Stepper for Samples {
             let speed = (-before.rate).max(0.0);
             flights.hit(k, speed, &phases);
             self.begin[k] = GapState { s, width: 0.0, rate: flights.restitution * speed };
-            let [left, right] = flights.topology.adjacent(k);
-            let near = [left, right.filter(|right| Some(*right) != left)];
-            for j in near.into_iter().flatten() {
+            let near = flights.topology.near(k);
+            for j in near.clone() {
                 self.begin[j] = flights.gap_at(j, s, &phases);
             }
-            for j in [Some(k)].into_iter().chain(near).flatten() {
+            for j in std::iter::once(k).chain(near) {
                 self.end[j] = self.flights.gap_at(j, step.h, &last);
                 tally.cost.evaluations += 2;
                 self.roots[j] = self.locate(j, step, tally);
             }
-            // A gap at rest at zero is no impact, but counts as an event: it may stay there for
-            // ever.
-            if speed > 0.0 {
-                tally.impact(k, time, speed)?;
-            } else {
-                tally.spend(k, time)?;
-            }
+            tally.event(k, time, speed)?;
         }
         for (begin, end) in self.begin.iter_mut().zip(&self.end) {
             *begin = GapState { s: 0.0, ..*end };

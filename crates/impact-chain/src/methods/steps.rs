@@ -29,13 +29,9 @@ pub fn steps(
     let (begin, end) = (Instant::at(start.time), Instant::at(until));
     let mut from = begin;
     Ok((1..=count as u64).map(move |i| {
-        let step = if i < count as u64 {
-            Step { from, to: begin.after(i as f64 * h), h }
-        } else {
-            Step { from, to: end, h: end.since(from).max(0.0) }
-        };
-        from = step.to;
-        step
+        let to = if i < count as u64 { begin.after(i as f64 * h) } else { end };
+        let h = if i < count as u64 { h } else { end.since(from).max(0.0) };
+        Step { from: std::mem::replace(&mut from, to), to, h }
     }))
 }
 

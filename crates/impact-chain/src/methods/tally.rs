@@ -10,18 +10,8 @@ use crate::{Error, Impact, Scenario, Sink};
 /// there.
 const EVENTS_PER_GAP: u64 = 10_000;
 
-/// The reason why a run ends early.
-pub enum Stop {
-    /// The receiver of the impacts stopped the run.
-    BySink,
-    Failed(Error),
-}
-
-impl From<Error> for Stop {
-    fn from(error: Error) -> Stop {
-        Stop::Failed(error)
-    }
-}
+/// Why a run ends early: an error, or none if the receiver of the impacts stopped it.
+pub type Stop = Option<Error>;
 
 /// The counted work of a run; impacts pass through it.
 pub struct Tally<'a> {
@@ -70,8 +60,14 @@ impl<'a> Tally<'a> {
         if (self.sink)(Impact { time, gap: self.topology.label(k), closing_speed }) {
             Ok(())
         } else {
-            Err(Stop::BySink)
+            Err(None)
         }
+    }
+
+    /// Counts an impact if it has a speed. A gap at rest at zero has none, but is an event: it may
+    /// stay there for ever.
+    pub fn event(&mut self, k: usize, time: f64, speed: f64) -> Result<(), Stop> {
+        if speed > 0.0 { self.impact(k, time, speed) } else { self.spend(k, time) }
     }
 
     /// Counts one more step of an integrator that chooses its steps.
