@@ -47,8 +47,11 @@ impl<const M: usize> Simulation<M> {
     /// Decides whether the impact of gap k at `speed` is so slow that contact may begin, or hits a
     /// cluster.
     pub(super) fn involves_contact(&self, k: usize, speed: f64) -> bool {
+        let [before, after] = self.topology.adjacent(k);
+        let in_contact = |gap: Option<usize>| gap.is_some_and(|gap| self.gaps[gap].in_contact);
         self.restitution * speed <= CONTACT_SPEED * self.spacing * self.search.frequencies.omega
-            || self.topology.near(k).any(|near| self.gaps[near].in_contact)
+            || in_contact(before)
+            || in_contact(after)
     }
 
     /// Carries out an impact of gap k at `speed` that involves contact.

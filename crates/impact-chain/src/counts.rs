@@ -153,6 +153,7 @@ impl Watch {
         }
     }
 
+    #[inline]
     fn count(&mut self, impact: Impact) {
         let gaps = self.last.len();
         // On a ring gap n lies between masses n and 1: modulo n it is the neighbour of gap 1.
