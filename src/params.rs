@@ -11,7 +11,6 @@ mod ensembles;
 mod grid;
 mod methods;
 mod nucleation;
-mod printed;
 mod runs;
 
 pub use accuracy::{BENCH, BiasParams, RaceParams, ScaleParams, trial_settings};
@@ -24,5 +23,4 @@ pub use impact_numerics::estimates::LEVEL;
 pub use literate::experiments::Profile;
 pub use methods::{MethodName, Setting};
 pub use nucleation::{NucleationParams, SeedsParams};
-pub use printed::{printed_interval, printed_threshold};
 pub use runs::{Runs, TwoMassesParams};

@@ -1,7 +1,7 @@
 //! Measures how long a run can be trusted, by twins that differ in the last bit of every amplitude.
 //!
-//! A change of one amplitude alone would be the smaller disturbance: in one run of four it is
-//! rounded away. Every operation of a run rounds, in every mass, so the twins differ in all.
+//! Every operation of a run rounds, in every mass, so the twins differ in all; in one run of four a
+//! change of one amplitude alone is rounded away.
 
 use crate::experiments::prelude::*;
 use crate::params::Runs;

@@ -1,5 +1,4 @@
-//! Runs chains of several lengths from rest, and chains with a random start, after several
-//! transients.
+//! Runs chains of several lengths from rest, and with a random start after several transients.
 
 use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;

@@ -1,8 +1,7 @@
 //! Reads times that were measured once, on one machine: `benches/measured.json`.
 //!
-//! Times differ from run to run, so nothing of the reproduction depends on them. `make measure`
-//! writes them, with date and machine, and they are committed; the report only reads them, and
-//! keeps its bytes until somebody measures again.
+//! Times differ from run to run, so nothing of the reproduction depends on them, and the report
+//! keeps its bytes until `make measure` writes them again, with date and machine.
 
 use crate::experiments::prelude::*;
 use crate::params::Setting;
@@ -113,8 +112,8 @@ impl Measured {
         self.of(What::Method).filter(alike).find(|row| row.n == n as u64 && row.sigma == sigma)
     }
 
-    /// Returns the time of an impact in one chain of n masses by the engine, in microseconds, in
-    /// the session of a row.
+    /// Returns the microseconds of an impact by the engine, with as many masses, in a row's
+    /// session.
     pub fn engine(&self, row: &Measurement) -> Option<f64> {
         let session = self.sessions.iter().find(|session| session.rows.contains(row))?;
         let engine = session.rows.iter().filter(|at| at.what == What::Engine && at.n == row.n);

@@ -1,5 +1,4 @@
-//! Runs what a page repeats, each run with a digest of its impacts: equal bits give an equal
-//! digest.
+//! Runs what a page repeats, each run with a digest of the bits of its impacts.
 
 use crate::experiments::prelude::*;
 use crate::params::{Boundary, Profile, Protocol, SEED, Start, printed_threshold};
@@ -59,8 +58,7 @@ pub struct ReplayResult {
     pub digest: String,
 }
 
-/// Returns the runs: the first are realisations behind Fig. 3, the others are difficult for an
-/// engine.
+/// Returns the runs: realisations behind Fig. 3, and others that are difficult for an engine.
 pub fn runs(_: Profile) -> ReplayRuns {
     let drawn = |sigma: f64, chain: Chain| {
         let forces = Forces::Drawn { sigma, stream: "sweep".into(), seed: SEED, realisation: 0 };

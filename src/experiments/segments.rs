@@ -1,5 +1,4 @@
-//! Replays saved scenarios: the motions of Figs. 5(b) and 6(b), and a periodic orbit for each of
-//! their circuits.
+//! Replays the motions of Figs. 5(b) and 6(b), and a periodic orbit for each of their circuits.
 
 use crate::experiments::prelude::*;
 use impact_circuits::graph::Graph;
@@ -87,8 +86,8 @@ impl Segment {
         Segment { impacts, ..self.clone() }
     }
 
-    /// Of a segment over two periods: the largest distance between positions, and between impacts
-    /// in time, one period apart; infinite if the second period has other impacts.
+    /// Of a segment over two periods: the largest distance of positions, and of impacts in time,
+    /// one period apart; infinite if the second period has other impacts.
     fn apart(&self) -> f64 {
         let half = self.impacts.len() / 2;
         let (first, second) = self.impacts.split_at(half);

@@ -1,7 +1,5 @@
-//! Records one long run at the printed threshold, impact by impact: where impacts start, how they
-//! spread along the chain, and where they stop.
-//!
-//! The run is the first realisation of its stream that still has impacts in its last part.
+//! Records one long run at the printed threshold, impact by impact: the first realisation of its
+//! stream that still has impacts in its last part.
 
 use crate::experiments::prelude::*;
 use crate::params::Runs;
@@ -56,8 +54,8 @@ impl SpaceTime {
         firsts
     }
 
-    /// Returns, for each gap that is hit, the time from the first impact of the earlier of its
-    /// neighbours to the first of the gap; none if neither had been hit.
+    /// Returns for each gap that is hit the time since the first impact of a neighbour, if there is
+    /// one.
     fn waits(&self) -> Vec<(usize, Option<f64>)> {
         let firsts: Vec<f64> =
             self.firsts().into_iter().map(|first| first.unwrap_or(f64::INFINITY)).collect();
@@ -70,8 +68,8 @@ impl SpaceTime {
         waits
     }
 
-    /// Returns the gaps at which impacts start: hit when neither neighbour had been. Such a gap
-    /// closes by itself, since its masses move as they did from the beginning.
+    /// Returns the gaps at which impacts start: hit when neither neighbour had been. They close by
+    /// themselves, since their masses move as they did from the beginning.
     pub fn starts(&self) -> Vec<usize> {
         let starts = self.waits().into_iter().filter(|(_, wait)| wait.is_none());
         starts.map(|(gap, _)| gap).collect()

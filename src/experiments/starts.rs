@@ -1,5 +1,4 @@
-//! Finds half heights of chains that differ from the paper's in the start, in Ω, or by a ring in
-//! place of walls.
+//! Finds half heights of chains with another start, another Ω, or a ring in place of walls.
 
 use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
@@ -40,8 +39,8 @@ pub fn against_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     Some(vec![table.done()])
 }
 
-/// Returns the part of the distance between theory and simulation that the start explains, from the
-/// half heights from rest, from random free parts, and of the theory.
+/// Returns the part of the distance between theory and simulation that the start explains, from
+/// the half heights from rest, from random free parts, and of the theory.
 pub fn share_of_start(rest: Estimate, random: Estimate, theory: f64) -> Estimate {
     let (moved, all) = (difference(random, rest), theory - rest.value);
     with_error(moved.value / all, moved.error / all)

@@ -116,9 +116,8 @@ fn modes(sweep: &Counted) -> Table {
 }
 
 /// Returns the impacts within [`NEAR_SIMULTANEOUS`] of one in an adjacent gap, and those slower
-/// than [`SLOW`], that are expected by chance in a whole sweep: from those within δ = 1e−2 in
-/// proportion to δ, and from those below v = 0.1 in proportion to v², as the rate of impacts grows
-/// with v.
+/// than [`SLOW`], that are expected by chance: from those within δ = 1e−2 in proportion to δ, and
+/// from those below v = 0.1 in proportion to v², as the rate of impacts grows with v.
 fn expected(total: &Total) -> [f64; 2] {
     let (near, slow) = (NEAR_SIMULTANEOUS / NEAR_DECADES[1], SLOW / SLOW_DECADES[0]);
     [total.near[1] as f64 * near, total.slow[0] as f64 * slow * slow]

@@ -1,9 +1,8 @@
 //! Runs two masses under a low force, which never hit: a remark of Sec. 2.
 //!
 //! After a start from rest every gap keeps R1 + R2 < d, and so never closes, while the amplitudes
-//! are below a bound in closed form. With fixed directions of the forcing and growing amplitude the
-//! first impact must therefore come at that bound or above, and close to it in long times, because
-//! ω and Ω are incommensurable.
+//! are below a bound in closed form. With growing amplitude the first impact must come at that
+//! bound or above, and close to it in long times, because ω and Ω are incommensurable.
 
 use crate::experiments::prelude::*;
 use crate::params::TwoMassesParams;
@@ -16,16 +15,14 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
     tables,
 };
 
-/// The worst directions for Ω > ω: opposite forces in the quadrature that the start from rest
-/// amplifies.
+/// The worst directions for Ω > ω: opposite forces that the start from rest amplifies.
 const WORST: [[f64; 2]; 2] = [[0.0, 1.0], [0.0, -1.0]];
 
 /// The smallest forces that lead to an impact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TwoMasses {
     pub parameters: TwoMassesParams,
-    /// For each time, over random directions: least and largest amplitude with an impact by then,
-    /// divided by the bound of its direction.
+    /// For each time the least and the largest amplitude with an impact by then, over its bound.
     pub excess: Vec<[f64; 2]>,
     /// Impacts below the bound, over all directions and times: must be 0.
     pub violations: u64,
@@ -82,8 +79,7 @@ pub fn safe_force(chain: &Chain) -> f64 {
     bound(chain, &WORST)
 }
 
-/// Returns the factor on `forcing` below which R1 + R2 < d in every gap between walls, after a
-/// start from rest.
+/// Returns the factor on `forcing` below which R1 + R2 < d in every gap, after a start from rest.
 fn bound(chain: &Chain, forcing: &[[f64; 2]]) -> f64 {
     let (w, big_w) = (chain.natural_frequency, chain.forcing_frequency);
     let wall = [[0.0; 2]];
@@ -96,8 +92,8 @@ fn bound(chain: &Chain, forcing: &[[f64; 2]]) -> f64 {
     chain.spacing * (w * w - big_w * big_w).abs() / reach.fold(0.0, f64::max)
 }
 
-/// Returns the number of impacts below the bound of fixed directions of the forcing, and for each
-/// time the smallest ratio to the bound with an impact.
+/// Returns the number of impacts below the bound, and for each time the smallest ratio to the bound
+/// with an impact.
 fn thresholds(
     parameters: &TwoMassesParams,
     forcing: &[[f64; 2]],
@@ -120,8 +116,7 @@ fn thresholds(
         while !hits(hitting, time)? {
             (quiet, hitting) = (hitting, 2.0 * hitting);
         }
-        // An impact at time t' with amplitude s comes from an excursion that a smaller
-        // amplitude reaches too late or never: the threshold is monotone in the amplitude.
+        // The threshold is monotone: a smaller amplitude makes the excursion later or never.
         for _ in 0..HALVINGS {
             let middle = 0.5 * (quiet + hitting);
             if hits(middle, time)? {

@@ -45,7 +45,7 @@ impl MethodName {
         }
     }
 
-    /// Returns its name in results and on the command line: `runge-kutta`.
+    /// Its name in results and on the command line: `runge-kutta`.
     pub fn id(self) -> &'static str {
         self.with(0.0).name()
     }

@@ -8,9 +8,8 @@
 use crate::graph::{Circuit, Graph};
 use std::collections::BTreeSet;
 
-/// Counts, by enumeration, the simple circuits on `big_n` gaps in a row, and the classes of them:
-/// two are in one class if exchanges of neighbouring impacts without a common mass lead from one to
-/// the other.
+/// Counts, by enumeration, the simple circuits on `big_n` gaps in a row, and their classes: in one
+/// class exchanges of neighbouring impacts without a common mass lead from each to each.
 pub fn simple_classes(big_n: usize) -> [usize; 2] {
     let all = Graph::of_chain(big_n - 1).circuits(big_n);
     let mut left: BTreeSet<Circuit> = all.filter(|circuit| circuit.repeats().is_empty()).collect();

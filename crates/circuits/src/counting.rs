@@ -8,8 +8,8 @@ use impact_numerics::scaled::Scaled;
 
 /// **Eq. (6)**
 ///
-/// Returns the number of distinct paths of length k from a given vertex back to itself through k
-/// − 1 other vertices, all different: (N − 1)!/(N − k)!. None if it exceeds 128 bits.
+/// Returns the number of distinct paths of length k from a given vertex back to itself through
+/// k − 1 other vertices, all different: (N − 1)!/(N − k)!. None if it exceeds 128 bits.
 pub fn paths(big_n: usize, k: usize) -> Option<u128> {
     if !(1..=big_n).contains(&k) {
         return Some(0);
@@ -37,8 +37,8 @@ pub fn log_phi(big_n: usize, k: usize) -> Result<f64, Error> {
 
 /// **Eq. (8)**
 ///
-/// Returns φ_N(k)/φ_N(N) = N/(k (N − k)!), for 1 ≤ k ≤ N: tiny until k comes near N, and
-/// above 1 at k = N − 1, which Sec. 5 overlooks.
+/// Returns φ_N(k)/φ_N(N) = N/(k (N − k)!), for 1 ≤ k ≤ N: tiny until k comes near N, and above 1
+/// at k = N − 1, which Sec. 5 overlooks.
 pub fn ratio_to_longest(big_n: usize, k: usize) -> f64 {
     let rest = (1..=big_n - k).rev().fold(Scaled::ONE, |w, i| w * Scaled::from(i));
     (Scaled::from(big_n) / (Scaled::from(k) * rest)).to_f64()

@@ -5,7 +5,6 @@
 //! no sequence can be a repetition of a shorter one. [`SampleSpace::FiveClasses`] counts distinct
 //! circuits. Exact counts are none beyond 128 bits.
 
-use crate::fraction::Fraction;
 use impact_numerics::double_double::DoubleDouble;
 
 /// The circuits that are possible.
@@ -15,8 +14,7 @@ pub enum SampleSpace {
     Simple,
     /// Simple circuits and the four classes of Sec. 9, counted as primitive circuits.
     FiveClasses,
-    /// The same with the printed formulas of Sec. 9 taken at every length, although they fail for
-    /// one and for two different vertices.
+    /// The same with the printed formulas, although they fail for one and two different vertices.
     FiveClassesPrinted,
 }
 
@@ -44,9 +42,9 @@ pub fn doubled_paths(big_n: usize, k: usize) -> Option<u128> {
 ///
 /// Returns φ_N^1(k) *as this equation prints it*: γ(k, 2)/2 times [`doubled_paths`]. A factor N,
 /// the choice of the doubled vertex, is missing; Eq. (33) has it.
-pub fn doubled_as_printed(big_n: usize, k: usize) -> Option<Fraction> {
+pub fn doubled_as_printed(big_n: usize, k: usize) -> Option<f64> {
     let splits = compositions(k, 2)?;
-    Some(Fraction::new(splits.checked_mul(doubled_paths(big_n, k)?)?, 2))
+    Some(splits.checked_mul(doubled_paths(big_n, k)?)? as f64 / 2.0)
 }
 
 /// **Eq. (32)**
@@ -68,42 +66,40 @@ pub fn compositions(n: usize, j: usize) -> Option<u128> {
 
 /// **Eq. (33)**
 ///
-/// Returns φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: circuits of
-/// length k with one vertex visited twice and no other repeated. Fails at k = 2 (a loop run twice
-/// is no new circuit), where it gives N/2.
-pub fn doubled(big_n: usize, k: usize) -> Option<Fraction> {
-    printed(big_n, k, 2, k - 1, 2)
+/// Returns φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: one vertex visited
+/// twice. Gives N/2 at k = 2, where a loop run twice is no new circuit.
+pub fn doubled(big_n: usize, k: usize) -> Option<f64> {
+    printed(big_n, k, 2, k - 1, 2.0)
 }
 
 /// Returns (k − 1)!/(k − j)! · N!/(N − d)! / divisor, the common form of the printed formulas.
-fn printed(big_n: usize, k: usize, j: usize, d: usize, divisor: u128) -> Option<Fraction> {
+fn printed(big_n: usize, k: usize, j: usize, d: usize, divisor: f64) -> Option<f64> {
     let positions = arrangements(k - 1, j - 1)?;
-    Some(Fraction::new(positions.checked_mul(arrangements(big_n, d)?)?, divisor))
+    Some(positions.checked_mul(arrangements(big_n, d)?)? as f64 / divisor)
 }
 
 /// **Eq. (35)**
 ///
 /// Returns φ_N^{1,0}(k) as printed, for k ≥ 3: one vertex visited three times,
 /// 1/6 (k − 1)!/(k − 3)! N!/(N − (k − 2))!. Gives N/3 at k = 3, where there is no such circuit.
-pub fn three_visits(big_n: usize, k: usize) -> Option<Fraction> {
-    printed(big_n, k, 3, k - 2, 6)
+pub fn three_visits(big_n: usize, k: usize) -> Option<f64> {
+    printed(big_n, k, 3, k - 2, 6.0)
 }
 
 /// **Eq. (36)**
 ///
 /// Returns φ_N^{1,0,0}(k) as printed, for k ≥ 4: one vertex visited four times,
 /// 1/24 (k − 1)!/(k − 4)! N!/(N − (k − 3))!. Gives N/4 at k = 4, where there is no such circuit.
-pub fn four_visits(big_n: usize, k: usize) -> Option<Fraction> {
-    printed(big_n, k, 4, k - 3, 24)
+pub fn four_visits(big_n: usize, k: usize) -> Option<f64> {
+    printed(big_n, k, 4, k - 3, 24.0)
 }
 
 /// **Eq. (37)**
 ///
-/// Returns φ_N^2(k) as printed, for k ≥ 3: two vertices visited twice,
-/// 1/8 (k − 1)!/(k − 4)! N!/(N − (k − 2))!. Gives 3 N (N − 1)/4 at k = 4, where there are
-/// N (N − 1)/2.
-pub fn two_doubled(big_n: usize, k: usize) -> Option<Fraction> {
-    printed(big_n, k, 4, k - 2, 8)
+/// Returns φ_N^2(k) as printed, for k ≥ 3: two vertices visited twice, 1/8 (k − 1)!/(k − 4)! N!/(N
+/// − (k − 2))!. Gives 3 N (N − 1)/4 at k = 4, where there are N (N − 1)/2.
+pub fn two_doubled(big_n: usize, k: usize) -> Option<f64> {
+    printed(big_n, k, 4, k - 2, 8.0)
 }
 
 /// **Eq. (34)**
@@ -140,8 +136,7 @@ impl Class {
     }
 
     /// Returns [`SHARED`] times the number of circuits with k different vertices, over φ_N(k): by
-    /// the printed formula, or as primitive circuits. A polynomial in k with whole coefficients,
-    /// for any N.
+    /// the printed formula, or as primitive circuits. A whole polynomial in k, for any N.
     pub fn per_simple_circuit(&self, space: SampleSpace, k: usize) -> u128 {
         let short = space == SampleSpace::FiveClasses;
         let k = k as u128;

@@ -13,12 +13,11 @@
 //!
 //! Eq. (25) draws the free part of the motion independently of the forcing, with the same σ. A
 //! chain that is at rest when the forcing sets in has no such random part: its free part cancels
-//! the forced position and velocity at t = 0, so with δα, δβ the differences of forcing
-//! amplitudes Y_0 = √(δα² + (Ω/ω)² δβ²)/|ω² − Ω²|, which goes with Y_1. In polar
-//! form the radius integrates out and one angle is left (ours):
+//! the forced position and velocity at t = 0, so with δα, δβ the differences of forcing amplitudes
+//! Y_0 = √(δα² + (Ω/ω)² δβ²)/|ω² − Ω²|, which goes with Y_1. In polar form the radius integrates
+//! out and one angle is left (ours):
 //!
-//! p_rest = (2/π) ∫_0^{π/2} exp(−(|ω² − Ω²| d/(2σ))²/(1 + √(cos²θ + (Ω/ω)²
-//! sin²θ))²) dθ.
+//! p_rest = (2/π) ∫_0^{π/2} exp(−(|ω² − Ω²| d/(2σ))²/(1 + √(cos²θ + (Ω/ω)² sin²θ))²) dθ.
 
 use crate::error::{Error, within};
 use impact_chain::Chain;
@@ -45,8 +44,8 @@ pub struct ImpactProbability {
     frequency_ratio: DoubleDouble,
 }
 
-/// **Eq. (21)** (step towards (22)): Y = √((α_{j+1} − α_j)² + (β_{j+1} − β_j)²), the
-/// amplitude of one harmonic of a gap.
+/// **Eq. (21)** (step towards (22)): Y = √((α_{j+1} − α_j)² + (β_{j+1} − β_j)²), the amplitude of
+/// one harmonic of a gap.
 ///
 /// **Eq. (22)**
 ///
@@ -97,8 +96,7 @@ fn saturation(x: f64) -> f64 {
 const NEARLY_ONE: f64 = 0.01;
 
 impl ImpactProbability {
-    /// Creates the law of a gap of masses d = `spacing` apart, with natural frequency ω and another
-    /// forcing frequency Ω.
+    /// Creates the law of masses d = `spacing` apart, with frequencies ω and `forcing` = Ω ≠ ω.
     pub fn new(sigma: f64, spacing: f64, omega: f64, forcing: f64) -> Result<Self, Error> {
         within("sigma", sigma, 1e-300, 1e6)?;
         // The ranges of a scenario.
@@ -181,9 +179,9 @@ impl ImpactProbability {
 
     /// **Eq. (20)**
     ///
-    /// Returns 1 − p = P(Y_0 + Y_1/|ω² − Ω²| < d), the probability that the gap never
-    /// closes, accurate even when it is tiny (large σ): an integral over the wider amplitude of
-    /// positive terms.
+    /// Returns 1 − p = P(Y_0 + Y_1/|ω² − Ω²| < d), the probability that the gap never closes,
+    /// accurate even when it is tiny (large σ): an integral over the wider amplitude of positive
+    /// terms.
     pub fn complement(&self) -> f64 {
         let (s, t) = self.scales();
         let (s2, t_value) = (square(s).to_f64(), t.to_f64());
@@ -207,8 +205,7 @@ impl ImpactProbability {
     /// **Eq. (24)**
     ///
     /// Returns p by quadrature of the double integral that Eq. (25) prints, in `panels` × `panels`
-    /// panels: 1 − p is the convolution of both densities. This naive route keeps no digit of a
-    /// small p.
+    /// panels: 1 − p is the convolution of both densities. No digit of a small p is kept.
     pub fn p_by_double_integral(&self, panels: usize) -> f64 {
         let (q2, sigma2) = (square(self.detuning).to_f64(), self.sigma * self.sigma);
         let rule = GaussLegendre::new(20);

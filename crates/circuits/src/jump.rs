@@ -8,14 +8,13 @@ use impact_numerics::scaled::Scaled;
 
 /// **Eq. (12)**
 ///
-/// Returns f_{N,p}(k) = −p k² + (N p − 1) k − 1 at real k: Φ_{N,p} rises from k to k + 1
-/// where it is positive. Written as p k (N − k) − (k + 1), with the product exact.
+/// Returns f_{N,p}(k) = −p k² + (N p − 1) k − 1 at real k: Φ_{N,p} rises from k to k + 1 where it
+/// is positive. Written as p k (N − k) − (k + 1), with the product exact.
 ///
 /// **Eq. (14)** (step towards (18)): f_{N,p}(0) = −1, whatever N and p.
 /// **Eq. (15)** (step towards (18)): f_{N,p}(N) = −(N + 1), whatever p.
 /// **Eq. (16)** (step towards (18)): f_{N,0}(k) = −(k + 1) < 0, so at p → 0+ every step falls.
-/// **Eq. (17)** (step towards (18)): ∂f/∂p = k (N − k), positive inside (0, N), so f grows with p
-/// at every k.
+/// **Eq. (17)** (step towards (18)): ∂f/∂p = k (N − k) > 0 inside (0, N), so f grows with p.
 pub fn f(big_n: usize, p: f64, k: f64) -> f64 {
     let product = two_product(k, big_n as f64 - k) * p;
     (product - DoubleDouble::from(k) - DoubleDouble::ONE).to_f64()
@@ -91,7 +90,14 @@ pub fn first_local_maximum(big_n: usize) -> Option<(usize, [usize; 2])> {
     // (k + 1)/(k (N − k)) over k: compare as integers, exactly.
     let parts = |k: usize| [k + 1, k * (big_n - k)];
     let before = |a: [usize; 2], b: [usize; 2]| (a[0] * b[1]).cmp(&(b[0] * a[1]));
-    (2..big_n).min_by(|a, b| before(parts(*a), parts(*b))).map(|k| (k, parts(k)))
+    let k = (2..big_n).min_by(|a, b| before(parts(*a), parts(*b)))?;
+    let [above, below] = parts(k);
+    Some((k, parts(k).map(|part| part / gcd(above, below))))
+}
+
+/// Returns the greatest common divisor, with gcd(0, b) = b.
+fn gcd(a: usize, b: usize) -> usize {
+    if a == 0 { b } else { gcd(b % a, a) }
 }
 
 impl Law {
@@ -164,9 +170,8 @@ fn first_is_exceeded(space: SampleSpace, big_n: usize, p: DoubleDouble) -> bool 
 }
 // end
 
-/// Returns the limit of k*/N and of μ/N for N → ∞ with p N fixed: max(0, 1 − 1/(p N)). It
-/// follows since k Φ_{N,p}(k) is a Poisson weight of N − k with mean 1/p (ours, beyond the
-/// paper).
+/// Returns the limit of k*/N and of μ/N for N → ∞ with p N fixed: max(0, 1 − 1/(p N)). It follows
+/// since k Φ_{N,p}(k) is a Poisson weight of N − k with mean 1/p (ours, beyond the paper).
 pub fn limit_share(p_big_n: f64) -> f64 {
     (1.0 - 1.0 / p_big_n).max(0.0)
 }

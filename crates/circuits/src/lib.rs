@@ -31,7 +31,6 @@ pub mod commuting;
 pub mod counting;
 pub mod distribution;
 mod error;
-mod fraction;
 pub mod graph;
 pub mod higher_order;
 pub mod impact_probability;
@@ -39,4 +38,3 @@ pub mod jump;
 pub mod nucleation;
 
 pub use error::{Error, LARGEST_N};
-pub use fraction::Fraction;

@@ -6,8 +6,7 @@
 //! the differences δα = ρ cos θ, δβ = ρ sin θ of the amplitudes on both sides of a gap, its
 //! width is
 //!
-//! Δ(t) = d − ρ E(t) · (cos θ, sin θ),
-//! E(t) = (cos ωt − cos Ωt, (Ω/ω) sin ωt − sin Ωt)/(ω² − Ω²),
+//! Δ(t) = d − ρ E(t) · (cos θ, sin θ), E(t) = (cos ωt − cos Ωt, (Ω/ω) sin ωt − sin Ωt)/(ω² − Ω²),
 //!
 //! the same plane curve E for every gap of every chain. The gap closes by T where ρ M_T(θ) ≥ d,
 //! with M_T(θ) the largest value of E · (cos θ, sin θ) on [0, T]: how far the convex hull of
@@ -29,9 +28,8 @@
 //! are left. Where tan φ < m_2/m_1, m_i = d/M(θ_i), the second radius decides whether both close,
 //! and with t = tan φ
 //!
-//! P = ⟨ ∫_0^{m_2/m_1} (2 t D/Q²)(1 + h) e^{−h} dt ⟩ over θ_1 and θ_2, and the same with
-//! 1 and 2 exchanged, Q = v_2 + v_1 t² + 2σ² t cos(θ_1 − θ_2), D = v_1 v_2 − σ⁴, h =
-//! m_2² Q/(2 D t²),
+//! P = ⟨ ∫_0^{m_2/m_1} (2 t D/Q²)(1 + h) e^{−h} dt ⟩ over θ_1 and θ_2, and the same with 1 and 2
+//! exchanged, Q = v_2 + v_1 t² + 2σ² t cos(θ_1 − θ_2), D = v_1 v_2 − σ⁴, h = m_2² Q/(2 D t²),
 //!
 //! v_1 and v_2 being the variances of the differences. The exponential is the only function needed.
 //!
@@ -79,9 +77,8 @@ fn along([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> f64 {
 }
 
 impl Reach {
-    /// Computes the reach within each of some rising times, at `angles` angles. Times are rounded
-    /// down to eighths of 1/ω; maxima are exact to rounding, except two of them less than an
-    /// eighth apart.
+    /// Computes the reach within each of some rising times, rounded down to eighths of 1/ω. Maxima
+    /// are exact to rounding, except two of them less than an eighth apart.
     pub fn within(chain: &Chain, times: &[f64], angles: usize) -> Vec<Reach> {
         let step = 1.0 / (STEPS as f64 * chain.natural_frequency);
         let directions: Vec<[f64; 2]> = directions(angles).collect();
@@ -136,8 +133,7 @@ impl Reach {
     }
 }
 
-/// Decides whether a gap of a chain from rest, whose two forces differ by these amplitudes, closes
-/// in unlimited time.
+/// Decides whether a gap whose two forces differ by these amplitudes closes in unlimited time.
 pub fn closes_by_itself(chain: &Chain, [delta_alpha, delta_beta]: [f64; 2]) -> bool {
     let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
     let turned = big_omega / omega * delta_beta;
@@ -154,8 +150,8 @@ fn directions(angles: usize) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// Returns the time at which the curve turns back in a direction, between a time at which it rises
-/// and one at which it falls.
+/// Returns when the curve turns back in a direction, between a time at which it rises and one at
+/// which it falls.
 fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64 {
     // The slope is nearly straight in an eighth: false position halves the number of bits left, and
     // a bisection now and then keeps both ends moving.
@@ -177,8 +173,7 @@ fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64
 const POINTS: usize = 20;
 
 /// Returns the probability that two neighbouring gaps, of variances v_1 and v_2 (2σ² between
-/// masses, σ² at a wall), both close by themselves. The rule over the angles has the points of
-/// the reach.
+/// masses, σ² at a wall), both close by themselves, by the angles of the reach.
 fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
     let rule = GaussLegendre::new(POINTS);
     let shared = sigma * sigma;
@@ -256,8 +251,7 @@ impl Chances {
     }
 }
 
-/// Returns the σ at which half of such chains have a gap that closes by itself, to a relative
-/// error of about 1e-6; the sum over angles is less exact.
+/// Returns the σ at which half of such chains have a gap that closes by itself, to about 1e-6.
 pub fn half(chain: &Chain, reach: &Reach) -> f64 {
     let share = |sigma: f64| {
         Chances::new(chain, reach, reach, sigma).at_least_one(chain.masses, chain.boundary)

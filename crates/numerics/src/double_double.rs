@@ -160,8 +160,7 @@ const HALF_PI: DoubleDouble =
 /// Terms below this part of the sum change no bit of 106.
 const NEGLIGIBLE: f64 = 1e-33;
 
-/// Computes sin x and cos x by their Taylor series, which is slow; the absolute error grows as
-/// 1e−32 |x|.
+/// Computes sin x and cos x by their Taylor series; the absolute error grows as 1e−32 |x|.
 pub fn sin_cos(x: DoubleDouble) -> [DoubleDouble; 2] {
     let turns = (x / HALF_PI).hi.round();
     let r = x - HALF_PI * turns;

@@ -9,8 +9,7 @@ pub struct GaussLegendre {
 
 impl GaussLegendre {
     /// Creates the rule with n = `points` ≥ 1 points, exact for polynomials of degree 2n − 1. The
-    /// nodes are zeros of the Legendre polynomial, by Newton's method from the usual cosine
-    /// estimate.
+    /// nodes are zeros of the Legendre polynomial, by Newton's method.
     pub fn new(points: usize) -> Self {
         let n = points as f64;
         let (mut nodes, mut weights) = (Vec::new(), Vec::new());

@@ -31,8 +31,7 @@ pub fn standard_error(sample: &[f64]) -> Option<f64> {
     Some(standard_deviation(sample)? / (sample.len() as f64).sqrt())
 }
 
-/// Returns the quantile of a sorted sample, linear between order statistics (Hyndman and Fan's type
-/// 7).
+/// Returns the quantile of a sorted sample, linear between its numbers (Hyndman and Fan's type 7).
 pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let place = share.clamp(0.0, 1.0) * last as f64;
@@ -53,24 +52,20 @@ pub fn count_quantile(histogram: &[u32], share: f64) -> Option<usize> {
     })
 }
 
-/// Returns the most frequent whole number of a histogram; of several, the lowest. None if all are
-/// empty.
+/// Returns the most frequent number of a histogram, the lowest of several; none if it is empty.
 pub fn mode(histogram: &[u32]) -> Option<usize> {
     let most = *histogram.iter().max()?;
     (most > 0).then(|| histogram.iter().position(|&count| count == most))?
 }
 
-/// Returns the two-sided standard normal quantile: the z with P(|Z| < z) = `level`.
-///
-/// Rounded to 1e−9: statrs computes logarithms by the platform, whose last bits must not reach a
-/// file.
+/// Returns the two-sided standard normal quantile, the z with P(|Z| < z) = `level`. Rounded, for
+/// statrs computes logarithms by the platform, whose last bits must not reach a file.
 pub fn normal_quantile(level: f64) -> f64 {
     let z = Normal::standard().inverse_cdf(0.5 + 0.5 * level);
     (z * 1e9).round() / 1e9
 }
 
-/// Returns the two-sided quantile of Student's t with some degrees of freedom; none below one
-/// degree. Rounded as [`normal_quantile`] is.
+/// Returns the same of Student's t, with some degrees of freedom; none below one degree.
 pub fn student_quantile(level: f64, freedom: usize) -> Option<f64> {
     let t = StudentsT::new(0.0, 1.0, freedom as f64).ok()?.inverse_cdf(0.5 + 0.5 * level);
     Some((t * 1e9).round() / 1e9)
@@ -98,8 +93,7 @@ pub fn last_rise(x: &[f64], y: &[Option<f64>], level: f64) -> Option<f64> {
     Some(x0 + (x1 - x0) * (level - y0) / (y1 - y0))
 }
 
-/// Returns the slope of the straight line through (x, y) by least squares. None below two different
-/// x.
+/// Returns the slope of the least-squares line through (x, y); none below two different x.
 pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
     let total = points.len() as f64;
     let centre = points.iter().map(|&(x, _)| x).sum::<f64>() / total;

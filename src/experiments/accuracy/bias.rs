@@ -1,5 +1,4 @@
-//! The error of a method in the mean number of gaps that impact: the same chains by every method,
-//! and the differences chain by chain.
+//! The error of a method in the mean number of gaps that impact, on the same chains.
 
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, Runs, Setting};
@@ -13,8 +12,7 @@ pub struct Biases {
     pub runs: Vec<Vec<Vec<GapCount>>>,
 }
 
-/// Distinct gaps that impact in the window (T, T + W] of one realisation; none if the method gave
-/// up.
+/// Different gaps with an impact in the window of one realisation; none if the method gave up.
 pub type GapCount = Option<u32>;
 
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {

@@ -6,8 +6,7 @@
 //! - [`scale`]: counted work against the number of masses.
 //! - [`tables`]: the numbers of all of these.
 //!
-//! Cost is counted work here, which is the same on every machine; times of the clock are in
-//! [`super::measured`].
+//! Cost is counted work here; times of the clock are in [`super::measured`].
 
 pub mod bias;
 pub mod case;

@@ -33,8 +33,8 @@ pub struct Entry {
     pub setting: Setting,
     /// Evaluations per impact of the runs.
     pub work: Option<f64>,
-    /// When each run left the truth: the time of the first impact of the truth that it has not
-    /// within [`DISPLACED`], or the end of the run.
+    /// When each run left the truth: at the first impact that it has not within [`DISPLACED`], or
+    /// at its end.
     pub runs: Vec<f64>,
     /// Number of exact states from which the next impact was computed.
     pub tried: u64,

@@ -6,8 +6,7 @@ use crate::params::{BENCH, MethodName, ScaleParams, Setting};
 /// Method, number of masses n, evaluations per impact: methods in their order, for each n rising.
 pub type Scale = Vec<(Setting, usize, f64)>;
 
-/// Returns the simulated time at n masses: that of `benches/peers/measure.rs`, and a short one for
-/// rivals.
+/// Returns the simulated time: that of `benches/peers/measure.rs`, and a short one for rivals.
 fn until(masses: usize, method: MethodName) -> f64 {
     match method {
         MethodName::Certified => (200_000.0 / masses as f64).clamp(10.0, 200.0),

@@ -85,8 +85,7 @@ pub struct Compared {
     pub sigma: f64,
     /// Chains that both ran to the end.
     pub pairs: usize,
-    /// Mean difference of their counts over the engine's mean count, with the error of differences
-    /// chain by chain.
+    /// Mean difference of their counts over the engine's mean, with the error chain by chain.
     pub share: Option<Estimate>,
 }
 

@@ -1,5 +1,4 @@
-//! Compares chains from rest with chains from above under the same forces, after several
-//! transients.
+//! Compares chains from rest with chains from above under the same forces.
 
 mod pairs;
 pub mod run;

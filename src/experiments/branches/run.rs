@@ -1,9 +1,7 @@
-//! Runs chains from rest, and chains from above under the same forces, and keeps the count of every
-//! chain.
+//! Runs chains from rest and from above, and keeps the count of every chain.
 //!
 //! A chain from above runs well beyond the rise first; then all its forces are lowered by one
-//! factor. Chain i has the same forces on both branches and at every σ, so branches are compared
-//! chain by chain (`pairs.rs`).
+//! factor. Chain i has the same forces on both branches and at every σ.
 
 use crate::experiments::ensembles::{part, rows};
 use crate::experiments::prelude::*;
@@ -15,8 +13,7 @@ use literate::experiments::cutting::Cutting;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Chains {
     pub ensemble: Ensemble,
-    /// For each σ and each window, the number of active gaps of each chain; none if its run was
-    /// not complete.
+    /// For each σ and each window, the active gaps of each chain; none if its run was not complete.
     pub counts: Vec<Vec<Vec<Option<u32>>>>,
 }
 

@@ -1,5 +1,4 @@
-//! Runs chains to their first impact: how many have one by some time, and the number expected from
-//! the reach of single gaps.
+//! Chains run to their first impact: how many have one by some time, and how many should.
 
 pub mod run;
 pub mod tables;
@@ -14,6 +13,6 @@ pub const NUCLEATION: Experiment<NucleationParams, Nucleation> = Experiment {
     name: "nucleation",
     code: &["src/experiments/nucleation"],
     parameters: NucleationParams::new,
-    how: Whole(run::run, |parameters| run::count(parameters) * SECOND / 30_000),
+    how: Whole(run::run, |parameters| parameters.chains() * SECOND / 30_000),
     tables: tables::tables,
 };

@@ -1,5 +1,4 @@
-//! Compares predicted with simulated half heights and mean counts after several transients, by the
-//! map of the protocol.
+//! Compares predicted half heights and mean counts with those of the map of the protocol.
 
 use crate::experiments::prelude::*;
 use crate::experiments::protocol::address;

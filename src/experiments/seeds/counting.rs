@@ -65,15 +65,14 @@ impl ByDistance {
         hit.iter().zip(&self.places).map(|(part, all)| *part as f64 / (*all).max(1) as f64)
     }
 
-    /// Returns the expected number of gaps that a front has passed by the end of a bin, to one side
-    /// of a long chain.
+    /// Returns the expected number of gaps, to one side, that a front has passed by the end of a
+    /// bin.
     pub(super) fn advance(&self, bin: usize) -> f64 {
         self.shares(&self.reached[bin]).skip(1).sum()
     }
 
     /// Returns the exponent of a power law of time through the advance from a quarter of the last
-    /// time on, by least squares in logarithms: 1 for a constant speed. None if a front has not
-    /// passed a gap by then.
+    /// time on, by least squares in logarithms. None if a front has not passed a gap by then.
     pub(super) fn exponent(&self) -> Option<f64> {
         let last = self.reached.len() - 1;
         let point = |bin: usize| {

@@ -4,8 +4,7 @@
 //! A gap at the place x has no impact in the window (T, T + W] if no seed y sends one there. If
 //! seeds are independent and each spreads as if alone, the probability is
 //!
-//! ∏_y (1 − ∫_0^T B(|x − y|, T − s) dp_y(s) − ∫_T^{T+W} R(|x − y|, T + W − s)
-//! dp_y(s)),
+//! ∏_y (1 − ∫_0^T B(|x − y|, T − s) dp_y(s) − ∫_T^{T+W} R(|x − y|, T + W − s) dp_y(s)),
 //!
 //! with p_y(s) the probability that the gap y closes by itself by the time s, B(l, t) the share of
 //! gaps at distance l that are hit in a window W which begins a time t after the first impact of a

@@ -5,8 +5,7 @@
 //! - [`counting`]: their impacts by distance, and how far they spread.
 //! - [`fronts`]: how long fronts stand.
 //! - [`growth`]: the mean count of a chain with a random number of them.
-//! - [`tables`]: the numbers of all this, and [`compared`]: with the main sweep and the map of the
-//!   protocol.
+//! - [`tables`], [`compared`]: the numbers of all this, and the map of the protocol against them.
 
 pub mod compared;
 pub mod counting;

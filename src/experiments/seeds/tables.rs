@@ -104,8 +104,8 @@ fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
         .done()
 }
 
-/// Makes the table of where the mean counts pass half of all gaps, if every gap that closes by
-/// itself is a seed, and if only the first of a clump is.
+/// Makes the table of half heights, if every gap that closes by itself is a seed, and if only the
+/// first of a clump is.
 fn rise(parameters: &SeedsParams, gaps: &[Prediction], clumps: &[Prediction]) -> Table {
     let rows: Vec<_> = gaps.iter().zip(clumps).collect();
     Table::of("seeds.rise", &rows, |_| parameters.realisations)

@@ -1,8 +1,6 @@
 //! Computes the graph theory of Secs. 3 to 9 as tables, and beyond the paper many vertices and
-//! circuits up to the order of distant impacts. Curves that only a figure draws are functions, as
-//! its data file has their values.
-//!
-//! Cheap: all tables take some tenths of a second, and nothing is saved.
+//! circuits up to the order of distant impacts, in some tenths of a second. Curves that only a
+//! figure draws are functions, as its data file has their values.
 
 pub(crate) mod basics;
 pub(crate) mod census;
