@@ -12,7 +12,6 @@ use literate::table::Table;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// An experiment that is ensembles of chains.
 pub type Ensembles = Experiment<Vec<Ensemble>, Vec<Counted>, Counts>;
 
 /// Returns an experiment with these ensembles and tables; people who wait see its title.
@@ -26,7 +25,6 @@ pub const fn ensembles(
     Experiment { name, code, parameters, how: Cut(title, CUTTING), tables }
 }
 
-/// How ensembles are cut into units, and joined.
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> = Cutting { rows, part, join };
 
 /// An ensemble with its results.
@@ -98,7 +96,6 @@ pub fn rows(all: &Vec<Ensemble>) -> Vec<UnitRow> {
     cases(all).map(row).collect()
 }
 
-/// Counts the realisations of a unit.
 pub fn part(
     all: &Vec<Ensemble>,
     unit: &Unit,
@@ -115,15 +112,21 @@ pub fn part(
     Ok(unit.each(stage, one)?.into_iter().collect())
 }
 
+/// Lists each ensemble with its counts at each σ.
+pub fn joined(
+    all: &[Ensemble],
+    parts: Vec<Vec<Counts>>,
+) -> impl Iterator<Item = (Ensemble, Vec<Counts>)> {
+    let mut at_each = parts.into_iter().map(Counts::from_iter);
+    all.iter().map(move |one| (one.clone(), at_each.by_ref().take(one.sigmas.len()).collect()))
+}
+
 fn join(
     all: &Vec<Ensemble>,
     parts: Vec<Vec<Counts>>,
     progress: &Progress,
 ) -> Result<Vec<Counted>, Error> {
-    let mut parts = parts.into_iter();
-    let counted = |one: &Ensemble| {
-        let at_each = parts.by_ref().take(one.sigmas.len());
-        let counts: Vec<Counts> = at_each.map(|parts| parts.into_iter().collect()).collect();
+    let counted = |(one, counts): (Ensemble, Vec<Counts>)| {
         let both = one.sigmas.iter().zip(&counts);
         let compared: Vec<_> =
             both.map(|(&sigma, counts)| one.compares(sigma, counts.rejected)).collect();
@@ -134,9 +137,10 @@ fn join(
             Ok(Curve::new(protocol, &one.sigmas, &counts, &compared, gaps, one.seed))
         };
         let windows = (0..one.protocols.len()).into_par_iter().with_max_len(1);
-        Ok(Counted::new(one.clone(), &counts, windows.map(curve).collect::<Result<_, Error>>()?))
+        let curves = windows.map(curve).collect::<Result<_, Error>>()?;
+        Ok(Counted::new(one, &counts, curves))
     };
-    all.iter().map(counted).collect()
+    joined(all, parts).map(counted).collect()
 }
 
 /// Returns the results of a function on each item, on all threads; the stage advances by one for
@@ -157,7 +161,6 @@ pub fn each<A: Send, R: Send>(
     all.into_par_iter().with_max_len(1).map(one).collect()
 }
 
-/// Returns the ensemble of a name.
 pub fn named<'a>(all: &'a [Counted], name: &str) -> Option<&'a Counted> {
     all.iter().find(|one| one.ensemble.name == name)
 }

@@ -18,11 +18,9 @@ pub const HORIZON: Experiment<Runs, Horizon> = Experiment {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Horizon {
     pub parameters: Runs,
-    /// One for each pair of twins.
     pub twins: Vec<Twins>,
 }
 
-/// One pair of twins.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Twins {
     /// Time of the first impact whose gap differs, if there was one, and impacts before it.
@@ -32,14 +30,9 @@ pub struct Twins {
 }
 
 impl Horizon {
-    /// Returns the mean of a quantity over the twins that have it.
-    fn over(&self, pick: fn(&Twins) -> Option<f64>) -> Option<Estimate> {
-        average(&self.twins.iter().filter_map(pick).collect::<Vec<f64>>())
-    }
-
     /// Returns the growth rate λ.
     pub fn growth(&self) -> Option<Estimate> {
-        self.over(|twins| twins.growth)
+        average(&self.twins.iter().filter_map(|twins| twins.growth).collect::<Vec<_>>())
     }
 }
 
@@ -51,21 +44,18 @@ pub fn run(parameters: &Runs, progress: &Progress) -> Result<Horizon, Error> {
     Ok(Horizon { parameters: parameters.clone(), twins })
 }
 
-/// Makes the table of means over the twins.
 pub fn tables(found: &Horizon) -> Vec<Table> {
+    const LEAST: &str = "least time of the first impact of another gap";
+    let orders = found.twins.iter().filter_map(|pair| pair.order);
+    let (times, before): (Vec<f64>, Vec<f64>) = orders.map(|(t, n)| (t, n as f64)).unzip();
     let table = Table::of("horizon.twins", &[found], |found| found.twins.len())
         .computed_by(origin(run))
         .count("pairs", "pairs of twins", |found| found.twins.len() as u64)
         .chosen("sigma", SIGMA, "", |found| Some(found.parameters.sigma))
-        .estimate("order", TIME, "time of the first impact of another gap", |found| {
-            found.over(|twins| Some(twins.order?.0))
-        })
-        .estimate("impacts", "1", "impacts before it", |found| {
-            found.over(|twins| Some(twins.order?.1 as f64))
-        })
-        .real("first_order", TIME, 3, "least time of the first impact of another gap", |found| {
-            let orders = found.twins.iter().filter_map(|pair| pair.order);
-            orders.map(|order| order.0).fold(f64::INFINITY, f64::min)
+        .estimate("order", TIME, "time of the first impact of another gap", |_| average(&times))
+        .estimate("impacts", "1", "impacts before it", |_| average(&before))
+        .real("first_order", TIME, 3, LEAST, |_| {
+            times.iter().copied().fold(f64::INFINITY, f64::min)
         })
         .done();
     vec![table]

@@ -40,7 +40,6 @@ fn random(found: &[Counted]) -> Table {
         .done()
 }
 
-/// Makes the table of the longest chains.
 fn all(found: &[Counted]) -> Table {
     let longest = found.iter().max_by_key(|one| one.ensemble.chain.masses);
     Table::of("lengths.all", &[()], |()| 0)

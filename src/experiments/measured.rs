@@ -7,7 +7,6 @@ use crate::experiments::prelude::*;
 use crate::params::Setting;
 use literate::input::one_line;
 
-/// Times that were measured once.
 pub const MEASURED: Experiment<(), Measured> = Experiment {
     name: "measured",
     code: &["src/experiments/measured.rs", FILE],
@@ -104,7 +103,6 @@ impl Measured {
         self.sessions.iter().flat_map(|session| &session.rows).filter(move |row| row.what == what)
     }
 
-    /// Returns the row of a method with a setting on n masses at σ.
     pub fn method(&self, setting: Setting, n: usize, sigma: f64) -> Option<&Measurement> {
         let alike = |row: &&Measurement| {
             row.name == setting.method.id() && row.value == Some(setting.value)

@@ -6,7 +6,6 @@ use crate::params::{self, printed_interval};
 use impact_chain::Protocol;
 use impact_chain::rise::Rise;
 
-/// Half height against transient and window.
 pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::protocol, tables);
 
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
@@ -54,7 +53,6 @@ pub fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate>
     Some(with_error(most.value - least.value, error))
 }
 
-/// Returns the address of a number of a cell.
 pub fn address(cell: &Curve, column: &str) -> String {
     let Protocol { transient, window } = cell.protocol;
     format!("protocol.cells[transient={transient},window={window}].{column}")

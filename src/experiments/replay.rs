@@ -6,7 +6,6 @@ use impact_chain::Error as Failure;
 use literate::input::sha256;
 use std::collections::BTreeSet;
 
-/// Runs that a page repeats.
 pub const REPLAY: Experiment<ReplayRuns, Replays> = Experiment {
     name: "replay",
     code: &["src/experiments/replay.rs"],
@@ -36,7 +35,6 @@ pub enum Forces {
     Given(Vec<[f64; 2]>),
 }
 
-/// What is run: each run with a name.
 pub type ReplayRuns = Vec<(String, Request)>;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

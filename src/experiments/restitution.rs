@@ -4,7 +4,6 @@ use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
 use crate::params;
 
-/// Chains of several restitutions.
 pub const RESTITUTION: Ensembles =
     ensembles("restitution", "restitution", params::restitution, tables);
 

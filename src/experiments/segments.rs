@@ -5,7 +5,6 @@ use impact_circuits::graph::Graph;
 use literate::input::one_line;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The motions of Figs. 5(b) and 6(b).
 pub const SEGMENTS: Experiment<(), Segments> = Experiment {
     name: "segments",
     code: &["src/experiments/segments.rs"],
@@ -25,7 +24,6 @@ pub struct Segments {
     pub periodic: [Segment; 2],
 }
 
-/// A stretch of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Segment {
     pub spacing: f64,
@@ -37,7 +35,6 @@ pub struct Segment {
     pub times: Vec<f64>,
     /// Positions on that grid, `positions[mass][time]`.
     pub positions: Vec<Vec<f64>>,
-    /// The impacts of the segment, in order.
     pub impacts: Vec<SegmentImpact>,
 }
 
@@ -103,7 +100,6 @@ impl Segment {
         times.chain(positions).fold(0.0, f64::max)
     }
 
-    /// How many masses take part in its impacts.
     pub fn masses_hit(&self) -> usize {
         let both_sides = self.impacts.iter().flat_map(|impact| [impact.gap, impact.gap + 1]);
         let masses = both_sides.filter(|body| (1..=self.masses).contains(body));

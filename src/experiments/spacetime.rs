@@ -4,7 +4,6 @@
 use crate::experiments::prelude::*;
 use crate::params::Runs;
 
-/// One long run.
 pub const SPACE_TIME: Experiment<Runs, SpaceTime> = Experiment {
     name: "spacetime",
     code: &["src/experiments/spacetime.rs"],
@@ -22,7 +21,6 @@ pub struct SpaceTime {
     pub gaps: Vec<u32>,
 }
 
-/// Runs realisations until one keeps hitting.
 pub fn run(parameters: &Runs, progress: &Progress) -> Result<SpaceTime, Error> {
     let stage = progress.stage("spacetime", 1);
     for realisation in 0..parameters.realisations as u64 {
@@ -45,7 +43,6 @@ impl SpaceTime {
         self.parameters.chain.gaps()
     }
 
-    /// Returns the time of the first impact of each gap.
     pub fn firsts(&self) -> Vec<Option<f64>> {
         let mut firsts = vec![None; self.width()];
         for (&time, &gap) in self.times.iter().zip(&self.gaps) {

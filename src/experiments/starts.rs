@@ -4,7 +4,6 @@ use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
 use crate::params;
 
-/// Chains with other starts, boundaries and frequencies.
 pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, tables);
 
 pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {

@@ -14,12 +14,10 @@ pub const SWEEP: Ensembles = ensembles("sweep", "main sweep", params::sweep, tab
 pub const SECOND_SEED: Ensembles =
     ensembles("second_seed", "second seed", params::second_seed, of_second_seed);
 
-/// A σ above the rise.
 const ABOVE: f64 = 0.2;
 /// A σ at which masses begin to be able to stick.
 const STICKING: f64 = 0.3;
 
-/// Returns the ensemble of the main sweep.
 pub fn main(results: &Results) -> Result<&Counted, Error> {
     named(results.of(&SWEEP)?, SWEEP.name).ok_or(Error::NotRun(SWEEP.name))
 }

@@ -31,7 +31,6 @@ pub struct TwoMasses {
 /// How far below its bound a direction is tried for an impact that must not come.
 const BELOW: f64 = 1.0 - 1e-9;
 
-/// Halvings of the bracket around the smallest amplitude.
 const HALVINGS: usize = 28;
 
 pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasses, Error> {
@@ -53,7 +52,6 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
     })
 }
 
-/// Makes the tables of the bound, and of how near to its bound each direction has an impact.
 pub fn tables(found: &TwoMasses) -> Vec<Table> {
     let bound = Table::of("two_masses.bound", &[&found.parameters.directions], |_| 0)
         .computed_by(origin(safe_force))

@@ -86,7 +86,6 @@ impl RaceParams {
     }
 }
 
-/// Returns the methods that run the scenes in which methods fail.
 pub fn trial_settings() -> Vec<Setting> {
     settings(&SCENES)
 }
@@ -144,7 +143,6 @@ impl BiasParams {
         BiasParams { chains: sigmas.into_iter().map(chains).collect(), transient, settings }
     }
 
-    /// Returns the number of runs, over all chains and methods.
     pub fn runs(&self) -> u64 {
         let realisations: usize = self.settings.iter().map(|(_, realisations)| realisations).sum();
         (self.chains.len() * realisations) as u64

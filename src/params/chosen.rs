@@ -48,7 +48,6 @@ static THRESHOLD: LazyLock<Statement> = LazyLock::new(|| {
     read().unwrap_or_else(|error| panic!("templates/{error}; mend it and build again"))
 });
 
-/// Returns the printed σ of the threshold.
 pub fn printed_threshold() -> f64 {
     THRESHOLD.value.unwrap_or(f64::NAN)
 }

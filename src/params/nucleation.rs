@@ -43,7 +43,6 @@ impl NucleationParams {
         })
     }
 
-    /// Returns the number of chains of all runs.
     pub fn chains(&self) -> u64 {
         self.runs().map(|runs| runs.realisations as u64).sum()
     }

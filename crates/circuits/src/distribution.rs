@@ -40,7 +40,6 @@ impl Weights {
         Weights { space, big_n, p, k: 1, arranged }
     }
 
-    /// Moves on to k + 1.
     pub(crate) fn advance(&mut self) {
         let left = self.big_n - self.k;
         self.arranged = self.arranged * (self.p * left as f64);

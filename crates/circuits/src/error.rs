@@ -7,9 +7,7 @@ use std::fmt::{self, Debug};
 pub struct Error {
     /// The field: `vertices`, `p`, `k`, `sigma`, `omega`, `forcing-frequency` or `spacing`.
     pub field: &'static str,
-    /// What is wrong, with the value.
     pub problem: String,
-    /// What to give instead.
     pub remedy: String,
 }
 

@@ -106,21 +106,23 @@ pub fn two_doubled(big_n: usize, k: usize) -> Option<f64> {
 ///
 /// The class of circuits in which exactly δ_j vertices are visited j + 1 times and every other
 /// vertex at most once: the index of φ_N^{…, δ_3, δ_2, δ_1}.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Class {
     /// The printed equation that counts it.
     pub equation: u32,
     /// δ_1, δ_2, …: index j − 1 holds δ_j.
     pub repeats: &'static [usize],
+    /// The number of its circuits of length k on N vertices, as printed.
+    pub printed: fn(usize, usize) -> Option<f64>,
 }
 
 /// The five classes, in the order of Eq. (38).
 pub const CLASSES: [Class; 5] = [
-    Class { equation: 7, repeats: &[] },
-    Class { equation: 33, repeats: &[1] },
-    Class { equation: 35, repeats: &[0, 1] },
-    Class { equation: 36, repeats: &[0, 0, 1] },
-    Class { equation: 37, repeats: &[2] },
+    Class { equation: 7, repeats: &[], printed: |n, k| printed(n, k, 1, k, k as f64) },
+    Class { equation: 33, repeats: &[1], printed: doubled },
+    Class { equation: 35, repeats: &[0, 1], printed: three_visits },
+    Class { equation: 36, repeats: &[0, 0, 1], printed: four_visits },
+    Class { equation: 37, repeats: &[2], printed: two_doubled },
 ];
 
 impl Class {

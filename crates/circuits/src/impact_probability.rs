@@ -76,16 +76,6 @@ fn squared(frequency: f64) -> DoubleDouble {
     if frequency == SQRT_2 { dd(2.0) } else { square(dd(frequency)) }
 }
 
-/// Returns |ω² − Ω²|, without cancellation.
-fn detuning(omega: f64, forcing: f64) -> DoubleDouble {
-    let difference = if omega == SQRT_2 || forcing == SQRT_2 {
-        squared(omega) - squared(forcing)
-    } else {
-        (dd(omega) - dd(forcing)) * (dd(omega) + dd(forcing))
-    };
-    if difference.hi < 0.0 { -difference } else { difference }
-}
-
 /// Returns (1 − e^{−x})/x.
 fn saturation(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { -pxfm::f_expm1(-x) / x }
@@ -103,7 +93,9 @@ impl ImpactProbability {
         within("spacing", spacing, 1e-6, 1e6)?;
         within("omega", omega, 1e-3, 1e3)?;
         within("forcing-frequency", forcing, 1e-3, 1e3)?;
-        let detuning = detuning(omega, forcing);
+        // Both squares are exact to 106 bits.
+        let difference = squared(omega) - squared(forcing);
+        let detuning = if difference.hi < 0.0 { -difference } else { difference };
         if detuning.hi == 0.0 {
             let problem = format!("Ω = ω = {omega:?} is resonance, where amplitudes grow for ever");
             return Err(Error::new("forcing-frequency", problem, "give Ω different from ω"));

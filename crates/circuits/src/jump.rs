@@ -124,7 +124,6 @@ pub struct Jump {
     pub p: f64,
     /// Neighbouring doubles around that infimum: k* = 1 at the first and k* > 1 at the second.
     pub bracket: [f64; 2],
-    /// k* just after the jump.
     pub k_after: usize,
 }
 

@@ -40,11 +40,9 @@
 //! clumps are nearly independent: if their mean number is λ, there is no clump with a probability
 //! near e^{−λ}.
 //!
-//! Dependence only makes chains without such a gap more frequent. In unlimited time a gap does not
-//! close if the difference of its forces lies in a set that is convex and symmetric about zero, and
-//! forces are jointly normal. By the Gaussian correlation inequality (Royen 2014) all gaps stay
-//! open with at least the product of the probabilities that each does: independent gaps give an
-//! upper bound on the share of chains with a gap that closes.
+//! Dependence only makes chains without such a gap more frequent: in unlimited time a gap stays
+//! open in a set of forces that is convex and symmetric about zero, so that by the Gaussian
+//! correlation inequality (Royen 2014) independent gaps give an upper bound.
 
 use impact_chain::{Boundary, Chain};
 use impact_numerics::quadrature::GaussLegendre;
@@ -54,9 +52,13 @@ use std::f64::consts::TAU;
 /// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
-    /// M_T at each angle.
     pub radii: Vec<f64>,
 }
+
+/// Angles at which a reach is computed, and those of it for the rule for neighbours, whose cost
+/// grows as their square.
+pub const ANGLES: usize = 256;
+pub const COARSE: usize = 64;
 
 /// Steps of the search for maxima in a unit of ωt.
 const STEPS: usize = 8;

@@ -10,9 +10,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// The value hi + lo, with |lo| at most half a unit in the last place of hi.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct DoubleDouble {
-    /// The nearest double.
     pub hi: f64,
-    /// The rest of the value.
     pub lo: f64,
 }
 
@@ -52,7 +50,6 @@ impl DoubleDouble {
     pub const LN_2: Self =
         DoubleDouble { hi: std::f64::consts::LN_2, lo: 2.319_046_813_846_299_6e-17 };
 
-    /// Multiplies by a power of two, exactly.
     pub fn times_power_of_two(self, factor: f64) -> Self {
         DoubleDouble { hi: self.hi * factor, lo: self.lo * factor }
     }

@@ -28,7 +28,6 @@ impl GaussLegendre {
         GaussLegendre { nodes, weights }
     }
 
-    /// Returns the integral of `f` over [a, b].
     pub fn integrate(&self, a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
         let terms = self.nodes.iter().zip(&self.weights).map(|(x, w)| w * f(middle + half * x));

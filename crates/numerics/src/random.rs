@@ -23,12 +23,10 @@ pub fn generator(experiment: &str, seed: u64, index: u64) -> Pcg64Dxsm {
 }
 
 impl NormalPairs {
-    /// Creates the stream of one realisation.
     pub fn new(experiment: &str, seed: u64, realisation: u64) -> Self {
         NormalPairs(generator(experiment, seed, realisation))
     }
 
-    /// Returns the next pair of independent standard normals.
     pub fn pair(&mut self) -> [f64; 2] {
         loop {
             let [x, y]: [f64; 2] = UnitDisc.sample(&mut self.0);

@@ -6,11 +6,8 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 /// A number with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
-    /// The estimate from the whole sample.
     pub value: f64,
-    /// Standard error.
     pub error: f64,
-    /// Confidence interval.
     pub interval: [f64; 2],
 }
 

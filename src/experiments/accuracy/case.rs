@@ -6,7 +6,6 @@ use impact_chain::Error as Failure;
 use impact_chain::methods::Method;
 use serde_json::Value as Json;
 
-/// Cases of one kind of difficulty.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
@@ -27,18 +26,15 @@ pub struct Case {
     /// The chain and its forcing, as [`Scenario::parse_json`] reads them.
     pub scenario: Json,
     pub start: State,
-    /// Time at which the run ends.
     pub until: f64,
     pub expected: Expected,
 }
 
-/// What must come out of a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Expected {
     /// The impacts that count, in the order of time.
     Impacts {
-        /// Time and gap of each.
         impacts: Vec<(f64, usize)>,
         /// How far off a time may be.
         within: f64,
@@ -76,11 +72,9 @@ const LAWFUL: f64 = 0.02;
 /// Impacts within this time of each other may come in any order.
 const TIE: f64 = 1e-9;
 
-/// An outcome in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// As expected.
     Right,
     /// An impact was not found, or another gap was hit before it.
     Missed,

@@ -21,13 +21,10 @@ const PATIENCE: f64 = 0.1;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Race {
     pub parameters: RaceParams,
-    /// Growth of small differences in the same chain.
     pub growth: Horizon,
-    /// One for each setting, in their order.
     pub entries: Vec<Entry>,
 }
 
-/// What one method with one setting did.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Entry {
     pub setting: Setting,

@@ -110,7 +110,6 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
     rows
 }
 
-/// Makes the tables of the error of the mean.
 pub fn bias(biases: &Biases) -> Vec<Table> {
     let rows = compared(biases);
     let cells = Table::of("bias.cells", &rows, |row| row.pairs)

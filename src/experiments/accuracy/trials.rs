@@ -26,13 +26,11 @@ impl TrialParams {
         TrialParams { settings: trial_settings(), scenes }
     }
 
-    /// Returns the number of cases, over all scenes.
     pub fn cases(&self) -> usize {
         self.scenes.iter().map(|scene| scene.cases.len()).sum()
     }
 }
 
-/// The outcomes of every method in every scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trials {
     pub parameters: TrialParams,
@@ -46,7 +44,6 @@ pub type Trial = Vec<Outcome>;
 /// A run that takes more steps than this is not begun, and counts as given up.
 const MOST_STEPS: f64 = 2e7;
 
-/// Returns the number of cases with the expected outcome.
 pub fn right(trial: &Trial) -> usize {
     trial.iter().filter(|outcome| **outcome == Outcome::Right).count()
 }
@@ -60,7 +57,6 @@ pub fn trouble(trial: &Trial) -> Option<Outcome> {
     wrong.chunk_by(|a, b| a == b).rev().max_by_key(|equal| equal.len()).map(|equal| equal[0])
 }
 
-/// Runs all methods on all scenes, and judges each case.
 pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Error> {
     let TrialParams { scenes, settings } = parameters;
     let stage = progress.stage("scenes where methods fail", (scenes.len() * settings.len()) as u64);

@@ -11,7 +11,6 @@ use impact_chain::Counts;
 use literate::experiments::Experiment;
 use literate::experiments::experiment::How::Cut;
 
-/// Chains from rest and from above under the same forces, after several transients.
 pub const BRANCHES: Experiment<Vec<Ensemble>, Vec<Chains>, Counts> = Experiment {
     name: "branches",
     code: &["src/experiments/branches", "src/experiments/ensembles.rs"],

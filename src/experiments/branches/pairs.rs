@@ -99,12 +99,10 @@ impl Pair {
         keys.into_iter().map(pair).collect()
     }
 
-    /// Returns the number of chains on each branch.
     pub fn chains(&self) -> usize {
         self.rest.chains().min(self.above.chains())
     }
 
-    /// Estimates a quantity of all chains.
     pub fn estimate(&self, of: impl Fn(&Pair, Option<usize>) -> Option<f64>) -> Option<Estimate> {
         jackknife(self.chains(), |without| of(self, without))
     }

@@ -4,7 +4,6 @@ use super::pairs::{Branch, FROM_ABOVE, FROM_REST, Pair, Quantity, distance, expo
 use super::run::Chains;
 use crate::experiments::prelude::*;
 
-/// Makes the tables of both branches.
 pub fn tables(found: &Vec<Chains>) -> Vec<Table> {
     let pairs = Pair::all(found);
     let lengths: Vec<&[Pair]> = pairs.chunk_by(|a, b| a.masses == b.masses).collect();
@@ -39,12 +38,10 @@ fn half_heights(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-/// Returns the first two pairs of one length.
 fn first_two(pairs: &[Pair]) -> &[Pair] {
     &pairs[..pairs.len().min(2)]
 }
 
-/// Returns the last three pairs of one length.
 fn last_three(pairs: &[Pair]) -> &[Pair] {
     &pairs[pairs.len().saturating_sub(3)..]
 }

@@ -11,7 +11,6 @@ use impact_numerics::scaled::Scaled;
 /// The p of Figs. 8 to 14, and some beyond.
 const GRID: [f64; 10] = [0.001, 0.005, 0.01, 0.012, 0.015, 0.02, 0.04, 0.1, 0.5, 1.0];
 
-/// N as a real number.
 const N: f64 = VERTICES as f64;
 
 fn simple(p: f64) -> Law {

@@ -8,7 +8,6 @@ pub use run::{First, Gaps, Nucleation, Theory};
 use crate::experiments::prelude::*;
 use crate::params::NucleationParams;
 
-/// First impacts of chains from rest.
 pub const NUCLEATION: Experiment<NucleationParams, Nucleation> = Experiment {
     name: "nucleation",
     code: &["src/experiments/nucleation"],

@@ -2,14 +2,8 @@
 
 use crate::experiments::prelude::*;
 use crate::params::{NucleationParams, Runs};
-use impact_circuits::nucleation::{Chances, Reach, half};
+use impact_circuits::nucleation::{ANGLES, COARSE, Chances, Reach, half};
 use rayon::prelude::*;
-
-/// Angles at which the reach of a gap is computed.
-const ANGLES: usize = 256;
-
-/// Angles of the rule for neighbours, whose cost grows as their square.
-const COARSE: usize = 64;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Nucleation {
@@ -30,7 +24,6 @@ pub struct Theory {
     pub half: f64,
 }
 
-/// The chances of gaps at one σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gaps {
     pub sigma: f64,
@@ -38,10 +31,8 @@ pub struct Gaps {
     pub ever: Chances,
 }
 
-/// The time of a chain's first impact, if it has one in time.
 pub type First = Option<f64>;
 
-/// Runs all chains, each to its first impact.
 pub fn run(parameters: &NucleationParams, progress: &Progress) -> Result<Nucleation, Error> {
     let stage = progress.stage("first impacts", parameters.chains());
     let of = |runs: Runs| {

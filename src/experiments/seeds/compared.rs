@@ -13,7 +13,6 @@ fn mean(cell: &Curve, sigma: f64) -> Option<f64> {
     Some(cell.rows.iter().find(|row| row.sigma == sigma)?.mean_all?.value)
 }
 
-/// Makes the tables; none where an experiment was not run.
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let table = |name: &str| all.iter().find(|table| table.name() == name);
     let (means, rise) = (table("seeds.means")?, table("seeds.rise")?);

@@ -84,7 +84,6 @@ impl ByDistance {
     }
 }
 
-/// Adds counts by distance to others.
 fn add(sums: &mut [u64], more: &[u64]) {
     sums.iter_mut().zip(more).for_each(|(sum, count)| *sum += count);
 }

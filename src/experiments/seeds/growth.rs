@@ -12,15 +12,9 @@
 
 use super::ByDistance;
 use crate::params::SeedsParams;
-use impact_circuits::nucleation::{Chances, Reach};
+use impact_circuits::nucleation::{ANGLES, COARSE, Chances, Reach};
 use impact_numerics::estimates::jackknife;
 use impact_numerics::statistics::{Estimate, last_rise};
-
-/// Angles at which the reach of a gap is computed.
-const ANGLES: usize = 256;
-
-/// Angles of the rule for neighbours.
-const COARSE: usize = 64;
 
 /// Groups of runs, each of which is left out in turn for the error of their sum.
 pub(super) const GROUPS: usize = 8;
@@ -34,7 +28,6 @@ pub(super) struct Prediction {
 }
 
 impl Prediction {
-    /// Returns the mean count at the σ of that place.
     pub fn mean(&self, sigma: usize) -> Option<Estimate> {
         jackknife(GROUPS, |out| Some(self.means[out.unwrap_or(GROUPS)][sigma]))
     }

@@ -9,11 +9,9 @@ use std::ops::Range;
 /// A chain whose one gap has not closed by this time is left out.
 const WAIT: f64 = 2000.0;
 
-/// Chains with one gap that closes by itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Seeds {
     pub parameters: SeedsParams,
-    /// For each σ its runs.
     pub rows: Vec<Part>,
 }
 

@@ -11,12 +11,8 @@ use std::f64::consts::LN_10;
 /// Gaps of the chain whose simple circuits are enumerated.
 const ENUMERATED: usize = 7;
 
-pub(super) fn tables() -> Vec<Table> {
-    vec![graph(), lengths(), commuting_circuits()]
-}
-
 /// Makes the table of Sec. 3.
-fn graph() -> Table {
+pub(super) fn graph() -> Table {
     let vertices = Graph::of_chain(3).vertices() as u64;
     one("theory.graph", origin(Graph::of_chain))
         .count("vertices", "of the graph for three masses", |()| vertices)
@@ -32,7 +28,7 @@ pub fn shares() -> [Vec<f64>; 2] {
 }
 
 /// Makes the table of Sec. 5.
-fn lengths() -> Table {
+pub(super) fn lengths() -> Table {
     const EXCEPTIONS: &str = "lengths k < N with over a tenth as many circuits as N";
     let (shares, _) = known(counting::shares(VERTICES));
     let ratio = |k| counting::ratio_to_longest(VERTICES, k);
@@ -53,7 +49,7 @@ fn lengths() -> Table {
 }
 
 /// Makes the table of circuits that differ only by the order of impacts without a common mass.
-fn commuting_circuits() -> Table {
+pub(super) fn commuting_circuits() -> Table {
     let [circuits, classes] = commuting::simple_classes(ENUMERATED).map(|count| count as u64);
     let by_eq7: u128 = (1..=ENUMERATED).filter_map(|k| counting::phi(ENUMERATED, k)).sum();
     let leap = known(jump::p_jump(SampleSpace::Simple, VERTICES));

@@ -21,7 +21,6 @@ pub fn contributions(p: f64) -> [Vec<f64>; 5] {
     CLASSES.map(|class| law(FiveClasses, p).contribution(&class))
 }
 
-/// Returns half the sum of absolute differences.
 fn total_variation(a: &[f64], b: &[f64]) -> f64 {
     0.5 * sum(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
 }

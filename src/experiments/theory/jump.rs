@@ -9,15 +9,10 @@ use impact_circuits::distribution::SampleSpace::Simple;
 use impact_circuits::jump;
 use impact_numerics::roots;
 
-/// N as a real number.
 const N: f64 = VERTICES as f64;
 
-pub(super) fn tables() -> Vec<Table> {
-    vec![numbers(), first_maximum()]
-}
-
 /// Makes the table of Sec. 7.
-fn numbers() -> Table {
+pub(super) fn numbers() -> Table {
     let p_crit = |vertices| known(jump::p_crit(vertices));
     let (crit, leap) = (p_crit(VERTICES), known(jump::p_jump(Simple, VERTICES)));
     let (at_one, between) = (law(Simple, 1.0), 0.5 * (crit + leap.bracket[0]));
@@ -49,7 +44,7 @@ fn numbers() -> Table {
         .done()
 }
 
-fn first_maximum() -> Table {
+pub(super) fn first_maximum() -> Table {
     let (k, [above, below]) =
         jump::first_local_maximum(VERTICES).expect("N = 100 has a local maximum");
     let p = above as f64 / below as f64;

@@ -8,11 +8,6 @@ use impact_circuits::distribution::SampleSpace::{self, Simple};
 use impact_circuits::jump;
 use impact_numerics::statistics::last_rise;
 
-pub(super) fn tables() -> Vec<Table> {
-    vec![distributions(), mean()]
-}
-
-/// Returns the distribution for the paper's N.
 pub(crate) fn law(space: SampleSpace, p: f64) -> Law {
     known(Law::new(space, VERTICES, p))
 }
@@ -27,7 +22,7 @@ pub fn k_star(p: f64) -> usize {
 }
 
 /// Makes the table of Fig. 8.
-fn distributions() -> Table {
+pub(super) fn distributions() -> Table {
     Table::of("theory.distribution", &DISTRIBUTION_P, |_| 0)
         .computed_by(origin(Law::mean))
         .key("p", "1", |p| *p)
@@ -51,7 +46,7 @@ pub fn means() -> Vec<(f64, f64)> {
 }
 
 /// Makes the table of Fig. 9.
-fn mean() -> Table {
+pub(super) fn mean() -> Table {
     let mut heights: Vec<usize> = steps().windows(2).map(|w| w[1].1 - w[0].1).collect();
     heights.sort_unstable_by(|a, b| b.cmp(a));
     let (grid, means): (Vec<f64>, Vec<_>) =

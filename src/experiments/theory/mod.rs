@@ -17,9 +17,21 @@ use literate::table::Table;
 /// Makes all tables but those that compare the theory with a simulation.
 pub fn tables() -> Vec<Table> {
     let ((curve, relation), large) =
-        rayon::join(|| rayon::join(relation::curve, relation::relation), large::tables);
-    let mut tables = [counts::tables(), law::tables(), jump::tables(), large].concat();
-    tables.extend([higher::classes(), higher::higher(&curve, &relation)]);
-    tables.extend([relation::gaps(), curve, relation]);
-    tables
+        rayon::join(|| rayon::join(relation::curve, relation::relation), large::large);
+    let higher = higher::higher(&curve, &relation);
+    vec![
+        counts::graph(),
+        counts::lengths(),
+        counts::commuting_circuits(),
+        law::distributions(),
+        law::mean(),
+        jump::numbers(),
+        jump::first_maximum(),
+        large,
+        higher::classes(),
+        higher,
+        relation::gaps(),
+        curve,
+        relation,
+    ]
 }
