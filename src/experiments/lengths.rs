@@ -41,13 +41,12 @@ fn random(found: &[Counted]) -> Table {
 }
 
 fn all(found: &[Counted]) -> Table {
-    let longest = found.iter().max_by_key(|one| one.ensemble.chain.masses);
+    const STRETCH: &str = "masses of a stretch of them that is counted like a chain";
+    let longest = found.iter().map(|one| &one.ensemble).max_by_key(|one| one.chain.masses);
+    let stretch = longest.map(|one| (one.chain.masses / one.pieces) as f64);
+    let longest = longest.map(|one| one.chain.masses as f64);
     Table::of("lengths.all", &[()], |()| 0)
-        .chosen("longest", "1", "masses of the longest chains", |()| {
-            longest.map(|one| one.ensemble.chain.masses as f64)
-        })
-        .chosen("stretch", "1", "masses of a stretch of them that is counted like a chain", |()| {
-            longest.map(|one| (one.ensemble.chain.masses / one.ensemble.pieces) as f64)
-        })
+        .chosen("longest", "1", "masses of the longest chains", |()| longest)
+        .chosen("stretch", "1", STRETCH, |()| stretch)
         .done()
 }

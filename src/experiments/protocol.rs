@@ -10,21 +10,17 @@ pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::pr
 
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let Some(map) = named(found, PROTOCOL.name) else { return Vec::new() };
-    // The windows with a half height, the lowest first.
-    let mut halves: Vec<(Estimate, &Curve)> = Vec::new();
-    for cell in &map.curves {
-        halves.extend(cell.rise.half_height.map(|half| (half, cell)));
-    }
+    let halves = map.curves.iter().filter_map(|cell| Some((cell.rise.half_height?, cell)));
+    let mut halves: Vec<(Estimate, &Curve)> = halves.collect();
     halves.sort_by(|a, b| a.0.value.total_cmp(&b.0.value));
     let (least, most) = (halves.first(), halves.last());
     let same = |cell: Option<&(Estimate, &Curve)>| Some(address(cell?.1, "half_height"));
+    let printed = round_to_printed(map, printed_interval(), |rise| rise.half_height);
     let all = Table::of("protocol.all", &[map], |map| map.ensemble.realisations)
         .count("realisations", "chains at each σ", |map| map.ensemble.realisations as u64)
         .count("sigmas", "values of σ", |map| map.ensemble.sigmas.len() as u64)
         .count("combinations", "transients times windows", |map| map.curves.len() as u64)
-        .count("as_printed", "of these, half heights that round to the printed one", |_| {
-            round_to_printed(map, printed_interval(), |rise| rise.half_height) as u64
-        })
+        .count("as_printed", "half heights that round to the printed one", |_| printed as u64)
         .estimate("largest", SIGMA, "largest half height", |_| most.map(|(half, _)| *half))
         .same("largest", |_| same(most))
         .estimate("least", SIGMA, "least half height", |_| least.map(|(half, _)| *half))

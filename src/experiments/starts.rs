@@ -8,15 +8,14 @@ pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, ta
 
 pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
     let rest = named(variants, "rest").and_then(half_height_all);
+    let less = |one: &Counted| Some(difference(half_height_all(one)?, rest?));
     let table = Table::of("starts.variants", variants, |one| one.ensemble.realisations)
         .text_key("chain", |one| one.ensemble.name.clone())
         .count("realisations", "chains at each σ", |one| one.ensemble.realisations as u64)
         .chosen("forcing_frequency", "omega", "", |one| Some(one.ensemble.chain.forcing_frequency))
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, half_height_all)
-        .estimate("difference", SIGMA, "half height less that from rest", |one| {
-            Some(difference(half_height_all(one)?, rest?))
-        })
+        .estimate("difference", SIGMA, "half height less that from rest", less)
         .done();
     vec![table]
 }
@@ -28,13 +27,12 @@ pub fn against_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let relation = all.iter().find(|table| table.name() == "theory.relation")?;
     let theory = relation.number(&[], "sigma_half").ok()?;
     let both = half("rest").zip(half("random"));
+    let share = both.map(|(rest, random)| share_of_start(rest, random, theory));
     const SHARE: &str = "of the distance from rest to the theory, with random free parts";
     let chains = named(starts, "rest")?.ensemble.realisations;
     let table = Table::of("starts.against_theory", &[()], |()| chains)
         .computed_by(origin(share_of_start))
-        .estimate("share", "1", SHARE, |()| {
-            both.map(|(rest, random)| share_of_start(rest, random, theory))
-        });
+        .estimate("share", "1", SHARE, |()| share);
     Some(vec![table.done()])
 }
 

@@ -5,7 +5,7 @@ use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
 use crate::params::{self, LEVEL, NEAR_SIMULTANEOUS, SLOW, printed_threshold};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
-use impact_chain::rise::{Rise, RisePoint};
+use impact_chain::rise::RisePoint;
 
 /// The main sweep of Sec. 2.
 pub const SWEEP: Ensembles = ensembles("sweep", "main sweep", params::sweep, tables);
@@ -14,8 +14,8 @@ pub const SWEEP: Ensembles = ensembles("sweep", "main sweep", params::sweep, tab
 pub const SECOND_SEED: Ensembles =
     ensembles("second_seed", "second seed", params::second_seed, of_second_seed);
 
+/// A σ above the rise, and one at which masses begin to be able to stick.
 const ABOVE: f64 = 0.2;
-/// A σ at which masses begin to be able to stick.
 const STICKING: f64 = 0.3;
 
 pub fn main(results: &Results) -> Result<&Counted, Error> {
@@ -83,12 +83,12 @@ fn rows(sweep: &Counted) -> Table {
 }
 
 fn rise_table(sweep: &Counted) -> Table {
-    let end = |rise: &Rise, at: usize| rise.half_height.map(|half| half.interval[at]);
+    let interval = sweep.first().rise.half_height.map(|half| half.interval);
     Table::of("sweep.rise", &[&sweep.first().rise], |_| sweep.ensemble.realisations)
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, OF_ACTIVE, |rise| rise.half_height)
-        .real("half_height_from", SIGMA, 4, "lower end of its interval", |rise| end(rise, 0))
-        .real("half_height_to", SIGMA, 4, "upper end of its interval", |rise| end(rise, 1))
+        .real("half_height_from", SIGMA, 4, "lower end of its interval", |_| Some(interval?[0]))
+        .real("half_height_to", SIGMA, 4, "upper end of its interval", |_| Some(interval?[1]))
         .estimate("half_height_all", SIGMA, HALF_HEIGHT, |rise| rise.half_height_all)
         .estimate("onset", SIGMA, "σ where it passes a twentieth of all gaps", |rise| rise.onset)
         .estimate("kept_half", SIGMA, ANY_IMPACT, |rise| rise.kept_half)

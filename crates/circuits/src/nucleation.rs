@@ -55,9 +55,10 @@ pub struct Reach {
     pub radii: Vec<f64>,
 }
 
-/// Angles at which a reach is computed, and those of it for the rule for neighbours, whose cost
-/// grows as their square.
+/// Angles at which a reach is computed.
 pub const ANGLES: usize = 256;
+
+/// Angles of the rule for neighbours, whose cost grows as their square.
 pub const COARSE: usize = 64;
 
 /// Steps of the search for maxima in a unit of ωt.
@@ -118,11 +119,6 @@ impl Reach {
         Reach { radii: directions(angles).map(radius).collect() }
     }
 
-    /// Keeps every `step`-th angle only.
-    pub fn every(&self, step: usize) -> Reach {
-        Reach { radii: self.radii.iter().copied().step_by(step.max(1)).collect() }
-    }
-
     /// Returns the probability that a gap closes by itself whose two amplitudes differ by normals
     /// with variance `variance` each: 2σ² between masses, σ² at a wall; d is the `spacing`.
     pub fn probability(&self, spacing: f64, variance: f64) -> f64 {
@@ -175,12 +171,13 @@ fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64
 const POINTS: usize = 20;
 
 /// Returns the probability that two neighbouring gaps, of variances v_1 and v_2 (2σ² between
-/// masses, σ² at a wall), both close by themselves, by the angles of the reach.
+/// masses, σ² at a wall), both close by themselves, by [`COARSE`] of the angles.
 fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
     let rule = GaussLegendre::new(POINTS);
     let shared = sigma * sigma;
     let determinant = v_1 * v_2 - shared * shared;
-    let angles = reach.radii.len();
+    let radii: Vec<f64> = reach.radii.iter().copied().step_by(reach.radii.len() / COARSE).collect();
+    let angles = radii.len();
     let cosines: Vec<f64> = directions(angles).map(|[cos, _]| cos).collect();
     // The part where the gap of the least radius `m` and the variance `v` decides.
     let decides = |(m, v): (f64, f64), (other_m, other_v): (f64, f64), twice_shared: f64| {
@@ -191,10 +188,10 @@ fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
         })
     };
     let mut sum = 0.0;
-    for (i, first) in reach.radii.iter().enumerate() {
+    for (i, first) in radii.iter().enumerate() {
         // With equal variances the order of the angles does not matter.
         let others = if v_1 == v_2 { i + 1 } else { angles };
-        for (j, second) in reach.radii[..others].iter().enumerate() {
+        for (j, second) in radii[..others].iter().enumerate() {
             if *first <= 0.0 || *second <= 0.0 {
                 continue;
             }
@@ -222,16 +219,15 @@ pub struct Chances {
 }
 
 impl Chances {
-    /// Computes the chances within a reach, for forces of standard deviation `sigma`; `fewer` is
-    /// the reach at fewer angles, for neighbours, which cost the square of that number.
-    pub fn new(chain: &Chain, reach: &Reach, fewer: &Reach, sigma: f64) -> Chances {
+    /// Computes the chances within a reach, for forces of standard deviation `sigma`.
+    pub fn new(chain: &Chain, reach: &Reach, sigma: f64) -> Chances {
         let (mass, wall) = (2.0 * sigma * sigma, sigma * sigma);
         let d = chain.spacing;
         Chances {
             p: reach.probability(d, mass),
             wall: reach.probability(d, wall),
-            pair: both(fewer, d, sigma, [mass, mass]),
-            wall_pair: both(fewer, d, sigma, [wall, mass]),
+            pair: both(reach, d, sigma, [mass, mass]),
+            wall_pair: both(reach, d, sigma, [wall, mass]),
         }
     }
 
@@ -255,9 +251,8 @@ impl Chances {
 
 /// Returns the σ at which half of such chains have a gap that closes by itself, to about 1e-6.
 pub fn half(chain: &Chain, reach: &Reach) -> f64 {
-    let share = |sigma: f64| {
-        Chances::new(chain, reach, reach, sigma).at_least_one(chain.masses, chain.boundary)
-    };
+    let chances = |sigma: f64| Chances::new(chain, reach, sigma);
+    let share = |sigma: f64| chances(sigma).at_least_one(chain.masses, chain.boundary);
     let logarithms = [0.02, 2.0].map(|times: f64| pxfm::f_log(times * chain.spacing));
     pxfm::f_exp(crossing(logarithms, 1e-6, |log_sigma| share(pxfm::f_exp(log_sigma)) - 0.5))
 }

@@ -39,7 +39,7 @@ pub enum Expected {
         /// How far off a time may be.
         within: f64,
         /// Slower impacts do not count: the last bounces of a chatter depend on the method.
-        #[serde(default = "all_speeds")]
+        #[serde(default)]
         faster: f64,
         /// Only impacts of these gaps count; those of all gaps if it is empty.
         #[serde(default)]
@@ -60,10 +60,6 @@ pub enum Expected {
     /// Of three masses that meet in one point: no mass passes another, momentum is kept, and energy
     /// does not grow, by the first impacts with the walls.
     Law,
-}
-
-fn all_speeds() -> f64 {
-    -1.0
 }
 
 /// How far off the velocities of [`Expected::Law`] may be.
@@ -163,7 +159,7 @@ impl Expected {
     fn counts(&self, impact: &Impact) -> bool {
         match self {
             Expected::Impacts { faster, among, .. } => {
-                impact.closing_speed > *faster && (among.is_empty() || among.contains(&impact.gap))
+                impact.closing_speed >= *faster && (among.is_empty() || among.contains(&impact.gap))
             }
             Expected::Rest { since, slower } => {
                 impact.time >= *since && impact.closing_speed > *slower

@@ -3,7 +3,7 @@
 pub mod run;
 pub mod tables;
 
-pub use run::{First, Gaps, Nucleation, Theory};
+pub use run::Nucleation;
 
 use crate::experiments::prelude::*;
 use crate::params::NucleationParams;

@@ -8,14 +8,8 @@ use rayon::prelude::*;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Nucleation {
     pub parameters: NucleationParams,
-    /// For each length and σ, length by length, the realisations.
-    pub rows: Vec<Vec<First>>,
-    pub expected: Theory,
-}
-
-/// The chances of gaps to close by themselves, by the theory.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Theory {
+    /// For each length and σ, length by length, the time of each chain's first impact.
+    pub rows: Vec<Vec<Option<f64>>>,
     /// At each σ that was run.
     pub gaps: Vec<Gaps>,
     /// Within the latest time, at σ that lie closer together, for curves.
@@ -24,14 +18,13 @@ pub struct Theory {
     pub half: f64,
 }
 
+/// The chances of gaps to close by themselves at one σ, by the theory.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gaps {
     pub sigma: f64,
     pub within: Vec<Chances>,
     pub ever: Chances,
 }
-
-pub type First = Option<f64>;
 
 pub fn run(parameters: &NucleationParams, progress: &Progress) -> Result<Nucleation, Error> {
     let stage = progress.stage("first impacts", parameters.chains());
@@ -44,23 +37,18 @@ pub fn run(parameters: &NucleationParams, progress: &Progress) -> Result<Nucleat
         })
     };
     let rows = parameters.runs().map(of).collect::<Result<_, _>>()?;
-    Ok(Nucleation { parameters: parameters.clone(), rows, expected: expected(parameters) })
-}
-
-fn expected(parameters: &NucleationParams) -> Theory {
     let chain = &Chain::default();
-    let within = Reach::within(chain, &parameters.times, ANGLES);
-    let fewer: Vec<Reach> = within.iter().map(|reach| reach.every(ANGLES / COARSE)).collect();
+    let reaches = Reach::within(chain, &parameters.times, ANGLES);
     let ever = Reach::ever(chain, COARSE);
     let gaps = |&sigma: &f64| {
-        let both = within.iter().zip(&fewer);
-        let within = both.map(|(all, few)| Chances::new(chain, all, few, sigma)).collect();
-        Gaps { sigma, within, ever: Chances::new(chain, &ever, &ever, sigma) }
+        let within = reaches.iter().map(|reach| Chances::new(chain, reach, sigma)).collect();
+        Gaps { sigma, within, ever: Chances::new(chain, &ever, sigma) }
     };
-    let curve = within.last().zip(fewer.last()).map_or(Vec::new(), |(all, few)| {
+    let curve = reaches.last().map_or(Vec::new(), |last| {
         let sigmas = (55..=165_u32).into_par_iter().map(|step| f64::from(step) / 1000.0);
-        sigmas.map(|sigma| (sigma, Chances::new(chain, all, few, sigma))).collect()
+        sigmas.map(|sigma| (sigma, Chances::new(chain, last, sigma))).collect()
     });
     let gaps = parameters.sigmas.par_iter().map(gaps).collect();
-    Theory { gaps, curve, half: half(chain, &ever) }
+    let parameters = parameters.clone();
+    Ok(Nucleation { parameters, rows, gaps, curve, half: half(chain, &ever) })
 }

@@ -17,7 +17,7 @@ struct Chains {
 }
 
 pub fn tables(found: &Nucleation) -> Vec<Table> {
-    let (parameters, gaps) = (&found.parameters, &found.expected.gaps);
+    let (parameters, gaps) = (&found.parameters, &found.gaps);
     let mut chains = Vec::new();
     for ((runs, firsts), at) in parameters.runs().zip(&found.rows).zip(gaps.iter().cycle()) {
         for (&time, chances) in parameters.times.iter().zip(&at.within) {
@@ -30,10 +30,10 @@ pub fn tables(found: &Nucleation) -> Vec<Table> {
     let lengths: Vec<usize> = parameters.lengths.iter().map(|(masses, _)| *masses).collect();
     vec![
         single(gaps),
-        shares(&lengths, &found.expected.curve),
+        shares(&lengths, &found.curve),
         times(&parameters.times, gaps),
         chains_table(&chains),
-        all(&chains, &lengths, found.expected.half),
+        all(&chains, &lengths, found.half),
     ]
 }
 

@@ -55,7 +55,7 @@ fn closing(parameters: &SeedsParams, only_first: bool) -> Vec<[Vec<f64>; 2]> {
         by_then.windows(2).map(|w| w[1] - w[0]).collect()
     };
     let of = |sigma: &f64| {
-        let chances = Chances::new(chain, &ever, &ever, *sigma);
+        let chances = Chances::new(chain, &ever, *sigma);
         // The share of closing gaps whose left neighbour stays open.
         let share = if only_first { 1.0 - chances.pair / chances.p } else { 1.0 };
         let variance = sigma * sigma;
