@@ -68,8 +68,7 @@ impl Engine {
     }
 
     /// Returns positions and velocities at a time from the last event to the next: right after
-    /// [`run`](Engine::run), at the time to which it ran. A scenario that goes on from there is made
-    /// by [`State::as_scenario`].
+    /// [`run`](Engine::run), at the time to which it ran. [`State::as_scenario`] goes on from there.
     pub fn state(&self, time: f64) -> Result<State, Error> {
         call!(&self.0, simulation => simulation.state(time))
     }

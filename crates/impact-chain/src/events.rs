@@ -7,7 +7,7 @@
 //! closes. Instants are whole numbers of ticks, so "the same" is exact. Such ties come from
 //! symmetries and from hits of masses in contact, and are counted.
 
-use super::flight::{Motion, Phases, Rates, response};
+use super::flight::{Motion, Phases, response};
 use super::force::Force;
 use super::impact::{Impact, Sink};
 use super::simulation::{Awaits, Gap, Simulation, clamp_width};
@@ -68,7 +68,6 @@ impl<const M: usize> Simulation<M> {
             spacing: scenario.spacing,
             restitution: scenario.restitution,
             search: Search::new(frequencies),
-            rates: Rates::new(&frequencies),
             topology,
             shifts,
             motions,
@@ -91,7 +90,7 @@ impl<const M: usize> Simulation<M> {
 
     /// Takes the frames of all gaps at t = 0, and settles those that are shut and at rest together.
     fn start(&mut self) -> Result<(), Error> {
-        let phases = Phases::at(&self.rates, self.now);
+        let phases = Phases::at(&self.search.frequencies, self.now);
         let mut shut = Vec::new();
         for k in 0..self.gaps.len() {
             let frame = self.frame_of(k, &phases);
@@ -203,12 +202,12 @@ impl<const M: usize> Simulation<M> {
             // Touching without speed is no impact, but contact may begin.
             Awaits::Impact(0.0) => {
                 self.spend(k)?;
-                let phases = Phases::at(&self.rates, self.now);
+                let phases = Phases::at(&self.search.frequencies, self.now);
                 self.collide_in_contact(k, 0.0, &phases);
             }
             Awaits::Impact(speed) => {
                 let impact = self.count_impact(k, speed)?;
-                let phases = Phases::at(&self.rates, self.now);
+                let phases = Phases::at(&self.search.frequencies, self.now);
                 if is_close | (self.gaps[k].origin == self.now) {
                     self.count_tie(k);
                 }
@@ -231,7 +230,7 @@ impl<const M: usize> Simulation<M> {
                     // No progress, which must not repeat for ever.
                     self.spend(k)?;
                 }
-                let phases = Phases::at(&self.rates, self.now);
+                let phases = Phases::at(&self.search.frequencies, self.now);
                 if self.gaps[k].in_contact {
                     self.watch_contact(k, &phases);
                 } else if !self.try_long_wait(k, &phases) {
@@ -244,7 +243,7 @@ impl<const M: usize> Simulation<M> {
             }
             Awaits::Release => {
                 self.spend(k)?;
-                let phases = Phases::at(&self.rates, self.now);
+                let phases = Phases::at(&self.search.frequencies, self.now);
                 self.release(k, &phases);
             }
             Awaits::Nothing => unreachable!("a gap that awaits nothing has the key NEVER"),

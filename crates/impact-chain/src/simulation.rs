@@ -1,7 +1,7 @@
 //! Holds the state of a simulation, and keeps the frame and the next event of each gap.
 
 use super::error::Error;
-use super::flight::{Motion, Phases, Rates};
+use super::flight::{Motion, Phases};
 use super::force::Force;
 use super::impact::jumps;
 use super::state::State;
@@ -42,7 +42,6 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) spacing: f64,
     pub(super) restitution: f64,
     pub(super) search: Search<M>,
-    pub(super) rates: Rates<M>,
     pub(super) topology: Topology,
     /// The distance of the place of each body from m d: 0 in the paper.
     pub(super) shifts: Vec<f64>,
@@ -218,7 +217,7 @@ impl<const M: usize> Simulation<M> {
         let (_, next) = self.queue.first_in_full(|_| 0.0);
         let (from, to) = (self.now.time(), next.time());
         if (from..=to).contains(&time) {
-            return Ok(Phases::at(&self.rates, Instant::at(time)));
+            return Ok(Phases::at(&self.search.frequencies, Instant::at(time)));
         }
         let problem = format!("{time:?} is not between the last event and the next");
         let remedy = format!("give {from:?} to {to:?}, or run the engine to that time first");

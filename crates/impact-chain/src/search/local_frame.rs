@@ -10,6 +10,7 @@
 //! derivatives). So nothing cancels at small s: right after an impact f₀ = 0 exactly, and the
 //! waiting time keeps its relative accuracy however short it is.
 
+use super::clock::Rate;
 use super::trig::{RANGE, small_sin_cos};
 
 /// The natural frequency ω, the `M` frequencies Ω of the forcing, and what follows from them.
@@ -24,6 +25,9 @@ pub struct Frequencies<const M: usize> {
     pub reach: f64,
     /// 1 + 2 Ω/ω: the largest part of a forced amplitude of 1 in the size of a frame.
     pub weights: [f64; M],
+    /// ω and each Ω in turns.
+    pub rate: Rate,
+    pub rates: [Rate; M],
     inverse_omega: f64,
     /// (sin ωs, cos ωs) at the end of the reach, and (sin Ωs, cos Ωs).
     turn: [f64; 2],
@@ -45,6 +49,8 @@ impl<const M: usize> Frequencies<M> {
             fastest,
             reach,
             weights: big_omegas.map(|big_omega| 1.0 + 2.0 * big_omega / omega),
+            rate: Rate::new(omega),
+            rates: big_omegas.map(Rate::new),
             inverse_omega: 1.0 / omega,
             turn: turn(omega),
             forced_turns: big_omegas.map(turn),
