@@ -3,7 +3,6 @@
 #[cfg(feature = "ensembles")]
 use serde::{Deserialize, Serialize};
 
-/// The two ends of the row of masses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "ensembles", derive(Deserialize, Serialize), serde(rename_all = "lowercase"))]
 pub enum Boundary {

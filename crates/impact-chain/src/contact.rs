@@ -32,7 +32,6 @@ pub(super) const CONTACT_SPEED: f64 = 1e-10;
 const SETTLED_RATE: f64 = 10.0 * CONTACT_SPEED;
 const SETTLED_WIDTH: f64 = 1e-16;
 
-/// A gap whose state has changed.
 #[derive(Clone, Copy)]
 struct Changed {
     width: f64,

@@ -54,7 +54,6 @@ pub struct Counts {
     pub rejected: usize,
     /// Realisations that the engine ended early.
     pub failed: usize,
-    /// Impacts of whole runs, failed realisations included.
     pub total: Total,
 }
 
@@ -66,7 +65,6 @@ pub struct Total {
     pub near: [u64; NEAR_DECADES.len()],
     /// Impacts with a closing speed below each of [`SLOW_DECADES`].
     pub slow: [u64; SLOW_DECADES.len()],
-    /// Contact phases begun.
     pub contact_phases: u64,
     /// Impacts at exactly the same instant as one of a neighbouring gap.
     pub simultaneous: u64,
@@ -120,7 +118,6 @@ pub struct Watch {
     total: Total,
     /// Time of the last impact of each gap.
     last: Vec<f64>,
-    /// Transients, rising.
     transients: Vec<f64>,
     /// `firsts[transient][gap]`: time of the first impact of the gap after the transient, infinite
     /// until known. All windows follow from these.
@@ -129,7 +126,6 @@ pub struct Watch {
     known: Vec<usize>,
 }
 
-/// Sorts times and drops repetitions.
 fn rising(times: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut times: Vec<f64> = times.collect();
     times.sort_by(f64::total_cmp);

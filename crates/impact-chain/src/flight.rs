@@ -57,9 +57,7 @@ pub struct Motion<const M: usize> {
 /// The parts of a motion at one instant, each with its quadrature.
 #[derive(Clone, Copy, Debug)]
 pub struct Parts<const M: usize> {
-    /// Free part u.
     pub u: f64,
-    /// Its velocity over ω.
     pub u_quadrature: f64,
     /// Forced responses v, and their velocities over Ω.
     pub forced: [[f64; 2]; M],

@@ -32,7 +32,6 @@ pub fn rotate_phases(scenario: &mut Scenario, at: Instant) {
 /// One component with an amplitude of cos Ωt and one of sin Ωt for each body, 0 for the walls.
 #[derive(Clone)]
 pub struct Component {
-    /// Ω.
     pub frequency: f64,
     pub rate: Rate,
     pub cos: Vec<f64>,
@@ -40,7 +39,6 @@ pub struct Component {
 }
 
 impl Component {
-    /// Lists the components of the forcing.
     pub fn forces(scenario: &Scenario) -> Vec<Component> {
         let mut components = Vec::new();
         for (frequency, pairs) in scenario.components() {

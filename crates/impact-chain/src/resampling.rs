@@ -17,7 +17,6 @@ const RESAMPLES: u64 = 1000;
 pub struct Places {
     /// Mean over those with at least one impact.
     pub mean: Vec<Option<f64>>,
-    /// Mean over all.
     pub mean_all: Vec<Option<f64>>,
     pub mode: Vec<Option<usize>>,
     /// In the order of the fields of [`Rise`](crate::rise::Rise).
@@ -75,16 +74,13 @@ impl Sample<'_> {
     }
 }
 
-/// Divides two whole numbers; returns none for a denominator of zero.
 fn ratio(numerator: u64, denominator: u64) -> Option<f64> {
     (denominator > 0).then(|| numerator as f64 / denominator as f64)
 }
 
-/// What was found in a sample and in its resamples.
 pub struct Resampled {
     whole: Places,
     resamples: Vec<Places>,
-    /// The largest count that is possible.
     pub largest: usize,
 }
 

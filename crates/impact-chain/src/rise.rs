@@ -17,13 +17,11 @@ pub struct Curve {
     pub rise: Rise,
 }
 
-/// A mean with its errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mean {
     pub value: f64,
     /// Standard error; none from a single number.
     pub error: Option<f64>,
-    /// Bootstrap interval.
     pub interval: Option<[f64; 2]>,
 }
 
@@ -54,7 +52,6 @@ pub struct RisePoint {
     pub mean_all: Option<Mean>,
     /// Mode over those with at least one; the lowest of several.
     pub mode: Option<usize>,
-    /// Bootstrap interval of the mode.
     pub mode_interval: Option<[usize; 2]>,
     /// Impacts of a whole chain in the window: mean over realisations with at least one.
     pub impacts: Option<Mean>,

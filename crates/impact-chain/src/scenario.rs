@@ -5,7 +5,6 @@ use crate::flight::response;
 use crate::{Boundary, Chain, Start};
 use impact_numerics::random::NormalPairs;
 
-/// The start of one scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Initial {
     /// At rest at equilibrium.
@@ -35,9 +34,7 @@ pub struct Scenario {
     pub forcing_frequency: f64,
     /// Coefficient of restitution r.
     pub restitution: f64,
-    /// Walls or ring.
     pub boundary: Boundary,
-    /// The start.
     pub initial: Initial,
     /// Amplitudes (α_j, β_j) of Eq. (5), one pair for each mass.
     pub forcing: Vec<[f64; 2]>,
@@ -49,10 +46,8 @@ pub struct Scenario {
     pub places: Option<Vec<f64>>,
 }
 
-/// A further component of the forcing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overtone {
-    /// Frequency Ω.
     pub frequency: f64,
     /// Amplitudes (α_j, β_j), one pair for each mass.
     pub amplitudes: Vec<[f64; 2]>,

@@ -11,7 +11,6 @@ use serde_json::Value;
 /// One component: a pair for each mass.
 type Pairs = Vec<[f64; 2]>;
 
-/// The fields of a scenario file.
 #[derive(Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 struct ScenarioFile {
@@ -39,7 +38,6 @@ enum Forcing {
     Several(Vec<Pairs>),
 }
 
-/// The field `initial`.
 #[derive(Deserialize, Serialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 enum Start {

@@ -13,7 +13,6 @@ use crate::search::local_frame::{Frame, NEARLY_SHUT};
 use crate::search::outcome::{Counters, Graze, Next};
 use crate::search::window::next_window;
 
-/// The next event of a gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Awaits {
     /// None: the gap cannot close until a neighbour is hit.
@@ -59,7 +58,6 @@ pub(super) struct Simulation<const M: usize> {
     /// The last instant at which contact was involved, and the gaps hit then without rebound.
     pub(super) joined: (Instant, Vec<usize>),
     pub(super) work: Counters,
-    /// The first dip that rounding could not decide.
     pub(super) first_graze: Option<Graze>,
     pub(super) budget_end: Instant,
     pub(super) budget_left: u64,

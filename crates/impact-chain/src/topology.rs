@@ -62,7 +62,6 @@ impl Topology {
         m == 0 || m > self.masses
     }
 
-    /// Returns the inverse masses of both neighbours of gap k.
     #[inline]
     pub fn inverse_masses(&self, k: usize) -> [f64; 2] {
         self.sides(k).map(|m| if self.is_wall(m) { 0.0 } else { 1.0 })

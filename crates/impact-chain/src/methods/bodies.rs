@@ -145,7 +145,6 @@ impl Bodies {
         any
     }
 
-    /// Returns the number of masses, the unit of counted work.
     pub fn masses(&self) -> u64 {
         self.u.len() as u64 - 2
     }

@@ -29,7 +29,6 @@ impl Cost {
 /// The start of the scenario is ignored.
 pub type Task<'a> = (&'a Scenario, &'a State, f64);
 
-/// A way to simulate a chain.
 pub trait Method: Sync {
     /// Returns the name, as in `trace --method`, e.g. "verlet".
     fn name(&self) -> &'static str;

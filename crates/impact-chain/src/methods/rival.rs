@@ -35,7 +35,6 @@ impl<R: Rival> Method for R {
 
 /// A method with a fixed step.
 pub trait Stepper: 'static {
-    /// Advances by one step.
     fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop>;
 }
 

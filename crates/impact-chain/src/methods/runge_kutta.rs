@@ -188,7 +188,6 @@ struct Stages {
 }
 
 impl Stages {
-    /// Starts from the displacements and velocities of `row`.
     fn new(row: &Bodies, at: Instant) -> Stages {
         let y: Vec<f64> = row.u.iter().chain(&row.v).copied().collect();
         let zero = vec![0.0; y.len()];

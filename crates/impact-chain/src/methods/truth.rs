@@ -67,7 +67,6 @@ pub struct TrueMotion {
     open: Vec<DoubleDouble>,
 }
 
-/// An impact of the true motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
     pub time: DoubleDouble,
@@ -82,10 +81,8 @@ const AT_REST: f64 = 1e-10;
 /// A gap is shut when it is certainly open for less than this, in units of 1 + t.
 const CONVERGED: f64 = 1e-30;
 
-/// A wait that is longer than any run.
 const FOR_EVER: f64 = 1e300;
 
-/// Bounds are rounded outwards by this.
 const INFLATION: f64 = 1.0 + 1e-12;
 
 /// Sine and cosine of ωt and Ωt.

@@ -34,7 +34,6 @@ impl Earliest {
         earliest
     }
 
-    /// Computes all words for another epoch.
     fn rebase(&mut self, epoch: Instant) {
         self.epoch = epoch;
         let width = self.keys.len();

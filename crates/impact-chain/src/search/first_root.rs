@@ -9,7 +9,6 @@ use super::stepping::first_root_by_steps;
 /// How often the reach is halved: pieces of 1, 1/2, … 2^-LEVELS of it.
 const LEVELS: usize = 2;
 
-/// The search for first roots at given frequencies.
 #[derive(Clone, Debug)]
 pub struct Search<const M: usize> {
     pub frequencies: Frequencies<M>,
