@@ -364,14 +364,13 @@ impl<const M: usize> Simulation<M> {
                 frame.g0 = 0.0;
             }
         }
-        let wait = next_window(force.constant, [0.0; 2], &frame.forced, frequencies);
-        let (awaits, key) = if wait.is_none() {
-            (Awaits::Release, Instant::NEVER)
-        } else {
-            match self.search.first_root(&frame, &mut self.work) {
+        let (awaits, key) = match next_window(force.constant, [0.0; 2], &frame.forced, frequencies)
+        {
+            None => (Awaits::Release, Instant::NEVER),
+            Some(_) => match self.search.first_root(&frame, &mut self.work) {
                 Next::Root { s, .. } => (Awaits::Release, self.now.after(s)),
                 Next::Clear { s } => (Awaits::Search { whole_reach: false }, self.now.after(s)),
-            }
+            },
         };
         self.gaps[k].frame = frame;
         self.gaps[k].origin = self.now;

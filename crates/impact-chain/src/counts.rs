@@ -181,9 +181,6 @@ impl Watch {
     /// Runs an engine through all windows that end by `until`, and returns the counts of this run,
     /// realisation `index` of many; ends early, with incomplete counts, when `stopped` returns
     /// true. A start that overlaps, and a run that the engine ended early, are counted as such.
-    ///
-    /// # Errors
-    /// [`Error::Input`] if the engine has no scenario that is allowed.
     pub fn run(
         &mut self,
         engine: Result<Engine, Error>,

@@ -97,8 +97,9 @@ impl<const M: usize> Simulation<M> {
             if frame.f0 < -OVERLAP * frame.size {
                 return Err(Error::Overlap { gap: self.topology.label(k), depth: -frame.f0 });
             }
-            let f0 = if frame.f0 <= SHUT_AT_START * self.terms(k) { 0.0 } else { frame.f0 };
-            let at_rest = f0 == 0.0 && frame.g0.abs() <= self.rounding_of_rate(k, &phases);
+            let [width, rate] = self.rounding_at_start(k, &phases);
+            let f0 = if frame.f0 <= width { 0.0 } else { frame.f0 };
+            let at_rest = f0 == 0.0 && frame.g0.abs() <= rate;
             let g0 = if at_rest { 0.0 } else { frame.g0 };
             if f0 == 0.0 && g0 == 0.0 {
                 shut.push(k);
@@ -113,31 +114,22 @@ impl<const M: usize> Simulation<M> {
         Ok(())
     }
 
-    /// Returns d plus the absolute terms of the positions of both neighbours of gap k at t = 0, the
-    /// scale of their rounding.
-    fn terms(&self, k: usize) -> f64 {
-        let mut sum = self.spacing;
-        for side in self.topology.sides(k) {
-            let motion = &self.motions[side];
-            sum += motion.offset.abs();
-            sum += motion.forced.iter().fold(motion.a.abs(), |sum, [c, _]| sum + c.abs());
-        }
-        sum
-    }
-
-    /// Returns the rate of gap k at t = 0 that rounding explains.
-    fn rounding_of_rate(&self, k: usize, phases: &Phases<M>) -> f64 {
+    /// Returns the width and the rate of gap k at t = 0 up to which rounding explains them: by the
+    /// sums of the absolute terms of the positions and the velocities of both neighbours.
+    fn rounding_at_start(&self, k: usize, phases: &Phases<M>) -> [f64; 2] {
         let frequencies = &self.search.frequencies;
-        let (mut fastest, mut terms) = (0.0_f64, 0.0);
+        let (mut width, mut fastest, mut rate) = (self.spacing, 0.0_f64, 0.0);
         for side in self.topology.sides(k) {
             let motion = &self.motions[side];
+            width += motion.offset.abs();
+            width += motion.forced.iter().fold(motion.a.abs(), |sum, [c, _]| sum + c.abs());
             fastest = fastest.max(motion.parts(phases).velocity(frequencies).abs());
-            terms += frequencies.omega * motion.b.abs();
+            rate += frequencies.omega * motion.b.abs();
             for (big_omega, [_, s]) in frequencies.big_omegas.iter().zip(&motion.forced) {
-                terms += big_omega * s.abs();
+                rate += big_omega * s.abs();
             }
         }
-        AT_REST * fastest + AT_REST_OF_TERMS * terms
+        [SHUT_AT_START * width, AT_REST * fastest + AT_REST_OF_TERMS * rate]
     }
 
     pub fn run(&mut self, until: f64, sink: Sink) -> Result<(), Error> {

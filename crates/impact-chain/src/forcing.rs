@@ -2,7 +2,6 @@
 
 use crate::Scenario;
 use crate::search::clock::{Instant, Rate};
-use crate::search::trig::sin_cos_turn;
 
 /// Returns the forced response of each mass at t = 0: displacement and velocity.
 pub fn response_at_zero(scenario: &Scenario) -> Vec<[f64; 2]> {
@@ -67,7 +66,7 @@ impl Component {
 
     #[inline]
     pub fn phase(&self, at: Instant) -> (f64, f64) {
-        sin_cos_turn(self.rate.turn(at))
+        self.rate.sin_cos(at)
     }
 }
 

@@ -67,11 +67,8 @@ impl Scenario {
         scenario
     }
 
-    /// Creates the scenario of a chain with given amplitudes; [`Start::Random`] is taken as
-    /// [`Start::Zero`], as there are no random numbers.
-    ///
-    /// # Errors
-    /// [`Error::Input`] unless there is one pair for each mass.
+    /// Creates the scenario of a chain with given amplitudes, one pair for each mass;
+    /// [`Start::Random`] is taken as [`Start::Zero`], as there are no random numbers.
     pub fn given(chain: &Chain, forcing: Vec<[f64; 2]>) -> Result<Scenario, Error> {
         pairs_within("forcing", &forcing, chain.masses)?;
         Ok(Scenario::of(chain, forcing))

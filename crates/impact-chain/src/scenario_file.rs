@@ -99,9 +99,6 @@ impl Scenario {
 
     /// Reads a scenario as [`Scenario::from_json`] does, but does not ask whether the engine can
     /// run it.
-    ///
-    /// # Errors
-    /// [`Error::Input`] names the field and the remedy.
     pub fn parse_json(text: &str) -> Result<Scenario, Error> {
         parse(text)?.into_scenario()
     }

@@ -49,10 +49,6 @@ impl State {
     /// Returns the displacements of all bodies from their places, from the left wall (0) to the
     /// right one (n + 1). Gaps that overlap by no more than rounding are shut exactly, and so are
     /// gaps at rest that are as narrow.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a scenario or a state outside the model, [`Error::Overlap`] for a gap
-    /// that overlaps by more.
     pub(crate) fn displacements(&self, scenario: &Scenario) -> Result<Vec<f64>, Error> {
         scenario.validate()?;
         self.validate(scenario.forcing.len())?;

@@ -2,12 +2,12 @@
 
 use super::method::Task;
 use super::steps::Step;
+use crate::Error;
 use crate::forcing::Component;
 use crate::impact::jumps;
 use crate::scenario::COMPONENTS;
 use crate::search::clock::Instant;
 use crate::topology::Topology;
-use crate::{Boundary, Error};
 
 /// (sin, cos) of the phase of each component of the forcing.
 pub type Phases = [(f64, f64); COMPONENTS];
@@ -16,7 +16,6 @@ pub type Phases = [(f64, f64); COMPONENTS];
 /// the right one (n + 1).
 pub struct Bodies {
     pub topology: Topology,
-    is_ring: bool,
     pub spacing: f64,
     pub restitution: f64,
     /// ω².
@@ -38,7 +37,6 @@ impl Bodies {
         let masses = scenario.forcing.len();
         let mut row = Bodies {
             topology: Topology::new(masses, scenario.boundary),
-            is_ring: scenario.boundary == Boundary::Ring,
             spacing: scenario.spacing,
             restitution: scenario.restitution,
             stiffness: scenario.natural_frequency * scenario.natural_frequency,
@@ -137,8 +135,9 @@ impl Bodies {
     /// Whether any gap is shut at displacements `u`. The test is cheap, as it mostly fails.
     pub fn any_shut(&self, u: &[f64]) -> bool {
         // Neighbours in the array are neighbours in the row; a ring has one gap more.
-        let (first, last) = if self.is_ring { (1, u.len() - 2) } else { (0, u.len() - 1) };
-        let mut any = self.is_ring && self.spacing + (u[first] - u[last]) <= 0.0;
+        let is_ring = self.topology.gaps() + 2 == u.len();
+        let (first, last) = if is_ring { (1, u.len() - 2) } else { (0, u.len() - 1) };
+        let mut any = is_ring && self.spacing + (u[first] - u[last]) <= 0.0;
         for (left, right) in u[first..last].iter().zip(&u[first + 1..=last]) {
             any |= self.spacing + (right - left) <= 0.0;
         }

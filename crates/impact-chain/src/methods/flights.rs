@@ -9,7 +9,6 @@ use crate::forcing::Component;
 use crate::impact::jumps;
 use crate::scenario::COMPONENTS;
 use crate::search::clock::{Instant, Rate};
-use crate::search::trig::sin_cos_turn;
 use crate::topology::Topology;
 
 /// Width and rate of a gap, `s` after the beginning of a step.
@@ -64,7 +63,7 @@ impl Flights {
         for (phase, component) in forced.iter_mut().zip(&self.forced) {
             *phase = component.phase(at);
         }
-        (sin_cos_turn(self.rate.turn(at)), forced)
+        (self.rate.sin_cos(at), forced)
     }
 
     /// Returns the phases at `s` after the beginning of a step.

@@ -176,10 +176,7 @@ impl TrueMotion {
     }
 
     /// Finds the next impact up to time `until`, or none if there is no impact; does not carry it
-    /// out.
-    ///
-    /// # Errors
-    /// [`Error::Input`] where a gap touches without speed, so that masses may stay together.
+    /// out. A gap that touches without speed, so that masses may stay together, is an error.
     pub fn next(&mut self, until: f64) -> Result<Option<Hit>, Error> {
         loop {
             let mut gap = 0;
@@ -248,9 +245,6 @@ impl TrueMotion {
     }
 
     /// Runs to time `until`; returns the impacts, with the state right after each.
-    ///
-    /// # Errors
-    /// As [`TrueMotion::next`].
     pub fn run(&mut self, until: f64) -> Result<Vec<(Hit, State)>, Error> {
         let mut hits = Vec::new();
         while let Some(hit) = self.next(until)? {
