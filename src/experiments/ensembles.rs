@@ -27,7 +27,6 @@ pub const fn ensembles(
 
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> = Cutting { rows, part, join };
 
-/// An ensemble with its results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Counted {
     pub ensemble: Ensemble,
@@ -37,12 +36,9 @@ pub struct Counted {
     pub curves: Vec<Curve>,
 }
 
-/// The runs at one σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunTotals {
-    /// Standard deviation σ of the amplitudes.
     pub sigma: f64,
-    /// Realisations drawn.
     pub realisations: usize,
     /// Realisations with an overlapping start.
     pub rejected: usize,
@@ -52,24 +48,11 @@ pub struct RunTotals {
 }
 
 impl Counted {
-    /// Joins the counts at each σ and the curve of each window.
-    pub fn new(ensemble: Ensemble, counts: &[Counts], curves: Vec<Curve>) -> Counted {
-        let runs = |(&sigma, counts): (&f64, &Counts)| RunTotals {
-            sigma,
-            realisations: ensemble.realisations_at(sigma),
-            rejected: counts.rejected,
-            failed: counts.failed,
-            total: counts.total.clone(),
-        };
-        Counted { runs: ensemble.sigmas.iter().zip(counts).map(runs).collect(), curves, ensemble }
-    }
-
     /// Returns the curve of a window, or none if there is no such window.
     pub fn curve(&self, transient: f64, window: f64) -> Option<&Curve> {
         self.curves.iter().find(|curve| curve.protocol == Protocol { transient, window })
     }
 
-    /// Returns the curve of the first window.
     pub fn first(&self) -> &Curve {
         &self.curves[0]
     }
@@ -77,8 +60,8 @@ impl Counted {
     /// Lists the rows of the first window with few overlapping starts.
     pub fn comparable(&self) -> impl Iterator<Item = &RisePoint> {
         let both = self.first().rows.iter().zip(&self.runs);
-        both.filter(|(row, runs)| self.ensemble.compares(row.sigma, runs.rejected))
-            .map(|(row, _)| row)
+        let few = both.filter(|(row, runs)| self.ensemble.compares(row.sigma, runs.rejected));
+        few.map(|(row, _)| row)
     }
 }
 
@@ -127,9 +110,16 @@ fn join(
     progress: &Progress,
 ) -> Result<Vec<Counted>, Error> {
     let counted = |(one, counts): (Ensemble, Vec<Counts>)| {
-        let both = one.sigmas.iter().zip(&counts);
+        let totals = |(&sigma, counts): (&f64, &Counts)| RunTotals {
+            sigma,
+            realisations: one.realisations_at(sigma),
+            rejected: counts.rejected,
+            failed: counts.failed,
+            total: counts.total.clone(),
+        };
+        let runs: Vec<RunTotals> = one.sigmas.iter().zip(&counts).map(totals).collect();
         let compared: Vec<_> =
-            both.map(|(&sigma, counts)| one.compares(sigma, counts.rejected)).collect();
+            runs.iter().map(|runs| one.compares(runs.sigma, runs.rejected)).collect();
         let gaps = one.chain.gaps() as f64 / one.pieces as f64;
         let curve = |window: usize| {
             progress.check()?;
@@ -138,7 +128,7 @@ fn join(
         };
         let windows = (0..one.protocols.len()).into_par_iter().with_max_len(1);
         let curves = windows.map(curve).collect::<Result<_, Error>>()?;
-        Ok(Counted::new(one, &counts, curves))
+        Ok(Counted { ensemble: one, runs, curves })
     };
     joined(all, parts).map(counted).collect()
 }

@@ -48,15 +48,14 @@ pub fn tables(found: &Horizon) -> Vec<Table> {
     const LEAST: &str = "least time of the first impact of another gap";
     let orders = found.twins.iter().filter_map(|pair| pair.order);
     let (times, before): (Vec<f64>, Vec<f64>) = orders.map(|(t, n)| (t, n as f64)).unzip();
+    let least = times.iter().copied().fold(f64::INFINITY, f64::min);
     let table = Table::of("horizon.twins", &[found], |found| found.twins.len())
         .computed_by(origin(run))
         .count("pairs", "pairs of twins", |found| found.twins.len() as u64)
         .chosen("sigma", SIGMA, "", |found| Some(found.parameters.sigma))
         .estimate("order", TIME, "time of the first impact of another gap", |_| average(&times))
         .estimate("impacts", "1", "impacts before it", |_| average(&before))
-        .real("first_order", TIME, 3, LEAST, |_| {
-            times.iter().copied().fold(f64::INFINITY, f64::min)
-        })
+        .real("first_order", TIME, 3, LEAST, |_| least)
         .done();
     vec![table]
 }

@@ -11,7 +11,6 @@ use literate::experiments::experiment::How::Read;
 use literate::experiments::{AnyExperiment, DerivedTables, Experiment};
 use literate::{Paper, Project, Sources};
 
-/// All experiments, in the order in which they run.
 pub const ALL: &[&dyn AnyExperiment] = &[
     &THEORY,
     &SEGMENTS,
@@ -35,7 +34,6 @@ pub const ALL: &[&dyn AnyExperiment] = &[
     &REPLAY,
 ];
 
-/// Tables that need several experiments.
 const DERIVED: [DerivedTables; 3] =
     [theory::comparison::tables, seeds::compared::tables, starts::against_theory];
 

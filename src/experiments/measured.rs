@@ -24,7 +24,6 @@ pub struct Measured {
     pub sessions: Vec<MeasuredOn>,
 }
 
-/// What was measured on one day and machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeasuredOn {
@@ -41,7 +40,6 @@ pub struct Machine {
     pub os: String,
 }
 
-/// What a row is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum What {
@@ -163,9 +161,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(Measured::committed))
         .real("thousand", "s", 2, "time of one core for a thousand chains", |row| row.thousand())
-        .real("over_engine", "1", 2, "time over the engine's on the same chains", |row| {
-            row.over_engine()
-        })
+        .real("over_engine", "1", 2, "time over the engine's", |row| row.over_engine())
         .measured();
     vec![machine.done(), impact.done(), methods.done()]
 }

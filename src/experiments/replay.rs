@@ -70,6 +70,8 @@ pub fn runs(_: Profile) -> ReplayRuns {
     let (chain, threshold) = (Chain::default, printed_threshold());
     let at_threshold = format!("Fig. 3 at σ = {threshold}");
     let hit_twice = vec![[2.0, 1.0], [0.0; 2], [-2.0, -1.0]];
+    // Towards the middle, not in mirror symmetry.
+    let pressed = (0..5).map(f64::from).map(|j| [3.0 * (4.0 - 2.0 * j) + 0.1 * j, 0.3 * j]);
     let named = [
         (&at_threshold[..], drawn(threshold, chain())),
         ("Fig. 3 at σ = 0.05, without an impact", drawn(0.05, chain())),
@@ -81,16 +83,11 @@ pub fn runs(_: Profile) -> ReplayRuns {
         ("no rebound, r = 0", drawn(0.3, Chain { restitution: 0.0, ..chain() })),
         ("a thousand masses", drawn(0.16, Chain { masses: 1000, ..chain() })),
         ("chatter: one mass comes to rest at a wall", given(vec![[5.88, -4.94]], 0.2, 20.0)),
-        ("contact: five masses are pressed together", given(pressed(), 0.2, 20.0)),
+        ("contact: five masses are pressed together", given(pressed.collect(), 0.2, 20.0)),
         ("ties: a mass is hit from both sides", given(hit_twice, 0.8, 100.0)),
         ("ties: a chain is its own mirror image", given(mirrored(), 0.8, 50.0)),
     ];
     named.map(|(name, asked)| (name.to_string(), asked)).into()
-}
-
-/// Forces towards the middle, not in mirror symmetry.
-fn pressed() -> Vec<[f64; 2]> {
-    (0..5).map(f64::from).map(|j| [3.0 * (4.0 - 2.0 * j) + 0.1 * j, 0.3 * j]).collect()
 }
 
 /// Returns the forces on 20 masses of which the right half mirrors the left.
@@ -145,9 +142,7 @@ pub fn tables(all: &Replays) -> Vec<Table> {
         .text_key("run", |((name, _), _)| name.clone())
         .computed_by(origin(run))
         .count("masses", "masses", |((_, asked), _)| asked.chain.masses as u64)
-        .chosen("until", TIME, "length of the run", |((_, asked), _)| {
-            Some(asked.transient + asked.window)
-        })
+        .chosen("until", TIME, "length", |((_, asked), _)| Some(asked.transient + asked.window))
         .count("impacts", "impacts", |(_, found)| found.impacts)
         .count("distinct", "gaps with an impact in the window", |(_, found)| found.distinct)
         .count("contact_phases", "contact phases", |(_, found)| found.contact_phases)

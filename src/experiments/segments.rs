@@ -129,9 +129,7 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
         .computed_by(origin(record))
         .real("period", "1/omega", 4, "of the orbit", |(_, one)| 0.5 * (one.until - one.from))
         .computed_by(origin(Segment::apart))
-        .real("apart", "1", 1, "largest distance between two periods, in d and 1/ω", |(_, one)| {
-            one.apart()
-        })
+        .real("apart", "1", 1, "largest distance of two periods in d and 1/ω", |row| row.1.apart())
         .done();
     vec![table, orbits]
 }
@@ -151,7 +149,6 @@ struct Saved {
     until: f64,
 }
 
-/// Replays both segments from the files of [`FILES`].
 pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
     let one = |file: &str| {
         let text = session.templates.text(file).map_err(|error| error.to_string());

@@ -83,15 +83,14 @@ impl SpaceTime {
 
 pub fn tables(found: &SpaceTime) -> Vec<Table> {
     let advances = found.advances();
+    let median = advances.get(advances.len() / 2);
     let table = Table::of("spacetime.run", &[found], |_| 1)
         .chosen("sigma", SIGMA, "standard deviation σ", |found| Some(found.parameters.sigma))
         .chosen("until", TIME, "length of the run", |found| Some(found.parameters.until))
         .computed_by(origin(SpaceTime::starts))
         .count("starts", "gaps hit when neither neighbour was", |found| found.starts().len() as u64)
         .computed_by(origin(SpaceTime::advances))
-        .real("advance_median", TIME, 3, "median step of a front", |_| {
-            advances.get(advances.len() / 2).copied()
-        })
+        .real("advance_median", TIME, 3, "median step of a front", |_| median.copied())
         .real("advance_longest", TIME, 3, "longest step of a front", |_| advances.last().copied())
         .done();
     vec![table]

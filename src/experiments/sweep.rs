@@ -70,15 +70,9 @@ fn rows(sweep: &Counted) -> Table {
         .estimate("kept", "1", KEPT, kept)
         .estimate("mean_all", "1", "gaps with an impact, mean of all", |r| r.mean_all?.estimate())
         .over(|row| row.kept)
-        .estimate("mean", "1", "gaps with an impact, mean of those with any", |row| {
-            row.mean?.estimate()
-        })
-        .estimate("impacts", "1", "impacts in the window, mean of those with any", |row| {
-            row.impacts?.estimate()
-        })
-        .estimate("masses", "1", "masses hit in the window, mean of those with any", |row| {
-            row.masses?.estimate()
-        })
+        .estimate("mean", "1", "gaps hit, mean of those with any", |row| row.mean?.estimate())
+        .estimate("impacts", "1", "impacts, mean of those with any", |row| row.impacts?.estimate())
+        .estimate("masses", "1", "masses hit, mean of those with any", |row| row.masses?.estimate())
         .done()
 }
 

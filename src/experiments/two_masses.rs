@@ -55,9 +55,7 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
 pub fn tables(found: &TwoMasses) -> Vec<Table> {
     let bound = Table::of("two_masses.bound", &[&found.parameters.directions], |_| 0)
         .computed_by(origin(safe_force))
-        .real("force", SIGMA, 4, "force amplitude below which two masses never hit", |of| {
-            safe_force(&of.chain)
-        })
+        .real("force", SIGMA, 4, "below this two masses never hit", |of| safe_force(&of.chain))
         .count("directions", "random directions of the forcing", |of| of.realisations as u64)
         .done();
     const GREATEST: &str = "largest of the least forces with an impact, over bounds";

@@ -45,7 +45,6 @@ const BIAS: [&[(f64, usize)]; 7] = [
     &[(0.1, 100), (0.01, 40)],
 ];
 
-/// Each method with each of its values.
 fn all<T: Copy>(values: &[&[T]]) -> Vec<(MethodName, T)> {
     let all = MethodName::ALL.into_iter().zip(values);
     all.flat_map(|(method, values)| values.iter().map(move |value| (method, *value))).collect()

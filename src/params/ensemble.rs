@@ -8,14 +8,12 @@ use serde::{Deserialize, Serialize};
 /// positions and velocities.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Heating {
-    /// Standard deviation of the stronger amplitudes.
     pub sigma: f64,
     /// Duration, in units of 1/ω.
     pub time: f64,
 }
 
-/// Fewer or shorter runs beyond the rise, where all chains have nearly the same count and each
-/// costs most.
+/// Fewer or shorter runs beyond the rise, where chains have nearly the same count and cost most.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Beyond {
     /// The σ above which runs are fewer or shorter, in units of d ω².
@@ -25,13 +23,11 @@ pub struct Beyond {
     pub until: Option<f64>,
 }
 
-/// Random chains with the same parameters at several σ. Realisation i has the same standard
-/// normals at every σ.
+/// Random chains at several σ. Realisation i has the same standard normals at every σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Ensemble {
     /// Name, as in the tables of results.
     pub name: String,
-    /// The chain, with its start.
     pub chain: Chain,
     /// A stronger force at first, for chains that come from larger σ.
     pub heating: Option<Heating>,
@@ -41,19 +37,13 @@ pub struct Ensemble {
     pub protocols: Vec<Protocol>,
     /// Number of the first realisation.
     pub first: u64,
-    /// Realisations at each σ.
     pub realisations: usize,
-    /// Fewer or shorter runs beyond the rise.
     pub beyond: Option<Beyond>,
-    /// Share of overlapping starts above which a σ is left out when the places of the rise are
-    /// found.
+    /// Share of overlapping starts above which a σ has no part in the places of the rise.
     pub most_rejected: f64,
-    /// Pieces of about equal length into which a long chain is cut; each is counted like a
-    /// realisation.
+    /// Pieces of about equal length of a chain, of which each is counted like a realisation.
     pub pieces: usize,
-    /// Name of the random stream.
     pub stream: String,
-    /// Master seed.
     pub seed: u64,
 }
 
@@ -77,7 +67,6 @@ impl Default for Ensemble {
 }
 
 impl Ensemble {
-    /// Returns the number of realisations at a σ.
     pub fn realisations_at(&self, sigma: f64) -> usize {
         self.beyond(sigma).and_then(|less| less.realisations).unwrap_or(self.realisations)
     }
@@ -103,8 +92,7 @@ impl Ensemble {
         // Impacts per unit of time and mass, of the paper's chain, roughly.
         let rate = |sigma: f64| (1.6 * (sigma - 0.085)).clamp(0.0, 0.3);
         let impacts = match self.heating {
-            // After a stronger force impacts go on at lower σ, roughly as those from rest at
-            // σ + 0.03.
+            // Impacts go on at lower σ, roughly as those from rest at σ + 0.03.
             Some(hot) => hot.time * rate(hot.sigma) + self.until(sigma) * rate(sigma + 0.03),
             None => self.until(sigma) * rate(sigma),
         };
@@ -113,9 +101,6 @@ impl Ensemble {
 
     /// Runs a realisation at a σ, `index` after the first, and counts its impacts; ends early, with
     /// incomplete counts, when `stopped` returns true.
-    ///
-    /// # Errors
-    /// [`Error::Input`] if the chain is not allowed.
     pub fn realisation(
         &self,
         sigma: f64,
@@ -135,7 +120,6 @@ impl Ensemble {
         Ok(counts)
     }
 
-    /// Counts the gaps that are hit in each piece.
     fn cut(&self, hit: &[bool]) -> Vec<Option<u32>> {
         let ends = |piece| piece * hit.len() / self.pieces;
         let count = |piece| hit[ends(piece)..ends(piece + 1)].iter().map(|&hit| u32::from(hit));

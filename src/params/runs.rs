@@ -39,7 +39,6 @@ impl Runs {
     }
 }
 
-/// Two masses under a low force.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TwoMassesParams {
     /// Random directions of the forcing, as amplitudes with σ = 1.

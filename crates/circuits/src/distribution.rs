@@ -82,7 +82,6 @@ impl Law {
         Ok(Law { space, big_n, p })
     }
 
-    /// Lists the weights of k = 1..=N, in order.
     pub(crate) fn weights(&self) -> impl Iterator<Item = Weights> + use<> {
         let mut next = Weights::new(self.space, self.big_n, DoubleDouble::from(self.p));
         (1..=self.big_n).map(move |k| {

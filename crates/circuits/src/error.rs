@@ -35,7 +35,6 @@ impl Error {
 /// proportion to N, and is some seconds at this bound.
 pub const LARGEST_N: usize = 10_000_000;
 
-/// Refuses a number outside [low, high].
 pub(crate) fn within<T: PartialOrd + Debug>(
     field: &'static str,
     x: T,
@@ -49,7 +48,6 @@ pub(crate) fn within<T: PartialOrd + Debug>(
     Err(Error::new(field, format!("{x:?} is out of range"), remedy))
 }
 
-/// Refuses a number of vertices outside 1..=[`LARGEST_N`].
 pub(crate) fn check_vertices(big_n: usize) -> Result<(), Error> {
     within("vertices", big_n, 1, LARGEST_N)
 }

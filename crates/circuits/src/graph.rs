@@ -26,7 +26,6 @@ impl Graph {
         Graph { labels: (0..=masses).map(|j| format!("{}-{}", body(j), body(j + 1))).collect() }
     }
 
-    /// Number of vertices N = n + 1.
     pub fn vertices(&self) -> usize {
         self.labels.len()
     }

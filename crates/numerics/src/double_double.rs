@@ -54,7 +54,6 @@ impl DoubleDouble {
         DoubleDouble { hi: self.hi * factor, lo: self.lo * factor }
     }
 
-    /// Returns the nearest double.
     pub fn to_f64(self) -> f64 {
         self.hi + self.lo
     }

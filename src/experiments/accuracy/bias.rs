@@ -4,7 +4,6 @@ use crate::experiments::prelude::*;
 use crate::params::{BiasParams, Runs, Setting};
 use rayon::prelude::*;
 
-/// All realisations by all methods.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Biases {
     pub parameters: BiasParams,
@@ -18,33 +17,22 @@ pub type GapCount = Option<u32>;
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
     let stage = progress.stage("error of the mean", parameters.runs());
     let settings = |chains: &Runs| {
-        let one = |&(setting, realisations): &(Setting, usize)| {
-            let count = |index| {
+        let one = |&(Setting { method, value }, realisations): &(Setting, usize)| {
+            let method = method.with(value);
+            each(&stage, progress, 0..realisations as u64, |index| {
                 let scenario = chains.scenario(index);
-                let window = (parameters.transient, chains.until);
-                let counted = count(setting, &scenario, window, progress);
-                progress.check().map(|()| counted)
-            };
-            each(&stage, progress, 0..realisations as u64, count)
+                let mut hit = vec![false; scenario.gaps()];
+                let mut see = |impact: Impact| {
+                    hit[impact.gap] |= impact.time > parameters.transient;
+                    !progress.stopped()
+                };
+                let ran = method.run((&scenario, &State::of(&scenario), chains.until), &mut see);
+                progress.check()?;
+                Ok(ran.ok().map(|_| hit.iter().map(|hit| u32::from(*hit)).sum()))
+            })
         };
         parameters.settings.par_iter().map(one).collect()
     };
     let runs = parameters.chains.par_iter().map(settings).collect::<Result<_, Error>>()?;
     Ok(Biases { runs, parameters: parameters.clone() })
-}
-
-fn count(
-    setting: Setting,
-    scenario: &Scenario,
-    (transient, end): (f64, f64),
-    progress: &Progress,
-) -> GapCount {
-    let mut hit = vec![false; scenario.gaps()];
-    let mut see = |impact: Impact| {
-        hit[impact.gap] |= impact.time > transient;
-        !progress.stopped()
-    };
-    let method = setting.method.with(setting.value);
-    let ran = method.run((scenario, &State::of(scenario), end), &mut see).ok();
-    ran.map(|_| hit.iter().map(|hit| u32::from(*hit)).sum())
 }

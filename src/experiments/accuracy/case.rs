@@ -17,7 +17,6 @@ pub struct Scene {
     pub cases: Vec<Case>,
 }
 
-/// One run and its expected outcome.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
@@ -76,11 +75,8 @@ pub enum Outcome {
     Missed,
     /// An impact where there is none, or one too early.
     Ghost,
-    /// The right impact at a wrong time.
     Late,
-    /// Another closing speed.
     WrongSpeed,
-    /// Motion where there should be rest.
     WrongRest,
     /// The bound on work was passed.
     GaveUp,
@@ -91,7 +87,6 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// Returns the outcome in words, as a table gives it.
     pub fn words(self) -> &'static str {
         match self {
             Outcome::Right => "right",

@@ -51,7 +51,6 @@ impl Entry {
     }
 }
 
-/// The true motion of one chain.
 struct Course {
     scenario: Scenario,
     hits: Vec<(Hit, State)>,

@@ -80,7 +80,6 @@ pub(super) fn distance(pair: &Pair, without: Option<usize>) -> Option<f64> {
 }
 
 impl Pair {
-    /// Returns all pairs, by length and transient.
     pub fn all(found: &[Chains]) -> Vec<Pair> {
         let mut keys: Vec<(usize, f64)> = Vec::new();
         for Chains { ensemble, .. } in found {

@@ -42,9 +42,7 @@ fn single(gaps: &[Gaps]) -> Table {
     Table::of("nucleation.gaps", gaps, |_| 0)
         .key("sigma", SIGMA, |row| row.sigma)
         .real("p", "1", 2, "chance of a gap between masses to close by itself", |row| row.ever.p)
-        .real("neighbour", "1", 2, "that of a gap between masses if its neighbour does", |row| {
-            row.ever.pair / row.ever.p
-        })
+        .real("neighbour", "1", 2, "that if its neighbour does", |row| row.ever.pair / row.ever.p)
         .done()
 }
 

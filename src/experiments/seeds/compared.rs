@@ -55,12 +55,8 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let later = |column| Some(difference(swept?, after(transient, column)?));
     let compared = Table::of("seeds.compared", &[()], |()| seeds.realisations)
         .count("sigmas", "values of σ that seeds and map have", |()| sigmas.len() as u64)
-        .estimate("early", SIGMA, "half height of the main sweep less this", |()| {
-            later("half_height")
-        })
-        .estimate("of_clumps", SIGMA, "the same if only clumps of gaps are seeds", |()| {
-            later("of_clumps")
-        })
+        .estimate("early", SIGMA, "half height of the sweep less this", |()| later("half_height"))
+        .estimate("of_clumps", SIGMA, "the same if only clumps are seeds", |()| later("of_clumps"))
         .done();
     Some(vec![scores, compared])
 }

@@ -11,7 +11,6 @@ use std::f64::consts::LN_10;
 /// Gaps of the chain whose simple circuits are enumerated.
 const ENUMERATED: usize = 7;
 
-/// Makes the table of Sec. 3.
 pub(super) fn graph() -> Table {
     let vertices = Graph::of_chain(3).vertices() as u64;
     one("theory.graph", origin(Graph::of_chain))
@@ -27,19 +26,17 @@ pub fn shares() -> [Vec<f64>; 2] {
     [shares, (1..=VERTICES).map(logarithm).collect()]
 }
 
-/// Makes the table of Sec. 5.
 pub(super) fn lengths() -> Table {
     const EXCEPTIONS: &str = "lengths k < N with over a tenth as many circuits as N";
     let (shares, _) = known(counting::shares(VERTICES));
     let ratio = |k| counting::ratio_to_longest(VERTICES, k);
+    let far = largest((1..VERTICES - 3).map(ratio));
     let exceptions = (1..VERTICES).filter(|&k| ratio(k) > 0.1).count();
     let peak = (1..=VERTICES).max_by(|a, b| shares[a - 1].total_cmp(&shares[b - 1]));
     let long = sum(shares[VERTICES - 4..].iter().copied());
     one("theory.lengths", origin(counting::ratio_to_longest))
         .real("before_last", "1", 4, "Eq. (8) at k = N − 1", |()| ratio(VERTICES - 1))
-        .real("largest_far", "1", 2, "the largest for k < N − 3", |()| {
-            largest((1..VERTICES - 3).map(ratio))
-        })
+        .real("largest_far", "1", 2, "the largest for k < N − 3", |()| far)
         .count("exceptions", EXCEPTIONS, |()| exceptions as u64)
         .computed_by(origin(counting::shares))
         .count("peak", "the most frequent length", |()| peak.unwrap_or(VERTICES) as u64)

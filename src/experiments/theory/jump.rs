@@ -11,7 +11,6 @@ use impact_numerics::roots;
 
 const N: f64 = VERTICES as f64;
 
-/// Makes the table of Sec. 7.
 pub(super) fn numbers() -> Table {
     let p_crit = |vertices| known(jump::p_crit(vertices));
     let (crit, leap) = (p_crit(VERTICES), known(jump::p_jump(Simple, VERTICES)));

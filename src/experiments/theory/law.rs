@@ -21,7 +21,6 @@ pub fn k_star(p: f64) -> usize {
     law(Simple, p).k_star()
 }
 
-/// Makes the table of Fig. 8.
 pub(super) fn distributions() -> Table {
     Table::of("theory.distribution", &DISTRIBUTION_P, |_| 0)
         .computed_by(origin(Law::mean))
@@ -45,7 +44,6 @@ pub fn means() -> Vec<(f64, f64)> {
     grid.into_iter().map(|p| (p, law(Simple, p).mean())).collect()
 }
 
-/// Makes the table of Fig. 9.
 pub(super) fn mean() -> Table {
     let mut heights: Vec<usize> = steps().windows(2).map(|w| w[1].1 - w[0].1).collect();
     heights.sort_unstable_by(|a, b| b.cmp(a));

@@ -19,19 +19,8 @@ pub fn tables() -> Vec<Table> {
     let ((curve, relation), large) =
         rayon::join(|| rayon::join(relation::curve, relation::relation), large::large);
     let higher = higher::higher(&curve, &relation);
-    vec![
-        counts::graph(),
-        counts::lengths(),
-        counts::commuting_circuits(),
-        law::distributions(),
-        law::mean(),
-        jump::numbers(),
-        jump::first_maximum(),
-        large,
-        higher::classes(),
-        higher,
-        relation::gaps(),
-        curve,
-        relation,
-    ]
+    let mut tables = vec![counts::graph(), counts::lengths(), counts::commuting_circuits()];
+    tables.extend([law::distributions(), law::mean(), jump::numbers(), jump::first_maximum()]);
+    tables.extend([large, higher::classes(), higher, relation::gaps(), curve, relation]);
+    tables
 }

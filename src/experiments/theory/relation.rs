@@ -99,7 +99,6 @@ fn eq25() -> f64 {
     }))
 }
 
-/// Makes the table of Sec. 8.
 pub(super) fn relation() -> Table {
     const KEPT_HALF: &str = "σ at which half of the chains have a seed";
     const KEPT_ONSET: &str = "σ at which enough have one for the onset";
