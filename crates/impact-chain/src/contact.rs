@@ -117,13 +117,12 @@ impl<const M: usize> Simulation<M> {
     /// gaps, settles each run, and takes new frames of all gaps that were touched.
     fn settle_runs(
         &mut self,
-        changed: BTreeMap<usize, Changed>,
+        mut known: BTreeMap<usize, Changed>,
         p: &Phases<M>,
         released: Option<usize>,
     ) {
         // Grow by neighbours of settled gaps that are shut and slow too, or in contact.
-        let mut order: Vec<usize> = changed.keys().copied().collect();
-        let mut known = changed;
+        let mut order: Vec<usize> = known.keys().copied().collect();
         let mut next = 0;
         while let Some(&k) = order.get(next) {
             next += 1;
@@ -151,13 +150,10 @@ impl<const M: usize> Simulation<M> {
         for run in self.runs(&known) {
             let rates: Vec<f64> = run.iter().map(|k| known[k].rate).collect();
             let [first, last] = self.settle_run(&run, &rates, p, released);
-            let [before, _] = self.topology.adjacent(run[0]);
-            let [_, after] = self.topology.adjacent(run[run.len() - 1]);
-            if let Some(near) = before {
-                *jumps.entry(near).or_default() += first;
-            }
-            if let Some(near) = after {
-                *jumps.entry(near).or_default() -= last;
+            let before = self.topology.adjacent(run[0])[0].map(|near| (near, first));
+            let after = self.topology.adjacent(run[run.len() - 1])[1].map(|near| (near, -last));
+            for (near, jump) in before.into_iter().chain(after) {
+                *jumps.entry(near).or_default() += jump;
             }
             if run.len() > 1 {
                 known.extend(run.into_iter().map(|k| (k, STILL)));
@@ -245,10 +241,9 @@ impl<const M: usize> Simulation<M> {
     }
 
     /// Returns the jumps of velocity of the first and the last mass along `gaps` when all take a
-    /// common one.
+    /// common one. Velocities are relative to that of the first.
     fn jumps_of_run(&self, gaps: &[usize], rates: &[f64]) -> [f64; 2] {
         let members = self.members(gaps);
-        // Each relative to the first.
         let mut last = 0.0;
         let mut velocities = vec![last];
         for rate in rates {

@@ -162,16 +162,12 @@ impl Watch {
         let [left, right] = self.topology.adjacent(gap);
         let last = |near: Option<usize>| near.map_or(f64::NEG_INFINITY, |near| self.last[near]);
         let since = impact.time - last(left).max(last(right));
-        for (count, &within) in self.total.near.iter_mut().zip(&NEAR_DECADES) {
-            if since > within {
-                break;
-            }
+        let near = self.total.near.iter_mut().zip(&NEAR_DECADES);
+        for (count, _) in near.take_while(|(_, within)| since <= **within) {
             *count += 1;
         }
-        for (count, &below) in self.total.slow.iter_mut().zip(&SLOW_DECADES) {
-            if impact.closing_speed >= below {
-                break;
-            }
+        let slow = self.total.slow.iter_mut().zip(&SLOW_DECADES);
+        for (count, _) in slow.take_while(|(_, below)| impact.closing_speed < **below) {
             *count += 1;
         }
         self.last[gap] = impact.time;

@@ -67,8 +67,8 @@ impl Engine {
         call!(&mut self.0, simulation => simulation.run(until, sink))
     }
 
-    /// Returns positions and velocities at a time from the last event to the next: right after
-    /// [`run`](Engine::run), at the time to which it ran. [`State::as_scenario`] goes on from there.
+    /// Returns positions and velocities at a time from the last event to the next, as that to which
+    /// [`run`](Engine::run) ran. [`State::as_scenario`] goes on from there.
     pub fn state(&self, time: f64) -> Result<State, Error> {
         call!(&self.0, simulation => simulation.state(time))
     }

@@ -44,10 +44,8 @@ impl<const M: usize> Simulation<M> {
         let n = scenario.forcing.len();
         let topology = Topology::new(n, scenario.boundary);
         let shifts: Vec<f64> = (0..n + 2).map(|m| scenario.shift(m)).collect();
-        let mut motions = Vec::with_capacity(n + 2);
-        for &offset in &shifts {
-            motions.push(Motion { offset, ..Motion::STILL });
-        }
+        let still = |&offset: &f64| Motion { offset, ..Motion::STILL };
+        let mut motions: Vec<Motion<M>> = shifts.iter().map(still).collect();
         let mut responses = vec![[[0.0; 2]; M]; n + 2];
         for j in 0..n {
             let amplitudes = scenario.amplitudes::<M>(j);

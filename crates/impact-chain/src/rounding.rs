@@ -28,10 +28,8 @@ pub const TIME: f64 = 66.3;
 /// Returns E = C ε S at the start, with a bound of S over all gaps: rounding may change the width
 /// of a gap by E, and the time of an impact at closing speed v by E/v.
 pub fn width(scenario: &Scenario) -> f64 {
-    let mut largest = 0.0_f64;
-    for j in 0..scenario.forcing.len() {
-        largest = largest.max(amplitude(scenario, j));
-    }
+    let amplitudes = (0..scenario.forcing.len()).map(|j| amplitude(scenario, j));
+    let largest = amplitudes.fold(0.0, f64::max);
     // A gap that is wider at rest than both amplitudes cannot close.
     let mut mean = scenario.spacing;
     if scenario.places.is_some() {

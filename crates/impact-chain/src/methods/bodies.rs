@@ -104,9 +104,8 @@ impl Bodies {
         sum
     }
 
-    /// Makes a step of flight with all bodies: v' = `keep` v + `pull` u + forces, where `waves`
-    /// gives the factors of the amplitudes (cos, sin) of each component; then u' = u + `drift` (v,
-    /// v').
+    /// Makes a step of flight with all bodies: v' = `keep` v + `pull` u + forces, where `waves` has
+    /// the factors of the amplitudes (cos, sin) of a component; then u' = u + `drift` (v, v').
     #[inline(always)]
     pub fn fly(
         &mut self,

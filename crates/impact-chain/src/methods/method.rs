@@ -36,8 +36,7 @@ pub trait Method: Sync {
     /// Runs a task and hands each impact to `sink`, which stops the run right after that impact by
     /// returning false.
     ///
-    /// A gap of the start that is shut up to rounding counts as shut; it is hit only if it is
-    /// closing.
+    /// A gap of the start that is shut up to rounding counts as shut; it is hit if it is closing.
     ///
     /// # Errors
     /// [`Error::Input`] for a scenario, start, step or tolerance outside the model,

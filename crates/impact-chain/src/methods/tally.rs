@@ -5,9 +5,8 @@ use super::steps::{MAX_STEPS, too_many};
 use crate::topology::Topology;
 use crate::{Error, Impact, Scenario, Sink};
 
-/// The largest mean number of events per gap within one unit of time 1/ω; beyond it a run is given
-/// up. A rival that cannot rest in contact has infinitely many impacts in a finite time
-/// there.
+/// The largest mean number of events per gap within one unit of time 1/ω. A rival that cannot rest
+/// in contact has infinitely many impacts in a finite time there.
 const EVENTS_PER_GAP: u64 = 10_000;
 
 /// Why a run ends early: an error, or none if the receiver of the impacts stopped it.

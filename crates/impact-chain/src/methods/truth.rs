@@ -179,12 +179,8 @@ impl TrueMotion {
     /// out. A gap that touches without speed, so that masses may stay together, is an error.
     pub fn next(&mut self, until: f64) -> Result<Option<Hit>, Error> {
         loop {
-            let mut gap = 0;
-            for k in 1..self.open.len() {
-                if self.open[k] < self.open[gap] {
-                    gap = k;
-                }
-            }
+            let earlier = |a: usize, b: usize| if self.open[b] < self.open[a] { b } else { a };
+            let gap = (1..self.open.len()).fold(0, earlier);
             let time = self.open[gap];
             if time > dd(until) {
                 return Ok(None);
