@@ -283,13 +283,14 @@ impl<const M: usize> Simulation<M> {
 
     /// Takes one event of gap k from the budget of the current unit of time.
     fn spend(&mut self, k: usize) -> Result<(), Error> {
-        let bound = EVENTS_PER_GAP * self.gaps.len() as u64;
+        let bound = |gaps: usize| EVENTS_PER_GAP * gaps as u64;
         if self.now >= self.budget_end {
             self.budget_end = self.now.after(1.0 / self.search.frequencies.omega);
-            self.budget_left = bound;
+            self.budget_left = bound(self.gaps.len());
         }
         if self.budget_left == 0 {
-            return Err(Error::Work { gap: self.topology.label(k), time: self.now.time(), bound });
+            let (gap, time) = (self.topology.label(k), self.now.time());
+            return Err(Error::Work { gap, time, bound: bound(self.gaps.len()) });
         }
         self.budget_left -= 1;
         Ok(())
