@@ -4,9 +4,9 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use impact_chain::{Engine, Ensemble, Scenario};
+use impact_chain::{Engine, Scenario};
 use impact_numerics::random::NormalPairs;
-use impact_paper::params::Chain;
+use impact_paper::params::{Chain, Ensemble};
 
 fn main() {
     divan::main();

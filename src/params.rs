@@ -6,15 +6,16 @@
 
 mod accuracy;
 mod chosen;
+mod ensemble;
 mod ensembles;
 mod grid;
 mod methods;
 mod nucleation;
-mod printed;
 mod runs;
 
 pub use accuracy::{BENCH, BiasParams, RaceParams, ScaleParams, trial_settings};
 pub use chosen::*;
+pub use ensemble::{Beyond, Ensemble, Heating, lowered};
 pub use ensembles::*;
 pub use grid::Grid;
 pub use impact_chain::{Boundary, Chain, Protocol, Start};
@@ -22,5 +23,4 @@ pub use impact_numerics::estimates::LEVEL;
 pub use literate::experiments::Profile;
 pub use methods::{MethodName, Setting};
 pub use nucleation::{NucleationParams, SeedsParams};
-pub use printed::{printed_interval, printed_threshold};
 pub use runs::{Runs, TwoMassesParams};

@@ -2,6 +2,7 @@
 
 use super::sec2::NEGLIGIBLE;
 use super::shared::*;
+use crate::experiments::ensembles::Counted;
 use crate::experiments::protocol::range;
 use crate::experiments::starts::share_of_start;
 use crate::experiments::sweep;
@@ -9,7 +10,7 @@ use crate::experiments::theory::comparison::{self, LARGE_SIGMA, largest_distance
 use crate::experiments::{LENGTHS, PROTOCOL, RESTITUTION, STARTS};
 use crate::params::{Protocol, VERTICES};
 use impact_chain::counts::Total;
-use impact_chain::rise::{Counted, RisePoint};
+use impact_chain::rise::RisePoint;
 use impact_numerics::estimates::share;
 use impact_numerics::statistics::{Estimate, wilson};
 

@@ -1,7 +1,6 @@
 //! Makes the rules that several sections have in common, and gives the others what they share.
 
-use crate::experiments::ensembles::named;
-use crate::experiments::rise::Counted;
+use crate::experiments::ensembles::{Counted, named};
 pub use literate::claims::Basis::{OurMeasure, PrintedDigit, Rounding};
 pub use literate::claims::Error::{self, Undecided};
 pub use literate::claims::{Check, Evidence, Judged, Kind, Rule, Text};
@@ -26,9 +25,10 @@ pub fn by_windows(
     tolerance: impl Into<Text>,
     reason: &str,
 ) -> Check {
-    match agree == 0 || agree == all {
-        true => e.found(found, agree > 0).within(tolerance, reason),
-        false => e.open(found),
+    if agree == 0 || agree == all {
+        e.found(found, agree > 0).within(tolerance, reason)
+    } else {
+        e.open(found)
     }
 }
 

@@ -3,11 +3,10 @@
 use super::range::{Values, values, within};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
 use impact_chain::rise::{Mean, RisePoint};
-use impact_chain::{Boundary, Chain, Counts, Engine, Ensemble, Protocol, Start};
-use impact_chain::{Graze, LATEST};
+use impact_chain::{Boundary, Chain, Counts, Graze, LATEST, Protocol, Start};
 use impact_paper::experiments::Progress;
 use impact_paper::experiments::ensembles::CUTTING;
-use impact_paper::params::SEED;
+use impact_paper::params::{Ensemble, SEED};
 use literate::Failure;
 use literate::cli::terminal::{Threads, print, warn};
 use literate::experiments::cutting::Cutting;
@@ -153,11 +152,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
         seed: args.seed,
         ..Ensemble::default()
     };
-    // Each thread has a chain, and a few words for each of its gaps; each realisation leaves its
-    // counts.
+    // Each thread has a chain, 300 bytes a mass, and a few words for each of its gaps; each
+    // realisation leaves its counts.
     let threads = args.threads.number() as u128;
-    let chain = Engine::memory(args.masses, 1) + 64 * args.masses as u128;
-    let needed = threads * chain + (1 << 10) * realisations as u128;
+    let needed = threads * 360 * args.masses as u128 + (1 << 10) * realisations as u128;
     fits(needed)?;
     if end > LATEST {
         return Err(Failure::input(
@@ -200,7 +198,7 @@ fn warn_of_doubts(ensemble: &Ensemble, sigma: f64, counts: &Counts) {
             "sigma {sigma:?}: {failed} of {all} realisations ended early and are in no mean"
         ));
     }
-    if rejected as f64 > ensemble.most_rejected * all as f64 {
+    if !ensemble.compares(sigma, rejected) {
         warn(&format!(
             "sigma {sigma:?}: {rejected} of {all} starts overlapped and were rejected; the row is not \
              comparable with others"

@@ -137,7 +137,7 @@ fn method_names() -> impl TypedValueParser<Value = MethodName> {
         PossibleValue::new(method.id()).help(line.replace("{}", &option))
     };
     let names: Vec<PossibleValue> = METHODS.iter().map(name).collect();
-    PossibleValuesParser::new(names).try_map(MethodName::try_from)
+    PossibleValuesParser::new(names).try_map(|name| serde_json::from_value(name.into()))
 }
 
 const SCENARIO_HELP: &str = r#"The scenario, with the defaults of everything but "forcing":

@@ -1,17 +1,17 @@
 //! Makes experiments of ensembles of chains, which are cut into units by σ and realisation and
 //! joined to curves.
 
-use crate::params::Profile;
-use impact_chain::rise::{Counted, Curve};
-use impact_chain::{Counts, Ensemble};
+use crate::params::{Ensemble, Profile, Protocol};
+use impact_chain::counts::{Counts, Total};
+use impact_chain::rise::{Curve, RisePoint};
 use literate::experiments::cutting::{Cutting, Unit, UnitRow};
 use literate::experiments::experiment::How::Cut;
 use literate::experiments::progress::Stage;
 use literate::experiments::{Error, Experiment, Progress};
 use literate::table::Table;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
-/// An experiment that is ensembles of chains.
 pub type Ensembles = Experiment<Vec<Ensemble>, Vec<Counted>, Counts>;
 
 /// Returns an experiment with these ensembles and tables; people who wait see its title.
@@ -25,8 +25,45 @@ pub const fn ensembles(
     Experiment { name, code, parameters, how: Cut(title, CUTTING), tables }
 }
 
-/// How ensembles are cut into units, and joined.
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> = Cutting { rows, part, join };
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Counted {
+    pub ensemble: Ensemble,
+    /// Totals of whole runs, for each σ.
+    pub runs: Vec<RunTotals>,
+    /// Counts against σ, for each window.
+    pub curves: Vec<Curve>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunTotals {
+    pub sigma: f64,
+    pub realisations: usize,
+    /// Realisations with an overlapping start.
+    pub rejected: usize,
+    /// Realisations that the engine ended early.
+    pub failed: usize,
+    pub total: Total,
+}
+
+impl Counted {
+    /// Returns the curve of a window, or none if there is no such window.
+    pub fn curve(&self, transient: f64, window: f64) -> Option<&Curve> {
+        self.curves.iter().find(|curve| curve.protocol == Protocol { transient, window })
+    }
+
+    pub fn first(&self) -> &Curve {
+        &self.curves[0]
+    }
+
+    /// Lists the rows of the first window with few overlapping starts.
+    pub fn comparable(&self) -> impl Iterator<Item = &RisePoint> {
+        let both = self.first().rows.iter().zip(&self.runs);
+        let few = both.filter(|(row, runs)| self.ensemble.compares(row.sigma, runs.rejected));
+        few.map(|(row, _)| row)
+    }
+}
 
 /// Lists each ensemble with each of its σ.
 fn cases(all: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
@@ -42,7 +79,6 @@ pub fn rows(all: &Vec<Ensemble>) -> Vec<UnitRow> {
     cases(all).map(row).collect()
 }
 
-/// Counts the realisations of a unit.
 pub fn part(
     all: &Vec<Ensemble>,
     unit: &Unit,
@@ -59,23 +95,42 @@ pub fn part(
     Ok(unit.each(stage, one)?.into_iter().collect())
 }
 
+/// Lists each ensemble with its counts at each σ.
+pub fn joined(
+    all: &[Ensemble],
+    parts: Vec<Vec<Counts>>,
+) -> impl Iterator<Item = (Ensemble, Vec<Counts>)> {
+    let mut at_each = parts.into_iter().map(Counts::from_iter);
+    all.iter().map(move |one| (one.clone(), at_each.by_ref().take(one.sigmas.len()).collect()))
+}
+
 fn join(
     all: &Vec<Ensemble>,
     parts: Vec<Vec<Counts>>,
     progress: &Progress,
 ) -> Result<Vec<Counted>, Error> {
-    let mut parts = parts.into_iter();
-    let counted = |one: &Ensemble| {
-        let at_each = parts.by_ref().take(one.sigmas.len());
-        let counts: Vec<Counts> = at_each.map(|parts| parts.into_iter().collect()).collect();
-        let curve = |window| {
+    let counted = |(one, counts): (Ensemble, Vec<Counts>)| {
+        let totals = |(&sigma, counts): (&f64, &Counts)| RunTotals {
+            sigma,
+            realisations: one.realisations_at(sigma),
+            rejected: counts.rejected,
+            failed: counts.failed,
+            total: counts.total.clone(),
+        };
+        let runs: Vec<RunTotals> = one.sigmas.iter().zip(&counts).map(totals).collect();
+        let compared: Vec<_> =
+            runs.iter().map(|runs| one.compares(runs.sigma, runs.rejected)).collect();
+        let gaps = one.chain.gaps() as f64 / one.pieces as f64;
+        let curve = |window: usize| {
             progress.check()?;
-            Ok(Curve::new(one, &counts, window))
+            let protocol = (window, one.protocols[window]);
+            Ok(Curve::new(protocol, &one.sigmas, &counts, &compared, gaps, one.seed))
         };
         let windows = (0..one.protocols.len()).into_par_iter().with_max_len(1);
-        Ok(Counted::new(one.clone(), &counts, windows.map(curve).collect::<Result<_, Error>>()?))
+        let curves = windows.map(curve).collect::<Result<_, Error>>()?;
+        Ok(Counted { ensemble: one, runs, curves })
     };
-    all.iter().map(counted).collect()
+    joined(all, parts).map(counted).collect()
 }
 
 /// Returns the results of a function on each item, on all threads; the stage advances by one for
@@ -96,7 +151,6 @@ pub fn each<A: Send, R: Send>(
     all.into_par_iter().with_max_len(1).map(one).collect()
 }
 
-/// Returns the ensemble of a name.
 pub fn named<'a>(all: &'a [Counted], name: &str) -> Option<&'a Counted> {
     all.iter().find(|one| one.ensemble.name == name)
 }

@@ -1,8 +1,6 @@
-//! Runs chains of several lengths from rest, and chains with a random start, after several
-//! transients.
+//! Runs chains of several lengths from rest, and with a random start after several transients.
 
 use super::ensembles::{Ensembles, ensembles};
-use super::half_height::HALF_HEIGHT;
 use crate::experiments::prelude::*;
 use crate::params;
 use impact_chain::Start;
@@ -42,15 +40,13 @@ fn random(found: &[Counted]) -> Table {
         .done()
 }
 
-/// Makes the table of the longest chains.
 fn all(found: &[Counted]) -> Table {
-    let longest = found.iter().max_by_key(|one| one.ensemble.chain.masses);
+    const STRETCH: &str = "masses of a stretch of them that is counted like a chain";
+    let longest = found.iter().map(|one| &one.ensemble).max_by_key(|one| one.chain.masses);
+    let stretch = longest.map(|one| (one.chain.masses / one.pieces) as f64);
+    let longest = longest.map(|one| one.chain.masses as f64);
     Table::of("lengths.all", &[()], |()| 0)
-        .chosen("longest", "1", "masses of the longest chains", |()| {
-            longest.map(|one| one.ensemble.chain.masses as f64)
-        })
-        .chosen("stretch", "1", "masses of a stretch of them that is counted like a chain", |()| {
-            longest.map(|one| (one.ensemble.chain.masses / one.ensemble.pieces) as f64)
-        })
+        .chosen("longest", "1", "masses of the longest chains", |()| longest)
+        .chosen("stretch", "1", STRETCH, |()| stretch)
         .done()
 }

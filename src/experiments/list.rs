@@ -1,4 +1,5 @@
-//! Lists the experiments in the order in which they run, and the tables that need several of them.
+//! Lists the experiments in the order in which they run, the tables that need several of them, and
+//! what all saved results depend on; and makes the paper with these alone.
 
 use super::{
     BIAS, BRANCHES, HORIZON, LENGTHS, MEASURED, NUCLEATION, PROTOCOL, RACE, REPLAY, RESTITUTION,
@@ -8,8 +9,8 @@ use super::{
 use crate::params;
 use literate::experiments::experiment::How::Read;
 use literate::experiments::{AnyExperiment, DerivedTables, Experiment};
+use literate::{Paper, Project, Sources};
 
-/// All experiments, in the order in which they run.
 pub const ALL: &[&dyn AnyExperiment] = &[
     &THEORY,
     &SEGMENTS,
@@ -33,8 +34,7 @@ pub const ALL: &[&dyn AnyExperiment] = &[
     &REPLAY,
 ];
 
-/// Tables that need several experiments.
-pub const DERIVED: [DerivedTables; 3] =
+const DERIVED: [DerivedTables; 3] =
     [theory::comparison::tables, seeds::compared::tables, starts::against_theory];
 
 /// The graph theory, which costs nothing and is never saved.
@@ -48,3 +48,55 @@ pub const THEORY: Experiment<serde_json::Value, ()> = Experiment {
         [theory, identities].concat()
     },
 };
+
+/// What every result depends on.
+const SHARED: &[&str] = &[
+    "Cargo.lock",
+    "crates/numerics/src",
+    "crates/impact-chain/src",
+    "crates/circuits/src",
+    "crates/literate/src/experiments/cutting.rs",
+    "src/params.rs",
+    "src/params",
+    "src/experiments/ensembles.rs",
+];
+
+/// What changes no result although files name it that experiments list, and why.
+const LEFT_OUT: &[(&str, &str)] = &[
+    ("/tables.rs", "tables are computed from saved results each time"),
+    ("crates/literate/src", "runs experiments and saves their results, and computes none"),
+    ("src/experiments/mod.rs", "declares modules"),
+    ("src/experiments/prelude.rs", "names what stands elsewhere"),
+    ("src/experiments/horizon.rs", "of the methods only the race has a horizon, and it lists this"),
+    ("src/experiments/protocol.rs", "seeds/compared.rs compares results, and no run does"),
+    ("src/experiments/theory/comparison.rs", "seeds/compared.rs compares results, and no run does"),
+];
+
+/// The crates as paths of items name them, and the folders of their source.
+const CRATES: &[(&str, &str)] = &[
+    ("impact_numerics", "crates/numerics/src"),
+    ("impact_chain", "crates/impact-chain/src"),
+    ("impact_circuits", "crates/circuits/src"),
+    ("literate", "crates/literate/src"),
+    ("", "src"),
+];
+
+/// Returns the paper with its experiments, without figures, claims and documents.
+pub fn bare() -> Paper {
+    let sources = Sources { crates: CRATES, ..literate::sources!("src", "crates") };
+    let project = Project::new(sources);
+    let title = "A literate, reproducible edition of Homer & Hogan (2007), Impact Dynamics of Large Dimensional Systems";
+    let project = Project { shared: SHARED, left_out: LEFT_OUT, ..project };
+    #[cfg(feature = "embed")]
+    let project =
+        Project { copy: literate::texts!("templates", "benches/measured.json"), ..project };
+    let mut paper = Paper {
+        project,
+        prose: "templates",
+        experiments: ALL.to_vec(),
+        derived: DERIVED.to_vec(),
+        ..Paper::new(title, sources)
+    };
+    paper.edition.documents.clear();
+    paper
+}

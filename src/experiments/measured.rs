@@ -1,16 +1,12 @@
 //! Reads times that were measured once, on one machine: `benches/measured.json`.
 //!
-//! Times differ from run to run, so nothing of the reproduction depends on them. `make measure`
-//! writes them, with date and machine, and they are committed; the report only reads them, and
-//! keeps its bytes until somebody measures again.
+//! Times differ from run to run, so nothing of the reproduction depends on them, and the report
+//! keeps its bytes until `make measure` writes them again, with date and machine.
 
 use crate::experiments::prelude::*;
 use crate::params::Setting;
-use literate::experiments::Experiment;
-use literate::experiments::experiment::How::Read;
 use literate::input::one_line;
 
-/// Times that were measured once.
 pub const MEASURED: Experiment<(), Measured> = Experiment {
     name: "measured",
     code: &["src/experiments/measured.rs", FILE],
@@ -25,41 +21,34 @@ pub const FILE: &str = "benches/measured.json";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measured {
-    /// One for each day and machine.
     pub sessions: Vec<MeasuredOn>,
 }
 
-/// What was measured on one day and machine; times of two such sessions are compared as multiples
-/// of the engine's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeasuredOn {
-    /// Day of the measurement, YYYY-MM-DD.
+    /// YYYY-MM-DD.
     pub date: String,
     pub machine: Machine,
     pub rows: Vec<Measurement>,
 }
 
-/// A machine, without its name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Machine {
-    /// Model of the processor, as the system calls it.
+    /// Its model, as the system calls it.
     pub processor: String,
     pub os: String,
 }
 
-/// What a row is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum What {
     /// One chain in the engine of this project.
     Engine,
-    /// A method of this project (`impact_chain::methods`) with one setting, timed in turn with the
-    /// engine.
+    /// A method of this project with one setting, timed in turn with the engine.
     Method,
     Peer,
-    /// What the report does not show: whole commands, ensembles, and programs that could not be
-    /// run.
+    /// What the report does not show.
     #[serde(other)]
     Other,
 }
@@ -72,7 +61,6 @@ pub enum What {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
     pub what: What,
-    /// Name of engine, method, peer or command.
     pub name: String,
     /// Step or tolerance of a method.
     pub value: Option<f64>,
@@ -83,30 +71,29 @@ pub struct Measurement {
     /// Simulated time T.
     pub until: f64,
     pub chains: u64,
-    /// Time over impacts: the best of several repetitions.
+    /// The best of several repetitions.
     pub microseconds_per_impact: Option<f64>,
     /// Time, in the reference, of the first impact with a wrong gap or a time off by more than
     /// 1e−3; none if all that were compared are right.
     pub horizon_time: Option<f64>,
-    /// Time of all of it, in seconds: of the clock, for methods of the processor.
+    /// Time of all of it: of the clock, for methods of the processor.
     pub seconds: Option<f64>,
-    /// Processor time of the engine on the same chains, in seconds, for methods.
+    /// Processor time of the engine on the same chains, for methods.
     pub engine_seconds: Option<f64>,
-    /// Remarks; may be empty.
     pub note: String,
 }
 
 impl Measured {
     pub fn committed(session: &Session<'_>) -> Result<Self, Error> {
-        let again = "run make measure again, or restore the file";
-        let project = session.project;
-        let text = project
-            .text(FILE)
-            .map_err(|error| Error::input("measured.json", error.to_string(), again))?;
+        let wrong = |field: &str, error: &dyn std::fmt::Display| {
+            let again = "run make measure again, or restore the file";
+            Error::input(field, one_line(&error.to_string(), 1000), again)
+        };
+        let text = session.project.text(FILE).map_err(|error| wrong("measured.json", &error))?;
         let mut reader = serde_json::Deserializer::from_str(&text);
         serde_path_to_error::deserialize(&mut reader).map_err(|error| {
             let field = format!("measured.json: {}", one_line(&error.path().to_string(), 80));
-            Error::input(field, one_line(&error.into_inner().to_string(), 1000), again)
+            wrong(&field, error.inner())
         })
     }
 
@@ -114,7 +101,6 @@ impl Measured {
         self.sessions.iter().flat_map(|session| &session.rows).filter(move |row| row.what == what)
     }
 
-    /// Returns the row of a method with a setting on n masses at σ.
     pub fn method(&self, setting: Setting, n: usize, sigma: f64) -> Option<&Measurement> {
         let alike = |row: &&Measurement| {
             row.name == setting.method.id() && row.value == Some(setting.value)
@@ -122,8 +108,8 @@ impl Measured {
         self.of(What::Method).filter(alike).find(|row| row.n == n as u64 && row.sigma == sigma)
     }
 
-    /// Returns the time of an impact in one chain of n masses by the engine, in microseconds, in
-    /// the session of a row.
+    /// Returns the microseconds of an impact by the engine, with as many masses, in a row's
+    /// session.
     pub fn engine(&self, row: &Measurement) -> Option<f64> {
         let session = self.sessions.iter().find(|session| session.rows.contains(row))?;
         let engine = session.rows.iter().filter(|at| at.what == What::Engine && at.n == row.n);
@@ -159,15 +145,12 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         .words("processor", "on what", |(_, on)| on.machine.processor.replace("(R)", ""))
         .words("os", "under what", |(_, on)| on.machine.os.replace('_', "-"))
         .measured();
-    let one = |row: &&Measurement| row.n == 100 && row.chains == 1;
-    let engine =
-        measured.of(What::Engine).filter(one).filter_map(|row| row.microseconds_per_impact);
-    let engine = engine.last();
+    let one = measured.of(What::Engine).filter(|row| row.n == 100 && row.chains == 1);
+    let engine = one.filter_map(|row| row.microseconds_per_impact).last();
+    const ENGINE: &str = "time of an impact in the engine, one chain of 100 masses";
     let impact = Table::of("measured.impact", &[()], |()| 1)
         .computed_by(origin(Measured::committed))
-        .real("engine", "us", 2, "time of an impact in the engine, one chain of 100 masses", |()| {
-            engine
-        })
+        .real("engine", "us", 2, ENGINE, |()| engine)
         .measured();
     let rows: Vec<&Measurement> = measured.of(What::Method).collect();
     let methods = Table::of("measured.methods", &rows, |row| row.chains as usize)
@@ -178,9 +161,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(Measured::committed))
         .real("thousand", "s", 2, "time of one core for a thousand chains", |row| row.thousand())
-        .real("over_engine", "1", 2, "time over the engine's on the same chains", |row| {
-            row.over_engine()
-        })
+        .real("over_engine", "1", 2, "time over the engine's", |row| row.over_engine())
         .measured();
     vec![machine.done(), impact.done(), methods.done()]
 }

@@ -6,10 +6,8 @@
 #![allow(clippy::ptr_arg)]
 
 pub mod accuracy;
-mod bare;
 pub mod branches;
 pub mod ensembles;
-pub(crate) mod half_height;
 pub mod horizon;
 pub mod identities;
 pub mod lengths;
@@ -29,12 +27,11 @@ pub mod theory;
 pub mod two_masses;
 
 pub use accuracy::{BIAS, RACE, SCALE, TRIALS};
-pub use bare::bare;
 pub use branches::BRANCHES;
 pub use horizon::HORIZON;
 pub use impact_chain::rise;
 pub use lengths::LENGTHS;
-pub use list::{ALL, THEORY};
+pub use list::{ALL, THEORY, bare};
 pub use literate::experiments::{
     AnyExperiment, Error, Progress, Results, Session, Store, alive, say,
 };

@@ -1,14 +1,16 @@
-//! Gathers what most experiments use.
+//! Gathers what most experiments use, and the units and words that several tables have.
 
-pub use crate::experiments::ensembles::{each, named};
+pub use crate::experiments::ensembles::{Counted, each, named};
 pub use crate::params::Chain;
 pub use impact_chain::State;
-pub use impact_chain::rise::{Counted, Curve};
+pub use impact_chain::rise::Curve;
 pub use impact_chain::{Engine, Impact, Scenario};
 pub use impact_numerics::estimates::{average, difference, share, with_error};
 pub use impact_numerics::random::NormalPairs;
 pub use impact_numerics::statistics::Estimate;
-pub use literate::experiments::{Error, Progress, Results, Session};
+pub use literate::experiments::cutting::SECOND;
+pub use literate::experiments::experiment::How::{Read, Whole};
+pub use literate::experiments::{Error, Experiment, Progress, Results, Session};
 pub use literate::table::Table;
 pub use literate::value::origin;
 pub use serde::{Deserialize, Serialize};
@@ -17,3 +19,16 @@ pub use serde::{Deserialize, Serialize};
 pub const SIGMA: &str = "d omega^2";
 /// Unit of times.
 pub const TIME: &str = "1/omega";
+
+/// The half height of the mean of all realisations.
+pub const HALF_HEIGHT: &str = "σ where the mean of all passes half of all gaps";
+/// The half height of the mean of realisations with an impact.
+pub const OF_ACTIVE: &str =
+    "σ where the mean of realisations with an impact passes half of all gaps";
+/// The half height of the share of realisations with an impact.
+pub const ANY_IMPACT: &str = "σ where half of the realisations have an impact";
+
+/// Returns the half height of the mean of all realisations in the first window.
+pub fn half_height_all(of: &Counted) -> Option<Estimate> {
+    of.first().rise.half_height_all
+}

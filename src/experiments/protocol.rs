@@ -1,32 +1,26 @@
 //! Maps the influence of the counting protocol: half height against transient T and window W.
 
 use super::ensembles::{Ensembles, ensembles};
-use super::half_height::{ANY_IMPACT, HALF_HEIGHT, OF_ACTIVE};
 use crate::experiments::prelude::*;
 use crate::params::{self, printed_interval};
 use impact_chain::Protocol;
 use impact_chain::rise::Rise;
 
-/// Half height against transient and window.
 pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::protocol, tables);
 
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let Some(map) = named(found, PROTOCOL.name) else { return Vec::new() };
-    // The windows with a half height, the lowest first.
-    let mut halves: Vec<(Estimate, &Curve)> = Vec::new();
-    for cell in &map.curves {
-        halves.extend(cell.rise.half_height.map(|half| (half, cell)));
-    }
+    let halves = map.curves.iter().filter_map(|cell| Some((cell.rise.half_height?, cell)));
+    let mut halves: Vec<(Estimate, &Curve)> = halves.collect();
     halves.sort_by(|a, b| a.0.value.total_cmp(&b.0.value));
     let (least, most) = (halves.first(), halves.last());
     let same = |cell: Option<&(Estimate, &Curve)>| Some(address(cell?.1, "half_height"));
+    let printed = round_to_printed(map, printed_interval(), |rise| rise.half_height);
     let all = Table::of("protocol.all", &[map], |map| map.ensemble.realisations)
         .count("realisations", "chains at each σ", |map| map.ensemble.realisations as u64)
         .count("sigmas", "values of σ", |map| map.ensemble.sigmas.len() as u64)
         .count("combinations", "transients times windows", |map| map.curves.len() as u64)
-        .count("as_printed", "of these, half heights that round to the printed one", |_| {
-            round_to_printed(map, printed_interval(), |rise| rise.half_height) as u64
-        })
+        .count("as_printed", "half heights that round to the printed one", |_| printed as u64)
         .estimate("largest", SIGMA, "largest half height", |_| most.map(|(half, _)| *half))
         .same("largest", |_| same(most))
         .estimate("least", SIGMA, "least half height", |_| least.map(|(half, _)| *half))
@@ -55,7 +49,6 @@ pub fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate>
     Some(with_error(most.value - least.value, error))
 }
 
-/// Returns the address of a number of a cell.
 pub fn address(cell: &Curve, column: &str) -> String {
     let Protocol { transient, window } = cell.protocol;
     format!("protocol.cells[transient={transient},window={window}].{column}")

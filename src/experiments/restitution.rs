@@ -1,11 +1,9 @@
 //! Finds half heights of chains of several restitutions r.
 
 use super::ensembles::{Ensembles, ensembles};
-use super::half_height::{HALF_HEIGHT, half_height_all};
 use crate::experiments::prelude::*;
 use crate::params;
 
-/// Chains of several restitutions.
 pub const RESTITUTION: Ensembles =
     ensembles("restitution", "restitution", params::restitution, tables);
 

@@ -1,13 +1,10 @@
-//! Replays saved scenarios: the motions of Figs. 5(b) and 6(b), and a periodic orbit for each of
-//! their circuits.
+//! Replays the motions of Figs. 5(b) and 6(b), and a periodic orbit for each of their circuits.
 
 use crate::experiments::prelude::*;
-use literate::experiments::Experiment;
-use literate::experiments::experiment::How::Read;
+use impact_circuits::graph::Graph;
 use literate::input::one_line;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The motions of Figs. 5(b) and 6(b).
 pub const SEGMENTS: Experiment<(), Segments> = Experiment {
     name: "segments",
     code: &["src/experiments/segments.rs"],
@@ -27,7 +24,6 @@ pub struct Segments {
     pub periodic: [Segment; 2],
 }
 
-/// A stretch of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Segment {
     pub spacing: f64,
@@ -39,7 +35,6 @@ pub struct Segment {
     pub times: Vec<f64>,
     /// Positions on that grid, `positions[mass][time]`.
     pub positions: Vec<Vec<f64>>,
-    /// The impacts of the segment, in order.
     pub impacts: Vec<SegmentImpact>,
 }
 
@@ -56,36 +51,29 @@ pub struct SegmentImpact {
 const POINTS: usize = 200;
 
 impl Segment {
-    /// Returns the impacts of the circuit, each edge's end once: without the last impact, which is
-    /// the first one again and closes the circuit.
+    /// Returns the impacts of the circuit, each once: without the last impact if it is the first
+    /// one again and closes the circuit.
     pub fn circuit(&self) -> &[SegmentImpact] {
-        match self.impacts.split_last() {
-            Some((last, others)) if others.first().is_some_and(|first| first.gap == last.gap) => {
-                others
-            }
-            _ => &self.impacts,
+        match &self.impacts[..] {
+            [first, .., last] if first.gap == last.gap => &self.impacts[..self.impacts.len() - 1],
+            all => all,
         }
     }
 
     /// Its impacts by the names of the paper: `L-1, 1-2, 3-R`.
     pub fn names(&self) -> Vec<String> {
-        let body = |j: usize| match j {
-            0 => "L".to_string(),
-            j if j > self.masses => "R".to_string(),
-            j => j.to_string(),
-        };
-        self.circuit().iter().map(|i| format!("{}-{}", body(i.gap), body(i.gap + 1))).collect()
+        let graph = Graph::of_chain(self.masses);
+        self.circuit().iter().map(|impact| graph.label(impact.gap).to_string()).collect()
     }
 
     /// Returns how often each different impact is repeated beyond its first time, most first.
     pub fn repeats(&self) -> Vec<(String, usize)> {
-        let mut visits: BTreeMap<String, usize> = BTreeMap::new();
+        let mut again: BTreeMap<String, usize> = BTreeMap::new();
         for name in self.names() {
-            *visits.entry(name).or_insert(0) += 1;
+            again.entry(name).and_modify(|times| *times += 1).or_insert(0);
         }
-        let mut repeated: Vec<(String, usize)> =
-            visits.into_iter().filter(|(_, n)| *n > 1).map(|(name, n)| (name, n - 1)).collect();
-        repeated.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
+        let mut repeated: Vec<_> = again.into_iter().filter(|(_, times)| *times > 0).collect();
+        repeated.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
         repeated
     }
 
@@ -95,8 +83,8 @@ impl Segment {
         Segment { impacts, ..self.clone() }
     }
 
-    /// Of a segment over two periods: the largest distance between positions, and between impacts
-    /// in time, one period apart; infinite if the second period has other impacts.
+    /// Of a segment over two periods: the largest distance of positions, and of impacts in time,
+    /// one period apart; infinite if the second period has other impacts.
     fn apart(&self) -> f64 {
         let half = self.impacts.len() / 2;
         let (first, second) = self.impacts.split_at(half);
@@ -112,7 +100,6 @@ impl Segment {
         times.chain(positions).fold(0.0, f64::max)
     }
 
-    /// How many masses take part in its impacts.
     pub fn masses_hit(&self) -> usize {
         let both_sides = self.impacts.iter().flat_map(|impact| [impact.gap, impact.gap + 1]);
         let masses = both_sides.filter(|body| (1..=self.masses).contains(body));
@@ -125,6 +112,7 @@ impl Segment {
 }
 
 pub fn tables(segments: &Segments) -> Vec<Table> {
+    let [first, second] = &segments.periodic;
     let both = [(5.0, &segments.fig05), (6.0, &segments.fig06)];
     let table = Table::of("segments.circuits", &both, |_| 1)
         .key("figure", "1", |(figure, _)| *figure)
@@ -135,15 +123,13 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
         .count("distinct", "different impacts", |(_, one)| one.gaps().len() as u64)
         .count("repeated", "of them repeated", |(_, one)| one.repeats().len() as u64)
         .done();
-    let orbits = [(5.0, &segments.periodic[0]), (6.0, &segments.periodic[1])];
+    let orbits = [(5.0, first), (6.0, second)];
     let orbits = Table::of("segments.orbits", &orbits, |_| 1)
         .key("figure", "1", |(figure, _)| *figure)
         .computed_by(origin(record))
         .real("period", "1/omega", 4, "of the orbit", |(_, one)| 0.5 * (one.until - one.from))
         .computed_by(origin(Segment::apart))
-        .real("apart", "1", 1, "largest distance between two periods, in d and 1/ω", |(_, one)| {
-            one.apart()
-        })
+        .real("apart", "1", 1, "largest distance of two periods in d and 1/ω", |row| row.1.apart())
         .done();
     vec![table, orbits]
 }
@@ -163,7 +149,6 @@ struct Saved {
     until: f64,
 }
 
-/// Replays both segments from the files of [`FILES`].
 pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
     let one = |file: &str| {
         let text = session.templates.text(file).map_err(|error| error.to_string());
@@ -172,9 +157,8 @@ pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
             Error::input(file, one_line(&problem, 500), remedy)
         })
     };
-    let [fig05, fig06, first, second] = FILES;
-    let periodic = [one(first)?, one(second)?];
-    Ok(Segments { fig05: one(fig05)?, fig06: one(fig06)?, periodic })
+    let [fig05, fig06, first, second] = FILES.map(one);
+    Ok(Segments { fig05: fig05?, fig06: fig06?, periodic: [first?, second?] })
 }
 
 fn replay(text: &str) -> Result<Segment, String> {
@@ -188,10 +172,12 @@ fn replay(text: &str) -> Result<Segment, String> {
 fn record(scenario: &Scenario, from: f64, until: f64) -> Result<Segment, impact_chain::Error> {
     let mut engine = Engine::new(scenario)?;
     engine.run(from, |_| true)?;
-    let masses = scenario.forcing.len();
-    let (spacing, times, impacts) = (scenario.spacing, Vec::new(), Vec::new());
-    let positions = vec![Vec::new(); masses];
-    let mut segment = Segment { spacing, masses, from, until, times, positions, impacts };
+    let (masses, spacing) = (scenario.forcing.len(), scenario.spacing);
+    let (mut times, mut tracks, mut impacts) = (Vec::new(), vec![Vec::new(); masses], Vec::new());
+    let mut push = |time: f64, positions: Vec<f64>| {
+        times.push(time);
+        tracks.iter_mut().zip(positions).for_each(|(track, x)| track.push(x));
+    };
     let step = (until - from) / POINTS as f64;
     for point in 0..=POINTS {
         let time = if point == POINTS { until } else { from + point as f64 * step };
@@ -199,17 +185,10 @@ fn record(scenario: &Scenario, from: f64, until: f64) -> Result<Segment, impact_
         while let Some(Impact { time, gap, .. }) = engine.next_impact(time)? {
             let positions = engine.positions(time)?;
             let position = if gap == 0 { 0.0 } else { positions[gap.min(masses) - 1] };
-            segment.impacts.push(SegmentImpact { time, gap, position });
-            segment.push(time, positions);
+            impacts.push(SegmentImpact { time, gap, position });
+            push(time, positions);
         }
-        segment.push(time, engine.positions(time)?);
+        push(time, engine.positions(time)?);
     }
-    Ok(segment)
-}
-
-impl Segment {
-    fn push(&mut self, time: f64, positions: Vec<f64>) {
-        self.times.push(time);
-        self.positions.iter_mut().zip(positions).for_each(|(track, x)| track.push(x));
-    }
+    Ok(Segment { spacing, masses, from, until, times, positions: tracks, impacts })
 }

@@ -1,15 +1,9 @@
-//! Records one long run at the printed threshold, impact by impact: where impacts start, how they
-//! spread along the chain, and where they stop.
-//!
-//! The run is the first realisation of its stream that still has impacts in its last part.
+//! Records one long run at the printed threshold, impact by impact: the first realisation of its
+//! stream that still has impacts in its last part.
 
 use crate::experiments::prelude::*;
 use crate::params::Runs;
-use literate::experiments::Experiment;
-use literate::experiments::cutting::SECOND;
-use literate::experiments::experiment::How::Whole;
 
-/// One long run.
 pub const SPACE_TIME: Experiment<Runs, SpaceTime> = Experiment {
     name: "spacetime",
     code: &["src/experiments/spacetime.rs"],
@@ -27,7 +21,6 @@ pub struct SpaceTime {
     pub gaps: Vec<u32>,
 }
 
-/// Runs realisations until one keeps hitting.
 pub fn run(parameters: &Runs, progress: &Progress) -> Result<SpaceTime, Error> {
     let stage = progress.stage("spacetime", 1);
     for realisation in 0..parameters.realisations as u64 {
@@ -37,16 +30,12 @@ pub fn run(parameters: &Runs, progress: &Progress) -> Result<SpaceTime, Error> {
             .map_err(|source| Error::failed("spacetime", source))?;
         if impacts.last().is_some_and(|last| last.time > 0.9 * parameters.until) {
             stage.advance(1);
-            let (times, gaps) =
-                impacts.into_iter().map(|impact| (impact.time, impact.gap as u32)).unzip();
+            let (times, gaps) = impacts.iter().map(|hit| (hit.time, hit.gap as u32)).unzip();
             return Ok(SpaceTime { parameters: parameters.clone(), times, gaps });
         }
     }
-    Err(Error::input(
-        "sigma",
-        format!("no run with {:?} has late impacts", parameters.sigma),
-        "give a larger one",
-    ))
+    let problem = format!("no run with {:?} has late impacts", parameters.sigma);
+    Err(Error::input("sigma", problem, "give a larger one"))
 }
 
 impl SpaceTime {
@@ -54,7 +43,6 @@ impl SpaceTime {
         self.parameters.chain.gaps()
     }
 
-    /// Returns the time of the first impact of each gap.
     pub fn firsts(&self) -> Vec<Option<f64>> {
         let mut firsts = vec![None; self.width()];
         for (&time, &gap) in self.times.iter().zip(&self.gaps) {
@@ -63,8 +51,8 @@ impl SpaceTime {
         firsts
     }
 
-    /// Returns, for each gap that is hit, the time from the first impact of the earlier of its
-    /// neighbours to the first of the gap; none if neither had been hit.
+    /// Returns for each gap that is hit the time since the first impact of a neighbour, if there is
+    /// one.
     fn waits(&self) -> Vec<(usize, Option<f64>)> {
         let firsts: Vec<f64> =
             self.firsts().into_iter().map(|first| first.unwrap_or(f64::INFINITY)).collect();
@@ -77,17 +65,17 @@ impl SpaceTime {
         waits
     }
 
-    /// Returns the gaps at which impacts start: hit when neither neighbour had been. Such a gap
-    /// closes by itself, since its masses move as they did from the beginning.
+    /// Returns the gaps at which impacts start: hit when neither neighbour had been. They close by
+    /// themselves, since their masses move as they did from the beginning.
     pub fn starts(&self) -> Vec<usize> {
         let starts = self.waits().into_iter().filter(|(_, wait)| wait.is_none());
         starts.map(|(gap, _)| gap).collect()
     }
 
     /// Returns how long each step of a front takes, the quickest first; starts are no steps.
-    pub fn advances(&self) -> Vec<f64> {
-        let mut advances: Vec<f64> =
-            self.waits().into_iter().filter_map(|(_, wait)| wait).collect();
+    fn advances(&self) -> Vec<f64> {
+        let steps = self.waits().into_iter().filter_map(|(_, wait)| wait);
+        let mut advances: Vec<f64> = steps.collect();
         advances.sort_by(f64::total_cmp);
         advances
     }
@@ -95,17 +83,15 @@ impl SpaceTime {
 
 pub fn tables(found: &SpaceTime) -> Vec<Table> {
     let advances = found.advances();
-    let step = |place: usize| advances.get(place).copied();
+    let median = advances.get(advances.len() / 2);
     let table = Table::of("spacetime.run", &[found], |_| 1)
         .chosen("sigma", SIGMA, "standard deviation σ", |found| Some(found.parameters.sigma))
         .chosen("until", TIME, "length of the run", |found| Some(found.parameters.until))
         .computed_by(origin(SpaceTime::starts))
         .count("starts", "gaps hit when neither neighbour was", |found| found.starts().len() as u64)
         .computed_by(origin(SpaceTime::advances))
-        .real("advance_median", TIME, 3, "median step of a front", |_| step(advances.len() / 2))
-        .real("advance_longest", TIME, 3, "longest step of a front", |_| {
-            step(advances.len().wrapping_sub(1))
-        })
+        .real("advance_median", TIME, 3, "median step of a front", |_| median.copied())
+        .real("advance_longest", TIME, 3, "longest step of a front", |_| advances.last().copied())
         .done();
     vec![table]
 }
@@ -120,8 +106,8 @@ mod tests {
     fn a_small_run_is_read_right() {
         let chain = Chain { masses: 4, ..Chain::default() };
         let parameters = Runs { chain, ..Runs::spacetime(Profile::Quick) };
-        let times = vec![10.0, 12.0, 13.0, 14.0, 50.0, 60.0, 61.0];
-        let run = SpaceTime { parameters, times, gaps: vec![1, 2, 1, 0, 4, 1, 1] };
+        let (times, gaps) = (vec![10.0, 12.0, 13.0, 14.0, 50.0, 60.0], vec![1, 2, 1, 0, 4, 1]);
+        let run = SpaceTime { parameters, times, gaps };
         assert_eq!(run.firsts(), [Some(14.0), Some(10.0), Some(12.0), None, Some(50.0)]);
         assert_eq!(run.starts(), [1, 4]);
         assert_eq!(run.advances(), [2.0, 4.0]);

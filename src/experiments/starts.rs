@@ -1,25 +1,21 @@
-//! Finds half heights of chains that differ from the paper's in the start, in Ω, or by a ring in
-//! place of walls.
+//! Finds half heights of chains with another start, another Ω, or a ring in place of walls.
 
 use super::ensembles::{Ensembles, ensembles};
-use super::half_height::{HALF_HEIGHT, half_height_all};
 use crate::experiments::prelude::*;
 use crate::params;
 
-/// Chains with other starts, boundaries and frequencies.
 pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, tables);
 
 pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
     let rest = named(variants, "rest").and_then(half_height_all);
+    let less = |one: &Counted| Some(difference(half_height_all(one)?, rest?));
     let table = Table::of("starts.variants", variants, |one| one.ensemble.realisations)
         .text_key("chain", |one| one.ensemble.name.clone())
         .count("realisations", "chains at each σ", |one| one.ensemble.realisations as u64)
         .chosen("forcing_frequency", "omega", "", |one| Some(one.ensemble.chain.forcing_frequency))
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, half_height_all)
-        .estimate("difference", SIGMA, "half height less that from rest", |one| {
-            Some(difference(half_height_all(one)?, rest?))
-        })
+        .estimate("difference", SIGMA, "half height less that from rest", less)
         .done();
     vec![table]
 }
@@ -31,18 +27,17 @@ pub fn against_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let relation = all.iter().find(|table| table.name() == "theory.relation")?;
     let theory = relation.number(&[], "sigma_half").ok()?;
     let both = half("rest").zip(half("random"));
+    let share = both.map(|(rest, random)| share_of_start(rest, random, theory));
     const SHARE: &str = "of the distance from rest to the theory, with random free parts";
     let chains = named(starts, "rest")?.ensemble.realisations;
     let table = Table::of("starts.against_theory", &[()], |()| chains)
         .computed_by(origin(share_of_start))
-        .estimate("share", "1", SHARE, |()| {
-            both.map(|(rest, random)| share_of_start(rest, random, theory))
-        });
+        .estimate("share", "1", SHARE, |()| share);
     Some(vec![table.done()])
 }
 
-/// Returns the part of the distance between theory and simulation that the start explains, from the
-/// half heights from rest, from random free parts, and of the theory.
+/// Returns the part of the distance between theory and simulation that the start explains, from
+/// the half heights from rest, from random free parts, and of the theory.
 pub fn share_of_start(rest: Estimate, random: Estimate, theory: f64) -> Estimate {
     let (moved, all) = (difference(random, rest), theory - rest.value);
     with_error(moved.value / all, moved.error / all)

@@ -2,11 +2,10 @@
 //! rise is, and rare events.
 
 use super::ensembles::{Ensembles, ensembles};
-use super::half_height::{ANY_IMPACT, HALF_HEIGHT, OF_ACTIVE};
 use crate::experiments::prelude::*;
 use crate::params::{self, LEVEL, NEAR_SIMULTANEOUS, SLOW, printed_threshold};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
-use impact_chain::rise::{Mean, Rise, RisePoint};
+use impact_chain::rise::RisePoint;
 
 /// The main sweep of Sec. 2.
 pub const SWEEP: Ensembles = ensembles("sweep", "main sweep", params::sweep, tables);
@@ -15,30 +14,23 @@ pub const SWEEP: Ensembles = ensembles("sweep", "main sweep", params::sweep, tab
 pub const SECOND_SEED: Ensembles =
     ensembles("second_seed", "second seed", params::second_seed, of_second_seed);
 
-/// A σ above the rise.
+/// A σ above the rise, and one at which masses begin to be able to stick.
 const ABOVE: f64 = 0.2;
-/// A σ at which masses begin to be able to stick.
 const STICKING: f64 = 0.3;
 
-/// Returns the ensemble of the main sweep.
 pub fn main(results: &Results) -> Result<&Counted, Error> {
     named(results.of(&SWEEP)?, SWEEP.name).ok_or(Error::NotRun(SWEEP.name))
 }
 
-pub fn total(sweep: &Counted) -> Total {
-    let mut total = Total::default();
-    for row in &sweep.runs {
-        total.add(&row.total);
-    }
-    total
-}
-
-pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
+fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let Some(sweep) = named(found, SWEEP.name) else { return Vec::new() };
-    vec![run(sweep), rows(sweep), rise_table(sweep), modes(sweep), rare(sweep), sticking()]
+    let mut total = Total::default();
+    sweep.runs.iter().for_each(|row| total.add(&row.total));
+    let [run, rare] = [run(sweep, &total), rare(sweep, &total)];
+    vec![run, rows(sweep), rise_table(sweep), modes(sweep), rare, sticking()]
 }
 
-pub fn of_second_seed(found: &Vec<Counted>) -> Vec<Table> {
+fn of_second_seed(found: &Vec<Counted>) -> Vec<Table> {
     let table = Table::of("second_seed.rise", found, |sweep| sweep.ensemble.realisations)
         .count("seed", "master seed", |sweep| sweep.ensemble.seed)
         .computed_by(origin(Curve::new))
@@ -49,61 +41,48 @@ pub fn of_second_seed(found: &Vec<Counted>) -> Vec<Table> {
 const WIDTH_OF_ACTIVE: &str =
     "from a quarter to three quarters of all gaps, of the mean of realisations with an impact";
 
-fn run(sweep: &Counted) -> Table {
-    let protocol = sweep.first().protocol;
-    Table::of("sweep.run", &[sweep], |sweep| sweep.ensemble.realisations)
-        .count("gaps", "gaps of a chain", |sweep| sweep.ensemble.chain.gaps() as u64)
+fn run(sweep: &Counted, total: &Total) -> Table {
+    let (protocol, beyond) = (sweep.first().protocol, sweep.ensemble.beyond);
+    let few = beyond.and_then(|beyond| beyond.realisations);
+    let failed = sweep.runs.iter().map(|runs| runs.failed as u64).sum();
+    Table::of("sweep.run", &[&sweep.ensemble], |ensemble| ensemble.realisations)
+        .count("gaps", "gaps of a chain", |ensemble| ensemble.chain.gaps() as u64)
         .chosen("transient", TIME, "", |_| Some(protocol.transient))
         .chosen("window", TIME, "", |_| Some(protocol.window))
-        .count("realisations", "chains at each σ", |sweep| sweep.ensemble.realisations as u64)
-        .chosen("level_above", SIGMA, "above this σ fewer chains are run", |sweep| {
-            sweep.ensemble.beyond.map(|beyond| beyond.above)
-        })
-        .chosen("level_realisations", "1", "so many", |sweep| {
-            sweep.ensemble.beyond?.realisations.map(|few| few as f64)
-        })
-        .count("sigmas", "values of σ", |sweep| sweep.runs.len() as u64)
-        .count("seed", "master seed", |sweep| sweep.ensemble.seed)
+        .count("realisations", "chains at each σ", |ensemble| ensemble.realisations as u64)
+        .chosen("level_above", SIGMA, "above this σ fewer chains are run", |_| Some(beyond?.above))
+        .chosen("level_realisations", "1", "so many", |_| few.map(|few| few as f64))
+        .count("sigmas", "values of σ", |ensemble| ensemble.sigmas.len() as u64)
+        .count("seed", "master seed", |ensemble| ensemble.seed)
         .chosen("confidence", "1", "of all intervals", |_| Some(LEVEL))
-        .count("impacts", "impacts simulated, transients included", |sweep| total(sweep).impacts)
-        .count("failed", "realisations that the engine ended early", |sweep| {
-            sweep.runs.iter().map(|runs| runs.failed as u64).sum()
-        })
+        .count("impacts", "impacts simulated, transients included", |_| total.impacts)
+        .count("failed", "realisations that the engine ended early", |_| failed)
         .done()
 }
 
 /// Makes the table of means (of different gaps, of impacts, of masses) and shares at each σ.
 fn rows(sweep: &Counted) -> Table {
-    let estimate = |mean: Option<Mean>| mean?.estimate();
+    const KEPT: &str = "share of the realisations with an impact in the window";
+    let kept = |row: &RisePoint| share(row.kept as u64, row.ran as u64);
     Table::of("sweep.rows", &sweep.first().rows, |row| row.ran)
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(RisePoint::new))
-        .estimate("kept", "1", "share of the realisations with an impact in the window", |row| {
-            share(row.kept as u64, row.ran as u64)
-        })
-        .estimate("mean_all", "1", "different gaps with an impact, mean of all", |row| {
-            estimate(row.mean_all)
-        })
+        .estimate("kept", "1", KEPT, kept)
+        .estimate("mean_all", "1", "gaps with an impact, mean of all", |r| r.mean_all?.estimate())
         .over(|row| row.kept)
-        .estimate("mean", "1", "different gaps with an impact, mean of those with any", |row| {
-            estimate(row.mean)
-        })
-        .estimate("impacts", "1", "impacts in the window, mean of those with any", |row| {
-            estimate(row.impacts)
-        })
-        .estimate("masses", "1", "masses hit in the window, mean of those with any", |row| {
-            estimate(row.masses)
-        })
+        .estimate("mean", "1", "gaps hit, mean of those with any", |row| row.mean?.estimate())
+        .estimate("impacts", "1", "impacts, mean of those with any", |row| row.impacts?.estimate())
+        .estimate("masses", "1", "masses hit, mean of those with any", |row| row.masses?.estimate())
         .done()
 }
 
 fn rise_table(sweep: &Counted) -> Table {
-    let end = |rise: &Rise, at: usize| rise.half_height.map(|half| half.interval[at]);
+    let interval = sweep.first().rise.half_height.map(|half| half.interval);
     Table::of("sweep.rise", &[&sweep.first().rise], |_| sweep.ensemble.realisations)
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, OF_ACTIVE, |rise| rise.half_height)
-        .real("half_height_from", SIGMA, 4, "lower end of its interval", |rise| end(rise, 0))
-        .real("half_height_to", SIGMA, 4, "upper end of its interval", |rise| end(rise, 1))
+        .real("half_height_from", SIGMA, 4, "lower end of its interval", |_| Some(interval?[0]))
+        .real("half_height_to", SIGMA, 4, "upper end of its interval", |_| Some(interval?[1]))
         .estimate("half_height_all", SIGMA, HALF_HEIGHT, |rise| rise.half_height_all)
         .estimate("onset", SIGMA, "σ where it passes a twentieth of all gaps", |rise| rise.onset)
         .estimate("kept_half", SIGMA, ANY_IMPACT, |rise| rise.kept_half)
@@ -113,58 +92,45 @@ fn rise_table(sweep: &Counted) -> Table {
 }
 
 fn modes(sweep: &Counted) -> Table {
-    let width = |row: &RisePoint| row.mode_interval.map_or(0, |[low, high]| high - low.min(high));
-    let noisiest =
-        sweep.first().rows.iter().filter(|row| width(row) > 0).max_by_key(|row| width(row));
+    const UNDER: &str = "to here the mode is surely under half of all gaps";
+    let rows = sweep.first().rows.iter();
+    let intervals = rows.filter_map(|row| Some((row.sigma, row.mode_interval?)));
+    let (sigma, interval) = intervals.max_by_key(|(_, [low, high])| high - low).unzip();
     let half = mode_half(sweep.first(), sweep.ensemble.chain.gaps());
     Table::of("sweep.mode", &[()], |()| 0)
-        .chosen("noisiest_sigma", SIGMA, "where the interval of the mode is longest", |()| {
-            noisiest.map(|row| row.sigma)
-        })
-        .chosen("noisiest_from", "1", "the lower end of that interval", |()| {
-            Some(noisiest?.mode_interval?[0] as f64)
-        })
-        .chosen("noisiest_to", "1", "its upper end", |()| Some(noisiest?.mode_interval?[1] as f64))
+        .chosen("noisiest_sigma", SIGMA, "where the interval of the mode is longest", |()| sigma)
+        .chosen("noisiest_from", "1", "its lower end", |()| Some(interval?[0] as f64))
+        .chosen("noisiest_to", "1", "its upper end", |()| Some(interval?[1] as f64))
         .computed_by(origin(mode_half))
-        .chosen("half_from", SIGMA, "to here the mode is surely under half of all gaps", |()| {
-            half.map(|[low, _]| low)
-        })
-        .chosen("half_to", SIGMA, "from here surely over", |()| half.map(|[_, high]| high))
+        .chosen("half_from", SIGMA, UNDER, |()| Some(half?[0]))
+        .chosen("half_to", SIGMA, "from here surely over", |()| Some(half?[1]))
         .done()
 }
 
 /// Returns the impacts within [`NEAR_SIMULTANEOUS`] of one in an adjacent gap, and those slower
-/// than [`SLOW`], that are expected by chance in a whole sweep: from those within δ = 1e−2 in
-/// proportion to δ, and from those below v = 0.1 in proportion to v², as the rate of impacts grows
-/// with v.
-pub fn expected(total: &Total) -> [f64; 2] {
-    let slow = SLOW / SLOW_DECADES[0];
-    [
-        total.near[1] as f64 * (NEAR_SIMULTANEOUS / NEAR_DECADES[1]),
-        total.slow[0] as f64 * slow * slow,
-    ]
+/// than [`SLOW`], that are expected by chance: from those within δ = 1e−2 in proportion to δ, and
+/// from those below v = 0.1 in proportion to v², as the rate of impacts grows with v.
+fn expected(total: &Total) -> [f64; 2] {
+    let (near, slow) = (NEAR_SIMULTANEOUS / NEAR_DECADES[1], SLOW / SLOW_DECADES[0]);
+    [total.near[1] as f64 * near, total.slow[0] as f64 * slow * slow]
 }
 
-fn rare(sweep: &Counted) -> Table {
-    let total = total(sweep);
-    let last = |decades: &[u64]| decades.last().copied().unwrap_or(0);
-    let [near, slow] = expected(&total);
-    Table::of("sweep.rare", &[total], |_| 0)
+fn rare(sweep: &Counted, total: &Total) -> Table {
+    let below = sweep.runs.iter().filter(|row| row.sigma <= ABOVE);
+    let contact_phases_below = below.map(|row| row.total.contact_phases).sum();
+    let [near, slow] = [&total.near[..], &total.slow].map(|all| all.last().copied().unwrap_or(0));
+    let [near_expected, slow_expected] = expected(total);
+    Table::of("sweep.rare", &[()], |()| 0)
         .computed_by(origin(expected))
-        .count("near_simultaneous", "impacts next to another within the limit", |total| {
-            last(&total.near)
-        })
-        .real("near_expected", "1", 2, "the law's", |_| near)
-        .real("near_limit", TIME, 1, "", |_| NEAR_SIMULTANEOUS)
-        .count("slow", "impacts slower than the limit", |total| last(&total.slow))
-        .real("slow_expected", "1", 1, "the law's", |_| slow)
-        .real("slow_limit", "d omega", 1, "", |_| SLOW)
-        .chosen("contact_sigma", SIGMA, "above the rise", |_| Some(ABOVE))
-        .count("contact_phases_below", "contact phases up to that σ", |_| {
-            let below = sweep.runs.iter().filter(|row| row.sigma <= ABOVE);
-            below.map(|row| row.total.contact_phases).sum()
-        })
-        .count("contact_phases", "contact phases of all σ", |total| total.contact_phases)
+        .count("near_simultaneous", "impacts next to another within the limit", |()| near)
+        .real("near_expected", "1", 2, "the law's", |()| near_expected)
+        .real("near_limit", TIME, 1, "", |()| NEAR_SIMULTANEOUS)
+        .count("slow", "impacts slower than the limit", |()| slow)
+        .real("slow_expected", "1", 1, "the law's", |()| slow_expected)
+        .real("slow_limit", "d omega", 1, "", |()| SLOW)
+        .chosen("contact_sigma", SIGMA, "above the rise", |()| Some(ABOVE))
+        .count("contact_phases_below", "contact phases up to that σ", |()| contact_phases_below)
+        .count("contact_phases", "contact phases of all σ", |()| total.contact_phases)
         .done()
 }
 

@@ -1,15 +1,11 @@
 //! Runs two masses under a low force, which never hit: a remark of Sec. 2.
 //!
 //! After a start from rest every gap keeps R1 + R2 < d, and so never closes, while the amplitudes
-//! are below a bound in closed form. With fixed directions of the forcing and growing amplitude the
-//! first impact must therefore come at that bound or above, and close to it in long times, because
-//! ω and Ω are incommensurable.
+//! are below a bound in closed form. With growing amplitude the first impact must come at that
+//! bound or above, and close to it in long times, because ω and Ω are incommensurable.
 
 use crate::experiments::prelude::*;
 use crate::params::TwoMassesParams;
-use literate::experiments::Experiment;
-use literate::experiments::cutting::SECOND;
-use literate::experiments::experiment::How::Whole;
 
 pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
     name: "two_masses",
@@ -19,12 +15,14 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
     tables,
 };
 
+/// The worst directions for Ω > ω: opposite forces that the start from rest amplifies.
+const WORST: [[f64; 2]; 2] = [[0.0, 1.0], [0.0, -1.0]];
+
 /// The smallest forces that lead to an impact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TwoMasses {
     pub parameters: TwoMassesParams,
-    /// For each time, over random directions: least and largest amplitude with an impact by then,
-    /// divided by the bound of its direction.
+    /// For each time the least and the largest amplitude with an impact by then, over its bound.
     pub excess: Vec<[f64; 2]>,
     /// Impacts below the bound, over all directions and times: must be 0.
     pub violations: u64,
@@ -33,19 +31,14 @@ pub struct TwoMasses {
 /// How far below its bound a direction is tried for an impact that must not come.
 const BELOW: f64 = 1.0 - 1e-9;
 
-/// Halvings of the bracket around the smallest amplitude.
 const HALVINGS: usize = 28;
 
 pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasses, Error> {
     let directions = parameters.directions.realisations;
     let stage = progress.stage("two masses", directions as u64 + 1);
     // The last direction is the worst one.
-    let found = each(&stage, progress, 0..=directions, |index| {
-        let forcing = if index < directions {
-            parameters.directions.scenario(index as u64).forcing
-        } else {
-            worst(&parameters.directions.chain)
-        };
+    let drawn = (0..directions as u64).map(|index| parameters.directions.scenario(index).forcing);
+    let found = each(&stage, progress, drawn.chain([WORST.to_vec()]), |forcing| {
         thresholds(parameters, &forcing, progress)
     })?;
     let excess = |i: usize| {
@@ -59,51 +52,30 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
     })
 }
 
-/// Makes the tables of the bound, and of how near to its bound each direction has an impact.
 pub fn tables(found: &TwoMasses) -> Vec<Table> {
-    let bound = Table::of("two_masses.bound", &[found], |_| 0)
+    let bound = Table::of("two_masses.bound", &[&found.parameters.directions], |_| 0)
         .computed_by(origin(safe_force))
-        .real("force", SIGMA, 4, "force amplitude below which two masses never hit", |found| {
-            safe_force(&found.parameters.directions.chain)
-        })
-        .count("directions", "random directions of the forcing", |found| {
-            found.parameters.directions.realisations as u64
-        })
+        .real("force", SIGMA, 4, "below this two masses never hit", |of| safe_force(&of.chain))
+        .count("directions", "random directions of the forcing", |of| of.realisations as u64)
         .done();
+    const GREATEST: &str = "largest of the least forces with an impact, over bounds";
     let excess: Vec<_> = found.parameters.times.iter().zip(&found.excess).collect();
     let excess = Table::of("two_masses.excess", &excess, |_| 0)
         .key("time", TIME, |(time, _)| time.floor())
         .computed_by(origin(run))
-        .real(
-            "greatest",
-            "1",
-            6,
-            "largest of the least forces with an impact, over bounds",
-            |row| row.1[1],
-        )
+        .real("greatest", "1", 6, GREATEST, |row| row.1[1])
         .done();
     vec![bound, excess]
 }
 
 /// Returns the amplitude of each of two neighbouring masses below which R1 + R2 < d in their gap
-/// for every direction, after a start from rest: forces at most F differ by at most 2F, so R2 ≤
-/// 2F/|ω² − Ω²| and R1 ≤ max(1, Ω/ω) R2.
+/// for every direction, after a start from rest: forces at most F differ by at most 2F, so
+/// R2 ≤ 2F/|ω² − Ω²| and R1 ≤ max(1, Ω/ω) R2.
 pub fn safe_force(chain: &Chain) -> f64 {
-    bound(chain, &worst(chain))
+    bound(chain, &WORST)
 }
 
-/// Returns the worst directions: opposite forces in the quadrature that the start from rest
-/// amplifies.
-fn worst(chain: &Chain) -> Vec<[f64; 2]> {
-    if chain.forcing_frequency > chain.natural_frequency {
-        vec![[0.0, 1.0], [0.0, -1.0]]
-    } else {
-        vec![[1.0, 0.0], [-1.0, 0.0]]
-    }
-}
-
-/// Returns the factor on `forcing` below which R1 + R2 < d in every gap between walls, after a
-/// start from rest.
+/// Returns the factor on `forcing` below which R1 + R2 < d in every gap, after a start from rest.
 fn bound(chain: &Chain, forcing: &[[f64; 2]]) -> f64 {
     let (w, big_w) = (chain.natural_frequency, chain.forcing_frequency);
     let wall = [[0.0; 2]];
@@ -116,18 +88,19 @@ fn bound(chain: &Chain, forcing: &[[f64; 2]]) -> f64 {
     chain.spacing * (w * w - big_w * big_w).abs() / reach.fold(0.0, f64::max)
 }
 
-/// Returns the number of impacts below the bound of fixed directions of the forcing, and for each
-/// time the smallest ratio to the bound with an impact.
+/// Returns the number of impacts below the bound, and for each time the smallest ratio to the bound
+/// with an impact.
 fn thresholds(
     parameters: &TwoMassesParams,
     forcing: &[[f64; 2]],
     progress: &Progress,
 ) -> Result<(u64, Vec<f64>), Error> {
-    let bound = bound(&parameters.directions.chain, forcing);
+    let chain = &parameters.directions.chain;
+    let bound = bound(chain, forcing);
     let hits = |ratio: f64, until: f64| -> Result<bool, Error> {
         progress.check()?;
         let scaled = forcing.iter().map(|pair| pair.map(|x| ratio * bound * x)).collect();
-        let first = Scenario::given(&parameters.directions.chain, scaled)
+        let first = Scenario::given(chain, scaled)
             .and_then(|scenario| Engine::new(&scenario)?.next_impact(until));
         Ok(first.map_err(|source| Error::failed("two masses", source))?.is_some())
     };
@@ -139,8 +112,7 @@ fn thresholds(
         while !hits(hitting, time)? {
             (quiet, hitting) = (hitting, 2.0 * hitting);
         }
-        // An impact at time t' with amplitude s comes from an excursion that a smaller
-        // amplitude reaches too late or never: the threshold is monotone in the amplitude.
+        // The threshold is monotone: a smaller amplitude makes the excursion later or never.
         for _ in 0..HALVINGS {
             let middle = 0.5 * (quiet + hitting);
             if hits(middle, time)? {

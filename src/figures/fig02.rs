@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 use super::simulated::*;
-use crate::experiments::rise::Counted;
+use crate::experiments::ensembles::Counted;
 
 pub fn draw(sweep: &Counted) -> Result<Figure, Error> {
     let sheet = Sheet::new(5450);

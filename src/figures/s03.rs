@@ -3,7 +3,7 @@
 use super::prelude::*;
 use super::simulated::{FORCING, count_axis};
 use crate::experiments::Results;
-use crate::experiments::rise::Counted;
+use crate::experiments::ensembles::Counted;
 use crate::experiments::sweep;
 use crate::experiments::theory::comparison::at;
 use literate::table::Table;

@@ -1,15 +1,13 @@
 //! Sizes of the experiments on the speed and accuracy of methods.
 
-use super::chosen::SEED;
+use super::chosen::{SEED, printed_threshold};
 use super::methods::{MethodName, Setting};
-use super::printed::printed_threshold;
 use super::runs::Runs;
 use impact_chain::{Chain, Protocol};
 use literate::experiments::Profile;
 use serde::{Deserialize, Serialize};
-use std::slice;
 
-const STEPS: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
+const STEPS: &[f64] = &[1e-1, 1e-2, 1e-3, 1e-4];
 
 /// Settings of each method of [`MethodName::ALL`] in the race, coarse to fine.
 const RACE: [&[f64]; 7] = [
@@ -17,27 +15,24 @@ const RACE: [&[f64]; 7] = [
     &[0.5, 0.2, 0.1, 0.03, 0.01],
     &[1e-3, 1e-6, 1e-9, 1e-12],
     &[1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13],
-    &STEPS,
-    &STEPS,
-    &STEPS,
+    STEPS,
+    STEPS,
+    STEPS,
 ];
 
 /// The same in the quick profile.
-const QUICK: [f64; 7] = [0.0, 0.1, 1e-9, 1e-3, 0.1, 0.1, 0.1];
+const QUICK: [&[f64]; 7] = [&[0.0], &[0.1], &[1e-9], &[1e-3], &[0.1], &[0.1], &[0.1]];
 
-/// Two of each rival in the scenes where methods fail, a coarse and a fine one.
-const SCENES: [&[f64]; 7] = [
-    &[0.0],
-    &[0.1, 0.01],
-    &[1e-6, 1e-12],
-    &[1e-6, 1e-12],
-    &[1e-2, 1e-4],
-    &[1e-2, 1e-4],
-    &[1e-2, 1e-4],
-];
+/// A coarse and a fine tolerance, and step, in the scenes where methods fail.
+const TOLERANCES: &[f64] = &[1e-6, 1e-12];
+const FEW_STEPS: &[f64] = &[1e-2, 1e-4];
+
+/// The settings there.
+const SCENES: [&[f64]; 7] =
+    [&[0.0], &[0.1, 0.01], TOLERANCES, TOLERANCES, FEW_STEPS, FEW_STEPS, FEW_STEPS];
 
 /// The same against the number of masses, without the last method.
-const SCALE: [f64; 6] = [0.0, 0.1, 1e-12, 1e-6, 0.01, 0.01];
+const SCALE: [&[f64]; 6] = [&[0.0], &[0.1], &[1e-12], &[1e-6], &[0.01], &[0.01]];
 
 /// The same for the error of the mean, with numbers of chains: the cheaper, the more.
 const BIAS: [&[(f64, usize)]; 7] = [
@@ -50,7 +45,6 @@ const BIAS: [&[(f64, usize)]; 7] = [
     &[(0.1, 100), (0.01, 40)],
 ];
 
-/// Each method with each of its values.
 fn all<T: Copy>(values: &[&[T]]) -> Vec<(MethodName, T)> {
     let all = MethodName::ALL.into_iter().zip(values);
     all.flat_map(|(method, values)| values.iter().map(move |value| (method, *value))).collect()
@@ -60,12 +54,10 @@ fn settings(values: &[&[f64]]) -> Vec<Setting> {
     all(values).into_iter().map(|(method, value)| Setting { method, value }).collect()
 }
 
-/// Random stream and seed of the chains: those of `benches/peers/measure.rs`, so that the first
-/// chain is the one on which other programs are measured.
+/// Random stream and seed of the chains on which other programs are measured.
 pub const BENCH: (&str, u64) = ("bench", 1);
 
-/// Every method against the true motion of a few chains: the next impact from many exact states,
-/// and whole runs.
+/// Every method against the true motion: the next impact from exact states, and whole runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RaceParams {
     /// The twins whose growth gives the horizon that chaos allows; all methods run the same chains.
@@ -85,20 +77,14 @@ impl RaceParams {
         let quick = profile == Profile::Quick;
         let (until, at_least, chains, segments, realisations) =
             if quick { (30.0, 10.0, 2, 12, 6) } else { (250.0, 20.0, 12, 1200, 60) };
-        let growth = Runs {
-            chain: Chain { masses: 20, ..Chain::default() },
-            sigma: 0.3,
-            until: 300.0,
-            realisations,
-            stream: BENCH.0.into(),
-            seed: BENCH.1,
-        };
-        let settings = settings(&if quick { QUICK.each_ref().map(slice::from_ref) } else { RACE });
+        let chain = Chain { masses: 20, ..Chain::default() };
+        let (stream, seed) = (BENCH.0.into(), BENCH.1);
+        let growth = Runs { chain, sigma: 0.3, until: 300.0, realisations, stream, seed };
+        let settings = settings(if quick { &QUICK } else { &RACE });
         RaceParams { growth, until, at_least, chains, segments, settings }
     }
 }
 
-/// Returns the methods that run the scenes in which methods fail.
 pub fn trial_settings() -> Vec<Setting> {
     settings(&SCENES)
 }
@@ -120,8 +106,7 @@ impl ScaleParams {
             Profile::Full => (vec![10, 30, 100, 300, 1000, 10_000], 300),
             Profile::Quick => (vec![10, 30, 100, 1000], 30),
         };
-        let settings = settings(&SCALE.each_ref().map(slice::from_ref));
-        ScaleParams { sigma: 0.3, masses, rivals, settings }
+        ScaleParams { sigma: 0.3, masses, rivals, settings: settings(&SCALE) }
     }
 }
 
@@ -138,29 +123,25 @@ pub struct BiasParams {
 
 impl BiasParams {
     pub fn new(profile: Profile) -> Self {
-        let quick = profile == Profile::Quick;
-        let (sigmas, protocol) = if quick {
-            (vec![printed_threshold(), 0.14], Protocol { transient: 100.0, window: 100.0 })
-        } else {
-            (vec![0.11, printed_threshold(), 0.14], Protocol::default())
+        let mut sigmas = vec![0.11, printed_threshold(), 0.14];
+        let mut protocol = Protocol::default();
+        let all = all(&BIAS).into_iter();
+        let mut settings: Vec<(Setting, usize)> =
+            all.map(|(method, (value, n))| (Setting { method, value }, n)).collect();
+        if profile == Profile::Quick {
+            sigmas.remove(0);
+            protocol = Protocol { transient: 100.0, window: 100.0 };
+            settings.iter_mut().for_each(|(_, realisations)| *realisations = 2);
+        }
+        let realisations = settings.iter().map(|pair| pair.1).max().unwrap_or(0);
+        let (until, transient) = (protocol.end(), protocol.transient);
+        let chains = |sigma| {
+            let (chain, stream) = (Chain::default(), "sweep".into());
+            Runs { chain, sigma, until, realisations, stream, seed: SEED }
         };
-        let settings: Vec<(Setting, usize)> = all(&BIAS)
-            .into_iter()
-            .map(|(method, (value, n))| (Setting { method, value }, if quick { 2 } else { n }))
-            .collect();
-        let chains = |sigma| Runs {
-            chain: Chain::default(),
-            sigma,
-            until: protocol.end(),
-            realisations: settings.iter().map(|pair| pair.1).max().unwrap_or(0),
-            stream: "sweep".into(),
-            seed: SEED,
-        };
-        let chains = sigmas.into_iter().map(chains).collect();
-        BiasParams { chains, transient: protocol.transient, settings }
+        BiasParams { chains: sigmas.into_iter().map(chains).collect(), transient, settings }
     }
 
-    /// Returns the number of runs, over all chains and methods.
     pub fn runs(&self) -> u64 {
         let realisations: usize = self.settings.iter().map(|(_, realisations)| realisations).sum();
         (self.chains.len() * realisations) as u64

@@ -1,5 +1,7 @@
-//! Single numbers that the paper or this edition chose: seeds, sizes of graphs, values of p,
-//! limits.
+//! Single numbers that the paper or this edition chose, and the printed threshold.
+
+use literate::claims::{Published, PublishedError, Statement};
+use std::sync::LazyLock;
 
 /// Master seed of all random streams (ours: the year of the paper).
 pub const SEED: u64 = 2007;
@@ -34,3 +36,23 @@ pub const NEAR_SIMULTANEOUS: f64 = 1e-9;
 
 /// An impact with a closing speed below this counts as slow (ours, d ω).
 pub const SLOW: f64 = 1e-8;
+
+/// The threshold of Sec. 2 in `templates/published.toml`, as the program was built with it.
+static THRESHOLD: LazyLock<Statement> = LazyLock::new(|| {
+    let read = || -> Result<Statement, PublishedError> {
+        let published = Published::parse(include_str!("../../templates/published.toml"))?;
+        let statement = published.statement("sec2_half_height")?;
+        statement.number()?;
+        Ok(statement.clone())
+    };
+    read().unwrap_or_else(|error| panic!("templates/{error}; mend it and build again"))
+});
+
+pub fn printed_threshold() -> f64 {
+    THRESHOLD.value.unwrap_or(f64::NAN)
+}
+
+/// Returns the ends of the σ that round to the printed threshold.
+pub fn printed_interval() -> [f64; 2] {
+    THRESHOLD.interval().unwrap_or([f64::NAN; 2])
+}

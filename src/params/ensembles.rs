@@ -1,19 +1,15 @@
 //! Chooses the ensembles of chains: which chains, at which σ, and how many.
 
 use super::chosen::SECOND_SEED;
+use super::ensemble::{Beyond, Ensemble, Heating};
 use super::grid::Grid;
-use impact_chain::{Beyond, Boundary, Chain, Ensemble, Heating, Protocol, Start};
+use impact_chain::{Boundary, Chain, Protocol, Start};
 use literate::experiments::Profile;
 
 /// Windows (T, T + W] for all of these T and W, transients outer.
 fn windows(transients: &[f64], windows: &[f64]) -> Vec<Protocol> {
-    let mut protocols = Vec::new();
-    for &transient in transients {
-        for &window in windows {
-            protocols.push(Protocol { transient, window });
-        }
-    }
-    protocols
+    let after = |&transient| windows.iter().map(move |&window| Protocol { transient, window });
+    transients.iter().flat_map(after).collect()
 }
 
 /// The paper's chain from rest, with our protocol (the default of [`Ensemble`]).
@@ -32,11 +28,10 @@ pub fn sweep(profile: Profile) -> Vec<Ensemble> {
     let grid = Grid::default();
     let (sigmas, realisations, few) = match profile {
         // 69 values, 0.0025 apart where the rise is.
-        Profile::Full => (
-            grid.and(4, 15, 1, 200).and(32, 72, 1, 400).and(19, 28, 1, 100).and(15, 20, 1, 50),
-            1000,
-            100,
-        ),
+        Profile::Full => {
+            let rise = grid.and(4, 15, 1, 200).and(32, 72, 1, 400);
+            (rise.and(19, 28, 1, 100).and(15, 20, 1, 50), 1000, 100)
+        }
         Profile::Quick => {
             (grid.and(2, 8, 2, 100).and(9, 16, 1, 100).and(9, 9, 1, 50).and(4, 8, 1, 20), 12, 6)
         }
@@ -55,8 +50,7 @@ pub fn second_seed(profile: Profile) -> Vec<Ensemble> {
     vec![Ensemble { seed: SECOND_SEED, ..paper("sweep", sigmas, realisations) }]
 }
 
-/// The map over transients and windows; and, in the same windows, chains of the main sweep well
-/// below the rise.
+/// The map over transients and windows, and chains of the main sweep well below the rise.
 pub fn protocol(profile: Profile) -> Vec<Ensemble> {
     let (longest, widest, sigmas, realisations, below) = match profile {
         Profile::Full => (9, 7, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100), 80, 1000),
@@ -109,26 +103,26 @@ pub fn lengths(profile: Profile) -> Vec<Ensemble> {
             (100, [100, 140, 20], 2, 500.0, &[200.0, 2000.0]),
         ],
     };
-    let rest = |&(masses, [from, to, step], realisations, transient, widths): &Sizes| Ensemble {
-        chain: Chain { masses, ..Chain::default() },
-        protocols: windows(&[transient], widths),
-        pieces: (masses / 250).max(1),
-        stream: "sizes".into(),
-        ..paper(
-            &format!("rest, n = {masses}, T = {transient}"),
-            Grid::default().and(from, to, step as usize, 1000),
-            realisations,
-        )
+    let rest = |&(masses, [from, to, step], realisations, transient, widths): &Sizes| {
+        let name = format!("rest, n = {masses}, T = {transient}");
+        let sigmas = Grid::default().and(from, to, step as usize, 1000);
+        Ensemble {
+            chain: Chain { masses, ..Chain::default() },
+            protocols: windows(&[transient], widths),
+            pieces: (masses / 250).max(1),
+            stream: "sizes".into(),
+            ..paper(&name, sigmas, realisations)
+        }
     };
-    let full = profile == Profile::Full;
-    let transients: &[f64] = if full { &[100.0, 500.0, 1000.0, 2000.0] } else { &[100.0, 500.0] };
-    let (step, realisations) = if full { (1, 24) } else { (4, 2) };
+    let (transients, step, realisations): (&[f64], _, _) = match profile {
+        Profile::Full => (&[100.0, 500.0, 1000.0, 2000.0], 1, 24),
+        Profile::Quick => (&[100.0, 500.0], 4, 2),
+    };
     let random = Ensemble {
         chain: Chain { start: Start::Random, ..Chain::default() },
         protocols: windows(transients, &[200.0]),
         stream: "chains".into(),
-        // The half height lies at larger σ, where many random starts overlap; the others are
-        // counted.
+        // The half height lies where many random starts overlap; the others are counted.
         most_rejected: 1.0,
         ..paper("random", Grid::default().and(9, 18, step, 100), realisations)
     };
@@ -136,8 +130,7 @@ pub fn lengths(profile: Profile) -> Vec<Ensemble> {
 }
 
 /// Chains of two lengths from rest and from above, under the same forces. Each σ is run as long as
-/// it brackets a half height, over all chains or all but one; σ = 0.09 on both branches for the
-/// share at a fixed σ.
+/// it brackets a half height, and σ = 0.09 on both branches for the share at a fixed σ.
 pub fn branches(profile: Profile) -> Vec<Ensemble> {
     const REST: Option<Heating> = None;
     const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });
@@ -190,25 +183,20 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
 
 /// Chains of several restitutions, each at the σ where its half height may lie.
 pub fn restitution(profile: Profile) -> Vec<Ensemble> {
-    let grid = Grid::default;
-    let quick = || grid().and(9, 15, 6, 100).and(30, 60, 30, 100);
-    // Restitutions, and their σ: around the half height, and up to strong forces.
+    let from = |from, to, step| Grid::default().and(from, to, step, 100);
+    // σ around the half height, and up to strong forces.
+    let large = from(16, 18, 1).and(4, 7, 1, 20).and(2, 2, 1, 5);
+    let small = from(8, 14, 1).and(16, 18, 1, 100).and(4, 4, 1, 20).and(2, 2, 1, 5);
     let (cases, realisations): (Vec<(&[f64], Grid)>, _) = match profile {
         Profile::Full => (
             vec![
-                (
-                    &[0.0, 0.05, 0.1, 0.2, 0.4],
-                    grid().and(16, 18, 1, 100).and(4, 7, 1, 20).and(2, 2, 1, 5),
-                ),
-                (&[0.6], grid().and(10, 20, 1, 100)),
-                (
-                    &[0.8, 0.9, 0.95],
-                    grid().and(8, 14, 1, 100).and(16, 18, 1, 100).and(4, 4, 1, 20).and(2, 2, 1, 5),
-                ),
+                (&[0.0, 0.05, 0.1, 0.2, 0.4], large),
+                (&[0.6], from(10, 20, 1)),
+                (&[0.8, 0.9, 0.95], small),
             ],
             24,
         ),
-        Profile::Quick => (vec![(&[0.0, 0.8], quick())], 2),
+        Profile::Quick => (vec![(&[0.0, 0.8], from(9, 15, 6).and(30, 60, 30, 100))], 2),
     };
     let mut all = Vec::new();
     for (restitutions, sigmas) in cases {

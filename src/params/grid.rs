@@ -1,7 +1,6 @@
 //! Makes axes of σ from stretches of equal steps.
 
-/// A σ axis made of stretches of equal steps; values are exact quotients, so 0.12 is the double
-/// nearest to 0.12.
+/// A σ axis made of stretches of equal steps; values are quotients, so 0.12 is the nearest double.
 #[derive(Clone, Debug, Default)]
 pub struct Grid(Vec<f64>);
 

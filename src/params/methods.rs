@@ -1,4 +1,4 @@
-//! Names the methods of simulation: in results, on the command line, and in figures and tables.
+//! Names the methods of simulation.
 
 use impact_chain::methods::{
     Advancement, Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Truth, Verlet,
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// A method of simulation. In results it has the name of [`Method::name`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(into = "&'static str", try_from = "String")]
+#[serde(rename_all = "kebab-case")]
 pub enum MethodName {
     Certified,
     Sampled,
@@ -20,7 +20,6 @@ pub enum MethodName {
 }
 
 impl MethodName {
-    /// The engine and its rivals.
     pub const ALL: [MethodName; 7] = [
         MethodName::Certified,
         MethodName::Sampled,
@@ -45,7 +44,7 @@ impl MethodName {
         }
     }
 
-    /// Returns its name in results and on the command line: `runge-kutta`.
+    /// Its name in results and on the command line: `runge-kutta`.
     pub fn id(self) -> &'static str {
         self.with(0.0).name()
     }
@@ -64,25 +63,8 @@ impl MethodName {
         }
     }
 
-    /// Whether its setting is a tolerance rather than a step.
     pub fn has_tolerance(self) -> bool {
         matches!(self, MethodName::Advancement | MethodName::RungeKutta)
-    }
-}
-
-impl From<MethodName> for &'static str {
-    fn from(method: MethodName) -> Self {
-        method.id()
-    }
-}
-
-impl TryFrom<String> for MethodName {
-    type Error = String;
-
-    fn try_from(id: String) -> Result<Self, String> {
-        let all = MethodName::ALL.into_iter().chain([MethodName::Truth]);
-        let mut named = all.filter(|method| method.id() == id);
-        named.next().ok_or_else(|| format!("there is no method {id:?}"))
     }
 }
 

@@ -1,8 +1,8 @@
-//! Sizes of the experiments on gaps that close by themselves and on the spreading of impacts from
-//! one of them.
+//! Sizes of the experiments on gaps that close by themselves, and on impacts that spread from one.
 
 use super::chosen::SEED;
 use super::grid::Grid;
+use super::runs::Runs;
 use impact_chain::Chain;
 use literate::experiments::Profile;
 use serde::{Deserialize, Serialize};
@@ -10,16 +10,12 @@ use serde::{Deserialize, Serialize};
 /// Chains from rest, run until their first impact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NucleationParams {
-    /// The chain, but for its length.
-    pub chain: Chain,
     /// Numbers of masses n, each with its realisations at each σ.
     pub lengths: Vec<(usize, usize)>,
     /// Standard deviations σ, rising.
     pub sigmas: Vec<f64>,
     /// Times T by which a first impact is looked for, rising.
     pub times: Vec<f64>,
-    pub stream: String,
-    pub seed: u64,
 }
 
 impl NucleationParams {
@@ -32,15 +28,23 @@ impl NucleationParams {
             ),
             Profile::Quick => (&[(10, 60), (100, 30)], Grid::default().and(8, 16, 2, 100), 500.0),
         };
-        let times = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
-        NucleationParams {
-            chain: Chain::default(),
-            lengths: lengths.to_vec(),
-            sigmas: sigmas.values(),
-            times: times.into_iter().filter(|time| *time <= last).collect(),
-            stream: "nucleation".into(),
-            seed: SEED,
-        }
+        let mut times = vec![10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
+        times.retain(|time| *time <= last);
+        NucleationParams { lengths: lengths.to_vec(), sigmas: sigmas.values(), times }
+    }
+
+    /// Lists the runs, length by length and for each σ.
+    pub fn runs(&self) -> impl Iterator<Item = Runs> {
+        let until = self.times.last().copied().unwrap_or(0.0);
+        let both = self.lengths.iter().flat_map(|of| self.sigmas.iter().map(move |at| (*of, *at)));
+        both.map(move |((masses, realisations), sigma)| {
+            let chain = Chain { masses, ..Chain::default() };
+            Runs { chain, sigma, until, realisations, stream: "nucleation".into(), seed: SEED }
+        })
+    }
+
+    pub fn chains(&self) -> u64 {
+        self.runs().map(|runs| runs.realisations as u64).sum()
     }
 }
 
@@ -51,19 +55,14 @@ pub struct SeedsParams {
     /// Standard deviations σ, rising.
     pub sigmas: Vec<f64>,
     pub realisations: usize,
-    /// A chain whose one gap has not closed by this time is left out.
-    pub wait: f64,
     /// Width of the bins of time since its first impact ...
     pub bin: f64,
     /// ... and their number, 64 at most.
     pub bins: usize,
     /// Window W of the counts that are predicted, in bins.
     pub window: usize,
-    /// Transients T of the counts that are predicted, in bins, rising; the last window ends with
-    /// the bins.
+    /// Transients T of these counts, in bins, rising; the last window ends with the bins.
     pub transients: Vec<usize>,
-    pub stream: String,
-    pub seed: u64,
 }
 
 impl SeedsParams {
@@ -76,13 +75,10 @@ impl SeedsParams {
             chain: Chain::default(),
             sigmas: sigmas.values(),
             realisations,
-            wait: 2000.0,
             bin: 25.0,
             bins: 48,
             window: 8,
             transients: vec![2, 4, 8, 20, 40],
-            stream: "seeds".into(),
-            seed: SEED,
         }
     }
 

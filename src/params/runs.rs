@@ -1,7 +1,6 @@
 //! Runs of equal chains at one σ, and the sizes of the experiments that consist of them.
 
-use super::chosen::SEED;
-use super::printed::printed_threshold;
+use super::chosen::{SEED, printed_threshold};
 use impact_chain::{Chain, Scenario};
 use impact_numerics::random::NormalPairs;
 use literate::experiments::Profile;
@@ -26,8 +25,8 @@ impl Runs {
         Runs { chain, sigma: 0.2, until: 500.0, realisations, stream, seed: SEED }
     }
 
-    /// A run at the printed threshold, recorded impact by impact: the first of these that has an
-    /// impact in its last tenth.
+    /// Runs at the printed threshold, of which the first with an impact in its last tenth is
+    /// recorded.
     pub fn spacetime(profile: Profile) -> Self {
         let until = if profile == Profile::Quick { 400.0 } else { 4000.0 };
         let (chain, stream) = (Chain::default(), "space-time".into());
@@ -40,7 +39,6 @@ impl Runs {
     }
 }
 
-/// Two masses under a low force.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TwoMassesParams {
     /// Random directions of the forcing, as amplitudes with σ = 1.

@@ -1,13 +1,11 @@
-//! Ensembles: counts in windows against a list of impacts, what follows from counts by hand, and
-//! runs in pieces.
+//! Ensembles: counts in windows against a list of impacts, and what follows from counts by hand.
 
 use crate::trace;
-use impact_chain::replay::{Forces, Replay, Request};
-use impact_chain::rise::{Curve, Mean, RisePoint};
-use impact_chain::{Beyond, Counts, Ensemble, Scenario};
+use impact_chain::rise::{Mean, RisePoint};
+use impact_chain::{Counts, Scenario};
 use impact_numerics::random::NormalPairs;
 use impact_paper::experiments::{Progress, ensembles::CUTTING};
-use impact_paper::params::{Boundary, Chain, Protocol, Start};
+use impact_paper::params::{Beyond, Chain, Ensemble, Protocol, Start};
 
 fn small() -> Ensemble {
     let times = [(20.0, 20.0), (20.0, 50.0), (50.0, 20.0), (100.0, 50.0)];
@@ -107,27 +105,10 @@ fn where_many_starts_overlap_there_is_no_place_of_the_rise() {
         realisations: 7,
         ..Ensemble::default()
     };
-    let curve = Curve::new(&ensemble, &[overlapping(0), overlapping(10)], 0);
+    let parts = vec![vec![overlapping(0)], vec![overlapping(10)]];
+    let found = (CUTTING.join)(&vec![ensemble], parts, &Progress::silent()).unwrap();
+    let curve = found[0].first();
     assert_eq!((curve.rise.half_height_all, curve.rows[1].ran), (None, 6));
-}
-
-#[test]
-fn a_run_in_pieces_has_the_digest_of_the_whole() {
-    for boundary in [Boundary::Walls, Boundary::Ring] {
-        let chain = Chain { masses: 20, boundary, ..Chain::default() };
-        let stream = "replay".into();
-        let forces = Forces::Drawn { sigma: 0.3, stream, seed: 1, realisation: 0 };
-        let request = Request { chain, forces, transient: 50.0, window: 50.0 };
-        let mut whole = Replay::new(&request).unwrap();
-        assert!(!whole.advance(u64::MAX, |_, _| ()).unwrap());
-        assert!(whole.engine().counters().impacts > 300 && whole.distinct() > 10);
-        let mut pieces = Replay::new(&request).unwrap();
-        let mut shown = Vec::new();
-        while pieces.advance(7, |_, gap| shown.push(gap)).unwrap() {}
-        assert_eq!(shown.len() as u64, whole.engine().counters().impacts);
-        assert!(shown.iter().all(|gap| *gap < whole.gaps()));
-        assert_eq!((pieces.digest(), pieces.distinct()), (whole.digest(), whole.distinct()));
-    }
 }
 
 #[test]

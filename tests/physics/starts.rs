@@ -1,9 +1,9 @@
 //! Starts: from a state, from places and velocities in a file, and when the force is lowered.
 
 use crate::drawn;
-use impact_chain::{Engine, Initial, Overtone, Scenario, State};
+use impact_chain::{Engine, Initial, Scenario, State};
 use impact_numerics::random::NormalPairs;
-use impact_paper::params::{Chain, Start};
+use impact_paper::params::{Chain, Start, lowered};
 
 #[test]
 fn the_state_at_the_start_is_that_of_the_engine() {
@@ -110,12 +110,10 @@ fn displacement(scenario: &Scenario, free: [f64; 2], j: usize, t: f64) -> f64 {
 fn positions_and_velocities_are_continuous_when_the_force_is_lowered() {
     let chain = Chain { masses: 5, ..Chain::default() };
     let mut normals = NormalPairs::new("test of history", 1, 1);
-    let mut hot = Scenario::draw(&chain, 0.3, &mut normals);
-    let amplitudes = (0..5).map(|_| normals.pair()).collect();
-    hot.overtones = vec![Overtone { frequency: 2.3, amplitudes }];
+    let hot = Scenario::draw(&chain, 0.3, &mut normals);
     let free: Vec<[f64; 2]> = (0..5).map(|_| normals.pair()).collect();
     let (time, h) = (7.3, 1e-5);
-    let after = hot.lowered(&free, time, 0.4);
+    let after = lowered(&hot, &free, time, 0.4);
     let Initial::Free(parts) = &after.initial else { panic!("it has free parts") };
     for j in 0..5 {
         let before = |t| displacement(&hot, free[j], j, t);

@@ -150,7 +150,7 @@ fn the_page_has_each_run_with_its_digest_and_the_module() {
     for (i, found) in replays.found.iter().enumerate() {
         assert_eq!(data["runs"][i]["found"]["digest"], found.digest.as_str());
         let asked = serde_json::from_value(data["runs"][i]["asked"].clone());
-        let asked: impact_chain::replay::Request = asked.unwrap();
+        let asked: impact_paper::experiments::replay::Request = asked.unwrap();
         assert_eq!(asked, replays.parameters[i].1);
     }
 }

@@ -1,17 +1,15 @@
 //! Classes of circuits that differ only by the order of impacts without a common mass (ours).
 //!
 //! Two impacts without a common mass may change places in the order of impacts, and every mass
-//! still has its impacts in the same order. Gap i lies between masses i and i + 1, so impacts of
-//! gaps i and j have a common mass where |i − j| ≤ 1. In a simple circuit each gap appears
-//! once, and a mass meets the gap to its left and the gap to its right by turns, whichever of the
-//! (k − 1)! cyclic orders of the k gaps it is: all of them are one order up to such changes.
+//! still has its impacts in the same order. Impacts of gaps i and j have a common mass where
+//! |i − j| ≤ 1. In a simple circuit each gap appears once, and a mass meets the gaps to its left
+//! and right by turns: all (k − 1)! cyclic orders of k gaps are one order up to such changes.
 
 use crate::graph::{Circuit, Graph};
 use std::collections::BTreeSet;
 
-/// Counts, by enumeration, the simple circuits on `big_n` gaps in a row, and the classes of them:
-/// two are in one class if exchanges of neighbouring impacts without a common mass lead from one to
-/// the other.
+/// Counts, by enumeration, the simple circuits on `big_n` gaps in a row, and their classes: in one
+/// class exchanges of neighbouring impacts without a common mass lead from each to each.
 pub fn simple_classes(big_n: usize) -> [usize; 2] {
     let all = Graph::of_chain(big_n - 1).circuits(big_n);
     let mut left: BTreeSet<Circuit> = all.filter(|circuit| circuit.repeats().is_empty()).collect();
@@ -37,14 +35,11 @@ fn exchanged(word: &[usize]) -> impl Iterator<Item = Circuit> + '_ {
     })
 }
 
-/// Returns the mean number of different gaps if each set of k gaps weighs p^k once, and not (k −
-/// 1)! times: the mean of a binomial variable without the empty set.
+/// Returns the mean number of different gaps if each set of k gaps weighs p^k once, and not
+/// (k − 1)! times: the mean of a binomial variable without the empty set.
 pub fn mean_without_orders(big_n: usize, p: f64) -> f64 {
     let share = p / (1.0 + p);
-    let mut empty = 1.0;
-    for _ in 0..big_n {
-        empty *= 1.0 - share;
-    }
+    let empty = (0..big_n).fold(1.0, |empty, _| empty * (1.0 - share));
     big_n as f64 * share / (1.0 - empty)
 }
 
@@ -54,8 +49,7 @@ mod tests {
 
     #[test]
     fn all_orders_of_the_same_gaps_are_one() {
-        // By Eq. (7), N!/(k (N − k)!) over k = 1..6: 6 + 15 + 40 + 90 + 144 + 120. Sets: 2^N −
-        // 1.
+        // By Eq. (7), N!/(k (N − k)!) over k = 1..6: 6 + 15 + 40 + 90 + 144 + 120. Sets: 2^N − 1.
         assert_eq!([1, 2, 3, 6].map(simple_classes), [[1, 1], [3, 3], [8, 7], [415, 63]]);
     }
 

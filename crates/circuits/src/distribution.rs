@@ -7,7 +7,7 @@
 
 use crate::error::{Error, check_vertices, within};
 use crate::higher_order;
-pub use crate::sample_space::SampleSpace;
+pub use crate::higher_order::SampleSpace;
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::scaled::Scaled;
 
@@ -40,7 +40,6 @@ impl Weights {
         Weights { space, big_n, p, k: 1, arranged }
     }
 
-    /// Moves on to k + 1.
     pub(crate) fn advance(&mut self) {
         let left = self.big_n - self.k;
         self.arranged = self.arranged * (self.p * left as f64);
@@ -76,17 +75,13 @@ pub(crate) struct Sums {
 }
 
 impl Law {
-    /// Creates the law of N vertices with edge probability p.
-    ///
-    /// # Errors
-    /// [`Error`] for N outside 1..=[`LARGEST_N`](crate::LARGEST_N) or p outside [0, 1].
+    /// Creates the law of N vertices with edge probability p, from 0 to 1.
     pub fn new(space: SampleSpace, big_n: usize, p: f64) -> Result<Self, Error> {
         check_vertices(big_n)?;
         within("p", p, 0.0, 1.0)?;
         Ok(Law { space, big_n, p })
     }
 
-    /// Lists the weights of k = 1..=N, in order.
     pub(crate) fn weights(&self) -> impl Iterator<Item = Weights> + use<> {
         let mut next = Weights::new(self.space, self.big_n, DoubleDouble::from(self.p));
         (1..=self.big_n).map(move |k| {
@@ -102,24 +97,16 @@ impl Law {
     /// Returns the weight Φ_{N,p}(k), over p: p^(k−1) N!/(k (N − k)!) for simple circuits. The
     /// common factor p drops out of every probability, and without it the limit p → 0+ is the
     /// value at p = 0. Γ_{N,p}, over p as well, is the sum of all weights.
-    ///
-    /// # Errors
-    /// [`Error`] for k outside 1..=N.
     pub fn weight(&self, k: usize) -> Result<Scaled, Error> {
         within("k", k, 1, self.big_n)?;
-        let weights = self.weights().nth(k - 1).expect("k ≤ N");
-        Ok(weights.moment() / Scaled::from(k))
+        Ok(self.all_weights().nth(k - 1).expect("k ≤ N"))
     }
 
     /// Sums all weights that can matter to the last bit of 106.
     pub(crate) fn sums(&self) -> Sums {
         let negligible = Scaled::from(1e-32) / Scaled::from(self.big_n);
-        let mut sums = Sums {
-            total: Scaled::ZERO,
-            first_moment: Scaled::ZERO,
-            largest: Scaled::ZERO,
-            largest_at: 1,
-        };
+        let [total, first_moment, largest] = [Scaled::ZERO; 3];
+        let mut sums = Sums { total, first_moment, largest, largest_at: 1 };
         for weights in self.weights() {
             let (k, moment) = (weights.k, weights.moment());
             let weight = moment / Scaled::from(k);
@@ -138,9 +125,6 @@ impl Law {
     /// **Eq. (9)**
     ///
     /// Returns P(X = k) = Φ_{N,p}(k)/Γ_{N,p}; 0 where it is below the smallest double.
-    ///
-    /// # Errors
-    /// [`Error`] for k outside 1..=N.
     pub fn probability(&self, k: usize) -> Result<f64, Error> {
         Ok((self.weight(k)? / self.sums().total).to_f64())
     }

@@ -7,9 +7,7 @@ use std::fmt::{self, Debug};
 pub struct Error {
     /// The field: `vertices`, `p`, `k`, `sigma`, `omega`, `forcing-frequency` or `spacing`.
     pub field: &'static str,
-    /// What is wrong, with the value.
     pub problem: String,
-    /// What to give instead.
     pub remedy: String,
 }
 
@@ -33,11 +31,10 @@ impl Error {
     }
 }
 
-/// The largest number of vertices for which a quantity is computed: each takes a time that grows
-/// at most in proportion to N, some seconds at this bound.
+/// The largest number of vertices N for which a quantity is computed: its time grows at most in
+/// proportion to N, and is some seconds at this bound.
 pub const LARGEST_N: usize = 10_000_000;
 
-/// Refuses a number outside [low, high].
 pub(crate) fn within<T: PartialOrd + Debug>(
     field: &'static str,
     x: T,
@@ -51,7 +48,6 @@ pub(crate) fn within<T: PartialOrd + Debug>(
     Err(Error::new(field, format!("{x:?} is out of range"), remedy))
 }
 
-/// Refuses a number of vertices outside 1..=[`LARGEST_N`].
 pub(crate) fn check_vertices(big_n: usize) -> Result<(), Error> {
     within("vertices", big_n, 1, LARGEST_N)
 }

@@ -3,14 +3,14 @@
 
 use std::collections::BTreeMap;
 
-/// The fully connected directed graph of N vertices, named for a chain of N − 1 masses.
+/// The fully connected directed graph of N vertices and N² edges, named for a chain of N − 1
+/// masses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Graph {
     labels: Vec<String>,
 }
 
-/// A circuit: vertex indices in order, read cyclically. Two circuits are the same when one is a
-/// rotation of the other; the stored rotation is the lexicographically least.
+/// A circuit: vertex indices, read cyclically. Of its rotations the lexicographically least.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Circuit(Vec<usize>);
 
@@ -26,7 +26,6 @@ impl Graph {
         Graph { labels: (0..=masses).map(|j| format!("{}-{}", body(j), body(j + 1))).collect() }
     }
 
-    /// Number of vertices N = n + 1.
     pub fn vertices(&self) -> usize {
         self.labels.len()
     }
@@ -36,17 +35,11 @@ impl Graph {
         &self.labels[vertex]
     }
 
-    /// All N² edges (from, to), loops included, in lexicographic order.
-    pub fn edges(&self) -> impl Iterator<Item = (usize, usize)> {
-        let n = self.vertices();
-        (0..n).flat_map(move |from| (0..n).map(move |to| (from, to)))
-    }
-
     /// Every primitive circuit of at most `longest` edges, in lexicographic order: a circuit that
     /// only runs another one several times over is the same periodic orbit and is left out.
     ///
-    /// There are about N^longest/longest of them: meant for small graphs. Their least rotations are
-    /// the Lyndon words over the vertices, which Duval's algorithm lists in order.
+    /// There are about N^longest/longest of them. Their least rotations are the Lyndon words over
+    /// the vertices, which Duval's algorithm lists in order.
     pub fn circuits(&self, longest: usize) -> impl Iterator<Item = Circuit> + use<> {
         let last = self.vertices() - 1;
         let first = (longest > 0).then(|| Circuit(vec![0]));
@@ -87,8 +80,8 @@ impl Circuit {
         visits
     }
 
-    /// δ_1, δ_2, …: how many vertices are visited j + 1 times, without trailing zeros; empty
-    /// for a simple circuit. The class of Eq. (34) to which the circuit belongs.
+    /// Its class in Eq. (34): how many vertices are visited j + 1 times, j = 1, 2, …, without
+    /// trailing zeros; empty for a simple circuit.
     pub fn repeats(&self) -> Vec<usize> {
         let visits = self.visits();
         let most = visits.values().copied().max().unwrap_or(1);
@@ -118,8 +111,7 @@ mod tests {
                 };
                 all.extend(words.filter(primitive).map(Circuit::new));
             }
-            let listed: Vec<Circuit> = graph.circuits(longest).collect();
-            assert_eq!(listed, all.into_iter().collect::<Vec<_>>(), "N = {n}");
+            assert!(graph.circuits(longest).eq(all), "N = {n}");
         }
         assert_eq!(Graph::of_chain(2).circuits(0).count(), 0);
     }

@@ -3,19 +3,32 @@
 //!
 //! The printed formulas count cyclic sequences as length!/length would, which is right only while
 //! no sequence can be a repetition of a shorter one. [`SampleSpace::FiveClasses`] counts distinct
-//! circuits.
+//! circuits. Exact counts are none beyond 128 bits.
 
-use crate::arrangements::arrangements;
-use crate::fraction::Fraction;
-use crate::sample_space::SampleSpace;
 use impact_numerics::double_double::DoubleDouble;
+
+/// The circuits that are possible.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SampleSpace {
+    /// Simple circuits only (Sec. 6).
+    Simple,
+    /// Simple circuits and the four classes of Sec. 9, counted as primitive circuits.
+    FiveClasses,
+    /// The same with the printed formulas, although they fail for one and two different vertices.
+    FiveClassesPrinted,
+}
+
+/// Returns N (N − 1) … (N − count + 1): the ordered choices of `count` of N vertices.
+pub(crate) fn arrangements(big_n: usize, count: usize) -> Option<u128> {
+    let mut factors = (0..count).map(|i| big_n.saturating_sub(i) as u128);
+    factors.try_fold(1_u128, u128::checked_mul)
+}
 
 /// **Eq. (29)**
 ///
 /// Returns the number of paths from a given doubled vertex for a loop, back, and for another loop,
-/// k vertices in all: (N − 1)!/(N − (k − 1))!, for k ≥ 2; zero beyond N + 1; none beyond
-/// 128 bits. The way in which the k − 2 other vertices are divided between the loops does not
-/// matter:
+/// k vertices in all: (N − 1)!/(N − (k − 1))!, for k ≥ 2; zero beyond N + 1. The way in which the
+/// k − 2 other vertices are divided between the loops does not matter:
 ///
 /// **Eq. (26)** (step towards (30)): with γ_1 and γ_2 of them, k = (γ_1 + 1) + (γ_2 + 1).
 /// **Eq. (27)** (step towards (29)): (N − 1) … (N − γ_1) ways for the first loop,
@@ -28,16 +41,16 @@ pub fn doubled_paths(big_n: usize, k: usize) -> Option<u128> {
 /// **Eq. (30)**
 ///
 /// Returns φ_N^1(k) *as this equation prints it*: γ(k, 2)/2 times [`doubled_paths`]. A factor N,
-/// the choice of the doubled vertex, is missing; Eq. (33) has it. None beyond 128 bits.
-pub fn doubled_as_printed(big_n: usize, k: usize) -> Option<Fraction> {
+/// the choice of the doubled vertex, is missing; Eq. (33) has it.
+pub fn doubled_as_printed(big_n: usize, k: usize) -> Option<f64> {
     let splits = compositions(k, 2)?;
-    Some(Fraction::new(splits.checked_mul(doubled_paths(big_n, k)?)?, 2))
+    Some(splits.checked_mul(doubled_paths(big_n, k)?)? as f64 / 2.0)
 }
 
 /// **Eq. (32)**
 ///
 /// Returns γ(n, j), the number of ways to write n as an ordered sum of j positive integers: the
-/// binomial coefficient (n − 1 over j − 1), for n, j ≥ 1. None beyond 128 bits.
+/// binomial coefficient (n − 1 over j − 1), for n, j ≥ 1.
 ///
 /// **Eq. (31)** (step towards (32)): α_1 + … + α_j = n with every α_i > 0.
 pub fn compositions(n: usize, j: usize) -> Option<u128> {
@@ -53,67 +66,63 @@ pub fn compositions(n: usize, j: usize) -> Option<u128> {
 
 /// **Eq. (33)**
 ///
-/// Returns φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: circuits of
-/// length k with one vertex visited twice and no other repeated. Fails at k = 2 (a loop run twice
-/// is no new circuit), where it gives N/2. None beyond 128 bits.
-pub fn doubled(big_n: usize, k: usize) -> Option<Fraction> {
-    let choices = arrangements(big_n, k - 1)?;
-    Some(Fraction::new(choices.checked_mul(k as u128 - 1)?, 2))
+/// Returns φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: one vertex visited
+/// twice. Gives N/2 at k = 2, where a loop run twice is no new circuit.
+pub fn doubled(big_n: usize, k: usize) -> Option<f64> {
+    printed(big_n, k, 2, k - 1, 2.0)
 }
 
-/// Returns (k − 1)!/(k − j)! · N!/(N − d)! / divisor, the common form of the printed
-/// formulas.
-fn printed(big_n: usize, k: usize, j: usize, d: usize, divisor: u128) -> Option<Fraction> {
+/// Returns (k − 1)!/(k − j)! · N!/(N − d)! / divisor, the common form of the printed formulas.
+fn printed(big_n: usize, k: usize, j: usize, d: usize, divisor: f64) -> Option<f64> {
     let positions = arrangements(k - 1, j - 1)?;
-    Some(Fraction::new(positions.checked_mul(arrangements(big_n, d)?)?, divisor))
+    Some(positions.checked_mul(arrangements(big_n, d)?)? as f64 / divisor)
 }
 
 /// **Eq. (35)**
 ///
-/// Returns φ_N^{1,0}(k) as printed, for k ≥ 3: one vertex visited three times, 1/6 (k − 1)!/(k
-/// − 3)! N!/(N − (k − 2))!. Gives N/3 at k = 3, where there is no such circuit. None beyond
-/// 128 bits.
-pub fn three_visits(big_n: usize, k: usize) -> Option<Fraction> {
-    printed(big_n, k, 3, k - 2, 6)
+/// Returns φ_N^{1,0}(k) as printed, for k ≥ 3: one vertex visited three times,
+/// 1/6 (k − 1)!/(k − 3)! N!/(N − (k − 2))!. Gives N/3 at k = 3, where there is no such circuit.
+pub fn three_visits(big_n: usize, k: usize) -> Option<f64> {
+    printed(big_n, k, 3, k - 2, 6.0)
 }
 
 /// **Eq. (36)**
 ///
-/// Returns φ_N^{1,0,0}(k) as printed, for k ≥ 4: one vertex visited four times, 1/24 (k −
-/// 1)!/(k − 4)! N!/(N − (k − 3))!. Gives N/4 at k = 4, where there is no such circuit. None
-/// beyond 128 bits.
-pub fn four_visits(big_n: usize, k: usize) -> Option<Fraction> {
-    printed(big_n, k, 4, k - 3, 24)
+/// Returns φ_N^{1,0,0}(k) as printed, for k ≥ 4: one vertex visited four times,
+/// 1/24 (k − 1)!/(k − 4)! N!/(N − (k − 3))!. Gives N/4 at k = 4, where there is no such circuit.
+pub fn four_visits(big_n: usize, k: usize) -> Option<f64> {
+    printed(big_n, k, 4, k - 3, 24.0)
 }
 
 /// **Eq. (37)**
 ///
-/// Returns φ_N^2(k) as printed, for k ≥ 3: two vertices visited twice,
-/// 1/8 (k − 1)!/(k − 4)! N!/(N − (k − 2))!. Gives 3 N (N − 1)/4 at k = 4, where there are
-/// N (N − 1)/2. None beyond 128 bits.
-pub fn two_doubled(big_n: usize, k: usize) -> Option<Fraction> {
-    printed(big_n, k, 4, k - 2, 8)
+/// Returns φ_N^2(k) as printed, for k ≥ 3: two vertices visited twice, 1/8 (k − 1)!/(k − 4)! N!/(N
+/// − (k − 2))!. Gives 3 N (N − 1)/4 at k = 4, where there are N (N − 1)/2.
+pub fn two_doubled(big_n: usize, k: usize) -> Option<f64> {
+    printed(big_n, k, 4, k - 2, 8.0)
 }
 
 /// **Eq. (34)**
 ///
 /// The class of circuits in which exactly δ_j vertices are visited j + 1 times and every other
 /// vertex at most once: the index of φ_N^{…, δ_3, δ_2, δ_1}.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Class {
     /// The printed equation that counts it.
     pub equation: u32,
     /// δ_1, δ_2, …: index j − 1 holds δ_j.
     pub repeats: &'static [usize],
+    /// The number of its circuits of length k on N vertices, as printed.
+    pub printed: fn(usize, usize) -> Option<f64>,
 }
 
 /// The five classes, in the order of Eq. (38).
 pub const CLASSES: [Class; 5] = [
-    Class { equation: 7, repeats: &[] },
-    Class { equation: 33, repeats: &[1] },
-    Class { equation: 35, repeats: &[0, 1] },
-    Class { equation: 36, repeats: &[0, 0, 1] },
-    Class { equation: 37, repeats: &[2] },
+    Class { equation: 7, repeats: &[], printed: |n, k| printed(n, k, 1, k, k as f64) },
+    Class { equation: 33, repeats: &[1], printed: doubled },
+    Class { equation: 35, repeats: &[0, 1], printed: three_visits },
+    Class { equation: 36, repeats: &[0, 0, 1], printed: four_visits },
+    Class { equation: 37, repeats: &[2], printed: two_doubled },
 ];
 
 impl Class {
@@ -129,8 +138,7 @@ impl Class {
     }
 
     /// Returns [`SHARED`] times the number of circuits with k different vertices, over φ_N(k): by
-    /// the printed formula, or as primitive circuits. A polynomial in k with whole coefficients,
-    /// for any N.
+    /// the printed formula, or as primitive circuits. A whole polynomial in k, for any N.
     pub fn per_simple_circuit(&self, space: SampleSpace, k: usize) -> u128 {
         let short = space == SampleSpace::FiveClasses;
         let k = k as u128;

@@ -13,12 +13,11 @@
 //!
 //! Eq. (25) draws the free part of the motion independently of the forcing, with the same σ. A
 //! chain that is at rest when the forcing sets in has no such random part: its free part cancels
-//! the forced position and velocity at t = 0, so with δα, δβ the differences of forcing
-//! amplitudes Y_0 = √(δα² + (Ω/ω)² δβ²)/|ω² − Ω²|, which goes with Y_1. In polar
-//! form the radius integrates out and one angle is left (ours):
+//! the forced position and velocity at t = 0, so with δα, δβ the differences of forcing amplitudes
+//! Y_0 = √(δα² + (Ω/ω)² δβ²)/|ω² − Ω²|, which goes with Y_1. In polar form the radius integrates
+//! out and one angle is left (ours):
 //!
-//! p_rest = (2/π) ∫_0^{π/2} exp(−(|ω² − Ω²| d/(2σ))²/(1 + √(cos²θ + (Ω/ω)²
-//! sin²θ))²) dθ.
+//! p_rest = (2/π) ∫_0^{π/2} exp(−(|ω² − Ω²| d/(2σ))²/(1 + √(cos²θ + (Ω/ω)² sin²θ))²) dθ.
 
 use crate::error::{Error, within};
 use impact_chain::Chain;
@@ -45,24 +44,20 @@ pub struct ImpactProbability {
     frequency_ratio: DoubleDouble,
 }
 
-/// **Eq. (21)** (step towards (22)): Y = √((α_{j+1} − α_j)² + (β_{j+1} − β_j)²), the
-/// amplitude of one harmonic of a gap.
+/// **Eq. (21)** (step towards (22)): Y = √((α_{j+1} − α_j)² + (β_{j+1} − β_j)²), the amplitude of
+/// one harmonic of a gap.
 ///
 /// **Eq. (22)**
 ///
-/// Returns the density of Y_0 at x: Rayleigh, since both differences are normal with variance
-/// 2σ².
+/// Returns the density of Y_0 at x ≥ 0: Rayleigh, as both differences are normal, of variance 2σ².
 pub fn density_free(x: f64, sigma: f64) -> f64 {
     density_forced(x, sigma, 1.0)
 }
 
 /// **Eq. (23)**
 ///
-/// Returns the density of Y_1/|ω² − Ω²| at x, `detuning` = |ω² − Ω²|.
+/// Returns the density of Y_1/|ω² − Ω²| at x ≥ 0, `detuning` = |ω² − Ω²|.
 pub fn density_forced(x: f64, sigma: f64, detuning: f64) -> f64 {
-    if x < 0.0 {
-        return 0.0;
-    }
     let rate = detuning / (2.0 * sigma);
     2.0 * rate * rate * x * pxfm::f_exp(-(rate * x) * (rate * x))
 }
@@ -81,16 +76,6 @@ fn squared(frequency: f64) -> DoubleDouble {
     if frequency == SQRT_2 { dd(2.0) } else { square(dd(frequency)) }
 }
 
-/// Returns |ω² − Ω²|, without cancellation.
-fn detuning(omega: f64, forcing: f64) -> DoubleDouble {
-    let difference = if omega == SQRT_2 || forcing == SQRT_2 {
-        squared(omega) - squared(forcing)
-    } else {
-        (dd(omega) - dd(forcing)) * (dd(omega) + dd(forcing))
-    };
-    if difference.hi < 0.0 { -difference } else { difference }
-}
-
 /// Returns (1 − e^{−x})/x.
 fn saturation(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { -pxfm::f_expm1(-x) / x }
@@ -101,18 +86,16 @@ fn saturation(x: f64) -> f64 {
 const NEARLY_ONE: f64 = 0.01;
 
 impl ImpactProbability {
-    /// Creates the law of a gap of masses d = `spacing` apart, with natural frequency ω and
-    /// forcing frequency Ω.
-    ///
-    /// # Errors
-    /// [`Error`] for a number out of range, or ω = Ω.
+    /// Creates the law of masses d = `spacing` apart, with frequencies ω and `forcing` = Ω ≠ ω.
     pub fn new(sigma: f64, spacing: f64, omega: f64, forcing: f64) -> Result<Self, Error> {
         within("sigma", sigma, 1e-300, 1e6)?;
         // The ranges of a scenario.
         within("spacing", spacing, 1e-6, 1e6)?;
         within("omega", omega, 1e-3, 1e3)?;
         within("forcing-frequency", forcing, 1e-3, 1e3)?;
-        let detuning = detuning(omega, forcing);
+        // Both squares are exact to 106 bits.
+        let difference = squared(omega) - squared(forcing);
+        let detuning = if difference.hi < 0.0 { -difference } else { difference };
         if detuning.hi == 0.0 {
             let problem = format!("Ω = ω = {omega:?} is resonance, where amplitudes grow for ever");
             return Err(Error::new("forcing-frequency", problem, "give Ω different from ω"));
@@ -127,9 +110,6 @@ impl ImpactProbability {
     }
 
     /// Creates the law of the paper's chain, ω = 1, Ω = √2, d = 1 (Fig. 11).
-    ///
-    /// # Errors
-    /// [`Error`] for σ out of range.
     pub fn of_paper(sigma: f64) -> Result<Self, Error> {
         let chain = Chain::default();
         Self::new(sigma, chain.spacing, chain.natural_frequency, chain.forcing_frequency)
@@ -142,8 +122,7 @@ impl ImpactProbability {
     }
 
     // listing: leading
-    /// Returns the leading exponent E and the factor B of p = B e^{−E}; both without
-    /// cancellation.
+    /// Returns the leading exponent E and the factor B of p = B e^{−E}; both without cancellation.
     fn leading(&self) -> (DoubleDouble, f64) {
         let (s, t) = self.scales();
         let ratio = s / t;
@@ -161,11 +140,8 @@ impl ImpactProbability {
 
     /// **Eq. (25)**
     ///
-    /// Returns p(σ), the probability that a gap closes by itself, in closed form and to about
-    /// 1e−15 relative at the exact doubles given.
-    ///
-    /// # Errors
-    /// [`Error`] if p is below the range of doubles.
+    /// Returns p(σ), the probability that a gap closes by itself, in closed form and to about 1e−15
+    /// relative at the exact doubles given.
     pub fn p(&self) -> Result<f64, Error> {
         let (exponent, factor) = self.leading();
         if exponent.to_f64() < NEARLY_ONE {
@@ -181,9 +157,6 @@ impl ImpactProbability {
     }
 
     /// Returns ln p(σ), to about 1e−15 relative for every σ.
-    ///
-    /// # Errors
-    /// [`Error`] if ln p is below the range of doubles.
     pub fn log_p(&self) -> Result<f64, Error> {
         let (exponent, factor) = self.leading();
         if exponent.hi.is_nan() || exponent.hi > 1e270 {
@@ -198,9 +171,9 @@ impl ImpactProbability {
 
     /// **Eq. (20)**
     ///
-    /// Returns 1 − p = P(Y_0 + Y_1/|ω² − Ω²| < d), the probability that the gap never
-    /// closes, accurate even when it is tiny (large σ): an integral over the wider amplitude of
-    /// positive terms.
+    /// Returns 1 − p = P(Y_0 + Y_1/|ω² − Ω²| < d), the probability that the gap never closes,
+    /// accurate even when it is tiny (large σ): an integral over the wider amplitude of positive
+    /// terms.
     pub fn complement(&self) -> f64 {
         let (s, t) = self.scales();
         let (s2, t_value) = (square(s).to_f64(), t.to_f64());
@@ -224,8 +197,7 @@ impl ImpactProbability {
     /// **Eq. (24)**
     ///
     /// Returns p by quadrature of the double integral that Eq. (25) prints, in `panels` × `panels`
-    /// panels: 1 − p is the convolution of both densities. This naive route keeps no digit of a
-    /// small p.
+    /// panels: 1 − p is the convolution of both densities. No digit of a small p is kept.
     pub fn p_by_double_integral(&self, panels: usize) -> f64 {
         let (q2, sigma2) = (square(self.detuning).to_f64(), self.sigma * self.sigma);
         let rule = GaussLegendre::new(20);
@@ -243,9 +215,6 @@ impl ImpactProbability {
     /// Returns the probability that a gap closes by itself after a start from rest. The integrand
     /// is periodic and analytic, so the trapezoidal rule converges faster than any power; the
     /// largest value of the exponential is taken out first, so small values keep their digits.
-    ///
-    /// # Errors
-    /// [`Error`] if it is below the range of doubles.
     pub fn p_from_rest(&self) -> Result<f64, Error> {
         let scale = square(self.half_ratio * self.detuning);
         let kappa = self.frequency_ratio.to_f64();
@@ -257,9 +226,8 @@ impl ImpactProbability {
         // The mean is at most one. Where even this is too small the mean would be that of a spike,
         // to which the rule converges slowly and in vain.
         if half * half >= f64::MIN_POSITIVE {
-            let mean =
-                half_period_mean(|theta| pxfm::f_exp(-rate * excess(kappa, reach_f64, theta)));
-            let p = (half * mean) * half;
+            let decay = |theta| pxfm::f_exp(-rate * excess(kappa, reach_f64, theta));
+            let p = (half * half_period_mean(decay)) * half;
             if p >= f64::MIN_POSITIVE {
                 return Ok(p.min(1.0));
             }

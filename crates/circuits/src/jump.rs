@@ -8,14 +8,13 @@ use impact_numerics::scaled::Scaled;
 
 /// **Eq. (12)**
 ///
-/// Returns f_{N,p}(k) = −p k² + (N p − 1) k − 1 at real k: Φ_{N,p} rises from k to k + 1
-/// where it is positive. Written as p k (N − k) − (k + 1), with the product exact.
+/// Returns f_{N,p}(k) = −p k² + (N p − 1) k − 1 at real k: Φ_{N,p} rises from k to k + 1 where it
+/// is positive. Written as p k (N − k) − (k + 1), with the product exact.
 ///
 /// **Eq. (14)** (step towards (18)): f_{N,p}(0) = −1, whatever N and p.
 /// **Eq. (15)** (step towards (18)): f_{N,p}(N) = −(N + 1), whatever p.
 /// **Eq. (16)** (step towards (18)): f_{N,0}(k) = −(k + 1) < 0, so at p → 0+ every step falls.
-/// **Eq. (17)** (step towards (18)): ∂f/∂p = k (N − k), positive inside (0, N), so f grows with p
-/// at every k.
+/// **Eq. (17)** (step towards (18)): ∂f/∂p = k (N − k) > 0 inside (0, N), so f grows with p.
 pub fn f(big_n: usize, p: f64, k: f64) -> f64 {
     let product = two_product(k, big_n as f64 - k) * p;
     (product - DoubleDouble::from(k) - DoubleDouble::ONE).to_f64()
@@ -53,9 +52,6 @@ pub fn zeros(big_n: usize, p: f64) -> Option<[f64; 2]> {
 ///
 /// Returns p_crit = ((1 + √(N + 1))/N)², where f_{N,p} first touches zero: Φ gets a stationary
 /// point, as a function of real k. k* stays at 1 until [`p_jump`].
-///
-/// # Errors
-/// [`Error`] for N out of range.
 pub fn p_crit(big_n: usize) -> Result<f64, Error> {
     check_vertices(big_n)?;
     let root = (1.0 + (big_n as f64 + 1.0).sqrt()) / big_n as f64;
@@ -94,21 +90,23 @@ pub fn first_local_maximum(big_n: usize) -> Option<(usize, [usize; 2])> {
     // (k + 1)/(k (N − k)) over k: compare as integers, exactly.
     let parts = |k: usize| [k + 1, k * (big_n - k)];
     let before = |a: [usize; 2], b: [usize; 2]| (a[0] * b[1]).cmp(&(b[0] * a[1]));
-    (2..big_n).min_by(|a, b| before(parts(*a), parts(*b))).map(|k| (k, parts(k)))
+    let k = (2..big_n).min_by(|a, b| before(parts(*a), parts(*b)))?;
+    let [above, below] = parts(k);
+    Some((k, parts(k).map(|part| part / gcd(above, below))))
+}
+
+/// Returns the greatest common divisor, with gcd(0, b) = b.
+fn gcd(a: usize, b: usize) -> usize {
+    if a == 0 { b } else { gcd(b % a, a) }
 }
 
 impl Law {
-    /// Returns k*, the most likely number of different impacts; the lowest of several.
+    /// Returns k*, the most likely number of different impacts; the lowest of several. That of
+    /// simple circuits is either 1 or the one local maximum, found from exact signs of f.
     pub fn k_star(&self) -> usize {
-        match self.space {
-            SampleSpace::Simple => self.simple_k_star(),
-            _ => self.sums().largest_at,
+        if self.space != SampleSpace::Simple {
+            return self.sums().largest_at;
         }
-    }
-
-    /// Returns k* of simple circuits: either 1 or the one local maximum, found from exact signs of
-    /// f.
-    fn simple_k_star(&self) -> usize {
         let top = local_maximum(self.big_n, self.p);
         if top == 1 || rises(self.big_n, self.p, 1) {
             return top;
@@ -126,18 +124,15 @@ pub struct Jump {
     pub p: f64,
     /// Neighbouring doubles around that infimum: k* = 1 at the first and k* > 1 at the second.
     pub bracket: [f64; 2],
-    /// k* just after the jump.
     pub k_after: usize,
 }
 
 // listing: p_jump
-/// Finds the actual jump of k*: the infimum of p with k* > 1, and k* after it.
+/// Finds the actual jump of k*: the infimum of p with k* > 1, and k* after it. There is none for
+/// N ≤ 3, and with higher orders for N = 1.
 ///
 /// Φ(k)/Φ(1) grows with p for every k > 1, so "some Φ(k) exceeds Φ(1)" turns true once, and
 /// bisection over doubles finds the place to the last bit.
-///
-/// # Errors
-/// [`Error`] if k* = 1 for every p (N ≤ 3, or N = 1 with higher orders), or N is out of range.
 pub fn p_jump(space: SampleSpace, big_n: usize) -> Result<Jump, Error> {
     check_vertices(big_n)?;
     if !first_is_exceeded(space, big_n, DoubleDouble::ONE) {
@@ -174,15 +169,14 @@ fn first_is_exceeded(space: SampleSpace, big_n: usize, p: DoubleDouble) -> bool 
 }
 // end
 
-/// Returns the limit of k*/N and of μ/N for N → ∞ with p N fixed: max(0, 1 − 1/(p N)). It
-/// follows since k Φ_{N,p}(k) is a Poisson weight of N − k with mean 1/p (ours, beyond the
-/// paper).
+/// Returns the limit of k*/N and of μ/N for N → ∞ with p N fixed: max(0, 1 − 1/(p N)). It follows
+/// since k Φ_{N,p}(k) is a Poisson weight of N − k with mean 1/p (ours, beyond the paper).
 pub fn limit_share(p_big_n: f64) -> f64 {
     (1.0 - 1.0 / p_big_n).max(0.0)
 }
 
-/// Returns the larger root of k² = 2 N (ln k − 1), to which k* jumps for many vertices, up to
-/// about ln k (ours); none for N ≤ e³, where there is no root.
+/// Returns the larger root of k² = 2 N (ln k − 1), to which k* jumps for many vertices, up to about
+/// ln k (ours); none for N ≤ e³, where there is no root.
 pub fn jump_rule(big_n: usize) -> Option<f64> {
     let big_n = big_n as f64;
     let beyond = |k: f64| k * k >= 2.0 * big_n * (pxfm::f_log(k) - 1.0);

@@ -10,6 +10,8 @@
 //! - [`commuting`]: circuits that differ only by the order of impacts without a common mass (ours).
 //! - [`nucleation`]: gaps of a chain from rest that close by themselves (ours).
 //!
+//! An [`Error`] is an argument out of its range, or a result below the range of doubles.
+//!
 //! ```
 //! use impact_circuits::distribution::{Law, SampleSpace};
 //! use impact_circuits::jump;
@@ -25,18 +27,14 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
-mod arrangements;
 pub mod commuting;
 pub mod counting;
 pub mod distribution;
 mod error;
-mod fraction;
 pub mod graph;
 pub mod higher_order;
 pub mod impact_probability;
 pub mod jump;
 pub mod nucleation;
-mod sample_space;
 
 pub use error::{Error, LARGEST_N};
-pub use fraction::Fraction;

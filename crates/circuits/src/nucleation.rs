@@ -6,8 +6,7 @@
 //! the differences δα = ρ cos θ, δβ = ρ sin θ of the amplitudes on both sides of a gap, its
 //! width is
 //!
-//! Δ(t) = d − ρ E(t) · (cos θ, sin θ),
-//! E(t) = (cos ωt − cos Ωt, (Ω/ω) sin ωt − sin Ωt)/(ω² − Ω²),
+//! Δ(t) = d − ρ E(t) · (cos θ, sin θ), E(t) = (cos ωt − cos Ωt, (Ω/ω) sin ωt − sin Ωt)/(ω² − Ω²),
 //!
 //! the same plane curve E for every gap of every chain. The gap closes by T where ρ M_T(θ) ≥ d,
 //! with M_T(θ) the largest value of E · (cos θ, sin θ) on [0, T]: how far the convex hull of
@@ -29,9 +28,8 @@
 //! are left. Where tan φ < m_2/m_1, m_i = d/M(θ_i), the second radius decides whether both close,
 //! and with t = tan φ
 //!
-//! P = ⟨ ∫_0^{m_2/m_1} (2 t D/Q²)(1 + h) e^{−h} dt ⟩ over θ_1 and θ_2, and the same with
-//! 1 and 2 exchanged, Q = v_2 + v_1 t² + 2σ² t cos(θ_1 − θ_2), D = v_1 v_2 − σ⁴, h =
-//! m_2² Q/(2 D t²),
+//! P = ⟨ ∫_0^{m_2/m_1} (2 t D/Q²)(1 + h) e^{−h} dt ⟩ over θ_1 and θ_2, and the same with 1 and 2
+//! exchanged, Q = v_2 + v_1 t² + 2σ² t cos(θ_1 − θ_2), D = v_1 v_2 − σ⁴, h = m_2² Q/(2 D t²),
 //!
 //! v_1 and v_2 being the variances of the differences. The exponential is the only function needed.
 //!
@@ -42,24 +40,26 @@
 //! clumps are nearly independent: if their mean number is λ, there is no clump with a probability
 //! near e^{−λ}.
 //!
-//! Dependence only makes chains without such a gap more frequent. In unlimited time a gap does not
-//! close if the difference of its forces lies in a set that is convex and symmetric about zero, and
-//! forces are jointly normal. By the Gaussian correlation inequality (Royen 2014) all gaps stay
-//! open with at least the product of the probabilities that each does: independent gaps give an
-//! upper bound on the share of chains with a gap that closes.
+//! Dependence only makes chains without such a gap more frequent: in unlimited time a gap stays
+//! open in a set of forces that is convex and symmetric about zero, so that by the Gaussian
+//! correlation inequality (Royen 2014) independent gaps give an upper bound.
 
 use impact_chain::{Boundary, Chain};
 use impact_numerics::quadrature::GaussLegendre;
 use impact_numerics::roots::crossing;
 use std::f64::consts::TAU;
 
-/// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the
-/// force.
+/// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
-    /// M_T at each angle.
     pub radii: Vec<f64>,
 }
+
+/// Angles at which a reach is computed.
+pub const ANGLES: usize = 256;
+
+/// Angles of the rule for neighbours, whose cost grows as their square.
+pub const COARSE: usize = 64;
 
 /// Steps of the search for maxima in a unit of ωt.
 const STEPS: usize = 8;
@@ -80,16 +80,14 @@ fn along([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> f64 {
 }
 
 impl Reach {
-    /// Computes the reach within each of some rising times, at `angles` angles. Times are rounded
-    /// down to eighths of 1/ω; maxima are exact to rounding, except two of them less than an
-    /// eighth apart.
+    /// Computes the reach within each of some rising times, rounded down to eighths of 1/ω. Maxima
+    /// are exact to rounding, except two of them less than an eighth apart.
     pub fn within(chain: &Chain, times: &[f64], angles: usize) -> Vec<Reach> {
         let step = 1.0 / (STEPS as f64 * chain.natural_frequency);
         let directions: Vec<[f64; 2]> = directions(angles).collect();
         let mut radii = vec![0.0_f64; angles];
         let mut reaches = Vec::with_capacity(times.len());
-        let mut before = curve(chain, 0.0);
-        let mut i: u64 = 0;
+        let (mut before, mut i) = (curve(chain, 0.0), 0_u64);
         for time in times {
             while (i + 1) as f64 * step <= *time {
                 let (from, until) = (i as f64 * step, (i + 1) as f64 * step);
@@ -121,11 +119,6 @@ impl Reach {
         Reach { radii: directions(angles).map(radius).collect() }
     }
 
-    /// Keeps every `step`-th angle only.
-    pub fn every(&self, step: usize) -> Reach {
-        Reach { radii: self.radii.iter().copied().step_by(step.max(1)).collect() }
-    }
-
     /// Returns the probability that a gap closes by itself whose two amplitudes differ by normals
     /// with variance `variance` each: 2σ² between masses, σ² at a wall; d is the `spacing`.
     pub fn probability(&self, spacing: f64, variance: f64) -> f64 {
@@ -133,13 +126,12 @@ impl Reach {
             let least = spacing / radius;
             pxfm::f_exp(-0.5 * least * least / variance)
         };
-        self.radii.iter().filter(|radius| **radius > 0.0).map(beyond).fold(0.0, |sum, x| sum + x)
-            / self.radii.len() as f64
+        let all = self.radii.iter().filter(|radius| **radius > 0.0).map(beyond);
+        all.fold(0.0, |sum, x| sum + x) / self.radii.len() as f64
     }
 }
 
-/// Decides whether a gap of a chain from rest, whose two forces differ by these amplitudes, closes
-/// in unlimited time.
+/// Decides whether a gap whose two forces differ by these amplitudes closes in unlimited time.
 pub fn closes_by_itself(chain: &Chain, [delta_alpha, delta_beta]: [f64; 2]) -> bool {
     let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
     let turned = big_omega / omega * delta_beta;
@@ -156,8 +148,8 @@ fn directions(angles: usize) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// Returns the time at which the curve turns back in a direction, between a time at which it rises
-/// and one at which it falls.
+/// Returns when the curve turns back in a direction, between a time at which it rises and one at
+/// which it falls.
 fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64 {
     // The slope is nearly straight in an eighth: false position halves the number of bits left, and
     // a bisection now and then keeps both ends moving.
@@ -179,15 +171,14 @@ fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64
 const POINTS: usize = 20;
 
 /// Returns the probability that two neighbouring gaps, of variances v_1 and v_2 (2σ² between
-/// masses, σ² at a wall), both close by themselves. The rule over the angles has the points of
-/// the reach.
+/// masses, σ² at a wall), both close by themselves, by [`COARSE`] of the angles.
 fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
     let rule = GaussLegendre::new(POINTS);
     let shared = sigma * sigma;
     let determinant = v_1 * v_2 - shared * shared;
-    let angles = reach.radii.len();
-    let cosines: Vec<f64> =
-        (0..angles).map(|i| pxfm::f_cos(TAU * i as f64 / angles as f64)).collect();
+    let radii: Vec<f64> = reach.radii.iter().copied().step_by(reach.radii.len() / COARSE).collect();
+    let angles = radii.len();
+    let cosines: Vec<f64> = directions(angles).map(|[cos, _]| cos).collect();
     // The part where the gap of the least radius `m` and the variance `v` decides.
     let decides = |(m, v): (f64, f64), (other_m, other_v): (f64, f64), twice_shared: f64| {
         rule.integrate(0.0, m / other_m, |t| {
@@ -197,10 +188,10 @@ fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
         })
     };
     let mut sum = 0.0;
-    for (i, first) in reach.radii.iter().enumerate() {
+    for (i, first) in radii.iter().enumerate() {
         // With equal variances the order of the angles does not matter.
         let others = if v_1 == v_2 { i + 1 } else { angles };
-        for (j, second) in reach.radii[..others].iter().enumerate() {
+        for (j, second) in radii[..others].iter().enumerate() {
             if *first <= 0.0 || *second <= 0.0 {
                 continue;
             }
@@ -228,16 +219,15 @@ pub struct Chances {
 }
 
 impl Chances {
-    /// Computes the chances within a reach, for forces of standard deviation `sigma`; `fewer` is
-    /// the reach at fewer angles, for neighbours, which cost the square of that number.
-    pub fn new(chain: &Chain, reach: &Reach, fewer: &Reach, sigma: f64) -> Chances {
+    /// Computes the chances within a reach, for forces of standard deviation `sigma`.
+    pub fn new(chain: &Chain, reach: &Reach, sigma: f64) -> Chances {
         let (mass, wall) = (2.0 * sigma * sigma, sigma * sigma);
         let d = chain.spacing;
         Chances {
             p: reach.probability(d, mass),
             wall: reach.probability(d, wall),
-            pair: both(fewer, d, sigma, [mass, mass]),
-            wall_pair: both(fewer, d, sigma, [wall, mass]),
+            pair: both(reach, d, sigma, [mass, mass]),
+            wall_pair: both(reach, d, sigma, [wall, mass]),
         }
     }
 
@@ -259,12 +249,10 @@ impl Chances {
     }
 }
 
-/// Returns the σ at which half of such chains have a gap that closes by itself, to a relative
-/// error of about 1e-6; the sum over angles is less exact.
-pub fn half(chain: &Chain, reach: &Reach, fewer: &Reach) -> f64 {
-    let share = |sigma: f64| {
-        Chances::new(chain, reach, fewer, sigma).at_least_one(chain.masses, chain.boundary)
-    };
+/// Returns the σ at which half of such chains have a gap that closes by itself, to about 1e-6.
+pub fn half(chain: &Chain, reach: &Reach) -> f64 {
+    let chances = |sigma: f64| Chances::new(chain, reach, sigma);
+    let share = |sigma: f64| chances(sigma).at_least_one(chain.masses, chain.boundary);
     let logarithms = [0.02, 2.0].map(|times: f64| pxfm::f_log(times * chain.spacing));
     pxfm::f_exp(crossing(logarithms, 1e-6, |log_sigma| share(pxfm::f_exp(log_sigma)) - 0.5))
 }

@@ -1,12 +1,10 @@
 //! Describes the chain of Sec. 2: its masses, its ends and its start, without the forcing.
 
-/// The two ends of the row of masses.
+#[cfg(feature = "ensembles")]
+use serde::{Deserialize, Serialize};
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "ensembles",
-    derive(serde::Deserialize, serde::Serialize),
-    serde(rename_all = "lowercase")
-)]
+#[cfg_attr(feature = "ensembles", derive(Deserialize, Serialize), serde(rename_all = "lowercase"))]
 pub enum Boundary {
     /// Rigid walls at 0 and (n + 1) d: n + 1 gaps (Fig. 1).
     Walls,
@@ -26,11 +24,7 @@ impl Boundary {
 
 /// The start of a realisation (Sec. 2 leaves it open; Sec. 8 assumes [`Start::Random`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "ensembles",
-    derive(serde::Deserialize, serde::Serialize),
-    serde(rename_all = "lowercase")
-)]
+#[cfg_attr(feature = "ensembles", derive(Deserialize, Serialize), serde(rename_all = "lowercase"))]
 pub enum Start {
     /// At rest at equilibrium, when the forcing sets in.
     Rest,
@@ -44,7 +38,7 @@ pub enum Start {
 ///
 /// **Eq. (4)** (step towards (2)): the scaling d = m = ω = 1 is this type's default.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "ensembles", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "ensembles", derive(Deserialize, Serialize))]
 pub struct Chain {
     /// Number of masses n (Sec. 2: 100).
     pub masses: usize,

@@ -44,12 +44,8 @@ impl<const M: usize> Shut<'_, M> {
         self.spread((0..n).rev());
         let forces = self.forces();
         let force = |i: usize| forces.get(i).copied().flatten().unwrap_or(Force::ZERO);
-        let mut more = Vec::new();
-        for i in 0..n {
-            if self.is_driven(i, [force(i.wrapping_sub(1)), force(i + 1)]) {
-                more.push(i);
-            }
-        }
+        let is_driven = |&i: &usize| self.is_driven(i, [force(i.wrapping_sub(1)), force(i + 1)]);
+        let more: Vec<usize> = (0..n).filter(is_driven).collect();
         for &i in &more {
             self.active[i] = true;
         }

@@ -23,6 +23,7 @@ use crate::search::outcome::Next;
 use crate::search::window::next_window;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::iter::successors;
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
 pub(super) const CONTACT_SPEED: f64 = 1e-10;
@@ -31,7 +32,6 @@ pub(super) const CONTACT_SPEED: f64 = 1e-10;
 const SETTLED_RATE: f64 = 10.0 * CONTACT_SPEED;
 const SETTLED_WIDTH: f64 = 1e-16;
 
-/// A gap whose state has changed.
 #[derive(Clone, Copy)]
 struct Changed {
     width: f64,
@@ -46,15 +46,17 @@ impl<const M: usize> Simulation<M> {
     /// Decides whether the impact of gap k at `speed` is so slow that contact may begin, or hits a
     /// cluster.
     pub(super) fn involves_contact(&self, k: usize, speed: f64) -> bool {
-        let near = self.topology.adjacent(k);
+        let [before, after] = self.topology.adjacent(k);
+        let in_contact = |gap: Option<usize>| gap.is_some_and(|gap| self.gaps[gap].in_contact);
         self.restitution * speed <= CONTACT_SPEED * self.spacing * self.search.frequencies.omega
-            || near.into_iter().flatten().any(|near| self.gaps[near].in_contact)
+            || in_contact(before)
+            || in_contact(after)
     }
 
     /// Carries out an impact of gap k at `speed` that involves contact.
     pub(super) fn collide_in_contact(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
         let mut freed = Vec::new();
-        for near in self.topology.adjacent(k).into_iter().flatten() {
+        for near in self.topology.near(k) {
             if self.gaps[near].in_contact {
                 freed.extend(self.free_cluster(near, phases));
             }
@@ -73,7 +75,7 @@ impl<const M: usize> Simulation<M> {
             changed.insert(near, Changed { width: 0.0, rate, settled });
         }
         changed.insert(k, Changed { width: 0.0, rate, settled: self.is_settled(0.0, rate) });
-        for near in self.topology.adjacent(k).into_iter().flatten() {
+        for near in self.topology.near(k) {
             if let Entry::Vacant(place) = changed.entry(near) {
                 let jump = self.jump_of_gap(near, k, jumps);
                 let mut gap = self.changed(near, phases, jump);
@@ -115,20 +117,19 @@ impl<const M: usize> Simulation<M> {
     /// gaps, settles each run, and takes new frames of all gaps that were touched.
     fn settle_runs(
         &mut self,
-        changed: BTreeMap<usize, Changed>,
+        mut known: BTreeMap<usize, Changed>,
         p: &Phases<M>,
         released: Option<usize>,
     ) {
         // Grow by neighbours of settled gaps that are shut and slow too, or in contact.
-        let mut order: Vec<usize> = changed.keys().copied().collect();
-        let mut known = changed;
+        let mut order: Vec<usize> = known.keys().copied().collect();
         let mut next = 0;
         while let Some(&k) = order.get(next) {
             next += 1;
             if !known[&k].settled {
                 continue;
             }
-            for near in self.topology.adjacent(k).into_iter().flatten() {
+            for near in self.topology.near(k) {
                 if known.contains_key(&near) {
                     continue;
                 }
@@ -149,13 +150,10 @@ impl<const M: usize> Simulation<M> {
         for run in self.runs(&known) {
             let rates: Vec<f64> = run.iter().map(|k| known[k].rate).collect();
             let [first, last] = self.settle_run(&run, &rates, p, released);
-            let [before, _] = self.topology.adjacent(run[0]);
-            let [_, after] = self.topology.adjacent(run[run.len() - 1]);
-            if let Some(near) = before {
-                *jumps.entry(near).or_default() += first;
-            }
-            if let Some(near) = after {
-                *jumps.entry(near).or_default() -= last;
+            let before = self.topology.adjacent(run[0])[0].map(|near| (near, first));
+            let after = self.topology.adjacent(run[run.len() - 1])[1].map(|near| (near, -last));
+            for (near, jump) in before.into_iter().chain(after) {
+                *jumps.entry(near).or_default() += jump;
             }
             if run.len() > 1 {
                 known.extend(run.into_iter().map(|k| (k, STILL)));
@@ -169,7 +167,7 @@ impl<const M: usize> Simulation<M> {
             }
         }
         for &k in known.keys() {
-            for near in self.topology.adjacent(k).into_iter().flatten() {
+            for near in self.topology.near(k) {
                 if !known.contains_key(&near) && !self.gaps[near].in_contact {
                     self.renew_and_search(near, p, jump(near));
                 }
@@ -243,12 +241,11 @@ impl<const M: usize> Simulation<M> {
     }
 
     /// Returns the jumps of velocity of the first and the last mass along `gaps` when all take a
-    /// common one.
+    /// common one. Velocities are relative to that of the first.
     fn jumps_of_run(&self, gaps: &[usize], rates: &[f64]) -> [f64; 2] {
         let members = self.members(gaps);
-        // Each relative to the first.
-        let mut velocities = vec![0.0];
         let mut last = 0.0;
+        let mut velocities = vec![last];
         for rate in rates {
             last += rate;
             velocities.push(last);
@@ -332,17 +329,11 @@ impl<const M: usize> Simulation<M> {
 
     /// Frees the cluster that gap k belongs to; returns its gaps, left to right.
     fn free_cluster(&mut self, k: usize, phases: &Phases<M>) -> Vec<usize> {
-        let mut gaps = std::collections::VecDeque::from([k]);
         let contact = |side: usize, k: usize| {
             self.topology.adjacent(k)[side].filter(|&near| self.gaps[near].in_contact)
         };
-        while let Some(before) = contact(0, gaps[0]) {
-            gaps.push_front(before);
-        }
-        while let Some(after) = contact(1, gaps[gaps.len() - 1]) {
-            gaps.push_back(after);
-        }
-        let gaps = Vec::from(gaps);
+        let first = successors(Some(k), |&k| contact(0, k)).last();
+        let gaps: Vec<usize> = successors(first, |&k| contact(1, k)).collect();
         self.make_free(&gaps, phases);
         for &k in &gaps {
             self.gaps[k].in_contact = false;
@@ -368,14 +359,13 @@ impl<const M: usize> Simulation<M> {
                 frame.g0 = 0.0;
             }
         }
-        let wait = next_window(force.constant, [0.0; 2], &frame.forced, frequencies);
-        let (awaits, key) = if wait.is_none() {
-            (Awaits::Release, Instant::NEVER)
-        } else {
-            match self.search.first_root(&frame, &mut self.work) {
+        let (awaits, key) = match next_window(force.constant, [0.0; 2], &frame.forced, frequencies)
+        {
+            None => (Awaits::Release, Instant::NEVER),
+            Some(_) => match self.search.first_root(&frame, &mut self.work) {
                 Next::Root { s, .. } => (Awaits::Release, self.now.after(s)),
                 Next::Clear { s } => (Awaits::Search { whole_reach: false }, self.now.after(s)),
-            }
+            },
         };
         self.gaps[k].frame = frame;
         self.gaps[k].origin = self.now;

@@ -1,11 +1,10 @@
-//! Counts the impacts of an ensemble at one σ: different gaps with an impact in each window, close
-//! and slow impacts. All counts are whole numbers that add. This code runs at every impact, so it
-//! is compiled for speed with the engine.
+//! Counts the impacts of runs: different gaps with an impact in each window, close and slow
+//! impacts. All counts are whole numbers that add. This code runs at every impact, so it is
+//! compiled for speed with the engine.
 
-use crate::ensemble::{Ensemble, Protocol};
-use crate::search::outcome::{Counters, Graze};
+use crate::search::outcome::Graze;
 use crate::topology::Topology;
-use crate::{Boundary, Engine, Error, Impact};
+use crate::{Chain, Engine, Error, Impact};
 use serde::{Deserialize, Serialize};
 
 /// The δ below which two impacts of adjacent gaps are counted as close, in units of 1/ω.
@@ -17,12 +16,35 @@ pub const SLOW_DECADES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e
 /// Impacts after which a run checks again whether to stop.
 const CHECK_EVERY: u64 = 4096;
 
-/// The counts of realisations in their order, for each window of the ensemble. Counts of
-/// realisations that follow one another are joined by collecting them.
+/// The window (T, T + W] in which gaps with an impact are counted (ours; Sec. 2 has only "a
+/// suitable transient time").
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Protocol {
+    /// Transient T that is dropped, in units of 1/ω.
+    pub transient: f64,
+    /// Window W, in units of 1/ω.
+    pub window: f64,
+}
+
+impl Default for Protocol {
+    fn default() -> Self {
+        Protocol { transient: 500.0, window: 200.0 }
+    }
+}
+
+impl Protocol {
+    /// Returns the end of the window, T + W.
+    pub fn end(&self) -> f64 {
+        self.transient + self.window
+    }
+}
+
+/// The counts of realisations in their order, for each window. Counts of realisations that follow
+/// one another are joined by collecting them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
-    /// Different gaps with an impact in each window, of each piece of each realisation; none if it
-    /// did not run to the end of the window, or the engine ended it early.
+    /// Different gaps with an impact in each window, of each realisation; none if it did not run to
+    /// the end of the window, or the engine ended it early.
     pub distinct: Vec<Vec<Option<u32>>>,
     /// Impacts in each window, of each realisation.
     pub impacts: Vec<Vec<u64>>,
@@ -32,7 +54,6 @@ pub struct Counts {
     pub rejected: usize,
     /// Realisations that the engine ended early.
     pub failed: usize,
-    /// Impacts of whole runs, failed realisations included.
     pub total: Total,
 }
 
@@ -44,7 +65,6 @@ pub struct Total {
     pub near: [u64; NEAR_DECADES.len()],
     /// Impacts with a closing speed below each of [`SLOW_DECADES`].
     pub slow: [u64; SLOW_DECADES.len()],
-    /// Contact phases begun.
     pub contact_phases: u64,
     /// Impacts at exactly the same instant as one of a neighbouring gap.
     pub simultaneous: u64,
@@ -61,42 +81,15 @@ impl Total {
         self.simultaneous += other.simultaneous;
         self.undecided += other.undecided;
         self.first_graze = self.first_graze.or(other.first_graze);
-        for (sum, n) in self.near.iter_mut().zip(other.near) {
+        let near = self.near.iter_mut().zip(other.near);
+        for (sum, n) in near.chain(self.slow.iter_mut().zip(other.slow)) {
             *sum += n;
         }
-        for (sum, n) in self.slow.iter_mut().zip(other.slow) {
-            *sum += n;
-        }
-    }
-}
-
-impl Counts {
-    /// Returns the counts of a realisation that has none.
-    fn empty(ensemble: &Ensemble) -> Counts {
-        let windows = ensemble.protocols.len();
-        Counts {
-            distinct: vec![vec![None; ensemble.pieces]; windows],
-            impacts: vec![vec![0]; windows],
-            masses: vec![vec![0]; windows],
-            ..Counts::default()
-        }
-    }
-
-    pub(crate) fn rejected(ensemble: &Ensemble) -> Counts {
-        Counts { rejected: 1, ..Counts::empty(ensemble) }
-    }
-
-    pub(crate) fn failed(ensemble: &Ensemble) -> Counts {
-        Counts { failed: 1, ..Counts::empty(ensemble) }
     }
 }
 
 /// Appends each row of `next` to the row of the same window.
-fn extend<T>(rows: &mut Vec<Vec<T>>, next: Vec<Vec<T>>) {
-    if rows.is_empty() {
-        *rows = next;
-        return;
-    }
+fn extend<T>(rows: &mut [Vec<T>], next: Vec<Vec<T>>) {
     for (row, next) in rows.iter_mut().zip(next) {
         row.extend(next);
     }
@@ -104,7 +97,8 @@ fn extend<T>(rows: &mut Vec<Vec<T>>, next: Vec<Vec<T>>) {
 
 impl FromIterator<Counts> for Counts {
     fn from_iter<I: IntoIterator<Item = Counts>>(all: I) -> Self {
-        let mut whole = Counts::default();
+        let mut all = all.into_iter();
+        let mut whole = all.next().unwrap_or_default();
         for one in all {
             extend(&mut whole.distinct, one.distinct);
             extend(&mut whole.impacts, one.impacts);
@@ -117,29 +111,21 @@ impl FromIterator<Counts> for Counts {
     }
 }
 
-/// Whether the caller wants a run to end early.
-pub(crate) type Stopped<'a> = &'a dyn Fn() -> bool;
-
-/// Counts the impacts of one realisation while it runs.
-pub(crate) struct Watch {
+/// Counts the impacts of one run of an engine.
+pub struct Watch {
     topology: Topology,
+    windows: Vec<Protocol>,
     total: Total,
     /// Time of the last impact of each gap.
     last: Vec<f64>,
-    /// Transients, rising.
     transients: Vec<f64>,
     /// `firsts[transient][gap]`: time of the first impact of the gap after the transient, infinite
     /// until known. All windows follow from these.
     firsts: Vec<Vec<f64>>,
     /// For each gap the number of transients whose first impact is known.
     known: Vec<usize>,
-    /// Times at which windows begin or end, rising.
-    edges: Vec<f64>,
-    /// The counters of the engine at each edge so far.
-    at_edges: Vec<Counters>,
 }
 
-/// Sorts times and drops repetitions.
 fn rising(times: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut times: Vec<f64> = times.collect();
     times.sort_by(f64::total_cmp);
@@ -148,21 +134,22 @@ fn rising(times: impl Iterator<Item = f64>) -> Vec<f64> {
 }
 
 impl Watch {
-    pub fn new(ensemble: &Ensemble) -> Self {
-        let (gaps, all) = (ensemble.chain.gaps(), &ensemble.protocols);
-        let transients = rising(all.iter().map(|window| window.transient));
+    /// Creates the counts of a run of this chain, all of them zero.
+    pub fn new(chain: &Chain, windows: &[Protocol]) -> Self {
+        let gaps = chain.gaps();
+        let transients = rising(windows.iter().map(|window| window.transient));
         Watch {
-            topology: Topology::new(ensemble.chain.masses, ensemble.chain.boundary),
+            topology: Topology::new(chain.masses, chain.boundary),
+            windows: windows.to_vec(),
             total: Total::default(),
             last: vec![f64::NEG_INFINITY; gaps],
             firsts: vec![vec![f64::INFINITY; gaps]; transients.len()],
             known: vec![0; gaps],
-            edges: rising(transients.iter().copied().chain(all.iter().map(Protocol::end))),
-            at_edges: Vec::new(),
             transients,
         }
     }
 
+    #[inline]
     fn count(&mut self, impact: Impact) {
         let gaps = self.last.len();
         // On a ring gap n lies between masses n and 1: modulo n it is the neighbour of gap 1.
@@ -175,97 +162,97 @@ impl Watch {
         let [left, right] = self.topology.adjacent(gap);
         let last = |near: Option<usize>| near.map_or(f64::NEG_INFINITY, |near| self.last[near]);
         let since = impact.time - last(left).max(last(right));
-        for (count, &within) in self.total.near.iter_mut().zip(&NEAR_DECADES) {
-            if since > within {
-                break;
-            }
+        let near = self.total.near.iter_mut().zip(&NEAR_DECADES);
+        for (count, _) in near.take_while(|(_, within)| since <= **within) {
             *count += 1;
         }
-        for (count, &below) in self.total.slow.iter_mut().zip(&SLOW_DECADES) {
-            if impact.closing_speed >= below {
-                break;
-            }
+        let slow = self.total.slow.iter_mut().zip(&SLOW_DECADES);
+        for (count, _) in slow.take_while(|(_, below)| impact.closing_speed < **below) {
             *count += 1;
         }
         self.last[gap] = impact.time;
         self.total.impacts += 1;
     }
 
-    /// Runs an engine to a time and counts its impacts; ends early when `stopped` returns true.
-    pub fn follow(
+    /// Runs an engine through all windows that end by `until`, and returns the counts of this run,
+    /// realisation `index` of many; ends early, with incomplete counts, when `stopped` returns
+    /// true. A start that overlaps, and a run that the engine ended early, are counted as such.
+    pub fn run(
         &mut self,
-        engine: &mut Engine,
+        engine: Result<Engine, Error>,
+        index: u64,
         until: f64,
-        stopped: Stopped,
-    ) -> Result<(), Error> {
-        while let Some(&edge) = self.edges.get(self.at_edges.len()).filter(|edge| **edge <= until) {
-            engine.run(edge, |impact| {
+        stopped: &dyn Fn() -> bool,
+    ) -> Result<Counts, Error> {
+        let windows = self.windows.len();
+        let mut counts = Counts {
+            distinct: vec![vec![None]; windows],
+            impacts: vec![vec![0]; windows],
+            masses: vec![vec![0]; windows],
+            ..Counts::default()
+        };
+        let mut engine = match engine {
+            Ok(engine) => engine,
+            Err(Error::Overlap { .. }) => return Ok(Counts { rejected: 1, ..counts }),
+            Err(Error::Work { .. }) => return Ok(Counts { failed: 1, ..counts }),
+            Err(error) => return Err(error),
+        };
+        // Times at which windows begin or end, and the impacts until then.
+        let ends = self.windows.iter().map(Protocol::end);
+        let edges = rising(self.transients.iter().copied().chain(ends));
+        let mut impacts = Vec::with_capacity(edges.len());
+        let mut ended = Ok(());
+        for &edge in edges.iter().take_while(|edge| **edge <= until) {
+            ended = engine.run(edge, |impact| {
                 self.count(impact);
                 !self.total.impacts.is_multiple_of(CHECK_EVERY) || !stopped()
-            })?;
-            self.at_edges.push(engine.counters());
+            });
+            if ended.is_err() {
+                break;
+            }
+            impacts.push(self.total.impacts);
         }
-        Ok(())
-    }
-
-    /// Returns the counts of realisation `index`; `ended` is the outcome of its run.
-    pub fn counts(
-        mut self,
-        ensemble: &Ensemble,
-        index: u64,
-        engine: &Engine,
-        ended: Result<(), Error>,
-    ) -> Result<Counts, Error> {
         let counters = engine.counters();
         self.total.contact_phases = counters.contact_phases;
         self.total.simultaneous = counters.simultaneous;
         self.total.undecided = counters.undecided;
         self.total.first_graze = engine.first_graze().map(|graze| (index, graze));
-        let mut counts = match ended {
-            Ok(()) => Counts::empty(ensemble),
-            Err(Error::Work { .. }) => {
-                return Ok(Counts { total: self.total, ..Counts::failed(ensemble) });
-            }
+        counts.total = self.total.clone();
+        match ended {
+            Ok(()) => (),
+            Err(Error::Work { .. }) => return Ok(Counts { failed: 1, ..counts }),
             Err(error) => return Err(error),
-        };
-        for (place, protocol) in ensemble.protocols.iter().enumerate() {
-            let edge = |time: f64| self.at_edges.get(self.edges.partition_point(|at| *at < time));
-            let Some((begin, end)) = edge(protocol.transient).zip(edge(protocol.end())) else {
+        }
+        for (place, window) in self.windows.iter().enumerate() {
+            let edge = |time: f64| impacts.get(edges.partition_point(|at| *at < time));
+            let Some((begin, end)) = edge(window.transient).zip(edge(window.end())) else {
                 continue;
             };
-            let hit = self.hit(protocol);
-            let ring = ensemble.chain.boundary == Boundary::Ring;
-            let pieces = ensemble.pieces;
-            for (piece, count) in counts.distinct[place].iter_mut().enumerate() {
-                let (from, to) = (piece * hit.len() / pieces, (piece + 1) * hit.len() / pieces);
-                let hit = &hit[from..to];
-                *count = Some(hit.iter().map(|&hit| u32::from(hit)).sum());
-            }
-            counts.impacts[place] = vec![end.impacts - begin.impacts];
-            counts.masses[place] = vec![masses_hit(&hit, ring)];
+            let hit = self.hit(window);
+            counts.distinct[place] = vec![Some(hit.iter().map(|&hit| u32::from(hit)).sum())];
+            counts.impacts[place] = vec![end - begin];
+            counts.masses[place] = vec![masses_hit(&self.topology, &hit)];
         }
-        counts.total = self.total;
         Ok(counts)
     }
 
-    /// Finds which gaps have an impact in a window (T, T + W].
-    fn hit(&self, protocol: &Protocol) -> Vec<bool> {
-        let transient = self.transients.partition_point(|at| *at < protocol.transient);
-        self.firsts[transient].iter().map(|&time| time <= protocol.end()).collect()
+    /// Finds which gaps have an impact in one of the windows.
+    pub fn hit(&self, window: &Protocol) -> Vec<bool> {
+        let transient = self.transients.partition_point(|at| *at < window.transient);
+        self.firsts[transient].iter().map(|&time| time <= window.end()).collect()
     }
 }
 
-/// Counts the masses with an impact on one side or both: mass j lies between gaps j − 1 and j,
-/// and on a ring the last one between the last gap and the first.
-fn masses_hit(hit: &[bool], ring: bool) -> u32 {
-    let last = ring && hit.first().zip(hit.last()).is_some_and(|(first, last)| *first || *last);
-    let inner = hit.windows(2).map(|sides| u32::from(sides[0] || sides[1])).sum::<u32>();
-    inner + u32::from(last)
+/// Counts the masses with an impact on one side or both: those between a gap and the next.
+fn masses_hit(topology: &Topology, hit: &[bool]) -> u32 {
+    let next = |k: usize| topology.adjacent(k)[1];
+    (0..hit.len()).map(|k| u32::from(next(k).is_some_and(|next| hit[k] || hit[next]))).sum()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Boundary;
 
     /// Gaps 0 and 4 of a row of four masses are at its walls. On a ring of five the masses at both
     /// ends of gap 0 (or 5) are the last and the first.
@@ -279,7 +266,8 @@ mod tests {
             ([true; 5], 4, 5),
             ([false; 5], 0, 0),
         ] {
-            assert_eq!((masses_hit(&hit, false), masses_hit(&hit, true)), (row, ring), "{hit:?}");
+            let found = [Topology::new(4, Boundary::Walls), Topology::new(5, Boundary::Ring)];
+            assert_eq!(found.map(|topology| masses_hit(&topology, &hit)), [row, ring], "{hit:?}");
         }
     }
 
@@ -287,8 +275,8 @@ mod tests {
     fn adjacent_impacts_by_hand() {
         // Gap 1 follows gap 0 by 0.5; gap 2 follows gap 1 by 0.05; gap 0 has gap 1 as its only
         // neighbour, 0.054 ago; gap 3 follows gap 2 by 0.004.
-        let chain = crate::Chain { masses: 3, ..crate::Chain::default() };
-        let mut watch = Watch::new(&Ensemble { chain, ..Ensemble::default() });
+        let chain = Chain { masses: 3, ..Chain::default() };
+        let mut watch = Watch::new(&chain, &[Protocol::default()]);
         for (time, gap, closing_speed) in
             [(1.0, 0, 1.0), (1.5, 1, 0.05), (1.55, 2, 0.0005), (1.554, 0, 1.0), (1.554, 3, 1e-9)]
         {

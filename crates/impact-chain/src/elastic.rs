@@ -60,7 +60,6 @@ impl<const M: usize> Simulation<M> {
         self.renew_adjacent(k, phases, weights.map(|weight| weight * w * kick.hi));
     }
 
-    /// Returns the free part (a, b) of mass m.
     fn free_part(&self, m: usize) -> [DoubleDouble; 2] {
         let (motion, [a, b]) = (&self.motions[m], self.remainders[m]);
         [DoubleDouble { hi: motion.a, lo: a }, DoubleDouble { hi: motion.b, lo: b }]

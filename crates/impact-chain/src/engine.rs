@@ -1,15 +1,16 @@
 //! Offers the simulation of one scenario: impacts in order, and the masses at any time.
 
-use super::flight::Motion;
-use super::force::Force;
 use super::impact::{Impact, Sink, collect};
 use super::scenario::COMPONENTS;
-use super::simulation::{Gap, Simulation};
+use super::simulation::Simulation;
 use super::{Error, Scenario, State};
-use crate::search::earliest::Earliest;
 use crate::search::outcome::{Counters, Graze};
 
 /// The simulation of one scenario.
+///
+/// # Errors
+/// [`Error::Work`] ends a run that exceeds the bound on work; [`Error::Input`] refuses a time that
+/// is not between the last event and the next.
 #[derive(Clone, Debug)]
 pub struct Engine(Components);
 
@@ -43,35 +44,19 @@ impl Engine {
         }))
     }
 
-    /// Returns the bytes of a simulation with this many masses and components of the forcing, its
-    /// scenario included.
-    pub fn memory(masses: usize, components: usize) -> u128 {
-        let each = if components == 1 { bytes::<1>() } else { bytes::<COMPONENTS>() };
-        masses as u128 * (each + size_of::<[f64; 2]>() * (1 + components)) as u128
-    }
-
     /// Runs until time `until`, and hands each impact to `sink` in order; stops early, right
     /// after that impact, when `sink` returns false. May be called again with a later time.
-    ///
-    /// # Errors
-    /// [`Error::Work`] when the bound on work is exceeded.
     pub fn run(&mut self, until: f64, mut sink: impl FnMut(Impact) -> bool) -> Result<(), Error> {
         self.run_to(until, &mut sink)
     }
 
     /// Returns the next impact up to time `until`, or none if there is no impact; the run stops
     /// right after it.
-    ///
-    /// # Errors
-    /// [`Error::Work`] when the bound on work is exceeded.
     pub fn next_impact(&mut self, until: f64) -> Result<Option<Impact>, Error> {
         Ok(collect(1, |sink| self.run_to(until, sink))?.pop())
     }
 
     /// Returns all impacts up to time `until`, in order.
-    ///
-    /// # Errors
-    /// [`Error::Work`] when the bound on work is exceeded.
     pub fn impacts(&mut self, until: f64) -> Result<Vec<Impact>, Error> {
         collect(usize::MAX, |sink| self.run_to(until, sink))
     }
@@ -82,31 +67,20 @@ impl Engine {
         call!(&mut self.0, simulation => simulation.run(until, sink))
     }
 
-    /// Returns the positions x_1..x_n at a time from the last event to the next; right after
-    /// [`run`](Engine::run), at the time to which it ran.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a time outside.
-    pub fn positions(&self, time: f64) -> Result<Vec<f64>, Error> {
-        call!(&self.0, simulation => simulation.positions(time))
-    }
-
-    /// Returns the velocities of the masses 1..n at a time from the last event to the next.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a time outside.
-    pub fn velocities(&self, time: f64) -> Result<Vec<f64>, Error> {
-        call!(&self.0, simulation => simulation.velocities(time))
-    }
-
-    /// Returns positions and velocities at a time from the last event to the next. A scenario that
-    /// goes on from there is made by [`State::as_scenario`].
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a time outside.
+    /// Returns positions and velocities at a time from the last event to the next, as that to which
+    /// [`run`](Engine::run) ran. [`State::as_scenario`] goes on from there.
     pub fn state(&self, time: f64) -> Result<State, Error> {
-        let (positions, velocities) = (self.positions(time)?, self.velocities(time)?);
-        Ok(State { time, positions, velocities })
+        call!(&self.0, simulation => simulation.state(time))
+    }
+
+    /// Returns the positions x_1..x_n at such a time.
+    pub fn positions(&self, time: f64) -> Result<Vec<f64>, Error> {
+        Ok(self.state(time)?.positions)
+    }
+
+    /// Returns the velocities of the masses 1..n at such a time.
+    pub fn velocities(&self, time: f64) -> Result<Vec<f64>, Error> {
+        Ok(self.state(time)?.velocities)
     }
 
     /// Returns the free parts (a_j, b_j) of the masses 1..n; those in contact share that of their
@@ -117,9 +91,6 @@ impl Engine {
 
     /// Returns the gaps in contact and their contact forces (≥ 0 while it lasts) at a time from the
     /// last event to the next.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a time outside.
     pub fn contacts(&self, time: f64) -> Result<Vec<(usize, f64)>, Error> {
         call!(&self.0, simulation => simulation.contacts(time))
     }
@@ -139,15 +110,4 @@ impl Engine {
     pub fn first_graze(&self) -> Option<Graze> {
         call!(&self.0, simulation => simulation.first_graze)
     }
-}
-
-/// Returns the bytes of one mass with its gap. The queue has a key and two nodes for each gap of
-/// the next power of two.
-fn bytes<const M: usize>() -> usize {
-    size_of::<Motion<M>>()
-        + size_of::<[f64; 3]>()
-        + size_of::<[[f64; 2]; M]>()
-        + size_of::<Gap<M>>()
-        + size_of::<Force<M>>()
-        + 2 * Earliest::BYTES
 }

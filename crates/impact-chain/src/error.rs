@@ -2,34 +2,16 @@
 
 use std::fmt;
 
-/// An error of the dynamics.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Error {
-    /// A field of the scenario has a value that the model does not allow.
-    Input {
-        /// Name of the field, as in the scenario file.
-        field: String,
-        /// What is wrong, with the value.
-        problem: String,
-        /// What to write instead.
-        remedy: String,
-    },
-    /// The start has masses in reversed order; ensembles count it as rejected.
-    Overlap {
-        /// The first overlapped gap.
-        gap: usize,
-        /// Depth of the overlap, in units of length.
-        depth: f64,
-    },
-    /// The bound on work was exceeded.
-    Work {
-        /// The gap of the last event.
-        gap: usize,
-        /// Time of the last event.
-        time: f64,
-        /// The largest number of events allowed.
-        bound: u64,
-    },
+    /// A field of the scenario has a value that the model does not allow: what is wrong, with the
+    /// value, and what to write instead.
+    Input { field: String, problem: String, remedy: String },
+    /// The start has masses in reversed order, first at this gap, overlapped by this length.
+    Overlap { gap: usize, depth: f64 },
+    /// The run had more events than the bound within one unit of time, the last at this gap and
+    /// time.
+    Work { gap: usize, time: f64, bound: u64 },
 }
 
 impl fmt::Display for Error {

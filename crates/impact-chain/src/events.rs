@@ -7,12 +7,13 @@
 //! closes. Instants are whole numbers of ticks, so "the same" is exact. Such ties come from
 //! symmetries and from hits of masses in contact, and are counted.
 
-use super::flight::{Motion, Phases, Rates, response};
+use super::flight::{Motion, Phases, response};
 use super::force::Force;
 use super::impact::{Impact, Sink};
 use super::simulation::{Awaits, Gap, Simulation, clamp_width};
+use super::state::AT_REST;
 use super::topology::Topology;
-use super::{Error, Initial, Scenario};
+use super::{Error, Scenario};
 use crate::search::clock::Instant;
 use crate::search::earliest::Earliest;
 use crate::search::first_root::Search;
@@ -31,11 +32,8 @@ const OVERLAP: f64 = 1e-12;
 /// shut: roundings of amplitudes and sums add up to 5 · 2^-53.
 const SHUT_AT_START: f64 = 4.0 * f64::EPSILON;
 
-/// Rate of a shut gap at t = 0, over the speed of the faster of its sides, up to which rounding
-/// explains it: it is at rest.
-pub(crate) const AT_REST: f64 = 1e-12;
-
-/// The same over the sum of the terms of these speeds.
+/// Rate of a shut gap at t = 0, over the sum of the terms of the speeds of its sides, up to which
+/// rounding explains it: it is at rest.
 const AT_REST_OF_TERMS: f64 = 64.0 * f64::EPSILON;
 
 impl<const M: usize> Simulation<M> {
@@ -46,23 +44,14 @@ impl<const M: usize> Simulation<M> {
         let n = scenario.forcing.len();
         let topology = Topology::new(n, scenario.boundary);
         let shifts: Vec<f64> = (0..n + 2).map(|m| scenario.shift(m)).collect();
-        let mut motions = Vec::with_capacity(n + 2);
-        for &offset in &shifts {
-            motions.push(Motion { offset, ..Motion::STILL });
-        }
+        let still = |&offset: &f64| Motion { offset, ..Motion::STILL };
+        let mut motions: Vec<Motion<M>> = shifts.iter().map(still).collect();
         let mut responses = vec![[[0.0; 2]; M]; n + 2];
         for j in 0..n {
             let amplitudes = scenario.amplitudes::<M>(j);
             let forced: [[f64; 2]; M] =
                 std::array::from_fn(|m| response(w, frequencies.big_omegas[m], amplitudes[m]));
-            let [a, b] = match &scenario.initial {
-                Initial::Rest => frequencies
-                    .big_omegas
-                    .iter()
-                    .zip(forced)
-                    .fold([0.0; 2], |[a, b], (big_w, [c, s])| [a - c, b - big_w / w * s]),
-                Initial::Free(parts) => parts[j],
-            };
+            let [a, b] = scenario.free_part(j);
             motions[j + 1] = Motion { a, b, forced, ..motions[j + 1] };
             responses[j + 1] = forced;
         }
@@ -77,7 +66,6 @@ impl<const M: usize> Simulation<M> {
             spacing: scenario.spacing,
             restitution: scenario.restitution,
             search: Search::new(frequencies),
-            rates: Rates::new(&frequencies),
             topology,
             shifts,
             motions,
@@ -100,15 +88,16 @@ impl<const M: usize> Simulation<M> {
 
     /// Takes the frames of all gaps at t = 0, and settles those that are shut and at rest together.
     fn start(&mut self) -> Result<(), Error> {
-        let phases = Phases::at(&self.rates, self.now);
+        let phases = Phases::at(&self.search.frequencies, self.now);
         let mut shut = Vec::new();
         for k in 0..self.gaps.len() {
             let frame = self.frame_of(k, &phases);
             if frame.f0 < -OVERLAP * frame.size {
                 return Err(Error::Overlap { gap: self.topology.label(k), depth: -frame.f0 });
             }
-            let f0 = if frame.f0 <= SHUT_AT_START * self.terms(k) { 0.0 } else { frame.f0 };
-            let at_rest = f0 == 0.0 && frame.g0.abs() <= self.rounding_of_rate(k, &phases);
+            let [width, rate] = self.rounding_at_start(k, &phases);
+            let f0 = if frame.f0 <= width { 0.0 } else { frame.f0 };
+            let at_rest = f0 == 0.0 && frame.g0.abs() <= rate;
             let g0 = if at_rest { 0.0 } else { frame.g0 };
             if f0 == 0.0 && g0 == 0.0 {
                 shut.push(k);
@@ -123,37 +112,28 @@ impl<const M: usize> Simulation<M> {
         Ok(())
     }
 
-    /// Returns d plus the absolute terms of the positions of both neighbours of gap k at t = 0, the
-    /// scale of their rounding.
-    fn terms(&self, k: usize) -> f64 {
-        let mut sum = self.spacing;
-        for side in self.topology.sides(k) {
-            let motion = &self.motions[side];
-            sum += motion.offset.abs();
-            sum += motion.forced.iter().fold(motion.a.abs(), |sum, [c, _]| sum + c.abs());
-        }
-        sum
-    }
-
-    /// Returns the rate of gap k at t = 0 that rounding explains.
-    fn rounding_of_rate(&self, k: usize, phases: &Phases<M>) -> f64 {
+    /// Returns the width and the rate of gap k at t = 0 up to which rounding explains them: by the
+    /// sums of the absolute terms of the positions and the velocities of both neighbours.
+    fn rounding_at_start(&self, k: usize, phases: &Phases<M>) -> [f64; 2] {
         let frequencies = &self.search.frequencies;
-        let (mut fastest, mut terms) = (0.0_f64, 0.0);
+        let (mut width, mut fastest, mut rate) = (self.spacing, 0.0_f64, 0.0);
         for side in self.topology.sides(k) {
             let motion = &self.motions[side];
+            width += motion.offset.abs();
+            width += motion.forced.iter().fold(motion.a.abs(), |sum, [c, _]| sum + c.abs());
             fastest = fastest.max(motion.parts(phases).velocity(frequencies).abs());
-            terms += frequencies.omega * motion.b.abs();
+            rate += frequencies.omega * motion.b.abs();
             for (big_omega, [_, s]) in frequencies.big_omegas.iter().zip(&motion.forced) {
-                terms += big_omega * s.abs();
+                rate += big_omega * s.abs();
             }
         }
-        AT_REST * fastest + AT_REST_OF_TERMS * terms
+        [SHUT_AT_START * width, AT_REST * fastest + AT_REST_OF_TERMS * rate]
     }
 
     pub fn run(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
         let end = Instant::at(until);
-        while let Some(k) = self.next_event(end) {
-            let impact = self.step(k)?;
+        while let Some((k, is_close)) = self.next_event(end) {
+            let impact = self.step(k, is_close)?;
             if self.work.undecided > 0 {
                 self.note_graze();
             }
@@ -183,13 +163,15 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// Goes to the next event up to `end`; returns its gap, or none if there is no event.
+    /// Goes to the next event up to `end`; returns its gap and, of an impact, whether another event
+    /// may be due at the same instant; none if there is no event.
     #[inline(always)]
-    fn next_event(&mut self, end: Instant) -> Option<usize> {
+    fn next_event(&mut self, end: Instant) -> Option<(usize, bool)> {
         let (mut k, mut at) = self.queue.first();
         // A search has no effect on other gaps, so its order among equal events does not matter.
         let order_matters = !matches!(self.gaps[k].awaits, Awaits::Search { .. });
-        if (at > end || order_matters) && self.queue.is_close(k) {
+        let is_close = (at > end || order_matters) && self.queue.is_close(k);
+        if is_close {
             let speed = |k: usize| match self.gaps[k].awaits {
                 Awaits::Impact(speed) => speed,
                 _ => 0.0,
@@ -200,23 +182,23 @@ impl<const M: usize> Simulation<M> {
             return None;
         }
         self.now = at;
-        Some(k)
+        Some((k, is_close))
     }
 
     /// Handles the event of gap k at the instant `now`; returns the impact if it is one.
     #[inline(always)]
-    fn step(&mut self, k: usize) -> Result<Option<Impact>, Error> {
+    fn step(&mut self, k: usize, is_close: bool) -> Result<Option<Impact>, Error> {
         match self.gaps[k].awaits {
             // Touching without speed is no impact, but contact may begin.
             Awaits::Impact(0.0) => {
                 self.spend(k)?;
-                let phases = Phases::at(&self.rates, self.now);
+                let phases = Phases::at(&self.search.frequencies, self.now);
                 self.collide_in_contact(k, 0.0, &phases);
             }
             Awaits::Impact(speed) => {
                 let impact = self.count_impact(k, speed)?;
-                let phases = Phases::at(&self.rates, self.now);
-                if (self.gaps[k].origin == self.now) | self.queue.ties_with_neighbour(k) {
+                let phases = Phases::at(&self.search.frequencies, self.now);
+                if is_close | (self.gaps[k].origin == self.now) {
                     self.count_tie(k);
                 }
                 self.collide(k, speed, &phases);
@@ -238,7 +220,7 @@ impl<const M: usize> Simulation<M> {
                     // No progress, which must not repeat for ever.
                     self.spend(k)?;
                 }
-                let phases = Phases::at(&self.rates, self.now);
+                let phases = Phases::at(&self.search.frequencies, self.now);
                 if self.gaps[k].in_contact {
                     self.watch_contact(k, &phases);
                 } else if !self.try_long_wait(k, &phases) {
@@ -251,7 +233,7 @@ impl<const M: usize> Simulation<M> {
             }
             Awaits::Release => {
                 self.spend(k)?;
-                let phases = Phases::at(&self.rates, self.now);
+                let phases = Phases::at(&self.search.frequencies, self.now);
                 self.release(k, &phases);
             }
             Awaits::Nothing => unreachable!("a gap that awaits nothing has the key NEVER"),
@@ -301,13 +283,14 @@ impl<const M: usize> Simulation<M> {
 
     /// Takes one event of gap k from the budget of the current unit of time.
     fn spend(&mut self, k: usize) -> Result<(), Error> {
-        let bound = EVENTS_PER_GAP * self.gaps.len() as u64;
+        let bound = |gaps: usize| EVENTS_PER_GAP * gaps as u64;
         if self.now >= self.budget_end {
             self.budget_end = self.now.after(1.0 / self.search.frequencies.omega);
-            self.budget_left = bound;
+            self.budget_left = bound(self.gaps.len());
         }
         if self.budget_left == 0 {
-            return Err(Error::Work { gap: self.topology.label(k), time: self.now.time(), bound });
+            let (gap, time) = (self.topology.label(k), self.now.time());
+            return Err(Error::Work { gap, time, bound: bound(self.gaps.len()) });
         }
         self.budget_left -= 1;
         Ok(())

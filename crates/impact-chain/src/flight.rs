@@ -1,6 +1,6 @@
 //! Computes flight, the motion of a mass between its impacts, in closed form.
 
-use crate::search::clock::{Instant, Rate};
+use crate::search::clock::Instant;
 use crate::search::local_frame::{Frame, Frequencies};
 
 /// Returns the response (c, s) of an undamped oscillator to a component of Eq. (3), with ω² −
@@ -19,23 +19,11 @@ pub struct Phases<const M: usize> {
     pub forced: [[f64; 2]; M],
 }
 
-#[derive(Clone, Copy, Debug)]
-pub struct Rates<const M: usize> {
-    free: Rate,
-    forced: [Rate; M],
-}
-
-impl<const M: usize> Rates<M> {
-    pub fn new(frequencies: &Frequencies<M>) -> Self {
-        Rates { free: Rate::new(frequencies.omega), forced: frequencies.big_omegas.map(Rate::new) }
-    }
-}
-
 impl<const M: usize> Phases<M> {
     #[inline(always)]
-    pub fn at(rates: &Rates<M>, instant: Instant) -> Self {
-        let (sin, cos) = rates.free.sin_cos(instant);
-        let forced = std::array::from_fn(|m| rates.forced[m].sin_cos(instant).into());
+    pub fn at(frequencies: &Frequencies<M>, instant: Instant) -> Self {
+        let (sin, cos) = frequencies.rate.sin_cos(instant);
+        let forced = std::array::from_fn(|m| frequencies.rates[m].sin_cos(instant).into());
         Phases { sin, cos, forced }
     }
 
@@ -69,9 +57,7 @@ pub struct Motion<const M: usize> {
 /// The parts of a motion at one instant, each with its quadrature.
 #[derive(Clone, Copy, Debug)]
 pub struct Parts<const M: usize> {
-    /// Free part u.
     pub u: f64,
-    /// Its velocity over ω.
     pub u_quadrature: f64,
     /// Forced responses v, and their velocities over Ω.
     pub forced: [[f64; 2]; M],

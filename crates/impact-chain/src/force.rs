@@ -7,9 +7,7 @@ use crate::search::local_frame::{Frequencies, ROUNDING};
 /// L + Σ (C cos Ωt + S sin Ωt), with one pair (C, S) for each component of the forcing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Force<const M: usize> {
-    /// L.
     pub constant: f64,
-    /// (C, S).
     pub forced: [[f64; 2]; M],
 }
 
@@ -20,7 +18,6 @@ const ORDERS: usize = 6;
 impl<const M: usize> Force<M> {
     pub const ZERO: Force<M> = Force { constant: 0.0, forced: [[0.0; 2]; M] };
 
-    /// Combines two forces coefficient by coefficient.
     pub fn zip(self, other: Self, combine: impl Fn(f64, f64) -> f64) -> Self {
         Force {
             constant: combine(self.constant, other.constant),

@@ -2,7 +2,6 @@
 
 use crate::Scenario;
 use crate::search::clock::{Instant, Rate};
-use crate::search::trig::sin_cos_turn;
 
 /// Returns the forced response of each mass at t = 0: displacement and velocity.
 pub fn response_at_zero(scenario: &Scenario) -> Vec<[f64; 2]> {
@@ -32,7 +31,6 @@ pub fn rotate_phases(scenario: &mut Scenario, at: Instant) {
 /// One component with an amplitude of cos Ωt and one of sin Ωt for each body, 0 for the walls.
 #[derive(Clone)]
 pub struct Component {
-    /// Ω.
     pub frequency: f64,
     pub rate: Rate,
     pub cos: Vec<f64>,
@@ -40,7 +38,6 @@ pub struct Component {
 }
 
 impl Component {
-    /// Lists the components of the forcing.
     pub fn forces(scenario: &Scenario) -> Vec<Component> {
         let mut components = Vec::new();
         for (frequency, pairs) in scenario.components() {
@@ -69,7 +66,7 @@ impl Component {
 
     #[inline]
     pub fn phase(&self, at: Instant) -> (f64, f64) {
-        sin_cos_turn(self.rate.turn(at))
+        self.rate.sin_cos(at)
     }
 }
 

@@ -7,11 +7,9 @@
 //! - [`Engine`], [`Impact`], [`Counters`], [`Graze`]: the simulation of a scenario, its impacts,
 //!   its counted work, and what rounding could not decide.
 //! - [`State`]: positions and velocities at a time, and the scenario that goes on from there.
-//! - [`Ensemble`], [`Counts`], [`rise`]: many random chains, counted in windows of time; means and
-//!   places of the rise.
+//! - [`counts`], [`rise`]: many random chains, counted in windows of time; means and places of the
+//!   rise.
 //! - [`Error`], [`rounding`]: input that is refused, and a bound of the errors of impacts.
-//! - [`replay`]: runs with a digest of their impacts, to be repeated bit for bit. [`counts`]: close
-//!   and slow impacts.
 //! - [`methods`]: other ways to simulate a chain, to compare with, and the motion to 106 bits.
 //!
 //! Equations are those of M. Homer and S. J. Hogan (2007), *Impact Dynamics of Large Dimensional
@@ -29,8 +27,6 @@ mod contact;
 pub mod counts;
 mod elastic;
 mod engine;
-#[cfg(feature = "ensembles")]
-mod ensemble;
 mod error;
 mod events;
 mod flight;
@@ -39,9 +35,6 @@ mod forcing;
 mod impact;
 #[cfg(feature = "ensembles")]
 pub mod methods;
-#[cfg(feature = "ensembles")]
-mod realisation;
-pub mod replay;
 #[cfg(feature = "ensembles")]
 mod resampling;
 #[cfg(feature = "ensembles")]
@@ -58,10 +51,8 @@ mod validation;
 
 pub use chain::{Boundary, Chain, Start};
 #[cfg(feature = "ensembles")]
-pub use counts::Counts;
+pub use counts::{Counts, Protocol, Watch};
 pub use engine::Engine;
-#[cfg(feature = "ensembles")]
-pub use ensemble::{Beyond, Ensemble, Heating, Protocol};
 pub use error::Error;
 pub use impact::{Impact, Sink};
 pub use impact_numerics::random::NormalPairs;

@@ -17,7 +17,6 @@ const RESAMPLES: u64 = 1000;
 pub struct Places {
     /// Mean over those with at least one impact.
     pub mean: Vec<Option<f64>>,
-    /// Mean over all.
     pub mean_all: Vec<Option<f64>>,
     pub mode: Vec<Option<usize>>,
     /// In the order of the fields of [`Rise`](crate::rise::Rise).
@@ -75,16 +74,13 @@ impl Sample<'_> {
     }
 }
 
-/// Divides two whole numbers; returns none for a denominator of zero.
 fn ratio(numerator: u64, denominator: u64) -> Option<f64> {
     (denominator > 0).then(|| numerator as f64 / denominator as f64)
 }
 
-/// What was found in a sample and in its resamples.
 pub struct Resampled {
     whole: Places,
     resamples: Vec<Places>,
-    /// The largest count that is possible.
     pub largest: usize,
 }
 
@@ -128,22 +124,14 @@ impl Resampled {
 mod tests {
     use super::*;
 
-    const SIGMAS: [f64; 5] = [0.1, 0.2, 0.3, 0.4, 0.5];
-
     /// Four realisations on five σ, N = 10.
-    fn counts() -> Vec<Vec<Option<u32>>> {
-        [[0, 0, 0, 0], [0, 0, 0, 2], [0, 4, 4, 6], [8, 8, 8, 6], [10, 10, 10, 10]]
-            .map(|row| row.map(Some).to_vec())
-            .to_vec()
-    }
-
-    fn sample<'a>(sigmas: &'a [f64], counts: &'a [Vec<Option<u32>>]) -> Sample<'a> {
-        Sample { sigmas, counts: counts.iter().map(Vec::as_slice).collect(), gaps: 10.0 }
-    }
-
     #[test]
     fn places_by_hand() {
-        let found = sample(&SIGMAS, &counts()).places(&[1; 4]);
+        let counts = [[0, 0, 0, 0], [0, 0, 0, 2], [0, 4, 4, 6], [8, 8, 8, 6], [10, 10, 10, 10]]
+            .map(|row| row.map(Some));
+        let counts = counts.iter().map(|row| row.as_slice()).collect();
+        let sample = Sample { sigmas: &[0.1, 0.2, 0.3, 0.4, 0.5], counts, gaps: 10.0 };
+        let found = sample.places(&[1; 4]);
         assert_eq!(found.mean_all, [0.0, 0.5, 3.5, 7.5, 10.0].map(Some));
         let kept = [None, Some(2.0), Some(14.0 / 3.0), Some(7.5), Some(10.0)];
         assert_eq!(found.mean, kept);

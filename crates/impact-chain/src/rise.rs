@@ -1,37 +1,12 @@
-//! Summarises the counts of an ensemble: means, shares and modes at each σ, and where the number
+//! Summarises the counts of random chains: means, shares and modes at each σ, and where the number
 //! of impacts rises, with bootstrap errors.
 
-use crate::counts::{Counts, Total};
-use crate::ensemble::{Ensemble, Protocol};
+use crate::counts::{Counts, Protocol};
 pub use crate::resampling::ONSET;
 use crate::resampling::{Places, Resampled, Sample};
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::{Estimate, mean, mode, standard_error};
 use serde::{Deserialize, Serialize};
-
-/// An ensemble with its results.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Counted {
-    pub ensemble: Ensemble,
-    /// Totals of whole runs, for each σ.
-    pub runs: Vec<RunTotals>,
-    /// Counts against σ, for each window.
-    pub curves: Vec<Curve>,
-}
-
-/// The runs at one σ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RunTotals {
-    /// Standard deviation σ of the amplitudes.
-    pub sigma: f64,
-    /// Realisations drawn.
-    pub realisations: usize,
-    /// Realisations with an overlapping start.
-    pub rejected: usize,
-    /// Realisations that the engine ended early.
-    pub failed: usize,
-    pub total: Total,
-}
 
 /// Counts in one window, against σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,13 +17,11 @@ pub struct Curve {
     pub rise: Rise,
 }
 
-/// A mean with its errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mean {
     pub value: f64,
     /// Standard error; none from a single number.
     pub error: Option<f64>,
-    /// Bootstrap interval.
     pub interval: Option<[f64; 2]>,
 }
 
@@ -79,7 +52,6 @@ pub struct RisePoint {
     pub mean_all: Option<Mean>,
     /// Mode over those with at least one; the lowest of several.
     pub mode: Option<usize>,
-    /// Bootstrap interval of the mode.
     pub mode_interval: Option<[usize; 2]>,
     /// Impacts of a whole chain in the window: mean over realisations with at least one.
     pub impacts: Option<Mean>,
@@ -110,53 +82,27 @@ pub struct Rise {
     pub quarters: Option<Estimate>,
 }
 
-impl Counted {
-    /// Joins the counts at each σ and the curve of each window.
-    pub fn new(ensemble: Ensemble, counts: &[Counts], curves: Vec<Curve>) -> Counted {
-        let runs = |(&sigma, counts): (&f64, &Counts)| RunTotals {
-            sigma,
-            realisations: ensemble.realisations_at(sigma),
-            rejected: counts.rejected,
-            failed: counts.failed,
-            total: counts.total.clone(),
-        };
-        Counted { runs: ensemble.sigmas.iter().zip(counts).map(runs).collect(), curves, ensemble }
-    }
-
-    /// Returns the curve of a window, or none if there is no such window.
-    pub fn curve(&self, transient: f64, window: f64) -> Option<&Curve> {
-        self.curves.iter().find(|curve| curve.protocol == Protocol { transient, window })
-    }
-
-    /// Returns the curve of the first window.
-    pub fn first(&self) -> &Curve {
-        &self.curves[0]
-    }
-
-    /// Lists the rows of the first window whose share of overlapping starts is small enough
-    /// ([`Ensemble::most_rejected`]).
-    pub fn comparable(&self) -> impl Iterator<Item = &RisePoint> {
-        let both = self.first().rows.iter().zip(&self.runs);
-        let most = self.ensemble.most_rejected;
-        let few = move |runs: &RunTotals| runs.rejected as f64 <= most * runs.realisations as f64;
-        both.filter(move |(_, runs)| few(runs)).map(|(row, _)| row)
-    }
-}
-
 impl Curve {
-    /// Computes the curve of the window with this index.
-    pub fn new(ensemble: &Ensemble, counts: &[Counts], window: usize) -> Curve {
+    /// Computes the curve of a window from the counts at each σ, of which it is the one with this
+    /// index. Rows that are not `compared` have no part in the places of the rise. `gaps` is the
+    /// number N behind each count, and `seed` that of the resamples.
+    pub fn new(
+        (window, protocol): (usize, Protocol),
+        sigmas: &[f64],
+        counts: &[Counts],
+        compared: &[bool],
+        gaps: f64,
+        seed: u64,
+    ) -> Curve {
         let mut used: Vec<&[Option<u32>]> = Vec::new();
-        for (&sigma, found) in ensemble.sigmas.iter().zip(counts) {
-            let most = ensemble.most_rejected * ensemble.realisations_at(sigma) as f64;
-            used.push(if found.rejected as f64 <= most { &found.distinct[window] } else { &[] });
+        for (found, &compared) in counts.iter().zip(compared) {
+            used.push(if compared { &found.distinct[window] } else { &[] });
         }
-        let gaps = ensemble.chain.gaps() as f64 / ensemble.pieces as f64;
-        let sample = Sample { sigmas: &ensemble.sigmas, counts: used, gaps };
-        let all = Resampled::new(&sample, ensemble.seed);
+        let sample = Sample { sigmas, counts: used, gaps };
+        let all = Resampled::new(&sample, seed);
         let interval = |pick: &dyn Fn(&Places) -> Option<f64>| Some(all.estimate(pick)?.interval);
         let mut rows = Vec::with_capacity(counts.len());
-        for (row, (&sigma, found)) in ensemble.sigmas.iter().zip(counts).enumerate() {
+        for (row, (&sigma, found)) in sigmas.iter().zip(counts).enumerate() {
             let intervals =
                 [interval(&|places| places.mean[row]), interval(&|places| places.mean_all[row])];
             rows.push(RisePoint {
@@ -168,7 +114,7 @@ impl Curve {
             all.rise();
         let rise =
             Rise { half_height, half_height_all, onset, kept_half, width, kept_width, quarters };
-        Curve { protocol: ensemble.protocols[window], rows, rise }
+        Curve { protocol, rows, rise }
     }
 }
 
@@ -191,13 +137,10 @@ impl RisePoint {
         let kept: Vec<f64> = all.iter().copied().filter(|&k| k > 0.0).collect();
         let mut kept_counts = counts.clone();
         kept_counts[0] = 0;
-        let (mut impacts, mut masses) = (Vec::new(), Vec::new());
-        for (&run_impacts, &run_masses) in found.impacts[window].iter().zip(&found.masses[window]) {
-            if run_impacts > 0 {
-                impacts.push(run_impacts as f64);
-                masses.push(f64::from(run_masses));
-            }
-        }
+        let runs = found.impacts[window].iter().zip(&found.masses[window]);
+        let hit = runs.filter(|(impacts, _)| **impacts > 0);
+        let (impacts, masses): (Vec<_>, Vec<_>) =
+            hit.map(|(&impacts, &masses)| (impacts as f64, f64::from(masses))).unzip();
         RisePoint {
             sigma,
             ran: all.len(),

@@ -11,8 +11,8 @@
 //! Scenarios whose C ε S exceeds [`LARGEST`] of d are refused: near resonance S is the amplitude
 //! over |ω² − Ω²|, however slowly the motion grows.
 
+use super::Scenario;
 use super::flight::response;
-use super::{Initial, Scenario};
 
 /// The largest E = C ε S that a scenario may have, as a part of d.
 pub const LARGEST: f64 = 1e-6;
@@ -28,10 +28,8 @@ pub const TIME: f64 = 66.3;
 /// Returns E = C ε S at the start, with a bound of S over all gaps: rounding may change the width
 /// of a gap by E, and the time of an impact at closing speed v by E/v.
 pub fn width(scenario: &Scenario) -> f64 {
-    let mut largest = 0.0_f64;
-    for j in 0..scenario.forcing.len() {
-        largest = largest.max(amplitude(scenario, j));
-    }
+    let amplitudes = (0..scenario.forcing.len()).map(|j| amplitude(scenario, j));
+    let largest = amplitudes.fold(0.0, f64::max);
     // A gap that is wider at rest than both amplitudes cannot close.
     let mut mean = scenario.spacing;
     if scenario.places.is_some() {
@@ -46,16 +44,11 @@ pub fn width(scenario: &Scenario) -> f64 {
 /// Adds up the free and the forced amplitudes of mass j, counted from 0.
 fn amplitude(scenario: &Scenario, j: usize) -> f64 {
     let w = scenario.natural_frequency;
-    let (mut sum, mut rest) = (0.0, [0.0; 2]);
+    let mut sum = 0.0;
     for (big_w, amplitudes) in scenario.components() {
-        let [c, s] = response(w, big_w, amplitudes[j]);
-        sum += length([c, s]);
-        rest = [rest[0] - c, rest[1] - big_w / w * s];
+        sum += length(response(w, big_w, amplitudes[j]));
     }
-    sum + match &scenario.initial {
-        Initial::Rest => length(rest),
-        Initial::Free(parts) => length(parts[j]),
-    }
+    sum + length(scenario.free_part(j))
 }
 
 fn length([a, b]: [f64; 2]) -> f64 {

@@ -1,10 +1,10 @@
 //! Defines a scenario: one chain, its forcing and its start.
 
 use crate::error::{Error, pairs_within};
+use crate::flight::response;
 use crate::{Boundary, Chain, Start};
 use impact_numerics::random::NormalPairs;
 
-/// The start of one scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Initial {
     /// At rest at equilibrium.
@@ -34,9 +34,7 @@ pub struct Scenario {
     pub forcing_frequency: f64,
     /// Coefficient of restitution r.
     pub restitution: f64,
-    /// Walls or ring.
     pub boundary: Boundary,
-    /// The start.
     pub initial: Initial,
     /// Amplitudes (α_j, β_j) of Eq. (5), one pair for each mass.
     pub forcing: Vec<[f64; 2]>,
@@ -48,10 +46,8 @@ pub struct Scenario {
     pub places: Option<Vec<f64>>,
 }
 
-/// A further component of the forcing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overtone {
-    /// Frequency Ω.
     pub frequency: f64,
     /// Amplitudes (α_j, β_j), one pair for each mass.
     pub amplitudes: Vec<[f64; 2]>,
@@ -71,11 +67,8 @@ impl Scenario {
         scenario
     }
 
-    /// Creates the scenario of a chain with given amplitudes; [`Start::Random`] is taken as
-    /// [`Start::Zero`], as there are no random numbers.
-    ///
-    /// # Errors
-    /// [`Error::Input`] unless there is one pair for each mass.
+    /// Creates the scenario of a chain with given amplitudes, one pair for each mass;
+    /// [`Start::Random`] is taken as [`Start::Zero`], as there are no random numbers.
     pub fn given(chain: &Chain, forcing: Vec<[f64; 2]>) -> Result<Scenario, Error> {
         pairs_within("forcing", &forcing, chain.masses)?;
         Ok(Scenario::of(chain, forcing))
@@ -109,25 +102,16 @@ impl Scenario {
         self.place(m) - m as f64 * self.spacing
     }
 
-    /// Returns the continuation from `time` when all forces change by `factor`, with time counted
-    /// from there: every phase is advanced by it. Positions and velocities are continuous, so the
-    /// free parts, `free` until then, take up the change of the forced response.
-    pub fn lowered(&self, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
-        let omega = self.natural_frequency;
-        let mut parts = advanced(free, omega * time);
-        let mut components = Vec::new();
-        for (frequency, forces) in self.components() {
-            let mut amplitudes = advanced(forces, frequency * time);
-            let lost = (1.0 - factor) / (omega * omega - frequency * frequency);
-            for ([a, b], force) in parts.iter_mut().zip(&mut amplitudes) {
-                *a += lost * force[0];
-                *b += lost * frequency / omega * force[1];
-                *force = force.map(|x| factor * x);
-            }
-            components.push(Overtone { frequency, amplitudes });
+    /// Returns the free part (a, b) of mass j, counted from 0.
+    pub(crate) fn free_part(&self, j: usize) -> [f64; 2] {
+        if let Initial::Free(parts) = &self.initial {
+            return parts[j];
         }
-        let forcing = components.remove(0).amplitudes;
-        Scenario { initial: Initial::Free(parts), forcing, overtones: components, ..self.clone() }
+        let w = self.natural_frequency;
+        self.components().fold([0.0; 2], |[a, b], (big_w, amplitudes)| {
+            let [c, s] = response(w, big_w, amplitudes[j]);
+            [a - c, b - big_w / w * s]
+        })
     }
 
     /// Lists the components of the forcing: frequency, and amplitudes of each mass.
@@ -160,10 +144,4 @@ impl Scenario {
     pub fn gaps(&self) -> usize {
         self.boundary.gaps(self.forcing.len())
     }
-}
-
-/// Advances the phase of each a cos φ + b sin φ by `angle`.
-fn advanced(pairs: &[[f64; 2]], angle: f64) -> Vec<[f64; 2]> {
-    let (sin, cos) = pxfm::f_sincos(angle);
-    pairs.iter().map(|[a, b]| [a * cos + b * sin, b * cos - a * sin]).collect()
 }

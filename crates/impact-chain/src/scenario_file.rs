@@ -5,16 +5,12 @@ use crate::scenario::{COMPONENTS, Initial, Overtone, Scenario, draw_pairs};
 use crate::state::State;
 use crate::{Boundary, Chain, Engine};
 use impact_numerics::random::NormalPairs;
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{MapAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
-use std::fmt;
-use std::marker::PhantomData;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// One component: a pair for each mass.
 type Pairs = Vec<[f64; 2]>;
 
-/// The fields of a scenario file.
 #[derive(Deserialize, Serialize)]
 #[serde(default, deny_unknown_fields)]
 struct ScenarioFile {
@@ -42,54 +38,14 @@ enum Forcing {
     Several(Vec<Pairs>),
 }
 
-/// The field `initial`.
 #[derive(Deserialize, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
 enum Start {
     Rest,
     Zero,
     Free(Pairs),
-    At(Object<At>),
-    Random(Object<Random>),
-}
-
-#[derive(Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-struct At {
-    positions: Vec<f64>,
-    velocities: Vec<f64>,
-}
-
-#[derive(Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-struct Random {
-    sigma: f64,
-    seed: u64,
-}
-
-/// A value whose fields have names: a JSON array is not taken for them by position.
-#[derive(Serialize)]
-#[serde(transparent)]
-struct Object<T>(T);
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Fields<T>(PhantomData<T>);
-
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for Fields<T> {
-            type Value = Object<T>;
-
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a JSON object")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Object<T>, A::Error> {
-                T::deserialize(MapAccessDeserializer::new(map)).map(Object)
-            }
-        }
-
-        deserializer.deserialize_map(Fields(PhantomData))
-    }
+    At { positions: Vec<f64>, velocities: Vec<f64> },
+    Random { sigma: f64, seed: u64 },
 }
 
 impl Default for ScenarioFile {
@@ -143,9 +99,6 @@ impl Scenario {
 
     /// Reads a scenario as [`Scenario::from_json`] does, but does not ask whether the engine can
     /// run it.
-    ///
-    /// # Errors
-    /// [`Error::Input`] names the field and the remedy.
     pub fn parse_json(text: &str) -> Result<Scenario, Error> {
         parse(text)?.into_scenario()
     }
@@ -188,9 +141,18 @@ impl Scenario {
 }
 
 fn parse(text: &str) -> Result<ScenarioFile, Error> {
+    // Fields have names: an array is not taken for them by position.
+    let value: Value = serde_json::from_str(text).unwrap_or_default();
+    let objects =
+        [("", "scenario"), ("/initial/at", "initial.at"), ("/initial/random", "initial.random")];
+    for (place, field) in objects {
+        if value.pointer(place).is_some_and(Value::is_array) {
+            return Err(Error::input(field, "it is an array, not a JSON object", REMEDY));
+        }
+    }
     let mut reader = serde_json::Deserializer::from_str(text);
-    let read: Result<Object<ScenarioFile>, _> = serde_path_to_error::deserialize(&mut reader);
-    let Object(file) = read.map_err(|error| {
+    let read: Result<ScenarioFile, _> = serde_path_to_error::deserialize(&mut reader);
+    let file = read.map_err(|error| {
         // A part of the path that has no name is "?".
         let path = error.path().to_string().replace(".?", "");
         let field = match path.as_str() {
@@ -225,11 +187,11 @@ impl ScenarioFile {
             Start::Rest => Initial::Rest,
             Start::Zero => zero,
             Start::Free(parts) => Initial::Free(parts),
-            Start::At(Object(At { positions, velocities })) => {
+            Start::At { positions, velocities } => {
                 state = Some(State { time: 0.0, positions, velocities });
                 zero
             }
-            Start::Random(Object(Random { sigma, seed })) => {
+            Start::Random { sigma, seed } => {
                 within("initial.random.sigma", sigma, 0.0, 1e9)?;
                 let mut normals = NormalPairs::new("trace", seed, 0);
                 Initial::Free(draw_pairs(masses, sigma, &mut normals))

@@ -1,9 +1,10 @@
 //! Holds the state of a simulation, and keeps the frame and the next event of each gap.
 
 use super::error::Error;
-use super::flight::{Motion, Phases, Rates};
+use super::flight::{Motion, Phases};
 use super::force::Force;
 use super::impact::jumps;
+use super::state::State;
 use super::topology::Topology;
 use crate::search::clock::Instant;
 use crate::search::earliest::Earliest;
@@ -12,7 +13,6 @@ use crate::search::local_frame::{Frame, NEARLY_SHUT};
 use crate::search::outcome::{Counters, Graze, Next};
 use crate::search::window::next_window;
 
-/// The next event of a gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Awaits {
     /// None: the gap cannot close until a neighbour is hit.
@@ -41,7 +41,6 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) spacing: f64,
     pub(super) restitution: f64,
     pub(super) search: Search<M>,
-    pub(super) rates: Rates<M>,
     pub(super) topology: Topology,
     /// The distance of the place of each body from m d: 0 in the paper.
     pub(super) shifts: Vec<f64>,
@@ -59,7 +58,6 @@ pub(super) struct Simulation<const M: usize> {
     /// The last instant at which contact was involved, and the gaps hit then without rebound.
     pub(super) joined: (Instant, Vec<usize>),
     pub(super) work: Counters,
-    /// The first dip that rounding could not decide.
     pub(super) first_graze: Option<Graze>,
     pub(super) budget_end: Instant,
     pub(super) budget_left: u64,
@@ -88,12 +86,8 @@ impl<const M: usize> Simulation<M> {
     /// Takes new frames of the gaps next to gap k, whose masses' velocities have just jumped by
     /// `jumps`, and searches their next impacts.
     pub(super) fn renew_adjacent(&mut self, k: usize, phases: &Phases<M>, jumps: [f64; 2]) {
-        let [before, after] = self.topology.adjacent(k);
-        for near in [before, after].into_iter().flatten() {
+        for near in self.topology.near(k) {
             self.renew_and_search(near, phases, self.jump_of_gap(near, k, jumps));
-            if before == after {
-                break;
-            }
         }
     }
 
@@ -221,7 +215,7 @@ impl<const M: usize> Simulation<M> {
         let (_, next) = self.queue.first_in_full(|_| 0.0);
         let (from, to) = (self.now.time(), next.time());
         if (from..=to).contains(&time) {
-            return Ok(Phases::at(&self.rates, Instant::at(time)));
+            return Ok(Phases::at(&self.search.frequencies, Instant::at(time)));
         }
         let problem = format!("{time:?} is not between the last event and the next");
         let remedy = format!("give {from:?} to {to:?}, or run the engine to that time first");
@@ -229,31 +223,22 @@ impl<const M: usize> Simulation<M> {
     }
 
     // These three are documented in `Engine`, under the same names.
-    pub fn positions(&self, time: f64) -> Result<Vec<f64>, Error> {
+    pub fn state(&self, time: f64) -> Result<State, Error> {
         let phases = self.phases_in_flight(time)?;
-        let mut positions = Vec::with_capacity(self.motions.len());
+        let (mut positions, mut velocities) = (Vec::new(), Vec::new());
         for (j, motion) in self.masses() {
+            let parts = motion.parts(&phases);
             let centre = j as f64 * self.spacing + motion.offset;
-            positions.push(centre + motion.parts(&phases).displacement());
+            positions.push(centre + parts.displacement());
+            velocities.push(parts.velocity(&self.search.frequencies));
         }
-        Ok(positions)
-    }
-
-    pub fn velocities(&self, time: f64) -> Result<Vec<f64>, Error> {
-        let phases = self.phases_in_flight(time)?;
-        let frequencies = &self.search.frequencies;
-        Ok(self.masses().map(|(_, motion)| motion.parts(&phases).velocity(frequencies)).collect())
+        Ok(State { time, positions, velocities })
     }
 
     pub fn contacts(&self, time: f64) -> Result<Vec<(usize, f64)>, Error> {
         let phases = self.phases_in_flight(time)?;
-        let mut contacts = Vec::new();
-        for (k, gap) in self.gaps.iter().enumerate() {
-            if gap.in_contact {
-                contacts.push((self.topology.label(k), self.forces[k].value(&phases)));
-            }
-        }
-        Ok(contacts)
+        let gaps = (0..self.gaps.len()).filter(|&k| self.gaps[k].in_contact);
+        Ok(gaps.map(|k| (self.topology.label(k), self.forces[k].value(&phases))).collect())
     }
 
     pub fn free_parts(&self) -> Vec<[f64; 2]> {

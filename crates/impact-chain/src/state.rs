@@ -1,7 +1,6 @@
 //! Describes a state of the masses at any time, and the scenario that starts there.
 
 use crate::error::{Error, within};
-use crate::events::AT_REST;
 use crate::forcing::{response_at_zero, rotate_phases};
 use crate::scenario::{Initial, Scenario};
 use crate::search::clock::{Instant, LATEST};
@@ -9,6 +8,8 @@ use crate::topology::Topology;
 
 /// Positions and velocities of the masses 1..n at a time, from which a method starts.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "ensembles", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "ensembles", serde(deny_unknown_fields))]
 pub struct State {
     /// Time t, from 0 to 1e12.
     pub time: f64,
@@ -17,6 +18,10 @@ pub struct State {
     /// The velocities of the masses 1..n.
     pub velocities: Vec<f64>,
 }
+
+/// Rate of a shut gap, over the speed of the faster of its sides, up to which rounding explains it:
+/// it is at rest.
+pub(crate) const AT_REST: f64 = 1e-12;
 
 /// A gap is shut up to rounding when its width is below this many roundings of its place, of a
 /// displacement next to it, and of the distance it moves within the rounding of the time.
@@ -44,10 +49,6 @@ impl State {
     /// Returns the displacements of all bodies from their places, from the left wall (0) to the
     /// right one (n + 1). Gaps that overlap by no more than rounding are shut exactly, and so are
     /// gaps at rest that are as narrow.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a scenario or a state outside the model, [`Error::Overlap`] for a gap
-    /// that overlaps by more.
     pub(crate) fn displacements(&self, scenario: &Scenario) -> Result<Vec<f64>, Error> {
         scenario.validate()?;
         self.validate(scenario.forcing.len())?;
@@ -66,7 +67,7 @@ impl State {
                 |m: usize| self.velocities.get(m.wrapping_sub(1)).copied().unwrap_or(0.0);
             let [before, after] = [left, right].map(velocity);
             let fastest = before.abs().max(after.abs());
-            let rounding = self.rounding(place, fastest);
+            let rounding = UNITS * f64::EPSILON * (place.abs() + self.time * fastest);
             if width < -rounding {
                 return Err(Error::Overlap { gap: topology.label(k), depth: -width });
             }
@@ -80,12 +81,6 @@ impl State {
             }
         }
         Ok(u)
-    }
-
-    /// Returns the largest width of a gap at `place` that rounding of this state explains; `speed`
-    /// is that of the faster of its sides.
-    pub(crate) fn rounding(&self, place: f64, speed: f64) -> f64 {
-        UNITS * f64::EPSILON * (place.abs() + self.time * speed)
     }
 
     fn validate(&self, n: usize) -> Result<(), Error> {

@@ -50,19 +50,20 @@ impl Topology {
         }
     }
 
+    /// Lists the gaps that share a mass with gap k, each once.
+    #[inline]
+    pub fn near(&self, k: usize) -> impl Iterator<Item = usize> + Clone + use<> {
+        let [before, after] = self.adjacent(k);
+        before.into_iter().chain(after.filter(|_| before != after))
+    }
+
     #[inline]
     pub fn is_wall(&self, m: usize) -> bool {
         m == 0 || m > self.masses
     }
 
     #[inline]
-    pub fn inverse_mass(&self, m: usize) -> f64 {
-        if self.is_wall(m) { 0.0 } else { 1.0 }
-    }
-
-    /// Returns the inverse masses of both neighbours of gap k.
-    #[inline]
     pub fn inverse_masses(&self, k: usize) -> [f64; 2] {
-        self.sides(k).map(|m| self.inverse_mass(m))
+        self.sides(k).map(|m| if self.is_wall(m) { 0.0 } else { 1.0 })
     }
 }

@@ -15,10 +15,7 @@ impl Scenario {
         }
     }
 
-    /// Checks every field against the model.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for the first field that is out of range.
+    /// Checks every field against the model; names the first that is out of range.
     pub fn validate(&self) -> Result<(), Error> {
         within("spacing", self.spacing, 1e-6, 1e6)?;
         within("natural_frequency", self.natural_frequency, 1e-3, 1e3)?;

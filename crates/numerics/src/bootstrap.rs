@@ -18,8 +18,8 @@ pub fn weights(seed: u64, index: u64, size: usize) -> Vec<u32> {
     weights
 }
 
-/// The histogram of a resample: how often each count occurs, by the weights of the members; members
-/// without a count are left out. `histogram` must be longer than the largest count.
+/// Counts how often each count occurs in a resample, by the weights of the members that have one.
+/// `histogram` must be longer than the largest count.
 pub fn histogram(counts: &[Option<u32>], weights: &[u32], histogram: &mut [u32]) {
     histogram.fill(0);
     for (&count, &weight) in counts.iter().zip(weights) {
@@ -47,9 +47,7 @@ const MISSING: f64 = 0.01;
 pub fn estimate(value: Option<f64>, resampled: &[Option<f64>], level: f64) -> Option<Estimate> {
     let value = value?;
     let mut present: Vec<f64> = resampled.iter().copied().flatten().collect();
-    if present.len() < 2
-        || (resampled.len() - present.len()) as f64 > MISSING * resampled.len() as f64
-    {
+    if (resampled.len() - present.len()) as f64 > MISSING * resampled.len() as f64 {
         return None;
     }
     let error = standard_deviation(&present)?;
@@ -70,16 +68,12 @@ mod tests {
         // bootstrap with 2000 resamples gives a standard deviation to 1.6 %: allow five times that.
         let mut normals = NormalPairs::new("test", 1, 0);
         let sample: Vec<f64> = (0..200).flat_map(|_| normals.pair()).collect();
-        let resampled: Vec<Option<f64>> = (0..2000)
-            .map(|index| {
-                let sum: f64 = weights(5, index, 400)
-                    .iter()
-                    .zip(&sample)
-                    .map(|(&weight, x)| f64::from(weight) * x)
-                    .sum();
-                Some(sum / 400.0)
-            })
-            .collect();
+        let resample = |index| {
+            let weights = weights(5, index, 400);
+            let sum: f64 = weights.iter().zip(&sample).map(|(&w, x)| f64::from(w) * x).sum();
+            Some(sum / 400.0)
+        };
+        let resampled: Vec<Option<f64>> = (0..2000).map(resample).collect();
         let value = crate::statistics::mean(&sample);
         let found = estimate(value, &resampled, 0.95).unwrap();
         let theory = crate::statistics::standard_error(&sample).unwrap();

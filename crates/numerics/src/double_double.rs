@@ -8,11 +8,9 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The value hi + lo, with |lo| at most half a unit in the last place of hi.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct DoubleDouble {
-    /// The nearest double.
     pub hi: f64,
-    /// The rest of the value.
     pub lo: f64,
 }
 
@@ -52,12 +50,10 @@ impl DoubleDouble {
     pub const LN_2: Self =
         DoubleDouble { hi: std::f64::consts::LN_2, lo: 2.319_046_813_846_299_6e-17 };
 
-    /// Multiplies by a power of two, exactly.
     pub fn times_power_of_two(self, factor: f64) -> Self {
         DoubleDouble { hi: self.hi * factor, lo: self.lo * factor }
     }
 
-    /// Returns the nearest double.
     pub fn to_f64(self) -> f64 {
         self.hi + self.lo
     }
@@ -95,9 +91,8 @@ impl From<usize> for DoubleDouble {
 impl From<u128> for DoubleDouble {
     /// Exact below 2^106, wrong from 2^117 on.
     fn from(x: u128) -> Self {
-        let (upper, lower) =
-            ((x >> 53) as u64 as f64 * 9_007_199_254_740_992.0, x & ((1 << 53) - 1));
-        two_sum(upper, lower as u64 as f64)
+        let upper = (x >> 53) as u64 as f64 * 9_007_199_254_740_992.0;
+        two_sum(upper, (x & ((1 << 53) - 1)) as u64 as f64)
     }
 }
 
@@ -154,13 +149,6 @@ impl Div for DoubleDouble {
     }
 }
 
-impl PartialOrd for DoubleDouble {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        let d = *self - *other;
-        (d.hi + d.lo).partial_cmp(&0.0)
-    }
-}
-
 /// π/2 to 106 bits.
 const HALF_PI: DoubleDouble =
     DoubleDouble { hi: std::f64::consts::FRAC_PI_2, lo: 6.123_233_995_736_766e-17 };
@@ -168,8 +156,7 @@ const HALF_PI: DoubleDouble =
 /// Terms below this part of the sum change no bit of 106.
 const NEGLIGIBLE: f64 = 1e-33;
 
-/// Computes sin x and cos x by their Taylor series, which is slow; the absolute error grows as
-/// 1e−32 |x|.
+/// Computes sin x and cos x by their Taylor series; the absolute error grows as 1e−32 |x|.
 pub fn sin_cos(x: DoubleDouble) -> [DoubleDouble; 2] {
     let turns = (x / HALF_PI).hi.round();
     let r = x - HALF_PI * turns;

@@ -27,9 +27,9 @@ pub fn difference(a: Estimate, b: Estimate) -> Estimate {
     with_error(a.value - b.value, (a.error * a.error + b.error * b.error).sqrt())
 }
 
-/// `statistic` of all realisations, with the jackknife error from its values without each in turn
-/// (its argument is the one left out). None if one of these does not exist, or there are fewer than
-/// two realisations.
+/// Returns `statistic` of all realisations, with the jackknife error from its values without each
+/// in turn (its argument is the one left out). None if one of these does not exist, or there are
+/// fewer than two realisations.
 pub fn jackknife(
     realisations: usize,
     statistic: impl Fn(Option<usize>) -> Option<f64>,

@@ -9,8 +9,7 @@ pub struct GaussLegendre {
 
 impl GaussLegendre {
     /// Creates the rule with n = `points` ≥ 1 points, exact for polynomials of degree 2n − 1. The
-    /// nodes are zeros of the Legendre polynomial, by Newton's method from the usual cosine
-    /// estimate.
+    /// nodes are zeros of the Legendre polynomial, by Newton's method.
     pub fn new(points: usize) -> Self {
         let n = points as f64;
         let (mut nodes, mut weights) = (Vec::new(), Vec::new());
@@ -29,7 +28,6 @@ impl GaussLegendre {
         GaussLegendre { nodes, weights }
     }
 
-    /// Returns the integral of `f` over [a, b].
     pub fn integrate(&self, a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
         let terms = self.nodes.iter().zip(&self.weights).map(|(x, w)| w * f(middle + half * x));

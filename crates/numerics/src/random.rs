@@ -4,12 +4,10 @@ use rand_distr::{Distribution, UnitDisc};
 use rand_pcg::Pcg64Dxsm;
 use sha2::{Digest, Sha256};
 
-/// A stream of pairs of independent standard normals.
+/// A stream of pairs of independent standard normals: the same bits for the same key everywhere.
 ///
-/// The generator is PCG64-DXSM, whose stream is documented as portable. Pairs come from
-/// Marsaglia's polar method on [`UnitDisc`], which needs one logarithm, taken from `pxfm` and not
-/// from the platform; so the same key gives the same bits everywhere. The same key is used at
-/// every σ (common random numbers), so curves over σ are smooth.
+/// The generator is PCG64-DXSM, whose stream is documented as portable; pairs come from Marsaglia's
+/// polar method on [`UnitDisc`], with the logarithm of `pxfm`.
 #[derive(Clone, Debug)]
 pub struct NormalPairs(Pcg64Dxsm);
 
@@ -25,12 +23,10 @@ pub fn generator(experiment: &str, seed: u64, index: u64) -> Pcg64Dxsm {
 }
 
 impl NormalPairs {
-    /// Creates the stream of one realisation.
     pub fn new(experiment: &str, seed: u64, realisation: u64) -> Self {
         NormalPairs(generator(experiment, seed, realisation))
     }
 
-    /// Returns the next pair of independent standard normals.
     pub fn pair(&mut self) -> [f64; 2] {
         loop {
             let [x, y]: [f64; 2] = UnitDisc.sample(&mut self.0);

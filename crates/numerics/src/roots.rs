@@ -1,5 +1,4 @@
-//! Finds roots of functions of one number: by bisection down to two neighbouring doubles, and by
-//! false position.
+//! Finds roots: by bisection down to two neighbouring doubles, and by false position.
 
 /// Returns the neighbouring positive doubles between which `holds` turns from false to true.
 ///

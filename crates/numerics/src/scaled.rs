@@ -7,8 +7,7 @@ use std::ops::{Add, Div, Mul};
 /// Binary digits by which mantissas are rescaled at once.
 const STEP: i64 = 128;
 
-/// The value mantissa · 2^exponent; the mantissa is from 1 on and below 2^128, the exponent a
-/// multiple of 128.
+/// The value mantissa · 2^exponent, 1 ≤ mantissa < 2^128; the exponent is a multiple of 128.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Scaled {
     exponent: i64,

@@ -3,14 +3,10 @@
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-/// A number with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
-    /// The estimate from the whole sample.
     pub value: f64,
-    /// Standard error.
     pub error: f64,
-    /// Confidence interval.
     pub interval: [f64; 2],
 }
 
@@ -31,8 +27,7 @@ pub fn standard_error(sample: &[f64]) -> Option<f64> {
     Some(standard_deviation(sample)? / (sample.len() as f64).sqrt())
 }
 
-/// Returns the quantile of a sorted sample, linear between order statistics (Hyndman and Fan's type
-/// 7).
+/// Returns the quantile of a sorted sample, linear between its numbers (Hyndman and Fan's type 7).
 pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let place = share.clamp(0.0, 1.0) * last as f64;
@@ -53,24 +48,20 @@ pub fn count_quantile(histogram: &[u32], share: f64) -> Option<usize> {
     })
 }
 
-/// Returns the most frequent whole number of a histogram; of several, the lowest. None if all are
-/// empty.
+/// Returns the most frequent number of a histogram, the lowest of several; none if it is empty.
 pub fn mode(histogram: &[u32]) -> Option<usize> {
     let most = *histogram.iter().max()?;
     (most > 0).then(|| histogram.iter().position(|&count| count == most))?
 }
 
-/// Returns the two-sided standard normal quantile: the z with P(|Z| < z) = `level`.
-///
-/// Rounded to 1e−9: statrs computes logarithms by the platform, whose last bits must not reach a
-/// file.
+/// Returns the two-sided standard normal quantile, the z with P(|Z| < z) = `level`. Rounded, for
+/// statrs computes logarithms by the platform, whose last bits must not reach a file.
 pub fn normal_quantile(level: f64) -> f64 {
     let z = Normal::standard().inverse_cdf(0.5 + 0.5 * level);
     (z * 1e9).round() / 1e9
 }
 
-/// Returns the two-sided quantile of Student's t with some degrees of freedom; none below one
-/// degree. Rounded as [`normal_quantile`] is.
+/// Returns the same of Student's t, with some degrees of freedom; none below one degree.
 pub fn student_quantile(level: f64, freedom: usize) -> Option<f64> {
     let t = StudentsT::new(0.0, 1.0, freedom as f64).ok()?.inverse_cdf(0.5 + 0.5 * level);
     Some((t * 1e9).round() / 1e9)
@@ -78,18 +69,14 @@ pub fn student_quantile(level: f64, freedom: usize) -> Option<f64> {
 
 /// Returns Wilson's interval of a proportion; none without trials.
 pub fn wilson(successes: u64, trials: u64, level: f64) -> Option<[f64; 2]> {
-    if trials == 0 {
-        return None;
-    }
-    let z = normal_quantile(level);
-    let n = trials as f64;
+    let (z, n) = (normal_quantile(level), trials as f64);
     let share = successes as f64 / n;
     let scale = 1.0 + z * z / n;
     let centre = share + z * z / (2.0 * n);
     let half = z * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
     let low = if successes == 0 { 0.0 } else { (centre - half) / scale };
     let high = if successes == trials { 1.0 } else { (centre + half) / scale };
-    Some([low, high])
+    (trials > 0).then_some([low, high])
 }
 
 /// Finds where y(x) rises to `level` for good: the last x from which on all values are at or above
@@ -102,8 +89,7 @@ pub fn last_rise(x: &[f64], y: &[Option<f64>], level: f64) -> Option<f64> {
     Some(x0 + (x1 - x0) * (level - y0) / (y1 - y0))
 }
 
-/// Returns the slope of the straight line through (x, y) by least squares. None below two different
-/// x.
+/// Returns the slope of the least-squares line through (x, y); none below two different x.
 pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
     let total = points.len() as f64;
     let centre = points.iter().map(|&(x, _)| x).sum::<f64>() / total;

@@ -7,19 +7,31 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![deny(unsafe_op_in_unsafe_fn)]
 
-use impact_chain::replay::{Forces, Replay, Request};
-use impact_chain::{Boundary, Chain, Start};
+use impact_chain::{Boundary, Chain, Engine, Impact, NormalPairs, Scenario, Start};
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::jump;
+use sha2::{Digest, Sha256};
 use std::cell::RefCell;
 
 /// Columns of the picture in space and time.
 const COLUMNS: usize = 640;
 
+/// A run that is advanced piece by piece.
+struct Run {
+    engine: Engine,
+    transient: f64,
+    until: f64,
+    /// Whether each gap has an impact in the window.
+    hit: Vec<bool>,
+    /// Of each impact the time, the gap as the engine numbers it, and the closing speed; eight
+    /// bytes each, the lowest first, doubles bit by bit.
+    hash: Sha256,
+}
+
 #[derive(Default)]
 struct Page {
-    run: Option<(Replay, f64)>,
+    run: Option<Run>,
     /// Impacts of each gap in each column.
     picture: Vec<u32>,
     text: Vec<u8>,
@@ -38,38 +50,53 @@ impl Page {
     /// Starts the run that numbers and text describe.
     fn open(&mut self) -> Result<(), String> {
         self.run = None;
-        let request = request(&self.numbers, &String::from_utf8_lossy(&self.text))?;
-        let run = Replay::new(&request).map_err(|error| error.to_string())?;
-        self.picture = vec![0; COLUMNS * run.gaps()];
-        self.run = Some((run, request.until()));
+        let stream = String::from_utf8_lossy(&self.text);
+        let ([transient, window], scenario) = request(&self.numbers, &stream)?;
+        let until = transient + window;
+        let engine = Engine::new(&scenario).map_err(|error| error.to_string())?;
+        let gaps = scenario.gaps();
+        self.picture = vec![0; COLUMNS * gaps];
+        self.run =
+            Some(Run { engine, transient, until, hit: vec![false; gaps], hash: Sha256::new() });
         Ok(())
     }
 
-    /// Advances the run by at most `impacts` impacts; returns whether there may be more.
-    fn advance(&mut self, impacts: u64) -> Result<bool, String> {
-        let Some((run, until)) = &mut self.run else { return Ok(false) };
-        let picture = &mut self.picture;
-        let on = run.advance(impacts, |time, gap| {
+    /// Advances the run by at most `most` impacts; returns whether there may be more.
+    fn advance(&mut self, most: u64) -> Result<bool, String> {
+        let Some(Run { engine, transient, until, hit, hash }) = &mut self.run else {
+            return Ok(false);
+        };
+        let (gaps, mut left) = (hit.len(), most);
+        let ended = engine.run(*until, |Impact { time, gap, closing_speed }| {
+            for bits in [time.to_bits(), gap as u64, closing_speed.to_bits()] {
+                hash.update(bits.to_le_bytes());
+            }
+            // Gaps of a ring are numbered from 1.
+            let gap = gap % gaps;
+            hit[gap] |= time > *transient;
             let column = ((time / *until * COLUMNS as f64) as usize).min(COLUMNS - 1);
-            picture[gap * COLUMNS + column] += 1;
+            self.picture[gap * COLUMNS + column] += 1;
+            left = left.saturating_sub(1);
+            left > 0
         });
-        let done = run.engine();
+        let distinct = hit.iter().filter(|hit| **hit).count();
         self.numbers = vec![
-            if on == Ok(true) { done.time() } else { *until },
-            done.counters().impacts as f64,
-            run.distinct() as f64,
-            run.gaps() as f64,
+            if ended.is_ok() && left == 0 { engine.time() } else { *until },
+            engine.counters().impacts as f64,
+            distinct as f64,
+            gaps as f64,
             COLUMNS as f64,
         ];
-        self.text = run.digest().into_bytes();
-        on.map_err(|error| error.to_string())
+        let digest = hash.clone().finalize();
+        self.text = digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>().into();
+        ended.map(|()| left == 0).map_err(|error| error.to_string())
     }
 }
 
-/// A run from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a ring, start 0 rest,
-/// 1 zero or 2 random), then σ, seed and realisation of the stream that the text names; without
-/// one, α and β of each mass.
-fn request(numbers: &[f64], stream: &str) -> Result<Request, String> {
+/// Reads T, W and a scenario from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a
+/// ring, start 0 rest, 1 zero or 2 random), then σ, seed and realisation of the stream that the
+/// text names; without one, α and β of each mass.
+fn request(numbers: &[f64], stream: &str) -> Result<([f64; 2], Scenario), String> {
     let [transient, window, n, spacing, natural, forcing, restitution, ring, start, rest @ ..] =
         numbers
     else {
@@ -88,19 +115,18 @@ fn request(numbers: &[f64], stream: &str) -> Result<Request, String> {
             _ => Start::Random,
         },
     };
-    let forces = match (rest, stream) {
+    let scenario = match (rest, stream) {
         (pairs, "") => {
-            Forces::Given(pairs.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect())
+            let pairs = pairs.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+            Scenario::given(&chain, pairs).map_err(|error| error.to_string())?
         }
-        ([sigma, seed, realisation], _) => Forces::Drawn {
-            sigma: *sigma,
-            stream: stream.into(),
-            seed: *seed as u64,
-            realisation: *realisation as u64,
-        },
+        ([sigma, seed, realisation], _) => {
+            let mut normals = NormalPairs::new(stream, *seed as u64, *realisation as u64);
+            Scenario::draw(&chain, *sigma, &mut normals)
+        }
         _ => return Err("a stream has sigma, seed and realisation".into()),
     };
-    Ok(Request { chain, forces, transient: *transient, window: *window })
+    Ok(([*transient, *window], scenario))
 }
 
 /// Runs `work` on the page: 1 or 0 for its result, or 2 with the refusal as the text.
@@ -210,28 +236,30 @@ mod tests {
 
     #[test]
     fn numbers_and_a_name_are_a_run() {
-        let mut page = opened("page", &NUMBERS).unwrap();
-        while page.advance(10).unwrap() {}
-        let chain = Chain { masses: 30, forcing_frequency: 1.5, ..Chain::default() };
-        let stream = "page".into();
-        let forces = Forces::Drawn { sigma: 0.3, stream, seed: 1, realisation: 4 };
-        let request = Request { chain, forces, transient: 50.0, window: 20.0 };
-        let mut run = Replay::new(&request).unwrap();
-        run.advance(u64::MAX, |_, _| ()).unwrap();
-        assert_eq!(page.text, run.digest().into_bytes());
-        let impacts = run.engine().counters().impacts as f64;
-        assert_eq!(page.numbers, [70.0, impacts, run.distinct() as f64, 31.0, COLUMNS as f64]);
-        assert!(impacts > 100.0);
-        assert_eq!(page.picture.iter().sum::<u32>() as f64, impacts);
+        for (boundary, ring, gaps) in [(Boundary::Walls, 0.0, 31), (Boundary::Ring, 1.0, 30)] {
+            let mut numbers = NUMBERS;
+            numbers[7] = ring;
+            let mut pieces = opened("page", &numbers).unwrap();
+            while pieces.advance(10).unwrap() {}
+            let chain = Chain { masses: 30, forcing_frequency: 1.5, boundary, ..Chain::default() };
+            let scenario = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("page", 1, 4));
+            let impacts = Engine::new(&scenario).unwrap().impacts(70.0).unwrap();
+            let hit =
+                |gap: usize| impacts.iter().any(|hit| hit.gap % gaps == gap && hit.time > 50.0);
+            let distinct = (0..gaps).filter(|gap| hit(*gap)).count();
+            let count = impacts.len() as f64;
+            assert_eq!(pieces.numbers, [70.0, count, distinct as f64, gaps as f64, COLUMNS as f64]);
+            assert!(count > 100.0);
+            assert_eq!(pieces.picture.iter().sum::<u32>() as f64, count);
+            // The same amplitudes one by one, in one piece.
+            let amplitudes = scenario.forcing.into_iter().flatten();
+            let given: Vec<f64> = numbers[..9].iter().copied().chain(amplitudes).collect();
+            let mut whole = opened("", &given).unwrap();
+            assert!(!whole.advance(u64::MAX).unwrap());
+            assert_eq!((whole.text.len(), &whole.text), (64, &pieces.text));
+        }
         let none = opened("", &NUMBERS[..9]).map(|_| ()).unwrap_err();
         assert!(none.starts_with("forcing: it has 0 pairs for 30 masses; give one"), "{none}");
-        // Amplitudes one by one, without a stream.
-        let pairs = request.scenario().unwrap().forcing;
-        let given: Vec<f64> =
-            NUMBERS[..9].iter().copied().chain(pairs.into_iter().flatten()).collect();
-        let mut page = opened("", &given).unwrap();
-        page.advance(u64::MAX).unwrap();
-        assert_eq!(page.text, run.digest().into_bytes());
     }
 
     #[test]

@@ -1,10 +1,9 @@
-//! The error of a method in the mean number of gaps that impact: the same chains by every method,
-//! and the differences chain by chain.
+//! The error of a method in the mean number of gaps that impact, on the same chains.
 
 use crate::experiments::prelude::*;
-use crate::params::{BiasParams, Setting};
+use crate::params::{BiasParams, Runs, Setting};
+use rayon::prelude::*;
 
-/// All realisations by all methods.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Biases {
     pub parameters: BiasParams,
@@ -12,48 +11,28 @@ pub struct Biases {
     pub runs: Vec<Vec<Vec<GapCount>>>,
 }
 
-/// Distinct gaps that impact in the window (T, T + W] of one realisation; none if the method gave
-/// up.
+/// Different gaps with an impact in the window of one realisation; none if the method gave up.
 pub type GapCount = Option<u32>;
 
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
-    let mut all = Vec::new();
-    for chains in &parameters.chains {
-        for &(setting, realisations) in &parameters.settings {
-            all.extend((0..realisations as u64).map(|index| (chains, setting, index)));
-        }
-    }
-    let stage = progress.stage("error of the mean", all.len() as u64);
-    let counted = each(&stage, progress, all, |(chains, setting, index)| {
-        let window = (parameters.transient, chains.until);
-        let counted = count(setting, &chains.scenario(index), window, progress);
-        progress.check()?;
-        Ok(counted)
-    })?;
-    let mut counted = counted.into_iter();
-    let mut runs = Vec::new();
-    for _ in &parameters.chains {
-        let mut by_setting: Vec<Vec<GapCount>> = Vec::new();
-        for &(_, realisations) in &parameters.settings {
-            by_setting.push(counted.by_ref().take(realisations).collect());
-        }
-        runs.push(by_setting);
-    }
-    Ok(Biases { runs, parameters: parameters.clone() })
-}
-
-fn count(
-    setting: Setting,
-    scenario: &Scenario,
-    (transient, end): (f64, f64),
-    progress: &Progress,
-) -> GapCount {
-    let mut hit = vec![false; scenario.gaps()];
-    let mut see = |impact: Impact| {
-        hit[impact.gap] |= impact.time > transient;
-        !progress.stopped()
+    let stage = progress.stage("error of the mean", parameters.runs());
+    let settings = |chains: &Runs| {
+        let one = |&(Setting { method, value }, realisations): &(Setting, usize)| {
+            let method = method.with(value);
+            each(&stage, progress, 0..realisations as u64, |index| {
+                let scenario = chains.scenario(index);
+                let mut hit = vec![false; scenario.gaps()];
+                let mut see = |impact: Impact| {
+                    hit[impact.gap] |= impact.time > parameters.transient;
+                    !progress.stopped()
+                };
+                let ran = method.run((&scenario, &State::of(&scenario), chains.until), &mut see);
+                progress.check()?;
+                Ok(ran.ok().map(|_| hit.iter().map(|hit| u32::from(*hit)).sum()))
+            })
+        };
+        parameters.settings.par_iter().map(one).collect()
     };
-    let method = setting.method.with(setting.value);
-    let ran = method.run((scenario, &State::of(scenario), end), &mut see).ok();
-    ran.map(|_| hit.iter().map(|hit| u32::from(*hit)).sum())
+    let runs = parameters.chains.par_iter().map(settings).collect::<Result<_, Error>>()?;
+    Ok(Biases { runs, parameters: parameters.clone() })
 }

@@ -1,13 +1,5 @@
-//! Compares speed and accuracy: the cost of each method, and where it fails.
-//!
-//! - [`race`]: every method against the true motion, segment by segment and run by run.
-//! - [`bias`]: the error of a method in the mean number of gaps that impact.
-//! - [`case`], [`trials`]: scenes in which methods fail, and the outcomes.
-//! - [`scale`]: counted work against the number of masses.
-//! - [`tables`]: the numbers of all of these.
-//!
-//! Cost is counted work here, which is the same on every machine; times of the clock are in
-//! [`super::measured`].
+//! Compares speed and accuracy: the cost of each method, and where it fails. Cost is counted work
+//! here; times of the clock are in [`super::measured`].
 
 pub mod bias;
 pub mod case;
@@ -16,12 +8,9 @@ pub mod scale;
 pub mod tables;
 pub mod trials;
 
+use crate::experiments::prelude::*;
 use crate::params::{BiasParams, RaceParams, ScaleParams};
-use literate::experiments::Experiment;
-use literate::experiments::cutting::SECOND;
-use literate::experiments::experiment::How::Whole;
 
-/// Every method against the true motion.
 pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
     name: "race",
     code: &[
@@ -34,7 +23,6 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
     tables: tables::race,
 };
 
-/// The errors of methods in the mean count.
 pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
     name: "bias",
     code: &["src/experiments/accuracy/bias.rs", "src/experiments/accuracy"],
@@ -43,7 +31,6 @@ pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
     tables: tables::bias,
 };
 
-/// Every method in the scenes where methods fail.
 pub const TRIALS: Experiment<trials::TrialParams, trials::Trials> = Experiment {
     name: "trials",
     code: &["src/experiments/accuracy/trials.rs", "src/experiments/accuracy"],
@@ -52,7 +39,6 @@ pub const TRIALS: Experiment<trials::TrialParams, trials::Trials> = Experiment {
     tables: |_| Vec::new(),
 };
 
-/// Counted work against the number of masses.
 pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
     name: "scale",
     code: &["src/experiments/accuracy/scale.rs", "src/experiments/accuracy"],

@@ -21,20 +21,17 @@ const PATIENCE: f64 = 0.1;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Race {
     pub parameters: RaceParams,
-    /// Growth of small differences in the same chain.
     pub growth: Horizon,
-    /// One for each setting, in their order.
     pub entries: Vec<Entry>,
 }
 
-/// What one method with one setting did.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Entry {
     pub setting: Setting,
     /// Evaluations per impact of the runs.
     pub work: Option<f64>,
-    /// When each run left the truth: the time of the first impact of the truth that it has not
-    /// within [`DISPLACED`], or the end of the run.
+    /// When each run left the truth: at the first impact that it has not within [`DISPLACED`], or
+    /// at its end.
     pub runs: Vec<f64>,
     /// Number of exact states from which the next impact was computed.
     pub tried: u64,
@@ -47,14 +44,13 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// Mean time at which the runs left the truth; those that did not count with the end of the
-    /// run, so the mean is then a lower bound.
+    /// Returns the mean time at which the runs left the truth: a lower bound if some did not, which
+    /// count with the end of the run.
     pub fn horizon(&self) -> Option<Estimate> {
         mean(&self.runs).map(|mean| with_error(mean, standard_error(&self.runs).unwrap_or(0.0)))
     }
 }
 
-/// The true motion of one chain.
 struct Course {
     scenario: Scenario,
     hits: Vec<(Hit, State)>,
@@ -68,11 +64,11 @@ pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> 
         let hits = TrueMotion::of(&scenario, &State::of(&scenario)).run(parameters.until);
         Ok(Course { scenario, hits: hits.map_err(|source| Error::failed("race", source))? })
     })?;
-    let targets =
-        targets(parameters.segments, &courses).map_err(|source| Error::failed("race", source))?;
+    let targets = targets(parameters.segments, &courses);
+    let targets = targets.map_err(|source| Error::failed("race", source))?;
     let stage = progress.stage("methods against the truth", parameters.settings.len() as u64);
-    let entries = each(&stage, progress, parameters.settings.iter().copied(), |setting| {
-        entry(parameters, setting, &courses, &targets, progress)
+    let entries = each(&stage, progress, &parameters.settings, |setting| {
+        entry(parameters, *setting, &courses, &targets, progress)
     })?;
     Ok(Race { parameters: parameters.clone(), growth, entries })
 }
@@ -97,7 +93,7 @@ fn targets(number: usize, courses: &[Course]) -> Result<Vec<Target>, impact_chai
             let (_, state) = &hits[i * last / wanted];
             let scenario = state.as_scenario(scenario)?;
             let state = State { time: 0.0, ..state.clone() };
-            let truth = TrueMotion::of(&scenario, &state);
+            let mut truth = TrueMotion::of(&scenario, &state);
             targets.extend(truth.next(LONGEST)?.map(|hit| {
                 let unit = f64::EPSILON * truth.scale(hit.gap) / hit.closing_speed;
                 Target { scenario, state, hit, unit }

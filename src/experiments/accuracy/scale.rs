@@ -6,28 +6,23 @@ use crate::params::{BENCH, MethodName, ScaleParams, Setting};
 /// Method, number of masses n, evaluations per impact: methods in their order, for each n rising.
 pub type Scale = Vec<(Setting, usize, f64)>;
 
-/// Returns the simulated time at n masses: that of `benches/peers/measure.rs`, and a short one for
-/// rivals.
-fn until(masses: usize, method: MethodName) -> f64 {
-    match method {
-        MethodName::Certified => (200_000.0 / masses as f64).clamp(10.0, 200.0),
-        _ => 20.0,
-    }
-}
-
 pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error> {
     let mut cases = Vec::new();
-    for setting in &parameters.settings {
-        let ours = setting.method == MethodName::Certified;
-        let masses = parameters.masses.iter().filter(|n| ours || **n <= parameters.rivals);
-        cases.extend(masses.map(|n| (*setting, *n)));
+    for &setting in &parameters.settings {
+        cases.extend(parameters.masses.iter().map(|n| (setting, *n)));
     }
+    let ours = |setting: Setting| setting.method == MethodName::Certified;
+    // The simulated time of `benches/peers/measure.rs`, and a short one for rivals.
+    let until = |setting: Setting, masses: usize| {
+        if ours(setting) { (200_000.0 / masses as f64).clamp(10.0, 200.0) } else { 20.0 }
+    };
+    cases.retain(|(setting, masses)| ours(*setting) || *masses <= parameters.rivals);
     let stage = progress.stage("work against size", cases.len() as u64);
     each(&stage, progress, cases, |(setting, masses)| {
         let chain = Chain { masses, ..Chain::default() };
         let mut normals = NormalPairs::new(BENCH.0, BENCH.1, 0);
         let scenario = Scenario::draw(&chain, parameters.sigma, &mut normals);
-        let (start, until) = (State::of(&scenario), until(masses, setting.method));
+        let (start, until) = (State::of(&scenario), until(setting, masses));
         let mut go_on = |_| !progress.stopped();
         let cost = setting.method.with(setting.value).run((&scenario, &start, until), &mut go_on);
         progress.check()?;

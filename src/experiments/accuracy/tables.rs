@@ -1,6 +1,6 @@
 //! Makes the tables of the comparison of methods.
 
-use super::bias::{self, Biases, GapCount};
+use super::bias::{self, Biases};
 use super::race::{self, DISPLACED, Entry, Race};
 use super::scale::{self, Scale};
 use crate::experiments::prelude::*;
@@ -10,12 +10,12 @@ use impact_numerics::statistics::{mean, standard_error};
 /// Returns a method with its steps or tolerances, as Markdown.
 pub fn titled(settings: &[Setting]) -> String {
     let method = settings[0].method;
+    if method == MethodName::Certified {
+        return method.title().to_string();
+    }
     let letter = if method.has_tolerance() { r"\mathrm{tol}" } else { "h" };
     let values: Vec<String> = settings.iter().map(|setting| power(setting.value)).collect();
-    match method {
-        MethodName::Certified => method.title().to_string(),
-        _ => format!("{}, ${letter} = {}$", method.title(), values.join(r";\ ")),
-    }
+    format!("{}, ${letter} = {}$", method.title(), values.join(r";\ "))
 }
 
 /// Writes 0.03 as it is, and 1e-9 as a power of ten.
@@ -32,11 +32,9 @@ fn power(value: f64) -> String {
 
 /// Makes the tables of Figs. S6 and S7.
 pub fn race(race: &Race) -> Vec<Table> {
-    let by = |method| race.entries.iter().filter(move |entry| entry.setting.method == method);
-    let coarsest: Vec<&Entry> =
-        MethodName::ALL.into_iter().filter_map(|method| by(method).next()).collect();
-    let finest: Vec<&Entry> =
-        MethodName::ALL.into_iter().filter_map(|method| by(method).next_back()).collect();
+    let methods = race.entries.chunk_by(|a, b| a.setting.method == b.setting.method);
+    let (coarsest, finest): (Vec<&Entry>, Vec<&Entry>) =
+        methods.map(|entries| (&entries[0], &entries[entries.len() - 1])).unzip();
     vec![entries("race.coarsest", &coarsest), entries("race.finest", &finest), all(race)]
 }
 
@@ -46,9 +44,7 @@ fn entries(name: &'static str, entries: &[&Entry]) -> Table {
         .chosen("setting", TIME, "step or tolerance", |entry| Some(entry.setting.value))
         .computed_by(origin(race::run))
         .count("misses", "states from which the next impact is missed", |entry| entry.misses)
-        .real("error", TIME, 1, "median error of its time", |entry| {
-            entry.errors.map(|errors| errors[0])
-        })
+        .real("error", TIME, 1, "median error of its time", |entry| Some(entry.errors?[0]))
         .real("units", "1", 2, "largest error over what rounding the gap does", |entry| entry.units)
         .real("work", "1", 2, "evaluations per impact", |entry| entry.work)
         .estimate("horizon", TIME, "time up to which a run is true", |entry| entry.horizon())
@@ -56,13 +52,11 @@ fn entries(name: &'static str, entries: &[&Entry]) -> Table {
 }
 
 fn all(race: &Race) -> Table {
-    let faultless = race
-        .entries
-        .iter()
-        .filter(|entry| entry.setting.method != MethodName::Certified && entry.misses == 0);
+    let rival = |entry: &&Entry| entry.setting.method != MethodName::Certified;
+    let faultless = race.entries.iter().filter(rival).filter(|entry| entry.misses == 0);
     let costs = faultless.filter_map(|entry| Some((entry, entry.work?)));
     let best = costs.min_by(|a, b| a.1.total_cmp(&b.1));
-    let tried = race.entries.iter().map(|entry| entry.tried).max();
+    let tried = race.entries.iter().map(|entry| entry.tried).max().unwrap_or(0);
     // ln of a displacement over the rounding of one.
     let folds = pxfm::f_log(DISPLACED / (f64::EPSILON / 2.0));
     let (run, growth) = (&race.parameters.growth, race.growth.growth());
@@ -73,12 +67,8 @@ fn all(race: &Race) -> Table {
         .chosen("displaced", TIME, "from here on an impact is another", |()| Some(DISPLACED))
         .computed_by(origin(race::run))
         .count("chains", "chains", |()| race.parameters.chains as u64)
-        .count("states", "from which each method is asked for the next impact", |()| {
-            tried.unwrap_or(0)
-        })
-        .estimate("growth", "omega", "rate λ at which neighbouring motions part", |()| {
-            growth.map(|rate| with_error(rate.value, rate.error))
-        })
+        .count("states", "from which each method is asked for the next impact", |()| tried)
+        .estimate("growth", "omega", "rate λ at which neighbouring motions part", |()| growth)
         .estimate("ceiling", TIME, "time that chaos allows to doubles", |()| {
             growth.map(|g| with_error(folds / g.value, folds / g.value * g.error / g.value))
         })
@@ -95,8 +85,7 @@ pub struct Compared {
     pub sigma: f64,
     /// Chains that both ran to the end.
     pub pairs: usize,
-    /// Mean difference of their counts over the engine's mean count, with the error of differences
-    /// chain by chain.
+    /// Mean difference of their counts over the engine's mean, with the error chain by chain.
     pub share: Option<Estimate>,
 }
 
@@ -121,7 +110,6 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
     rows
 }
 
-/// Makes the tables of the error of the mean.
 pub fn bias(biases: &Biases) -> Vec<Table> {
     let rows = compared(biases);
     let cells = Table::of("bias.cells", &rows, |row| row.pairs)
@@ -130,27 +118,23 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
         .computed_by(origin(bias::run))
         .estimate("share", "1", "error of the mean over the mean", |row| row.share)
         .done();
-    let counts =
-        |runs: &Vec<Vec<GapCount>>| runs[0].iter().flatten().map(|k| f64::from(*k)).collect();
-    let counts: Vec<Vec<f64>> = biases.runs.iter().map(counts).collect();
-    let scenes: Vec<_> = biases.parameters.chains.iter().zip(counts).collect();
-    let means = Table::of("bias.means", &scenes, |(_, counts)| counts.len())
-        .key("sigma", SIGMA, |(chains, _)| chains.sigma)
+    let engine = biases.parameters.chains.iter().zip(&biases.runs).map(|(chains, runs)| {
+        let counts: Vec<f64> = runs[0].iter().flatten().map(|k| f64::from(*k)).collect();
+        (chains.sigma, counts)
+    });
+    let engine: Vec<_> = engine.collect();
+    let means = Table::of("bias.means", &engine, |(_, counts)| counts.len())
+        .key("sigma", SIGMA, |(sigma, _)| *sigma)
         .computed_by(origin(bias::run))
-        .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |(_, counts)| {
-            mean(counts)
-        })
+        .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |row| mean(&row.1))
         .done();
     vec![cells, means]
 }
 
 /// Makes the table of Fig. S9.
 pub fn scale(scale: &Scale) -> Vec<Table> {
-    let ends = MethodName::ALL.into_iter().filter_map(|method| {
-        let rows = || scale.iter().filter(move |row| row.0.method == method);
-        rows().next().zip(rows().next_back())
-    });
-    let ends: Vec<_> = ends.collect();
+    let methods = scale.chunk_by(|a, b| a.0.method == b.0.method);
+    let ends: Vec<_> = methods.map(|rows| (&rows[0], &rows[rows.len() - 1])).collect();
     let table = Table::of("scale.ends", &ends, |_| 1)
         .text_key("method", |(few, _)| few.0.method.id().into())
         .chosen("setting", TIME, "step or tolerance", |(few, _)| Some(few.0.value))

@@ -3,6 +3,7 @@
 use super::case::{Case, Outcome, Scene, scenes};
 use crate::experiments::prelude::*;
 use crate::params::{Profile, Setting, trial_settings};
+use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrialParams {
@@ -14,7 +15,6 @@ pub struct TrialParams {
 const QUICK: f64 = 500.0;
 
 impl TrialParams {
-    /// Returns what is run in a profile.
     pub fn new(profile: Profile) -> Self {
         let mut scenes = scenes();
         if profile == Profile::Quick {
@@ -26,13 +26,11 @@ impl TrialParams {
         TrialParams { settings: trial_settings(), scenes }
     }
 
-    /// Returns the number of cases, over all scenes.
     pub fn cases(&self) -> usize {
         self.scenes.iter().map(|scene| scene.cases.len()).sum()
     }
 }
 
-/// The outcomes of every method in every scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trials {
     pub parameters: TrialParams,
@@ -46,34 +44,29 @@ pub type Trial = Vec<Outcome>;
 /// A run that takes more steps than this is not begun, and counts as given up.
 const MOST_STEPS: f64 = 2e7;
 
-/// Returns the number of cases with the expected outcome.
 pub fn right(trial: &Trial) -> usize {
     trial.iter().filter(|outcome| **outcome == Outcome::Right).count()
 }
 
 /// Returns the most frequent wrong outcome; of several the first in the order of [`Outcome`].
 pub fn trouble(trial: &Trial) -> Option<Outcome> {
-    let mut wrong: Vec<Outcome> =
-        trial.iter().copied().filter(|outcome| *outcome != Outcome::Right).collect();
+    let mut wrong = trial.clone();
+    wrong.retain(|outcome| *outcome != Outcome::Right);
     wrong.sort_unstable();
     // Of equal counts `max_by_key` takes the last.
     wrong.chunk_by(|a, b| a == b).rev().max_by_key(|equal| equal.len()).map(|equal| equal[0])
 }
 
-/// Runs all methods on all scenes, and judges each case.
 pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Error> {
     let TrialParams { scenes, settings } = parameters;
-    let pairs = scenes.iter().flat_map(|scene| settings.iter().map(move |way| (scene, way)));
     let stage = progress.stage("scenes where methods fail", (scenes.len() * settings.len()) as u64);
-    let trials = each(&stage, progress, pairs, |(scene, setting)| {
-        let mut trial = Vec::with_capacity(scene.cases.len());
-        for case in &scene.cases {
-            progress.check()?;
-            trial.push(outcome(*setting, case));
-        }
-        Ok(trial)
-    })?;
-    let found = trials.chunks(settings.len().max(1)).map(<[_]>::to_vec).collect();
+    let of_scene = |scene: &Scene| {
+        each(&stage, progress, settings, |setting| {
+            let one = |case| progress.check().map(|()| outcome(*setting, case));
+            scene.cases.iter().map(one).collect()
+        })
+    };
+    let found = scenes.par_iter().map(of_scene).collect::<Result<_, _>>()?;
     Ok(Trials { parameters: parameters.clone(), found })
 }
 

@@ -1,5 +1,4 @@
-//! Compares chains from rest with chains from above under the same forces, after several
-//! transients.
+//! Compares chains from rest with chains from above under the same forces.
 
 mod pairs;
 pub mod run;
@@ -7,12 +6,11 @@ pub mod tables;
 
 pub use run::Chains;
 
-use crate::params;
-use impact_chain::{Counts, Ensemble};
+use crate::params::{self, Ensemble};
+use impact_chain::Counts;
 use literate::experiments::Experiment;
 use literate::experiments::experiment::How::Cut;
 
-/// Chains from rest and from above under the same forces, after several transients.
 pub const BRANCHES: Experiment<Vec<Ensemble>, Vec<Chains>, Counts> = Experiment {
     name: "branches",
     code: &["src/experiments/branches", "src/experiments/ensembles.rs"],

@@ -1,10 +1,9 @@
 //! Compares half heights and shares on both branches chain by chain.
 //!
 //! Chains are independent of each other, and nothing else is: the same chain at another σ, after
-//! another transient or on the other branch has the same forces. So every error is that of leaving
-//! out whole chains in turn (the jackknife, which gives the usual standard error of a mean), and a
-//! difference is taken before its error is. Intervals have the quantiles of Student's t for the
-//! number of chains.
+//! another transient or on the other branch has the same forces. So every error is by leaving out
+//! whole chains in turn (the jackknife), and a difference is taken before its error is. Intervals
+//! have the quantiles of Student's t for the number of chains.
 
 use super::run::Chains;
 use crate::experiments::prelude::*;
@@ -55,9 +54,8 @@ impl Branch {
 
     /// Returns the half height of the mean over all chains but one.
     pub fn half_height(&self, without: Option<usize>) -> Option<f64> {
-        let shares: Vec<Option<f64>> =
-            self.sigmas.iter().map(|sigma| self.share(*sigma, without)).collect();
-        last_rise(&self.sigmas, &shares, 0.5)
+        let shares = self.sigmas.iter().map(|sigma| self.share(*sigma, without));
+        last_rise(&self.sigmas, &shares.collect::<Vec<_>>(), 0.5)
     }
 }
 
@@ -72,23 +70,16 @@ pub(super) struct Pair {
 /// A quantity of both branches, over all chains but one.
 pub(super) type Quantity = fn(&Pair, Option<usize>) -> Option<f64>;
 
-/// Returns the half height from rest.
-pub(super) fn from_rest(pair: &Pair, without: Option<usize>) -> Option<f64> {
-    pair.rest.half_height(without)
-}
-
-/// Returns the half height from above.
-pub(super) fn from_above(pair: &Pair, without: Option<usize>) -> Option<f64> {
-    pair.above.half_height(without)
-}
+/// The half heights on both branches.
+pub(super) const FROM_REST: Quantity = |pair, without| pair.rest.half_height(without);
+pub(super) const FROM_ABOVE: Quantity = |pair, without| pair.above.half_height(without);
 
 /// Returns the half height from rest less that from above.
 pub(super) fn distance(pair: &Pair, without: Option<usize>) -> Option<f64> {
-    Some(from_rest(pair, without)? - from_above(pair, without)?)
+    Some(pair.rest.half_height(without)? - pair.above.half_height(without)?)
 }
 
 impl Pair {
-    /// Returns all pairs, by length and transient.
     pub fn all(found: &[Chains]) -> Vec<Pair> {
         let mut keys: Vec<(usize, f64)> = Vec::new();
         for Chains { ensemble, .. } in found {
@@ -97,49 +88,44 @@ impl Pair {
         }
         keys.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         keys.dedup();
-        let mut pairs = Vec::with_capacity(keys.len());
-        for (masses, transient) in keys {
-            let [rest, above] =
-                [false, true].map(|heated| Branch::new(found, masses, heated, transient));
-            pairs.push(Pair { masses, transient, rest, above });
-        }
-        pairs
+        let branch = |(masses, transient), heated| Branch::new(found, masses, heated, transient);
+        let pair = |key: (usize, f64)| Pair {
+            masses: key.0,
+            transient: key.1,
+            rest: branch(key, false),
+            above: branch(key, true),
+        };
+        keys.into_iter().map(pair).collect()
     }
 
-    /// Returns the number of chains on each branch.
     pub fn chains(&self) -> usize {
         self.rest.chains().min(self.above.chains())
     }
 
-    /// Estimates a quantity of all chains.
-    pub fn estimate(
-        &self,
-        quantity: impl Fn(&Pair, Option<usize>) -> Option<f64>,
-    ) -> Option<Estimate> {
-        jackknife(self.chains(), |without| quantity(self, without))
+    pub fn estimate(&self, of: impl Fn(&Pair, Option<usize>) -> Option<f64>) -> Option<Estimate> {
+        jackknife(self.chains(), |without| of(self, without))
     }
 
     /// Estimates by how much a quantity exceeds that of another pair of the same chains.
     pub fn estimate_less(
         &self,
         other: &Pair,
-        quantity: impl Fn(&Pair, Option<usize>) -> Option<f64>,
+        of: impl Fn(&Pair, Option<usize>) -> Option<f64>,
     ) -> Option<Estimate> {
         jackknife(self.chains().min(other.chains()), |without| {
-            Some(quantity(self, without)? - quantity(other, without)?)
+            Some(of(self, without)? - of(other, without)?)
         })
     }
 }
 
-/// Returns the exponent of a power law of T through the distances of some pairs, over all chains
-/// but one, by least squares in logarithms. None if a distance is not positive.
+/// Returns the exponent of a power law of T through the distances of some pairs, by least squares
+/// in logarithms. None if a distance is not positive.
 pub(super) fn exponent(pairs: &[Pair], without: Option<usize>) -> Option<f64> {
-    let mut points = Vec::new();
-    for pair in pairs {
+    let point = |pair: &Pair| {
         let distance = distance(pair, without).filter(|distance| *distance > 0.0)?;
-        points.push((pxfm::f_log(pair.transient), pxfm::f_log(distance)));
-    }
-    slope(&points)
+        Some((pxfm::f_log(pair.transient), pxfm::f_log(distance)))
+    };
+    slope(&pairs.iter().map(point).collect::<Option<Vec<_>>>()?)
 }
 
 /// Returns the interval of an estimate from independent chains, with Student's t.
@@ -217,7 +203,7 @@ mod tests {
         // Chains differ much, and all change by the same.
         let (first, later) = ([0.1, 0.5, 0.9], [0.2, 0.6, 1.0]);
         let (first, later) = (pair(1.0, &first, &first), pair(2.0, &later, &first));
-        let found = later.estimate_less(&first, from_rest).unwrap();
+        let found = later.estimate_less(&first, FROM_REST).unwrap();
         assert!((found.value - 0.1).abs() < 1e-12 && found.error < 1e-12, "{found:?}");
     }
 }

@@ -1,25 +1,21 @@
-//! Runs chains from rest, and chains from above under the same forces, and keeps the count of every
-//! chain.
+//! Runs chains from rest and from above, and keeps the count of every chain.
 //!
 //! A chain from above runs well beyond the rise first; then all its forces are lowered by one
-//! factor. Chain i has the same forces on both branches and at every σ, so branches are compared
-//! chain by chain (`pairs.rs`).
+//! factor. Chain i has the same forces on both branches and at every σ.
 
-use crate::experiments::ensembles::{part, rows};
+use crate::experiments::ensembles::{joined, part, rows};
 use crate::experiments::prelude::*;
-use impact_chain::{Counts, Ensemble};
+use crate::params::Ensemble;
+use impact_chain::Counts;
 use literate::experiments::cutting::Cutting;
 
-/// The counts of an ensemble, chain by chain.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Chains {
     pub ensemble: Ensemble,
-    /// For each σ and each window, the number of active gaps of each chain; none if its run was
-    /// not complete.
+    /// For each σ and each window, the active gaps of each chain; none if its run was not complete.
     pub counts: Vec<Vec<Vec<Option<u32>>>>,
 }
 
-/// How the ensembles are cut into units, and joined.
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Chains>> = Cutting { rows, part, join };
 
 fn join(
@@ -28,12 +24,9 @@ fn join(
     progress: &Progress,
 ) -> Result<Vec<Chains>, Error> {
     progress.check()?;
-    let mut parts = parts.into_iter();
-    let mut found = Vec::with_capacity(all.len());
-    for ensemble in all {
-        let at_each = parts.by_ref().take(ensemble.sigmas.len());
-        let counts = at_each.map(|parts| Counts::from_iter(parts).distinct).collect();
-        found.push(Chains { ensemble: ensemble.clone(), counts });
-    }
-    Ok(found)
+    let chains = |(ensemble, counts): (Ensemble, Vec<Counts>)| {
+        let counts = counts.into_iter().map(|counts| counts.distinct).collect();
+        Chains { ensemble, counts }
+    };
+    Ok(joined(all, parts).map(chains).collect())
 }

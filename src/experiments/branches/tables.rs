@@ -1,12 +1,9 @@
 //! Makes the tables of half heights and shares on both branches.
 
-use super::pairs::{Branch, Pair, Quantity, distance, exponent, from_above, from_rest, interval};
+use super::pairs::{Branch, FROM_ABOVE, FROM_REST, Pair, Quantity, distance, exponent, interval};
 use super::run::Chains;
-use crate::experiments::half_height::HALF_HEIGHT;
 use crate::experiments::prelude::*;
-use impact_numerics::estimates::jackknife;
 
-/// Makes the tables of both branches.
 pub fn tables(found: &Vec<Chains>) -> Vec<Table> {
     let pairs = Pair::all(found);
     let lengths: Vec<&[Pair]> = pairs.chunk_by(|a, b| a.masses == b.masses).collect();
@@ -23,70 +20,56 @@ pub fn tables(found: &Vec<Chains>) -> Vec<Table> {
 
 /// Makes the table of half heights after each transient, and the change since the one before it.
 fn half_heights(lengths: &[&[Pair]]) -> Table {
+    const DISTANCE: &str = "half height from rest less that from above";
     const LATER: &str = "the same less that after the transient before";
     let mut rows: Vec<(&Pair, Option<&Pair>)> = Vec::new();
     for pairs in lengths {
-        for (place, pair) in pairs.iter().enumerate() {
-            rows.push((pair, place.checked_sub(1).map(|before| &pairs[before])));
-        }
+        rows.extend(pairs.iter().zip([None].into_iter().chain(pairs.iter().map(Some))));
     }
     Table::of("branches.half_heights", &rows, |(pair, _)| pair.chains())
         .key("masses", "1", |(pair, _)| pair.masses as f64)
         .key("transient", TIME, |(pair, _)| pair.transient)
         .computed_by(origin(Branch::half_height))
-        .estimate("from_rest", SIGMA, HALF_HEIGHT, |(pair, _)| pair.estimate(from_rest))
-        .estimate("from_above", SIGMA, HALF_HEIGHT, |(pair, _)| pair.estimate(from_above))
+        .estimate("from_rest", SIGMA, HALF_HEIGHT, |(pair, _)| pair.estimate(FROM_REST))
+        .estimate("from_above", SIGMA, HALF_HEIGHT, |(pair, _)| pair.estimate(FROM_ABOVE))
         .computed_by(origin(distance))
-        .estimate("distance", SIGMA, "half height from rest less that from above", |(pair, _)| {
-            pair.estimate(distance)
-        })
-        .estimate("change_of_distance", SIGMA, LATER, |(pair, before)| {
-            pair.estimate_less((*before)?, distance)
-        })
+        .estimate("distance", SIGMA, DISTANCE, |(pair, _)| pair.estimate(distance))
+        .estimate("change_of_distance", SIGMA, LATER, |row| row.0.estimate_less(row.1?, distance))
         .done()
 }
 
-/// Returns the first two pairs of one length.
 fn first_two(pairs: &[Pair]) -> &[Pair] {
     &pairs[..pairs.len().min(2)]
 }
 
-/// Returns the last three pairs of one length.
 fn last_three(pairs: &[Pair]) -> &[Pair] {
     &pairs[pairs.len().saturating_sub(3)..]
 }
 
-/// Makes the table of the laws by which the distance falls with T: powers over the first two
-/// transients and over the last three.
+/// Makes the table of the powers by which the distance falls with T.
 fn laws(lengths: &[&[Pair]]) -> Table {
     const LAW: &str = "d ln(distance)/d ln T by least squares over the last three transients";
-    let law = |pairs: &[Pair]| {
-        jackknife(pairs[0].chains(), |without| exponent(last_three(pairs), without))
-    };
+    const EARLY: &str = "the same over the first two transients";
+    let late = |pairs: &[Pair], without| exponent(last_three(pairs), without);
+    let early = |pairs: &[Pair], without| exponent(first_two(pairs), without);
+    let law = |pairs: &[Pair]| pairs[0].estimate(|_, without| late(pairs, without));
     let ends = |pairs: &[Pair]| interval(law(pairs), pairs[0].chains());
     Table::of("branches.laws", lengths, |pairs| pairs[0].chains())
         .key("masses", "1", |pairs| pairs[0].masses as f64)
         .chosen("until", TIME, "the second transient", |pairs| Some(pairs.get(1)?.transient))
-        .chosen("since", TIME, "the third last transient", |pairs| {
-            Some(last_three(pairs)[0].transient)
-        })
+        .chosen("since", TIME, "the third last one", |pairs| Some(last_three(pairs)[0].transient))
         .computed_by(origin(exponent))
         .estimate("exponent", "1", LAW, |pairs| law(pairs))
         .real("exponent_from", "1", 2, "lower end of its interval", |pairs| Some(ends(pairs)?[0]))
         .real("exponent_to", "1", 2, "upper end of its interval", |pairs| Some(ends(pairs)?[1]))
-        .estimate("early", "1", "the same over the first two transients", |pairs| {
-            jackknife(pairs[0].chains(), |without| exponent(first_two(pairs), without))
-        })
-        .estimate("change", "1", "the exponent less the early one", |pairs| {
-            jackknife(pairs[0].chains(), |without| {
-                Some(exponent(last_three(pairs), without)? - exponent(first_two(pairs), without)?)
-            })
+        .estimate("early", "1", EARLY, |all| all[0].estimate(|_, without| early(all, without)))
+        .estimate("change", "1", "the exponent less the early one", |all| {
+            all[0].estimate(|_, without| Some(late(all, without)? - early(all, without)?))
         })
         .done()
 }
 
-/// Makes the table of half heights and distances of the shorter chains less those of the longer
-/// ones, which begin with the same forces.
+/// Makes the table of the shorter chains less the longer ones, which begin with the same forces.
 fn compared_lengths(lengths: &[&[Pair]]) -> Table {
     const LESS: &str = "that of the shorter chains less that of the longer ones";
     let mut rows: Vec<(&Pair, &Pair)> = Vec::new();
@@ -96,8 +79,8 @@ fn compared_lengths(lengths: &[&[Pair]]) -> Table {
     Table::of("branches.lengths", &rows, |(short, long)| short.chains().min(long.chains()))
         .key("transient", TIME, |(short, _)| short.transient)
         .computed_by(origin(Branch::half_height))
-        .estimate("from_rest", SIGMA, LESS, |(short, long)| short.estimate_less(long, from_rest))
-        .estimate("from_above", SIGMA, LESS, |(short, long)| short.estimate_less(long, from_above))
+        .estimate("from_rest", SIGMA, LESS, |(short, long)| short.estimate_less(long, FROM_REST))
+        .estimate("from_above", SIGMA, LESS, |(short, long)| short.estimate_less(long, FROM_ABOVE))
         .estimate("distance", SIGMA, LESS, |(short, long)| short.estimate_less(long, distance))
         .done()
 }
@@ -112,8 +95,8 @@ fn late(lengths: &[&[Pair]]) -> Table {
         .key("masses", "1", |pairs| pairs[0].masses as f64)
         .chosen("since", TIME, "the earlier time", |pairs| Some(last_three(pairs)[0].transient))
         .computed_by(origin(Branch::half_height))
-        .estimate("from_rest", SIGMA, SINCE, |pairs| change(pairs, from_rest))
-        .estimate("from_above", SIGMA, SINCE, |pairs| change(pairs, from_above))
+        .estimate("from_rest", SIGMA, SINCE, |pairs| change(pairs, FROM_REST))
+        .estimate("from_above", SIGMA, SINCE, |pairs| change(pairs, FROM_ABOVE))
         .done()
 }
 
@@ -124,11 +107,11 @@ fn excess(pair: &Pair, sigma: f64) -> Option<Estimate> {
     })
 }
 
-/// Makes the table of shares at the largest σ that both branches have after every transient, in
-/// chains of each length that have one.
+/// Makes the table of shares at the largest σ that both branches have after every transient.
 fn fixed(lengths: &[&[Pair]]) -> Table {
     const ABOVE: &str = "share from above at last less that at the first time";
     const LATE: &str = "the same since the third last time";
+    const EXCESS: &str = "share from above less that from rest, at first";
     let mut rows: Vec<(&[Pair], f64)> = Vec::new();
     for pairs in lengths {
         let everywhere = |sigma: &&f64| {
@@ -147,9 +130,7 @@ fn fixed(lengths: &[&[Pair]]) -> Table {
         .estimate("fall", "1", ABOVE, |row| fall(row, &row.0[0]))
         .estimate("late_fall", "1", LATE, |row| fall(row, &last_three(row.0)[0]))
         .computed_by(origin(excess))
-        .estimate("excess", "1", "share from above less that from rest, at first", |row| {
-            excess(&row.0[0], row.1)
-        })
+        .estimate("excess", "1", EXCESS, |row| excess(&row.0[0], row.1))
         .estimate("late_excess", "1", "the same at last", |row| excess(row.0.last()?, row.1))
         .done()
 }
@@ -157,6 +138,10 @@ fn fixed(lengths: &[&[Pair]]) -> Table {
 /// Makes the table of shares at every σ that was run on a branch.
 fn shares(pairs: &[Pair]) -> Table {
     const SHARE: &str = "share of all gaps with an impact";
+    const EXCESS: &str = "share from above less that from rest";
+    let share = |pair: &Pair, branch: fn(&Pair) -> &Branch, sigma: f64| {
+        pair.estimate(|pair, without| branch(pair).share(sigma, without))
+    };
     let mut rows: Vec<(&Pair, f64)> = Vec::new();
     for pair in pairs {
         let mut sigmas = [&pair.rest.sigmas[..], &pair.above.sigmas].concat();
@@ -169,16 +154,10 @@ fn shares(pairs: &[Pair]) -> Table {
         .key("transient", TIME, |(pair, _)| pair.transient)
         .key("sigma", SIGMA, |(_, sigma)| *sigma)
         .computed_by(origin(Branch::share))
-        .estimate("from_rest", "1", SHARE, |(pair, sigma)| {
-            pair.estimate(|pair, without| pair.rest.share(*sigma, without))
-        })
-        .estimate("from_above", "1", SHARE, |(pair, sigma)| {
-            pair.estimate(|pair, without| pair.above.share(*sigma, without))
-        })
+        .estimate("from_rest", "1", SHARE, |row| share(row.0, |pair| &pair.rest, row.1))
+        .estimate("from_above", "1", SHARE, |row| share(row.0, |pair| &pair.above, row.1))
         .computed_by(origin(excess))
-        .estimate("excess", "1", "share from above less that from rest", |(pair, sigma)| {
-            excess(pair, *sigma)
-        })
+        .estimate("excess", "1", EXCESS, |row| excess(row.0, row.1))
         .done()
 }
 
@@ -187,10 +166,9 @@ fn all(found: &[Chains], pairs: &[Pair]) -> Table {
     let above = found.iter().filter(|one| one.ensemble.heating.is_some());
     let counts = above.flat_map(|one| one.counts.iter().flatten().flatten());
     let silent = counts.filter(|count| **count == Some(0)).count();
+    let chains = pairs.iter().map(Pair::chains).min().unwrap_or(0);
     Table::of("branches.all", &[()], |()| 0)
-        .count("chains", "chains of each length on each branch", |()| {
-            pairs.iter().map(Pair::chains).min().unwrap_or(0) as u64
-        })
+        .count("chains", "chains of each length on each branch", |()| chains as u64)
         .chosen("hot", SIGMA, "σ of the force at first", |()| heated.map(|hot| hot.sigma))
         .chosen("heating", TIME, "time under that force", |()| heated.map(|hot| hot.time))
         .count("silent", "windows from above without an impact", |()| silent as u64)

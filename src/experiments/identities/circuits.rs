@@ -1,13 +1,11 @@
 //! Compares the counts of circuits with the enumeration of small graphs: Secs. 3, 5 and 9.
 
-use super::cases::{Cases, cases};
+use crate::experiments::theory::basics::{Cases, cases};
 use crate::experiments::theory::census::{Census, LONGEST, counted, enumerated};
-use impact_circuits::Fraction;
 use impact_circuits::counting::{paths, phi};
 use impact_circuits::graph::{Circuit, Graph};
 use impact_circuits::higher_order::{
-    CLASSES, Class, compositions, doubled, doubled_as_printed, doubled_paths, four_visits,
-    three_visits, two_doubled,
+    CLASSES, Class, compositions, doubled_as_printed, doubled_paths,
 };
 use std::collections::BTreeMap;
 
@@ -44,12 +42,10 @@ pub(super) fn eq29() -> Cases {
             visits.get(&0) == Some(&2) && visits.iter().all(|(&v, &times)| v == 0 || times == 1)
         };
         for circuit in Graph::of_chain(n - 1).circuits(longest).filter(through) {
-            let at: Vec<usize> =
-                (0..circuit.length()).filter(|&i| circuit.word()[i] == 0).collect();
-            let first = at[1] - at[0];
-            let mut lengths = [first, circuit.length() - first];
-            lengths.sort_unstable();
-            *loops.entry(lengths).or_insert(0) += 1;
+            // The least rotation begins at vertex 0.
+            let first = 1 + circuit.word()[1..].iter().take_while(|v| **v != 0).count();
+            let second = circuit.length() - first;
+            *loops.entry([first.min(second), first.max(second)]).or_insert(0) += 1;
         }
         loops.into_iter().map(move |([a, b], circuits)| {
             // Two loops of equal length may be named in either order: half of the formula.
@@ -61,10 +57,8 @@ pub(super) fn eq29() -> Cases {
 
 pub(super) fn eq30_times_n(census: &Census) -> Cases {
     cases(enumerated().filter(|&(n, k)| k >= 3 && k <= n + 1).map(|(n, k)| {
-        let times_n = doubled_as_printed(n, k)
-            .map(|f| Fraction::new(f.numerator * n as u128, f.denominator))
-            .and_then(Fraction::integer);
-        times_n == Some(counted(census, n, k, &[1]))
+        let times_n = doubled_as_printed(n, k).map(|printed| printed * n as f64);
+        times_n == Some(counted(census, n, k, &[1]) as f64)
     }))
 }
 
@@ -87,42 +81,25 @@ pub(super) fn eq38(census: &Census, from: usize) -> Cases {
         (from..=n).take_while(move |k| k + 3 <= longest).map(move |k| (n, k))
     };
     cases((1..).zip(LONGEST).flat_map(lengths).map(|(n, k)| {
-        let simple = phi(n, k).map(|count| Fraction::new(count, 1));
-        let printed: [(Option<Fraction>, usize, &[usize]); 5] = [
-            (simple, 0, &[]),
-            (doubled(n, k + 1), 1, &[1]),
-            (three_visits(n, k + 2), 2, &[0, 1]),
-            (four_visits(n, k + 3), 3, &[0, 0, 1]),
-            (two_doubled(n, k + 2), 2, &[2]),
-        ];
-        let found: u128 =
-            printed.iter().map(|(_, more, class)| counted(census, n, k + more, class)).sum();
-        let sum: Option<u128> =
-            printed.into_iter().map(|(count, ..)| count.and_then(Fraction::integer)).sum();
-        sum == Some(found)
+        let found = CLASSES.map(|one| counted(census, n, k + one.excess(), one.repeats) as f64);
+        let printed = CLASSES.map(|one| (one.printed)(n, k + one.excess()));
+        printed.into_iter().sum::<Option<f64>>() == Some(found.into_iter().sum())
     }))
 }
 
-/// A formula for N vertices and length k.
-type Formula = fn(usize, usize) -> Option<Fraction>;
-
-/// Returns for each printed formula of a class of circuits its equation, the smallest length from
-/// which on it is right in every case, the cases from there on, and what it gives and enumeration
-/// finds one length below, on three vertices.
+/// Returns for each printed formula of a class its equation, the length from which on it is right,
+/// the cases from there on, and what it gives and enumeration finds one below, on three vertices.
 pub(super) fn class_ranges(census: &Census) -> Vec<(f64, usize, Cases, Option<f64>, u128)> {
-    let formulas: [Formula; 4] = [doubled, three_visits, four_visits, two_doubled];
-    let range = |(class, formula): (&Class, Formula)| {
+    let range = |class: &Class| {
         let agrees = |&(n, k): &(usize, usize)| {
-            let value = formula(n, k).and_then(Fraction::integer);
-            value == Some(counted(census, n, k, class.repeats))
+            (class.printed)(n, k) == Some(counted(census, n, k, class.repeats) as f64)
         };
         let possible: Vec<(usize, usize)> =
             enumerated().filter(|&(n, k)| class.different(k).is_some_and(|d| d <= n)).collect();
         let below = possible.iter().filter(|at| !agrees(at)).map(|at| at.1).max().unwrap_or(0);
         let cases = cases(possible.iter().filter(|at| at.1 > below).map(agrees));
-        let found = formula(3, below).map(Fraction::to_f64);
         let counted = counted(census, 3, below, class.repeats);
-        (class.equation.into(), below + 1, cases, found, counted)
+        (class.equation.into(), below + 1, cases, (class.printed)(3, below), counted)
     };
-    CLASSES[1..].iter().zip(formulas).map(range).collect()
+    CLASSES[1..].iter().map(range).collect()
 }

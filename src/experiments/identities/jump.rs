@@ -1,7 +1,6 @@
 //! Checks the distribution and its jump, Secs. 6 and 7: identities, signs, zeros and slopes.
 
-use super::cases::{Cases, cases};
-use crate::experiments::theory::basics::{known, largest};
+use crate::experiments::theory::basics::{Cases, cases, known, largest};
 use crate::experiments::theory::jump::top;
 use crate::experiments::theory::law::law;
 use crate::params::VERTICES;
@@ -12,7 +11,6 @@ use impact_numerics::scaled::Scaled;
 /// The p of Figs. 8 to 14, and some beyond.
 const GRID: [f64; 10] = [0.001, 0.005, 0.01, 0.012, 0.015, 0.02, 0.04, 0.1, 0.5, 1.0];
 
-/// N as a real number.
 const N: f64 = VERTICES as f64;
 
 fn simple(p: f64) -> Law {
@@ -39,8 +37,7 @@ pub(super) fn mean_rises() -> Cases {
     cases(means.windows(2).map(|w| w[1] >= w[0]))
 }
 
-/// Compares the sign of the difference of neighbouring weights with the sign of f, Eq. (11). A tie
-/// of the weights is a zero of f.
+/// Compares the sign of the difference of neighbouring weights with the sign of f, Eq. (11).
 pub(super) fn eq11() -> Cases {
     let mut agree = Vec::new();
     for p in GRID {
@@ -57,8 +54,7 @@ pub(super) fn eq13() -> f64 {
     largest(GRID.into_iter().flat_map(zeros).map(|(p, k)| f(p, k).abs() / size(p, k)))
 }
 
-/// Checks the signs in Eqs. (16) and (17), and compares the slope with a finite difference: f is
-/// linear in p.
+/// Checks the signs in Eqs. (16) and (17), and the slope by a difference: f is linear in p.
 pub(super) fn slopes() -> Cases {
     let mut agree = Vec::new();
     for k in (1..VERTICES).map(|k| k as f64) {
@@ -86,8 +82,7 @@ pub(super) fn maximum() -> f64 {
     largest(GRID.into_iter().flat_map(pairs).map(off))
 }
 
-/// Checks that f has another double zero, at p = ((1 − √(N + 1))/N)² and k < 0, for N from 1 to
-/// 1000.
+/// Checks that f has another double zero, at p = ((1 − √(N + 1))/N)² and k < 0, for N = 1..=1000.
 pub(super) fn other_root() -> Cases {
     cases((1..=1000).map(f64::from).map(|n| {
         let root = (1.0 - (n + 1.0).sqrt()) / n;
@@ -104,11 +99,7 @@ pub(super) fn extrema() -> Cases {
     // At the first p itself a minimum and a maximum are level.
     for i in 1..=200 {
         let p = (first * pxfm::f_exp(-pxfm::f_log(first) * f64::from(i) / 200.0)).min(1.0);
-        let Some(zeros) = jump::zeros(VERTICES, p) else {
-            agree.push(false);
-            continue;
-        };
-        let weights = weights(p);
+        let (weights, zeros) = (weights(p), jump::zeros(VERTICES, p).expect("f has zeros there"));
         let [low, high] = zeros.map(|k| (k.ceil() as usize).clamp(1, VERTICES) - 1);
         for step in [-1, 1] {
             let near = |at: usize| weights.get(at.checked_add_signed(step)?);

@@ -1,17 +1,14 @@
 //! Compares each exact statement of Secs. 3 to 9 with a second route: formulas with the enumeration
 //! of small graphs, closed forms with quadrature, zeros with the function. What a claim judges is
 //! how many cases fail, or by how much: a row for each, under the id of the statement.
-//!
-//! Cheap, as the theory is, and not saved.
 
-pub(crate) mod cases;
 pub(crate) mod circuits;
 pub(crate) mod jump;
 pub(crate) mod relation;
 
 use crate::experiments::prelude::*;
+use crate::experiments::theory::basics::Cases;
 use crate::experiments::theory::census::census;
-use cases::Cases;
 
 /// Makes the tables of the comparisons, for the paper's N.
 pub fn tables() -> Vec<Table> {

@@ -11,8 +11,7 @@ type Mass = [f64; 4];
 /// Two neighbours whose amplitudes have nothing in common.
 const PAIR: [Mass; 2] = [[0.11, -0.07, 0.0, 0.0], [-0.05, 0.13, 0.02, -0.03]];
 
-/// Returns the largest distance of Δ_j(t) in Eq. (19) from x_j = x(0) cos t + ẋ(0) sin t + ∫ sin(t
-/// − s) F(s) ds.
+/// Compares Δ_j(t) in Eq. (19) with x_j = x(0) cos t + ẋ(0) sin t + ∫ sin(t − s) F(s) ds.
 pub(super) fn separation() -> f64 {
     let big_omega = SQRT_2;
     let detuning = 1.0 - big_omega * big_omega;

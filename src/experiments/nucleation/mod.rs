@@ -1,21 +1,17 @@
-//! Runs chains to their first impact: how many have one by some time, and the number expected from
-//! the reach of single gaps.
+//! Chains run to their first impact: how many have one by some time, and how many should.
 
 pub mod run;
 pub mod tables;
 
-pub use run::{First, Gaps, Nucleation, Theory};
+pub use run::Nucleation;
 
+use crate::experiments::prelude::*;
 use crate::params::NucleationParams;
-use literate::experiments::Experiment;
-use literate::experiments::cutting::SECOND;
-use literate::experiments::experiment::How::Whole;
 
-/// First impacts of chains from rest.
 pub const NUCLEATION: Experiment<NucleationParams, Nucleation> = Experiment {
     name: "nucleation",
     code: &["src/experiments/nucleation"],
     parameters: NucleationParams::new,
-    how: Whole(run::run, |parameters| run::count(parameters) * SECOND / 30_000),
+    how: Whole(run::run, |parameters| parameters.chains() * SECOND / 30_000),
     tables: tables::tables,
 };

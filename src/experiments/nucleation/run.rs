@@ -1,28 +1,15 @@
-//! Runs chains to their first impact, and computes how many are expected to have one by some time
-//! from the reach of single gaps.
+//! Runs chains to their first impact, and computes how many should have one by the reach of gaps.
 
 use crate::experiments::prelude::*;
-use crate::params::NucleationParams;
-use impact_circuits::nucleation::{Chances, Reach, half};
+use crate::params::{NucleationParams, Runs};
+use impact_circuits::nucleation::{ANGLES, COARSE, Chances, Reach, half};
 use rayon::prelude::*;
-
-/// Angles at which the reach of a gap is computed.
-const ANGLES: usize = 256;
-
-/// Angles of the rule for neighbours, whose cost grows as their square.
-const COARSE: usize = 64;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Nucleation {
     pub parameters: NucleationParams,
-    /// For each length and σ, length by length, the realisations.
-    pub rows: Vec<Vec<First>>,
-    pub expected: Theory,
-}
-
-/// The chances of gaps to close by themselves, by the theory.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Theory {
+    /// For each length and σ, length by length, the time of each chain's first impact.
+    pub rows: Vec<Vec<Option<f64>>>,
     /// At each σ that was run.
     pub gaps: Vec<Gaps>,
     /// Within the latest time, at σ that lie closer together, for curves.
@@ -31,7 +18,7 @@ pub struct Theory {
     pub half: f64,
 }
 
-/// The chances of gaps at one σ.
+/// The chances of gaps to close by themselves at one σ, by the theory.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gaps {
     pub sigma: f64,
@@ -39,67 +26,29 @@ pub struct Gaps {
     pub ever: Chances,
 }
 
-/// The time of a chain's first impact, if it has one in time.
-pub type First = Option<f64>;
-
-/// Lists the ensembles in their order: masses, realisations, σ.
-pub(super) fn ensembles(
-    parameters: &NucleationParams,
-) -> impl Iterator<Item = (usize, usize, f64)> {
-    parameters.lengths.iter().flat_map(|&(masses, realisations)| {
-        parameters.sigmas.iter().map(move |&sigma| (masses, realisations, sigma))
-    })
-}
-
-/// Returns the number of chains of all ensembles.
-pub(super) fn count(parameters: &NucleationParams) -> u64 {
-    ensembles(parameters).map(|(_, realisations, _)| realisations as u64).sum()
-}
-
-/// Runs all chains, each to its first impact.
 pub fn run(parameters: &NucleationParams, progress: &Progress) -> Result<Nucleation, Error> {
-    let stage = progress.stage("first impacts", count(parameters));
-    let rows = ensembles(parameters).map(|(masses, realisations, sigma)| {
-        let chain = Chain { masses, ..parameters.chain.clone() };
-        let one = |index| first(parameters, &chain, sigma, index);
-        each(&stage, progress, 0..realisations as u64, one)
-    });
-    let rows = rows.collect::<Result<_, _>>()?;
-    Ok(Nucleation { parameters: parameters.clone(), rows, expected: expected(parameters) })
-}
-
-fn expected(parameters: &NucleationParams) -> Theory {
-    let chain = &parameters.chain;
-    let within = Reach::within(chain, &parameters.times, ANGLES);
-    let fewer: Vec<Reach> = within.iter().map(|reach| reach.every(ANGLES / COARSE)).collect();
+    let stage = progress.stage("first impacts", parameters.chains());
+    let of = |runs: Runs| {
+        each(&stage, progress, 0..runs.realisations as u64, |index| {
+            let impact = Engine::new(&runs.scenario(index))
+                .and_then(|mut engine| engine.next_impact(runs.until))
+                .map_err(|source| Error::failed("nucleation", source))?;
+            Ok(impact.map(|impact| impact.time))
+        })
+    };
+    let rows = parameters.runs().map(of).collect::<Result<_, _>>()?;
+    let chain = &Chain::default();
+    let reaches = Reach::within(chain, &parameters.times, ANGLES);
     let ever = Reach::ever(chain, COARSE);
     let gaps = |&sigma: &f64| {
-        let both = within.iter().zip(&fewer);
-        let within = both.map(|(all, few)| Chances::new(chain, all, few, sigma)).collect();
-        Gaps { sigma, within, ever: Chances::new(chain, &ever, &ever, sigma) }
+        let within = reaches.iter().map(|reach| Chances::new(chain, reach, sigma)).collect();
+        Gaps { sigma, within, ever: Chances::new(chain, &ever, sigma) }
     };
-    let last = within.last().zip(fewer.last());
-    let curve = last.map_or(Vec::new(), |(all, few)| {
-        (55..=165_u32)
-            .into_par_iter()
-            .map(|step| f64::from(step) / 1000.0)
-            .map(|sigma| (sigma, Chances::new(chain, all, few, sigma)))
-            .collect()
+    let curve = reaches.last().map_or(Vec::new(), |last| {
+        let sigmas = (55..=165_u32).into_par_iter().map(|step| f64::from(step) / 1000.0);
+        sigmas.map(|sigma| (sigma, Chances::new(chain, last, sigma))).collect()
     });
     let gaps = parameters.sigmas.par_iter().map(gaps).collect();
-    Theory { gaps, curve, half: half(chain, &ever, &ever) }
-}
-
-fn first(
-    parameters: &NucleationParams,
-    chain: &Chain,
-    sigma: f64,
-    index: u64,
-) -> Result<First, Error> {
-    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
-    let scenario = Scenario::draw(chain, sigma, &mut normals);
-    let until = parameters.times.last().copied().unwrap_or(0.0);
-    let impact = Engine::new(&scenario).and_then(|mut engine| engine.next_impact(until));
-    let impact = impact.map_err(|source| Error::failed("nucleation", source))?;
-    Ok(impact.map(|impact| impact.time))
+    let parameters = parameters.clone();
+    Ok(Nucleation { parameters, rows, gaps, curve, half: half(chain, &ever) })
 }

@@ -1,10 +1,9 @@
-//! Compares predicted with simulated half heights and mean counts after several transients, by the
-//! map of the protocol.
+//! Compares predicted half heights and mean counts with those of the map of the protocol.
 
 use crate::experiments::prelude::*;
 use crate::experiments::protocol::address;
-use crate::experiments::theory::comparison::at;
-use crate::experiments::{PROTOCOL, SEEDS};
+use crate::experiments::theory::comparison::root_mean_square;
+use crate::experiments::{PROTOCOL, SEEDS, SWEEP};
 
 const OFF: &str =
     "root mean square distance of the predicted mean counts from the simulated ones, in gaps";
@@ -14,7 +13,6 @@ fn mean(cell: &Curve, sigma: f64) -> Option<f64> {
     Some(cell.rows.iter().find(|row| row.sigma == sigma)?.mean_all?.value)
 }
 
-/// Makes the tables; none where an experiment was not run.
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let table = |name: &str| all.iter().find(|table| table.name() == name);
     let (means, rise) = (table("seeds.means")?, table("seeds.rise")?);
@@ -27,12 +25,12 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let everywhere = |sigma: &f64| cells.iter().all(|cell| mean(cell, *sigma).is_some());
     let sigmas: Vec<f64> = seeds.sigmas.iter().copied().filter(everywhere).collect();
     let off = |cell: &Curve, predicted: &[(f64, f64)]| {
-        let mut squares = 0.0;
-        for sigma in &sigmas {
-            let difference = at(predicted, *sigma)? - mean(cell, *sigma)?;
-            squares += difference * difference;
-        }
-        (!sigmas.is_empty()).then(|| (squares / sigmas.len() as f64).sqrt())
+        let means = sigmas.iter().filter_map(|sigma| Some((*sigma, mean(cell, *sigma)?)));
+        root_mean_square(&means.collect::<Vec<_>>(), predicted)
+    };
+    let after = |transient: f64, column| {
+        let found = rise.series(&[("transient", transient)], "transient", column).ok()?;
+        Some(found.first()?.1)
     };
     let column = |name| theory.curve(&[], "sigma", name).ok();
     let (simple, rest) = (column("simple")?, column("rest")?);
@@ -41,9 +39,8 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .estimate("half_height", SIGMA, "", |cell| cell.rise.half_height_all)
         .same("half_height", |cell| Some(address(cell, "half_height_all")))
         .estimate("deficit", SIGMA, "simulated half height less the predicted one", |cell| {
-            let keys = [("transient", cell.protocol.transient)];
-            let predicted = rise.series(&keys, "transient", "half_height").ok()?;
-            Some(difference(cell.rise.half_height_all?, predicted.first()?.1))
+            let predicted = after(cell.protocol.transient, "half_height")?;
+            Some(difference(cell.rise.half_height_all?, predicted))
         })
         .real("eq25", "1", 2, OFF, |cell| off(cell, &simple))
         .real("from_rest", "1", 2, OFF, |cell| off(cell, &rest))
@@ -54,17 +51,12 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .done();
     // With the protocol of the main sweep.
     let transient = table("sweep.run")?.number(&[], "transient").ok()?;
-    let after = |column| rise.series(&[("transient", transient)], "transient", column).ok();
-    let (half, clumps) = (after("half_height")?, after("of_clumps")?);
-    let swept = table("sweep.rise")?.series(&[], "half_height_all", "half_height_all").ok()?;
+    let swept = named(results.of(&SWEEP).ok()?, SWEEP.name).and_then(half_height_all);
+    let later = |column| Some(difference(swept?, after(transient, column)?));
     let compared = Table::of("seeds.compared", &[()], |()| seeds.realisations)
         .count("sigmas", "values of σ that seeds and map have", |()| sigmas.len() as u64)
-        .estimate("early", SIGMA, "half height of the main sweep less this", |()| {
-            Some(difference(swept.first()?.1, half.first()?.1))
-        })
-        .estimate("of_clumps", SIGMA, "the same if only clumps of gaps are seeds", |()| {
-            Some(difference(swept.first()?.1, clumps.first()?.1))
-        })
+        .estimate("early", SIGMA, "half height of the sweep less this", |()| later("half_height"))
+        .estimate("of_clumps", SIGMA, "the same if only clumps are seeds", |()| later("of_clumps"))
         .done();
     Some(vec![scores, compared])
 }

@@ -5,7 +5,7 @@ use crate::params::SeedsParams;
 use impact_numerics::statistics::slope;
 
 /// Counts of impacts by distance from the seed, over runs at one σ.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone)]
 pub struct ByDistance {
     /// Gaps at each distance from a seed, to both sides.
     pub places: Vec<u64>,
@@ -22,7 +22,7 @@ pub(super) fn ran(traces: &[Option<Trace>]) -> impl Iterator<Item = (usize, &Tra
 
 /// Returns the bits of `count` bins from one on.
 pub(super) fn bits(from: usize, count: usize) -> u64 {
-    (0..count).map(|bin| 1 << (from + bin)).fold(0, |all, bit: u64| all | bit)
+    (from..from + count).fold(0, |all, bin| all | 1 << bin)
 }
 
 impl ByDistance {
@@ -46,58 +46,46 @@ impl ByDistance {
         ByDistance { places, active, reached: hit }
     }
 
-    /// Returns the sum over groups of runs, without the group of index `left_out` if there is one.
-    pub(super) fn sum(groups: &[ByDistance], left_out: usize) -> Self {
-        let mut all = ByDistance::default();
-        for (_, group) in groups.iter().enumerate().filter(|(group, _)| *group != left_out) {
-            add(std::slice::from_mut(&mut all.places), std::slice::from_ref(&group.places));
-            all.reached.resize(group.reached.len(), Vec::new());
-            all.active.resize(group.active.len(), Vec::new());
-            add(&mut all.reached, &group.reached);
-            add(&mut all.active, &group.active);
+    /// Returns the sum over groups of runs, perhaps without one of them.
+    pub(super) fn sum(groups: &[ByDistance], left_out: Option<usize>) -> Self {
+        let used = groups.iter().enumerate().filter(|(group, _)| Some(*group) != left_out);
+        let mut used = used.map(|(_, group)| group);
+        let mut all = used.next().expect("there are several groups").clone();
+        for group in used {
+            add(&mut all.places, &group.places);
+            let sums = all.reached.iter_mut().chain(&mut all.active);
+            let more = group.reached.iter().chain(&group.active);
+            sums.zip(more).for_each(|(sums, more)| add(sums, more));
         }
         all
     }
 
     /// Returns the share of the gaps at each distance; 0 where no gap has that distance.
-    pub(super) fn shares<'a>(&'a self, hit: &'a [u64]) -> impl Iterator<Item = f64> + 'a {
-        let share = |(part, all): (&u64, &u64)| {
-            if *all > 0 { *part as f64 / *all as f64 } else { 0.0 }
-        };
-        hit.iter().zip(&self.places).map(share)
+    pub(super) fn shares(&self, hit: &[u64]) -> impl Iterator<Item = f64> {
+        hit.iter().zip(&self.places).map(|(part, all)| *part as f64 / (*all).max(1) as f64)
     }
 
-    /// Returns the expected number of gaps that a front has passed by the end of a bin, to one side
-    /// of a long chain.
+    /// Returns the expected number of gaps, to one side, that a front has passed by the end of a
+    /// bin.
     pub(super) fn advance(&self, bin: usize) -> f64 {
         self.shares(&self.reached[bin]).skip(1).sum()
     }
 
     /// Returns the exponent of a power law of time through the advance from a quarter of the last
-    /// time on, by least squares in logarithms: 1 for a constant speed. None if a front has not
-    /// passed a gap by then.
+    /// time on, by least squares in logarithms. None if a front has not passed a gap by then.
     pub(super) fn exponent(&self) -> Option<f64> {
         let last = self.reached.len() - 1;
-        let mut points = Vec::new();
-        for bin in (last / 4).max(1)..=last {
+        let point = |bin: usize| {
             let advance = self.advance(bin);
-            if advance <= 0.0 {
-                return None;
-            }
-            points.push((pxfm::f_log(bin as f64), pxfm::f_log(advance)));
-        }
-        slope(&points)
+            (advance > 0.0).then(|| (pxfm::f_log(bin as f64), pxfm::f_log(advance)))
+        };
+        let points: Option<Vec<(f64, f64)>> = ((last / 4).max(1)..=last).map(point).collect();
+        slope(&points?)
     }
 }
 
-/// Adds counts by distance to others.
-fn add(sums: &mut [Vec<u64>], more: &[Vec<u64>]) {
-    for (sums, more) in sums.iter_mut().zip(more) {
-        sums.resize(more.len(), 0);
-        for (sum, count) in sums.iter_mut().zip(more) {
-            *sum += count;
-        }
-    }
+fn add(sums: &mut [u64], more: &[u64]) {
+    sums.iter_mut().zip(more).for_each(|(sum, count)| *sum += count);
 }
 
 #[cfg(test)]

@@ -19,7 +19,6 @@ pub struct Fronts {
     pub steps: f64,
     /// Those of them that lasted one beat at most.
     pub short: f64,
-    /// Time of all waits.
     pub waited: f64,
     /// Fronts that have stood for the second half of the run when it ends.
     pub standing: f64,

@@ -4,8 +4,7 @@
 //! A gap at the place x has no impact in the window (T, T + W] if no seed y sends one there. If
 //! seeds are independent and each spreads as if alone, the probability is
 //!
-//! ∏_y (1 − ∫_0^T B(|x − y|, T − s) dp_y(s) − ∫_T^{T+W} R(|x − y|, T + W − s)
-//! dp_y(s)),
+//! ∏_y (1 − ∫_0^T B(|x − y|, T − s) dp_y(s) − ∫_T^{T+W} R(|x − y|, T + W − s) dp_y(s)),
 //!
 //! with p_y(s) the probability that the gap y closes by itself by the time s, B(l, t) the share of
 //! gaps at distance l that are hit in a window W which begins a time t after the first impact of a
@@ -13,24 +12,9 @@
 
 use super::ByDistance;
 use crate::params::SeedsParams;
-use impact_circuits::nucleation::{Chances, Reach};
+use impact_circuits::nucleation::{ANGLES, COARSE, Chances, Reach};
 use impact_numerics::estimates::jackknife;
 use impact_numerics::statistics::{Estimate, last_rise};
-
-/// Angles at which the reach of a gap is computed.
-const ANGLES: usize = 256;
-
-/// Angles of the rule for neighbours.
-const COARSE: usize = 64;
-
-/// Where impacts begin.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Begin {
-    /// At every gap that closes by itself.
-    Gaps,
-    /// At one gap of each clump of them.
-    Clumps,
-}
 
 /// Groups of runs, each of which is left out in turn for the error of their sum.
 pub(super) const GROUPS: usize = 8;
@@ -44,7 +28,6 @@ pub(super) struct Prediction {
 }
 
 impl Prediction {
-    /// Returns the mean count at the σ of that place.
     pub fn mean(&self, sigma: usize) -> Option<Estimate> {
         jackknife(GROUPS, |out| Some(self.means[out.unwrap_or(GROUPS)][sigma]))
     }
@@ -60,58 +43,43 @@ impl Prediction {
 }
 
 /// Returns for each σ the chances that impacts begin at a gap at a wall, and at any other, in each
-/// bin.
-fn closing(parameters: &SeedsParams, begin: Begin) -> Vec<[Vec<f64>; 2]> {
+/// bin: at every gap that closes by itself, or only at the first of each clump of them.
+fn closing(parameters: &SeedsParams, only_first: bool) -> Vec<[Vec<f64>; 2]> {
     let chain = &parameters.chain;
     let edges: Vec<f64> = (1..=parameters.bins).map(|bin| bin as f64 * parameters.bin).collect();
     let reaches = Reach::within(chain, &edges, ANGLES);
     let ever = Reach::ever(chain, COARSE);
-    let in_each_bin = |variance: f64, share: f64| {
-        let (mut chances, mut before) = (Vec::with_capacity(reaches.len()), 0.0);
-        for reach in &reaches {
-            let by_then = share * reach.probability(chain.spacing, variance);
-            chances.push(by_then - before);
-            before = by_then;
-        }
-        chances
+    let in_each_bin = |variance: f64, share: f64| -> Vec<f64> {
+        let mut by_then = vec![0.0];
+        by_then.extend(reaches.iter().map(|at| share * at.probability(chain.spacing, variance)));
+        by_then.windows(2).map(|w| w[1] - w[0]).collect()
     };
-    let mut all = Vec::with_capacity(parameters.sigmas.len());
-    for &sigma in &parameters.sigmas {
+    let of = |sigma: &f64| {
+        let chances = Chances::new(chain, &ever, *sigma);
         // The share of closing gaps whose left neighbour stays open.
-        let first = match begin {
-            Begin::Gaps => 1.0,
-            Begin::Clumps => {
-                let chances = Chances::new(chain, &ever, &ever, sigma);
-                1.0 - chances.pair / chances.p
-            }
-        };
+        let share = if only_first { 1.0 - chances.pair / chances.p } else { 1.0 };
         let variance = sigma * sigma;
-        all.push([in_each_bin(variance, 1.0), in_each_bin(2.0 * variance, first)]);
-    }
-    all
+        [in_each_bin(variance, 1.0), in_each_bin(2.0 * variance, share)]
+    };
+    parameters.sigmas.iter().map(of).collect()
 }
 
 /// Returns the predictions of all transients, from the counts of groups of runs at each σ.
 pub(super) fn predictions(
     parameters: &SeedsParams,
     seen: &[Vec<ByDistance>],
-    begin: Begin,
+    only_first: bool,
 ) -> Vec<Prediction> {
-    let closing = closing(parameters, begin);
-    let mut all: Vec<Prediction> = Vec::new();
-    for &transient in &parameters.transients {
-        all.push(Prediction { transient, means: Vec::new() });
-    }
-    for left_out in 0..=GROUPS {
-        let sums: Vec<ByDistance> =
-            seen.iter().map(|groups| ByDistance::sum(groups, left_out)).collect();
-        for Prediction { transient, means } in &mut all {
-            let both = closing.iter().zip(&sums);
-            let mean = both.map(|(chances, seen)| expected(parameters, chances, seen, *transient));
-            means.push(mean.collect());
-        }
-    }
-    all
+    let closing = closing(parameters, only_first);
+    let left_out = (0..GROUPS).map(Some).chain([None]);
+    let sums = left_out.map(|out| seen.iter().map(move |groups| ByDistance::sum(groups, out)));
+    let sums: Vec<Vec<ByDistance>> = sums.map(Iterator::collect).collect();
+    let prediction = |&transient: &usize| {
+        let mean = |(chances, seen)| expected(parameters, chances, seen, transient);
+        let means = sums.iter().map(|sums| closing.iter().zip(sums).map(mean).collect());
+        Prediction { transient, means: means.collect() }
+    };
+    parameters.transients.iter().map(prediction).collect()
 }
 
 /// Returns the expected number of gaps with an impact in the window.
@@ -143,16 +111,12 @@ fn expected(
         all
     };
     let (wall, inner) = (sends(wall), sends(inner));
-    let mut mean = 0.0;
-    for x in 0..gaps {
-        let mut silent = 1.0;
-        for y in 0..gaps {
-            let at_wall = y == 0 || y + 1 == gaps;
-            silent *= 1.0 - if at_wall { &wall } else { &inner }[x.abs_diff(y)];
-        }
-        mean += 1.0 - silent;
-    }
-    mean
+    let open = |x: usize, y: usize| {
+        let at_wall = y == 0 || y + 1 == gaps;
+        1.0 - if at_wall { &wall } else { &inner }[x.abs_diff(y)]
+    };
+    let silent = |x| (0..gaps).fold(1.0, |silent, y| silent * open(x, y));
+    (0..gaps).fold(0.0, |mean, x| mean + (1.0 - silent(x)))
 }
 
 #[cfg(test)]

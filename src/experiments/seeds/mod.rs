@@ -1,12 +1,5 @@
 //! Measures how impacts spread from one gap that closes by itself, and predicts the mean count by
 //! nucleation and growth.
-//!
-//! - [`run`](mod@run): chains with exactly one such gap, and where impacts get from there.
-//! - [`counting`]: their impacts by distance, and how far they spread.
-//! - [`fronts`]: how long fronts stand.
-//! - [`growth`]: the mean count of a chain with a random number of them.
-//! - [`tables`]: the numbers of all this, and [`compared`]: with the main sweep and the map of the
-//!   protocol.
 
 pub mod compared;
 pub mod counting;
@@ -18,12 +11,9 @@ pub mod tables;
 pub use counting::ByDistance;
 pub use run::{Part, Seeds, Trace, run};
 
+use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
-use literate::experiments::Experiment;
-use literate::experiments::cutting::SECOND;
-use literate::experiments::experiment::How::Whole;
 
-/// How impacts spread from one gap that closes by itself.
 pub const SEEDS: Experiment<SeedsParams, Seeds> = Experiment {
     name: "seeds",
     code: &["src/experiments/seeds"],

@@ -1,16 +1,17 @@
 //! Runs chains in which exactly one gap closes by itself.
 
 use crate::experiments::prelude::*;
-use crate::params::SeedsParams;
+use crate::params::{SEED, SeedsParams};
 use impact_chain::{self, Initial};
 use impact_circuits::nucleation::closes_by_itself;
 use std::ops::Range;
 
-/// Chains with one gap that closes by itself.
+/// A chain whose one gap has not closed by this time is left out.
+const WAIT: f64 = 2000.0;
+
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Seeds {
     pub parameters: SeedsParams,
-    /// For each σ its runs.
     pub rows: Vec<Part>,
 }
 
@@ -98,16 +99,14 @@ fn trace(
 ) -> Result<Option<Trace>, Error> {
     progress.check()?;
     let chain = &parameters.chain;
-    let mut normals = NormalPairs::new(&parameters.stream, parameters.seed, index);
+    let mut normals = NormalPairs::new("seeds", SEED, index);
     let (forcing, seed) = Search { chain, sigma, normals: &mut normals }.chain();
     let still = Chain { masses: 0, ..chain.clone() };
     let scenario =
         Scenario { forcing, initial: Initial::Rest, ..Scenario::draw(&still, sigma, &mut normals) };
     let fault = |source| Error::failed("seeds", source);
     let mut engine = Engine::new(&scenario).map_err(fault)?;
-    let Some(Impact { time: first, gap, .. }) =
-        engine.next_impact(parameters.wait).map_err(fault)?
-    else {
+    let Some(Impact { time: first, gap, .. }) = engine.next_impact(WAIT).map_err(fault)? else {
         return Ok(Some(Trace::default()));
     };
     debug_assert_eq!(gap, seed);

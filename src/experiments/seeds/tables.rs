@@ -2,15 +2,14 @@
 
 use super::counting::{bits, ran};
 use super::fronts::{Fronts, beat, over};
-use super::growth::{Begin, GROUPS, Prediction, predictions};
-use super::{ByDistance, Seeds, Trace};
+use super::growth::{GROUPS, Prediction, predictions};
+use super::{ByDistance, Part, Seeds, Trace};
 use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
 use impact_numerics::estimates::jackknife;
 use rayon::prelude::*;
 
 struct RunsAtSigma<'a> {
-    parameters: &'a SeedsParams,
     sigma: f64,
     runs: Vec<(usize, &'a Trace)>,
     seen: ByDistance,
@@ -20,112 +19,92 @@ struct RunsAtSigma<'a> {
 
 pub fn tables(seeds: &Seeds) -> Vec<Table> {
     let parameters = &seeds.parameters;
-    let groups: Vec<Vec<ByDistance>> = seeds
-        .rows
-        .par_iter()
-        .map(|part| {
-            let at = |group: usize| group * part.len() / GROUPS;
-            let group = |group| ByDistance::count(parameters, &part[at(group)..at(group + 1)]);
-            (0..GROUPS).map(group).collect()
-        })
-        .collect();
-    let row = |place: usize| {
-        let runs: Vec<(usize, &Trace)> = ran(&seeds.rows[place]).collect();
-        let fronts = runs.iter().map(|run| Fronts::of(parameters, *run)).collect();
-        let seen = ByDistance::sum(&groups[place], GROUPS);
-        let (sigma, groups) = (parameters.sigmas[place], &groups[place][..]);
-        RunsAtSigma { parameters, sigma, runs, seen, groups, fronts }
+    let grouped = |part: &Part| -> Vec<ByDistance> {
+        let at = |group: usize| group * part.len() / GROUPS;
+        let group = |group| ByDistance::count(parameters, &part[at(group)..at(group + 1)]);
+        (0..GROUPS).map(group).collect()
     };
-    let rows: Vec<RunsAtSigma<'_>> = (0..seeds.rows.len()).into_par_iter().map(row).collect();
-    let predicted = predictions(parameters, &groups, Begin::Gaps);
-    let clumped = predictions(parameters, &groups, Begin::Clumps);
+    let groups: Vec<Vec<ByDistance>> = seeds.rows.par_iter().map(grouped).collect();
+    let mut rows = Vec::new();
+    for ((part, groups), &sigma) in seeds.rows.iter().zip(&groups).zip(&parameters.sigmas) {
+        let runs: Vec<(usize, &Trace)> = ran(part).collect();
+        let fronts = runs.iter().map(|run| Fronts::of(parameters, *run)).collect();
+        let seen = ByDistance::sum(groups, None);
+        rows.push(RunsAtSigma { sigma, runs, seen, groups, fronts });
+    }
+    let predicted = predictions(parameters, &groups, false);
+    let clumped = predictions(parameters, &groups, true);
     vec![
-        course(&rows),
-        advance(&rows),
-        fronts(&rows),
-        means(&rows, &predicted),
+        course(parameters, &rows),
+        advance(parameters, &rows),
+        fronts(beat(&parameters.chain), &rows),
+        means(parameters, &predicted),
         rise(parameters, &predicted, &clumped),
         all(parameters),
     ]
 }
 
 /// Makes the table of counts at the end of the window after each transient.
-fn course(rows: &[RunsAtSigma<'_>]) -> Table {
-    let rows: Vec<(&RunsAtSigma<'_>, usize)> = rows
-        .iter()
-        .flat_map(|row| row.parameters.transients.iter().map(move |&from| (row, from)))
-        .collect();
+fn course(parameters: &SeedsParams, rows: &[RunsAtSigma<'_>]) -> Table {
+    let (window, transients) = (parameters.window, parameters.transients.iter());
+    let rows: Vec<(&RunsAtSigma<'_>, usize)> =
+        rows.iter().flat_map(|row| transients.clone().map(move |&from| (row, from))).collect();
     Table::of("seeds.course", &rows, |(row, _)| row.runs.len())
         .key("sigma", SIGMA, |(row, _)| row.sigma)
-        .key("until", TIME, |(row, from)| row.end(*from) as f64 * row.parameters.bin)
-        .estimate("reached", "1", "gaps that were hit by then", |(row, from)| {
-            row.hit(0, row.end(*from))
-        })
-        .estimate("active", "1", "gaps that were hit in the window", |(row, from)| {
-            row.hit(*from, row.parameters.window)
-        })
+        .key("until", TIME, |(_, from)| (from + window) as f64 * parameters.bin)
+        .estimate("reached", "1", "gaps hit by then", |(row, from)| row.hit(0, from + window))
+        .estimate("active", "1", "gaps hit in the window", |(row, from)| row.hit(*from, window))
         .done()
 }
 
-fn advance(rows: &[RunsAtSigma<'_>]) -> Table {
+fn advance(parameters: &SeedsParams, rows: &[RunsAtSigma<'_>]) -> Table {
     let rows: Vec<(&RunsAtSigma<'_>, usize)> =
-        rows.iter().flat_map(|row| (1..=row.parameters.bins).map(move |bin| (row, bin))).collect();
+        rows.iter().flat_map(|row| (1..=parameters.bins).map(move |bin| (row, bin))).collect();
     Table::of("seeds.advance", &rows, |(row, _)| row.runs.len())
         .key("sigma", SIGMA, |(row, _)| row.sigma)
-        .key("time", TIME, |(row, bin)| *bin as f64 * row.parameters.bin)
-        .real("advance", "1", 3, "gaps that a front has passed, to one side", |(row, bin)| {
-            row.seen.advance(*bin)
-        })
+        .key("time", TIME, |(_, bin)| *bin as f64 * parameters.bin)
+        .real("advance", "1", 3, "gaps passed by a front", |(row, bin)| row.seen.advance(*bin))
         .done()
 }
 
-fn fronts(rows: &[RunsAtSigma<'_>]) -> Table {
+fn fronts(beat: f64, rows: &[RunsAtSigma<'_>]) -> Table {
+    const STANDING: &str = "share of fronts without a step in the second half";
+    let share = |row: &RunsAtSigma<'_>, of: fn(&Fronts) -> [f64; 2]| over(&row.fronts, of);
     Table::of("seeds.fronts", rows, |row| row.runs.len())
         .key("sigma", SIGMA, |row| row.sigma)
         .estimate("exponent", "1", "d ln(advance)/d ln t over the last three quarters", |row| {
-            jackknife(row.groups.len(), |left_out| {
-                ByDistance::sum(row.groups, left_out.unwrap_or(GROUPS)).exponent()
-            })
+            jackknife(GROUPS, |left_out| ByDistance::sum(row.groups, left_out).exponent())
         })
         .estimate("bursts", "1", "share of steps within a beat", |row| {
-            over(&row.fronts, |sums| [sums.short, sums.steps])
+            share(row, |sums| [sums.short, sums.steps])
         })
         .real("even", "1", 2, "the same for steps at a constant rate and this speed", |row| {
-            let beat = beat(&row.parameters.chain);
-            let speed = over(&row.fronts, |sums| [sums.steps, sums.waited]);
+            let speed = share(row, |sums| [sums.steps, sums.waited]);
             speed.map_or(0.0, |speed| -pxfm::f_expm1(-speed.value * beat))
         })
-        .estimate("standing", "1", "share of fronts without a step in the second half", |row| {
-            over(&row.fronts, |sums| [sums.standing, sums.fronts])
-        })
+        .estimate("standing", "1", STANDING, |row| share(row, |sums| [sums.standing, sums.fronts]))
         .done()
 }
 
-fn means(rows: &[RunsAtSigma<'_>], predicted: &[Prediction]) -> Table {
-    let sigmas = |given| rows.iter().enumerate().map(move |(place, row)| (given, place, row));
-    let rows: Vec<(&Prediction, usize, &RunsAtSigma<'_>)> =
-        predicted.iter().flat_map(sigmas).collect();
-    Table::of("seeds.means", &rows, |(.., row)| row.parameters.realisations)
-        .key("transient", TIME, |(given, _, row)| given.transient as f64 * row.parameters.bin)
-        .key("sigma", SIGMA, |(.., row)| row.sigma)
-        .estimate("grown", "1", "mean count by nucleation and growth", |(given, place, _)| {
-            given.mean(*place)
-        })
+fn means(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
+    let sigmas = |given| parameters.sigmas.iter().enumerate().map(move |sigma| (given, sigma));
+    let rows: Vec<(&Prediction, (usize, &f64))> = predicted.iter().flat_map(sigmas).collect();
+    Table::of("seeds.means", &rows, |_| parameters.realisations)
+        .key("transient", TIME, |(given, _)| given.transient as f64 * parameters.bin)
+        .key("sigma", SIGMA, |(_, (_, sigma))| **sigma)
+        .estimate("grown", "1", "mean count by nucleation and growth", |row| row.0.mean(row.1.0))
         .done()
 }
 
-/// Makes the table of where the mean counts pass half of all gaps, if every gap that closes by
-/// itself is a seed, and if only the first of a clump is.
+/// Makes the table of half heights, if every gap that closes by itself is a seed, and if only the
+/// first of a clump is.
 fn rise(parameters: &SeedsParams, gaps: &[Prediction], clumps: &[Prediction]) -> Table {
     let rows: Vec<_> = gaps.iter().zip(clumps).collect();
+    let half = |given: &Prediction| given.half_height(parameters);
     Table::of("seeds.rise", &rows, |_| parameters.realisations)
         .key("transient", TIME, |(given, _)| given.transient as f64 * parameters.bin)
-        .estimate("half_height", SIGMA, "σ where that is half of all gaps", |(given, _)| {
-            given.half_height(parameters)
-        })
-        .estimate("of_clumps", SIGMA, "the same if only clumps of such gaps are seeds", |row| {
-            row.1.half_height(parameters)
-        })
+        .estimate("half_height", SIGMA, "σ where that is half of all gaps", |row| half(row.0))
+        .estimate("of_clumps", SIGMA, "the same if only clumps are seeds", |row| half(row.1))
         .done()
 }
 
@@ -139,11 +118,6 @@ fn all(parameters: &SeedsParams) -> Table {
 }
 
 impl RunsAtSigma<'_> {
-    /// Returns the bin with which the window after a transient ends.
-    fn end(&self, transient: usize) -> usize {
-        transient + self.parameters.window
-    }
-
     /// Estimates the number of gaps of a run with an impact in some bins.
     fn hit(&self, from: usize, count: usize) -> Option<Estimate> {
         let mask = bits(from, count);

@@ -14,8 +14,7 @@ pub(crate) fn at(curve: &[(f64, f64)], sigma: f64) -> Option<f64> {
     Some(w[0].1 + share * (w[1].1 - w[0].1))
 }
 
-/// Finds where theory and simulated means lie farthest apart at large σ: their distance in gaps, σ,
-/// and both.
+/// Finds where theory and means lie farthest apart at large σ: their distance in gaps, σ, and both.
 pub(crate) fn largest_distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<[f64; 4]> {
     let large = means.iter().filter(|(sigma, _)| *sigma >= LARGE_SIGMA);
     let distances = large.filter_map(|&(sigma, mean)| {
@@ -25,8 +24,7 @@ pub(crate) fn largest_distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Op
     distances.reduce(|most, one| if most[0] >= one[0] { most } else { one })
 }
 
-/// Returns the largest increase of a mean within one and within two steps of σ, in gaps; where the
-/// grid is `finest`.
+/// Returns the largest increase of a mean in one and in two steps of σ, where these are `finest`.
 fn increases(means: &[(f64, f64)], finest: f64) -> Option<[f64; 2]> {
     let fine = |w: &[(f64, f64)]| w.windows(2).all(|w| w[1].0 - w[0].0 < 1.01 * finest);
     let steps = means.windows(3).filter(|w| fine(w)).map(|w| [w[0].1, w[1].1, w[2].1]);
@@ -34,14 +32,17 @@ fn increases(means: &[(f64, f64)], finest: f64) -> Option<[f64; 2]> {
     found.reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]).map(|found| found.map(|x| x.max(0.0)))
 }
 
-/// Returns the root mean square distance of a theory curve from the simulated means, up to where σ
-/// is large.
+/// Returns the root mean square distance of a curve from means, at the σ that both have.
+pub(crate) fn root_mean_square(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64> {
+    let both = means.iter().filter_map(|&(sigma, mean)| Some(mean - at(curve, sigma)?));
+    let squares: Vec<f64> = both.map(|difference| difference * difference).collect();
+    (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+}
+
+/// Returns the same up to where σ is large.
 pub(crate) fn distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64> {
-    let small = means.iter().filter(|(sigma, _)| *sigma < LARGE_SIGMA);
-    let differences: Vec<f64> =
-        small.filter_map(|(sigma, mean)| Some(mean - at(curve, *sigma)?)).collect();
-    let squares = differences.iter().map(|difference| difference * difference);
-    (!differences.is_empty()).then(|| (squares.sum::<f64>() / differences.len() as f64).sqrt())
+    let small = means.iter().copied().filter(|(sigma, _)| *sigma < LARGE_SIGMA);
+    root_mean_square(&small.collect::<Vec<_>>(), curve)
 }
 
 pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
@@ -59,7 +60,12 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let steps = rows.windows(2).map(|w| w[1].sigma - w[0].sigma);
     let finest = (steps.fold(f64::INFINITY, f64::min) * 1e6).round() / 1e6;
     let far = |at: usize| largest_distance(&means, simple).map(|far| far[at]);
+    const HALF_GAP: &str = "half height of the theory less that of the simulation";
+    const SIMPLE: &str = "root mean square distance of the means, simple circuits";
     let kept = increases(&means, finest);
+    let of_all = increases(&means_by(|row| row.mean_all), finest);
+    let half = sweep.first().rise.half_height.zip(relation.number(&[], "sigma_half").ok());
+    let half_gap = half.map(|(half, theory)| theory - half.value);
     let table = Table::of("sweep.against_theory", &[()], |()| 0)
         .computed_by(origin(largest_distance))
         .chosen("large_sigma", SIGMA, "from here on σ is called large", |()| Some(LARGE_SIGMA))
@@ -68,23 +74,14 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .real("large_theory", "1", 3, "μ there", |()| far(2))
         .real("large_mean", "1", 3, "simulated mean there", |()| far(3))
         .computed_by(origin(increases))
-        .real("largest_increase", "1", 2, "of the simulated mean in one step of σ", |()| {
-            kept.map(|[one, _]| one)
-        })
-        .real("increase_of_two", "1", 2, "in two steps", |()| kept.map(|[_, two]| two))
-        .real("increase_of_all", "1", 2, "of the mean of all in one step", |()| {
-            increases(&means_by(|row| row.mean_all), finest).map(|[one, _]| one)
-        })
+        .real("largest_increase", "1", 2, "of the simulated mean in one step", |()| Some(kept?[0]))
+        .real("increase_of_two", "1", 2, "in two steps", |()| Some(kept?[1]))
+        .real("increase_of_all", "1", 2, "of the mean of all in one step", |()| Some(of_all?[0]))
         .chosen("step", SIGMA, "the finest of the grid", |()| Some(finest))
-        .computed_by(origin(impact_chain::rise::Curve::new))
-        .real("half_gap", SIGMA, 2, "half height of the theory less that of the simulation", |()| {
-            let half = sweep.first().rise.half_height.zip(relation.number(&[], "sigma_half").ok());
-            half.map(|(half, theory)| theory - half.value)
-        })
+        .computed_by(origin(Curve::new))
+        .real("half_gap", SIGMA, 2, HALF_GAP, |()| half_gap)
         .computed_by(origin(distance))
-        .real("simple", "1", 3, "root mean square distance of the means, simple circuits", |()| {
-            distance(&means, simple)
-        })
+        .real("simple", "1", 3, SIMPLE, |()| distance(&means, simple))
         .real("higher", "1", 3, "the same with five classes", |()| distance(&means, higher))
         .done();
     Some(vec![table])

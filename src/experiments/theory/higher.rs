@@ -8,7 +8,7 @@ use crate::params::{HIGHER_P, REMARK_P, VERTICES};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::higher_order::{CLASSES, SHARED, doubled_as_printed, multiplicity};
-use impact_circuits::{Fraction, jump};
+use impact_circuits::jump;
 use impact_numerics::double_double::DoubleDouble;
 
 /// Returns P(X = k) of five classes, k = 1..=N.
@@ -21,44 +21,38 @@ pub fn contributions(p: f64) -> [Vec<f64>; 5] {
     CLASSES.map(|class| law(FiveClasses, p).contribution(&class))
 }
 
-/// Returns half the sum of absolute differences.
 fn total_variation(a: &[f64], b: &[f64]) -> f64 {
     0.5 * sum(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
 }
 
 /// Returns the weight of circuits with one doubled vertex over that of simple ones, to first order:
 /// it costs p and can be placed in k²/2 ways, except on a single vertex.
-fn first_order(p: f64) -> f64 {
-    let higher = (1_u32..).zip(simple(p)).skip(1);
+fn first_order(p: &f64) -> f64 {
+    let higher = (1_u32..).zip(simple(*p)).skip(1);
     sum(higher.map(|(k, q)| q * p * f64::from(k) * f64::from(k) / 2.0))
 }
 
 pub(super) fn classes() -> Table {
+    const VARIATION: &str = "distance from the distribution of simple circuits";
+    const FIRST_ORDER: &str = "weight of one doubled vertex, to first order in p";
+    let share = |p: &f64| sum(law(FiveClasses, *p).contribution(&CLASSES[0]));
+    let difference = |p: &f64| law(FiveClasses, *p).mean() - law(Simple, *p).mean();
     Table::of("theory.classes", &REMARK_P, |_| 0)
         .computed_by(origin(contributions))
         .key("p", "1", |p| *p)
-        .real("simple", "1", 2, "share of simple circuits", |p| {
-            sum(law(FiveClasses, *p).contribution(&CLASSES[0]))
-        })
+        .real("simple", "1", 2, "share of simple circuits", share)
         .computed_by(origin(total_variation))
-        .real("variation", "1", 2, "distance from the distribution of simple circuits", |p| {
-            total_variation(&five(*p), &simple(*p))
-        })
+        .real("variation", "1", 2, VARIATION, |p| total_variation(&five(*p), &simple(*p)))
         .computed_by(origin(Law::mean))
-        .real("mean_difference", "1", 2, "μ less that of simple circuits", |p| {
-            law(FiveClasses, *p).mean() - law(Simple, *p).mean()
-        })
+        .real("mean_difference", "1", 2, "μ less that of simple circuits", difference)
         .computed_by(origin(first_order))
-        .real("first_order", "1", 2, "weight of one doubled vertex, to first order in p", |p| {
-            first_order(*p)
-        })
+        .real("first_order", "1", 2, FIRST_ORDER, first_order)
         .done()
 }
 
 /// Returns the p at which the two means differ most in proportion, and both there.
 fn means_apart() -> [f64; 3] {
-    let simple = means();
-    let rows = simple.into_iter().map(|(p, mean)| [p, mean, law(FiveClasses, p).mean()]);
+    let rows = means().into_iter().map(|(p, mean)| [p, mean, law(FiveClasses, p).mean()]);
     let share = |[_, mean, higher]: [f64; 3]| (higher / mean - 1.0).abs();
     rows.fold([0.0, 1.0, 1.0], |most, row| if share(row) > share(most) { row } else { most })
 }
@@ -73,8 +67,7 @@ fn largest_change(curve: &Table) -> [f64; 2] {
     })
 }
 
-/// Returns the weight of circuits with one doubled vertex over that of simple ones, k being the
-/// whole part of μ.
+/// Returns the weight of circuits with one doubled vertex over that of simple ones, at k = ⌊μ⌋.
 fn doubling(p: f64) -> f64 {
     let law = law(FiveClasses, p);
     let weight = |class| law.contribution(class)[law.mean() as usize - 1];
@@ -92,15 +85,13 @@ fn by_different(p: f64, more: &[f64]) -> Vec<f64> {
     simple(p).iter().zip(more).map(|(q, more)| q * more).collect()
 }
 
-/// Returns the share of simple circuits in the same, which are all of those that have no vertex
-/// twice.
+/// Returns the share of simple circuits in the same.
 fn simple_by_different(p: f64) -> f64 {
     let all = sum(by_different(p, &multiplicities()));
     f64::from(SHARED as u32) * sum(simple(p)) / all
 }
 
-/// Returns the largest step of k* in the same, between neighbouring p of a grid of 1/100 000 up to
-/// 0.04.
+/// Returns the largest step of k* in the same, on a grid of p in steps of 1/100 000 up to 0.04.
 fn largest_step() -> u64 {
     let more = multiplicities();
     let top = |p: f64| {
@@ -111,11 +102,16 @@ fn largest_step() -> u64 {
     ks.windows(2).map(|w| w[1].abs_diff(w[0])).max().unwrap_or(0)
 }
 
-/// Makes the table of single numbers of Sec. 9, with those of `theory.curve` and `theory.relation`
-/// that belong there.
+/// Makes the table of single numbers of Sec. 9, some by `theory.curve` and `theory.relation`.
 pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
-    let sigma = SIGMA;
-    let eq30 = doubled_as_printed(3, 3).map(Fraction::to_f64);
+    const SHIFT: &str = "relative shift of it with the printed formulas";
+    const FROM: &str = "k from which on p k²/2 is one or more, smallest p of Fig. 13";
+    const STEP: &str = "largest step of k* with a p for each different impact";
+    const DOUBLING: &str = "weight of one doubled vertex, largest p of Fig. 13";
+    const SIMPLE: &str = "simple ones there, a p a different impact";
+    const APART: &str = "p at which the means differ most in proportion";
+    let eq30 = doubled_as_printed(3, 3);
+    let counted = counted(&census(), 3, 3, &[1]) as u64;
     let jump = |space| known(jump::p_jump(space, VERTICES));
     let (leap, shifted) = (jump(FiveClasses), jump(FiveClassesPrinted).p);
     let [first, _, last] = HIGHER_P;
@@ -129,42 +125,28 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     let over = shift("sigma_jump_rest") / shift("sigma_jump_higher");
     one("theory.higher", origin(doubled_as_printed))
         .real("eq30_printed", "1", 1, "Eq. (30) as printed, k = N = 3", |()| eq30)
-        .count("eq30_counted", "circuits that it should count", |()| {
-            counted(&census(), 3, 3, &[1]) as u64
-        })
+        .count("eq30_counted", "circuits that it should count", |()| counted)
         .computed_by(origin(jump::p_jump))
         .real("p_jump", "1", 5, "p_jump with five classes", |()| leap.p)
         .count("k_after", "k* after it", |()| leap.k_after as u64)
-        .real("printed_shift", "1", 1, "relative shift of it with the printed formulas", |()| {
-            shifted / leap.p - 1.0
-        })
+        .real("printed_shift", "1", 1, SHIFT, |()| shifted / leap.p - 1.0)
         .computed_by(origin(five))
-        .count("tail_from", "k from which on p k²/2 is one or more, smallest p of Fig. 13", |()| {
-            tail as u64
-        })
+        .count("tail_from", FROM, |()| tail as u64)
         .computed_by(origin(by_different))
-        .real("simple_by_different", "1", 2, "simple ones there, a p a different impact", |()| {
-            simple_by_different(first)
-        })
-        .count("step_by_different", "largest step of k* with a p for each different impact", |()| {
-            largest_step()
-        })
+        .real("simple_by_different", "1", 2, SIMPLE, |()| simple_by_different(first))
+        .count("step_by_different", STEP, |()| largest_step())
         .computed_by(origin(five))
         .real("tail_weight", "1", 1, "probability of these k", |()| weight)
         .computed_by(origin(doubling))
-        .real("doubling", "1", 3, "weight of one doubled vertex, largest p of Fig. 13", |()| {
-            doubling(last)
-        })
+        .real("doubling", "1", 3, DOUBLING, |()| doubling(last))
         .computed_by(origin(means_apart))
-        .chosen("means_apart_at", "1", "p at which the means differ most in proportion", |()| {
-            Some(at)
-        })
+        .chosen("means_apart_at", "1", APART, |()| Some(at))
         .real("means_apart", "1", 2, "by so much", |()| more - mean)
         .real("means_ratio", "1", 2, "in proportion", |()| more / mean - 1.0)
         .computed_by(origin(largest_change))
         .real("change", "1", 2, "largest change of μ over σ", |()| change)
-        .chosen("change_at", sigma, "σ of it", |()| Some(change_at))
-        .real("half_shift", sigma, 1, "shift of σ at which μ is (N + 1)/2", |()| half_shift)
+        .chosen("change_at", SIGMA, "σ of it", |()| Some(change_at))
+        .real("half_shift", SIGMA, 1, "shift of σ at which μ is (N + 1)/2", |()| half_shift)
         .real("relation_over", "1", 2, "shift of the jump from rest over that by orders", |()| over)
         .done()
 }

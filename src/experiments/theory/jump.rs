@@ -6,18 +6,12 @@ use crate::experiments::prelude::*;
 use crate::params::VERTICES;
 use impact_circuits::distribution::Law;
 use impact_circuits::distribution::SampleSpace::Simple;
-use impact_circuits::{Fraction, jump};
+use impact_circuits::jump;
 use impact_numerics::roots;
 
-/// N as a real number.
 const N: f64 = VERTICES as f64;
 
-pub(super) fn tables() -> Vec<Table> {
-    vec![numbers(), first_maximum()]
-}
-
-/// Makes the table of Sec. 7.
-fn numbers() -> Table {
+pub(super) fn numbers() -> Table {
     let p_crit = |vertices| known(jump::p_crit(vertices));
     let (crit, leap) = (p_crit(VERTICES), known(jump::p_jump(Simple, VERTICES)));
     let (at_one, between) = (law(Simple, 1.0), 0.5 * (crit + leap.bracket[0]));
@@ -49,14 +43,14 @@ fn numbers() -> Table {
         .done()
 }
 
-fn first_maximum() -> Table {
+pub(super) fn first_maximum() -> Table {
     let (k, [above, below]) =
         jump::first_local_maximum(VERTICES).expect("N = 100 has a local maximum");
-    let p = Fraction::new(above as u128, below as u128);
+    let p = above as f64 / below as f64;
     one("theory.first_maximum", origin(jump::first_local_maximum))
-        .count("numerator", "of p", |()| p.numerator as u64)
-        .count("denominator", "of p", |()| p.denominator as u64)
-        .real("p", "1", 5, "where Φ first has a local maximum beyond k = 1", |()| p.to_f64())
+        .count("numerator", "of p", |()| above as u64)
+        .count("denominator", "of p", |()| below as u64)
+        .real("p", "1", 5, "where Φ first has a local maximum beyond k = 1", |()| p)
         .count("k", "where it is", |()| k as u64)
         .count("k_next", "where it is as well", |()| k as u64 + 1)
         .done()
@@ -74,8 +68,7 @@ pub fn f(p: f64) -> Vec<(f64, f64)> {
     ks.map(|k| (k, jump::f(VERTICES, p, k))).collect()
 }
 
-/// Returns the zeros of f_{N,p}. The double nearest to p_crit may lie on either side of it; there
-/// both are 1/√p.
+/// Returns the zeros of f_{N,p}; at the double of p_crit, whatever side of it it is on, both 1/√p.
 pub fn zeros(p: f64) -> Option<[f64; 2]> {
     if p == known(jump::p_crit(VERTICES)) {
         return Some([1.0 / p.sqrt(); 2]);
@@ -88,8 +81,7 @@ pub(crate) fn top(p: f64) -> f64 {
     (N * p - 1.0) / (2.0 * p)
 }
 
-/// Returns the p at which f gets real zeros for k > 0, since its largest value is not negative: Eq.
-/// (18).
+/// Returns the p from which on the largest value of f, at some k > 0, is not negative: Eq. (18).
 pub(crate) fn touching() -> f64 {
     roots::bracket(1e-6, 1.0, |p| top(p) > 0.0 && jump::f(VERTICES, p, top(p)) >= 0.0)[1]
 }

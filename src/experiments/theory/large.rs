@@ -15,20 +15,16 @@ fn drawn() -> Vec<f64> {
     Grid::default().and(0, 500, 1, 200).values()
 }
 
-pub(super) fn tables() -> Vec<Table> {
-    let jumps: Vec<(f64, Jump)> = LARGE_VERTICES
-        .into_par_iter()
-        .map(|vertices| (vertices as f64, known(p_jump(Simple, vertices))))
-        .collect();
-    let share = |(n, jump): &(f64, Jump)| jump.k_after as f64 / n;
-    let table = Table::of("theory.large", &jumps, |_| 0)
+pub(super) fn large() -> Table {
+    let jump = |vertices| (vertices as f64, known(p_jump(Simple, vertices)));
+    let jumps: Vec<(f64, Jump)> = LARGE_VERTICES.into_par_iter().map(jump).collect();
+    Table::of("theory.large", &jumps, |_| 0)
         .computed_by(origin(p_jump))
         .key("n", "1", |(n, _)| *n)
         .real("vertices", "1", 1, "N", |(n, _)| *n)
-        .real("share", "1", 2, "k*/N after the jump", share)
+        .real("share", "1", 2, "k*/N after the jump", |(n, jump)| jump.k_after as f64 / n)
         .real("rule", "1", 4, "root of k² = 2 N (ln k − 1)", |(n, _)| jump_rule(*n as usize))
-        .done();
-    vec![table]
+        .done()
 }
 
 /// Returns the limit of k*/N against p N.

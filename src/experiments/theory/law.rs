@@ -6,12 +6,8 @@ use crate::params::{DISTRIBUTION_P, Grid, VERTICES};
 use impact_circuits::distribution::Law;
 use impact_circuits::distribution::SampleSpace::{self, Simple};
 use impact_circuits::jump;
+use impact_numerics::statistics::last_rise;
 
-pub(super) fn tables() -> Vec<Table> {
-    vec![distributions(), mean()]
-}
-
-/// Returns the distribution for the paper's N.
 pub(crate) fn law(space: SampleSpace, p: f64) -> Law {
     known(Law::new(space, VERTICES, p))
 }
@@ -25,8 +21,7 @@ pub fn k_star(p: f64) -> usize {
     law(Simple, p).k_star()
 }
 
-/// Makes the table of Fig. 8.
-fn distributions() -> Table {
+pub(super) fn distributions() -> Table {
     Table::of("theory.distribution", &DISTRIBUTION_P, |_| 0)
         .computed_by(origin(Law::mean))
         .key("p", "1", |p| *p)
@@ -49,25 +44,19 @@ pub fn means() -> Vec<(f64, f64)> {
     grid.into_iter().map(|p| (p, law(Simple, p).mean())).collect()
 }
 
-/// Returns the p at which μ passes `level`, linear between points.
-fn crossing(means: &[(f64, f64)], level: f64) -> Option<f64> {
-    let w = means.windows(2).find(|w| w[0].1 < level && level <= w[1].1)?;
-    Some(w[0].0 + (w[1].0 - w[0].0) * (level - w[0].1) / (w[1].1 - w[0].1))
-}
-
-/// Makes the table of Fig. 9.
-fn mean() -> Table {
+pub(super) fn mean() -> Table {
     let mut heights: Vec<usize> = steps().windows(2).map(|w| w[1].1 - w[0].1).collect();
     heights.sort_unstable_by(|a, b| b.cmp(a));
-    let means = means();
-    let p_at = |share: f64| crossing(&means, share * VERTICES as f64).unwrap_or(1.0);
+    let (grid, means): (Vec<f64>, Vec<_>) =
+        means().into_iter().map(|(p, mean)| (p, Some(mean))).unzip();
+    let p_at = |share: f64| last_rise(&grid, &means, share * VERTICES as f64);
     one("theory.mean", origin(steps))
         .count("largest_step", "of k*", |()| heights[0] as u64)
         .count("other_steps", "the second largest step of k*", |()| heights[1] as u64)
         .computed_by(origin(Law::mean))
-        .real("at_zero", "1", 1, "μ for p → 0", |()| means[0].1)
+        .real("at_zero", "1", 1, "μ for p → 0", |()| law(Simple, 0.0).mean())
         .real("at_one", "1", 2, "μ at p = 1", |()| law(Simple, 1.0).mean())
-        .computed_by(origin(crossing))
+        .computed_by(origin(last_rise))
         .real("p_tenth", "1", 3, "p at which μ is N/10", |()| p_at(0.1))
         .real("p_nine_tenths", "1", 2, "p at which μ is 9 N/10", |()| p_at(0.9))
         .done()

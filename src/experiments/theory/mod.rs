@@ -1,8 +1,6 @@
 //! Computes the graph theory of Secs. 3 to 9 as tables, and beyond the paper many vertices and
-//! circuits up to the order of distant impacts. Curves that only a figure draws are functions, as
-//! its data file has their values.
-//!
-//! Cheap: all tables take some tenths of a second, and nothing is saved.
+//! circuits up to the order of distant impacts, in some tenths of a second. Curves that only a
+//! figure draws are functions, as its data file has their values.
 
 pub(crate) mod basics;
 pub(crate) mod census;
@@ -19,9 +17,10 @@ use literate::table::Table;
 /// Makes all tables but those that compare the theory with a simulation.
 pub fn tables() -> Vec<Table> {
     let ((curve, relation), large) =
-        rayon::join(|| rayon::join(relation::curve, relation::relation), large::tables);
-    let mut tables = [counts::tables(), law::tables(), jump::tables(), large].concat();
-    tables.extend([higher::classes(), higher::higher(&curve, &relation)]);
-    tables.extend([relation::gaps(), curve, relation]);
+        rayon::join(|| rayon::join(relation::curve, relation::relation), large::large);
+    let higher = higher::higher(&curve, &relation);
+    let mut tables = vec![counts::graph(), counts::lengths(), counts::commuting_circuits()];
+    tables.extend([law::distributions(), law::mean(), jump::numbers(), jump::first_maximum()]);
+    tables.extend([large, higher::classes(), higher, relation::gaps(), curve, relation]);
     tables
 }

@@ -1,5 +1,4 @@
-//! Computes the relation of p and σ, and μ along it: Sec. 8, Figs. 11, 12 and 15; and gaps that
-//! close by themselves.
+//! Computes p(σ), and μ along it (Sec. 8, Figs. 11, 12 and 15), and gaps that close by themselves.
 
 use super::basics::{known, largest, one};
 use super::law::law;
@@ -27,8 +26,7 @@ fn p_rest_of(sigma: f64) -> f64 {
     known(ImpactProbability::of_paper(sigma)).p_from_rest().unwrap_or(0.0)
 }
 
-/// Returns the smallest σ at which a property that holds from there on holds, to the last bit. At σ
-/// = 1 both probabilities are above 0.99.
+/// Returns the smallest σ < 1 from which on a property holds, to the last bit.
 fn smallest_sigma(holds: impl FnMut(f64) -> bool) -> f64 {
     roots::bracket(0.0, 1.0, holds)[1]
 }
@@ -44,8 +42,7 @@ fn half(p_of: fn(f64) -> f64, space: SampleSpace) -> f64 {
     smallest_sigma(|sigma| law(space, p_of(sigma)).mean() >= middle)
 }
 
-/// Makes the table of curves against σ, from 0.02 to 0.4 in steps of 0.001, finer where circuits of
-/// higher order add most.
+/// Makes the table of curves against σ, finer where circuits of higher order add most.
 pub(super) fn curve() -> Table {
     let sigmas =
         Grid::default().and(20, 139, 1, 1000).and(700, 760, 1, 5000).and(153, 400, 1, 1000);
@@ -82,14 +79,13 @@ fn any_random(sigma: &f64) -> f64 {
     -pxfm::f_expm1(none + 2.0 * pxfm::f_log1p(-p_of(sigma / SQRT_2)))
 }
 
-/// Returns σ at which such a share of the chains has a gap that closes by itself, from rest and as
-/// if gaps were independent.
+/// Returns σ at which such a share of chains from rest has one, as if gaps were independent.
 fn sigma_kept(share: f64) -> f64 {
     smallest_sigma(|sigma| any(p_rest_of(sigma), Chain::default().gaps()) >= share)
 }
 
-/// Returns the share of starts with random free parts that overlap, over p: Δ(0) = d + δα_0 − δα_1
-/// is normal with variance 4σ².
+/// Returns the share of random free parts that overlap, over p: Δ(0) = d + δα_0 − δα_1 is normal
+/// with variance 4σ².
 fn overlap(sigma: f64) -> f64 {
     0.5 * pxfm::f_erfc(Chain::default().spacing / (2.0 * sigma) / SQRT_2) / p_of(sigma)
 }
@@ -103,8 +99,10 @@ fn eq25() -> f64 {
     }))
 }
 
-/// Makes the table of Sec. 8.
 pub(super) fn relation() -> Table {
+    const KEPT_HALF: &str = "σ at which half of the chains have a seed";
+    const KEPT_ONSET: &str = "σ at which enough have one for the onset";
+    const ALONE: &str = "σ at which a quarter of the gaps close by themselves";
     let crit = known(p_crit(VERTICES));
     let jumps = [(Simple, VERTICES), (Simple, VERTICES + 1), (FiveClasses, VERTICES)];
     let [jump, walls, higher] = jumps.map(|(space, vertices)| known(p_jump(space, vertices)).p);
@@ -121,20 +119,10 @@ pub(super) fn relation() -> Table {
         .computed_by(origin(eq25))
         .real("difference", "1", 1, "Eq. (25) less its double integral, relative", |()| eq25())
         .computed_by(origin(sigma_kept))
-        .real("sigma_kept_half", SIGMA, 3, "σ at which half of the chains have a seed", |()| {
-            sigma_kept(0.5)
-        })
-        .real("sigma_kept_onset", SIGMA, 3, "σ at which enough have one for the onset", |()| {
-            sigma_kept(ONSET)
-        })
+        .real("sigma_kept_half", SIGMA, 3, KEPT_HALF, |()| sigma_kept(0.5))
+        .real("sigma_kept_onset", SIGMA, 3, KEPT_ONSET, |()| sigma_kept(ONSET))
         .computed_by(origin(reaches))
-        .real(
-            "alone_quarter",
-            SIGMA,
-            3,
-            "σ at which a quarter of the gaps close by themselves",
-            |()| reaches(p_rest_of, 0.25),
-        )
+        .real("alone_quarter", SIGMA, 3, ALONE, |()| reaches(p_rest_of, 0.25))
         .real("alone_half", SIGMA, 3, "half of them", |()| reaches(p_rest_of, 0.5))
         .real("alone_three_quarters", SIGMA, 3, "three quarters", |()| reaches(p_rest_of, 0.75))
         .computed_by(origin(overlap))

@@ -1,12 +1,13 @@
 //! Simulates by conservative advancement.
 
 use super::flights::{Flights, GapState};
-use super::method::{Cost, Method, Task};
-use super::steps::{check_end, check_tolerance};
+use super::method::Task;
+use super::rival::{Rival, Run};
+use super::steps::check_tolerance;
 use super::tally::{Stop, Tally};
+use crate::Error;
 use crate::search::clock::{Instant, LATEST};
 use crate::search::earliest::Earliest;
-use crate::{Error, Sink};
 
 /// Conservative advancement: flight in closed form; each gap is advanced to where the parabola
 /// below it comes to zero, and no gap can close before. The parabola has the width and the rate of
@@ -26,31 +27,27 @@ pub struct Advancement {
     pub tolerance: f64,
 }
 
-impl Method for Advancement {
-    fn name(&self) -> &'static str {
-        "advancement"
-    }
+impl Rival for Advancement {
+    const NAME: &'static str = "advancement";
 
-    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        let flights = Flights::new(scenario, start)?;
+    fn begin(&self, task: Task) -> Result<Run, Error> {
+        let (scenario, start, until) = task;
+        let flights = Flights::new(task)?;
         check_tolerance(self.tolerance)?;
-        check_end(until)?;
         let gaps = flights.topology.gaps();
         let mut queue = Earliest::new(gaps);
         for k in 0..gaps {
             queue.set(k, [Instant::at(start.time)]);
         }
-        let mut run = Run { flights, queue, reached: self.tolerance * scenario.spacing };
-        let mut tally = Tally::new(scenario, sink);
-        let ended = run.advance(Instant::at(until), &mut tally);
-        tally.finish(ended)
+        let mut gaps = Gaps { flights, queue, reached: self.tolerance * scenario.spacing };
+        Ok(Box::new(move |tally| gaps.advance(Instant::at(until), tally)))
     }
 }
 
 /// The shortest advance, without which a gap that is shut and at rest would stay at one instant.
 const SHORTEST: f64 = 1e-18;
 
-struct Run {
+struct Gaps {
     flights: Flights,
     /// The time up to which each gap is certainly open.
     queue: Earliest,
@@ -58,7 +55,7 @@ struct Run {
     reached: f64,
 }
 
-impl Run {
+impl Gaps {
     fn advance(&mut self, end: Instant, tally: &mut Tally) -> Result<(), Stop> {
         loop {
             let (k, now) = self.queue.first();
@@ -73,8 +70,7 @@ impl Run {
                 let speed = -gap.rate;
                 self.flights.hit(k, speed, &phases);
                 gap.rate = self.flights.restitution * speed;
-                let [left, right] = self.flights.topology.adjacent(k);
-                for j in [left, right.filter(|right| Some(*right) != left)].into_iter().flatten() {
+                for j in self.flights.topology.near(k) {
                     tally.cost.evaluations += 1;
                     let neighbour = self.flights.gap_at(j, 0.0, &phases);
                     self.advance_gap(j, now, neighbour);

@@ -1,14 +1,13 @@
 //! Holds the row of masses for integrators: displacements, velocities, forces, impact law.
 
-use super::method::{Cost, Task};
-use super::steps::{Step, steps};
-use super::tally::{Stop, Tally};
+use super::method::Task;
+use super::steps::Step;
+use crate::Error;
 use crate::forcing::Component;
 use crate::impact::jumps;
 use crate::scenario::COMPONENTS;
 use crate::search::clock::Instant;
 use crate::topology::Topology;
-use crate::{Boundary, Error, Scenario, Sink, State};
 
 /// (sin, cos) of the phase of each component of the forcing.
 pub type Phases = [(f64, f64); COMPONENTS];
@@ -17,7 +16,6 @@ pub type Phases = [(f64, f64); COMPONENTS];
 /// the right one (n + 1).
 pub struct Bodies {
     pub topology: Topology,
-    is_ring: bool,
     pub spacing: f64,
     pub restitution: f64,
     /// ω².
@@ -27,24 +25,29 @@ pub struct Bodies {
     pub u: Vec<f64>,
     /// Velocities; 0 for the walls.
     pub v: Vec<f64>,
+    /// The phases at the end of the last step, and its length.
+    pub phases: Phases,
+    pub last: f64,
 }
 
 impl Bodies {
-    pub fn new(scenario: &Scenario, start: &State) -> Result<Bodies, Error> {
+    pub fn new((scenario, start, _): Task) -> Result<Bodies, Error> {
         scenario.check_uniform()?;
         let u = start.displacements(scenario)?;
         let masses = scenario.forcing.len();
         let mut row = Bodies {
             topology: Topology::new(masses, scenario.boundary),
-            is_ring: scenario.boundary == Boundary::Ring,
             spacing: scenario.spacing,
             restitution: scenario.restitution,
             stiffness: scenario.natural_frequency * scenario.natural_frequency,
             forcing: Component::forces(scenario),
             v: vec![0.0; u.len()],
             u,
+            phases: [(0.0, 1.0); COMPONENTS],
+            last: 0.0,
         };
         row.v[1..=masses].copy_from_slice(&start.velocities);
+        row.phases = row.phases_at(Instant::at(start.time));
         Ok(row)
     }
 
@@ -73,7 +76,7 @@ impl Bodies {
         self.v[right] += jumps[1];
     }
 
-    pub fn phases(&self, at: Instant) -> Phases {
+    pub fn phases_at(&self, at: Instant) -> Phases {
         let mut phases = [(0.0, 1.0); COMPONENTS];
         for (phase, component) in phases.iter_mut().zip(&self.forcing) {
             *phase = component.phase(at);
@@ -87,23 +90,22 @@ impl Bodies {
         for (out, u) in out.iter_mut().zip(u) {
             *out = -self.stiffness * u;
         }
-        for (component, (sin, cos)) in self.forcing.iter().zip(self.phases(at)) {
+        for (component, (sin, cos)) in self.forcing.iter().zip(self.phases_at(at)) {
             add_forces(component, [cos, sin], out);
         }
     }
 
-    /// Returns the acceleration of one body in flight.
-    pub fn acceleration(&self, m: usize, phases: &Phases) -> f64 {
+    /// Returns the acceleration of one body in flight at the end of the last step.
+    pub fn acceleration(&self, m: usize) -> f64 {
         let mut sum = -self.stiffness * self.u[m];
-        for (component, (sin, cos)) in self.forcing.iter().zip(phases) {
+        for (component, (sin, cos)) in self.forcing.iter().zip(&self.phases) {
             sum += component.cos[m] * cos + component.sin[m] * sin;
         }
         sum
     }
 
-    /// Makes a step of flight with all bodies: v' = `keep` v + `pull` u + forces, where `waves`
-    /// gives the factors of the amplitudes (cos, sin) of each component; then u' = u + `drift` (v,
-    /// v').
+    /// Makes a step of flight with all bodies: v' = `keep` v + `pull` u + forces, where `waves` has
+    /// the factors of the amplitudes (cos, sin) of a component; then u' = u + `drift` (v, v').
     #[inline(always)]
     pub fn fly(
         &mut self,
@@ -120,18 +122,27 @@ impl Bodies {
         }
     }
 
+    /// Makes a step of Verlet with all bodies. Between steps their velocities are those half of the
+    /// last step ago, so that each step goes over the masses once.
+    pub fn leap(&mut self, step: &Step) {
+        let (kick, phases) = (0.5 * (self.last + step.h), self.phases);
+        let waves = |i: usize| [kick * phases[i].1, kick * phases[i].0];
+        self.fly([1.0, -kick * self.stiffness], waves, [0.0, step.h]);
+        (self.phases, self.last) = (self.phases_at(step.to), step.h);
+    }
+
     /// Whether any gap is shut at displacements `u`. The test is cheap, as it mostly fails.
     pub fn any_shut(&self, u: &[f64]) -> bool {
         // Neighbours in the array are neighbours in the row; a ring has one gap more.
-        let (first, last) = if self.is_ring { (1, u.len() - 2) } else { (0, u.len() - 1) };
-        let mut any = self.is_ring && self.spacing + (u[first] - u[last]) <= 0.0;
+        let is_ring = self.topology.gaps() + 2 == u.len();
+        let (first, last) = if is_ring { (1, u.len() - 2) } else { (0, u.len() - 1) };
+        let mut any = is_ring && self.spacing + (u[first] - u[last]) <= 0.0;
         for (left, right) in u[first..last].iter().zip(&u[first + 1..=last]) {
             any |= self.spacing + (right - left) <= 0.0;
         }
         any
     }
 
-    /// Returns the number of masses, the unit of counted work.
     pub fn masses(&self) -> u64 {
         self.u.len() as u64 - 2
     }
@@ -167,28 +178,4 @@ pub fn push(topology: &Topology, k: usize, impulse: f64, out: &mut [f64]) {
     let [inverse_left, inverse_right] = topology.inverse_masses(k);
     out[left] -= impulse * inverse_left;
     out[right] += impulse * inverse_right;
-}
-
-/// A method with a fixed step.
-pub trait Stepper {
-    /// Advances the row by one step and hands its impacts to the tally.
-    fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop>;
-}
-
-/// Runs a method with a fixed step, made by `begin` from the start.
-pub fn run_steps<S: Stepper>(
-    (scenario, start, until): Task,
-    step: f64,
-    sink: Sink,
-    begin: impl FnOnce(&Bodies) -> S,
-) -> Result<Cost, Error> {
-    let mut row = Bodies::new(scenario, start)?;
-    let mut steps = steps(scenario, start, until, step)?;
-    let mut tally = Tally::new(scenario, sink);
-    let mut stepper = begin(&row);
-    let ended = steps.try_for_each(|step| {
-        tally.cost.steps += 1;
-        stepper.step(&mut row, &step, &mut tally)
-    });
-    tally.finish(ended)
 }

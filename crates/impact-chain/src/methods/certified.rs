@@ -20,31 +20,24 @@ impl Method for Certified {
 
     fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
         check_end(until)?;
-        let mut cost = Cost::default();
         let same = *start == State::of(scenario);
         let moved = if same { None } else { Some(start.as_scenario(scenario)?) };
         let mut engine = Engine::new(moved.as_ref().unwrap_or(scenario))?;
+        let later = |time: f64| start.time + time;
         engine
-            .run(until - start.time, |impact| {
-                cost.impacts += 1;
-                sink(Impact { time: start.time + impact.time, ..impact })
-            })
+            .run(until - start.time, |hit| sink(Impact { time: later(hit.time), ..hit }))
             .map_err(|error| match error {
-                Error::Work { gap, time, bound } => {
-                    Error::Work { gap, time: start.time + time, bound }
-                }
+                Error::Work { gap, time, bound } => Error::Work { gap, time: later(time), bound },
                 other => other,
             })?;
         let counters = engine.counters();
         Ok(Cost {
+            impacts: counters.impacts,
             steps: counters.searches,
             evaluations: counters.evaluations,
             simultaneous: counters.simultaneous,
             undecided: counters.undecided,
-            first_graze: engine
-                .first_graze()
-                .map(|graze| Graze { time: start.time + graze.time, ..graze }),
-            ..cost
+            first_graze: engine.first_graze().map(|at| Graze { time: later(at.time), ..at }),
         })
     }
 }

@@ -1,15 +1,15 @@
 //! Computes flight in closed form, for methods that evaluate gaps at given times.
 
+use super::method::Task;
 use super::sign_change::is_rounding;
 use super::steps::Step;
+use crate::Error;
 use crate::flight::INFLATION;
 use crate::forcing::Component;
 use crate::impact::jumps;
 use crate::scenario::COMPONENTS;
 use crate::search::clock::{Instant, Rate};
-use crate::search::trig::sin_cos_turn;
 use crate::topology::Topology;
-use crate::{Error, Scenario, State};
 
 /// Width and rate of a gap, `s` after the beginning of a step.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +35,7 @@ pub struct Flights {
 pub type FlightPhases = ((f64, f64), [(f64, f64); COMPONENTS]);
 
 impl Flights {
-    pub fn new(scenario: &Scenario, start: &State) -> Result<Flights, Error> {
+    pub fn new((scenario, start, _): Task) -> Result<Flights, Error> {
         scenario.check_uniform()?;
         let u = start.displacements(scenario)?;
         let w = scenario.natural_frequency;
@@ -63,7 +63,7 @@ impl Flights {
         for (phase, component) in forced.iter_mut().zip(&self.forced) {
             *phase = component.phase(at);
         }
-        (sin_cos_turn(self.rate.turn(at)), forced)
+        (self.rate.sin_cos(at), forced)
     }
 
     /// Returns the phases at `s` after the beginning of a step.

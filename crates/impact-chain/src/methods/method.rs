@@ -29,7 +29,6 @@ impl Cost {
 /// The start of the scenario is ignored.
 pub type Task<'a> = (&'a Scenario, &'a State, f64);
 
-/// A way to simulate a chain.
 pub trait Method: Sync {
     /// Returns the name, as in `trace --method`, e.g. "verlet".
     fn name(&self) -> &'static str;
@@ -37,8 +36,7 @@ pub trait Method: Sync {
     /// Runs a task and hands each impact to `sink`, which stops the run right after that impact by
     /// returning false.
     ///
-    /// A gap of the start that is shut up to rounding counts as shut; it is hit only if it is
-    /// closing.
+    /// A gap of the start that is shut up to rounding counts as shut; it is hit if it is closing.
     ///
     /// # Errors
     /// [`Error::Input`] for a scenario, start, step or tolerance outside the model,
@@ -47,17 +45,11 @@ pub trait Method: Sync {
     fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error>;
 
     /// Returns the first impact, or none if there is no impact.
-    ///
-    /// # Errors
-    /// As [`Method::run`].
     fn first(&self, task: Task) -> Result<Option<Impact>, Error> {
         Ok(collect(1, |sink| self.run(task, sink))?.pop())
     }
 
     /// Returns all impacts, in order.
-    ///
-    /// # Errors
-    /// As [`Method::run`].
     fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
         collect(usize::MAX, |sink| self.run(task, sink))
     }

@@ -13,11 +13,11 @@
 mod advancement;
 mod bodies;
 mod certified;
-mod dormand_prince;
 mod flights;
 mod method;
 mod moreau_jean;
 mod penalty;
+mod rival;
 mod runge_kutta;
 mod sampled;
 mod sign_change;

@@ -1,11 +1,11 @@
 //! Simulates by Moreau–Jean time stepping.
 
-use super::bodies::{Bodies, Phases, Stepper, push, run_steps};
-use super::method::{Cost, Method, Task};
+use super::bodies::{Bodies, push};
+use super::method::Task;
+use super::rival::{Rival, Run, Stepper, run_steps};
 use super::steps::Step;
 use super::tally::{Stop, Tally};
-use crate::search::clock::Instant;
-use crate::{Error, Sink};
+use crate::Error;
 
 /// Time stepping with contacts on the level of velocities and impulses: flight by the implicit
 /// midpoint rule (Jean's θ = 1/2); gaps that the forecast Δ + h Δ'/2 finds shut enter one
@@ -36,19 +36,13 @@ const SWEEPS: usize = 1000;
 /// The sweeps end when no impulse changes by more than this part of the largest.
 const CONVERGED: f64 = 1e-15;
 
-impl Method for MoreauJean {
-    fn name(&self) -> &'static str {
-        "moreau-jean"
-    }
+impl Rival for MoreauJean {
+    const NAME: &'static str = "moreau-jean";
 
-    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        let begin = |row: &Bodies| Impulses {
-            phases: row.phases(Instant::at(start.time)),
-            forecast: row.u.clone(),
-            active: Vec::new(),
-            touching: Vec::new(),
-        };
-        run_steps((scenario, start, until), self.step, sink, begin)
+    fn begin(&self, task: Task) -> Result<Run, Error> {
+        let row = Bodies::new(task)?;
+        let (forecast, active, touching) = (row.u.clone(), Vec::new(), Vec::new());
+        run_steps(task, self.step, Impulses { row, forecast, active, touching })
     }
 }
 
@@ -61,8 +55,7 @@ struct Active {
 }
 
 struct Impulses {
-    /// Phases at the beginning of a step.
-    phases: Phases,
+    row: Bodies,
     /// Displacements that the velocities at the beginning of a step give for its middle.
     forecast: Vec<f64>,
     active: Vec<Active>,
@@ -71,7 +64,8 @@ struct Impulses {
 }
 
 impl Stepper for Impulses {
-    fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+    fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+        let row = &mut self.row;
         let half = 0.5 * step.h;
         let gaps = row.topology.gaps();
         for (forecast, (u, v)) in self.forecast.iter_mut().zip(row.u.iter().zip(&row.v)) {
@@ -85,18 +79,20 @@ impl Stepper for Impulses {
         tally.cost.evaluations += row.masses() + gaps as u64;
         let bend = half * half * row.stiffness;
         let lightness = 1.0 / (1.0 + bend);
-        let (later, scale) = (row.phases(step.to), half * lightness);
+        let (phases, later) = (row.phases, row.phases_at(step.to));
+        let scale = half * lightness;
         let waves = |i: usize| {
-            let ((sin, cos), (later_sin, later_cos)) = (self.phases[i], later[i]);
+            let ((sin, cos), (later_sin, later_cos)) = (phases[i], later[i]);
             [scale * (cos + later_cos), scale * (sin + later_sin)]
         };
         let pull = -step.h * row.stiffness * lightness;
         row.fly([(1.0 - bend) * lightness, pull], waves, [half, half]);
-        self.phases = later;
+        row.phases = later;
         if self.active.is_empty() && self.touching.is_empty() {
             return Ok(());
         }
-        self.solve(row, lightness);
+        self.solve(lightness);
+        let row = &mut self.row;
         for gap in &self.active {
             push(&row.topology, gap.k, half * gap.impulse * lightness, &mut row.u);
         }
@@ -113,7 +109,8 @@ impl Stepper for Impulses {
 
 impl Impulses {
     /// Solves for the impulses of the active gaps by projected Gauss–Seidel.
-    fn solve(&mut self, row: &mut Bodies, lightness: f64) {
+    fn solve(&mut self, lightness: f64) {
+        let row = &mut self.row;
         for _ in 0..SWEEPS {
             let (mut change, mut largest) = (0.0f64, 0.0f64);
             for gap in &mut self.active {

@@ -1,11 +1,11 @@
 //! Simulates contacts by penalty springs.
 
-use super::bodies::{Bodies, Phases, Stepper, push, run_steps};
-use super::method::{Cost, Method, Task};
+use super::bodies::{Bodies, push};
+use super::method::Task;
+use super::rival::{Rival, Run, Stepper, run_steps};
 use super::steps::Step;
 use super::tally::{Stop, Tally};
-use crate::search::clock::Instant;
-use crate::{Error, Sink};
+use crate::Error;
 use std::f64::consts::PI;
 
 /// Penalty springs: a shut gap is a stiff spring with a damper that is tuned to the restitution;
@@ -39,15 +39,22 @@ const DURATION: f64 = 0.4;
 /// The fewest steps that half a period takes; with fewer the spring would not be integrated at all.
 const STEPS: f64 = 5.0;
 
-impl Method for Penalty {
-    fn name(&self) -> &'static str {
-        "penalty"
-    }
+impl Rival for Penalty {
+    const NAME: &'static str = "penalty";
 
-    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        let step = self.step * scenario.natural_frequency;
-        let begin = |row: &Bodies| Springs::begin(row, Instant::at(start.time), step, self.step);
-        run_steps((scenario, start, until), self.step, sink, begin)
+    fn begin(&self, task: Task) -> Result<Run, Error> {
+        let row = Bodies::new(task)?;
+        let (scenario, ..) = task;
+        let steps = (DURATION / (self.step * scenario.natural_frequency)).sqrt().max(STEPS);
+        let contact = PI / (steps * self.step);
+        let springs = Springs {
+            stiffness: contact * contact,
+            damping: 2.0 * damping_ratio(row.restitution) * contact,
+            touching: vec![false; row.topology.gaps()],
+            contacts: Vec::new(),
+            row,
+        };
+        run_steps(task, self.step, springs)
     }
 }
 
@@ -60,8 +67,8 @@ fn damping_ratio(r: f64) -> f64 {
     -log / (PI * PI + log * log).sqrt()
 }
 
-/// Between steps the velocities of the row are those half of the last step ago.
 struct Springs {
+    row: Bodies,
     /// ω_c²: force per overlap and reduced mass.
     stiffness: f64,
     /// 2ζω_c.
@@ -70,30 +77,12 @@ struct Springs {
     touching: Vec<bool>,
     /// Such gaps, with what opens them.
     contacts: Vec<(usize, f64)>,
-    phases: Phases,
-    /// Length of the last step.
-    last: f64,
-}
-
-impl Springs {
-    /// Creates the springs for steps of length `h`, which is `step` in units of 1/ω.
-    fn begin(row: &Bodies, at: Instant, step: f64, h: f64) -> Springs {
-        let steps = (DURATION / step).sqrt().max(STEPS);
-        let contact = PI / (steps * h);
-        Springs {
-            stiffness: contact * contact,
-            damping: 2.0 * damping_ratio(row.restitution) * contact,
-            touching: vec![false; row.topology.gaps()],
-            contacts: Vec::new(),
-            phases: row.phases(at),
-            last: 0.0,
-        }
-    }
 }
 
 impl Stepper for Springs {
-    fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
-        let kick = 0.5 * (self.last + step.h);
+    fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+        let row = &mut self.row;
+        let kick = 0.5 * (row.last + step.h);
         // The damper uses the velocity in the middle of the last step.
         for (k, impulse) in &mut self.contacts {
             let apart = -(self.stiffness * row.width(*k) + self.damping * row.rate(*k));
@@ -103,9 +92,7 @@ impl Stepper for Springs {
         for (k, impulse) in self.contacts.drain(..) {
             push(&row.topology, k, impulse, &mut row.v);
         }
-        let waves = |i: usize| [kick * self.phases[i].1, kick * self.phases[i].0];
-        row.fly([1.0, -kick * row.stiffness], waves, [0.0, step.h]);
-        (self.phases, self.last) = (row.phases(step.to), step.h);
+        row.leap(step);
         tally.cost.evaluations += row.masses() + self.touching.len() as u64;
         if !row.any_shut(&row.u) {
             self.touching.fill(false);

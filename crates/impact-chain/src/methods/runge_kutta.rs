@@ -1,13 +1,13 @@
 //! Integrates by a Runge–Kutta pair of orders 5 and 4 with events.
 
 use super::bodies::Bodies;
-use super::dormand_prince::Stages;
-use super::method::{Cost, Method, Task};
+use super::method::Task;
+use super::rival::{Rival, Run};
 use super::sign_change::{closing_time, is_rounding};
-use super::steps::{check_end, check_tolerance};
+use super::steps::check_tolerance;
 use super::tally::{Stop, Tally};
+use crate::Error;
 use crate::search::clock::Instant;
-use crate::{Error, Sink};
 
 /// The pair of Dormand and Prince with a tolerance; a gap that is negative at the end of a step is
 /// an event, bisected on the dense output; the earliest ends the step, and integration starts
@@ -33,27 +33,21 @@ pub struct RungeKutta {
 /// The first step, in units of 1/max(ω, Ω).
 const FIRST: f64 = 0.01;
 
-impl Method for RungeKutta {
-    fn name(&self) -> &'static str {
-        "runge-kutta"
-    }
+impl Rival for RungeKutta {
+    const NAME: &'static str = "runge-kutta";
 
-    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        let row = Bodies::new(scenario, start)?;
+    fn begin(&self, task: Task) -> Result<Run, Error> {
+        let (scenario, start, until) = task;
+        let (row, now) = (Bodies::new(task)?, Instant::at(start.time));
         check_tolerance(self.tolerance)?;
-        check_end(until)?;
-        let mut tally = Tally::new(scenario, sink);
-        let now = Instant::at(start.time);
-        tally.cost.evaluations += row.masses();
         let stages = Stages::new(&row, now);
-        let mut run = Run { stages, row, now, tolerance: self.tolerance };
+        let mut steps = Steps { stages, row, now, tolerance: self.tolerance };
         let first = FIRST / scenario.fastest();
-        let ended = run.integrate(Instant::at(until), first, &mut tally);
-        tally.finish(ended)
+        Ok(Box::new(move |tally| steps.integrate(Instant::at(until), first, tally)))
     }
 }
 
-struct Run {
+struct Steps {
     /// The row; its displacements and velocities are up to date at impacts only.
     row: Bodies,
     stages: Stages,
@@ -61,8 +55,9 @@ struct Run {
     tolerance: f64,
 }
 
-impl Run {
+impl Steps {
     fn integrate(&mut self, end: Instant, first: f64, tally: &mut Tally) -> Result<(), Stop> {
+        tally.cost.evaluations += self.row.masses();
         let mut wanted = first;
         while self.now < end {
             let left = end.since(self.now);
@@ -129,12 +124,7 @@ impl Run {
         v.copy_from_slice(&self.row.v);
         self.stages.restart(&self.row, self.now);
         tally.cost.evaluations += self.row.masses();
-        // A gap at rest at zero is no impact, but counts as an event: it may stay there for ever.
-        if speed > 0.0 {
-            tally.impact(k, self.now.time(), speed)
-        } else {
-            tally.spend(k, self.now.time())
-        }
+        tally.event(k, self.now.time(), speed)
     }
 }
 
@@ -144,4 +134,127 @@ fn growth(error: f64) -> f64 {
         return 5.0;
     }
     (0.9 * pxfm::f_exp(-0.2 * pxfm::f_log(error))).clamp(0.2, 5.0)
+}
+
+/// Nodes c_i of the stages 2 to 7.
+const NODES: [f64; 6] = [1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0];
+
+/// Coefficients a_ij of the stages 2 to 7; the last row is the solution of order 5.
+const STAGES: [[f64; 6]; 6] = [
+    [1.0 / 5.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0],
+    [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0, 0.0, 0.0, 0.0],
+    [19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0, 0.0, 0.0],
+    [9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0, 0.0],
+    [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
+];
+
+/// Order 5 less order 4.
+const ERROR: [f64; 7] = [
+    71.0 / 57600.0,
+    0.0,
+    -71.0 / 16695.0,
+    71.0 / 1920.0,
+    -17253.0 / 339200.0,
+    22.0 / 525.0,
+    -1.0 / 40.0,
+];
+
+/// The coefficients of the last term of the dense output, of order 4.
+const DENSE: [f64; 7] = [
+    -12715105075.0 / 11282082432.0,
+    0.0,
+    87487479700.0 / 32700410799.0,
+    -10690763975.0 / 1880347072.0,
+    701980252875.0 / 199316789632.0,
+    -1453857185.0 / 822651844.0,
+    69997945.0 / 29380423.0,
+];
+
+/// The absolute tolerance over the relative one, as in the defaults of solve_ivp in SciPy and of
+/// ode45 in MATLAB, 1e-6 and 1e-3.
+const ABSOLUTE: f64 = 1e-3;
+
+/// Below this an error is rounding, in units of the spacing.
+const LEAST: f64 = 1e-15;
+
+/// One step from `y` to `next`: displacements of all bodies, then their velocities.
+struct Stages {
+    y: Vec<f64>,
+    next: Vec<f64>,
+    /// The derivatives k_1..k_7.
+    k: [Vec<f64>; 7],
+    h: f64,
+}
+
+impl Stages {
+    fn new(row: &Bodies, at: Instant) -> Stages {
+        let y: Vec<f64> = row.u.iter().chain(&row.v).copied().collect();
+        let zero = vec![0.0; y.len()];
+        let k = std::array::from_fn(|_| zero.clone());
+        let mut stages = Stages { next: y.clone(), y, k, h: 0.0 };
+        stages.restart(row, at);
+        stages
+    }
+
+    /// Restarts at `y`, which an impact has changed.
+    fn restart(&mut self, row: &Bodies, at: Instant) {
+        derivative(row, at, &self.y, &mut self.k[0]);
+    }
+
+    /// Tries a step of length `h`. Returns its error in units of that which `tolerance` allows:
+    /// root mean square over all components, absolute and relative.
+    fn attempt(&mut self, row: &Bodies, from: Instant, h: f64, tolerance: f64) -> f64 {
+        self.h = h;
+        for (stage, coefficients) in STAGES.iter().enumerate() {
+            for i in 0..self.y.len() {
+                self.next[i] = self.y[i] + h * self.weighted(&coefficients[..=stage], i);
+            }
+            derivative(row, from.after(NODES[stage] * h), &self.next, &mut self.k[stage + 1]);
+        }
+        let mut sum = 0.0;
+        for (i, (y, next)) in self.y.iter().zip(&self.next).enumerate() {
+            let error = h * self.weighted(&ERROR, i);
+            let allowed = (tolerance * (ABSOLUTE + y.abs().max(next.abs()))).max(LEAST);
+            sum += (error / allowed) * (error / allowed);
+        }
+        (sum / self.y.len() as f64).sqrt()
+    }
+
+    /// Returns Σ a_j k_j of component i over the given coefficients.
+    #[inline(always)]
+    fn weighted(&self, a: &[f64], i: usize) -> f64 {
+        a.iter().zip(&self.k).fold(0.0, |sum, (a, k)| sum + a * k[i])
+    }
+
+    /// Interpolates component i at the fraction θ of the step.
+    fn dense(&self, i: usize, theta: f64) -> f64 {
+        let (h, rest) = (self.h, 1.0 - theta);
+        let difference = self.next[i] - self.y[i];
+        let bend = h * self.k[0][i] - difference;
+        let third = difference - h * self.k[6][i] - bend;
+        let fourth = h * self.weighted(&DENSE, i);
+        self.y[i] + theta * (difference + rest * (bend + theta * (third + rest * fourth)))
+    }
+
+    /// Accepts the step: the next one starts from its end.
+    fn accept(&mut self) {
+        std::mem::swap(&mut self.y, &mut self.next);
+        self.k.swap(0, 6);
+    }
+
+    /// Cuts the step at its fraction θ; [`Stages::restart`] must follow.
+    fn cut(&mut self, theta: f64) {
+        for i in 0..self.y.len() {
+            self.next[i] = self.dense(i, theta);
+        }
+        std::mem::swap(&mut self.y, &mut self.next);
+    }
+}
+
+/// (u, v)' = (v, −ω² u + forcing).
+fn derivative(row: &Bodies, at: Instant, y: &[f64], out: &mut [f64]) {
+    let bodies = row.u.len();
+    out[..bodies].copy_from_slice(&y[bodies..]);
+    row.accelerations(at, &y[..bodies], &mut out[bodies..]);
 }

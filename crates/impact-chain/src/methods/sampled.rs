@@ -1,12 +1,13 @@
 //! Simulates by sampling gaps on a grid of times, and bisection.
 
 use super::flights::{Flights, GapState};
-use super::method::{Cost, Method, Task};
+use super::method::Task;
+use super::rival::{Rival, Run, Stepper, run_steps};
 use super::sign_change::closing_time;
-use super::steps::{Step, steps};
+use super::steps::Step;
 use super::tally::{Stop, Tally};
+use crate::Error;
 use crate::search::clock::Instant;
-use crate::{Error, Sink};
 
 /// Flight in closed form; every gap is sampled with a fixed step, and a change of its sign is
 /// bisected down to neighbouring doubles.
@@ -24,30 +25,26 @@ pub struct Sampled {
     pub step: f64,
 }
 
-impl Method for Sampled {
-    fn name(&self) -> &'static str {
-        "sampled"
-    }
+impl Rival for Sampled {
+    const NAME: &'static str = "sampled";
 
-    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        let mut flights = Flights::new(scenario, start)?;
-        let mut steps = steps(scenario, start, until, self.step)?;
-        let mut tally = Tally::new(scenario, sink);
+    fn begin(&self, task: Task) -> Result<Run, Error> {
+        let flights = Flights::new(task)?;
+        let phases = flights.phases(Instant::at(task.1.time));
         let gaps = flights.topology.gaps();
-        let phases = flights.phases(Instant::at(start.time));
         let begin = (0..gaps).map(|k| flights.gap_at(k, 0.0, &phases)).collect();
-        tally.cost.evaluations += gaps as u64;
-        let mut samples = Samples { begin, end: Vec::new(), roots: vec![None; gaps] };
-        let ended = steps.try_for_each(|step| {
-            tally.cost.steps += 1;
-            samples.step(&mut flights, &step, &mut tally)
-        });
-        tally.finish(ended)
+        let samples = Samples { flights, begin, end: Vec::new(), roots: vec![None; gaps] };
+        let run = run_steps(task, self.step, samples)?;
+        Ok(Box::new(move |tally| {
+            tally.cost.evaluations += gaps as u64;
+            run(tally)
+        }))
     }
 }
 
 /// All gaps in one step.
 struct Samples {
+    flights: Flights,
     /// Gaps at the beginning of the step, or right after the last impact of the gap or one next to
     /// it.
     begin: Vec<GapState>,
@@ -56,57 +53,53 @@ struct Samples {
     roots: Vec<Option<f64>>,
 }
 
-impl Samples {
-    fn step(&mut self, flights: &mut Flights, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
-        let last = flights.phases_in(step, step.h);
+impl Stepper for Samples {
+    fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+        let last = self.flights.phases_in(step, step.h);
         let gaps = self.begin.len();
         self.end.clear();
-        self.end.extend((0..gaps).map(|k| flights.gap_at(k, step.h, &last)));
+        self.end.extend((0..gaps).map(|k| self.flights.gap_at(k, step.h, &last)));
         tally.cost.evaluations += gaps as u64;
         for k in 0..gaps {
-            self.roots[k] = self.locate(k, flights, step, tally);
+            self.roots[k] = self.locate(k, step, tally);
         }
         while let Some((k, s)) = self.earliest() {
+            let flights = &mut self.flights;
             let phases = flights.phases_in(step, s);
             let time = step.from.after(s).time();
             let before = flights.gap_at(k, s, &phases);
             let speed = (-before.rate).max(0.0);
             flights.hit(k, speed, &phases);
             self.begin[k] = GapState { s, width: 0.0, rate: flights.restitution * speed };
-            let [left, right] = flights.topology.adjacent(k);
-            let near = [left, right.filter(|right| Some(*right) != left)];
-            for j in near.into_iter().flatten() {
+            let near = flights.topology.near(k);
+            for j in near.clone() {
                 self.begin[j] = flights.gap_at(j, s, &phases);
             }
-            for j in [Some(k)].into_iter().chain(near).flatten() {
-                self.end[j] = flights.gap_at(j, step.h, &last);
+            for j in std::iter::once(k).chain(near) {
+                self.end[j] = self.flights.gap_at(j, step.h, &last);
                 tally.cost.evaluations += 2;
-                self.roots[j] = self.locate(j, flights, step, tally);
+                self.roots[j] = self.locate(j, step, tally);
             }
-            // A gap at rest at zero is no impact, but counts as an event: it may stay there for
-            // ever.
-            if speed > 0.0 {
-                tally.impact(k, time, speed)?;
-            } else {
-                tally.spend(k, time)?;
-            }
+            tally.event(k, time, speed)?;
         }
         for (begin, end) in self.begin.iter_mut().zip(&self.end) {
             *begin = GapState { s: 0.0, ..*end };
         }
         Ok(())
     }
+}
 
+impl Samples {
     /// Returns the time after the beginning of the step at which gap k comes to zero, or none if
     /// its sign does not change.
-    fn locate(&self, k: usize, flights: &Flights, step: &Step, tally: &mut Tally) -> Option<f64> {
+    fn locate(&self, k: usize, step: &Step, tally: &mut Tally) -> Option<f64> {
         let (from, to) = (self.begin[k], self.end[k]);
         if to.width >= 0.0 {
             return None;
         }
         Some(closing_time(from.s, to.s, from.width, |s| {
             tally.cost.evaluations += 1;
-            flights.gap_at(k, s, &flights.phases_in(step, s)).width
+            self.flights.gap_at(k, s, &self.flights.phases_in(step, s)).width
         }))
     }
 

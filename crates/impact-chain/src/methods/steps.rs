@@ -1,8 +1,8 @@
 //! Cuts time into equal steps, and checks the ranges of steps, tolerances and end times.
 
+use super::method::Task;
 use crate::error::{Error, within};
 use crate::search::clock::{Instant, LATEST};
-use crate::{Scenario, State};
 
 pub const MAX_STEPS: f64 = 1e10;
 
@@ -16,15 +16,12 @@ pub struct Step {
     pub h: f64,
 }
 
-/// Lists the steps of length `h` from `start` to `until`, in order.
+/// Lists the steps of length `h` of a task, in order.
 pub fn steps(
-    scenario: &Scenario,
-    start: &State,
-    until: f64,
+    (scenario, start, until): Task,
     h: f64,
-) -> Result<impl Iterator<Item = Step>, Error> {
+) -> Result<impl Iterator<Item = Step> + use<>, Error> {
     within("step", h, SHORTEST, 1.0 / scenario.fastest())?;
-    check_end(until)?;
     let count = ((until - start.time).max(0.0) / h).ceil();
     if count > MAX_STEPS {
         return Err(too_many(count, "step"));
@@ -32,13 +29,9 @@ pub fn steps(
     let (begin, end) = (Instant::at(start.time), Instant::at(until));
     let mut from = begin;
     Ok((1..=count as u64).map(move |i| {
-        let step = if i < count as u64 {
-            Step { from, to: begin.after(i as f64 * h), h }
-        } else {
-            Step { from, to: end, h: end.since(from).max(0.0) }
-        };
-        from = step.to;
-        step
+        let to = if i < count as u64 { begin.after(i as f64 * h) } else { end };
+        let h = if i < count as u64 { h } else { end.since(from).max(0.0) };
+        Step { from: std::mem::replace(&mut from, to), to, h }
     }))
 }
 

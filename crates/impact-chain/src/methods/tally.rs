@@ -5,23 +5,12 @@ use super::steps::{MAX_STEPS, too_many};
 use crate::topology::Topology;
 use crate::{Error, Impact, Scenario, Sink};
 
-/// The largest mean number of events per gap within one unit of time 1/ω; beyond it a run is given
-/// up. A rival that cannot rest in contact has infinitely many impacts in a finite time
-/// there.
+/// The largest mean number of events per gap within one unit of time 1/ω. A rival that cannot rest
+/// in contact has infinitely many impacts in a finite time there.
 const EVENTS_PER_GAP: u64 = 10_000;
 
-/// The reason why a run ends early.
-pub enum Stop {
-    /// The receiver of the impacts stopped the run.
-    BySink,
-    Failed(Error),
-}
-
-impl From<Error> for Stop {
-    fn from(error: Error) -> Stop {
-        Stop::Failed(error)
-    }
-}
+/// Why a run ends early: an error, or none if the receiver of the impacts stopped it.
+pub type Stop = Option<Error>;
 
 /// The counted work of a run; impacts pass through it.
 pub struct Tally<'a> {
@@ -70,8 +59,14 @@ impl<'a> Tally<'a> {
         if (self.sink)(Impact { time, gap: self.topology.label(k), closing_speed }) {
             Ok(())
         } else {
-            Err(Stop::BySink)
+            Err(None)
         }
+    }
+
+    /// Counts an impact if it has a speed. A gap at rest at zero has none, but is an event: it may
+    /// stay there for ever.
+    pub fn event(&mut self, k: usize, time: f64, speed: f64) -> Result<(), Stop> {
+        if speed > 0.0 { self.impact(k, time, speed) } else { self.spend(k, time) }
     }
 
     /// Counts one more step of an integrator that chooses its steps.
@@ -81,13 +76,5 @@ impl<'a> Tally<'a> {
             return Err(too_many(self.cost.steps as f64, "tolerance").into());
         }
         Ok(())
-    }
-
-    /// Returns the cost of a run, or the error that ended it.
-    pub fn finish(self, ended: Result<(), Stop>) -> Result<Cost, Error> {
-        match ended {
-            Err(Stop::Failed(error)) => Err(error),
-            Err(Stop::BySink) | Ok(()) => Ok(self.cost),
-        }
     }
 }

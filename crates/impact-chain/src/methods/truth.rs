@@ -1,39 +1,31 @@
 //! Computes the motion of a chain to 106 bits, with which every method is compared.
 //!
-//! The certified engine, started from the state rounded to doubles, finds which gap closes next;
-//! the instant, and all that follows from it, is then computed by Newton's iteration on plain
-//! amplitudes of 106 bits. Chaos enlarges 1e−31 to 1e−3 in about twice the time in which it
-//! enlarges the rounding of doubles, so runs are right far beyond the horizon of any method. A tie
-//! of two gaps within the rounding of doubles could be taken in the wrong order; it has a
-//! probability of about 1e−14 an impact.
+//! Nothing is taken from the engine or its search. Each gap goes from an instant at which it is
+//! certainly open to the next, the zero of a parabola below it, until these instants converge; all
+//! of it with 106 bits. Chaos enlarges 1e−31 to 1e−3 in about twice the time in which it enlarges
+//! the rounding of doubles, so runs are right far beyond the horizon of any method.
 
-use super::certified::Certified;
-use super::method::{Cost, Method, Task};
-use super::steps::check_end;
-use super::tally::{Stop, Tally};
-use crate::contact::CONTACT_SPEED;
-use crate::{Boundary, Engine, Error, Impact, Scenario, Sink, State};
+use super::method::Task;
+use super::rival::{Rival, Run};
+use crate::{Boundary, Error, Scenario, State};
 use impact_numerics::double_double::{DoubleDouble, sin_cos};
 
 /// The true motion as a method.
 ///
 /// - Source: this project, [`TrueMotion`].
 /// - Order: none, it has no step. Times are right to some thirty digits as long as the gaps are.
-/// - Fails: it shares the engine's choice of the next gap, so it misses an impact that the engine
-///   misses. A ring, several frequencies and contact are refused.
+/// - Fails: a ring, several frequencies and gaps that touch without speed are refused.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Truth;
 
-const REMEDY: &str = "use another method";
+fn refused(field: &str, problem: impl Into<String>) -> Error {
+    Error::input(field, problem, "use another method")
+}
 
-impl Method for Truth {
-    fn name(&self) -> &'static str {
-        "truth"
-    }
+impl Rival for Truth {
+    const NAME: &'static str = "truth";
 
-    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        check_end(until)?;
-        let refused = |field: &str, problem: &str| Error::input(field, problem, REMEDY);
+    fn begin(&self, (scenario, start, until): Task) -> Result<Run, Error> {
         if scenario.boundary == Boundary::Ring {
             return Err(refused("boundary", "truth supports walls only"));
         }
@@ -41,29 +33,15 @@ impl Method for Truth {
             return Err(refused("forcing_frequencies", "truth supports one frequency only"));
         }
         scenario.check_uniform()?;
-        let engine = Engine::new(&start.as_scenario(scenario)?)?;
-        if !engine.contacts(0.0)?.is_empty() {
-            return Err(refused("initial", "a gap is in contact, which truth does not support"));
-        }
-        let slow = CONTACT_SPEED * scenario.spacing * scenario.natural_frequency;
-        let mut tally = Tally::new(scenario, sink);
+        start.displacements(scenario)?;
         let mut motion = TrueMotion::of(scenario, start);
-        let mut run = || -> Result<(), Stop> {
+        Ok(Box::new(move |tally| {
             while let Some(hit) = motion.next(until)? {
-                let (gap, time, speed) = (hit.gap, hit.time.to_f64(), hit.closing_speed);
-                if scenario.restitution * speed <= slow {
-                    let problem = format!(
-                        "gap {gap} comes to rest at t = {time}; truth does not support contact"
-                    );
-                    return Err(refused("restitution", &problem).into());
-                }
                 motion.advance(&hit);
-                tally.impact(gap, time, speed)?;
+                tally.impact(hit.gap, hit.time.to_f64(), hit.closing_speed)?;
             }
             Ok(())
-        };
-        let ended = run();
-        tally.finish(ended)
+        }))
     }
 }
 
@@ -85,9 +63,10 @@ pub struct TrueMotion {
     time: DoubleDouble,
     /// The gap that has just been hit and is shut now.
     shut: Option<usize>,
+    /// The time until which each gap is certainly open.
+    open: Vec<DoubleDouble>,
 }
 
-/// An impact of the true motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
     pub time: DoubleDouble,
@@ -95,6 +74,16 @@ pub struct Hit {
     /// −Δ' just before the impact.
     pub closing_speed: f64,
 }
+
+/// Separation speed, in units of d ω, up to which a gap does not open.
+const AT_REST: f64 = 1e-10;
+
+/// A gap is shut when it is certainly open for less than this, in units of 1 + t.
+const CONVERGED: f64 = 1e-30;
+
+const FOR_EVER: f64 = 1e300;
+
+const INFLATION: f64 = 1.0 + 1e-12;
 
 /// Sine and cosine of ωt and Ωt.
 type TruePhases = [[DoubleDouble; 2]; 2];
@@ -112,7 +101,8 @@ impl TrueMotion {
         }
         let free = vec![[DoubleDouble::ZERO; 2]; n + 2];
         let (scenario, time) = (scenario.clone(), dd(state.time));
-        let mut truth = TrueMotion { scenario, rates, free, forced, time, shut: None };
+        let open = vec![time; n + 1];
+        let mut truth = TrueMotion { scenario, rates, free, forced, time, shut: None, open };
         let phases = truth.phases(time);
         for m in 1..=n {
             let [v, rate] = truth.forced_motion(m, &phases);
@@ -153,14 +143,19 @@ impl TrueMotion {
         [dd(self.scenario.spacing) + (right[0] - left[0]), right[1] - left[1]]
     }
 
-    /// Returns d + R₁ + R₂ of a gap, as long as neither side is hit: the scale of its rounding.
-    pub fn scale(&self, gap: usize) -> f64 {
-        let length = |parts: &[[DoubleDouble; 2]]| {
+    /// Returns the amplitudes R₁ and R₂ of the free and the forced part of a gap, as long as
+    /// neither side is hit.
+    fn amplitudes(&self, gap: usize) -> [f64; 2] {
+        [&self.free, &self.forced].map(|parts| {
             let [left, right] = [gap, gap + 1].map(|m| parts[m].map(DoubleDouble::to_f64));
             let [x, y] = [right[0] - left[0], right[1] - left[1]];
             (x * x + y * y).sqrt()
-        };
-        self.scenario.spacing + length(&self.free) + length(&self.forced)
+        })
+    }
+
+    /// Returns d + R₁ + R₂ of a gap: the scale of its rounding.
+    pub fn scale(&self, gap: usize) -> f64 {
+        self.amplitudes(gap).iter().fold(self.scenario.spacing, |sum, r| sum + r)
     }
 
     /// Returns the present state, rounded to doubles; the gap just hit is shut to the last bit.
@@ -180,33 +175,49 @@ impl TrueMotion {
         State { time: self.time.to_f64(), positions, velocities }
     }
 
-    /// Finds the next impact up to time `until`, or none if there is no impact; does not advance.
-    ///
-    /// # Errors
-    /// As [`Method::run`] of the engine.
-    pub fn next(&self, until: f64) -> Result<Option<Hit>, Error> {
-        let found = Certified.first((&self.scenario, &self.state(), until))?;
-        Ok(found.map(|impact| self.refined(impact)))
+    /// Finds the next impact up to time `until`, or none if there is no impact; does not carry it
+    /// out. A gap that touches without speed, so that masses may stay together, is an error.
+    pub fn next(&mut self, until: f64) -> Result<Option<Hit>, Error> {
+        loop {
+            let earlier = |a: usize, b: usize| if self.open[b] < self.open[a] { b } else { a };
+            let gap = (1..self.open.len()).fold(0, earlier);
+            let time = self.open[gap];
+            if time > dd(until) {
+                return Ok(None);
+            }
+            let [width, rate] = self.gap(gap, &self.phases(time));
+            let is_shut = time == self.time && self.shut == Some(gap);
+            let width = if is_shut || width.hi < 0.0 { DoubleDouble::ZERO } else { width };
+            let wait = self.certainly_open(gap, width, rate);
+            if wait.hi > CONVERGED * (1.0 + time.hi.abs()) {
+                self.open[gap] = time + wait;
+                continue;
+            }
+            let Scenario { spacing, natural_frequency, restitution, .. } = self.scenario;
+            let closing_speed = -rate.to_f64();
+            if restitution * closing_speed <= AT_REST * spacing * natural_frequency {
+                let problem = format!(
+                    "gap {gap} comes to rest at t = {}; truth does not support contact",
+                    time.to_f64()
+                );
+                return Err(refused("restitution", problem));
+            }
+            return Ok(Some(Hit { time, gap, closing_speed }));
+        }
     }
 
-    /// Returns the impact at the zero of its gap nearest to the time that the engine found.
-    fn refined(&self, found: Impact) -> Hit {
-        let mut time = dd(found.time);
-        for _ in 0..8 {
-            let [width, rate] = self.gap(found.gap, &self.phases(time));
-            let step = width / rate;
-            // At a grazing impact the rate nearly vanishes, and a Newton step would be far too
-            // long.
-            if step.hi.is_nan() || step.hi.abs() >= 1e-3 {
-                break;
-            }
-            time = time - step;
-            if step.hi.abs() < 1e-30 * (1.0 + found.time.abs()) {
-                break;
-            }
+    /// Returns a time for which a gap with this width and rate is certainly open: to the zero of
+    /// f + g s − b s²/2, where b bounds its second derivative; for ever if its amplitudes add up to
+    /// less than d.
+    fn certainly_open(&self, gap: usize, f: DoubleDouble, g: DoubleDouble) -> DoubleDouble {
+        let [free, forced] = self.amplitudes(gap).map(|r| r * INFLATION);
+        if free + forced < self.scenario.spacing {
+            return dd(FOR_EVER);
         }
-        let [_, rate] = self.gap(found.gap, &self.phases(time));
-        Hit { time, gap: found.gap, closing_speed: -rate.to_f64() }
+        let [w, big_w] = self.rates.map(DoubleDouble::to_f64);
+        let b = w * w * free + big_w * big_w * forced;
+        let root = (g * g + f * (2.0 * b)).sqrt();
+        if g.hi < 0.0 { f * 2.0 / (root - g) } else { (g + root) / dd(b) }
     }
 
     /// Advances to an impact and carries it out.
@@ -224,12 +235,12 @@ impl TrueMotion {
             self.free[m] = [a - jump * sin * sign, b + jump * cos * sign];
         }
         (self.time, self.shut) = (hit.time, Some(hit.gap));
+        for near in hit.gap.saturating_sub(1)..=(hit.gap + 1).min(self.open.len() - 1) {
+            self.open[near] = hit.time;
+        }
     }
 
     /// Runs to time `until`; returns the impacts, with the state right after each.
-    ///
-    /// # Errors
-    /// As [`TrueMotion::next`].
     pub fn run(&mut self, until: f64) -> Result<Vec<(Hit, State)>, Error> {
         let mut hits = Vec::new();
         while let Some(hit) = self.next(until)? {

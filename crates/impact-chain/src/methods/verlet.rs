@@ -1,11 +1,11 @@
 //! Integrates by Verlet with a flip of velocities.
 
-use super::bodies::{Bodies, Phases, Stepper, run_steps};
-use super::method::{Cost, Method, Task};
+use super::bodies::Bodies;
+use super::method::Task;
+use super::rival::{Rival, Run, Stepper, run_steps};
 use super::steps::Step;
 use super::tally::{Stop, Tally};
-use crate::search::clock::Instant;
-use crate::{Error, Sink};
+use crate::Error;
 
 /// Velocity Verlet; at the end of a step each gap that is negative and closing, from the left, gets
 /// the impact law.
@@ -25,31 +25,20 @@ pub struct Verlet {
     pub step: f64,
 }
 
-impl Method for Verlet {
-    fn name(&self) -> &'static str {
-        "verlet"
-    }
+impl Rival for Verlet {
+    const NAME: &'static str = "verlet";
 
-    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        let begin = |row: &Bodies| Flip { phases: row.phases(Instant::at(start.time)), last: 0.0 };
-        run_steps((scenario, start, until), self.step, sink, begin)
+    fn begin(&self, task: Task) -> Result<Run, Error> {
+        run_steps(task, self.step, Flip(Bodies::new(task)?))
     }
 }
 
-/// Between steps the velocities of the row are those half of the last step ago, so that each step
-/// goes over the masses once.
-struct Flip {
-    phases: Phases,
-    /// Length of the last step.
-    last: f64,
-}
+struct Flip(Bodies);
 
 impl Stepper for Flip {
-    fn step(&mut self, row: &mut Bodies, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
-        let kick = 0.5 * (self.last + step.h);
-        let waves = |i: usize| [kick * self.phases[i].1, kick * self.phases[i].0];
-        row.fly([1.0, -kick * row.stiffness], waves, [0.0, step.h]);
-        (self.phases, self.last) = (row.phases(step.to), step.h);
+    fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+        let Flip(row) = self;
+        row.leap(step);
         let gaps = row.topology.gaps();
         tally.cost.evaluations += row.masses() + gaps as u64;
         if !row.any_shut(&row.u) {
@@ -59,7 +48,7 @@ impl Stepper for Flip {
             if row.width(k) >= 0.0 {
                 continue;
             }
-            let [left, right] = row.topology.sides(k).map(|m| row.acceleration(m, &self.phases));
+            let [left, right] = row.topology.sides(k).map(|m| row.acceleration(m));
             let speed = -(row.rate(k) + 0.5 * step.h * (right - left));
             if speed > 0.0 {
                 row.hit(k, speed);

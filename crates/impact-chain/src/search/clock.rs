@@ -21,7 +21,6 @@ pub struct Instant(i128);
 
 impl Instant {
     pub const ZERO: Instant = Instant(0);
-    /// Later than all other instants.
     pub const NEVER: Instant = Instant(i128::MAX);
 
     /// Returns the instant at time `t`, |t| ≤ [`LATEST`]; exact when `t` has no bits below 2^-80.

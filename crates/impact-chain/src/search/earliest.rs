@@ -19,13 +19,9 @@ pub struct Earliest {
     /// The winner below each node, root at 1; the leaves are the second half.
     nodes: Vec<u64>,
     epoch: Instant,
-    last: usize,
 }
 
 impl Earliest {
-    /// Bytes for each key; the number of keys is rounded up to a power of two.
-    pub const BYTES: usize = size_of::<Instant>() + 2 * size_of::<u64>();
-
     /// Creates `len` ≥ 1 keys, all [`Instant::NEVER`].
     pub fn new(len: usize) -> Self {
         let width = len.next_power_of_two();
@@ -33,13 +29,11 @@ impl Earliest {
             keys: vec![Instant::NEVER; width],
             nodes: vec![0; 2 * width],
             epoch: Instant::ZERO,
-            last: len - 1,
         };
         earliest.rebase(Instant::ZERO);
         earliest
     }
 
-    /// Computes all words for another epoch.
     fn rebase(&mut self, epoch: Instant) {
         self.epoch = epoch;
         let width = self.keys.len();
@@ -88,16 +82,6 @@ impl Earliest {
             }
             nodes[low & mask] = left;
         }
-    }
-
-    /// Whether key `index` equals that before or after it; the last and the first are neighbours
-    /// too.
-    #[inline(always)]
-    pub fn ties_with_neighbour(&self, index: usize) -> bool {
-        let before = if index == 0 { self.last } else { index - 1 };
-        let after = if index == self.last { 0 } else { index + 1 };
-        let key = self.keys[index];
-        (self.keys[before] == key) | (self.keys[after] == key)
     }
 
     #[inline(always)]
@@ -207,9 +191,6 @@ mod tests {
                 keys[index] = key;
                 earliest.set(index, [key]);
                 check(&mut earliest, &keys);
-                let neighbours = [(index + len - 1) % len, (index + 1) % len];
-                let tied = neighbours.into_iter().any(|i| keys[i] == keys[index]);
-                assert_eq!(earliest.ties_with_neighbour(index), tied);
                 if index + 3 <= len {
                     let three = [0, 1, 2].map(|i| moment.after(f64::from(i) * 0.25));
                     keys[index..index + 3].copy_from_slice(&three);

@@ -9,7 +9,6 @@ use super::stepping::first_root_by_steps;
 /// How often the reach is halved: pieces of 1, 1/2, … 2^-LEVELS of it.
 const LEVELS: usize = 2;
 
-/// The search for first roots at given frequencies.
 #[derive(Clone, Debug)]
 pub struct Search<const M: usize> {
     pub frequencies: Frequencies<M>,
@@ -64,8 +63,7 @@ impl<const M: usize> Search<M> {
         {
             return Next::Root { s, speed };
         }
-        let location = self.locate(frame, work);
-        self.refine(frame, location, work)
+        self.by_pieces(frame, work)
     }
 
     /// Decides whether a root at s > 0 where f falls with `speed` is the first, given that the
@@ -82,12 +80,14 @@ impl<const M: usize> Search<M> {
         speed > 0.0 && speed * speed > 4.0 * bound * self.pieces[0].largest_difference(frame)
     }
 
-    /// Screens the halves of the reach, and the halves of those that do not decide.
+    /// Finds the first root by the halves of the reach, and the halves of those that do not decide;
+    /// by certified steps where all of them are too coarse.
     #[inline(always)]
-    fn locate(&self, frame: &Frame<M>, work: &mut Counters) -> Location {
+    fn by_pieces(&self, frame: &Frame<M>, work: &mut Counters) -> Next {
+        let reach = self.frequencies.reach;
         let mut first = frame.f0;
         let mut k = 1;
-        loop {
+        let clear = loop {
             let piece = &self.pieces[k];
             let coefficients = piece.coefficients(frame);
             work.pieces += 1;
@@ -98,7 +98,7 @@ impl<const M: usize> Search<M> {
                     k = (k - 2) / 2;
                 }
                 if k == 0 {
-                    return Location::Nowhere;
+                    return Next::Clear { s: reach };
                 }
                 k += 1;
                 continue;
@@ -107,39 +107,17 @@ impl<const M: usize> Search<M> {
                 && let Some(guess) = piece.only_root(frame, first, &coefficients)
             {
                 let (clear, end) = (piece.start, piece.start + piece.width);
-                return Location::Between { guess, clear, end };
+                match self.nodes.root(frame, guess, work) {
+                    // In the piece there is no other.
+                    Some((s, speed)) if s > clear && s <= end => return Next::Root { s, speed },
+                    _ => break clear,
+                }
             }
             if 2 * k + 1 >= self.pieces.len() {
-                return Location::Unknown { clear: piece.start };
+                break piece.start;
             }
             k = 2 * k + 1;
-        }
-    }
-
-    /// Refines a located root to full accuracy, and takes certified steps where the screen is
-    /// undecided.
-    #[inline(always)]
-    fn refine(&self, frame: &Frame<M>, location: Location, work: &mut Counters) -> Next {
-        let reach = self.frequencies.reach;
-        let clear = match location {
-            Location::Nowhere => return Next::Clear { s: reach },
-            Location::Between { guess, clear, end } => match self.nodes.root(frame, guess, work) {
-                // In the piece there is no other.
-                Some((s, speed)) if s > clear && s <= end => return Next::Root { s, speed },
-                _ => clear,
-            },
-            Location::Unknown { clear } => clear,
         };
         first_root_by_steps(frame, clear, reach, &self.frequencies, work)
     }
-}
-
-/// The place of the first root, as far as the screen can tell.
-enum Location {
-    /// No root in the whole reach.
-    Nowhere,
-    /// No root before `clear`, and one from there to `end`, near `guess`: f falls all the way.
-    Between { guess: f64, clear: f64, end: f64 },
-    /// No root before `clear`; beyond it the pieces are too coarse.
-    Unknown { clear: f64 },
 }

@@ -10,20 +10,22 @@
 //! derivatives). So nothing cancels at small s: right after an impact f₀ = 0 exactly, and the
 //! waiting time keeps its relative accuracy however short it is.
 
+use super::clock::Rate;
 use super::trig::{RANGE, small_sin_cos};
 
 /// The natural frequency ω, the `M` frequencies Ω of the forcing, and what follows from them.
 #[derive(Clone, Copy, Debug)]
 pub struct Frequencies<const M: usize> {
     pub omega: f64,
-    /// Ω of each component.
     pub big_omegas: [f64; M],
-    /// The largest of them all.
     pub fastest: f64,
     /// The longest stretch of time that one frame covers, [`RANGE`] / fastest.
     pub reach: f64,
     /// 1 + 2 Ω/ω: the largest part of a forced amplitude of 1 in the size of a frame.
     pub weights: [f64; M],
+    /// ω and each Ω in turns.
+    pub rate: Rate,
+    pub rates: [Rate; M],
     inverse_omega: f64,
     /// (sin ωs, cos ωs) at the end of the reach, and (sin Ωs, cos Ωs).
     turn: [f64; 2],
@@ -45,6 +47,8 @@ impl<const M: usize> Frequencies<M> {
             fastest,
             reach,
             weights: big_omegas.map(|big_omega| 1.0 + 2.0 * big_omega / omega),
+            rate: Rate::new(omega),
+            rates: big_omegas.map(Rate::new),
             inverse_omega: 1.0 / omega,
             turn: turn(omega),
             forced_turns: big_omegas.map(turn),
@@ -73,19 +77,14 @@ pub struct Frame<const M: usize> {
 /// Value and derivatives at one s, and the rounding margin of the value.
 #[derive(Clone, Copy, Debug)]
 pub struct Point<const M: usize> {
-    /// f(s).
     pub f: f64,
-    /// f'(s).
     pub d1: f64,
-    /// f''(s).
     pub d2: f64,
-    /// f'''(s).
     pub d3: f64,
     /// The computed f(s) is within this of the exact one.
     pub margin: f64,
     /// Free part at s and its quadrature: value u and u̇/ω.
     free: [f64; 2],
-    /// The same of the forced parts.
     forced: [[f64; 2]; M],
 }
 
@@ -99,7 +98,6 @@ pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
 pub const NEARLY_SHUT: f64 = 1e-9;
 
 impl<const M: usize> Frame<M> {
-    /// The function 0.
     pub const ZERO: Frame<M> =
         Frame { f0: 0.0, g0: 0.0, alpha: 0.0, forced: [[0.0; 2]; M], bound: 0.0, size: 0.0 };
 

@@ -1,5 +1,4 @@
-//! Finds the first root of a sum of sinusoids and a constant, with a proof that none before it was
-//! missed.
+//! Finds the first root of a sum of sinusoids and a constant, with a proof that it is the first.
 //!
 //! - [`first_root`] searches in frames that lose no digits ([`local_frame`]): polynomials screen a
 //!   piece of time ([`screen`]), Taylor polynomials refine a root (`nodes`), certified steps decide

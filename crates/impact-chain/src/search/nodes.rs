@@ -17,7 +17,6 @@ const NODES: usize = 32;
 /// slope. Nodes are 0.092 apart.
 const RADIUS: f64 = 0.06;
 
-/// All nodes of given frequencies.
 #[derive(Clone, Debug)]
 pub struct Nodes<const M: usize> {
     nodes: [Linear<M, 5>; NODES],

@@ -3,11 +3,7 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Next {
     /// The first root, at `s`, where f falls with `speed` = −f'(s) ≥ 0.
-    Root {
-        /// Time since the frame's instant.
-        s: f64,
-        speed: f64,
-    },
+    Root { s: f64, speed: f64 },
     /// No root in (0, s].
     Clear { s: f64 },
 }
@@ -18,7 +14,6 @@ pub struct Counters {
     pub impacts: u64,
     /// Contact phases begun, one per gap.
     pub contact_phases: u64,
-    /// Searches started.
     pub searches: u64,
     /// Pieces screened: one polynomial certificate each, without a sine.
     pub pieces: u64,

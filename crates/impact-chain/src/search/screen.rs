@@ -55,7 +55,6 @@ fn signs(masks: CoefficientPairs) -> u32 {
     (a | b << 2) | (c << 4 | d << 6)
 }
 
-/// The table of a piece of the reach.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<const M: usize> {
     /// a, where the piece begins.
@@ -69,7 +68,6 @@ pub struct Piece<const M: usize> {
     difference_of_slope: f64,
 }
 
-/// The Bernstein coefficients of one piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Coefficients {
     row: CoefficientPairs,

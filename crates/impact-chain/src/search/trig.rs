@@ -8,77 +8,38 @@ pub const RANGE: f64 = 2.83;
 /// Terms of each Taylor polynomial.
 const TERMS: usize = 14;
 
-/// 1/3!, −1/5!, …: Taylor coefficients of (x − sin x)/x³ in x², up to x^29 of the sine.
-const SIN: [f64; TERMS] = adjusted(
-    3,
-    [
-        0.0,
-        1.214306433183765e-17,
-        -5.854691731421724e-18,
-        1.2938428269309438e-18,
-        -1.3453265482562442e-19,
-        5.330843005780414e-21,
-    ],
-);
-
-/// 1/2!, −1/4!, …: Taylor coefficients of (1 − cos x)/x² in x², up to x^28 of the cosine.
-const COS: [f64; TERMS] = adjusted(
-    2,
-    [
-        0.0,
-        0.0,
-        -1.951563910473908e-18,
-        5.522654816098038e-19,
-        -6.829203137237796e-20,
-        3.0580867246085433e-21,
-    ],
-);
-
-/// Returns Taylor coefficients, the first few moved by some units in their last places.
+/// What is added to the first Taylor coefficients of (x − sin x)/x³ and (1 − cos x)/x².
 ///
 /// 1/3!, 1/5! and 1/4! are not doubles. Their rounding errors alone would make the sine too large
 /// and the cosine by 2e-16 at [`RANGE`], always to the same side, and a chain without forcing would
 /// lose 1e-17 of its energy an impact. The coefficients after them take these errors up: least
 /// squares over 0 ≤ x ≤ [`RANGE`], one coefficient after the other rounded. What is left of the
 /// polynomial's error is below 3e-18.
-const fn adjusted(m: usize, by: [f64; 6]) -> [f64; TERMS] {
-    let mut out = inverse_factorials(m);
-    let mut k = 0;
-    while k < 6 {
-        out[k] += by[k];
-        k += 1;
-    }
-    out
-}
+const ADDED: [[f64; 2]; 6] = [
+    [0.0, 0.0],
+    [1.214306433183765e-17, 0.0],
+    [-5.854691731421724e-18, -1.951563910473908e-18],
+    [1.2938428269309438e-18, 5.522654816098038e-19],
+    [-1.3453265482562442e-19, -6.829203137237796e-20],
+    [5.330843005780414e-21, 3.0580867246085433e-21],
+];
 
-/// Returns 1/m!, −1/(m+2)!, 1/(m+4)!, …
+/// Coefficients of (sin x − x)/x³ and (1 − cos x)/x² in x²: −1/3!, 1/5!, … up to x^29 of the sine,
+/// and 1/2!, −1/4!, … up to x^28 of the cosine.
 ///
 /// Every factorial up to 18! is exact in a double; the later ones are rounded, which changes the
 /// sums by less than 1e-24.
-const fn inverse_factorials(m: usize) -> [f64; TERMS] {
-    let mut out = [0.0; TERMS];
-    let mut factorial = 1.0;
-    let mut i = 2;
-    while i <= m {
-        factorial *= i as f64;
-        i += 1;
-    }
-    let mut k = 0;
-    while k < TERMS {
-        out[k] = if k % 2 == 0 { 1.0 / factorial } else { -1.0 / factorial };
-        let next = (m + 2 * k) as f64;
-        factorial *= (next + 1.0) * (next + 2.0);
-        k += 1;
-    }
-    out
-}
-
-/// [`SIN`] with the sign of sin x − x, and [`COS`], side by side.
 const TABLE: [[f64; 2]; TERMS] = {
     let mut table = [[0.0; 2]; TERMS];
+    let (mut odd, mut even) = (6.0, 2.0);
     let mut k = 0;
     while k < TERMS {
-        table[k] = [-SIN[k], COS[k]];
+        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let [sine, cosine] = if k < ADDED.len() { ADDED[k] } else { [0.0; 2] };
+        table[k] = [-(sign / odd + sine), sign / even + cosine];
+        let n = (2 * k + 2) as f64;
+        odd *= (n + 2.0) * (n + 3.0);
+        even *= (n + 1.0) * (n + 2.0);
         k += 1;
     }
     table

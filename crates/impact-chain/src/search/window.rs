@@ -9,7 +9,6 @@ use super::trig::rough_angles;
 #[derive(Clone, Copy, Debug)]
 struct Part {
     frequency: f64,
-    amplitude: f64,
     /// θ − π.
     angle: f64,
     /// The sum can reach zero only while νs + θ is within this of π, modulo 2π.
@@ -50,7 +49,7 @@ pub fn next_window<const M: usize>(
         let angles = rough_angles(Pair::from([sine, quadrature]), Pair::from([cosine, -u]));
         let [half_width, angle] = angles.to_array();
         let half_width = if narrow { half_width + WIDENED } else { 4.0 };
-        Part { frequency, amplitude: r, angle, half_width }
+        Part { frequency, angle, half_width }
     };
     let free = part(frequencies.omega, free, amplitude_of_free);
     let forced: [Part; M] =
@@ -73,7 +72,7 @@ impl Part {
     #[inline]
     fn wait(&self, s: f64) -> f64 {
         const TURN: f64 = std::f64::consts::TAU;
-        if self.half_width >= 3.5 || self.amplitude == 0.0 {
+        if self.half_width >= 3.5 {
             return 0.0;
         }
         let angle = self.angle + self.frequency * s;

@@ -1,0 +1,162 @@
+//! Defines an ensemble: random chains at several σ, and the windows in which they are counted.
+
+use impact_chain::counts::{Counts, Watch};
+use impact_chain::{Chain, Engine, Error, Initial, NormalPairs, Protocol, Scenario};
+use serde::{Deserialize, Serialize};
+
+/// A stronger force before the count begins; then all forces are lowered to σ at unchanged
+/// positions and velocities.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Heating {
+    pub sigma: f64,
+    /// Duration, in units of 1/ω.
+    pub time: f64,
+}
+
+/// Fewer or shorter runs beyond the rise, where chains have nearly the same count and cost most.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Beyond {
+    /// The σ above which runs are fewer or shorter, in units of d ω².
+    pub above: f64,
+    pub realisations: Option<usize>,
+    /// Time at which they end, in units of 1/ω; windows that end later have no counts.
+    pub until: Option<f64>,
+}
+
+/// Random chains at several σ. Realisation i has the same standard normals at every σ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ensemble {
+    /// Name, as in the tables of results.
+    pub name: String,
+    pub chain: Chain,
+    /// A stronger force at first, for chains that come from larger σ.
+    pub heating: Option<Heating>,
+    /// Standard deviations σ of the amplitudes, rising, in units of d ω².
+    pub sigmas: Vec<f64>,
+    /// The windows, all of which are read from one run.
+    pub protocols: Vec<Protocol>,
+    /// Number of the first realisation.
+    pub first: u64,
+    pub realisations: usize,
+    pub beyond: Option<Beyond>,
+    /// Share of overlapping starts above which a σ has no part in the places of the rise.
+    pub most_rejected: f64,
+    /// Pieces of about equal length of a chain, of which each is counted like a realisation.
+    pub pieces: usize,
+    pub stream: String,
+    pub seed: u64,
+}
+
+impl Default for Ensemble {
+    fn default() -> Self {
+        Ensemble {
+            name: String::new(),
+            chain: Chain::default(),
+            heating: None,
+            sigmas: Vec::new(),
+            protocols: vec![Protocol::default()],
+            first: 0,
+            realisations: 100,
+            beyond: None,
+            most_rejected: 0.1,
+            pieces: 1,
+            stream: "ensemble".into(),
+            seed: 2007,
+        }
+    }
+}
+
+impl Ensemble {
+    pub fn realisations_at(&self, sigma: f64) -> usize {
+        self.beyond(sigma).and_then(|less| less.realisations).unwrap_or(self.realisations)
+    }
+
+    /// Returns the time at which runs at a σ end: with the last window, if they are not shortened.
+    pub fn until(&self, sigma: f64) -> f64 {
+        let last = self.protocols.iter().map(Protocol::end).fold(0.0, f64::max);
+        self.beyond(sigma).and_then(|less| less.until).map_or(last, |until| last.min(until))
+    }
+
+    fn beyond(&self, sigma: f64) -> Option<Beyond> {
+        self.beyond.filter(|less| sigma > less.above)
+    }
+
+    /// Whether so few of these starts at a σ overlap that it has a part in the places of the rise.
+    pub fn compares(&self, sigma: f64, rejected: usize) -> bool {
+        rejected as f64 <= self.most_rejected * self.realisations_at(sigma) as f64
+    }
+
+    /// Estimates the impacts of one realisation, plus one for the first search of each mass: to cut
+    /// work into units and to show progress. No result depends on it.
+    pub fn work(&self, sigma: f64) -> u64 {
+        // Impacts per unit of time and mass, of the paper's chain, roughly.
+        let rate = |sigma: f64| (1.6 * (sigma - 0.085)).clamp(0.0, 0.3);
+        let impacts = match self.heating {
+            // Impacts go on at lower σ, roughly as those from rest at σ + 0.03.
+            Some(hot) => hot.time * rate(hot.sigma) + self.until(sigma) * rate(sigma + 0.03),
+            None => self.until(sigma) * rate(sigma),
+        };
+        (self.chain.masses as f64 * (1.0 + impacts)) as u64
+    }
+
+    /// Runs a realisation at a σ, `index` after the first, and counts its impacts; ends early, with
+    /// incomplete counts, when `stopped` returns true.
+    pub fn realisation(
+        &self,
+        sigma: f64,
+        index: u64,
+        stopped: impl Fn() -> bool,
+    ) -> Result<Counts, Error> {
+        let index = self.first + index;
+        let mut watch = Watch::new(&self.chain, &self.protocols);
+        let engine = self.started(sigma, index, &stopped);
+        let mut counts = watch.run(engine, index, self.until(sigma), &stopped)?;
+        for (distinct, window) in counts.distinct.iter_mut().zip(&self.protocols) {
+            *distinct = match distinct[0] {
+                Some(_) => self.cut(&watch.hit(window)),
+                None => vec![None; self.pieces],
+            };
+        }
+        Ok(counts)
+    }
+
+    fn cut(&self, hit: &[bool]) -> Vec<Option<u32>> {
+        let ends = |piece| piece * hit.len() / self.pieces;
+        let count = |piece| hit[ends(piece)..ends(piece + 1)].iter().map(|&hit| u32::from(hit));
+        (0..self.pieces).map(|piece| Some(count(piece).sum())).collect()
+    }
+
+    /// Returns an engine at the time from which transients are measured.
+    fn started(&self, sigma: f64, index: u64, stopped: &dyn Fn() -> bool) -> Result<Engine, Error> {
+        let mut normals = NormalPairs::new(&self.stream, self.seed, index);
+        let Some(Heating { sigma: hot, time }) = self.heating else {
+            return Engine::new(&Scenario::draw(&self.chain, sigma, &mut normals));
+        };
+        let scenario = Scenario::draw(&self.chain, hot, &mut normals);
+        let mut engine = Engine::new(&scenario)?;
+        engine.run(time, |_| !stopped())?;
+        Engine::new(&lowered(&scenario, &engine.free_parts(), time, sigma / hot))
+    }
+}
+
+/// Returns the continuation of a scenario from `time` when its forces change by `factor`, with time
+/// counted from there: every phase is advanced by it. Positions and velocities are continuous, so
+/// the free parts, `free` until then, take up the change of the forced response.
+pub fn lowered(scenario: &Scenario, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
+    let (omega, frequency) = (scenario.natural_frequency, scenario.forcing_frequency);
+    let mut parts = advanced(free, omega * time);
+    let mut forcing = advanced(&scenario.forcing, frequency * time);
+    let lost = (1.0 - factor) / (omega * omega - frequency * frequency);
+    for ([a, b], force) in parts.iter_mut().zip(&mut forcing) {
+        *a += lost * force[0];
+        *b += lost * frequency / omega * force[1];
+        *force = force.map(|x| factor * x);
+    }
+    Scenario { initial: Initial::Free(parts), forcing, ..scenario.clone() }
+}
+
+/// Advances the phase of each a cos φ + b sin φ by `angle`.
+fn advanced(pairs: &[[f64; 2]], angle: f64) -> Vec<[f64; 2]> {
+    let (sin, cos) = pxfm::f_sincos(angle);
+    pairs.iter().map(|[a, b]| [a * cos + b * sin, b * cos - a * sin]).collect()
+}
