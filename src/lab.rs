@@ -49,10 +49,10 @@ fn base64(bytes: &[u8]) -> String {
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for chunk in bytes.chunks(3) {
-        let at = |i: usize| u32::from(chunk.get(i).copied().unwrap_or(0));
-        let bits = at(0) << 16 | at(1) << 8 | at(2);
+        let mut word = [0; 4];
+        word[1..=chunk.len()].copy_from_slice(chunk);
         for i in 0..4 {
-            let letter = LETTERS[(bits >> (18 - 6 * i) & 63) as usize];
+            let letter = LETTERS[(u32::from_be_bytes(word) >> (18 - 6 * i) & 63) as usize];
             out.push(if i <= chunk.len() { letter as char } else { '=' });
         }
     }

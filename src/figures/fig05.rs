@@ -5,7 +5,7 @@ use super::graph::{Layout, NAMES, name};
 use super::prelude::*;
 use crate::experiments::segments::{Segment, Segments};
 
-/// RGBColor and dash of each mass.
+/// Colour and dash of each mass.
 const MASSES: [(RGBColor, Dash); 3] = [(BLUE, SOLID), (GREEN, LONG), (ORANGE, ALTERNATE)];
 
 pub fn draw(all: &Segments) -> Result<Figure, Error> {
@@ -30,8 +30,7 @@ pub fn draw_circuit(
     let walls = (segment.masses + 1) as f64;
     let x = time_axis(duration);
     let y = Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*");
-    let panel = sheet.panel(Frame::new(1200, 4900, 8000, 8500), x, y)?;
-    let panel = panel.with_suffix("b");
+    let panel = sheet.panel(Frame::new(1200, 4900, 8000, 8500), x, y)?.with_suffix("b");
     sheet.area.draw_text("(b)", &style, (260, 4690))?;
     motion(&panel, segment, order.len())?;
     let names: Vec<&str> = order.iter().map(|&gap| NAMES[gap]).collect();

@@ -16,11 +16,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let cell = |column| results.number(&format!("theory.distribution[p={at}].{column}"));
         let (probability, k_star) = (simple(at), cell("k_star")?);
         let (letter, p, mean) = (LETTERS[i], short(at, 3), short(cell("mean")?, 3));
-        panel.columns(
-            &format!("probability at p = {p}"),
-            &probability,
-            Stroke::solid(GREEN, THIN),
-        )?;
+        let name = format!("probability at p = {p}");
+        panel.columns(&name, &probability, Stroke::solid(GREEN, THIN))?;
         // The next hump is near the third: names stand to the left.
         let peak = largest(&probability);
         let (place, side) = match i {

@@ -15,7 +15,7 @@ const BRANCHES: [(&str, &str, RGBColor); 2] =
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let halves = results.table("branches.half_heights")?;
     let lengths = halves.distinct("masses")?;
-    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    let longest = largest(&lengths);
     let sheet = Sheet::new(8800);
     half_heights(&sheet, results, halves, &lengths)?;
     shares(&sheet, results.table("branches.shares")?, longest)?;
@@ -62,16 +62,14 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
     }
     panel.label_ends(&ends)?;
     let start = map.get(3).copied().unwrap_or((10.0, bound));
-    panel.label_nearby("from rest, *n* = 100", start, (1, -1), GREY)?;
-    Ok(())
+    panel.label_nearby("from rest, *n* = 100", start, (1, -1), GREY)
 }
 
 /// Shares after the first transient and after the last.
-fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
+fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Drawn {
     let sigmas = shares.distinct("sigma")?;
     let least = sigmas.iter().copied().fold(f64::INFINITY, f64::min);
-    let most = sigmas.iter().copied().fold(0.0, f64::max);
-    let x = Axis::linear(least - 0.005, most + 0.005, 0.01, 2, FORCING);
+    let x = Axis::linear(least - 0.005, largest(&sigmas) + 0.005, 0.01, 2, FORCING);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of active gaps");
     let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 8000), x, y)?;
     let transients = shares.distinct("transient")?;
@@ -83,11 +81,8 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Result<(), Error> {
             let points =
                 shares.series(&[("masses", masses), ("transient", *transient)], "sigma", column)?;
             let name = format!("{name}, *T* = {}", in_powers(*transient));
-            panel.joined_estimates(
-                &name,
-                &points,
-                (mark, MEDIUM, Stroke::dashed(colour, THIN, dash)),
-            )?;
+            let look = (mark, MEDIUM, Stroke::dashed(colour, THIN, dash));
+            panel.joined_estimates(&name, &points, look)?;
             // Where a label has room next to its curve.
             let (at, side) = match (column, place) {
                 ("from_above", 1) => (points.first(), (-2, 0)),

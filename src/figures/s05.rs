@@ -41,12 +41,8 @@ fn shares(sheet: &Sheet) -> Drawn {
         let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
         panel.guide("jump", &jump, Stroke::dashed(colour, THIN, DOTTED))?;
         let start = (RANGE.0, 1.0 / vertices as f64);
-        panel.label(
-            &format!("*N* = {}", power_of_ten(vertices.ilog10() as i32)),
-            start,
-            (1, -1),
-            colour,
-        )?;
+        let name = format!("*N* = {}", power_of_ten(vertices.ilog10() as i32));
+        panel.label(&name, start, (1, -1), colour)?;
     }
     Ok(())
 }

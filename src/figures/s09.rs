@@ -19,8 +19,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(6650);
     // Somewhat wider than the sizes, which would stand on the other axis.
     let masses = || Axis::decades(0, 5, 1, "number of masses *n*").between(7.0, 1.4e4);
-    let work = scale.iter().map(|row| row.2);
-    let y = Axis::decades_around(work, 1, "evaluations per impact");
+    let y = Axis::decades_around(scale.iter().map(|row| row.2), 1, "evaluations per impact");
     let counted =
         sheet.lettered("(a)", Frame::new(1200, 430, 8250, 3330), masses().without_numbers(), y)?;
     let all = by_method(scale, |row| Some((row.0.method, (row.1 as f64, row.2))));

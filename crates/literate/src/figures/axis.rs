@@ -236,7 +236,7 @@ pub(super) fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
         .reduce(|[low, high], [value, _]| [low.min(value), high.max(value)])
 }
 
-/// Returns a round number of which about five make a span.
+/// Returns a round number of which at most five make a span.
 pub(super) fn round_step(span: f64) -> f64 {
     let unit = decimal(1, Decimal::shortest(span).exponent());
     let steps = [0.2, 0.25, 0.5, 1.0, 2.0].map(|step| step * unit);

@@ -165,6 +165,7 @@ impl Panel {
         let Frame { left, top, right, bottom } = self.frame;
         let hair = ShapeStyle::from(Stroke::solid(INK, HAIR));
         let corners = [(self.x.lo, self.y.hi), (self.x.lo, self.y.lo), (self.x.hi, self.y.lo)];
+        // As lines, which the ticks continue as one path.
         let spines = CustomElement::new(corners.into(), move |drawing, corners| {
             drawing.draw_line(corners[0], corners[1], &hair)?;
             drawing.draw_line(corners[1], corners[2], &hair)
@@ -202,7 +203,7 @@ impl Panel {
     }
 
     /// Writes the letter of a panel, "(a)", above it, and ends the name of its data file with it.
-    pub fn letter(&self, text: &str) -> Drawn {
+    fn letter(&self, text: &str) -> Drawn {
         self.clone().with_suffix(text);
         let at = (self.frame.left + 60, self.frame.top - 80);
         self.text_on_sheet(text, at, words(TEXT, INK, HPos::Left, VPos::Bottom))
@@ -221,13 +222,8 @@ impl Panel {
 
     /// Names a curve or a symbol in its colour, near a point of the data: so many millimetres to
     /// the right of it and below it. `(1, 0)` is right of the point, `(0, -1)` above it.
-    pub fn label(
-        &self,
-        text: &str,
-        at: (f64, f64),
-        (right, down): (i32, i32),
-        colour: RGBColor,
-    ) -> Drawn {
+    pub fn label(&self, text: &str, at: (f64, f64), offset: (i32, i32), colour: RGBColor) -> Drawn {
+        let (right, down) = offset;
         let h = match right {
             ..0 => HPos::Right,
             0 => HPos::Center,

@@ -202,7 +202,7 @@ fn without_errors(points: &[(f64, f64)]) -> Vec<(f64, Estimate)> {
 
 impl AxisOptions {
     /// Makes the axis of the range that was asked for, or the one that holds these values: whole
-    /// decades, or a margin of a twenty-fifth. A linear one has about five numbers, a logarithmic
+    /// decades, or a margin of a twenty-fifth. A linear one has up to six numbers, a logarithmic
     /// one of less than two decades labels 1, 2 and 5.
     fn axis(&self, values: impl Iterator<Item = f64>) -> Axis {
         let found = axis::range(values.filter(|value| value.is_finite()));

@@ -28,8 +28,7 @@ pub enum Error {
     Markup(String),
     #[error("{place}: {error}")]
     At { place: String, error: Box<Error> },
-    /// Something that the prose names, by which its place is found, as
-    /// [`Places`](super::filled::Places) has it.
+    /// Something that the prose names, by which its place is found.
     #[error("{}", one_line(what, MAX_LENGTH))]
     Named { thing: String, what: String },
     #[error(
