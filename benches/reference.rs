@@ -11,7 +11,7 @@
 mod reference;
 
 use impact_chain::Scenario;
-use reference::{Dd, Real, Reference};
+use reference::{Dd, Reference};
 use serde_json::json;
 
 /// More segments than this add nothing.
@@ -23,12 +23,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         return Err("usage: reference SCENARIO.json UNTIL".into());
     };
     let scenario = Scenario::from_json(&std::fs::read_to_string(file)?)?;
-    let until = Dd::of(until.parse()?);
-    let mut chain = Reference::<Dd>::new(&scenario);
+    let until = Dd::from(until.parse::<f64>()?);
+    let mut chain = Reference::new(&scenario);
     let (mut impacts, mut states) = (Vec::new(), Vec::new());
-    while let Some(hit) = chain.step(&until)? {
-        impacts.push((hit.time.near(), hit.gap));
-        states.push(chain.state(&hit.time));
+    while let Some(hit) = chain.step(until)? {
+        impacts.push((hit.time.hi, hit.gap));
+        states.push(chain.state(hit.time));
     }
     let stride = impacts.len().div_ceil(SEGMENTS).max(1);
     let segments: Vec<_> = impacts
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .zip(&states)
         .step_by(stride)
         .map(|(pair, state)| {
-            let part = |i: usize| state.iter().map(|x| x[i].near()).collect::<Vec<f64>>();
+            let part = |i: usize| state.iter().map(|x| x[i].hi).collect::<Vec<f64>>();
             json!({"t": pair[0].0, "u": part(0), "v": part(1),
                    "next_t": pair[1].0, "next_gap": pair[1].1})
         })

@@ -4,7 +4,7 @@
 //! are held to the bounds of `impact_chain::rounding`, and misses and ghosts are counted. Next to
 //! resonance a search must end soon.
 
-use crate::reference::{Dd, Real, Reference};
+use crate::reference::{Dd, Reference};
 use crate::{first, given};
 use impact_chain::rounding::TIME;
 use impact_chain::{Engine, Initial, Overtone, Scenario};
@@ -42,7 +42,7 @@ struct Unit {
 }
 
 impl Unit {
-    fn new(start: &Reference<Dd>, scenario: &Scenario, gap: usize) -> Unit {
+    fn new(start: &Reference, scenario: &Scenario, gap: usize) -> Unit {
         let w = scenario.natural_frequency;
         // Where Δ is zero, Δ'' is ω² d and the forcing of both neighbours at most.
         let sides = start.sides(gap).into_iter().flatten();
@@ -72,27 +72,27 @@ impl Unit {
 
 /// Compares one segment with the reference.
 fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
-    let start = Reference::<Dd>::new(scenario);
+    let start = Reference::new(scenario);
     let mut chain = start.clone();
-    let Ok(theirs) = chain.step(&Dd::of(until)) else { return };
+    let Ok(theirs) = chain.step(Dd::from(until)) else { return };
     let ours = first(&mut Engine::new(scenario).unwrap(), until);
     tally.segments += 1;
     let unit = |gap: usize| Unit::new(&start, scenario, gap);
     match (ours, theirs) {
         (None, None) => {}
         (Some(a), Some(b)) if a.gap == b.gap => {
-            let (speed, time) = (b.closing_speed.near(), b.time.near());
+            let (speed, time) = (b.closing_speed.hi, b.time.hi);
             let unit = unit(b.gap);
             if unit.grazes(speed) {
                 tally.undecidable += 1;
                 return;
             }
             // Half a unit in the last place of t is lost in writing t down.
-            let error = (Dd::of(a.time) - b.time).near().abs();
+            let error = (Dd::from(a.time) - b.time).hi.abs();
             let error = (error - 0.5 * (time.next_up() - time)).max(0.0);
             let units = error * speed / unit.rounding;
             assert!(units <= TIME, "C = {units} at t = {time}, gap {}: {scenario:?}", b.gap);
-            let off = (Dd::of(a.closing_speed) - b.closing_speed).near().abs();
+            let off = (Dd::from(a.closing_speed) - b.closing_speed).hi.abs();
             let off = off / unit.speed(speed);
             assert!(off <= 1.0, "speed off by {off} bounds at t = {time}: {scenario:?}");
             tally.impacts += 1;
@@ -101,14 +101,14 @@ fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
         }
         (ours, theirs) => {
             // Allowed only if one of the two is a graze, or both fall together.
-            let found = ours.map(|a| (a.gap, a.closing_speed, Dd::of(a.time)));
-            let exact = theirs.map(|b| (b.gap, b.closing_speed.near(), b.time));
+            let found = ours.map(|a| (a.gap, a.closing_speed, Dd::from(a.time)));
+            let exact = theirs.map(|b| (b.gap, b.closing_speed.hi, b.time));
             let all = [&found, &exact].map(|hit| hit.as_ref());
             let graze = all.iter().flatten().any(|(gap, speed, _)| unit(*gap).grazes(*speed));
-            let end = Dd::of(until);
+            let end = Dd::from(until);
             let [a, b] = all.map(|hit| hit.map_or(end, |(_, _, time)| *time));
             let both = all.iter().flatten().map(|(gap, speed, _)| unit(*gap).time(*speed));
-            let tie = (a - b).near().abs() <= both.sum::<f64>() + 0.5 * until * f64::EPSILON;
+            let tie = (a - b).hi.abs() <= both.sum::<f64>() + 0.5 * until * f64::EPSILON;
             assert!(graze || tie, "a miss or a ghost: {found:?}, not {exact:?}: {scenario:?}");
             tally.undecidable += 1;
         }

@@ -3,7 +3,7 @@
 //! known. Then neighbouring gaps that close at exactly the same instant: masses in one point at t =
 //! 0, or mirror images.
 
-use crate::reference::{Dd, Reference};
+use crate::reference::Reference;
 use crate::{drawn, first, given, run, trace};
 use impact_chain::{Engine, Impact, Initial, Scenario};
 use impact_paper::params::Chain;
@@ -350,7 +350,7 @@ fn a_three_way_impact() {
             }
             // The reference follows the same law.
             let ours = trace(&scene, first.time + 0.1);
-            let theirs = Reference::<Dd>::new(&scene).run(first.time + 0.1).unwrap();
+            let theirs = Reference::new(&scene).run(first.time + 0.1).unwrap();
             assert!(ours.iter().map(|hit| hit.gap).eq(theirs.iter().map(|hit| hit.gap)));
         } else {
             // With less restitution the three collapse into contact: without any, in two impacts.

@@ -1,7 +1,7 @@
 //! Computes every outcome of `scenes/scenes.json` again, with the second simulator, which knows
 //! neither contact nor rest; where bodies rest, with what mechanics says of them.
 
-use crate::reference::{Dd, Real, Reference};
+use crate::reference::{Dd, Reference};
 use impact_chain::{Impact, Scenario, State};
 use impact_paper::experiments::accuracy::case::{Case, Expected, Outcome, scenes};
 
@@ -45,30 +45,30 @@ fn exact(case: &Case) -> Case {
 
 /// Impacts up to a time or to the first that is slower than a speed, and the state after the last.
 fn fly(scenario: &Scenario, start: &State, until: f64, slow: f64) -> (Vec<Impact>, State) {
-    let mut chain = Reference::<Dd>::at(scenario, start);
+    let mut chain = Reference::at(scenario, start);
     let mut impacts: Vec<Impact> = Vec::new();
     while impacts.last().is_none_or(|last| last.closing_speed >= slow) {
-        let Some(hit) = chain.step(&Dd::of(until)).unwrap() else { break };
-        let (time, closing_speed) = (hit.time.near(), hit.closing_speed.near());
+        let Some(hit) = chain.step(Dd::from(until)).unwrap() else { break };
+        let (time, closing_speed) = (hit.time.hi, hit.closing_speed.hi);
         impacts.push(Impact { time, gap: hit.gap, closing_speed });
     }
     let state = state(scenario, &chain, chain.time());
     (impacts, state)
 }
 
-fn state(scenario: &Scenario, chain: &Reference<Dd>, time: &Dd) -> State {
+fn state(scenario: &Scenario, chain: &Reference, time: Dd) -> State {
     let (mut positions, mut velocities) = (Vec::new(), Vec::new());
     for (j, [x, v]) in chain.state(time).into_iter().enumerate() {
-        positions.push((Dd::of(scenario.spacing) * (j + 1) as f64 + x).near());
-        velocities.push(v.near());
+        positions.push((Dd::from(scenario.spacing) * (j + 1) as f64 + x).hi);
+        velocities.push(v.hi);
     }
-    State { time: time.near(), positions, velocities }
+    State { time: time.hi, positions, velocities }
 }
 
 /// Lets bodies go that touch without a relative speed.
 fn let_go(scenario: &Scenario, start: &State) -> State {
-    let later = Dd::of(start.time + APART);
-    state(scenario, &Reference::at(scenario, start), &later)
+    let later = Dd::from(start.time + APART);
+    state(scenario, &Reference::at(scenario, start), later)
 }
 
 /// The first time from `from` on at which the forces pull a gap apart.
@@ -133,8 +133,8 @@ fn joined(state: &State) -> State {
 /// Masses that stick together until the forces, whose differences are all equal, pull all gaps
 /// apart at once. Impacts among them do not move their centre of mass.
 fn pressed_together(scenario: &Scenario, start: &State, until: f64) -> Vec<Impact> {
-    let free = Dd::of(release(scenario, 1, start.time));
-    let free = joined(&state(scenario, &Reference::at(scenario, start), &free));
+    let free = Dd::from(release(scenario, 1, start.time));
+    let free = joined(&state(scenario, &Reference::at(scenario, start), free));
     fly(scenario, &let_go(scenario, &free), until, 0.0).0
 }
 

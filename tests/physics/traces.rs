@@ -1,6 +1,6 @@
 //! Compares the impacts of the engine with those of the reference of higher precision.
 
-use crate::reference::{Big, Dd, Hit, Real, Reference};
+use crate::reference::{Dd, Hit, Reference};
 use crate::{drawn, trace};
 use impact_chain::methods::truth::TrueMotion;
 use impact_chain::{Engine, Overtone, Scenario, State};
@@ -63,18 +63,18 @@ fn cases() -> Vec<Case> {
 }
 
 /// Compares the impacts of a scenario with those of the reference, which are returned.
-pub fn held(scenario: &Scenario, until: f64, of: &str) -> Vec<Hit<Dd>> {
+pub fn held(scenario: &Scenario, until: f64, of: &str) -> Vec<Hit> {
     let ours = trace(scenario, until);
-    let theirs = Reference::<Dd>::new(scenario).run(until).unwrap();
+    let theirs = Reference::new(scenario).run(until).unwrap();
     assert_eq!(ours.len(), theirs.len(), "{of}");
     let mut worst: f64 = 0.0;
     for (a, b) in ours.iter().zip(&theirs) {
         assert_eq!(a.gap, b.gap, "{of} at t = {}", a.time);
-        let error = (Dd::of(a.time) - b.time).near().abs();
-        let speed = (Dd::of(a.closing_speed) - b.closing_speed).near().abs();
+        let error = (Dd::from(a.time) - b.time).hi.abs();
+        let speed = (Dd::from(a.closing_speed) - b.closing_speed).hi.abs();
         assert!(error < 1e-9 && speed < 1e-8, "{of}: {a:?} {error:e} {speed:e}");
         // Before chaos has had time, times and speeds are off by a few roundings and no more.
-        let digits = [error, speed].map(|x| x * b.closing_speed.near());
+        let digits = [error, speed].map(|x| x * b.closing_speed.hi);
         assert!(a.time > 4.0 || digits[0] < 4e-14, "{of}: {a:?} {digits:?}");
         let plain = scenario.overtones.is_empty();
         let few = digits[0].max(digits[1]) < 1e-13;
@@ -89,23 +89,8 @@ pub fn held(scenario: &Scenario, until: f64, of: &str) -> Vec<Hit<Dd>> {
 fn impacts_have_the_order_and_times_of_the_reference() {
     for (i, Case { chain, sigma, index, until, least }) in cases().into_iter().enumerate() {
         let theirs = held(&drawn(&chain, sigma, "reference", index), until, &format!("case {i}"));
-        let late = theirs.iter().filter(|hit| hit.time.near() > 0.9 * until).count();
+        let late = theirs.iter().filter(|hit| hit.time.hi > 0.9 * until).count();
         assert!(theirs.len() >= least && late > 0, "case {i} is too quiet: {}", theirs.len());
-    }
-}
-
-#[test]
-fn the_two_precisions_of_the_reference_agree() {
-    let chain = Chain { masses: 6, ..Chain::default() };
-    let scenario = drawn(&chain, 0.4, "reference", 0);
-    let small = Reference::<Dd>::new(&scenario).run(12.0).unwrap();
-    let big = Reference::<Big>::new(&scenario).run(12.0).unwrap();
-    assert!(small.len() > 10);
-    assert_eq!(small.len(), big.len());
-    for (a, b) in small.iter().zip(&big) {
-        let Dd { hi, lo } = a.time;
-        let error = (Big::of(hi) + Big::of(lo) - b.time.clone()).near().abs();
-        assert!(a.gap == b.gap && error < 1e-26, "t = {hi}: {error:e}");
     }
 }
 
@@ -114,10 +99,10 @@ fn the_two_precisions_of_the_reference_agree() {
 fn the_true_motion_has_digits_beyond_doubles() {
     let scenario = drawn(&Chain { masses: 20, ..Chain::default() }, 0.3, "truth", 1);
     let found = TrueMotion::of(&scenario, &State::of(&scenario)).run(50.0).unwrap();
-    let exact = Reference::<Dd>::new(&scenario).run(50.0).unwrap();
+    let exact = Reference::new(&scenario).run(50.0).unwrap();
     assert!(found.len() > 100 && found.len() == exact.len(), "{} {}", found.len(), exact.len());
     for ((found, _), exact) in found.iter().zip(&exact) {
-        let error = (found.time - exact.time).near().abs();
+        let error = (found.time - exact.time).hi.abs();
         assert!(found.gap == exact.gap && error < 1e-24, "{found:?}: {error:e}");
     }
 }
@@ -140,14 +125,14 @@ fn figures_5_and_6_show_their_circuits() {
         let until = saved["until"].as_f64().unwrap();
         let hits = held(&scenario, until, file);
         for (hit, exact) in trace(&scenario, until).iter().zip(&hits) {
-            assert!((hit.time - exact.time.near()).abs() < 1e-12, "{hit:?}");
+            assert!((hit.time - exact.time.hi).abs() < 1e-12, "{hit:?}");
         }
         assert_eq!(saved["order"], serde_json::json!(order));
         assert_eq!(hits.iter().map(|hit| hit.gap).collect::<Vec<_>>(), order);
         // A grazing impact is no clear picture, nor are two at once.
-        assert!(hits.iter().all(|hit| hit.closing_speed.near() > 0.1), "{hits:?}");
-        assert!(hits[0].time.near() >= saved["from"].as_f64().unwrap());
-        let apart = |pair: &[Hit<Dd>]| (pair[1].time - pair[0].time).near() > 0.15;
+        assert!(hits.iter().all(|hit| hit.closing_speed.hi > 0.1), "{hits:?}");
+        assert!(hits[0].time.hi >= saved["from"].as_f64().unwrap());
+        let apart = |pair: &[Hit]| (pair[1].time - pair[0].time).hi > 0.15;
         assert!(hits.windows(2).all(apart), "{hits:?}");
     }
 }
@@ -192,7 +177,7 @@ fn two_and_eight_components_have_the_impacts_of_the_reference() {
         };
         let mut draws = (0..50).map(|index| several(&chain, sigma, frequencies, index));
         let theirs = held(&draws.find(busy).unwrap(), until, &format!("case {i}"));
-        early += theirs.iter().filter(|hit| hit.time.near() < 4.0).count();
+        early += theirs.iter().filter(|hit| hit.time.hi < 4.0).count();
     }
     assert!(early > 10, "{early}");
 }

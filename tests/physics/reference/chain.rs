@@ -1,89 +1,89 @@
 //! The chain of Sec. 2 in absolute time: two plain free amplitudes a mass, changed by impacts.
 
 use super::gap::Gap;
-use super::real::Real;
+use super::{Dd, sin_cos};
 use impact_chain::{Initial, Scenario, State};
 use impact_paper::params::Boundary;
 
 /// One impact.
 #[derive(Clone, Debug)]
-pub struct Hit<R> {
+pub struct Hit {
     /// Time t.
-    pub time: R,
+    pub time: Dd,
     /// The gap, in the numbering of the engine.
     pub gap: usize,
     /// −Δ' just before.
-    pub closing_speed: R,
+    pub closing_speed: Dd,
 }
 
 /// The result of the search of a gap: no root before the time, or a root at it.
 #[derive(Clone, Debug)]
-enum Next<R> {
+enum Next {
     None,
-    NoRootUntil(R),
-    Root(R),
+    NoRootUntil(Dd),
+    Root(Dd),
 }
 
 /// A chain at a time.
 #[derive(Clone, Debug)]
-pub struct Reference<R> {
-    spacing: R,
+pub struct Reference {
+    spacing: Dd,
     /// ω and each Ω.
-    frequencies: Vec<R>,
-    restitution: R,
+    frequencies: Vec<Dd>,
+    restitution: Dd,
     ring: bool,
     /// Free amplitudes (a, b) of each mass, then its forced ones, as the frequencies.
-    masses: Vec<Vec<[R; 2]>>,
+    masses: Vec<Vec<[Dd; 2]>>,
     /// One entry a gap of the engine's numbering; on a ring entry 0 stays idle.
-    next: Vec<Next<R>>,
-    time: R,
+    next: Vec<Next>,
+    time: Dd,
 }
 
 /// How far a search looks ahead: most gaps are disturbed by a neighbour before.
 const AHEAD: f64 = 2.0;
 
-impl<R: Real> Reference<R> {
+impl Reference {
     /// Sets a scenario at t = 0, every double taken as the exact number that it is.
     pub fn new(scenario: &Scenario) -> Self {
-        let w = R::of(scenario.natural_frequency);
+        let w = Dd::from(scenario.natural_frequency);
         let overtones = scenario.overtones.iter().map(|o| (o.frequency, &o.amplitudes));
-        let components: Vec<(R, &Vec<[f64; 2]>)> =
+        let components: Vec<(Dd, &Vec<[f64; 2]>)> =
             std::iter::once((scenario.forcing_frequency, &scenario.forcing))
                 .chain(overtones)
-                .map(|(big_w, amplitudes)| (R::of(big_w), amplitudes))
+                .map(|(big_w, amplitudes)| (Dd::from(big_w), amplitudes))
                 .collect();
         let masses = (0..scenario.forcing.len()).map(|j| {
-            let mut mass = vec![[R::of(0.0), R::of(0.0)]];
-            for (big_w, amplitudes) in &components {
-                let factor = w.clone() * w.clone() - big_w.clone() * big_w.clone();
-                let [alpha, beta] = amplitudes[j].map(|x| R::of(x) / factor.clone());
+            let mut mass = vec![[Dd::from(0.0), Dd::from(0.0)]];
+            for &(big_w, amplitudes) in &components {
+                let factor = w * w - big_w * big_w;
+                let [alpha, beta] = amplitudes[j].map(|x| Dd::from(x) / factor);
                 // At rest the free part cancels place and velocity of the response.
                 if scenario.initial == Initial::Rest {
-                    let [a, b] = mass[0].clone();
-                    mass[0] = [a - alpha.clone(), b - beta.clone() * big_w.clone() / w.clone()];
+                    let [a, b] = mass[0];
+                    mass[0] = [a - alpha, b - beta * big_w / w];
                 }
                 mass.push([alpha, beta]);
             }
             if let Initial::Free(free) = &scenario.initial {
-                mass[0] = free[j].map(R::of);
+                mass[0] = free[j].map(Dd::from);
             }
             mass
         });
         let masses: Vec<_> = masses.collect();
         let ring = scenario.boundary == Boundary::Ring;
         let mut chain = Reference {
-            spacing: R::of(scenario.spacing),
-            restitution: R::of(scenario.restitution),
+            spacing: Dd::from(scenario.spacing),
+            restitution: Dd::from(scenario.restitution),
             frequencies: std::iter::once(w).chain(components.into_iter().map(|c| c.0)).collect(),
             ring,
             next: Vec::new(),
             masses,
-            time: R::of(0.0),
+            time: Dd::from(0.0),
         };
         chain.next = (0..=chain.masses.len())
             .map(|gap| {
                 let idle = ring && gap == 0;
-                if idle { Next::None } else { Next::NoRootUntil(R::of(0.0)) }
+                if idle { Next::None } else { Next::NoRootUntil(Dd::from(0.0)) }
             })
             .collect();
         chain
@@ -91,23 +91,20 @@ impl<R: Real> Reference<R> {
 
     /// Sets a chain at the time of a state, every double taken as the exact number that it is.
     pub fn at(scenario: &Scenario, start: &State) -> Self {
-        let mut chain: Reference<R> = Reference::new(scenario);
-        let t = R::of(start.time);
-        let w = chain.frequencies[0].clone();
-        let (s, c) = (w.clone() * t.clone()).sin_cos();
+        let mut chain = Reference::new(scenario);
+        let t = Dd::from(start.time);
+        let w = chain.frequencies[0];
+        let [s, c] = sin_cos(w * t);
         for mass in &mut chain.masses {
-            mass[0] = [R::of(0.0), R::of(0.0)];
+            mass[0] = [Dd::from(0.0), Dd::from(0.0)];
         }
-        for (j, [x, v]) in chain.state(&t).into_iter().enumerate() {
-            let place = R::of((j + 1) as f64) * chain.spacing.clone();
-            let u = R::of(start.positions[j]) - place - x;
-            let rate = (R::of(start.velocities[j]) - v) / w.clone();
-            chain.masses[j][0] = [
-                u.clone() * c.clone() - rate.clone() * s.clone(),
-                u * s.clone() + rate * c.clone(),
-            ];
+        for (j, [x, v]) in chain.state(t).into_iter().enumerate() {
+            let place = Dd::from((j + 1) as f64) * chain.spacing;
+            let u = Dd::from(start.positions[j]) - place - x;
+            let rate = (Dd::from(start.velocities[j]) - v) / w;
+            chain.masses[j][0] = [u * c - rate * s, u * s + rate * c];
         }
-        chain.next.fill(Next::NoRootUntil(t.clone()));
+        chain.next.fill(Next::NoRootUntil(t));
         chain.time = t;
         chain
     }
@@ -120,37 +117,31 @@ impl<R: Real> Reference<R> {
     }
 
     /// A gap with the amplitudes that it has now.
-    pub fn gap(&self, gap: usize) -> Gap<R> {
+    pub fn gap(&self, gap: usize) -> Gap {
         let [left, right] = self.sides(gap);
         let part = |which: usize, i: usize| {
-            let of =
-                |mass: Option<usize>| mass.map_or(R::of(0.0), |j| self.masses[j][which][i].clone());
+            let of = |mass: Option<usize>| mass.map_or(Dd::from(0.0), |j| self.masses[j][which][i]);
             of(right) - of(left)
         };
         Gap {
-            spacing: self.spacing.clone(),
+            spacing: self.spacing,
             frequencies: self.frequencies.clone(),
             amplitudes: (0..self.frequencies.len()).map(|m| [part(m, 0), part(m, 1)]).collect(),
         }
     }
 
-    /// Free and forced amplitudes of a mass, counted from 0.
-    pub fn mass(&self, j: usize) -> &[[R; 2]] {
-        &self.masses[j]
-    }
-
     /// d + Q1 + Q2: the amplitudes of both neighbours of a gap, which all its roundings follow.
     pub fn scale(&self, gap: usize) -> f64 {
         let sides = self.sides(gap).into_iter().flatten();
-        let lengths = sides.flat_map(|j| &self.masses[j]).map(|[a, b]| a.near().hypot(b.near()));
-        self.spacing.near() + lengths.sum::<f64>()
+        let lengths = sides.flat_map(|j| &self.masses[j]).map(|[a, b]| a.hi.hypot(b.hi));
+        self.spacing.hi + lengths.sum::<f64>()
     }
 
     /// Displacement from equilibrium, and velocity, of each mass at a time of the present flight.
-    pub fn state(&self, t: &R) -> Vec<[R; 2]> {
-        let one = |mass: &Vec<[R; 2]>| {
+    pub fn state(&self, t: Dd) -> Vec<[Dd; 2]> {
+        let one = |mass: &Vec<[Dd; 2]>| {
             let gap = Gap {
-                spacing: R::of(0.0),
+                spacing: Dd::from(0.0),
                 frequencies: self.frequencies.clone(),
                 amplitudes: mass.clone(),
             };
@@ -161,71 +152,70 @@ impl<R: Real> Reference<R> {
     }
 
     /// Time of the last impact.
-    pub fn time(&self) -> &R {
-        &self.time
+    pub fn time(&self) -> Dd {
+        self.time
     }
 
     /// The next impact up to a time, which is then carried out; none if there is none.
-    pub fn step(&mut self, until: &R) -> Result<Option<Hit<R>>, String> {
+    pub fn step(&mut self, until: Dd) -> Result<Option<Hit>, String> {
         loop {
-            let mut first: Option<(usize, R, bool)> = None;
+            let mut first: Option<(usize, Dd, bool)> = None;
             for (gap, next) in self.next.iter().enumerate() {
-                let (time, root) = match next {
+                let (time, root) = match *next {
                     Next::None => continue,
                     Next::NoRootUntil(time) => (time, false),
                     Next::Root(time) => (time, true),
                 };
-                if first.as_ref().is_none_or(|(_, earliest, _)| time < earliest) {
-                    first = Some((gap, time.clone(), root));
+                if first.is_none_or(|(_, earliest, _)| time < earliest) {
+                    first = Some((gap, time, root));
                 }
             }
             let Some((gap, time, root)) = first else { return Ok(None) };
-            if time > *until || (!root && time == *until) {
+            if time > until || (!root && time == until) {
                 return Ok(None);
             }
             if root {
                 return Ok(Some(self.impact(gap, time)));
             }
             let shape = self.gap(gap);
-            let ahead = time.clone() + R::of(AHEAD);
-            let ahead = if ahead < *until { ahead } else { until.clone() };
+            let ahead = time + Dd::from(AHEAD);
+            let ahead = if ahead < until { ahead } else { until };
             self.next[gap] = if shape.never_closes() {
                 Next::None
             } else {
-                let found =
-                    shape.first_root(&time, &ahead).map_err(|e| format!("gap {gap}: {e}"))?;
+                let found = shape.first_root(time, ahead).map_err(|e| format!("gap {gap}: {e}"))?;
                 found.map_or(Next::NoRootUntil(ahead), Next::Root)
             };
         }
     }
 
     /// All impacts up to a time.
-    pub fn run(&mut self, until: f64) -> Result<Vec<Hit<R>>, String> {
-        let until = R::of(until);
+    pub fn run(&mut self, until: f64) -> Result<Vec<Hit>, String> {
+        let until = Dd::from(until);
         let mut hits = Vec::new();
-        while let Some(hit) = self.step(&until)? {
+        while let Some(hit) = self.step(until)? {
             hits.push(hit);
         }
         Ok(hits)
     }
 
-    fn impact(&mut self, gap: usize, time: R) -> Hit<R> {
-        let [_, closing, _] = self.gap(gap).jet(&time);
+    fn impact(&mut self, gap: usize, time: Dd) -> Hit {
+        let [_, closing, _] = self.gap(gap).jet(time);
         let sides = self.sides(gap);
         let between = sides.iter().all(Option::is_some);
-        let share = R::of(if between { 0.5 } else { 1.0 });
-        let kick = -(R::of(1.0) + self.restitution.clone()) * closing.clone() * share;
+        let share = Dd::from(if between { 0.5 } else { 1.0 });
+        let kick = -(Dd::from(1.0) + self.restitution) * closing * share;
         for (mass, sign) in sides.into_iter().zip([-1.0, 1.0]) {
             let Some(mass) = mass else { continue };
-            let w = &self.frequencies[0];
-            let (s, c) = (w.clone() * time.clone()).sin_cos();
-            let rate = R::of(sign) * kick.clone() / w.clone();
-            let [a, b] = self.masses[mass][0].clone();
-            self.masses[mass][0] = [a - rate.clone() * s, b + rate * c];
+            let w = self.frequencies[0];
+            let [s, c] = sin_cos(w * time);
+            let rate = Dd::from(sign) * kick / w;
+            let [a, b] = self.masses[mass][0];
+            self.masses[mass][0] = [a - rate * s, b + rate * c];
         }
-        self.time = time.clone();
+        self.time = time;
         for other in self.touched(gap) {
-            self.next[other] = Next::NoRootUntil(time.clone());
+            self.next[other] = Next::NoRootUntil(time);
         }
         Hit { time, gap, closing_speed: -closing }
     }

@@ -1,34 +1,46 @@
 //! One gap as a function of absolute time, Eq. (19), and its first root with certainty.
 
-use super::real::Real;
+use super::{Dd, EPS, sin_cos};
 
 /// Δ(t) = d + a cos ωt + b sin ωt + Σ (c cos Ωt + e sin Ωt).
 #[derive(Clone, Debug)]
-pub struct Gap<R> {
+pub struct Gap {
     /// d.
-    pub spacing: R,
+    pub spacing: Dd,
     /// ω and each Ω.
-    pub frequencies: Vec<R>,
+    pub frequencies: Vec<Dd>,
     /// (a, b) and each (c, e).
-    pub amplitudes: Vec<[R; 2]>,
+    pub amplitudes: Vec<[Dd; 2]>,
 }
 
 /// One piece of the time axis, with the signs that are known of Δ at its ends.
-struct Piece<R> {
-    from: R,
-    to: R,
+struct Piece {
+    from: Dd,
+    to: Dd,
 }
 
-impl<R: Real> Gap<R> {
+impl Gap {
     /// Δ, Δ', Δ'' at a time.
-    pub fn jet(&self, t: &R) -> [R; 3] {
-        let mut jet = [self.spacing.clone(), R::of(0.0), R::of(0.0)];
-        for (w, [a, b]) in self.frequencies.iter().zip(&self.amplitudes) {
-            let (s, c) = (w.clone() * t.clone()).sin_cos();
-            let u = a.clone() * c.clone() + b.clone() * s.clone();
-            let v = b.clone() * c - a.clone() * s;
+    pub fn jet(&self, t: Dd) -> [Dd; 3] {
+        let mut jet = [self.spacing, Dd::from(0.0), Dd::from(0.0)];
+        for (&w, &[a, b]) in self.frequencies.iter().zip(&self.amplitudes) {
+            let [s, c] = sin_cos(w * t);
+            let u = a * c + b * s;
+            let v = b * c - a * s;
             let [f, g, h] = jet;
-            jet = [f + u.clone(), g + w.clone() * v, h - w.clone() * w.clone() * u];
+            jet = [f + u, g + w * v, h - w * w * u];
+        }
+        jet
+    }
+
+    /// The same in doubles.
+    fn rough_jet(&self, t: f64) -> [f64; 3] {
+        let mut jet = [self.spacing.hi, 0.0, 0.0];
+        for (w, [a, b]) in self.frequencies.iter().zip(&self.amplitudes) {
+            let (w, a, b) = (w.hi, a.hi, b.hi);
+            let (s, c) = (w * t).sin_cos();
+            let u = a * c + b * s;
+            jet = [jet[0] + u, jet[1] + w * (b * c - a * s), jet[2] - w * w * u];
         }
         jet
     }
@@ -36,8 +48,8 @@ impl<R: Real> Gap<R> {
     /// Bounds of |Δ − d|, |Δ''| and |Δ'''| over all time.
     fn bounds(&self) -> [f64; 3] {
         let mut bounds = [0.0; 3];
-        for (w, [a, b]) in self.frequencies.iter().zip(&self.amplitudes) {
-            let (radius, w) = (a.near().hypot(b.near()) * (1.0 + 1e-14), w.near().abs());
+        for (&w, &[a, b]) in self.frequencies.iter().zip(&self.amplitudes) {
+            let (radius, w) = (a.hi.hypot(b.hi) * (1.0 + 1e-14), w.hi.abs());
             bounds[0] += radius;
             bounds[1] += w * w * radius;
             bounds[2] += w * w * w * radius;
@@ -47,7 +59,7 @@ impl<R: Real> Gap<R> {
 
     /// d + R1 + R2.
     pub fn scale(&self) -> f64 {
-        self.spacing.near() + self.bounds()[0]
+        self.spacing.hi + self.bounds()[0]
     }
 
     /// ω² R1 + Ω² R2, which bounds |Δ''|.
@@ -57,40 +69,40 @@ impl<R: Real> Gap<R> {
 
     /// Whether R1 + R2 < d by a clear margin, so that the gap never closes.
     pub fn never_closes(&self) -> bool {
-        self.bounds()[0] * (1.0 + 1e-12) < self.spacing.near()
+        self.bounds()[0] * (1.0 + 1e-12) < self.spacing.hi
     }
 
     /// The first time in (from, to] at which Δ falls to zero from above.
     ///
     /// A gap that is closed at `from` (to a few roundings) counts as just parted when it opens,
     /// and as a root when it closes. With neither, it stays in contact: an error.
-    pub fn first_root(&self, from: &R, to: &R) -> Result<Option<R>, String> {
-        let noise = 1e4 * R::EPS * self.scale() * from.near().abs().max(1.0);
-        let [f, g, h] = self.jet(from).map(|x| x.near());
+    pub fn first_root(&self, from: Dd, to: Dd) -> Result<Option<Dd>, String> {
+        let noise = 1e4 * EPS * self.scale() * from.hi.abs().max(1.0);
+        let [f, g, h] = self.jet(from).map(|x| x.hi);
         let touching = f.abs() <= noise;
         if touching && g.abs() > noise && g < 0.0 {
-            return Ok(Some(from.clone()));
+            return Ok(Some(from));
         }
         if f < -noise {
-            return Err(format!("overlap of {f:e} at t = {}", from.near()));
+            return Err(format!("overlap of {f:e} at t = {}", from.hi));
         }
         // Without a speed the gap opens or stays by its acceleration.
-        let mut ignore = R::of(0.0);
+        let mut ignore = Dd::from(0.0);
         if touching && g.abs() <= noise {
             if h <= 0.0 {
-                return Err(format!("contact at t = {}", from.near()));
+                return Err(format!("contact at t = {}", from.hi));
             }
-            ignore = R::of(noise.sqrt() / h.sqrt().min(1.0) * 10.0);
+            ignore = Dd::from(noise.sqrt() / h.sqrt().min(1.0) * 10.0);
         }
-        let start = from.clone() + ignore;
-        if start >= *to {
+        let start = from + ignore;
+        if start >= to {
             return Ok(None);
         }
-        let (rough, mut left) = (self.rough(), start.clone());
-        while left < *to {
-            let right = left.clone() + R::of(0.4);
-            let right = if right < *to { right } else { to.clone() };
-            if let Some(root) = self.search(&rough, left, right.clone())? {
+        let mut left = start;
+        while left < to {
+            let right = left + Dd::from(0.4);
+            let right = if right < to { right } else { to };
+            if let Some(root) = self.search(left, right)? {
                 return Ok(Some(root));
             }
             left = right;
@@ -98,90 +110,73 @@ impl<R: Real> Gap<R> {
         Ok(None)
     }
 
-    /// The gap in doubles.
-    fn rough(&self) -> Gap<f64> {
-        Gap {
-            spacing: self.spacing.near(),
-            frequencies: self.frequencies.iter().map(R::near).collect(),
-            amplitudes: self.amplitudes.iter().map(|[a, b]| [a.near(), b.near()]).collect(),
-        }
-    }
-
     /// Depth first, left first: a piece is excluded by its enclosure (in doubles where these are
     /// enough), decided by the signs at its ends where Δ is monotone, cut at its extremum where Δ'
     /// is, and halved otherwise.
-    fn search(&self, rough: &Gap<f64>, from: R, to: R) -> Result<Option<R>, String> {
+    fn search(&self, from: Dd, to: Dd) -> Result<Option<Dd>, String> {
         let [_, bend, third] = self.bounds();
-        // More than the errors of Δ, Δ' and Δ'' in doubles, those of the phases included.
-        let fastest = rough.frequencies.iter().fold(1.0, |most: f64, w| most.max(w.abs()));
-        let noise = 1e-13 * (self.scale() + bend) * (1.0 + fastest * to.near().abs());
+        // More than the errors of doubles in an enclosure.
+        let fastest = self.frequencies.iter().fold(1.0, |most: f64, w| most.max(w.hi));
+        let noise = 1e-13 * (self.scale() + bend) * (1.0 + fastest * to.hi);
         let mut stack = vec![Piece { from, to }];
         while let Some(Piece { from, to }) = stack.pop() {
-            let half = R::of(0.5) * (to.clone() - from.clone());
-            let middle = from.clone() + half.clone();
-            let h = half.near() * (1.0 + 1e-14);
+            let half = Dd::from(0.5) * (to - from);
+            let middle = from + half;
+            let h = half.hi * (1.0 + 1e-14);
             let stays_open = |[f, g, k]: [f64; 3], noise: f64| {
                 let falls = g.abs() * h + 0.5 * k.abs() * h * h + third * h * h * h / 6.0;
                 f - noise > falls * (1.0 + 1e-13)
             };
-            if stays_open(rough.jet(&middle.near()), noise) {
+            if stays_open(self.rough_jet(middle.hi), noise) {
                 continue;
             }
-            let [f, g, k] = self.jet(&middle).map(|x| x.near());
+            let [f, g, k] = self.jet(middle).map(|x| x.hi);
             if stays_open([f, g, k], 0.0) {
                 continue;
             }
             if g.abs() > (k.abs() * h + 0.5 * third * h * h) * (1.0 + 1e-13) {
-                if g < 0.0 && self.closed(&to) {
+                if g < 0.0 && self.closed(to) {
                     return Ok(Some(self.bisect(from, to, 0)));
                 }
                 continue;
             }
             if k.abs() > third * h * (1.0 + 1e-13) {
-                if let Some(root) = self.unimodal(rough, from, to, k > 0.0) {
+                if let Some(root) = self.unimodal(from, to, k > 0.0) {
                     return Ok(Some(root));
                 }
                 continue;
             }
             if h < 1e-13 {
-                return Err(format!("a triple root at t = {}", middle.near()));
+                return Err(format!("a triple root at t = {}", middle.hi));
             }
-            stack.push(Piece { from: middle.clone(), to });
+            stack.push(Piece { from: middle, to });
             stack.push(Piece { from, to: middle });
         }
         Ok(None)
     }
 
     /// The first root in a piece where Δ'' keeps its sign.
-    fn unimodal(&self, rough: &Gap<f64>, from: R, to: R, convex: bool) -> Option<R> {
-        let slope = |t: &R| self.jet(t)[1].clone();
-        let zero = R::of(0.0);
-        let turns = (slope(&from) < zero) != (slope(&to) < zero);
+    fn unimodal(&self, from: Dd, to: Dd, convex: bool) -> Option<Dd> {
+        let slope = |t: Dd| self.jet(t)[1];
+        let zero = Dd::from(0.0);
+        let turns = (slope(from) < zero) != (slope(to) < zero);
         if !turns {
-            let falls = slope(&to) < zero;
-            return (falls && self.closed(&to)).then(|| self.bisect(from, to, 0));
+            let falls = slope(to) < zero;
+            return (falls && self.closed(to)).then(|| self.bisect(from, to, 0));
         }
-        // A convex Δ is above its tangent, which near the minimum is nearly level.
-        let low = R::of(rough.bisect(from.near(), to.near(), 1));
-        if convex && low > from && low < to {
-            let [f, g, _] = self.jet(&low).map(|x| x.near());
-            if f > g.abs() * (to.clone() - from.clone()).near() * (1.0 + 1e-13) {
-                return None;
-            }
-        }
-        let turn = self.bisect(from.clone(), to.clone(), if convex { 1 } else { 2 });
+        let turn = self.bisect(from, to, if convex { 1 } else { 2 });
         let (left, right) = if convex { (from, turn) } else { (turn, to) };
-        self.closed(&right).then(|| self.bisect(left, right, 0))
+        self.closed(right).then(|| self.bisect(left, right, 0))
     }
 
-    fn closed(&self, t: &R) -> bool {
-        self.jet(t)[0] <= R::of(0.0)
+    fn closed(&self, t: Dd) -> bool {
+        self.jet(t)[0] <= Dd::from(0.0)
     }
 
     /// The place in (from, to] where Δ falls (mode 0), Δ' rises (1) or Δ' falls (2) through
     /// zero: bisection down to a small piece, then Newton steps kept inside it.
-    fn bisect(&self, mut from: R, mut to: R, mode: usize) -> R {
-        let value = |t: &R| {
+    fn bisect(&self, mut from: Dd, mut to: Dd, mode: usize) -> Dd {
+        let value = |t: Dd| {
             let [f, g, h] = self.jet(t);
             match mode {
                 0 => (-f, -g),
@@ -189,22 +184,22 @@ impl<R: Real> Gap<R> {
                 _ => (-g, -h),
             }
         };
-        let mut best = to.clone();
+        let mut best = to;
         for step in 0..400 {
-            let (f, slope) = value(&best);
-            if f >= R::of(0.0) {
-                to = best.clone();
+            let (f, slope) = value(best);
+            if f >= Dd::from(0.0) {
+                to = best;
             } else {
-                from = best.clone();
+                from = best;
             }
-            let newton = best.clone() - f / slope;
-            let wide = to.clone() - from.clone();
-            let halves = step % 3 == 2 && wide.near() > 1e-6 || !(newton > from && newton < to);
-            let next = if halves { from.clone() + R::of(0.5) * wide } else { newton };
-            let change = (next.clone() - best).near().abs() / next.near().abs().max(1e-3);
+            let newton = best - f / slope;
+            let wide = to - from;
+            let halves = step % 3 == 2 && wide.hi > 1e-6 || !(newton > from && newton < to);
+            let next = if halves { from + Dd::from(0.5) * wide } else { newton };
+            let change = (next - best).hi.abs() / next.hi.abs().max(1e-3);
             best = next;
             // A step of Newton's method doubles the digits.
-            if change <= if halves { 4.0 * R::EPS } else { 1e-4 * R::EPS.sqrt() } {
+            if change <= if halves { 4.0 * EPS } else { 1e-4 * EPS.sqrt() } {
                 break;
             }
         }

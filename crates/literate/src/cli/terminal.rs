@@ -52,16 +52,15 @@ pub fn print(text: &str) -> Result<(), Failure> {
     written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }
 
-/// Makes Ctrl-C, SIGTERM and SIGHUP end the program and the programs that it runs within a second,
-/// with exit code 130. Files that are being put into place are first all there.
+/// Makes Ctrl-C, SIGTERM and SIGHUP end the programs that this one runs, and it within a second
+/// after, with exit code 130. Files that are being put into place are first all there.
 pub(super) fn install_signals() {
     let follow = |mut signals: Signals| {
         let ended = move || {
             if signals.forever().next().is_some() {
                 stop();
-                end_all("TERM");
+                end_all();
                 std::thread::sleep(std::time::Duration::from_millis(700));
-                end_all("KILL");
                 let _moment = crate::input::WRITING.write();
                 warn("interrupted");
                 std::process::exit(i32::from(INTERRUPTED));

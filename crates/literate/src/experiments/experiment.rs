@@ -175,10 +175,10 @@ pub trait AnyExperiment: Sync {
     /// Returns those of the given units that must be run: none if its result is fresh.
     fn open(&self, mut units: Vec<Unit>, session: &Session<'_>) -> Vec<Unit> {
         let (store, identity) = (&session.store, self.identity(session));
-        if !self.is_saved() || store.why_stale(&identity).is_none() {
+        if !self.is_saved() || store.fresh(&identity).is_ok() {
             return Vec::new();
         }
-        units.retain(|unit| store.why_stale(&identity.of_unit(unit)).is_some());
+        units.retain(|unit| store.fresh(&identity.of_unit(unit)).is_err());
         units
     }
 
@@ -192,7 +192,7 @@ pub trait AnyExperiment: Sync {
     /// Returns what would be run, and why; none if the saved result is fresh.
     fn stale(&self, session: &Session<'_>) -> Option<String> {
         let identity = self.identity(session);
-        let why = session.store.why_stale(&identity).filter(|_| self.is_saved())?;
+        let why = session.store.fresh(&identity).err().filter(|_| self.is_saved())?;
         let why = format!("{}: {why}", self.name());
         let units = self.units(session.profile);
         if let [_] = units[..] {
@@ -251,7 +251,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
 
     fn run_units(&self, units: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
         let identity = self.identity(session);
-        if session.store.why_stale(&identity).is_none() {
+        if session.store.fresh(&identity).is_ok() {
             return Ok(0);
         }
         let How::Cut(..) = self.how else { return self.get(session).map(|_| units.len()) };

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::os::unix::process::CommandExt;
 use std::process::{Command, Output, Stdio};
 use std::sync::Mutex;
+use std::time::Duration;
 
 /// The programs that run, each with its process group, which has its number.
 static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
@@ -31,8 +32,20 @@ fn running() -> std::sync::MutexGuard<'static, Vec<u32>> {
     RUNNING.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
-/// Sends a signal, such as TERM, to all programs that run and to those that they started.
-pub(crate) fn end_all(signal: &str) {
+/// Asks all programs that run to end, and kills those that have not ended after some seconds.
+pub(crate) fn end_all() {
+    send("TERM");
+    for _ in 0..200 {
+        if running().is_empty() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    send("KILL");
+}
+
+/// Sends a signal to all programs that run and to those that they started.
+fn send(signal: &str) {
     for group in running().iter() {
         // The shell's `kill`, for not every system has a program of that name.
         let line = format!("kill -s {signal} -- -{group}");

@@ -115,22 +115,16 @@ impl Store {
         self.folder.as_ref().map(|folder| folder.join(name))
     }
 
-    /// Returns the saved result, or why it must be run, in one line: `run`, `run
-    /// again, Cargo.lock changed`.
+    /// Returns the saved result, or why it must be run, as [`Store::fresh`] does.
     pub fn look<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
         let text = self.fresh(identity)?;
         let body = text.split('\n').nth(2).unwrap_or_default();
         serde_json::from_str(body).map_err(|_| again(OLDER_FORMAT))
     }
 
-    /// Returns why a result must be run, as [`Store::look`] does, or none if the saved one is
-    /// whole and fresh. The result itself is not read.
-    pub fn why_stale(&self, identity: &Identity) -> Option<String> {
-        self.fresh(identity).err()
-    }
-
-    /// Returns the text of a saved file if it is whole and was made of the same.
-    fn fresh(&self, identity: &Identity) -> Result<String, String> {
+    /// Returns the text of a saved file that is whole and was made of the same, or why the result
+    /// must be run, in one line: `run`, `run again, Cargo.lock changed`.
+    pub fn fresh(&self, identity: &Identity) -> Result<String, String> {
         let text = match self.path(identity).map(|path| regular_text(&path)) {
             Some(Ok(text)) => text,
             Some(Err(error)) if !is_absent(&error) => {
