@@ -1,7 +1,6 @@
-//! Reads the imports of all crates and of src, and refuses those that DESIGN.md does not allow,
-//! circles, and those of saved results that are not listed with them.
+//! Reads the imports of all crates and of src, and refuses those that DESIGN.md does not allow, and
+//! circles.
 
-use super::QUICK;
 use super::structure::{files, root};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -380,21 +379,4 @@ fn imports_are_those_of_the_drawing() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-}
-
-#[test]
-fn what_a_saved_result_depends_on_is_listed() {
-    let (paper, arrows) = (&QUICK.paper, arrows());
-    let mut wrong = Vec::new();
-    for experiment in paper.experiments.iter().filter(|own| own.is_saved()) {
-        let listed = experiment.code(&paper.project);
-        for file in listed.keys() {
-            for to in arrows.get(file).into_iter().flatten() {
-                if !listed.contains_key(to) && !paper.project.is_left_out(to) {
-                    wrong.push(format!("{}: {file} imports {to}", experiment.name()));
-                }
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "list these files, or leave them out with the reason: {wrong:#?}");
 }

@@ -28,6 +28,8 @@ impl Paper {
         progress: Progress,
     ) -> Result<Session<'_>, Failure> {
         let project = &self.project;
+        let shared = project.check_named(project.shared);
+        shared.map_err(|(problem, remedy)| Error::input("project.shared", problem, remedy))?;
         self.check_names()?;
         self.experiments.iter().try_for_each(|experiment| experiment.check(project))?;
         let folder = prose.map(Path::to_path_buf).or_else(|| project.find(self.prose));

@@ -37,6 +37,7 @@ mod decimal;
 pub mod experiments;
 mod failure;
 pub mod figures;
+mod imports;
 pub mod input;
 #[doc = include_str!("manual.md")]
 pub mod manual {}

@@ -21,7 +21,8 @@ pub struct Project {
     /// Folders and files on which every result depends, besides those that its experiment lists.
     pub shared: &'static [&'static str],
     /// Files that change no result, by the beginning or the end of their paths, each with the
-    /// reason. They count only for an experiment that lists them by their whole path.
+    /// reason. A file that is listed may name them. They count only for an experiment that lists
+    /// them by their whole path.
     pub left_out: &'static [(&'static str, &'static str)],
 }
 
@@ -55,8 +56,7 @@ impl Project {
         found
     }
 
-    /// Returns whether a file changes no result.
-    pub fn is_left_out(&self, path: &str) -> bool {
+    fn is_left_out(&self, path: &str) -> bool {
         self.left_out.iter().any(|(place, _)| path.ends_with(place) || is_in(path, place))
     }
 
@@ -91,6 +91,28 @@ impl Project {
             None => "run this in the project, or name its folder in LITERATE_PROJECT",
         };
         Err((format!("`code` lists {lost}, which is not there"), remedy))
+    }
+
+    /// Checks that files that an experiment lists, or those that all share, name no module that
+    /// would change a result unnoticed.
+    ///
+    /// # Errors
+    /// A problem, and what to do about it.
+    pub fn check_named(&self, files: &[&str]) -> Result<(), (String, &'static str)> {
+        let remedy = "list that file too, or give the reason why it changes no result in \
+                      `project.left_out`";
+        let is_listed = |path: &str| files.iter().any(|place| is_in(path, place));
+        for (path, text) in self.sources.files {
+            if is_listed(path) && self.counts(path, files) {
+                for named in self.sources.named_in(path, text) {
+                    if !self.counts(named, files) && !self.is_left_out(named) {
+                        let problem = format!("{path} names {named}, which is not listed");
+                        return Err((problem, remedy));
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Finds a file or folder by its path from the top of the project; none if only the copy inside
@@ -178,19 +200,30 @@ mod tests {
 
     #[test]
     fn a_result_depends_on_what_is_shared_and_what_is_named() {
-        let files =
-            &[("Cargo.lock", "0"), ("src/a.rs", ""), ("src/b/c.rs", ""), ("src/b/tables.rs", "")];
+        let files = &[
+            ("Cargo.lock", "0"),
+            ("src/a.rs", "use crate::b::c;"),
+            ("src/b/c.rs", "use super::tables;"),
+            ("src/b/tables.rs", "use crate::a;"),
+        ];
         let sources = Sources { files, crates: &[("", "src")], ..toy() };
         let mut project = Project::new(sources);
         let paths = |project: &Project, files: &[&str]| {
             project.code(files).into_keys().collect::<Vec<String>>().join(" ")
         };
         assert_eq!(paths(&project, &[]).split(' ').count(), 4, "all of it");
+        assert_eq!(project.check_named(&[]), Ok(()));
+        let problem = |project: &Project, files: &[&str]| project.check_named(files).unwrap_err().0;
+        let lost = problem(&project, &["src/b/c.rs"]);
+        assert_eq!(lost, "src/b/c.rs names src/b/tables.rs, which is not listed");
         project.left_out = &[("/tables.rs", "made of results")];
         assert_eq!(paths(&project, &["src/b"]), "Cargo.lock src/b/c.rs");
+        assert_eq!(project.check_named(&["src/b"]), Ok(()));
         assert_eq!(paths(&project, &["src/b/tables.rs"]), "Cargo.lock src/b/tables.rs");
         assert_eq!(paths(&project, &["src/a.rs"]), "Cargo.lock src/a.rs");
-        assert_eq!(paths(&project, &["./src/a.rs", "src/b/"]), "Cargo.lock src/a.rs src/b/c.rs");
+        let lost = problem(&project, &["src/a.rs"]);
+        assert_eq!(lost, "src/a.rs names src/b/c.rs, which is not listed");
+        assert_eq!(project.check_named(&["./src/a.rs", "src/b/"]), Ok(()));
         let error = project.text("templates/no_such.md").unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::NotFound);
     }

@@ -141,7 +141,7 @@ pub trait AnyExperiment: Sync {
     /// Returns the name that values and saved files carry.
     fn name(&self) -> &'static str;
 
-    /// Checks that the files on which its result depends are there.
+    /// Checks that the files on which its result depends are there and are all declared.
     ///
     /// # Errors
     /// [`Error::Input`] with the experiment's name and that of the file.
@@ -220,8 +220,11 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
     }
 
     fn check(&self, project: &Project) -> Result<(), Error> {
-        let listed = project.check_listed(self.code);
-        listed.map_err(|(problem, remedy)| Error::input(self.name, problem, remedy))
+        let mut checked = project.check_listed(self.code);
+        if self.is_saved() {
+            checked = checked.and_then(|()| project.check_named(self.code));
+        }
+        checked.map_err(|(problem, remedy)| Error::input(self.name, problem, remedy))
     }
 
     fn code(&self, project: &Project) -> BTreeMap<String, String> {

@@ -1,10 +1,12 @@
 //! Runs experiments, and holds their results and the tables that follow from them.
 
+use super::progress::say;
 use super::store::Json;
 use super::{AnyExperiment, Command, Error, Experiment, Found, Profile, Session};
 use crate::input::count;
 use crate::table::{Table, Tables, number_at, table};
 use rayon::prelude::*;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, OnceLock};
 
 /// Makes tables of the results and tables of several experiments; none if one of these was not run.
@@ -67,7 +69,8 @@ impl Results {
 
     fn made(&self) -> Result<Tables, String> {
         let found = self.found.par_iter().with_max_len(1);
-        let tables = found.map(|(experiment, found)| experiment.tables(found));
+        let tables =
+            found.map(|(experiment, found)| naming(experiment.name(), || experiment.tables(found)));
         let mut all = tables.collect::<Vec<_>>().concat();
         for tables in &self.derived {
             all.extend(tables(self, &all).into_iter().flatten());
@@ -125,10 +128,36 @@ impl Results {
         session.announce(&count(stale, "experiment"), &open)?;
         let mut found = Vec::new();
         for experiment in experiments {
-            found.push((*experiment, experiment.found(session)?));
+            found.push((*experiment, naming(experiment.name(), || experiment.found(session))?));
         }
         session.progress.check()?;
         let (profile, derived) = (session.profile, derived.to_vec());
         Ok(Results { profile, found, derived, tables: OnceLock::new() })
+    }
+}
+
+/// Does a part of the work of an experiment; if it panics, says which experiment it was.
+fn naming<T>(experiment: &str, work: impl FnOnce() -> T) -> T {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
+        let words = format!("the internal error was in the experiment {experiment}");
+        say(&words);
+        resume_unwind(Box::new(words))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiments::{Progress, Store};
+
+    #[test]
+    fn a_panic_names_its_experiment() {
+        const PANICS: Experiment<(), ()> =
+            Experiment::new("orbit", |_| (), |(), _| panic!("no orbit"), |()| Vec::new());
+        let session = Session::toy(Store::nowhere(), Progress::silent());
+        let run = || Results::run(&[&PANICS], &[], &session).map(|_| ());
+        let panic = catch_unwind(AssertUnwindSafe(run)).unwrap_err();
+        let words = panic.downcast_ref::<String>().unwrap();
+        assert_eq!(words, "the internal error was in the experiment orbit");
     }
 }
