@@ -6,6 +6,7 @@
 
 use crate::experiments::prelude::*;
 use crate::params::TwoMassesParams;
+use impact_circuits::nucleation::{closing_pull, pulls};
 
 pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
     name: "two_masses",
@@ -77,15 +78,9 @@ pub fn safe_force(chain: &Chain) -> f64 {
 
 /// Returns the factor on `forcing` below which R1 + R2 < d in every gap, after a start from rest.
 fn bound(chain: &Chain, forcing: &[[f64; 2]]) -> f64 {
-    let (w, big_w) = (chain.natural_frequency, chain.forcing_frequency);
     let wall = [[0.0; 2]];
     let bodies = [&wall, forcing, &wall].concat();
-    let reach = bodies.windows(2).map(|pair| {
-        let [alpha, beta] = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
-        let free = beta * big_w / w;
-        (alpha * alpha + free * free).sqrt() + (alpha * alpha + beta * beta).sqrt()
-    });
-    chain.spacing * (w * w - big_w * big_w).abs() / reach.fold(0.0, f64::max)
+    closing_pull(chain) / pulls(chain, &bodies).fold(0.0, f64::max)
 }
 
 /// Returns the number of impacts below the bound, and for each time the smallest ratio to the bound

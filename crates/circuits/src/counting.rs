@@ -2,8 +2,8 @@
 //! the weights of Eq. (10) at p = 1, which are the numbers of circuits.
 
 use crate::distribution::{Law, SampleSpace};
-use crate::error::Error;
 use crate::higher_order::arrangements;
+use impact_chain::Error;
 use impact_numerics::scaled::Scaled;
 
 /// **Eq. (6)**

@@ -5,11 +5,19 @@
 //! digits as N grows. Here every weight is a running product of the factors p (N − k), carried
 //! with 106 bits and a separate exponent, so N = 10^6 costs neither digits nor range.
 
-use crate::error::{Error, check_vertices, within};
 use crate::higher_order;
 pub use crate::higher_order::SampleSpace;
+use impact_chain::{Error, within};
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::scaled::Scaled;
+
+/// The largest number of vertices N for which a quantity is computed: its time grows at most in
+/// proportion to N, and is some seconds at this bound.
+pub const LARGEST_N: usize = 10_000_000;
+
+pub(crate) fn check_vertices(big_n: usize) -> Result<(), Error> {
+    within("vertices", big_n, 1, LARGEST_N)
+}
 
 /// The distribution of X for one sample space, N and p; p = 0 stands for the limit p → 0+.
 #[derive(Clone, Copy, Debug)]

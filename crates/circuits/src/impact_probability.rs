@@ -19,8 +19,7 @@
 //!
 //! p_rest = (2/π) ∫_0^{π/2} exp(−(|ω² − Ω²| d/(2σ))²/(1 + √(cos²θ + (Ω/ω)² sin²θ))²) dθ.
 
-use crate::error::{Error, within};
-use impact_chain::Chain;
+use impact_chain::{Chain, Error, within};
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::quadrature::GaussLegendre;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
@@ -81,6 +80,12 @@ fn saturation(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { -pxfm::f_expm1(-x) / x }
 }
 
+/// Creates the error of a positive quantity that is below the range of doubles at a σ.
+fn underflow(what: &str, sigma: f64, remedy: &str) -> Error {
+    let problem = format!("{what} is below the range of double precision at σ = {sigma:e}");
+    Error::input("sigma", problem, remedy)
+}
+
 /// An exponent below which p differs from 1 by so little that 1 − p is the more accurate of the
 /// two: its rounding falls below the last bit of p.
 const NEARLY_ONE: f64 = 0.01;
@@ -98,7 +103,7 @@ impl ImpactProbability {
         let detuning = if difference.hi < 0.0 { -difference } else { difference };
         if detuning.hi == 0.0 {
             let problem = format!("Ω = ω = {omega:?} is resonance, where amplitudes grow for ever");
-            return Err(Error::new("forcing-frequency", problem, "give Ω different from ω"));
+            return Err(Error::input("forcing-frequency", problem, "give Ω different from ω"));
         }
         Ok(ImpactProbability {
             sigma,
@@ -153,14 +158,14 @@ impl ImpactProbability {
         if p >= f64::MIN_POSITIVE {
             return Ok(p.min(1.0));
         }
-        Err(Error::underflow("p(σ)", self.sigma, "ask for log-p-of-sigma"))
+        Err(underflow("p(σ)", self.sigma, "ask for log-p-of-sigma"))
     }
 
     /// Returns ln p(σ), to about 1e−15 relative for every σ.
     pub fn log_p(&self) -> Result<f64, Error> {
         let (exponent, factor) = self.leading();
         if exponent.hi.is_nan() || exponent.hi > 1e270 {
-            return Err(Error::underflow("ln p(σ)", self.sigma, "give a larger sigma"));
+            return Err(underflow("ln p(σ)", self.sigma, "give a larger sigma"));
         }
         let rest = if exponent.hi < 1.0 { self.complement() } else { 1.0 };
         if rest < 0.5 {
@@ -232,7 +237,7 @@ impl ImpactProbability {
                 return Ok(p.min(1.0));
             }
         }
-        Err(Error::underflow("p_rest(σ)", self.sigma, "give a larger sigma"))
+        Err(underflow("p_rest(σ)", self.sigma, "give a larger sigma"))
     }
 }
 

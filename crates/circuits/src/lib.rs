@@ -10,7 +10,7 @@
 //! - [`commuting`]: circuits that differ only by the order of impacts without a common mass (ours).
 //! - [`nucleation`]: gaps of a chain from rest that close by themselves (ours).
 //!
-//! An [`Error`] is an argument out of its range, or a result below the range of doubles.
+//! An [`Error`] names an argument out of its range, or a result below the range of doubles.
 //!
 //! ```
 //! use impact_circuits::distribution::{Law, SampleSpace};
@@ -30,11 +30,11 @@
 pub mod commuting;
 pub mod counting;
 pub mod distribution;
-mod error;
 pub mod graph;
 pub mod higher_order;
 pub mod impact_probability;
 pub mod jump;
 pub mod nucleation;
 
-pub use error::{Error, LARGEST_N};
+pub use distribution::LARGEST_N;
+pub use impact_chain::Error;

@@ -131,13 +131,21 @@ impl Reach {
     }
 }
 
-/// Decides whether a gap whose two forces differ by these amplitudes closes in unlimited time.
-pub fn closes_by_itself(chain: &Chain, [delta_alpha, delta_beta]: [f64; 2]) -> bool {
+/// Lists |ω² − Ω²| (R₁ + R₂) of each gap from rest between bodies with these forces, zero for a
+/// wall, where R₁ and R₂ are the amplitudes of its free and its forced part.
+pub fn pulls(chain: &Chain, bodies: &[[f64; 2]]) -> impl Iterator<Item = f64> {
+    let ratio = chain.forcing_frequency / chain.natural_frequency;
+    bodies.windows(2).map(move |pair| {
+        let [alpha, beta] = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
+        let turned = ratio * beta;
+        (alpha * alpha + turned * turned).sqrt() + (alpha * alpha + beta * beta).sqrt()
+    })
+}
+
+/// Returns |ω² − Ω²| d: a gap with at least so large a pull closes in unlimited time.
+pub fn closing_pull(chain: &Chain) -> f64 {
     let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
-    let turned = big_omega / omega * delta_beta;
-    let free = (delta_alpha * delta_alpha + turned * turned).sqrt();
-    let forced = (delta_alpha * delta_alpha + delta_beta * delta_beta).sqrt();
-    free + forced >= chain.spacing * (omega * omega - big_omega * big_omega).abs()
+    chain.spacing * (omega * omega - big_omega * big_omega).abs()
 }
 
 /// Lists (cos θ, sin θ) at equally spaced angles.

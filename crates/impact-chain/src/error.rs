@@ -1,6 +1,6 @@
 //! Defines the errors of the dynamics, and the range checks that raise them.
 
-use std::fmt;
+use std::fmt::{self, Debug};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Error {
@@ -45,8 +45,8 @@ impl Error {
 }
 
 /// Refuses a number outside [low, high].
-pub fn within(field: &str, x: f64, low: f64, high: f64) -> Result<(), Error> {
-    if (low..=high).contains(&x) {
+pub fn within<T: PartialOrd + Debug>(field: &str, x: T, low: T, high: T) -> Result<(), Error> {
+    if low <= x && x <= high {
         return Ok(());
     }
     let remedy = format!("give a number from {low:?} to {high:?}");

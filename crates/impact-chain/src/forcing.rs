@@ -1,6 +1,8 @@
 //! Evaluates the forcing of a scenario and its response, component by component.
 
 use crate::Scenario;
+use crate::flight::response;
+use crate::scenario::COMPONENTS;
 use crate::search::clock::{Instant, Rate};
 
 /// Returns the forced response of each mass at t = 0: displacement and velocity.
@@ -39,29 +41,25 @@ pub struct Component {
 
 impl Component {
     pub fn forces(scenario: &Scenario) -> Vec<Component> {
-        let mut components = Vec::new();
-        for (frequency, pairs) in scenario.components() {
-            components.push(Component {
-                frequency,
-                rate: Rate::new(frequency),
-                cos: between_walls(pairs.iter().map(|pair| pair[0])),
-                sin: between_walls(pairs.iter().map(|pair| pair[1])),
-            });
-        }
-        components
+        Component::list(scenario, |_, force| force)
     }
 
-    /// Lists the components of the forced response: the forces over ω² − Ω².
+    /// Lists the components of the forced response.
     pub fn responses(scenario: &Scenario) -> Vec<Component> {
-        let mut components = Component::forces(scenario);
-        for component in &mut components {
-            let (w, big_w) = (scenario.natural_frequency, component.frequency);
-            let factor = (w - big_w) * (w + big_w);
-            for amplitude in component.cos.iter_mut().chain(&mut component.sin) {
-                *amplitude /= factor;
-            }
-        }
-        components
+        let w = scenario.natural_frequency;
+        Component::list(scenario, |big_w, force| response(w, big_w, force))
+    }
+
+    fn list(scenario: &Scenario, of: impl Fn(f64, [f64; 2]) -> [f64; 2]) -> Vec<Component> {
+        let component = |(frequency, pairs): (f64, &[[f64; 2]])| {
+            let walled = |i: usize| {
+                let masses = pairs.iter().map(|pair| of(frequency, *pair)[i]);
+                std::iter::once(0.0).chain(masses).chain([0.0]).collect()
+            };
+            let rate = Rate::new(frequency);
+            Component { frequency, rate, cos: walled(0), sin: walled(1) }
+        };
+        scenario.components().map(component).collect()
     }
 
     #[inline]
@@ -70,7 +68,13 @@ impl Component {
     }
 }
 
-/// Puts a zero for each wall around the numbers of the masses.
-fn between_walls(masses: impl Iterator<Item = f64>) -> Vec<f64> {
-    std::iter::once(0.0).chain(masses).chain([0.0]).collect()
+/// (sin, cos) of the phase of each component of the forcing.
+pub type Phases = [(f64, f64); COMPONENTS];
+
+pub fn phases(components: &[Component], at: Instant) -> Phases {
+    let mut phases = [(0.0, 1.0); COMPONENTS];
+    for (phase, component) in phases.iter_mut().zip(components) {
+        *phase = component.phase(at);
+    }
+    phases
 }

@@ -53,7 +53,7 @@ pub use chain::{Boundary, Chain, Start};
 #[cfg(feature = "ensembles")]
 pub use counts::{Counts, Protocol, Watch};
 pub use engine::Engine;
-pub use error::Error;
+pub use error::{Error, within};
 pub use impact::{Impact, Sink};
 pub use impact_numerics::random::NormalPairs;
 pub use scenario::{Initial, Overtone, Scenario};

@@ -127,18 +127,14 @@ impl Scenario {
 
     /// Returns the frequencies of the forcing, filled up to `M` with the first.
     pub(super) fn frequencies<const M: usize>(&self) -> [f64; M] {
-        std::array::from_fn(|m| match m.checked_sub(1).and_then(|m| self.overtones.get(m)) {
-            Some(overtone) => overtone.frequency,
-            None => self.forcing_frequency,
-        })
+        let mut components = self.components().map(|(frequency, _)| frequency);
+        std::array::from_fn(|_| components.next().unwrap_or(self.forcing_frequency))
     }
 
     /// Returns the amplitudes (α_j, β_j) of mass j, counted from 0, filled up to `M` with zeros.
     pub(super) fn amplitudes<const M: usize>(&self, j: usize) -> [[f64; 2]; M] {
-        std::array::from_fn(|m| match m.checked_sub(1) {
-            None => self.forcing[j],
-            Some(m) => self.overtones.get(m).map_or([0.0; 2], |o| o.amplitudes[j]),
-        })
+        let mut components = self.components().map(|(_, amplitudes)| amplitudes[j]);
+        std::array::from_fn(|_| components.next().unwrap_or_default())
     }
 
     pub fn gaps(&self) -> usize {

@@ -102,18 +102,12 @@ impl Scenario {
     pub fn parse_json(text: &str) -> Result<Scenario, Error> {
         parse(text)?.into_scenario()
     }
-}
 
-impl Scenario {
     /// Writes the scenario as JSON in one line, from which [`Scenario::from_json`] reads the same.
     pub fn to_json(&self) -> String {
         let several = !self.overtones.is_empty();
-        let mut frequencies = Vec::new();
-        let mut lists = Vec::new();
-        for (frequency, amplitudes) in self.components() {
-            frequencies.push(frequency);
-            lists.push(amplitudes.to_vec());
-        }
+        let (frequencies, lists) =
+            self.components().map(|(frequency, pairs)| (frequency, pairs.to_vec())).unzip();
         let (masses, walls) = match self.places.as_deref() {
             Some([left, masses @ .., right]) => (Some(masses.to_vec()), Some([*left, *right])),
             _ => (None, None),

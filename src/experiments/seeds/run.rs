@@ -2,8 +2,7 @@
 
 use crate::experiments::prelude::*;
 use crate::params::{SEED, SeedsParams};
-use impact_chain::{self, Initial};
-use impact_circuits::nucleation::closes_by_itself;
+use impact_circuits::nucleation::{closing_pull, pulls};
 use std::ops::Range;
 
 /// A chain whose one gap has not closed by this time is left out.
@@ -72,9 +71,10 @@ impl Search<'_> {
         loop {
             let left = self.part(of.start..middle, bodies);
             let right = self.part(middle..of.end, bodies);
-            let [before, after] = [middle - 1, middle].map(|body| bodies[begin + body - of.start]);
-            let delta = [after[0] - before[0], after[1] - before[1]];
-            let between = closes_by_itself(self.chain, delta).then_some(middle - 1);
+            let last = begin + middle - of.start;
+            let least = closing_pull(self.chain);
+            let closes = pulls(self.chain, &bodies[last - 1..=last]).any(|pull| pull >= least);
+            let between = closes.then_some(middle - 1);
             let mut seeds = [left, right, between].into_iter().flatten();
             let seed = seeds.next();
             if seeds.next().is_none() {
@@ -101,10 +101,8 @@ fn trace(
     let chain = &parameters.chain;
     let mut normals = NormalPairs::new("seeds", SEED, index);
     let (forcing, seed) = Search { chain, sigma, normals: &mut normals }.chain();
-    let still = Chain { masses: 0, ..chain.clone() };
-    let scenario =
-        Scenario { forcing, initial: Initial::Rest, ..Scenario::draw(&still, sigma, &mut normals) };
     let fault = |source| Error::failed("seeds", source);
+    let scenario = Scenario::given(chain, forcing).map_err(fault)?;
     let mut engine = Engine::new(&scenario).map_err(fault)?;
     let Some(Impact { time: first, gap, .. }) = engine.next_impact(WAIT).map_err(fault)? else {
         return Ok(Some(Trace::default()));
@@ -136,11 +134,8 @@ mod tests {
     fn closing(chain: &Chain, forcing: &[[f64; 2]]) -> Vec<usize> {
         let wall = &[[0.0; 2]];
         let bodies = [wall, forcing, wall].concat();
-        let closes = |gap: &usize| {
-            let [a, b] = [bodies[*gap], bodies[gap + 1]];
-            closes_by_itself(chain, [b[0] - a[0], b[1] - a[1]])
-        };
-        (0..chain.gaps()).filter(closes).collect()
+        let gaps = (0..).zip(pulls(chain, &bodies));
+        gaps.filter(|(_, pull)| *pull >= closing_pull(chain)).map(|(gap, _)| gap).collect()
     }
 
     /// Against whole chains that are drawn until one is accepted: the place of its gap and the mean

@@ -3,14 +3,10 @@
 use super::method::Task;
 use super::steps::Step;
 use crate::Error;
-use crate::forcing::Component;
+use crate::forcing::{Component, Phases, phases};
 use crate::impact::jumps;
-use crate::scenario::COMPONENTS;
 use crate::search::clock::Instant;
 use crate::topology::Topology;
-
-/// (sin, cos) of the phase of each component of the forcing.
-pub type Phases = [(f64, f64); COMPONENTS];
 
 /// The bodies of a chain with their state and forces; bodies are numbered from the left wall (0) to
 /// the right one (n + 1).
@@ -35,19 +31,19 @@ impl Bodies {
         scenario.check_uniform()?;
         let u = start.displacements(scenario)?;
         let masses = scenario.forcing.len();
+        let forcing = Component::forces(scenario);
         let mut row = Bodies {
             topology: Topology::new(masses, scenario.boundary),
             spacing: scenario.spacing,
             restitution: scenario.restitution,
             stiffness: scenario.natural_frequency * scenario.natural_frequency,
-            forcing: Component::forces(scenario),
+            phases: phases(&forcing, Instant::at(start.time)),
+            forcing,
             v: vec![0.0; u.len()],
             u,
-            phases: [(0.0, 1.0); COMPONENTS],
             last: 0.0,
         };
         row.v[1..=masses].copy_from_slice(&start.velocities);
-        row.phases = row.phases_at(Instant::at(start.time));
         Ok(row)
     }
 
@@ -77,11 +73,7 @@ impl Bodies {
     }
 
     pub fn phases_at(&self, at: Instant) -> Phases {
-        let mut phases = [(0.0, 1.0); COMPONENTS];
-        for (phase, component) in phases.iter_mut().zip(&self.forcing) {
-            *phase = component.phase(at);
-        }
-        phases
+        phases(&self.forcing, at)
     }
 
     /// Computes the accelerations in flight at displacements `u` and an instant. The walls have

@@ -5,9 +5,8 @@ use super::sign_change::is_rounding;
 use super::steps::Step;
 use crate::Error;
 use crate::flight::INFLATION;
-use crate::forcing::Component;
+use crate::forcing::{Component, Phases, phases};
 use crate::impact::jumps;
-use crate::scenario::COMPONENTS;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;
 
@@ -32,7 +31,7 @@ pub struct Flights {
 }
 
 /// (sin, cos) of ωt and of each Ωt.
-pub type FlightPhases = ((f64, f64), [(f64, f64); COMPONENTS]);
+pub type FlightPhases = ((f64, f64), Phases);
 
 impl Flights {
     pub fn new((scenario, start, _): Task) -> Result<Flights, Error> {
@@ -59,11 +58,7 @@ impl Flights {
     }
 
     pub fn phases(&self, at: Instant) -> FlightPhases {
-        let mut forced = [(0.0, 1.0); COMPONENTS];
-        for (phase, component) in forced.iter_mut().zip(&self.forced) {
-            *phase = component.phase(at);
-        }
-        (self.rate.sin_cos(at), forced)
+        (self.rate.sin_cos(at), phases(&self.forced, at))
     }
 
     /// Returns the phases at `s` after the beginning of a step.
