@@ -11,15 +11,15 @@ fn report() -> tempfile::TempDir {
 
 /// What is asked for, and parts of the answer.
 const CARDS: &str = "\
-sweep.rise.half_height => standard error; impact_chain::rise::Curve::new (crates/impact-chain/src/rise.rs); seed: 2007
+sweep.rise.half_height => standard error; impact_chain::rise::Curve::new (crates/impact-chain/src/rise.rs:; seed: 2007
 sweep.rise.half_height => chain masses: 100; sweep-rise.csv
 second_seed.rise.half_height => seed: 7002
 theory.jump.p_jump => 0.013033; without chance
-theory.jump.p_crit => 0.0122099; impact_circuits::jump::p_crit (crates/circuits/src/jump.rs); (18)
+theory.jump.p_crit => 0.0122099; impact_circuits::jump::p_crit (crates/circuits/src/jump.rs:; (18)
 printed.sec2_half_height => that the paper prints; Sec. 2
 fig:3 => fig03.svg; figures::fig03 (src/figures/fig03.rs); seed: 2007
-fig:s7 => experiments::accuracy::race (src/experiments/accuracy/race.rs)
-eq:18 => impact_circuits::jump::p_crit (crates/circuits/src/jump.rs); theory.jump.p_crit, theory.jump.p_crit_walls
+fig:s7 => experiments::accuracy::race (src/experiments/accuracy/race.rs
+eq:18 => impact_circuits::jump::p_crit (crates/circuits/src/jump.rs:; theory.jump.p_crit, theory.jump.p_crit_walls
 claim:sec7_jump => Reproduced.; tolerance
 eq:12 => f_N,p(k)";
 
@@ -89,10 +89,12 @@ fn every_origin_is_a_function() {
     let cards = answer(root, &format!("explain --paper {} {}", paper.display(), ids.join(" ")));
     for card in cards.split("\n\n") {
         let by = card.lines().find_map(|line| line.trim_start().strip_prefix("computed by"));
-        let (item, file) = by.and_then(|by| by.trim().split_once(" (")).expect(card);
-        let source = std::fs::read_to_string(file.trim_end_matches(')')).unwrap();
+        let (item, place) = by.and_then(|by| by.trim().split_once(" (")).expect(card);
+        let (file, line) = place.trim_end_matches(')').split_once(':').expect(card);
+        let source = std::fs::read_to_string(file).unwrap();
+        let line = source.lines().nth(line.parse::<usize>().unwrap() - 1).unwrap();
         let name = item.rsplit("::").next().unwrap();
-        assert!(source.contains(&format!("fn {name}")), "{card}");
+        assert!(line.contains(&format!("fn {name}")), "{card}: {line}");
     }
     let means = |id: &&&str| id.starts_with("sweep.rows") && id.ends_with(".mean");
     for mean in ids.iter().filter(means) {

@@ -38,6 +38,25 @@ impl Sources {
         Ok(lines.collect::<Vec<_>>().join("\n"))
     }
 
+    /// Finds the file of an item, and the line that defines it, of a method that in or after the
+    /// `impl` of its type; none of a module that is a file.
+    pub fn place(&self, item: &str) -> Option<(&'static str, Option<usize>)> {
+        const KINDS: [&str; 7] = ["fn", "struct", "enum", "trait", "type", "const", "mod"];
+        let file = self.file(item)?;
+        let (_, text) = self.files.iter().find(|(path, _)| *path == file)?;
+        let has = |line: &str, before: &[&str], name: &str| {
+            let words = line.split(|c: char| c != '_' && !c.is_alphanumeric());
+            let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+            let code = !line.trim_start().starts_with("//");
+            code && words.windows(2).any(|two| before.contains(&two[0]) && two[1] == name)
+        };
+        let mut names = item.rsplit("::");
+        let (name, owner) = (names.next()?, names.next().unwrap_or_default());
+        let inside = text.lines().position(|line| has(line, &["impl", "for"], owner)).unwrap_or(0);
+        let line = text.lines().skip(inside).position(|line| has(line, &KINDS, name));
+        Some((file, line.map(|line| inside + line + 1)))
+    }
+
     /// Finds the file of an item or a module by its path: `crates/circuits/src/jump.rs` for
     /// `impact_circuits::jump::p_jump`. None if the program has no such file.
     pub fn file(&self, item: &str) -> Option<&'static str> {
@@ -95,6 +114,8 @@ mod tests {
         ] {
             assert_eq!(toy().file(item), file, "{item}");
         }
+        assert_eq!(toy().place("toy::flight::Motion::kick"), Some(("src/flight.rs", Some(6))));
+        assert_eq!(toy().place("toy::flight::drag"), Some(("src/flight/drag/mod.rs", None)));
         assert_eq!(toy().short("toy_paper::claims::sec2"), "claims::sec2");
     }
 }

@@ -98,12 +98,15 @@ fn shown(card: &Card) -> String {
         out += &format!("  {}\n", clean(&card.lead));
     }
     for (name, text) in card.rows.iter().filter(|(name, _)| !["id", "ledger"].contains(name)) {
-        let file = match text.as_slice() {
-            [Inline::Link { to, .. }] => to.strip_prefix("../"),
-            _ => None,
+        // A link to a line of the source shows its item, and in brackets its file and line.
+        let (text, place) = match text.as_slice() {
+            [Inline::Link { to, shown }] if to.starts_with("../") => {
+                let place = to.trim_start_matches("../").replace("#L", ":");
+                (shown.get(..1).unwrap_or_default(), format!(" ({place})"))
+            }
+            all => (all, String::new()),
         };
-        let file = file.map_or(String::new(), |file| format!(" ({file})"));
-        out += &format!("  {name:15} {}{file}\n", words(text));
+        out += &format!("  {name:15} {}{place}\n", words(text));
     }
     out
 }

@@ -80,7 +80,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         }
         let (results, mut report) = (paper.results(&needs, &session)?, Files::new());
         for figure in figures {
-            report.extend(files_of(&figure.figure(&results)?));
+            report.extend(files_of(&figure.figure(&results)?, paper.edition.license));
         }
         report.retain(|path, _| !folder::is_generated(path));
         Ok((report, Vec::new()))

@@ -57,11 +57,13 @@ impl Figure {
         })
     }
 
-    /// Returns the files of the picture by name.
-    pub fn files(&self) -> Vec<(String, Vec<u8>)> {
+    /// Returns the files of the picture by name; one that is drawn names its licence.
+    pub fn files(&self, license: &str) -> Vec<(String, Vec<u8>)> {
         if self.files.is_empty() {
             let [svg, pdf] = self.names();
-            return vec![(svg, self.svg().into_bytes()), (pdf, self.drawing.pdf(&self.title))];
+            let license = format!("\n<metadata>{}</metadata>\n<style>", escape(license));
+            let drawn = self.svg().replacen("\n<style>", &license, 1);
+            return vec![(svg, drawn.into_bytes()), (pdf, self.drawing.pdf(&self.title))];
         }
         let name = |format: &str| format!("{}.{format}", self.id);
         self.files.iter().map(|(format, bytes)| (name(format), bytes.clone())).collect()

@@ -1,7 +1,7 @@
 //! Assembles a report: from results and prose makes every file of it, as bytes. It writes no file.
 
 use super::bibliography::Library;
-use super::card::{Cards, links};
+use super::card::{Cards, link_to_line, links};
 use super::claims::{row, scorecard};
 use super::document::{self, Block, Inline};
 use super::edition::Document;
@@ -199,7 +199,8 @@ fn data_files(input: &Input<'_>, values: &Registry, ledger: &Ledger) -> Result<F
         let json = json.map_err(|error| Error::Template(format!("{name}: {error}")))? + "\n";
         files.insert(name.into(), json.into_bytes());
     }
-    files.extend(input.figures.par_iter().flat_map_iter(files_of).collect::<Vec<_>>());
+    let file = |figure: &Figure| files_of(figure, input.edition.license);
+    files.extend(input.figures.par_iter().flat_map_iter(file).collect::<Vec<_>>());
     Ok(files)
 }
 
@@ -258,10 +259,10 @@ fn write_documents(
     Ok(shown)
 }
 
-/// Returns the files of the picture of a figure, and its data.
-pub fn files_of(figure: &Figure) -> Files {
-    let picture =
-        figure.files().into_iter().map(|(name, bytes)| (format!("figures/{name}"), bytes));
+/// Returns the files of the picture of a figure, which has this licence, and its data.
+pub fn files_of(figure: &Figure, license: &str) -> Files {
+    let files = figure.files(license).into_iter();
+    let picture = files.map(|(name, bytes)| (format!("figures/{name}"), bytes));
     picture.chain(figure.data.iter().map(data)).collect()
 }
 
@@ -324,6 +325,11 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> (Vec<String>, Vec<Erro
         }
         shown.push(figure.id.clone());
     }
-    document::rewrite(blocks, &mut |inline| document::relative_link(inline, input.top));
+    // The path of an item leads to its line.
+    let linked = |inline| match inline {
+        Inline::Code(item) if item.contains("::") => link_to_line(&item, input.project),
+        other => other,
+    };
+    document::rewrite(blocks, &mut |inline| document::relative_link(linked(inline), input.top));
     (shown, errors)
 }

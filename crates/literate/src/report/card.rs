@@ -22,7 +22,8 @@ pub struct Card {
     pub title: Vec<Inline>,
     /// What it is in one plain sentence; may be empty.
     pub lead: String,
-    /// What is known of it: names, as "standard error", and texts.
+    /// What is known of it: names, as "standard error", and texts; an empty name goes on with the
+    /// one before.
     pub rows: Vec<(&'static str, Vec<Inline>)>,
 }
 
@@ -42,11 +43,8 @@ impl Card {
     }
 
     fn item(&mut self, name: &'static str, item: &str, project: &Project) {
-        let code = Inline::Code(item.to_string());
-        match project.sources.file(item) {
-            _ if item.is_empty() => (),
-            Some(file) => self.row(name, vec![link(&format!("../{file}"), code)]),
-            None => self.row(name, vec![code]),
+        if !item.is_empty() {
+            self.row(name, vec![link_to_line(item, project)]);
         }
     }
 
@@ -55,7 +53,10 @@ impl Card {
         let Some(experiment) = all.find(|experiment| experiment.name() == name) else { return };
         self.item("experiment", &experiment.item(), cards.project);
         let profile = cards.values.profile().unwrap_or(Profile::Full);
-        self.words("its parameters", &settings(&experiment.parameters(profile)));
+        let settings = settings(&experiment.parameters(profile));
+        for (i, setting) in settings.iter().enumerate() {
+            self.words(if i == 0 { "its parameters" } else { "" }, setting);
+        }
     }
 }
 
@@ -132,7 +133,7 @@ impl Cards<'_> {
         if let Kind::Ensemble { realisations, standard_error } = &value.kind {
             card.words("standard error", &standard_error.to_string());
             if *realisations > 0 {
-                card.words("n", &realisations.to_string());
+                card.words("realisations", &realisations.to_string());
             }
         }
         if let Kind::Printed { place } = &value.kind {
@@ -144,12 +145,12 @@ impl Cards<'_> {
             let (to, shown) = (format!("eq:{number}"), format!("Eq.\u{a0}({number})"));
             card.row("equation", vec![Inline::Reference { to, within: None, shown }]);
         }
-        card.experiment(&value.experiment, self);
         card.words("note", &value.note);
         let mut data = vec!["values.json".to_string()];
         data.extend(table_of(&value.id).map(|t| format!("data/{}", DataFile::name_of(t))));
         card.row("data", links(&data));
         card.row("id", vec![Inline::Code(value.id.clone())]);
+        card.experiment(&value.experiment, self);
         Some(card)
     }
 
@@ -173,6 +174,7 @@ impl Cards<'_> {
         let equation = self.ledger.equations.iter().find(|equation| equation.number == number)?;
         let title = words_and_maths(&equation.what);
         let mut card = Card::of(format!("eq:{number}"), title);
+        card.lead = format!("Equation ({number}).");
         card.words("stands in", &format!("Sec. {}", equation.section));
         card.item("home", &equation.home, self.project);
         if let Some(towards) = &equation.step_towards {
@@ -221,6 +223,19 @@ pub(super) fn links<'a>(paths: impl IntoIterator<Item = &'a String>) -> Vec<Inli
     out
 }
 
+/// Makes a link to the line of an item of the source; only its path if there is no such file.
+pub(super) fn link_to_line(item: &str, project: &Project) -> Inline {
+    let code = Inline::Code(item.into());
+    match project.sources.place(item) {
+        Some((file, Some(line))) => {
+            let shown = vec![code, Inline::Text(format!(", line {line}"))];
+            Inline::Link { to: format!("../{file}#L{line}"), shown }
+        }
+        Some((file, None)) => link(&format!("../{file}"), code),
+        None => code,
+    }
+}
+
 /// What kind of number it is, and where it comes from.
 fn lead(value: &Value) -> String {
     let what = match &value.kind {
@@ -241,9 +256,9 @@ fn lead(value: &Value) -> String {
     }
 }
 
-/// Writes the parameters, the seed among them: `runs: 3; seed: 7`. A nested field has both names;
+/// Writes each parameter, the seed among them: `runs: 3`, `seed: 7`. A nested field has both names;
 /// one with several values lists them, or the first and the last of more than eight.
-fn settings(parameters: &Json) -> String {
+fn settings(parameters: &Json) -> Vec<String> {
     let mut all = Vec::new();
     collect("", parameters, &mut all);
     let listed = |(name, values): (String, Vec<String>)| match values.as_slice() {
@@ -252,7 +267,7 @@ fn settings(parameters: &Json) -> String {
         }
         few => format!("{name}: {}", few.join(", ")),
     };
-    all.into_iter().map(listed).collect::<Vec<_>>().join("; ")
+    all.into_iter().map(listed).collect()
 }
 
 /// Adds the values of a field, each once.
@@ -287,6 +302,6 @@ mod tests {
         let parameters = serde_json::json!({"seed": 7, "chain": {"masses": 3}, "r": [0.5, 0.25],
             "runs": [{"from": 1.0, "to": 2}, {"from": 1.0, "to": 3}], "none": null});
         let all = "chain masses: 3; r: 0.5, 0.25; runs from: 1; runs to: 2, 3; seed: 7";
-        assert_eq!(settings(&parameters), all);
+        assert_eq!(settings(&parameters).join("; "), all);
     }
 }

@@ -268,7 +268,20 @@ impl<'a> Page<'a> {
             Inline::Display { formula, id, number } => {
                 let (name, id, tag) = match id.as_deref().map(place_on_page) {
                     Some(id) => {
-                        let tag = format!("<a class=\"number\" href=\"#{id}\">({number})</a>");
+                        let mut card = String::new();
+                        // An equation of the ledger opens its card, which has the line of its code.
+                        if self
+                            .input
+                            .edition
+                            .equations
+                            .iter()
+                            .any(|of| id == format!("eq-{}", of.number))
+                        {
+                            card = format!(" data-card=\"eq:{number}\"");
+                            self.values.borrow_mut().insert(format!("eq:{number}"));
+                        }
+                        let tag =
+                            format!("<a class=\"number\" href=\"#{id}\"{card}>({number})</a>");
                         (number.as_str(), format!(" id=\"{id}\""), tag)
                     }
                     None => ("without number", String::new(), String::new()),

@@ -43,7 +43,8 @@ pub fn files(
                 other => document::relative_link(other, input.top),
             };
             let words: Vec<Inline> = text.iter().flat_map(place).collect();
-            let row = format!("<dt>{name}</dt><dd>{}</dd>", page.inlines(&words));
+            let name = if name.is_empty() { "" } else { &format!("<dt>{name}</dt>") };
+            let row = format!("{name}<dd>{}</dd>", page.inlines(&words));
             numbers.push(*places.entry(row.clone()).or_insert_with(|| {
                 rows.push(row);
                 rows.len() - 1
