@@ -25,6 +25,9 @@ use std::ops::Range;
 /// one run. Rows come together at the end. Standard error names realisations that the engine ended
 /// early, rows with more than a tenth of the starts rejected, or with more than one in a hundred
 /// impacts at the instant of another, and grazes that rounding could not decide.
+///
+/// Realisation i is Scenario::draw of the crate impact-chain with NormalPairs::new("sweep", S, i);
+/// its to_json can be read by trace. The chain, its equation and its units: trace --help.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment, after_help = help())]
 pub struct Args {
@@ -47,7 +50,7 @@ pub struct Args {
     #[arg(long, value_name = "w", default_value = "1", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
     natural_frequency: f64,
     /// Forcing frequency Ω, different from ω [default: √2].
-    #[arg(long, value_name = "W", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
+    #[arg(long, value_name = "Omega", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
     forcing_frequency: Option<f64>,
     /// Distance d of the places of the masses.
     #[arg(long, value_name = "d", default_value = "1", value_parser = within(1e-6, 1e6), allow_hyphen_values = true)]
@@ -92,8 +95,8 @@ const COLUMNS: [(&str, &str); 18] = [
     ("mode_distinct", "most frequent number of the kept, the lowest of several"),
     ("impacts_per_time", "impacts in the window over W, mean of the kept"),
     ("impacts", "impacts of whole runs, transients too"),
-    ("near_simultaneous", "those within 1e-9 of one in a gap next to it"),
-    ("slow", "those with a closing speed below 1e-8"),
+    ("near_simultaneous", "those within 1e-9 of one in a gap next to it, whatever w"),
+    ("slow", "those with a closing speed below 1e-8, whatever d and w"),
     ("contact_phases", "times that a gap came to rest in contact"),
     ("mean_all", "different gaps with an impact, mean of all that ran"),
     ("standard_error_all", "of this mean"),
@@ -208,7 +211,7 @@ fn warn_of_doubts(ensemble: &Ensemble, sigma: f64, counts: &Counts) {
     if total.simultaneous > total.impacts / 100 {
         warn(&format!(
             "sigma {sigma:?}: {} of {} impacts came at exactly the same instant as one in a neighbouring gap; \
-             their order is a choice (fastest first), which may matter",
+             they were taken fastest first, a choice that may matter where r > 0",
             total.simultaneous, total.impacts
         ));
     }

@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// Print the impacts of a scenario as CSV: time, gap, closing speed
 ///
-/// Masses 1..n in a row, each on a spring to its place: between impacts
+/// Masses 1..n in a row, points, each on a spring to its place: between impacts
 ///   x_j'' = w^2 (j d - x_j) + alpha_j cos Wt + beta_j sin Wt.
 /// Where neighbours meet, their velocities jump: the gap opens at r times the speed at which it
 /// closed, and momentum is kept. All masses are 1; walls, at 0 and (n + 1) d, do not move. Times
@@ -63,7 +63,7 @@ pub struct Args {
         conflicts_with_all = ["until", "max_impacts"])]
     at: Option<Values>,
     /// Read a scenario from each line; a first column has the number of the line. Each is answered
-    /// before the next is read.
+    /// before the next is read; the first that is refused ends the run.
     #[arg(long)]
     lines: bool,
     /// Stop after this many impacts.
