@@ -93,9 +93,8 @@ fn rise_table(sweep: &Counted) -> Table {
 
 fn modes(sweep: &Counted) -> Table {
     const UNDER: &str = "to here the mode is surely under half of all gaps";
-    let rows = sweep.first().rows.iter();
-    let intervals = rows.filter_map(|row| Some((row.sigma, row.mode_interval?)));
-    let (sigma, interval) = intervals.max_by_key(|(_, [low, high])| high - low).unzip();
+    let (sigma, interval) =
+        mode_intervals(sweep.first()).max_by_key(|(_, [low, high])| high - low).unzip();
     let half = mode_half(sweep.first(), sweep.ensemble.chain.gaps());
     Table::of("sweep.mode", &[()], |()| 0)
         .chosen("noisiest_sigma", SIGMA, "where the interval of the mode is longest", |()| sigma)
@@ -147,12 +146,15 @@ fn sticking() -> Table {
         .done()
 }
 
+fn mode_intervals(curve: &Curve) -> impl Iterator<Item = (f64, [usize; 2])> {
+    curve.rows.iter().filter_map(|row| Some((row.sigma, row.mode_interval?)))
+}
+
 /// Returns the σ between which the mode passes half of all gaps: by its bootstrap intervals it is
 /// under one half below the first, and over it from the second on.
 pub fn mode_half(curve: &Curve, gaps: usize) -> Option<[f64; 2]> {
     let half = gaps as f64 / 2.0;
-    let intervals: Vec<(f64, [usize; 2])> =
-        curve.rows.iter().filter_map(|row| Some((row.sigma, row.mode_interval?))).collect();
+    let intervals: Vec<(f64, [usize; 2])> = mode_intervals(curve).collect();
     let low = intervals.iter().find(|(_, [_, top])| *top as f64 >= half)?;
     let below = intervals.iter().rposition(|(_, [bottom, _])| (*bottom as f64) < half)?;
     Some([low.0, intervals.get(below + 1)?.0])

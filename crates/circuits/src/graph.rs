@@ -88,31 +88,3 @@ impl Circuit {
         (2..=most).map(|m| visits.values().filter(|v| **v == m).count()).collect()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn enumeration_agrees_with_a_search_of_all_sequences() {
-        // Second route: all N^L sequences, brought to their least rotation, primitive ones kept.
-        for (masses, longest) in [(0, 3), (1, 7), (2, 6), (3, 5)] {
-            let graph = Graph::of_chain(masses);
-            let n = graph.vertices();
-            let mut all = std::collections::BTreeSet::new();
-            for length in 1..=longest {
-                // The digits of all numbers to the base N.
-                let digit = |number: usize, i: usize| number / n.pow(i as u32) % n;
-                let word = |number| (0..length).map(|i| digit(number, i)).collect();
-                let words = (0..n.pow(length as u32)).map(word);
-                let primitive = |word: &Vec<usize>| {
-                    let rotated = |i: usize| [&word[i..], &word[..i]].concat();
-                    (1..length).all(|i| rotated(i) != *word)
-                };
-                all.extend(words.filter(primitive).map(Circuit::new));
-            }
-            assert!(graph.circuits(longest).eq(all), "N = {n}");
-        }
-        assert_eq!(Graph::of_chain(2).circuits(0).count(), 0);
-    }
-}

@@ -1,15 +1,15 @@
 //! Poincaré section of one mass between walls: its state once a period of the force, as the force
 //! grows through the first graze.
 
-use impact_chain::{Chain, Engine, Error, Scenario};
+use impact_chain::{Chain, Engine, Error, Scenario, Start};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 /// Positions at 40 periods after 400, to six digits.
 fn section(amplitude: f64) -> Result<BTreeSet<i64>, Error> {
-    let chain = Chain { masses: 1, forcing_frequency: 2.0, ..Chain::default() };
     // Only impacts damp the motion, so start without a free part.
-    let chain = Chain { start: impact_chain::Start::Zero, ..chain };
+    let start = Start::Zero;
+    let chain = Chain { masses: 1, forcing_frequency: 2.0, start, ..Chain::default() };
     // The response is amplitude/3 sin 2t: it grazes both walls at amplitude 3.
     let mut engine = Engine::new(&Scenario::given(&chain, vec![[0.0, -amplitude]])?)?;
     let mut points = BTreeSet::new();

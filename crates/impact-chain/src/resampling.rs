@@ -14,6 +14,7 @@ pub const ONSET: f64 = 0.05;
 const RESAMPLES: u64 = 1000;
 
 /// Means and modes at each σ, and places of the rise, of a sample or of a resample.
+#[derive(Default)]
 pub struct Places {
     /// Mean over those with at least one impact.
     pub mean: Vec<Option<f64>>,
@@ -40,13 +41,7 @@ impl Sample<'_> {
     /// Computes means, modes and places when realisation i counts `weights[i]` times.
     fn places(&self, weights: &[u32]) -> Places {
         let sigmas = self.sigmas;
-        let mut share = Vec::with_capacity(sigmas.len());
-        let mut found = Places {
-            mean: Vec::with_capacity(sigmas.len()),
-            mean_all: Vec::with_capacity(sigmas.len()),
-            mode: Vec::with_capacity(sigmas.len()),
-            rise: [None; 7],
-        };
+        let (mut found, mut share) = (Places::default(), Vec::new());
         let mut histogram = vec![0; self.largest() + 1];
         for row in &self.counts {
             bootstrap::histogram(row, weights, &mut histogram);
@@ -87,10 +82,8 @@ pub struct Resampled {
 impl Resampled {
     pub fn new(sample: &Sample<'_>, seed: u64) -> Self {
         let size = sample.counts.iter().map(|counts| counts.len()).max().unwrap_or(0);
-        let mut resamples = Vec::with_capacity(RESAMPLES as usize);
-        for index in 0..RESAMPLES {
-            resamples.push(sample.places(&bootstrap::weights(seed, index, size)));
-        }
+        let resample = |index| sample.places(&bootstrap::weights(seed, index, size));
+        let resamples = (0..RESAMPLES).map(resample).collect();
         let whole = sample.places(&vec![1; size]);
         Resampled { whole, resamples, largest: sample.largest() }
     }

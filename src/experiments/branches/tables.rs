@@ -38,10 +38,6 @@ fn half_heights(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-fn first_two(pairs: &[Pair]) -> &[Pair] {
-    &pairs[..pairs.len().min(2)]
-}
-
 fn last_three(pairs: &[Pair]) -> &[Pair] {
     &pairs[pairs.len().saturating_sub(3)..]
 }
@@ -51,7 +47,7 @@ fn laws(lengths: &[&[Pair]]) -> Table {
     const LAW: &str = "d ln(distance)/d ln T by least squares over the last three transients";
     const EARLY: &str = "the same over the first two transients";
     let late = |pairs: &[Pair], without| exponent(last_three(pairs), without);
-    let early = |pairs: &[Pair], without| exponent(first_two(pairs), without);
+    let early = |pairs: &[Pair], without| exponent(&pairs[..pairs.len().min(2)], without);
     let law = |pairs: &[Pair]| pairs[0].estimate(|_, without| late(pairs, without));
     let ends = |pairs: &[Pair]| interval(law(pairs), pairs[0].chains());
     Table::of("branches.laws", lengths, |pairs| pairs[0].chains())
