@@ -52,9 +52,6 @@ impl Paper {
 
     /// Runs those of the experiments that are needed, in the order of the paper, and returns their
     /// results.
-    ///
-    /// # Errors
-    /// Of the first run that fails or is interrupted.
     pub fn results(
         &self,
         needs: &[&'static dyn AnyExperiment],

@@ -35,9 +35,6 @@ impl FigureSpec {
     }
 
     /// Draws it from results.
-    ///
-    /// # Errors
-    /// With its name.
     pub fn figure(&self, results: &Results) -> Result<Figure, Failure> {
         let named = |error| Failure::from(error).of(format!("figure {}", self.name));
         let mut figure = (self.draw)(results).map_err(named)?;

@@ -10,9 +10,6 @@ use std::time::Duration;
 static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
 
 /// Starts a program, gives it a text to read, and waits for its end.
-///
-/// # Errors
-/// If it cannot be started.
 pub(super) fn run(command: &mut Command, text: String) -> io::Result<Output> {
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     command.process_group(0);

@@ -41,9 +41,6 @@ impl Session<'_> {
 
     /// Prints one line if some units are to be run: what they belong to, and about how long they
     /// take.
-    ///
-    /// # Errors
-    /// If their results cannot be saved.
     pub(crate) fn announce(&self, what: &str, units: &[Unit]) -> Result<(), Error> {
         if units.is_empty() {
             return Ok(());

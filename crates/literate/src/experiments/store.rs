@@ -152,9 +152,6 @@ impl Store {
 
     /// Removes the files of the units of a result, and that of the result too if it is to be run
     /// again.
-    ///
-    /// # Errors
-    /// If a file is there and cannot be removed.
     pub fn remove(&self, identity: &Identity, is_to_run: bool) -> Result<(), Error> {
         let stem = format!("{}-", identity.file_stem());
         let is_unit = |path: &PathBuf| {

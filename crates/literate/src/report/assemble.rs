@@ -158,19 +158,14 @@ fn parts<'a>(
     if let Err(error) = labels.add_verdicts(input.claims) {
         errors.push(parts.iter().fold(error, |error, part| part.places.locate(error)));
     }
-    let mut found = Vec::new();
-    for Part { document, blocks, places } in &mut parts {
-        if let Err(error) = labels.resolve(blocks, *document, &library) {
-            found.extend(error.each().into_iter().map(|error| places.locate(error)));
-        }
+    // What stands in a block with an error has an id without a number.
+    for part in parts.iter().filter(|_| is_broken) {
+        labels.add_missing(part.places.ids(), part.document);
     }
-    // What stands in a block with an error has an id that no label has.
-    let is_there = |thing: &str| {
-        let id = thing.replacen('@', "#", 1);
-        parts.iter().any(|part| part.places.knows(&id))
-    };
-    found.retain(|error| !(is_broken && error.thing().is_some_and(is_there)));
-    errors.extend(found);
+    for Part { document, blocks, places } in &mut parts {
+        let resolved = labels.resolve(blocks, *document, &library);
+        errors.extend(resolved.err().map(|error| places.locate(error)));
+    }
     all_in_order(errors)?;
     Ok((parts, labels))
 }

@@ -78,15 +78,6 @@ impl Error {
         Error::Named { thing, what: what + &nearest }
     }
 
-    /// Returns what the prose names that is wrong, as `@fig:3`.
-    pub(crate) fn thing(&self) -> Option<&str> {
-        match self {
-            Error::Named { thing, .. } => Some(thing),
-            Error::At { error, .. } => error.thing(),
-            _ => None,
-        }
-    }
-
     pub(crate) fn at(self, place: String) -> Error {
         match self {
             Error::At { .. } => self,

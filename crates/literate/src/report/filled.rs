@@ -92,9 +92,9 @@ impl<'a> Places<'a> {
         all.filter_map(|(to, at)| Some((to?, self.filled.place(*at))))
     }
 
-    /// Whether something noted has this name.
-    pub fn knows(&self, thing: &str) -> bool {
-        self.found.iter().any(|(noted, _)| noted == thing)
+    /// All ids that were noted.
+    pub fn ids(&self) -> impl Iterator<Item = &str> {
+        self.found.iter().filter_map(|(thing, _)| thing.strip_prefix('#'))
     }
 
     /// Adds to an error the place of what it names. Of two things with one id the second is meant.

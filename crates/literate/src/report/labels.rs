@@ -33,6 +33,14 @@ impl Labels {
         Some(Error::Named { thing: format!("#{id}"), what })
     }
 
+    /// Adds labels to ids that have none, so that a reference to them is no error.
+    pub fn add_missing<'a>(&mut self, ids: impl Iterator<Item = &'a str>, document: Document) {
+        for id in ids {
+            let label = Label { shown: "?".into(), document };
+            self.labels.entry(id.to_string()).or_insert(label);
+        }
+    }
+
     /// Returns the label with this id.
     pub fn get(&self, id: &str) -> Option<&Label> {
         self.labels.get(id)

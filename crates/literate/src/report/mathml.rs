@@ -17,9 +17,6 @@ fn convert(tex: &str, display: MathDisplay) -> Result<String, String> {
 /// Writes a formula, cut at its values, which `value` writes: screen readers take a formula as a
 /// whole and would not reach a button inside it. A value in a script, a root or a fraction stays in
 /// the formula as digits.
-///
-/// # Errors
-/// What is wrong with the formula.
 pub fn write(
     formula: &Formula,
     display: MathDisplay,
