@@ -87,9 +87,7 @@ impl Paper {
         let profile = Value::text("profile", results.profile.name());
         registry.add(profile.source(crate::value::origin(Paper::registry)).data_only())?;
         for values in &self.values {
-            for value in values(results, published)? {
-                registry.add(value)?;
-            }
+            registry.extend(values(results, published)?)?;
         }
         results.tables()?.values().try_for_each(|table| registry.add_table(Arc::clone(table)))?;
         Ok(registry)

@@ -115,7 +115,7 @@ fn the_advice_of_verify_works_as_it_is_printed() {
     let (code, _, note) = made("paper --rerun cascade");
     assert!(code == 0 && note.contains("cascade: run\n"), "{note}");
     let (code, _, note) = made("paper --rerun cascades");
-    assert!(code == 2 && note.contains("no experiment \"cascades\"; nearest: cascade"), "{note}");
+    assert!(code == 2 && note.contains("no experiment cascades; nearest: cascade"), "{note}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::claims::{Check, Published, Verdict, blind_to_their_number};
 use crate::failure::Failure;
 use crate::input::one_line;
 use crate::paper::Paper;
-use crate::table::nearest;
+use crate::table::no_such;
 use std::collections::BTreeMap;
 
 /// Judge the statements of the paper, and relations between its numbers
@@ -50,8 +50,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         let is_number = asked.parse().is_ok_and(|n| (1..=published.statements.len()).contains(&n));
         if !is_number && !published.statements.iter().any(|statement| statement.id == *asked) {
             let ids = published.statements.iter().map(|statement| statement.id.as_str());
-            let (asked, nearest) = (one_line(asked, 60), nearest(asked, ids).join(", "));
-            let what = format!("there is no statement {asked}; nearest: {nearest}");
+            let what = no_such("statement", &one_line(asked, 60), ids);
             return Err(Failure::input(format!("{what}; `check -v` lists all")));
         }
     }

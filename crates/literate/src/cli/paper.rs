@@ -9,7 +9,7 @@ use crate::input::{count, one_line, regular_text};
 use crate::paper::{FigureSpec, Paper};
 use crate::report::values;
 use crate::report::{Files, files_of, folder};
-use crate::table::nearest;
+use crate::table::no_such;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -107,9 +107,8 @@ fn forget(names: &[String], paper: &Paper, session: &Session<'_>) -> Result<(), 
     let known: Vec<&str> = paper.experiments.iter().map(|experiment| experiment.name()).collect();
     for name in names {
         if name != "all" && !known.contains(&name.as_str()) {
-            let nearest = nearest(name, known.into_iter()).join(", ");
-            let what = format!("there is no experiment {:?}", one_line(name, 60));
-            return Err(Failure::input(format!("--rerun: {what}; nearest: {nearest}")));
+            let what = no_such("experiment", &one_line(name, 60), known.into_iter());
+            return Err(Failure::input(format!("--rerun: {what}")));
         }
     }
     for experiment in &paper.experiments {

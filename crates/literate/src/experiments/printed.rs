@@ -1,6 +1,6 @@
 //! Reads the tables that a command printed.
 
-use crate::table::{Building, Table, called, nearest};
+use crate::table::{Building, Table, called, no_such};
 use crate::value::{Number, Origin};
 use impact_numerics::estimates::with_error;
 use serde::de::{Error, MapAccess, Visitor};
@@ -82,8 +82,7 @@ impl PrintedTable {
             ("meanings", self.meanings.keys().collect()),
         ] {
             if let Some(lost) = columns.into_iter().find(|name| self.place(name).is_none()) {
-                let nearest = nearest(lost, self.names()).join(", ");
-                return Some(format!("{field}: there is no column {lost}; nearest: {nearest}"));
+                return Some(format!("{field}: {}", no_such("column", lost, self.names())));
             }
         }
         for (name, digits) in &self.digits {

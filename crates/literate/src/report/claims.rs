@@ -32,7 +32,7 @@ pub fn row(check: &Check) -> serde_json::Value {
 fn sentence(text: &Text) -> String {
     let piece = |piece: &Number| match piece {
         Number::Text(words) => markdown::escaped(&symbols(words)),
-        number => print(number, Style::default()).markdown(),
+        number => markdown::inlines(&super::document::printed(&print(number, Style::default()))),
     };
     text.0.iter().map(piece).collect()
 }
@@ -114,6 +114,8 @@ mod tests {
         assert_eq!(symbols(text), set);
         let text = crate::text!("k* at {}.", with_error(0.11652, 0.0004));
         assert_eq!(sentence(&text), "$k^*$ at 0.1165(4).");
+        let text = crate::text!("{} and {}", -3.25, 1.2e-5);
+        assert_eq!(sentence(&text), r"−3.25 and $1.2\times10^{-5}$");
     }
 
     #[test]

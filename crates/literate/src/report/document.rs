@@ -186,12 +186,11 @@ pub fn printed(shown: &Shown) -> Vec<Inline> {
         Shown::Words(words) => return vec![Inline::Text(in_one_line(words))],
         Shown::Number(numeral) => numeral,
     };
-    let Some(power) = numeral.tex_power() else { return vec![Inline::Text(shown.markdown())] };
-    let mut out = vec![Inline::Maths(power.as_str().into())];
-    if numeral.percent {
-        out.push(Inline::Text("\u{a0}%".into()));
+    let percent = if numeral.percent { "\u{a0}%" } else { "" };
+    match numeral.tex_power() {
+        Some(power) => vec![Inline::Maths(power.as_str().into()), Inline::Text(percent.into())],
+        None => vec![Inline::Text(numeral.signed("−") + percent)],
     }
-    out
 }
 
 /// Replaces each end of a line and each tab by a blank.

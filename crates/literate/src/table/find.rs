@@ -15,8 +15,9 @@ pub fn table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missing> {
     match tables.get(name) {
         Some(table) => Ok(table),
         None => {
-            let missing = Missing::new(name, no_such("table", name, tables.keys().copied()));
-            Err(missing.remedy("add its experiment to `needs`"))
+            let mut missing = Missing::new(name, no_such("table", name, tables.keys().copied()));
+            missing.remedy = "add its experiment to `needs`";
+            Err(missing)
         }
     }
 }

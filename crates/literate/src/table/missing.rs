@@ -12,7 +12,7 @@ pub struct Missing {
     /// What is missing, and the nearest names that there are.
     what: String,
     /// What to do if the address is right.
-    remedy: &'static str,
+    pub(super) remedy: &'static str,
     place: String,
 }
 
@@ -22,16 +22,12 @@ impl Missing {
         let (remedy, place) = ("run a fuller profile", place(Location::caller()));
         Missing { address: address.into(), what: what.into(), remedy, place }
     }
-
-    pub(super) fn remedy(self, remedy: &'static str) -> Missing {
-        Missing { remedy, ..self }
-    }
 }
 
 pub(super) const NO_NUMBER: &str = "this cell has no number";
 
 /// Says that there is nothing of this name, with the nearest names that there are.
-pub(super) fn no_such<'a>(kind: &str, name: &str, names: impl Iterator<Item = &'a str>) -> String {
+pub(crate) fn no_such<'a>(kind: &str, name: &str, names: impl Iterator<Item = &'a str>) -> String {
     let nearest = nearest(name, names);
     match nearest.is_empty() {
         true => format!("there is no {kind} {name}, nor any other"),

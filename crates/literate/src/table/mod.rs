@@ -17,6 +17,7 @@ mod rows;
 pub use building::Building;
 pub use data::{DataFile, shortest};
 pub use find::{Tables, cell, number_at, table, table_of};
+pub(crate) use missing::no_such;
 pub use missing::{Missing, nearest};
 pub(crate) use rows::called;
 pub use rows::{Keys, Table, number};
