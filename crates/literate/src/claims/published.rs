@@ -15,8 +15,6 @@ pub struct Published {
     pub parameters: Vec<Parameter>,
     #[serde(rename = "statement")]
     pub statements: Vec<Statement>,
-    #[serde(skip)]
-    text: String,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -54,7 +52,7 @@ pub struct Statement {
     pub decimals: Option<i32>,
     /// The line of its id.
     #[serde(skip)]
-    line: usize,
+    pub(crate) line: usize,
 }
 
 /// What is wrong with a file of published statements, after its line if it has one.
@@ -79,42 +77,26 @@ impl Published {
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
         let mut published: Published =
             toml::from_str(text).map_err(|error| PublishedError(toml_fault(text, &error)))?;
-        published.text = text.into();
-        for at in 0..published.statements.len() {
-            let line = published.line(&published.statements[at].id);
-            let statement = &mut published.statements[at];
-            statement.line = line;
-            let read = statement.read_number();
-            read.map_err(|what| PublishedError::at(line, &statement.id, what))?;
+        let last_line = |id: &str| lines(text, id).last().unwrap_or(1);
+        for statement in &mut published.statements {
+            statement.line = last_line(&statement.id);
+            statement.read_number().map_err(|what| statement.fault(what))?;
         }
         for Parameter { id, value, .. } in &published.parameters {
             if !value.is_finite() {
-                return Err(published.fault(id, "value is not a finite number"));
+                return Err(PublishedError::at(last_line(id), id, "value is not a finite number"));
             }
         }
         let mut seen = BTreeSet::new();
         let parameters = published.parameters.iter().map(|parameter| &parameter.id);
         for id in parameters.chain(published.statements.iter().map(|statement| &statement.id)) {
             if !seen.insert(id) {
-                let first = published.lines(id).next().unwrap_or(1);
+                let first = lines(text, id).next().unwrap_or(1);
                 let what = format!("it stands on line {first} too; give each entry its own");
-                return Err(published.fault(id, &what));
+                return Err(PublishedError::at(last_line(id), id, &what));
             }
         }
         Ok(published)
-    }
-
-    /// Makes an error of the entry with this id, with its line.
-    fn fault(&self, id: &str, what: &str) -> PublishedError {
-        PublishedError::at(self.line(id), id, what)
-    }
-
-    /// Makes the error of a statement with other printed words than those that its rule judges.
-    pub fn unread(&self, id: &str, words: &str) -> PublishedError {
-        let what = format!(
-            "its check judges {words:?}, and not its printed; restore the one that is wrong"
-        );
-        self.fault(id, &what)
     }
 
     pub fn statement(&self, id: &str) -> Result<&Statement, PublishedError> {
@@ -122,25 +104,18 @@ impl Published {
         found.ok_or_else(|| PublishedError::missing("statement", id))
     }
 
-    /// Finds the last line of the file, from 1, that gives an entry this id; 1 if there is none.
-    pub fn line(&self, id: &str) -> usize {
-        self.lines(id).last().unwrap_or(1)
-    }
-
-    /// Finds the lines that give an entry this id.
-    fn lines(&self, id: &str) -> impl Iterator<Item = usize> {
-        let ways = ['"', '\''].map(|quote| format!("id={quote}{id}{quote}"));
-        let lines = (1..).zip(self.text.lines());
-        lines.filter_map(move |(number, line)| {
-            ways.contains(&line.split_whitespace().collect()).then_some(number)
-        })
-    }
-
     /// Returns the number that the paper chose under this id.
     pub fn parameter(&self, id: &str) -> Result<f64, PublishedError> {
         let found = self.parameters.iter().find(|parameter| parameter.id == id);
         found.map(|one| one.value).ok_or_else(|| PublishedError::missing("parameter", id))
     }
+}
+
+/// Finds the lines of a file, from 1, that give an entry this id.
+fn lines(text: &str, id: &str) -> impl Iterator<Item = usize> {
+    let ways = ['"', '\''].map(|quote| format!("id={quote}{id}{quote}"));
+    let is_way = move |line: &str| ways.contains(&line.split_whitespace().collect());
+    (1..).zip(text.lines()).filter(move |(_, line)| is_way(line)).map(|(number, _)| number)
 }
 
 fn power_of_ten(exponent: i32) -> f64 {
@@ -152,6 +127,17 @@ impl Statement {
     pub(super) fn new(kind: Kind, id: &str, statement: &str) -> Statement {
         let (id, statement) = (id.into(), statement.into());
         Statement { kind, id, statement, ..Statement::default() }
+    }
+
+    /// Makes an error of it, with its line.
+    fn fault(&self, what: &str) -> PublishedError {
+        PublishedError::at(self.line, &self.id, what)
+    }
+
+    /// Makes the error of other printed words than those that its rule judges.
+    pub(super) fn unread(&self, words: &str) -> PublishedError {
+        let what = "and not its printed; restore the one that is wrong";
+        self.fault(&format!("its check judges {words:?}, {what}"))
     }
 
     /// Reads the number from `printed` if this is a number alone, and checks one that is given
@@ -205,12 +191,9 @@ impl Statement {
 
     pub fn number(&self) -> Result<f64, PublishedError> {
         self.value.ok_or_else(|| {
+            let what = "write it as `value`, with `decimals`, as many as were printed";
             let printed = &self.printed;
-            let what = format!(
-                "its check needs the number in printed = {printed:?}; write it as `value`, with \
-                 `decimals`, as many as were printed"
-            );
-            PublishedError::at(self.line, &self.id, &what)
+            self.fault(&format!("its check needs the number in printed = {printed:?}; {what}"))
         })
     }
 

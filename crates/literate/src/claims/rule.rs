@@ -69,11 +69,11 @@ impl Rule {
     }
 
     fn judged(&self, evidence: &Evidence<'_>) -> Judged {
-        let Evidence { statement, published, .. } = evidence;
+        let statement = evidence.statement;
         if let Some(words) = self.reads {
             let words = words.replace("{}", &statement.shown().unwrap_or_default());
             if words != statement.printed {
-                return Err(published.unread(self.id, &words).into());
+                return Err(statement.unread(&words).into());
             }
         }
         let mut check = match (self.judge)(evidence) {

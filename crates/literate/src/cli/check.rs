@@ -147,7 +147,8 @@ fn github(checks: &[Check], published: &Published, file: &str) -> String {
     for check in checks.iter().filter(|check| check.fails()) {
         let mut place = String::new();
         if check.kind.is_printed() {
-            place = format!("file={},line={},", property(file), published.line(&check.id));
+            let line = published.statement(&check.id).map_or(1, |statement| statement.line);
+            place = format!("file={},line={line},", property(file));
         }
         let title = property(&format!("{}: {}", check.id, check.words()));
         let mut text = check.statement.clone();
