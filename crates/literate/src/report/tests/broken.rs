@@ -109,6 +109,8 @@ fn faults_in_prose_are_reported_with_their_places() {
 fn several_faults_have_their_places() {
     for (broken, expected) in [
         ("a *b\n\n12\n\n- at $\\nosuch x$", ["14:3:", "16:1:", "18:6:"].as_slice()),
+        // A broken heading keeps its id.
+        ("## A *b {#sec:b}\n\nSee [@sec:b], [@sec:c].", &["14:6:", "16:15"]),
         ("漢\n\nat é and $\\left( x$\n\nand 字", &["14:1:", "16:10", "18:5:"]),
     ] {
         let error = assembled(&format!("{PROSE}\n\n{broken}\n")).unwrap_err().to_string();
