@@ -1,5 +1,5 @@
-//! What the templates can name besides the cells of tables: some values, and the rows of generated
-//! tables.
+//! Gives the templates what they can name besides the cells of tables: some values, and the rows of
+//! generated tables.
 //!
 //! A value is computed here from results and carries the path of the function that computed it,
 //! which the compiler gives ([`literate::value::origin`]). Groups are `v` (ours), `paper` (numbers

@@ -1,5 +1,5 @@
-//! The numbered equations of the paper, and where each is in the source: a test finds `**Eq. (n)**`
-//! there.
+//! Lists the numbered equations of the paper, and where each is in the source: a test finds
+//! `**Eq. (n)**` there.
 
 use literate::report::ledger::EquationEntry;
 

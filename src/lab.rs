@@ -1,5 +1,5 @@
-//! lab.js, which a page loads to compute: the engine, the results with which its runs are compared,
-//! and the script.
+//! Writes lab.js, which a page loads to compute: the engine, the results with which its runs are
+//! compared, and the script.
 
 use crate::experiments::rise::{Mean, RisePoint};
 use crate::experiments::sweep;

@@ -77,9 +77,11 @@ fn no_impact(e: &Evidence<'_>) -> Judged {
         };
         above += usize::from(low > bound);
         if (0.05..0.95).contains(&bound) {
-            let sentence = match shares_of_bound.is_empty() {
-                true => "share of chains {} of {:2} at σ = {}",
-                false => "; {} of {:2} at σ = {}",
+            let is_first = shares_of_bound.is_empty();
+            let sentence = if is_first {
+                "share of chains {} of {:2} at σ = {}"
+            } else {
+                "; {} of {:2} at σ = {}"
             };
             text = text.then(text!(sentence, found, bound, row.sigma));
             shares_of_bound.push(found.value / bound);

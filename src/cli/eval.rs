@@ -1,4 +1,4 @@
-//! The verb `eval`: computes one quantity of the theory and prints it as JSON.
+//! Runs the verb `eval`: computes one quantity of the theory and prints it as JSON.
 
 use super::range::within;
 use clap::builder::PossibleValuesParser;

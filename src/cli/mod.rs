@@ -1,4 +1,4 @@
-//! The verbs that this paper adds: `eval`, `sweep`, `trace`.
+//! Lists the verbs that this paper adds: `eval`, `sweep`, `trace`.
 
 mod eval;
 mod range;
@@ -7,7 +7,6 @@ mod trace;
 
 use literate::Failure;
 
-/// A verb.
 #[derive(clap::Subcommand)]
 pub enum Verb {
     Eval(eval::Args),

@@ -1,4 +1,4 @@
-//! The verb `sweep`: runs an ensemble and prints a row for each σ.
+//! Runs the verb `sweep`: an ensemble, with a row for each σ.
 
 use super::range::{Values, values, within};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
@@ -171,7 +171,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     print(&DataFile { name: "sweep.csv".into(), header, rows }.csv())
 }
 
-/// Returns the rows, one for each σ and window.
 fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Vec<String>>, Failure> {
     let cutting: Cutting<Vec<Ensemble>, Counts, Vec<Counts>> = Cutting {
         rows: CUTTING.rows,

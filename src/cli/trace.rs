@@ -1,4 +1,4 @@
-//! The verb `trace`: runs one scenario and prints its impacts.
+//! Runs the verb `trace`: one scenario, with its impacts.
 
 use super::range::{Values, values, within};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};

@@ -1,4 +1,4 @@
-//! Fig. 1: the model, a row of forced masses between two walls.
+//! Draws Fig. 1: the model, a row of forced masses between two walls.
 
 use super::prelude::*;
 

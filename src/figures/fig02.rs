@@ -1,4 +1,4 @@
-//! Fig. 2: the most likely number of impacts against σ, simulated.
+//! Draws Fig. 2: the most likely number of impacts against σ, simulated.
 
 use super::prelude::*;
 use super::simulated::*;

@@ -1,4 +1,4 @@
-//! Fig. 4: the graph of the periodic motions of three masses.
+//! Draws Fig. 4: the graph of the periodic motions of three masses.
 
 use super::graph::Layout;
 use super::prelude::*;

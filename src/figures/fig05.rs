@@ -1,5 +1,5 @@
-//! Fig. 5: (a) a simple circuit on the graph, (b) a motion with the same impacts in this order;
-//! Fig. 6 is drawn in the same way.
+//! Draws Fig. 5: (a) a simple circuit on the graph, (b) a motion with the same impacts in this
+//! order; Fig. 6 is drawn in the same way.
 
 use super::graph::{Layout, NAMES, name};
 use super::prelude::*;

@@ -1,4 +1,4 @@
-//! Fig. 6: a circuit that is not simple, and its motion.
+//! Draws Fig. 6: a circuit that is not simple, and its motion.
 
 use super::prelude::*;
 use crate::experiments::segments::Segments;

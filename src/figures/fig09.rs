@@ -1,4 +1,4 @@
-//! Fig. 9: (a) the most likely and (b) the expected number of impacts against p.
+//! Draws Fig. 9: (a) the most likely and (b) the expected number of impacts against p.
 
 use super::prelude::*;
 use crate::experiments::Results;

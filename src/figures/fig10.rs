@@ -1,4 +1,4 @@
-//! Fig. 10: how the jump of the most likely number of impacts comes about.
+//! Draws Fig. 10: how the jump of the most likely number of impacts comes about.
 
 use super::prelude::*;
 use crate::experiments::theory::jump::{f, stages, zeros};

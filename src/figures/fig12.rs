@@ -1,4 +1,4 @@
-//! Fig. 12: the expected number of impacts, graph theory against simulation.
+//! Draws Fig. 12: the expected number of impacts, graph theory against simulation.
 
 use super::prelude::*;
 use super::simulated::*;

@@ -1,4 +1,4 @@
-//! Fig. 14: simple and higher-order distributions become alike as p grows.
+//! Draws Fig. 14: simple and higher-order distributions become alike as p grows.
 
 use super::prelude::*;
 use crate::experiments::Results;

@@ -1,4 +1,4 @@
-//! The graph of three masses between walls, drawn: vertices, edges, loops, and circuits on it.
+//! Draws the graph of three masses between walls: vertices, edges, loops, and circuits on it.
 
 use super::prelude::*;
 

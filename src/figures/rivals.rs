@@ -20,14 +20,12 @@ pub fn look(method: MethodName) -> Marker {
     (mark, size, Stroke::solid(GREY, THIN))
 }
 
-/// The points of each method.
 pub type Curves = Vec<(MethodName, Vec<(f64, f64)>)>;
 
 /// Where the name of a method stands: next to which of its settings, with an offset to the right
 /// and down in millimetres; and another name, for methods whose marks coincide.
 pub type Place = (MethodName, usize, (i32, i32), Option<&'static str>);
 
-/// The finest setting.
 pub const FINEST: usize = usize::MAX;
 
 /// Draws the settings of each method as marks on a line, and the names of some next to their marks.

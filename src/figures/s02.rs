@@ -1,4 +1,4 @@
-//! Fig. S2: gaps that close by themselves, and chains with one of them.
+//! Draws Fig. S2: gaps that close by themselves, and chains with one of them.
 
 use super::prelude::*;
 use super::simulated::FORCING;

@@ -1,4 +1,4 @@
-//! Fig. S4: chains from rest and from above after several transients.
+//! Draws Fig. S4: chains from rest and from above after several transients.
 
 use super::prelude::*;
 use super::simulated::FORCING;

@@ -1,4 +1,4 @@
-//! Fig. S5: the most likely number and its jump for many vertices.
+//! Draws Fig. S5: the most likely number and its jump for many vertices.
 
 use super::prelude::*;
 use crate::experiments::Results;

@@ -1,4 +1,4 @@
-//! Fig. S6: error and misses of the next impact against counted work, for every method.
+//! Draws Fig. S6: error and misses of the next impact against counted work, for every method.
 
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look};

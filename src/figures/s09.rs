@@ -1,4 +1,4 @@
-//! Fig. S9: the cost of an impact against the number of masses, counted and measured.
+//! Draws Fig. S9: the cost of an impact against the number of masses, counted and measured.
 
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look};

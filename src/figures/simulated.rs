@@ -1,4 +1,4 @@
-//! What the figures of the simulations share: their rows, axes and marks.
+//! Gives the figures of the simulations what they share: rows, axes and marks.
 
 use super::prelude::*;
 use crate::experiments::theory::comparison;

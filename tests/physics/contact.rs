@@ -224,10 +224,9 @@ fn draw(masses: usize, sigma: f64, index: u64) -> Scenario {
 fn mirror(masses: usize, sigma: f64, index: u64) -> Scenario {
     let mut scenario = draw(masses, sigma, index);
     for j in 0..masses.div_ceil(2) {
-        scenario.forcing[masses - 1 - j] = match 2 * j + 1 == masses {
-            true => [0.0; 2],
-            false => scenario.forcing[j].map(|x| -x),
-        };
+        let is_middle = 2 * j + 1 == masses;
+        let mirrored = scenario.forcing[j].map(|x| -x);
+        scenario.forcing[masses - 1 - j] = if is_middle { [0.0; 2] } else { mirrored };
     }
     scenario
 }
@@ -283,14 +282,13 @@ fn velocities_after_a_collective_hit_are_those_of_the_law() {
                 let masses: Vec<(f64, f64)> = v.iter().map(|&v| (0.0, v)).collect();
                 let mut engine = Engine::new(&scene(&masses, &vec![0.0; n], r)).unwrap();
                 let found = run(&mut engine, 1e-11);
-                let expected = match r == 0.0 {
-                    true => inelastic(&v),
-                    false => {
-                        let hits = sequential(&mut v, r);
-                        let alike = hits.iter().zip(&found).filter(|(a, b)| a.0 == b.gap).count();
-                        assert!(alike >= hits.len().min(10), "{r}: {hits:?} {found:?}");
-                        v
-                    }
+                let expected = if r == 0.0 {
+                    inelastic(&v)
+                } else {
+                    let hits = sequential(&mut v, r);
+                    let alike = hits.iter().zip(&found).filter(|(a, b)| a.0 == b.gap).count();
+                    assert!(alike >= hits.len().min(10), "{r}: {hits:?} {found:?}");
+                    v
                 };
                 for (a, b) in engine.velocities(1e-11).unwrap().iter().zip(&expected) {
                     assert!((a - b).abs() < 3e-8, "n = {n}, r = {r}: {a} for {b}");

@@ -1,14 +1,14 @@
-//! The program as its users run it, and the report in memory.
+//! Runs the program as its users do, and makes the report in memory.
 
 mod bad_input;
 mod check;
 mod diff;
 mod explain;
-mod own;
 mod paper;
 #[path = "../report/mod.rs"]
 mod report;
 mod saved;
+mod verbs;
 
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;

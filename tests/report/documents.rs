@@ -1,7 +1,7 @@
-//! The documents as a host reads them: by a CommonMark parser with tables, which knows nothing of
-//! our mathematics. What it makes of the text must be what the document means. And they are
-//! bounded: a reader of five minutes, half an hour or a day must not find that one has grown beyond
-//! its time. (The browser test bounds the pages, and `.ci/latex` those in print.)
+//! Reads the documents as a host does: by a CommonMark parser with tables, which knows nothing of
+//! our mathematics. What it makes of the text must be what the document means. And their lengths
+//! are bounded: a reader of five minutes, half an hour or a day must not find that one has grown
+//! beyond its time. (The browser test bounds the pages, and `.ci/latex` those in print.)
 
 use super::QUICK;
 use literate::report::{Document, Files};
@@ -55,9 +55,9 @@ fn no_document_outgrows_its_reader() {
         ("its abstract", words(section(&beyond, "Abstract")), 120),
         ("the methods", words(&text("methods")), 3_000),
     ];
-    let passed: Vec<_> =
+    let too_long: Vec<_> =
         counts.iter().filter(|(_, count, budget)| *count * 10 > budget * 11).collect();
-    assert!(passed.is_empty(), "more than ten per cent too long: {passed:?}");
+    assert!(too_long.is_empty(), "more than ten per cent too long: {too_long:?}");
 }
 
 fn texts() -> impl Iterator<Item = (&'static Document, &'static str)> {
@@ -93,8 +93,8 @@ fn every_link_lands_wherever_the_report_is_written() {
     super::links_land(texts, 200, 150);
 }
 
-/// Mathematics comes through Markdown as it was written, escapes, stars and lows included: between
-/// one dollar and the next the parser finds text and nothing else.
+/// Mathematics comes through Markdown as it was written, escapes, stars and underscores included:
+/// between one dollar and the next the parser finds text and nothing else.
 #[test]
 fn mathematics_is_left_alone() {
     let formulas: usize = texts().map(|(_, text)| formulas(text)).sum();

@@ -26,7 +26,7 @@ fn strokes(d: &str) -> Vec<Vec<(f64, f64)>> {
     let ends = letters.iter().skip(1).copied().chain([d.len()]);
     for (from, to) in letters.iter().zip(ends) {
         let n = numbers(&d[from + 1..to]);
-        let (x, y) = strokes.last().and_then(|own| own.last().copied()).unwrap_or_default();
+        let (x, y) = strokes.last().and_then(|stroke| stroke.last().copied()).unwrap_or_default();
         let end = match &d[*from..from + 1] {
             "M" => {
                 strokes.push(Vec::new());

@@ -93,8 +93,8 @@ fn every_value_has_one_card() {
     for row in rows.iter().filter(|row| !row.starts_with("<dt>id</dt>")) {
         assert!(!row.contains("<code>") || row.contains("<a href=\"../"), "{row}");
     }
-    let own = &cards["sweep.rise.half_height"];
-    let text: String = own.2.iter().map(|row| rows[*row].as_str()).collect();
+    let card = &cards["sweep.rise.half_height"];
+    let text: String = card.2.iter().map(|row| rows[*row].as_str()).collect();
     for part in ["rise::", "<wbr/>Curve::<wbr/>new", "standard error", "seed: 2007"] {
         assert!(text.contains(part), "{part:?} is not in {text:?}");
     }
@@ -128,9 +128,9 @@ fn every_page_says_how_to_cite_it() {
     for (name, page) in pages() {
         let title = words(elements(&page, "title")[0]);
         let boxes = elements(&page, "details").into_iter();
-        let boxes: Vec<_> = boxes.filter(|own| own.attribute("class") == Some("cite")).collect();
-        let [own] = boxes[..] else { panic!("{name}: {} boxes", boxes.len()) };
-        let entry = words(own);
+        let boxes: Vec<_> = boxes.filter(|node| node.attribute("class") == Some("cite")).collect();
+        let [cite] = boxes[..] else { panic!("{name}: {} boxes", boxes.len()) };
+        let entry = words(cite);
         let here = QUICK.paper.edition.documents.iter().find(|of| of.page == name).unwrap();
         assert!(entry.contains(&format!("@misc{{impactpaper2026{},", here.prose)), "{entry}");
         assert!(entry.contains("author = {{The impact-paper authors}},"), "{entry}");

@@ -128,7 +128,7 @@ fn each_experiment_depends_on_files_that_are_there() {
     for place in paper.project.shared {
         assert!(all.keys().any(|path| path.starts_with(place)), "there is no {place}");
     }
-    for experiment in paper.experiments.iter().filter(|own| own.is_saved()) {
+    for experiment in paper.experiments.iter().filter(|one| one.is_saved()) {
         let code = experiment.code(&paper.project);
         assert!(code.contains_key("crates/impact-chain/src/engine.rs"));
         let path = paper.project.sources.file(&experiment.item()).unwrap();

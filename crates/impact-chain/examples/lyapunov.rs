@@ -1,5 +1,5 @@
-//! Largest Lyapunov exponent of a chain: a second chain starts close by, and is brought back to
-//! that distance after each step.
+//! Computes the largest Lyapunov exponent of a chain: a second chain starts close by, and is
+//! brought back to that distance after each step.
 
 use impact_chain::{Chain, Engine, Error, NormalPairs, Scenario, State};
 

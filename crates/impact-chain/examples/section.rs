@@ -1,5 +1,5 @@
-//! Poincaré section of one mass between walls: its state once a period of the force, as the force
-//! grows through the first graze.
+//! Prints the Poincaré section of one mass between walls: its state once a period of the force, as
+//! the force grows through the first graze.
 
 use impact_chain::{Chain, Engine, Error, Scenario, Start};
 use std::collections::BTreeSet;

@@ -106,13 +106,11 @@ impl Paper {
         }
     }
 
-    /// Adds an author.
     pub fn author(mut self, name: &'static str, affiliation: &'static str) -> Self {
         self.edition.authors.push((name, affiliation));
         self
     }
 
-    /// Adds an experiment.
     pub fn experiment(mut self, experiment: &'static dyn AnyExperiment) -> Self {
         self.experiments.push(experiment);
         self
@@ -128,7 +126,6 @@ impl Paper {
         self.rule(Rule::new(id, judge))
     }
 
-    /// Adds a rule.
     pub fn rule(mut self, rule: Rule) -> Self {
         self.rules.push(rule);
         self

@@ -33,7 +33,6 @@ fn is_in(path: &str, place: &str) -> bool {
 }
 
 impl Project {
-    /// Makes a project with this source.
     pub fn new(sources: Sources) -> Self {
         Project { sources, copy: &[], shared: &["Cargo.lock"], left_out: &[] }
     }

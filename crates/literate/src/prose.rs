@@ -44,7 +44,6 @@ impl Templates {
         Templates { files, ..Templates::default() }
     }
 
-    /// Reads all templates of a folder.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let mut templates = Templates::of([]);
         let here = std::env::current_dir().unwrap_or_default();
@@ -70,7 +69,6 @@ impl Templates {
         Ok(())
     }
 
-    /// Returns the text of one file.
     pub fn text(&self, path: &str) -> Result<&str, Error> {
         let missing = || Error::Missing(path.to_string());
         self.files.get(path).map(String::as_str).ok_or_else(missing)

@@ -1,7 +1,7 @@
-//! A number of the report with its unit, kind and origin.
+//! Defines a value: a number of the report with its unit, kind and origin.
 //!
 //! A number in prose is never typed. An experiment's table ([`crate::table`]) or a section computes
-//! it, it becomes a [`Value`] with an id, and a template names that id: `«v.half_height»`. The
+//! it, it becomes a [`Value`] with an id, and a template names that id: `«v.version»`. The
 //! printed digits follow from the value itself, so that prose, tables and `values.json` agree.
 
 use impact_numerics::statistics::Estimate;
@@ -47,9 +47,10 @@ impl Number {
 /// A number that was chosen, with all its digits: an integer where it is one.
 impl From<f64> for Number {
     fn from(value: f64) -> Number {
-        match value.fract() == 0.0 && value.abs() < 1e15 {
-            true => Number::Integer(value as i128),
-            false => Number::Real { value, digits: Digits::Full },
+        if value.fract() == 0.0 && value.abs() < 1e15 {
+            Number::Integer(value as i128)
+        } else {
+            Number::Real { value, digits: Digits::Full }
         }
     }
 }
@@ -118,7 +119,7 @@ pub enum Kind {
 /// One number of the report.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Value {
-    /// The name: `half_height` is `«v.half_height»` in templates, and `printed.threshold`, with
+    /// The name: `version` is `«v.version»` in templates, and `printed.threshold`, with
     /// one dot, is `«printed.threshold»`.
     pub id: String,
     pub number: Number,
@@ -180,9 +181,10 @@ impl Value {
         decimals: usize,
         place: impl Into<String>,
     ) -> Self {
-        let number = match decimals == 0 && value.fract() == 0.0 {
-            true => Number::Integer(value as i128),
-            false => Number::Real { value, digits: Digits::Decimals(decimals) },
+        let number = if decimals == 0 && value.fract() == 0.0 {
+            Number::Integer(value as i128)
+        } else {
+            Number::Real { value, digits: Digits::Decimals(decimals) }
         };
         Value::new(id, number, Kind::Printed { place: place.into() })
     }

@@ -1,4 +1,4 @@
-//! A whole second paper: the constants of period doubling, found again from the logistic map.
+//! Makes a whole second paper: the constants of period doubling, found again from the logistic map.
 //!
 //! It shows what a paper adds to [`literate`]: an experiment, its tables, figures, verdicts on what
 //! was printed, and prose. All of the paper is in this folder.

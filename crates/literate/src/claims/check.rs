@@ -161,7 +161,6 @@ impl Check {
         (explained && !self.why.is_empty()).then_some(&self.why)
     }
 
-    /// Returns the verdict in words.
     pub fn words(&self) -> &'static str {
         match (self.kind, self.verdict) {
             (Kind::Statement | Kind::Definition, verdict) => verdict.words(),

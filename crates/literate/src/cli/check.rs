@@ -1,4 +1,4 @@
-//! The verb `check`.
+//! Runs the verb `check`: judges every statement and relation.
 
 use super::common::{Sources, scores, verdict};
 use super::terminal::print;

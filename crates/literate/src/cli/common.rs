@@ -1,4 +1,4 @@
-//! Options, scores and the verdict that several verbs share.
+//! Gives the verbs the options, scores and verdict that they share.
 
 use super::terminal::{Threads, warn};
 use crate::claims::{Basis, Check, Kind, Verdict, score};

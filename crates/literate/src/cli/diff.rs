@@ -1,4 +1,4 @@
-//! The verb `diff`.
+//! Runs the verb `diff`: prints how two reports differ.
 
 use super::terminal::{print, shown};
 use crate::claims::Check;
@@ -42,9 +42,10 @@ pub(super) fn run(args: Args) -> Result<(), Failure> {
     let all = [checks, numbers, files(&before.files, &after.files)].concat();
     // A report, and the name of a file, may hold commands of a terminal.
     let lines = all.iter().map(|line| line.replace(is_control, " ") + "\n");
-    print(&match all.is_empty() {
-        true => format!("{old} and {new}: nothing differs\n"),
-        false => format!("{} changed\n{}", counts.join(" and "), lines.collect::<String>()),
+    print(&if all.is_empty() {
+        format!("{old} and {new}: nothing differs\n")
+    } else {
+        format!("{} changed\n{}", counts.join(" and "), lines.collect::<String>())
     })
 }
 

@@ -1,4 +1,4 @@
-//! The verb `explain`.
+//! Runs the verb `explain`: prints the card of a value, figure, equation or statement.
 
 use super::terminal::print;
 use crate::failure::Failure;

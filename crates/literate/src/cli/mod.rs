@@ -1,5 +1,5 @@
-//! The command line of a paper: `paper`, `check`, `explain`, `diff`, `verify`, `run`, and what a
-//! paper adds.
+//! Reads the command line of a paper, and runs its verb: `paper`, `check`, `explain`, `diff`,
+//! `verify`, `run`, or one that a paper adds.
 
 mod check;
 mod common;

@@ -1,4 +1,4 @@
-//! The verb `paper`.
+//! Runs the verb `paper`: makes the report, or says what would be run.
 
 use super::common::{Sources, scores, verdict};
 use super::terminal::{print, shown};

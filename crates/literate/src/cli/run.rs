@@ -1,4 +1,4 @@
-//! The verb `run`, which may run the experiments' units of work on several machines.
+//! Runs the verb `run`: the experiments, or this machine's share of their units of work.
 
 use super::common::Sources;
 use super::terminal::{print, shown};

@@ -1,4 +1,4 @@
-//! The verb `verify`.
+//! Runs the verb `verify`: compares a report with its list, or with what the source makes.
 
 use super::paper::profile_in;
 use super::terminal::{Threads, print, shown};

@@ -1,4 +1,4 @@
-//! An experiment that is a command in another language.
+//! Runs a command in another language as an experiment.
 //!
 //! It runs in a temporary folder, with copies of the files that it names and nothing else, so that
 //! a file which it reads and does not name is missed at once. Links would not do: Python looks for

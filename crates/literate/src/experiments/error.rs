@@ -24,7 +24,6 @@ pub enum Error {
 }
 
 impl Error {
-    /// Makes an [`Error::Failed`].
     pub fn failed(
         experiment: &'static str,
         source: impl std::error::Error + Send + Sync + 'static,
@@ -32,7 +31,6 @@ impl Error {
         Error::Failed { experiment, source: Box::new(source) }
     }
 
-    /// Makes an [`Error::Input`].
     pub fn input(
         field: impl Into<String>,
         problem: impl Into<String>,

@@ -1,5 +1,5 @@
-//! Experiments: parameters, units of work, runs, tables; results that save and reload exactly, and
-//! are used again as long as what they are made of is the same.
+//! Defines experiments: parameters, units of work, runs, tables; results that save and reload
+//! exactly, and are used again as long as what they are made of is the same.
 
 mod command;
 pub mod cutting;

@@ -150,9 +150,10 @@ impl PrintedTable {
         if self.rows.iter().any(|row| row[at].is_string() || row[at].is_boolean()) {
             let words = move |row: &Vec<Json>| called(&exact(row));
             let cell = move |row: &Vec<Json>| (!row[at].is_null()).then(|| words(row));
-            return match is_key {
-                true => table.text_key(name, words),
-                false => table.words(name, meaning, cell),
+            return if is_key {
+                table.text_key(name, words)
+            } else {
+                table.words(name, meaning, cell)
             };
         }
         if is_key {

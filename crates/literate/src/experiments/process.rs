@@ -6,7 +6,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::Mutex;
 use std::time::Duration;
 
-/// The programs that run, each with its process group, which has its number.
+/// The ids of the programs that run, each of which leads a process group of the same id.
 static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
 
 /// Starts a program, gives it a text to read, and waits for its end.
@@ -17,7 +17,8 @@ pub(super) fn run(command: &mut Command, text: String) -> io::Result<Output> {
     let group = child.id();
     running().push(group);
     if let Some(mut input) = child.stdin.take() {
-        // Apart, for a program may write much before it reads; one that reads nothing closes it.
+        // In a thread, since a program may write much before it reads; one that reads nothing
+        // closes the pipe.
         std::thread::spawn(move || drop(input.write_all(text.as_bytes())));
     }
     let output = child.wait_with_output();
@@ -44,7 +45,7 @@ pub(crate) fn end_all() {
 /// Sends a signal to all programs that run and to those that they started.
 fn send(signal: &str) {
     for group in running().iter() {
-        // The shell's `kill`, for not every system has a program of that name.
+        // The shell's `kill`, since not every system has a program of that name.
         let line = format!("kill -s {signal} -- -{group}");
         let _ = Command::new("sh").args(["-c", &line]).stderr(Stdio::null()).status();
     }

@@ -89,7 +89,6 @@ impl Results {
         Ok(tables)
     }
 
-    /// Returns one of the tables.
     #[track_caller]
     pub fn table(&self, name: &str) -> Result<&Table, Error> {
         Ok(table(self.tables()?, name)?)

@@ -55,7 +55,6 @@ impl Identity {
         }
     }
 
-    /// Returns that of one unit of the experiment.
     pub fn of_unit(&self, unit: &Unit) -> Self {
         Identity { unit: Some(unit.clone()), ..self.clone() }
     }

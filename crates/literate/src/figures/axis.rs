@@ -99,14 +99,14 @@ impl Axis {
         self
     }
 
-    /// Checks that it has a range, and numbers that are exact and tell its values apart.
+    /// Checks that it has a range, ticks in rising order, and labels that differ.
     pub(super) fn check(&self) -> Result<(), Error> {
         let (low, high) = self.ends();
         let is_range = low < high && (high - low).is_finite();
         let rises = self.ticks.windows(2).all(|pair| pair[0].at < pair[1].at);
-        let labels = self.ticks.iter().map(Tick::name).filter(|label| !label.is_empty());
+        let mut labels = self.ticks.iter().map(Tick::name).filter(|label| !label.is_empty());
         let mut seen = BTreeSet::new();
-        let differ = labels.into_iter().all(|label| seen.insert(label));
+        let differ = labels.all(|label| seen.insert(label));
         if is_range && rises && differ && !self.ticks.is_empty() {
             return Ok(());
         }
@@ -177,11 +177,10 @@ impl Axis {
 
     /// Returns where a value lies on the scale: the value or its logarithm.
     pub fn position(&self, value: f64) -> f64 {
-        match self.is_log {
-            false => value,
-            true if value <= 0.0 => f64::NEG_INFINITY,
-            true => f_log10(value),
+        if !self.is_log {
+            return value;
         }
+        if value <= 0.0 { f64::NEG_INFINITY } else { f_log10(value) }
     }
 
     pub fn value(&self, position: f64) -> f64 {

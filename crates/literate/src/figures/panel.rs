@@ -97,7 +97,6 @@ pub struct Panel {
     pub(super) outside: Outside,
 }
 
-/// The letters of panels.
 pub const LETTERS: [&str; 6] = ["(a)", "(b)", "(c)", "(d)", "(e)", "(f)"];
 
 const TICK: i32 = 85;

@@ -100,7 +100,6 @@ impl Panel {
         parts
     }
 
-    /// Draws a curve.
     pub fn curve(&self, name: &str, points: Points, stroke: Stroke) -> Drawn {
         let parts = self.cut(&self.places(name, points)?);
         self.draw_series(name, parts.into_iter().map(|part| line(part, stroke)))

@@ -33,7 +33,6 @@ impl Library {
         Ok(Library(list))
     }
 
-    /// The keys of all entries.
     pub fn keys(&self) -> impl Iterator<Item = &str> {
         self.0.iter().map(|reference| reference.key.as_str())
     }

@@ -16,7 +16,7 @@ use serde_json::Value as Json;
 /// A card: a title and rows, for any format.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Card {
-    /// Id of what it is about: `half_height`, `fig:3`, `eq:18`, `claim:sec7_jump`.
+    /// Id of what it is about: `sweep.rise.half_height`, `fig:3`, `eq:18`, `claim:sec7_jump`.
     pub id: String,
     /// What it is about, as the report shows it.
     pub title: Vec<Inline>,
@@ -60,6 +60,7 @@ impl Card {
     }
 }
 
+/// Makes cards, from what is known of a report.
 #[derive(Clone, Copy, Debug)]
 pub struct Cards<'a> {
     pub values: &'a Registry,
@@ -94,8 +95,8 @@ impl Cards<'_> {
         values.chain(figures).chain(equations).chain(claims).collect()
     }
 
-    /// Returns the ids of what was asked for by an id, as "Fig. 3" or "Eq. (18)", by a part of an
-    /// id, or by digits.
+    /// Returns the ids that match what a person typed: an id, "Fig. 3" or "Eq. (18)", a part of an
+    /// id, or the first digits of a value.
     pub fn find(&self, asked: &str) -> Vec<String> {
         // Templates have quotation marks in names of rows; people write brackets and blanks.
         let asked = asked.trim().replace('"', "");

@@ -1,4 +1,4 @@
-//! Checks as rows for templates, and their numbers as values.
+//! Writes checks as rows for templates, and their numbers as values.
 
 use super::markdown;
 use super::values::{Number, Value, origin};

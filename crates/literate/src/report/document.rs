@@ -256,10 +256,8 @@ pub fn place_on_page(id: &str) -> String {
 /// Returns an id without signs that TeX or a page would read, which a key of references.bib may
 /// have.
 pub fn place(id: &str) -> String {
-    let escaped = |c: char| match c.is_ascii_alphanumeric() || ":-_.".contains(c) {
-        true => c.to_string(),
-        false => format!("-{:x}", u32::from(c)),
-    };
+    let is_safe = |c: char| c.is_ascii_alphanumeric() || ":-_.".contains(c);
+    let escaped = |c| if is_safe(c) { c.to_string() } else { format!("-{:x}", u32::from(c)) };
     id.chars().map(escaped).collect()
 }
 

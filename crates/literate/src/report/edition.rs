@@ -37,9 +37,9 @@ impl Edition {
 
     /// What stands below the title of a document: authors and date, where it is printed.
     pub(super) fn byline(&self, document: Document) -> String {
-        let author = |(name, affiliation): &(&str, &str)| match affiliation.is_empty() {
-            true => name.to_string(),
-            false => format!("{name} ({affiliation})"),
+        let author = |author: &(&str, &str)| match author {
+            (name, "") => name.to_string(),
+            (name, affiliation) => format!("{name} ({affiliation})"),
         };
         let date = Some(self.date.to_string()).filter(|date| !date.is_empty());
         let all = self.authors.iter().map(author).chain(date).collect::<Vec<_>>().join(", ");

@@ -178,12 +178,13 @@ impl Filler {
         if !rest.starts_with('»') {
             return self.fault(path, tag, "this « has no » on its line; close it");
         }
-        let what = self.missing(inside).unwrap_or_else(|| match what.contains(NOT_TRUE) {
-            true => {
+        let what = match self.missing(inside) {
+            Some(missing) => missing,
+            None if what.contains(NOT_TRUE) => {
                 format!("{what}: {inside}, where {}; correct the sentence", self.numbers(inside))
             }
-            false => what,
-        });
+            None => what,
+        };
         self.fault(path, at, &what)
     }
 }
@@ -299,18 +300,15 @@ fn register(tera: &mut Tera, empty: BTreeSet<String>) {
     tera.register_function("literal", |arguments: Kwargs, _: &State| {
         let text: String = arguments.must_get("text")?;
         let why: String = arguments.must_get("why")?;
-        match text.trim().is_empty() || why.trim().is_empty() {
-            true => Err(tera::Error::message(
-                "`literal` needs a number in `text` and its reason in `why`",
-            )),
-            false => Ok(text),
+        if text.trim().is_empty() || why.trim().is_empty() {
+            let what = "`literal` needs a number in `text` and its reason in `why`";
+            return Err(tera::Error::message(what));
         }
+        Ok(text)
     });
     tera.register_function("holds", |arguments: Kwargs, _: &State| {
-        match arguments.must_get::<bool>("that")? {
-            true => Ok(String::new()),
-            false => Err(tera::Error::message(NOT_TRUE)),
-        }
+        let holds: bool = arguments.must_get("that")?;
+        if holds { Ok(String::new()) } else { Err(tera::Error::message(NOT_TRUE)) }
     });
     tera.register_function("code", |arguments: Kwargs, _: &State| {
         let item: String = arguments.must_get("item")?;

@@ -33,7 +33,6 @@ pub struct Input<'a> {
 }
 
 impl<'a> Input<'a> {
-    /// Returns the figure of this name.
     pub(super) fn figure(&self, name: &str) -> Option<&'a Figure> {
         self.figures.iter().find(|figure| figure.id == name)
     }

@@ -41,7 +41,6 @@ impl Labels {
         }
     }
 
-    /// Returns the label with this id.
     pub fn get(&self, id: &str) -> Option<&Label> {
         self.labels.get(id)
     }
@@ -202,15 +201,15 @@ impl Labels {
             out.push(words(&format!("{name}\u{a0}")));
         }
         for (i, id) in ids.iter().enumerate() {
-            let own = &id[asked.len()..];
-            let to = format!("{}{own}", if is_verdict { "claim" } else { &lower });
+            let suffix = &id[asked.len()..];
+            let to = format!("{}{suffix}", if is_verdict { "claim" } else { &lower });
             let label = self.get(&to).filter(|label| !label.shown.is_empty());
             let Label { shown, document } = label.ok_or_else(|| self.unknown(id, &to))?;
             if i > 0 {
                 let last = i + 1 == ids.len() && !is_verdict;
                 out.push(words(if last { " and " } else { ", " }));
             }
-            let shown = match self.signs.get(own.trim_start_matches(':')) {
+            let shown = match self.signs.get(suffix.trim_start_matches(':')) {
                 Some(sign) if lower == "sign" => sign.to_string(),
                 Some(sign) if is_verdict => format!("{sign}\u{a0}{shown}"),
                 _ if several => shown.clone(),

@@ -96,7 +96,7 @@ fn write_block(block: &Block) -> String {
              \\renewcommand{{\\thefigure}}{{{number}}}\n\\caption{{{}}}\\label{{{id}}}\n\\end{{figure}}",
             inlines(caption)
         ),
-        Block::Table(own) => table(own),
+        Block::Table(data) => table(data),
         Block::List { start, items } => {
             let kind = if start.is_some() { "enumerate" } else { "itemize" };
             let mut out = format!("\\begin{{{kind}}}\n");

@@ -5,7 +5,6 @@ use crate::claims::Check;
 use crate::figures::Figure;
 use serde::{Deserialize, Serialize};
 
-/// All entries.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     pub claims: Vec<Check>,
@@ -42,7 +41,6 @@ pub struct EquationEntry {
     pub step_towards: Option<String>,
 }
 
-/// The entries of the figures.
 pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
     let figure = |figure: &Figure| FigureEntry {
         id: figure.id.clone(),
@@ -58,7 +56,6 @@ pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
     figures.iter().map(figure).collect()
 }
 
-/// Reads a ledger.json.
 pub fn read(text: &str) -> Result<Ledger, Error> {
     serde_json::from_str(text).map_err(|e| Error::Template(format!("ledger.json: {e}")))
 }

@@ -11,7 +11,6 @@ use pulldown_cmark::Alignment;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// Writes a document.
 pub fn write(blocks: &[Block]) -> String {
     let blocks = blocks.iter().map(|one| block(one).trim_end().to_string());
     blocks.filter(|text| !text.is_empty()).collect::<Vec<_>>().join("\n\n") + "\n"
@@ -36,12 +35,12 @@ fn block(block: &Block) -> String {
             let (id, alt) = (anchor(id), alternative(alt));
             format!("{id}\n![{alt}](figures/{file})\n\n**Figure {number}.** {caption}{origin}")
         }
-        Block::Table(own) => {
-            let mut text = own.id.as_deref().map_or(String::new(), anchor);
-            if let Some(number) = &own.number {
-                text.push_str(&format!("**Table {number}.** {}\n\n", inlines(&own.caption)));
+        Block::Table(data) => {
+            let mut text = data.id.as_deref().map_or(String::new(), anchor);
+            if let Some(number) = &data.number {
+                text.push_str(&format!("**Table {number}.** {}\n\n", inlines(&data.caption)));
             }
-            text + &table(own)
+            text + &table(data)
         }
         Block::List { start, items } => {
             let item = |(i, item): (usize, &Vec<Block>)| {

@@ -54,10 +54,8 @@ pub fn maths(tex: &str) -> String {
 
 /// Writes a value that leads to its card by the macro `\origin` of the template.
 pub fn value(id: &str, shown: &str) -> String {
-    let escaped = |c: u8| match c.is_ascii_alphanumeric() || b"._:=,-".contains(&c) {
-        true => char::from(c).to_string(),
-        false => format!("\\%{c:02X}"),
-    };
+    let is_safe = |c: u8| c.is_ascii_alphanumeric() || b"._:=,-".contains(&c);
+    let escaped = |c| if is_safe(c) { char::from(c).into() } else { format!("\\%{c:02X}") };
     let address: String = id.bytes().map(escaped).collect();
     format!("\\origin{{{address}}}{{{shown}}}")
 }

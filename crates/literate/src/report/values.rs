@@ -65,12 +65,10 @@ impl Registry {
         self.tables.get(crate::table::table_of(address)?)?.at(address)
     }
 
-    /// Adds several values.
     pub fn extend(&mut self, values: impl IntoIterator<Item = Value>) -> Result<(), Error> {
         values.into_iter().try_for_each(|value| self.add(value))
     }
 
-    /// The value with this id.
     pub fn get(&self, id: &str) -> Option<&Value> {
         self.values.get(id).or_else(|| self.cell(id))
     }

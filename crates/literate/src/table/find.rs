@@ -6,10 +6,8 @@ use crate::value::Value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Tables by their names.
 pub type Tables = BTreeMap<&'static str, Arc<Table>>;
 
-/// Finds a table by its name.
 #[track_caller]
 pub fn table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missing> {
     match tables.get(name) {
@@ -22,7 +20,6 @@ pub fn table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missing> {
     }
 }
 
-/// Finds the number with an address.
 #[track_caller]
 pub fn number_at(tables: &Tables, address: &str) -> Result<f64, Missing> {
     match number(cell(tables, address)?) {

@@ -29,10 +29,10 @@ pub(super) const NO_NUMBER: &str = "this cell has no number";
 /// Says that there is nothing of this name, with the nearest names that there are.
 pub(crate) fn no_such<'a>(kind: &str, name: &str, names: impl Iterator<Item = &'a str>) -> String {
     let nearest = nearest(name, names);
-    match nearest.is_empty() {
-        true => format!("there is no {kind} {name}, nor any other"),
-        false => format!("there is no {kind} {name}; nearest: {}", nearest.join(", ")),
+    if nearest.is_empty() {
+        return format!("there is no {kind} {name}, nor any other");
     }
+    format!("there is no {kind} {name}; nearest: {}", nearest.join(", "))
 }
 
 /// Returns the three names that are most like one: with the most characters alike at their

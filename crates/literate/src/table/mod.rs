@@ -1,4 +1,4 @@
-//! Tables: rows that keys name, and columns that declare what each cell is.
+//! Defines tables: rows that keys name, and columns that declare what each cell is.
 //!
 //! An experiment saves what its runs gave, and nothing that follows from it. What follows stands in
 //! tables: [`Table::of`] takes one thing for each row, keys are the parameters by which a row is

@@ -63,9 +63,10 @@ impl Table {
         let rest = address.strip_prefix(self.name).unwrap_or(address);
         let (row, column) = rest.rsplit_once('.').unwrap_or(("", rest));
         let row = row.trim_start_matches('[').trim_end_matches(']');
-        match self.rows().any(|name| name == row) {
-            true => no_such("column", column, self.names()),
-            false => no_such("row", row, self.rows()),
+        if self.rows().any(|name| name == row) {
+            no_such("column", column, self.names())
+        } else {
+            no_such("row", row, self.rows())
         }
     }
 
@@ -154,7 +155,6 @@ impl Table {
         self.rows.iter().flat_map(|(_, cells)| cells)
     }
 
-    /// Returns the names of the columns.
     fn names(&self) -> impl Iterator<Item = &'static str> {
         self.columns.iter().map(|column| column.name)
     }

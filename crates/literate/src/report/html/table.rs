@@ -61,9 +61,10 @@ impl Page<'_> {
                 );
             }
             // A head without words is no head.
-            let _ = match words.trim().is_empty() {
-                true => write!(out, "<td{}></td>", class(i)),
-                false => write!(out, "<th scope=\"col\"{column}{}>{words}</th>", class(i)),
+            let _ = if words.trim().is_empty() {
+                write!(out, "<td{}></td>", class(i))
+            } else {
+                write!(out, "<th scope=\"col\"{column}{}>{words}</th>", class(i))
             };
         }
         out.push_str("</tr></thead>\n<tbody>\n");

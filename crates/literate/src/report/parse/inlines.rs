@@ -158,10 +158,12 @@ impl Reader<'_> {
         let source = &self.filled.text;
         // An id is in one piece of text, or at the end of several.
         let id_at = self.id_at.start.max(range.start)..self.id_at.end.min(range.end);
-        let cut = match id_at.is_empty() {
-            false => Some(id_at.clone()),
-            true if *text == source[range.clone()] => mentioned(source, range.clone()),
-            true => None,
+        let cut = if !id_at.is_empty() {
+            Some(id_at.clone())
+        } else if *text == source[range.clone()] {
+            mentioned(source, range.clone())
+        } else {
+            None
         };
         if let Some(cut) = cut {
             let [from, to] = [cut.start - range.start, cut.end - range.start];
@@ -224,11 +226,9 @@ impl Reader<'_> {
             return Err(markup(LEFTOVER));
         }
         let is_index = |pair: &[Part]| matches!(pair, [Part::Tex(tex), Part::Value { .. }] if tex.ends_with(['^', '_']));
-        let what = match formula.0.windows(2).any(is_index) {
-            true => Some("a value used as an index must stand in braces {…}".into()),
-            false => tex::refused(&tex),
-        };
-        if let Some(what) = what {
+        let bare_index = "a value used as an index must stand in braces {…}";
+        let has_index = formula.0.windows(2).any(is_index);
+        if let Some(what) = has_index.then(|| bare_index.into()).or_else(|| tex::refused(&tex)) {
             return Err(Error::Maths { tex, what });
         }
         self.places.add(format!("${tex}"), at);

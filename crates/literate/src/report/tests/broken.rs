@@ -1,4 +1,4 @@
-//! Prose that is broken: each fault is named with its place.
+//! Breaks prose: each fault is named with its place.
 
 use super::{Given, PROSE, Table, assembled, file, given, unmarked};
 

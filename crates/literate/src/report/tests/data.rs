@@ -1,4 +1,4 @@
-//! Words from data, which every format shows as they are.
+//! Checks that every format shows words from data as they are.
 
 use super::*;
 

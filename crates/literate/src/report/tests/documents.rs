@@ -1,4 +1,4 @@
-//! Several documents of one edition.
+//! Makes several documents of one edition, which refer to each other.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! What this paper adds to the program: `eval`, `sweep` and `trace`.
+//! Runs the verbs that this paper adds to the program: `eval`, `sweep` and `trace`.
 
 use crate::{SCENARIO, answer, program, run};
 use impact_circuits::distribution::{Law, SampleSpace};
@@ -241,12 +241,12 @@ fn the_truth_shows_from_where_on_a_run_is_off_and_refuses_what_it_does_not_know(
         };
         text.lines().skip(1).map(cells).map(|cells| [cells[0], cells[1]]).collect()
     };
-    let (truth, own) = (times("truth"), times("certified"));
-    for (a, b) in truth.iter().zip(&own).take(20) {
+    let (truth, engine) = (times("truth"), times("certified"));
+    for (a, b) in truth.iter().zip(&engine).take(20) {
         assert!(a[1] == b[1] && (a[0] - b[0]).abs() < 1e-12, "{a:?} {b:?}");
     }
     let apart = |(a, b): (&[f64; 2], &[f64; 2])| a[1] != b[1] || (a[0] - b[0]).abs() > 1e-3;
-    assert!(truth.iter().zip(&own).any(apart), "{} impacts", truth.len());
+    assert!(truth.iter().zip(&engine).any(apart), "{} impacts", truth.len());
     for (scenario, words) in [
         (r#"{"boundary":"ring","forcing":[[1,0],[0,0]]}"#, "walls only"),
         (r#"{"restitution":0.2,"forcing":[[5.88,-4.94]]}"#, "does not support contact"),
