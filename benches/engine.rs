@@ -42,8 +42,9 @@ fn counted(bencher: Bencher, (sigma, counts): (f64, bool)) {
     let mut normals = NormalPairs::new("sweep", 2007, 0);
     let scenario = Scenario::draw(&ensemble.chain, sigma, &mut normals);
     let bencher = bencher.counter(ItemsCount::new(realisation().total.impacts));
-    match counts {
-        true => bencher.bench(realisation),
-        false => bencher.bench(|| run(divan::black_box(&scenario), ensemble.until(sigma))),
+    if counts {
+        bencher.bench(realisation);
+    } else {
+        bencher.bench(|| run(divan::black_box(&scenario), ensemble.until(sigma)));
     }
 }

@@ -223,7 +223,7 @@ fn warn_of_doubts(ensemble: &Ensemble, sigma: f64, counts: &Counts) {
     }
 }
 
-/// Returns the cells of a row; a number that there is not is an empty cell.
+/// Returns the cells of a row; a missing number is an empty cell.
 fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts, window: usize) -> Vec<String> {
     let row = RisePoint::new(sigma, counts, window, ensemble.chain.gaps(), [None; 2]);
     let (protocol, total) = (ensemble.protocols[window], &counts.total);

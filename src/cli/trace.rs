@@ -275,7 +275,6 @@ fn trace(
     ran.map(|_| ()).map_err(|error| in_file(name, error))
 }
 
-/// Prints the impacts of a scenario.
 fn impacts(
     args: &Args,
     method: &dyn Method,

@@ -59,7 +59,6 @@ impl Layout {
             .collect()
     }
 
-    /// Draws all sixteen edges.
     pub fn edges(&self, sheet: &Sheet, stroke: Stroke) -> Drawn {
         for edge in 0..16 {
             sheet.area.draw(&arrow(self.edge(edge / 4, edge % 4), stroke))?;

@@ -11,7 +11,6 @@ pub const FORCING: &str = "*σ* (*d ω*^{2})";
 /// Line of the simulation's marks.
 pub const CROSS: Stroke = Stroke::solid(RED, THIN);
 
-/// The simulation's marks.
 pub const CROSSES: Marker = (Symbol::Cross, 56, CROSS);
 
 /// Bars of intervals, which stay behind the marks.

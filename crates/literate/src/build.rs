@@ -94,8 +94,8 @@ impl Paper {
     }
 }
 
-/// Runs every experiment that is not in the store, and makes every file of a report in the folder
-/// `out`. Returns also what was judged.
+/// Runs every experiment that is not in the store, and makes every file of a report, in memory,
+/// with links that hold in the folder `out`. Returns also what was judged.
 pub fn make_report(
     paper: &Paper,
     session: &Session<'_>,

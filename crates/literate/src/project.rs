@@ -117,18 +117,18 @@ impl Project {
     /// Finds a file or folder by its path from the top of the project; none if only the copy inside
     /// has it.
     pub fn find(&self, path: &str) -> Option<PathBuf> {
-        Some(self.way()?.join(path)).filter(|found| found.exists())
+        Some(self.path_to_top()?.join(path)).filter(|found| found.exists())
     }
 
-    /// Returns the way to the top of the project, if it lies around the current folder or the
+    /// Returns the path to the top of the project, if the current folder lies in it or the
     /// environment names it.
-    fn way(&self) -> Option<PathBuf> {
-        self.around().or_else(|| std::env::var_os("LITERATE_PROJECT").map(PathBuf::from))
+    fn path_to_top(&self) -> Option<PathBuf> {
+        self.path_up().or_else(|| std::env::var_os("LITERATE_PROJECT").map(PathBuf::from))
     }
 
-    /// Returns the way from the current folder up to the top of the project, if it lies in it:
+    /// Returns the path from the current folder up to the top of the project, if it lies in it:
     /// empty, or `../`.
-    fn around(&self) -> Option<PathBuf> {
+    fn path_up(&self) -> Option<PathBuf> {
         let (path, _) = self.sources.files.iter().find(|(path, _)| path.contains('/'))?;
         let here = std::env::current_dir().ok()?;
         let above = here.ancestors().position(|folder| folder.join(path).is_file())?;
@@ -138,12 +138,12 @@ impl Project {
     /// Returns where a file or folder of the project is written that is given by its path from the
     /// top: below the current folder, unless this lies in the project.
     pub fn place(&self, path: &str) -> PathBuf {
-        self.around().unwrap_or_default().join(path)
+        self.path_up().unwrap_or_default().join(path)
     }
 
     /// Finds the top of the project, as an absolute path.
     fn top(&self) -> Option<PathBuf> {
-        std::env::current_dir().ok()?.join(self.way()?).canonicalize().ok()
+        std::env::current_dir().ok()?.join(self.path_to_top()?).canonicalize().ok()
     }
 
     /// Returns the top of the project, or else the current folder.
@@ -166,7 +166,7 @@ impl Project {
         self.top().is_none_or(|top| top.join(path).exists())
     }
 
-    /// Returns the way from a folder, which need not exist, up to the top of the checkout: `../`.
+    /// Returns the path from a folder, which need not exist, up to the top of the project: `../`.
     /// None if the folder lies outside.
     pub fn way_up(&self, folder: &Path) -> Option<String> {
         let folder = std::path::absolute(folder).ok()?;

@@ -73,7 +73,6 @@ impl From<String> for Number {
     }
 }
 
-/// A number with its standard error.
 impl From<Estimate> for Number {
     fn from(found: Estimate) -> Number {
         Number::Real { value: found.value, digits: Digits::Error(found.error) }
@@ -116,7 +115,6 @@ pub enum Kind {
     Measured,
 }
 
-/// One number of the report.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Value {
     /// The name: `version` is `«v.version»` in templates, and `printed.threshold`, with

@@ -132,7 +132,6 @@ fn convergence(results: &Results) -> Result<Figure, FigureError> {
     plot.finish("Convergence of the ratios", words)
 }
 
-/// The whole paper.
 pub fn paper() -> Paper {
     let sources = sources!("examples/feigenbaum");
     let paper = Paper::new("The constants of period doubling, found again", sources)

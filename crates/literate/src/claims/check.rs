@@ -3,7 +3,6 @@
 use super::text::Text;
 use serde::{Deserialize, Serialize};
 
-/// What a check judges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {

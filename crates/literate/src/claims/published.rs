@@ -147,10 +147,8 @@ impl Statement {
             let agrees = self.value.is_none_or(|given| given == value)
                 && self.decimals.is_none_or(|given| given == decimals);
             (self.value, self.decimals) = (Some(value), Some(decimals));
-            return match agrees {
-                true => Ok(()),
-                false => Err("printed and value are not one number; leave value out"),
-            };
+            let problem = "printed and value are not one number; leave value out";
+            return if agrees { Ok(()) } else { Err(problem) };
         }
         let Some(value) = self.value else { return Ok(()) };
         let decimals = self.decimals.or((value.fract() == 0.0).then_some(0));

@@ -34,7 +34,6 @@ impl Text {
         text
     }
 
-    /// Appends another text.
     pub fn then(mut self, more: impl Into<Text>) -> Text {
         self.0.extend(more.into().0);
         self

@@ -1,6 +1,6 @@
 //! Runs the verb `check`: judges every statement and relation.
 
-use super::common::{Sources, scores, verdict};
+use super::common::{RunOptions, scores, verdict};
 use super::terminal::print;
 use crate::claims::{Check, Published, Verdict, blind_to_their_number};
 use crate::failure::Failure;
@@ -34,7 +34,7 @@ pub(super) struct Args {
     #[arg(long, default_value = "text")]
     format: Format,
     #[command(flatten)]
-    sources: Sources,
+    options: RunOptions,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -44,7 +44,7 @@ enum Format {
 }
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
-    let session = args.sources.session(paper)?;
+    let session = args.options.session(paper)?;
     let published = paper.published(&session)?;
     for asked in &args.ids {
         let is_number = asked.parse().is_ok_and(|n| (1..=published.statements.len()).contains(&n));
@@ -54,7 +54,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
             return Err(Failure::input(format!("{what}; `check -v` lists all")));
         }
     }
-    let (mut checks, mut blind) = args.sources.threads.run(|| -> Result<_, Failure> {
+    let (mut checks, mut blind) = args.options.threads.run(|| -> Result<_, Failure> {
         let results = paper.results(&paper.experiments, &session)?;
         let blind = blind_to_their_number(&published, &paper.rules, &results);
         Ok((paper.checks(&results, &published)?, blind))

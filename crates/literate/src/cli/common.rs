@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 /// Options of verbs that make a report or judge it.
 #[derive(clap::Args)]
-pub(super) struct Sources {
+pub(super) struct RunOptions {
     /// Take these sample sizes.
     #[arg(long, default_value = "full")]
     pub profile: Profile,
@@ -25,7 +25,7 @@ pub(super) struct Sources {
     results: Option<PathBuf>,
 }
 
-impl Sources {
+impl RunOptions {
     /// Returns the folder of the saved results.
     pub fn results(&self, paper: &Paper) -> PathBuf {
         self.results.clone().unwrap_or_else(|| paper.project.place("target/results"))

@@ -1,6 +1,6 @@
 //! Runs the verb `paper`: makes the report, or says what would be run.
 
-use super::common::{Sources, scores, verdict};
+use super::common::{RunOptions, scores, verdict};
 use super::terminal::{print, shown};
 use crate::build::make_report;
 use crate::experiments::{AnyExperiment, Profile, Session};
@@ -47,13 +47,13 @@ pub(super) struct Args {
     #[arg(long)]
     force: bool,
     #[command(flatten)]
-    sources: Sources,
+    options: RunOptions,
 }
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let began = Instant::now();
-    let Args { sources, force, .. } = args;
-    let out = args.out.unwrap_or_else(|| match sources.profile {
+    let Args { options, force, .. } = args;
+    let out = args.out.unwrap_or_else(|| match options.profile {
         Profile::Full => paper.project.place("paper"),
         Profile::Quick => paper.project.place("target/paper-quick"),
     });
@@ -64,17 +64,17 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     if !is_whole {
         needs = figures.iter().flat_map(|figure| figure.needs).copied().collect();
     }
-    let session = sources.session(paper)?;
+    let session = options.session(paper)?;
     if args.dry_run {
         return dry_run(&session, &needs);
     }
-    refuse_over_other(sources.profile, &out, is_whole)?;
+    refuse_over_other(options.profile, &out, is_whole)?;
     let option = |error: folder::Error| Failure::from(error).of("--out");
     if !force {
         folder::refuse(&out, &Files::new(), is_whole).map_err(option)?;
     }
     forget(&args.rerun, paper, &session)?;
-    let (report, checks) = sources.threads.run(|| {
+    let (report, checks) = options.threads.run(|| {
         if is_whole {
             return make_report(paper, &session, &out);
         }

@@ -1,6 +1,6 @@
 //! Runs the verb `run`: the experiments, or this machine's share of their units of work.
 
-use super::common::Sources;
+use super::common::RunOptions;
 use super::terminal::{print, shown};
 use crate::experiments::{AnyExperiment, Error, Session};
 use crate::failure::Failure;
@@ -23,7 +23,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "i/N", value_parser = share, allow_hyphen_values = true)]
     shard: Option<(usize, usize)>,
     #[command(flatten)]
-    sources: Sources,
+    options: RunOptions,
 }
 
 fn share(text: &str) -> Result<(usize, usize), String> {
@@ -35,11 +35,11 @@ fn share(text: &str) -> Result<(usize, usize), String> {
 }
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
-    let Args { shard, sources } = args;
-    let session = sources.session(paper)?;
+    let Args { shard, options } = args;
+    let session = options.session(paper)?;
     let saved: Vec<&'static dyn AnyExperiment> =
         paper.experiments.iter().copied().filter(|one| one.is_saved()).collect();
-    let done = sources.threads.run(|| match shard {
+    let done = options.threads.run(|| match shard {
         Some((i, of)) => {
             let [run, there] = run_shard(&saved, (i, of), &session)?;
             Ok(format!("shard {i}/{of}: {} run, {there} already saved", count(run, "unit")))
@@ -49,7 +49,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
             Ok(format!("results of {}", count(saved.len(), "experiment")))
         }
     })?;
-    print(&format!("{}: {done}\n", shown(&sources.results(paper))))
+    print(&format!("{}: {done}\n", shown(&options.results(paper))))
 }
 
 /// How many shards there can be at most; more would have nothing to do.
@@ -67,7 +67,7 @@ fn run_shard(
     for experiment in experiments {
         let mut units = experiment.units(session.profile);
         units.retain(|_| shards.next() == Some(shard));
-        open.extend(experiment.open(units.clone(), session));
+        open.extend(experiment.missing(units.clone(), session));
         shares.push((experiment, units));
     }
     session.announce(&format!("shard {shard}/{of}: {}", count(open.len(), "unit")), &open)?;

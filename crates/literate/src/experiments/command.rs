@@ -17,7 +17,6 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// A command as an experiment.
 #[derive(Clone, Copy, Debug)]
 pub struct Command {
     pub name: &'static str,

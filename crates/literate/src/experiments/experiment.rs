@@ -173,7 +173,7 @@ pub trait AnyExperiment: Sync {
     }
 
     /// Returns those of the given units that must be run: none if its result is fresh.
-    fn open(&self, mut units: Vec<Unit>, session: &Session<'_>) -> Vec<Unit> {
+    fn missing(&self, mut units: Vec<Unit>, session: &Session<'_>) -> Vec<Unit> {
         let (store, identity) = (&session.store, self.identity(session));
         if !self.is_saved() || store.fresh(&identity).is_ok() {
             return Vec::new();
@@ -199,7 +199,7 @@ pub trait AnyExperiment: Sync {
             return Some(why);
         }
         let all = count(units.len(), "unit");
-        let there = units.len() - self.open(units, session).len();
+        let there = units.len() - self.missing(units, session).len();
         Some(format!("{why}; {there} of {all} there"))
     }
 

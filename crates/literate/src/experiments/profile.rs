@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How much is sampled.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, clap::ValueEnum,
 )]

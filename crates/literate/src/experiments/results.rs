@@ -118,13 +118,13 @@ impl Results {
         derived: &[DerivedTables],
         session: &Session<'_>,
     ) -> Result<Self, Error> {
-        let (mut stale, mut open) = (0, Vec::new());
+        let (mut stale, mut missing) = (0, Vec::new());
         for experiment in experiments {
-            let units = experiment.open(experiment.units(session.profile), session);
+            let units = experiment.missing(experiment.units(session.profile), session);
             stale += usize::from(!units.is_empty());
-            open.extend(units);
+            missing.extend(units);
         }
-        session.announce(&count(stale, "experiment"), &open)?;
+        session.announce(&count(stale, "experiment"), &missing)?;
         let mut found = Vec::new();
         for experiment in experiments {
             found.push((*experiment, naming(experiment.name(), || experiment.found(session))?));

@@ -92,7 +92,6 @@ impl Identity {
     }
 }
 
-/// Where results are saved.
 #[derive(Clone, Debug)]
 pub struct Store {
     folder: Option<PathBuf>,

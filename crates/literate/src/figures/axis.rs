@@ -30,7 +30,7 @@ impl Tick {
 pub struct Axis {
     pub lo: f64,
     pub hi: f64,
-    /// Whether values lie by their logarithm; one that is not positive lies below every range.
+    /// Whether the scale is logarithmic; a value that is not positive lies below every range.
     pub is_log: bool,
     /// With mark-up; empty for none.
     pub label: String,

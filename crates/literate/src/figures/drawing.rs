@@ -85,7 +85,6 @@ pub struct Drawing {
     pub glyphs: Glyphs,
 }
 
-/// Whether something could be drawn.
 pub(super) type Outcome = Result<(), DrawingErrorKind<Error>>;
 
 /// Returns a colour, which must be one of ours: others have no form for light and for dark pages.

@@ -40,7 +40,6 @@ fn outside(x: f64, y: f64) -> &'static str {
     }
 }
 
-/// Whether something could be drawn.
 pub type Drawn = Result<(), Error>;
 
 impl From<Missing> for Error {

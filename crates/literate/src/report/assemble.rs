@@ -23,7 +23,6 @@ use crate::table::DataFile;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// A document as a tree.
 struct Part<'a> {
     document: Document,
     blocks: Vec<Block>,

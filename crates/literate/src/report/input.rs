@@ -12,7 +12,6 @@ use std::collections::BTreeMap;
 /// What a page loads when a reader asks it to compute.
 pub const LAB: &str = "lab.js";
 
-/// What a report is made of.
 #[derive(Clone, Copy, Debug)]
 pub struct Input<'a> {
     pub templates: &'a Templates,

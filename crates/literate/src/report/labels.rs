@@ -121,8 +121,8 @@ impl Labels {
         Error::all(errors)
     }
 
-    /// Takes the verdicts, which `row:id`, `mark:id` and `sign:id` show, and refuses the place of a
-    /// statement that there is not.
+    /// Takes the verdicts, which `row:id`, `mark:id` and `sign:id` show, and refuses the place of
+    /// an unknown statement.
     pub fn add_verdicts(&mut self, claims: &[Check]) -> Result<(), Error> {
         self.signs = claims.iter().map(|claim| (claim.id.clone(), claim.verdict.sign())).collect();
         let mut errors = Vec::new();

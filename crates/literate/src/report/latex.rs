@@ -143,7 +143,6 @@ fn label(id: &str) -> String {
     format!("\\phantomsection\\label{{{}}}", place(id))
 }
 
-/// Running text.
 pub fn inlines(list: &[Inline]) -> String {
     let mut out = String::new();
     for (i, piece) in list.iter().enumerate() {
@@ -271,9 +270,10 @@ fn table(table: &Table) -> String {
     let (tight, across) = (!fits(gaps) && fits(0.5 * gaps), !fits(0.5 * gaps));
     let line = if across { LINE * 3 / 2 } else { LINE };
     let wraps = total > line;
-    let layout = match wraps {
-        true => shared(&columns, line as f64, (line as f64 - gaps - least as f64).max(0.0)),
-        false => columns.iter().map(|column| column.letter).collect(),
+    let layout = if wraps {
+        shared(&columns, line as f64, (line as f64 - gaps - least as f64).max(0.0))
+    } else {
+        columns.iter().map(|column| column.letter).collect()
     };
     let row = |cells: &[Vec<Inline>]| {
         let cells: Vec<String> = cells.iter().map(|cell| inlines(cell)).collect();

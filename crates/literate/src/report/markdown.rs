@@ -127,7 +127,6 @@ pub fn escaped(text: &str) -> String {
     out
 }
 
-/// Writes running text.
 pub fn inlines(list: &[Inline]) -> String {
     // Values are text and formulas, so that neighbours of mathematics are seen.
     let flat = list.iter().flat_map(|inline| match inline {

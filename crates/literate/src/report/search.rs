@@ -21,7 +21,6 @@ struct Index {
 }
 
 impl Index {
-    /// Adds text of this section.
     fn add(&mut self, text: &str) {
         self.add_at(&self.section[0].clone(), text);
     }

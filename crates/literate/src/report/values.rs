@@ -103,7 +103,6 @@ fn showable(value: &Value) -> Result<(), Error> {
     }
 }
 
-/// Reads a values.json.
 pub fn read(text: &str) -> Result<Registry, Error> {
     let values = serde_json::from_str(text)
         .map_err(|error| Error::Template(format!("values.json: {error}")))?;

@@ -7,7 +7,6 @@ use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 use std::panic::Location;
 
-/// Rows with keys, and columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     pub(super) name: &'static str,
@@ -159,7 +158,6 @@ impl Table {
         self.columns.iter().map(|column| column.name)
     }
 
-    /// Returns the names of the keys.
     pub fn keys(&self) -> impl Iterator<Item = &'static str> {
         self.names().take(self.keys)
     }

@@ -189,7 +189,7 @@ impl Reader<'_> {
         let text = &(text[..escaped].to_string() + &lint::literal(&text[escaped..]));
         for piece in pieces(text) {
             match piece {
-                Piece::Text(words) if words.contains(mark::is_sign) => {
+                Piece::Text(words) if words.contains(mark::is_of_mark) => {
                     return Err(markup("a part of the name of a value was cut off; name it whole"));
                 }
                 Piece::Text(words) => match out.last_mut() {
@@ -339,7 +339,7 @@ fn mentioned(source: &str, part: Range<usize>) -> Option<Range<usize>> {
         let at = part.start + at;
         let free = source[..at].chars().next_back();
         let rest = &source[at + 1..part.end];
-        let ends = |c: char| c.is_whitespace() || ",;{}[]|".contains(c) || mark::is_sign(c);
+        let ends = |c: char| c.is_whitespace() || ",;{}[]|".contains(c) || mark::is_of_mark(c);
         let id = rest.split(ends).next().unwrap_or_default();
         let id = id.trim_end_matches(|c: char| ".:?!()'\"’”".contains(c));
         if free.is_none_or(|c| c.is_whitespace() || "(“‘–—".contains(c))

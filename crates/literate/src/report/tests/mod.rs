@@ -193,7 +193,6 @@ fn claim(id: &'static str) -> Check {
     judged
 }
 
-/// What a report is made of.
 struct Given {
     files: Vec<(&'static str, String)>,
     edition: Edition,
