@@ -16,7 +16,7 @@ pub fn ends(numbers: impl Iterator<Item = f64> + Clone) -> Option<[f64; 2]> {
     Some([numbers.clone().reduce(f64::min)?, numbers.reduce(f64::max)?])
 }
 
-/// Starts a check by the windows of the map of protocols, so many of which agree with what was
+/// Starts a check by the windows of the map of protocols, `agree` of which agree with what was
 /// printed. If some agree and others do not, the protocol decides, which is not printed.
 pub fn by_windows(
     e: &Evidence<'_>,

@@ -222,7 +222,7 @@ impl Printer {
         self.print(format!("{}{row}\n", self.prefix));
     }
 
-    /// Prints some rows, after the header, for a run that is refused at its start prints nothing.
+    /// Prints some rows, after the header, since a run that is refused at its start prints nothing.
     fn print(&mut self, rows: String) {
         let text = std::mem::take(&mut self.header) + &rows;
         if self.written.is_ok() {

@@ -65,7 +65,7 @@ impl Decimal {
         Decimal { digits, places }
     }
 
-    /// Rounds to so many significant digits; zero has none.
+    /// Rounds to this many significant digits; zero has none.
     pub fn significant(&self, digits: usize) -> Decimal {
         if self.digits.is_empty() {
             return self.rounded(0);

@@ -33,7 +33,7 @@ impl Number {
         }
     }
 
-    /// Returns the number with so many significant digits; words as they are.
+    /// Returns the number with this many significant digits; words as they are.
     pub(crate) fn significant(self, digits: usize) -> Number {
         let digits = Digits::Significant(digits);
         match self {
@@ -172,7 +172,7 @@ impl Value {
         Value::new(id, Number::Text(text.into()), Kind::Exact)
     }
 
-    /// Makes a number as somebody printed it, with so many decimals, at a place of a paper.
+    /// Makes a number as somebody printed it, with its decimals, at a place of a paper.
     pub fn printed(
         id: impl Into<String>,
         value: f64,

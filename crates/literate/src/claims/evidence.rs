@@ -120,8 +120,8 @@ impl Evidence<'_> {
         Ok(Check { basis: Basis::PrintedDigit, ..check })
     }
 
-    /// Judges the number of a cell by its standard error alone: it lies within so many of the
-    /// printed one as the level of the statistical checks allows.
+    /// Judges the number of a cell by its standard error alone: it lies as many of them from the
+    /// printed one, at most, as the level of the statistical checks allows.
     #[track_caller]
     pub fn within_errors(&self, address: &str) -> Judged {
         let room = self.standard_errors(address)?;

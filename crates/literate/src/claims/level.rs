@@ -19,7 +19,7 @@ pub struct Level {
 }
 
 impl Level {
-    /// Returns the level for so many checks (at least one).
+    /// Returns the level for this number of checks (at least one).
     pub fn of(claims: usize) -> Level {
         let each = -pxfm::f_expm1(pxfm::f_log1p(-FAMILY_LEVEL) / claims.max(1) as f64);
         let quantile = (100.0 * normal_quantile(1.0 - each)).ceil() / 100.0;

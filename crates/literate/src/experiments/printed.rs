@@ -25,7 +25,7 @@ pub(super) struct PrintedTable {
     rows: Vec<Vec<Json>>,
 }
 
-/// Reads the tables of a command by their names, of which none may stand twice.
+/// Reads the tables of a command by their names, each of which may stand only once.
 pub(super) fn tables_by_name<'de, D: Deserializer<'de>>(
     reader: D,
 ) -> Result<BTreeMap<String, PrintedTable>, D::Error> {

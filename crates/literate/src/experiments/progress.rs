@@ -56,7 +56,7 @@ impl Progress {
     pub fn stage(&self, name: &str, total: u64) -> Stage {
         let (name, began, done) = (name.to_string(), Instant::now(), Arc::new(AtomicU64::new(0)));
         let position = Arc::clone(&done);
-        // At equal times, for the first unit may be a long one.
+        // At equal times, since the first unit may be a long one.
         let share = move || progress_text(position.load(Ordering::Relaxed), total, began.elapsed());
         let lines = (!self.quiet).then(|| alive(move || format!("{name}: {}", share())));
         Stage { done, _lines: lines }

@@ -219,8 +219,8 @@ impl Panel {
         self.x.contains(x) && self.y.contains(y)
     }
 
-    /// Names a curve or a symbol in its colour, near a point of the data: so many millimetres to
-    /// the right of it and below it. `(1, 0)` is right of the point, `(0, -1)` above it.
+    /// Names a curve or a symbol in its colour, near a point of the data: `offset` is in
+    /// millimetres to the right and down: `(1, 0)` is right of the point, `(0, -1)` above it.
     pub fn label(&self, text: &str, at: (f64, f64), offset: (i32, i32), colour: RGBColor) -> Drawn {
         let (right, down) = offset;
         let h = match right {

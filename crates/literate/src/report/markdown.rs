@@ -95,7 +95,7 @@ fn table(table: &Table) -> String {
     out
 }
 
-/// Returns a fence of at least so many grave accents, longer than any in the code.
+/// Returns a fence of at least this many grave accents, longer than any in the code.
 fn fence(code: &str, least: usize) -> String {
     let longest = code.split(|c| c != '`').map(str::len).max().unwrap_or_default();
     let fits = |length: usize| !code.contains('`') || length > longest;

@@ -18,7 +18,7 @@ pub struct Building<'a, R> {
 }
 
 impl Table {
-    /// Begins a table `experiment.what` with one row for each of `rows`, of so many realisations.
+    /// Begins a table `experiment.what` with one row for each of `rows`, of `number` realisations.
     #[track_caller]
     pub fn of<'a, R>(
         name: &'static str,
@@ -121,7 +121,7 @@ impl<'a, R> Building<'a, R> {
         })
     }
 
-    /// Adds a number that was computed without chance, with so many significant digits, or none.
+    /// Adds a number that was computed without chance, with `digits` significant ones, or none.
     pub fn real<V: Into<Option<f64>>, F: Fn(&R) -> V>(
         self,
         name: &'static str,
