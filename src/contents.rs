@@ -34,8 +34,6 @@ pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str
     let trials = results.of(&TRIALS)?;
     let statements: Vec<&Check> =
         checks.iter().filter(|check| check.kind == Kind::Statement).collect();
-    let mut by_section = statements.clone();
-    by_section.sort_by_key(|check| section(check));
     let methods = || trials.parameters.settings.chunk_by(|a, b| a.method == b.method);
     let heads: Vec<String> = methods().map(titled).collect();
     let sizes: Vec<usize> = methods().map(<[_]>::len).collect();
@@ -43,22 +41,9 @@ pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str
     Ok(BTreeMap::from([
         ("scorecard", Verdict::ALL.iter().map(|verdict| score(*verdict, &statements)).collect()),
         ("basis_table", Basis::ALL.iter().filter_map(|basis| split(*basis, &statements)).collect()),
-        ("strip", by_section.chunk_by(|a, b| section(a) == section(b)).map(strip).collect()),
         ("scene_heads", json!(heads)),
         ("scene_table", scenes.map(|(all, found)| scene(&all.what, found, &sizes)).collect()),
     ]))
-}
-
-/// The section of the paper that an id names, `sec7_limit`: 7.
-fn section(check: &Check) -> u32 {
-    let name = check.id.split('_').next().unwrap_or_default();
-    name.trim_start_matches("sec").parse().unwrap_or(0)
-}
-
-/// The verdicts on the statements of one section of the paper, as signs linked to their rows.
-fn strip(checks: &[&Check]) -> Json {
-    let signs: Vec<String> = checks.iter().map(|check| format!("[@sign:{}]", check.id)).collect();
-    json!({"place": format!("Sec.\u{a0}{}", section(checks[0])), "signs": signs.join(" ")})
 }
 
 /// How many statements have a verdict, and references to them.
@@ -69,12 +54,21 @@ fn score(verdict: Verdict, checks: &[&Check]) -> Json {
     json!({"verdict": verdict.words(), "count": mark(verdict.words()), "claims": which})
 }
 
-/// A basis, how many statements rest on it, and how many of these are reproduced; none if no
-/// statement rests on it.
+/// A basis, how many statements rest on it, how many of these are reproduced, and a sign for each,
+/// by verdict; none if no statement rests on it.
 fn split(basis: Basis, checks: &[&Check]) -> Option<Json> {
-    checks.iter().find(|check| check.basis == basis)?;
+    let mut own: Vec<_> = checks.iter().filter(|check| check.basis == basis).collect();
+    own.sort_by_key(|check| Verdict::ALL.iter().position(|verdict| *verdict == check.verdict));
+    let signs: Vec<_> = own.iter().map(|check| format!("[@sign:{}]", check.id)).collect();
     let words = basis.words();
-    Some(json!([words, mark(&format!("{words}_of")), mark(words)]))
+    (!own.is_empty()).then(|| {
+        json!({
+            "basis": words,
+            "all": mark(&format!("{words}_of")),
+            "reproduced": mark(words),
+            "signs": signs.join(" "),
+        })
+    })
 }
 
 /// The value of the scorecard with this name, as a template writes it.

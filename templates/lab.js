@@ -15,6 +15,7 @@ globalThis.open_lab = (() => {
     .bench input, .bench select { font: inherit; color: inherit; accent-color: var(--link); min-width: 0; }
     .bench input[type=number], .bench select { background: var(--soft); border: 1px solid var(--grey); border-radius: 4px; padding: 0.15rem 0.3rem; width: 100%; }
     .bench select { flex: 1 1 14rem; }
+    .bench output button { font: inherit; color: var(--link); background: none; border: 0; padding: 0; text-align: left; text-decoration: underline; cursor: pointer; }
     .bench .controls { max-width: none; margin: 0; }
     .bench output { display: block; font-size: 0.95rem; }
     .bench output:empty { display: none; }
@@ -29,9 +30,17 @@ globalThis.open_lab = (() => {
     .key.band::before { height: 0.8em; border: 0; background: var(--of); opacity: 0.5; }
     .first { display: grid; grid-template-columns: minmax(0, 1fr) max-content; gap: 0.6rem 1.2rem; align-items: center; }
     .first .fields { max-width: 30rem; grid-template-columns: 1fr; }
-    @media (max-width: 40rem) { .first { grid-template-columns: 1fr; } .bench .pair { gap: 0.3rem; } }
+    @media (max-width: 40rem) {
+      .first { grid-template-columns: 1fr; }
+      .bench .pair { gap: 0.3rem; }
+      .lab:has(.first) { margin-top: 1rem; }
+      .bench:has(> .first) { margin-top: 0; }
+      .first + .pair { display: contents; }
+      .first + .pair > :first-child { order: -2; }
+      .bench > .first { order: -1; }
+    }
     .bench details { font-size: 0.95rem; }
-    .bench details > * { margin-top: 0.6rem; }
+    .bench details > *, .bench details > .controls { margin-top: 0.8rem; }
   ` });
   document.head.append(look);
 
@@ -137,6 +146,11 @@ globalThis.open_lab = (() => {
     c.rect(box.x, box.y, box.width, box.height);
     c.clip();
     return {
+      words(text) {
+        c.fillStyle = colour("ink");
+        c.textAlign = "center";
+        c.fillText(text, box.x + box.width / 2, box.y + box.height / 2);
+      },
       image(source) {
         c.imageSmoothingEnabled = source.height > box.height;
         c.drawImage(source, box.x, box.y, box.width, box.height);
@@ -240,6 +254,18 @@ globalThis.open_lab = (() => {
         ["pale", "nine chains in ten", "band"], ["grey", "mean of those with an impact", "dashed"], ["green", "theory for your n"]),
       make("details", {}, make("summary", {}, "Masses, restitution, times, seed; runs of this edition to repeat"), more.node, make("div", { className: "controls" }, choice)));
 
+    // The stored run that is most like this one: of the same kind, then of the nearest force.
+    const unlike = (a, b) => Number(JSON.stringify(a) !== JSON.stringify(b));
+    const nearest = (asked) => {
+      const distances = runs.map((one) => {
+        const [{ forces: { drawn: of } }, { forces: { drawn } }] = [one.asked, asked];
+        if (!of) return Infinity;
+        const kind = unlike(one.asked.chain, asked.chain) + unlike([one.asked.transient, one.asked.window], [asked.transient, asked.window]);
+        return kind + 10 * Math.abs(of.sigma - drawn.sigma) + 0.01 * unlike({ ...of, sigma: 0 }, { ...drawn, sigma: 0 });
+      });
+      return distances.indexOf(Math.min(...distances));
+    };
+
     // Runs that differ in nothing but σ, seed and realisation are shown together.
     const KEPT = 500;
     let [points, alike, theory] = [[], "", []];
@@ -251,6 +277,7 @@ globalThis.open_lab = (() => {
         const picture = plot(where, tall(300), [0, until, "time t (1/ω); shaded: counted"], [0, found.gaps, "gap"], `Gap against time, a mark for each impact. ${told.textContent}`);
         picture.band([[from, 0, found.gaps], [until, 0, found.gaps]], "pale");
         picture.image(impacts(found));
+        if (found.impacts === 0 && state === "") picture.words("no impact");
       };
       const known = runs.find((one) => JSON.stringify(one.asked) === JSON.stringify(asked));
       const began = performance.now();
@@ -264,6 +291,13 @@ globalThis.open_lab = (() => {
         const eight = ({ digest }) => make("code", { textContent: digest.slice(0, 8), title: digest });
         proof.append(make("strong", { textContent: same ? "✓ same bits" : "✗ NOT the same bits" }), " as this edition: SHA-256 of all impacts ", eight(found));
         if (!same) proof.append(", here; there ", eight(known.found));
+      }
+      if (found.impacts === 0) proof.append(known ? ". " : "", "No impact: neighbours never swing so differently that the gap between them, of width d, closes. ");
+      if (!known && forces.drawn) {
+        const near = nearest(asked);
+        const offer = make("button", { type: "button", textContent: runs[near].name });
+        offer.addEventListener("click", () => repeat(near));
+        proof.append("This edition has no digest for these settings; the nearest run with one: ", offer);
       }
       if (!forces.drawn) return;
       const { masses: n, restitution: r } = chain;
@@ -305,6 +339,7 @@ globalThis.open_lab = (() => {
     });
     const repeat = (i) => guarded(() => {
       const { asked } = runs[i];
+      choice.value = i;
       const { sigma, seed, realisation } = asked.forces.drawn ?? first;
       own.set({ sigma });
       more.set({ seed, realisation, n: asked.chain.masses, r: asked.chain.restitution, T: asked.transient, W: asked.window });

@@ -70,11 +70,13 @@ pub fn runs(_: Profile) -> ReplayRuns {
     let (chain, threshold) = (Chain::default, printed_threshold());
     let at_threshold = format!("Fig. 3 at σ = {threshold}");
     let hit_twice = vec![[2.0, 1.0], [0.0; 2], [-2.0, -1.0]];
+    let third = Forces::Drawn { sigma: 0.1, stream: "sweep".into(), seed: SEED, realisation: 3 };
     // Towards the middle, not in mirror symmetry.
     let pressed = (0..5).map(f64::from).map(|j| [3.0 * (4.0 - 2.0 * j) + 0.1 * j, 0.3 * j]);
     let named = [
         (&at_threshold[..], drawn(threshold, chain())),
         ("Fig. 3 at σ = 0.05, without an impact", drawn(0.05, chain())),
+        ("Fig. 3 at σ = 0.1, realisation 3", Request { forces: third, ..drawn(0.1, chain()) }),
         ("Fig. 3 at σ = 0.2", drawn(0.2, chain())),
         ("Fig. 3 at σ = 0.3", drawn(0.3, chain())),
         ("a ring", drawn(0.2, Chain { boundary: Boundary::Ring, ..chain() })),

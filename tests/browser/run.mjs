@@ -362,7 +362,7 @@ for (const file of Object.keys(PAGES)) {
   const page = await open(file, 1280, "light", { javaScriptEnabled: false });
   if (file === "ledger.html") check((await page.locator("#tab-claims tbody tr:visible").count()) > 60, "without scripts the ledger lacks rows");
   check(await page.locator("main").isVisible(), `without scripts ${file} shows nothing`);
-  if (file === "index.html") check((await page.locator("figure:not(.lab) svg:visible").count()) === 2, "without scripts the front page lacks a picture");
+  if (file === "index.html") check((await page.locator("figure:not(.lab) svg:visible").count()) === 3, "without scripts the front page lacks a picture");
   await page.context().close();
 }
 await browser.close();

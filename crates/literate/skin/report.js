@@ -98,13 +98,20 @@
     waiting = setTimeout(what, 300);
   };
   const hide = () => preview.hidePopover();
-  const show = (link, target) => {
-    const copy = target.cloneNode(true);
-    all("[id]", copy).concat(copy).forEach((node) => node.removeAttribute("id"));
+  // A copy has no places, buttons or links of its own.
+  const bare = (copy) => {
+    all("[id]", copy).forEach((node) => node.removeAttribute("id"));
     all("[role=button], a", copy).forEach((node) => node.replaceWith(...node.childNodes));
     all("[tabindex]", copy).forEach((node) => node.removeAttribute("tabindex"));
-    preview.replaceChildren(copy);
+    return copy;
+  };
+  const show = (link, target) => {
+    preview.replaceChildren(bare(target.cloneNode(true)));
+    preview.firstChild.removeAttribute("id");
     preview.showPopover({ source: link });
+    // A long equation is as small as it must be.
+    const box = preview.querySelector(".equation .scroll");
+    if (box && box.scrollWidth > box.clientWidth) box.style.fontSize = `${(0.97 * box.clientWidth) / box.scrollWidth}em`;
   };
   for (const link of all('main a[href^="#"]')) {
     const target = document.getElementById(decodeURIComponent(link.hash.slice(1)));
@@ -183,7 +190,7 @@
     const finds = all("a", found);
     if (key === "Enter" && finds.length > 0) finds[next++ % finds.length].click();
   });
-  if (sections.length > 0) contents.querySelector("details")?.append(make("div", { className: "search", role: "search" }, input, found));
+  if (sections.length > 0) contents.append(make("div", { className: "search", role: "search" }, input, found));
 
   // What is to be cited is selected and copied; where a page may not copy, it stays selected.
   for (const entry of all(".cite pre")) {
@@ -198,8 +205,17 @@
 
   // Long cells in a table of many columns can be unfolded; on paper all are open.
   for (const cell of all(".lists td.long")) {
-    const start = cell.textContent.replace(/^(.{40}\S*).*/s, "$1 …");
-    cell.replaceChildren(make("details", {}, make("summary", {}, make("span", {}, start)), ...cell.childNodes));
+    const start = document.createRange();
+    start.setStart(cell, 0);
+    const texts = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT);
+    let left = 40;
+    while (left > 0 && texts.nextNode()) {
+      const { data } = texts.currentNode;
+      start.setEnd(texts.currentNode, data.slice(left).search(/\s|$/) + Math.min(left, data.length));
+      left -= data.length;
+    }
+    const words = make("span", {}, bare(start.cloneContents()), " …");
+    cell.replaceChildren(make("details", {}, make("summary", {}, words), ...cell.childNodes));
   }
   // A row that a link leads to is open.
   const unfold = () => all("details", document.getElementById(decodeURIComponent(location.hash.slice(1)))?.closest("tr") ?? make("p")).forEach((fold) => (fold.open = true));

@@ -3,6 +3,7 @@
 //!
 //! Cards need values.json, ledger.json and the parameters of the profile, and no run.
 
+use super::claims::symbols;
 use super::document::{Inline, printed, words_and_maths};
 use super::edition::Edition;
 use super::ledger::Ledger;
@@ -189,17 +190,17 @@ impl Cards<'_> {
 
     fn claim(&self, id: &str) -> Option<Card> {
         let claim = self.ledger.claims.iter().find(|claim| claim.id == id)?;
-        let title = words_and_maths(&claim.statement);
+        let title = words_and_maths(&symbols(&claim.statement));
         let mut card = Card::of(format!("claim:{id}"), title);
         let words = claim.verdict.words();
         let [first, rest] = [words.get(..1), words.get(1..)].map(Option::unwrap_or_default);
         let why = claim.difference().map_or_else(String::new, |why| format!(" ({why})"));
         card.lead = format!("{}{rest}{why}.", first.to_uppercase());
-        card.words("paper", &claim.expected);
-        card.words("here", &claim.found.to_string());
-        card.words("tolerance", &claim.tolerance.to_string());
-        card.words("because", &claim.reason);
-        card.words("note", &claim.note.to_string());
+        card.words("paper", &symbols(&claim.expected));
+        card.words("here", &symbols(&claim.found.to_string()));
+        card.words("tolerance", &symbols(&claim.tolerance.to_string()));
+        card.words("because", &symbols(&claim.reason));
+        card.words("note", &symbols(&claim.note.to_string()));
         card.words("stands in", &claim.place);
         card.item("judged by", &(self.edition.judged_by)(&claim.id), self.project);
         let (to, shown) = (card.id.clone(), "the row of this statement".into());

@@ -37,18 +37,37 @@ fn sentence(text: &Text) -> String {
     text.0.iter().map(piece).collect()
 }
 
-/// Makes a formula of each symbol with an index or a star, such as p_crit or k*.
-fn symbols(text: &str) -> String {
+/// Makes a formula of each variable, alone or with an index or a star, such as n, p_crit or k*; and
+/// keeps a percent sign beside its number.
+pub(super) fn symbols(text: &str) -> String {
+    if text.contains('$') {
+        return text.to_string();
+    }
     let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '*';
     let chars: Vec<char> = text.chars().collect();
-    let words = chars.chunk_by(|a, b| is_part(*a) == is_part(*b));
-    words.map(|word| symbol(word).unwrap_or_else(|| word.iter().collect())).collect()
+    let words: Vec<&[char]> = chars.chunk_by(|a, b| is_part(*a) == is_part(*b)).collect();
+    // (d) is a panel, and no variable.
+    let is_panel = |at: usize| {
+        let around = words.get(at.wrapping_sub(1)..at + 2);
+        matches!(around, Some([[.., '('], ['a'..='f'], [')', ..]]))
+    };
+    let word = |(at, word): (usize, &&[char])| {
+        symbol(word).filter(|_| !is_panel(at)).unwrap_or_else(|| word.iter().collect())
+    };
+    words.iter().enumerate().map(word).collect::<String>().replace(" %", "\u{a0}%")
 }
+
+/// Single letters that are words, panels or names of walls.
+const WORDS: &str = "AILRabces";
 
 fn symbol(word: &[char]) -> Option<String> {
     let (letter, rest) = word.split_first().filter(|(letter, _)| letter.is_alphabetic())?;
     let tex = if *letter == 'φ' { r"\phi".into() } else { letter.to_string() };
     match rest {
+        _ if rest.iter().all(|c| "²³₀₁₂".contains(*c)) => {
+            let rest: String = rest.iter().collect();
+            (!WORDS.contains(*letter)).then(|| format!("${tex}${rest}"))
+        }
         ['*'] => Some(format!("${tex}^*$")),
         ['_', index] if index.is_alphanumeric() => Some(format!("${tex}_{index}$")),
         ['_', _, ..] if rest[1..].iter().all(|c| c.is_alphanumeric()) => {

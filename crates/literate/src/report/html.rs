@@ -292,9 +292,10 @@ impl<'a> Page<'a> {
             }
             Inline::Value { id, shown } => self.value(id, shown, '\u{a0}'),
             Inline::Link { to, shown } => {
-                // A document is another file here.
+                // A document is another file here, and a host shows no folder.
                 let of = self.input.edition.documents.iter().find(|of| of.markdown == to);
-                let to = of.map_or(to.as_str(), |of| of.page);
+                let folder = (to == "data").then_some("data/index.html");
+                let to = of.map(|of| of.page).or(folder).unwrap_or(to);
                 format!("<a href=\"{}\">{}</a>", text(to), self.inlines(shown))
             }
             Inline::Reference { to, within, shown } => {

@@ -16,6 +16,23 @@ const WIDTHS: [(usize, &str); 3] = [(300, "long"), (TEXT, "text"), (40, "words")
 const MANY: usize = 6;
 const FEW: usize = 3;
 
+/// Writes powers of a text with raised digits: `10^-6` as 10⁻⁶.
+fn raised(words: &str) -> String {
+    let (mut out, mut is_power) = (String::new(), false);
+    for c in words.chars() {
+        let at = "0123456789-".chars().position(|digit| digit == c);
+        match at.and_then(|at| "⁰¹²³⁴⁵⁶⁷⁸⁹⁻".chars().nth(at)).filter(|_| is_power)
+        {
+            Some(digit) => out.push(digit),
+            None => {
+                is_power = c == '^';
+                out.extend((!is_power).then_some(c));
+            }
+        }
+    }
+    out
+}
+
 impl Page<'_> {
     /// Writes a table without its caption.
     pub(super) fn table(&self, table: &Table) -> String {
@@ -72,7 +89,8 @@ impl Page<'_> {
             let _ = write!(out, "<tr{line}>");
             for (i, cell) in row.iter().enumerate() {
                 let name = head.get(i).filter(|_| lists);
-                let name = name.map(|head| format!(" data-name=\"{}\"", text(&spelt(head))));
+                let name =
+                    name.map(|head| format!(" data-name=\"{}\"", text(&raised(&spelt(head)))));
                 let (name, words) = (name.unwrap_or_default(), self.inlines(cell));
                 let _ = write!(out, "<td{field}{}{name}>{words}</td>", class(i));
             }
