@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn symbols_with_an_index_or_a_star_are_formulas() {
         let text = "At p_crit k* of φ_N(k) is fig_3_b, 2*3, a_ and σ_x.";
-        let set = r"At $p_{\mathrm{crit}}$ $k^*$ of $\phi_N$(k) is fig_3_b, 2*3, a_ and $σ_x$.";
+        let set = r"At $p_{\mathrm{crit}}$ $k^*$ of $\phi_N$($k$) is fig_3_b, 2*3, a_ and $σ_x$.";
         assert_eq!(symbols(text), set);
         let text = crate::text!("k* at {}.", with_error(0.11652, 0.0004));
         assert_eq!(sentence(&text), "$k^*$ at 0.1165(4).");
