@@ -42,8 +42,8 @@ archive: ## pack the last commit and the source of all crates into target/impact
 bench: ## time the engine on this machine
 	cargo bench --locked -p impact-bench
 
-measure: ## time the engine, its rivals and other projects, into benches/measured.json (Python 3)
-	python3 benches/peers/measure.py
+measure: ## time the engine, its rivals and other programs, and run these on the scenes, into benches/*.json (Python 3)
+	python3 benches/peers/measure.py && python3 benches/peers/scenes/measure.py
 
 clean: ## remove everything that was built, including saved results
 	cargo clean

@@ -6,10 +6,11 @@
 //! that the paper chose) and `printed` (numbers in its statements).
 
 use crate::claims::{self, Basis, Check, FAMILY_LEVEL, Kind, Published, Verdict};
-use crate::experiments::accuracy::case::Outcome;
+use crate::experiments::accuracy::case::{Outcome, Scene, scenes};
 use crate::experiments::accuracy::tables::titled;
 use crate::experiments::accuracy::trials::{Trial, right, trouble};
-use crate::experiments::{Results, TRIALS};
+use crate::experiments::programs::Program;
+use crate::experiments::{PROGRAMS, Results, TRIALS};
 use literate::Failure;
 use literate::report::framed;
 use literate::value::{Value, origin};
@@ -37,12 +38,16 @@ pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str
     let methods = || trials.parameters.settings.chunk_by(|a, b| a.method == b.method);
     let heads: Vec<String> = methods().map(titled).collect();
     let sizes: Vec<usize> = methods().map(<[_]>::len).collect();
-    let scenes = trials.parameters.scenes.iter().zip(&trials.found);
+    let trials = trials.parameters.scenes.iter().zip(&trials.found);
+    let tested: Vec<&Program> =
+        results.of(&PROGRAMS)?.iter().filter(|of| !of.settings.is_empty()).collect();
     Ok(BTreeMap::from([
         ("scorecard", Verdict::ALL.iter().map(|verdict| score(*verdict, &statements)).collect()),
         ("basis_table", Basis::ALL.iter().filter_map(|basis| split(*basis, &statements)).collect()),
         ("scene_heads", json!(heads)),
-        ("scene_table", scenes.map(|(all, found)| scene(&all.what, found, &sizes)).collect()),
+        ("scene_table", trials.map(|(all, found)| scene(&all.what, found, &sizes)).collect()),
+        ("program_heads", json!(tested.iter().map(|of| &of.settings[0].name).collect::<Vec<_>>())),
+        ("program_table", program_table(&tested)),
     ]))
 }
 
@@ -76,6 +81,20 @@ fn mark(name: &str) -> String {
     framed(&format!("score.{}", name.replace(' ', "_")), "")
 }
 
+<<<<<<< HEAD
+=======
+/// The rows of the table of scenes for programs that people use.
+fn program_table(tested: &[&Program]) -> Json {
+    let sizes: Vec<usize> = tested.iter().map(|of| of.settings.len()).collect();
+    let row = |of_scene: &Scene| {
+        let runs = tested.iter().flat_map(|of| &of.settings);
+        let found: Vec<Trial> = runs.map(|run| run.trial(of_scene).clone()).collect();
+        scene(&of_scene.what, &found, &sizes)
+    };
+    scenes().iter().map(row).collect()
+}
+
+>>>>>>> ce17dc5e (Programs that people use, on the scenes where methods fail)
 /// What goes wrong most often in a scene with each method, at its settings from coarse to fine, and
 /// in how many cases; and whether failures end with an error or with a wrong result that looks like
 /// a right one. No method here warns of a result that it gives. `sizes` are the numbers of settings

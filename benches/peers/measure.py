@@ -260,6 +260,10 @@ def machine():
     return {"processor": processor, "cores": os.cpu_count() or 1, "os": system}
 
 
+def today():
+    return datetime.date.today().isoformat()
+
+
 def of_part(row):
     """The part that writes a row."""
     by_what = dict.fromkeys(["engine", "ensemble"], "ours")
@@ -275,7 +279,7 @@ def main():
     wanted = arguments.only.split(",") if arguments.only else PARTS
     if unknown := [part for part in wanted if part not in PARTS]:
         parser.error(f"--only: there is no part {unknown[0]}; parts are {','.join(PARTS)}")
-    here = {"date": datetime.date.today().isoformat(), "machine": machine()}
+    here = {"date": today(), "machine": machine()}
     old = []
     if arguments.only and arguments.out.is_file():
         old = json.loads(arguments.out.read_text())["sessions"]

@@ -2,7 +2,7 @@
 //! what all saved results depend on; and makes the paper with these alone.
 
 use super::{
-    BIAS, BRANCHES, HORIZON, LENGTHS, MEASURED, NUCLEATION, PROTOCOL, RACE, REPLAY, RESTITUTION,
+    BIAS, BRANCHES, HORIZON, LENGTHS, MEASURED, NUCLEATION, PROGRAMS, PROTOCOL, RACE, REPLAY, RESTITUTION,
     SCALE, SECOND_SEED, SEEDS, SEGMENTS, SPACE_TIME, STARTS, SWEEP, TRIALS, TWO_MASSES, identities,
     seeds, starts, theory,
 };
@@ -25,6 +25,7 @@ pub const ALL: &[&dyn AnyExperiment] = &[
     &RACE,
     &BIAS,
     &TRIALS,
+    &PROGRAMS,
     &SCALE,
     &NUCLEATION,
     &SEEDS,
@@ -89,7 +90,7 @@ pub fn bare() -> Paper {
     let project = Project { shared: SHARED, left_out: LEFT_OUT, ..project };
     #[cfg(feature = "embed")]
     let project =
-        Project { copy: literate::texts!("templates", "benches/measured.json"), ..project };
+        Project { copy: literate::texts!("templates", "benches/measured.json", "benches/scenes.json"), ..project };
     let mut paper = Paper {
         project,
         prose: "templates",

@@ -6,12 +6,13 @@
 use crate::experiments::prelude::*;
 use crate::params::Setting;
 use literate::input::one_line;
+use serde::de::DeserializeOwned;
 
 pub const MEASURED: Experiment<(), Measured> = Experiment {
     name: "measured",
     code: &["src/experiments/measured.rs", FILE],
     parameters: |_| (),
-    how: Read(Measured::committed),
+    how: Read(|session| committed(session, FILE)),
     tables,
 };
 
@@ -83,20 +84,21 @@ pub struct Measurement {
     pub note: String,
 }
 
-impl Measured {
-    pub fn committed(session: &Session<'_>) -> Result<Self, Error> {
-        let wrong = |field: &str, error: &dyn std::fmt::Display| {
-            let again = "run make measure again, or restore the file";
-            Error::input(field, one_line(&error.to_string(), 1000), again)
-        };
-        let text = session.project.text(FILE).map_err(|error| wrong("measured.json", &error))?;
-        let mut reader = serde_json::Deserializer::from_str(&text);
-        serde_path_to_error::deserialize(&mut reader).map_err(|error| {
-            let field = format!("measured.json: {}", one_line(&error.path().to_string(), 80));
-            wrong(&field, error.inner())
-        })
-    }
+/// Reads a file that `make measure` wrote.
+pub fn committed<T: DeserializeOwned>(session: &Session<'_>, file: &str) -> Result<T, Error> {
+    let wrong = |field: &str, error: &dyn std::fmt::Display| {
+        let again = "run make measure again, or restore the file";
+        Error::input(field, one_line(&error.to_string(), 1000), again)
+    };
+    let text = session.project.text(file).map_err(|error| wrong(file, &error))?;
+    let mut reader = serde_json::Deserializer::from_str(&text);
+    serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+        let field = format!("{file}: {}", one_line(&error.path().to_string(), 80));
+        wrong(&field, error.inner())
+    })
+}
 
+impl Measured {
     pub fn of(&self, what: What) -> impl Iterator<Item = &Measurement> {
         self.sessions.iter().flat_map(|session| &session.rows).filter(move |row| row.what == what)
     }
@@ -140,7 +142,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         parts.into_iter().filter_map(|(of, what)| Some((of, session(what)?))).collect();
     let machine = Table::of("measured.machine", &found, |_| 1)
         .text_key("of", |(of, _)| (*of).into())
-        .computed_by(origin(Measured::committed))
+        .computed_by(origin(tables))
         .words("date", "when", |(_, on)| on.date.clone())
         .words("processor", "on what", |(_, on)| on.machine.processor.replace("(R)", ""))
         .words("os", "under what", |(_, on)| on.machine.os.replace('_', "-"))
@@ -149,7 +151,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
     let engine = one.filter_map(|row| row.microseconds_per_impact).last();
     const ENGINE: &str = "time of an impact in the engine, one chain of 100 masses";
     let impact = Table::of("measured.impact", &[()], |()| 1)
-        .computed_by(origin(Measured::committed))
+        .computed_by(origin(tables))
         .real("engine", "us", 2, ENGINE, |()| engine)
         .measured();
     let rows: Vec<&Measurement> = measured.of(What::Method).collect();
@@ -159,7 +161,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
             None => row.name.clone(),
         })
         .key("sigma", SIGMA, |row| row.sigma)
-        .computed_by(origin(Measured::committed))
+        .computed_by(origin(tables))
         .real("thousand", "s", 2, "time of one core for a thousand chains", |row| row.thousand())
         .real("over_engine", "1", 2, "time over the engine's", |row| row.over_engine())
         .measured();

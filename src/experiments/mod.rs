@@ -15,6 +15,7 @@ mod list;
 pub mod measured;
 pub mod nucleation;
 pub(crate) mod prelude;
+pub mod programs;
 pub mod protocol;
 pub mod replay;
 pub mod restitution;
@@ -37,6 +38,7 @@ pub use literate::experiments::{
 };
 pub use measured::{MEASURED, Measured};
 pub use nucleation::NUCLEATION;
+pub use programs::PROGRAMS;
 pub use protocol::PROTOCOL;
 pub use replay::REPLAY;
 pub use restitution::RESTITUTION;

@@ -1,0 +1,94 @@
+//! Reads how programs that people use fare in the scenes where methods fail: `benches/scenes.json`.
+//!
+//! `make measure` runs them, with a bound on processor time; the report only reads what they gave.
+
+use crate::experiments::accuracy::case::{Outcome, Scene, scenes};
+use crate::experiments::accuracy::trials::{Trial, right};
+use crate::experiments::measured::{Machine, committed};
+use crate::experiments::prelude::*;
+use std::collections::BTreeMap;
+
+/// Programs that people use, in the scenes where methods fail.
+pub const PROGRAMS: Experiment<(), Vec<Program>> = Experiment {
+    name: "programs",
+    code: &["src/experiments/programs.rs", FILE],
+    parameters: |_| (),
+    how: Read(|session| complete(committed(session, FILE)?)),
+    tables,
+};
+
+const FILE: &str = "benches/scenes.json";
+
+/// A script of `benches/peers/scenes` on one day and machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Program {
+    pub script: String,
+    /// Day of the measurement, YYYY-MM-DD.
+    pub date: String,
+    pub machine: Machine,
+    /// Why it could not be run; empty if it was.
+    pub absent: String,
+    pub settings: Vec<Run>,
+}
+
+/// One setting.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Run {
+    pub name: String,
+    pub version: String,
+    pub settings: String,
+    /// For each scene the outcomes of its cases.
+    pub outcomes: BTreeMap<String, Trial>,
+}
+
+impl Run {
+    /// Returns the outcomes in a scene.
+    pub fn trial(&self, scene: &Scene) -> &Trial {
+        &self.outcomes[&scene.id]
+    }
+}
+
+/// Refuses outcomes of other scenes than those of the report.
+fn complete(programs: Vec<Program>) -> Result<Vec<Program>, Error> {
+    for run in programs.iter().flat_map(|program| &program.settings) {
+        for scene in scenes() {
+            let cases = run.outcomes.get(&scene.id).map_or(0, Trial::len);
+            if cases != scene.cases.len() {
+                let field = format!("scenes.json: {}, scene {}", run.name, scene.id);
+                let problem = format!("{cases} outcomes for {} cases", scene.cases.len());
+                return Err(Error::input(field, problem, "run make measure again"));
+            }
+        }
+    }
+    Ok(programs)
+}
+
+/// Makes the table of programs and settings.
+fn tables(programs: &Vec<Program>) -> Vec<Table> {
+    let rows: Vec<(&Program, usize, &Run)> = programs
+        .iter()
+        .flat_map(|of| of.settings.iter().enumerate().map(move |(i, run)| (of, i + 1, run)))
+        .collect();
+    let total = |of: fn(&Trial) -> usize, run: &Run| run.outcomes.values().map(of).sum::<usize>();
+    let warned = |trial: &Trial| {
+        let said = [Outcome::GaveUp, Outcome::Refused, Outcome::Warned];
+        trial.iter().filter(|outcome| said.contains(outcome)).count()
+    };
+    let table = Table::of("programs.all", &rows, |_| 1)
+        .text_key("script", |(of, ..)| of.script.clone())
+        .key("setting", "1", |(_, i, _)| *i as f64)
+        .words("name", "program", |(.., run)| run.name.clone())
+        .words("version", "its version", |(.., run)| run.version.clone())
+        .words("settings", "its settings", |(.., run)| run.settings.clone())
+        .words("date", "when it was run", |(of, ..)| of.date.clone())
+        .computed_by(origin(complete))
+        .count("cases", "cases of all scenes", |(.., run)| total(Trial::len, run) as u64)
+        .count("right", "cases with the expected outcome", |(.., run)| total(right, run) as u64)
+        .count("warned", "cases that gave up, were refused or had a warning", |(.., run)| {
+            total(warned, run) as u64
+        })
+        .measured();
+    vec![table.done()]
+}
