@@ -81,8 +81,6 @@ fn mark(name: &str) -> String {
     framed(&format!("score.{}", name.replace(' ', "_")), "")
 }
 
-<<<<<<< HEAD
-=======
 /// The rows of the table of scenes for programs that people use.
 fn program_table(tested: &[&Program]) -> Json {
     let sizes: Vec<usize> = tested.iter().map(|of| of.settings.len()).collect();
@@ -94,7 +92,6 @@ fn program_table(tested: &[&Program]) -> Json {
     scenes().iter().map(row).collect()
 }
 
->>>>>>> ce17dc5e (Programs that people use, on the scenes where methods fail)
 /// What goes wrong most often in a scene with each method, at its settings from coarse to fine, and
 /// in how many cases; and whether failures end with an error or with a wrong result that looks like
 /// a right one. No method here warns of a result that it gives. `sizes` are the numbers of settings
