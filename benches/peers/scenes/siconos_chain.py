@@ -19,7 +19,7 @@ VERSION = subprocess.check_output(["dpkg-query", "-W", "-f", "${Version}", "pyth
 SETTINGS = [
     ("event-driven, LSODAR", None),
     ("Moreau-Jean, h=1e-3", 1e-3),
-    ("Moreau-Jean, h=1e-5", 1e-5),
+    ("Moreau-Jean, h=1e-4", 1e-4),
 ]
 
 # The drive: z holds the number of frequencies, then for each of them itself and the amplitudes of
