@@ -7,10 +7,12 @@ use crate::topology::Topology;
 use crate::{Chain, Engine, Error, Impact};
 use serde::{Deserialize, Serialize};
 
-/// The δ below which two impacts of adjacent gaps are counted as close, in units of 1/ω.
+/// The δ below which two impacts of adjacent gaps are counted as close, in the scenario's unit of
+/// time, whatever ω is.
 pub const NEAR_DECADES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 
-/// The v below which a closing speed is counted as slow, in units of d ω.
+/// The v below which a closing speed is counted as slow, in the scenario's unit of speed, whatever
+/// d and ω are.
 pub const SLOW_DECADES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 
 /// Impacts after which a run checks again whether to stop.
@@ -20,9 +22,9 @@ const CHECK_EVERY: u64 = 4096;
 /// suitable transient time").
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Protocol {
-    /// Transient T that is dropped, in units of 1/ω.
+    /// Transient T that is dropped, in the scenario's unit of time.
     pub transient: f64,
-    /// Window W, in units of 1/ω.
+    /// Window W, in the same unit.
     pub window: f64,
 }
 
