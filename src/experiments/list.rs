@@ -2,9 +2,9 @@
 //! what all saved results depend on; and makes the paper with these alone.
 
 use super::{
-    BIAS, BRANCHES, HORIZON, LENGTHS, MEASURED, NUCLEATION, PROGRAMS, PROTOCOL, RACE, REPLAY, RESTITUTION,
-    SCALE, SECOND_SEED, SEEDS, SEGMENTS, SPACE_TIME, STARTS, SWEEP, TRIALS, TWO_MASSES, identities,
-    seeds, starts, theory,
+    BIAS, BRANCHES, HORIZON, LENGTHS, MEASURED, NUCLEATION, PROGRAMS, PROTOCOL, RACE, REPLAY,
+    RESTITUTION, SCALE, SECOND_SEED, SEEDS, SEGMENTS, SPACE_TIME, STARTS, SWEEP, TRIALS,
+    TWO_MASSES, identities, seeds, starts, theory,
 };
 use crate::params;
 use literate::experiments::experiment::How::Read;
@@ -89,8 +89,10 @@ pub fn bare() -> Paper {
     let title = "A literate, reproducible edition of Homer & Hogan (2007), Impact Dynamics of Large Dimensional Systems";
     let project = Project { shared: SHARED, left_out: LEFT_OUT, ..project };
     #[cfg(feature = "embed")]
-    let project =
-        Project { copy: literate::texts!("templates", "benches/measured.json", "benches/scenes.json"), ..project };
+    let project = Project {
+        copy: literate::texts!("templates", "benches/measured.json", "benches/scenes.json"),
+        ..project
+    };
     let mut paper = Paper {
         project,
         prose: "templates",
