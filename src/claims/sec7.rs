@@ -64,9 +64,14 @@ fn inflexion(e: &Evidence<'_>) -> Judged {
 
 fn extrema(e: &Evidence<'_>) -> Judged {
     let [all, failed] = compared(e)?;
-    let note = "Neighbours of ⌈k₋⌉ and ⌈k₊⌉, since f is a forward difference. The first local maximum on the \
-         integers appears at p = {:8}, a little above p_crit.";
-    Ok(e.all_cases(all, failed).note(text!(note, e.number("theory.first_maximum.p")?)))
+    let [first, crit] = ["theory.first_maximum.p", "theory.jump.p_crit"].map(|at| e.number(at));
+    let (first, crit) = (first?, crit?);
+    let found = text!("from p = {:8} on; p_crit = {:8}", first, crit);
+    let why = "From there on it holds in all {} cases that were tried: local extrema at ⌈k₋⌉ and ⌈k₊⌉, since f is a \
+         forward difference. Between p_crit and there both zeros of f lie between two integers.";
+    Ok(e.found(found, first <= crit)
+        .within("none", "exact: the first p at which integers have a local maximum")
+        .explained(text!(why, all), failed == 0 && first > crit))
 }
 
 fn p_crit(e: &Evidence<'_>) -> Judged {
