@@ -69,8 +69,10 @@ impl Component {
 }
 
 /// (sin, cos) of the phase of each component of the forcing.
+#[cfg(feature = "ensembles")]
 pub type Phases = [(f64, f64); COMPONENTS];
 
+#[cfg(feature = "ensembles")]
 pub fn phases(components: &[Component], at: Instant) -> Phases {
     let mut phases = [(0.0, 1.0); COMPONENTS];
     for (phase, component) in phases.iter_mut().zip(components) {

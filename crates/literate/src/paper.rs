@@ -9,7 +9,7 @@ use crate::project::Project;
 use crate::report::{Edition, Value};
 use crate::source::Sources;
 use serde_json::Value as Json;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::panic::Location;
 
 /// A figure of a paper: its name, the experiments whose results it shows, and how it is drawn.
@@ -39,6 +39,12 @@ impl FigureSpec {
         let named = |error| Failure::from(error).of(format!("figure {}", self.name));
         let mut figure = (self.draw)(results).map_err(named)?;
         figure.data.iter_mut().for_each(|file| file.name.insert_str(0, self.name));
+        let mut names = BTreeSet::new();
+        if let Some(file) = figure.data.iter().find(|file| !names.insert(&file.name)) {
+            let what =
+                format!("figure {}: panels have one name {} for their data", self.name, file.name);
+            return Err(Failure::input(format!("{what}; give each a letter (`with_suffix`)")));
+        }
         let experiments = self.needs.iter().map(|need| need.name()).collect();
         // The item that draws it has its name.
         let source = format!("figures::{}", self.name);
@@ -185,6 +191,7 @@ mod tests {
     use super::*;
     use crate::experiments::{Experiment, Profile, Progress, Store};
     use crate::source::toy;
+    use crate::table::DataFile;
 
     #[test]
     fn a_figure_is_found_by_its_name_and_its_number() {
@@ -205,6 +212,17 @@ mod tests {
         let paper = Paper::new("toy", toy()).check("a", open).check("a", open);
         let twice = paper.check_names().unwrap_err().message;
         assert!(twice.starts_with("two rules have the name a: "), "{twice}");
+    }
+
+    #[test]
+    fn panels_with_one_file_of_data_are_refused() {
+        let draw = |_: &Results| {
+            let file = || DataFile { name: ".csv".into(), header: Vec::new(), rows: Vec::new() };
+            Ok(Figure { data: vec![file(), file()], ..Figure::default() })
+        };
+        let paper = Paper::new("toy", toy()).figure("twins", &[], draw);
+        let error = paper.figures[0].figure(&Results::made_up(Vec::new())).unwrap_err().message;
+        assert!(error.contains("panels have one name twins.csv for their data"), "{error}");
     }
 
     #[test]

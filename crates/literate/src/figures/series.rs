@@ -1,7 +1,8 @@
 //! Draws data in a panel: curves, symbols, areas and bars, as series of plotters elements.
 //!
-//! Each is recorded as it was given, in its units, before anything is cut; guides are no data. A
-//! number that is not finite is refused, and a point outside the frame where the panel says so.
+//! What these methods draw is recorded as it was given, in its units, before it is cut; guides are
+//! no data. They refuse numbers that are not finite, and points outside the frame where the panel
+//! says so. What `draw_series` draws is not looked at.
 
 use super::drawing::{Drawing, Element};
 use super::elements::{CustomElement, Marker, line, markers};
