@@ -1,37 +1,47 @@
-//! Prints the Poincaré section of one mass between walls: its state once a period of the force, as
-//! the force grows through the first graze.
+//! Prints the Poincaré section of one mass between walls, its places once a period of the force, as
+//! the force grows through the first graze: one point, four, two, many.
 
 use impact_chain::{Chain, Engine, Error, Scenario, Start};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
-/// Positions at 40 periods after 400, to six digits.
-fn section(amplitude: f64) -> Result<BTreeSet<i64>, Error> {
+const FREQUENCY: f64 = 3.0;
+
+/// Places at 80 periods after 1000, in units of 1e-5, for a force over that which grazes.
+fn section(force: f64) -> Result<BTreeSet<i64>, Error> {
     // Only impacts damp the motion, so start without a free part.
-    let start = Start::Zero;
-    let chain = Chain { masses: 1, forcing_frequency: 2.0, start, ..Chain::default() };
-    // The response is amplitude/3 sin 2t: it grazes both walls at amplitude 3.
-    let mut engine = Engine::new(&Scenario::given(&chain, vec![[0.0, -amplitude]])?)?;
+    let chain = Chain {
+        masses: 1,
+        forcing_frequency: FREQUENCY,
+        restitution: 0.5,
+        start: Start::Zero,
+        ..Chain::default()
+    };
+    // The response has the amplitude β/(Ω² − ω²), and grazes both walls where that is d.
+    let beta = force * (FREQUENCY.powi(2) - 1.0);
+    let mut engine = Engine::new(&Scenario::given(&chain, vec![[0.0, -beta]])?)?;
     let mut points = BTreeSet::new();
-    for period in 400..440 {
-        let time = f64::from(period) * TAU / 2.0;
+    for period in 1000..1080 {
+        let time = f64::from(period) * TAU / FREQUENCY;
         engine.run(time, |_| true)?;
-        points.insert((engine.state(time)?.positions[0] * 1e6).round() as i64);
+        points.insert((engine.state(time)?.positions[0] * 1e5).round() as i64);
     }
     Ok(points)
 }
 
 fn main() -> Result<(), Error> {
-    for amplitude in [2.9, 2.99, 3.01, 3.1, 3.5, 4.0] {
-        let points = section(amplitude)?;
-        println!("amplitude {amplitude}: {} points, {:?}", points.len(), points.first());
+    for force in [0.99, 1.01, 1.2, 1.3, 1.4, 1.7] {
+        let points = section(force)?;
+        let places: Vec<f64> = points.iter().take(4).map(|x| *x as f64 / 1e5).collect();
+        println!("{force} of the force that grazes: {} points, {places:?}", points.len());
     }
     Ok(())
 }
 
 #[test]
-fn below_the_graze_the_section_is_one_point() {
-    assert_eq!(section(2.99).unwrap(), BTreeSet::from([1_000_000]));
-    assert!(section(3.1).unwrap().iter().all(|x| *x != 1_000_000));
-    main().unwrap();
+fn periods_change_as_the_force_grows() {
+    assert_eq!(section(0.99).unwrap(), BTreeSet::from([100_000]));
+    let points = [1.2, 1.3, 1.4].map(|force| section(force).unwrap().len());
+    assert_eq!(points, [1, 4, 2]);
+    assert!(section(1.7).unwrap().len() > 40);
 }

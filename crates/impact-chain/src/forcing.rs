@@ -2,7 +2,6 @@
 
 use crate::Scenario;
 use crate::flight::response;
-use crate::scenario::COMPONENTS;
 use crate::search::clock::{Instant, Rate};
 
 /// Returns the forced response of each mass at t = 0: displacement and velocity.
@@ -70,11 +69,11 @@ impl Component {
 
 /// (sin, cos) of the phase of each component of the forcing.
 #[cfg(feature = "ensembles")]
-pub type Phases = [(f64, f64); COMPONENTS];
+pub type Phases = [(f64, f64); crate::scenario::COMPONENTS];
 
 #[cfg(feature = "ensembles")]
 pub fn phases(components: &[Component], at: Instant) -> Phases {
-    let mut phases = [(0.0, 1.0); COMPONENTS];
+    let mut phases = [(0.0, 1.0); crate::scenario::COMPONENTS];
     for (phase, component) in phases.iter_mut().zip(components) {
         *phase = component.phase(at);
     }
