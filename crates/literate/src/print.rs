@@ -248,7 +248,7 @@ mod tests {
     fn numbers_are_rounded_once_and_read_back_the_same() {
         let plain = |number| print(&number, Style::default()).plain();
         let mut bits = 1_u64;
-        for round in 0..100_000_usize {
+        for round in 0..500_000_usize {
             bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(12_345);
             let mixed = bits ^ (bits >> 31);
             assert_eq!(plain(Number::from(mixed)).parse(), Ok(mixed));
