@@ -7,6 +7,7 @@
 
 use crate::input::{self, STAGING, WRITING, is_absent, remedy, sha256};
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
 use std::io;
 use std::path::Path;
 
@@ -135,10 +136,21 @@ fn ours(folder: &Path) -> Result<Option<Digests>, Error> {
     Ok(list(folder, SUMS).or_else(|| is_empty.then(Digests::new)))
 }
 
+/// Waits until no other run writes into a folder, and keeps others out until the result is dropped.
+/// None if the folder is absent or its file system has no locks.
+fn lock(folder: &Path) -> Option<File> {
+    File::open(folder).ok().filter(|folder| folder.lock().is_ok())
+}
+
 /// Refuses a folder that has no report, and names files that were edited: those whose bytes are
 /// neither what the list says nor what `files` will write. For a whole report all listed files are
 /// checked.
 pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
+    let _alone = lock(folder);
+    refuse_alone(folder, files, whole)
+}
+
+fn refuse_alone(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
     let place = || folder.display().to_string();
     let mut ours = ours(folder)?.ok_or_else(|| Error::NotOurs(place()))?;
     ours.extend(list(folder, BUILT).unwrap_or_default());
@@ -158,8 +170,10 @@ pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
 /// name are removed; else their lines are added to the old list. Unless forced, it refuses first.
 pub fn write(folder: &Path, files: &Files, force: bool) -> Result<(), Error> {
     let whole = files.contains_key(SUMS);
+    std::fs::create_dir_all(folder).map_err(failed(folder))?;
+    let _alone = lock(folder);
     if !force {
-        refuse(folder, files, whole)?;
+        refuse_alone(folder, files, whole)?;
     }
     let (mut listed, built) = (ours(folder)?.unwrap_or_default(), list(folder, BUILT));
     let gone = |path: &&String| whole && !files.contains_key(*path) && folder.join(path).exists();
@@ -167,7 +181,6 @@ pub fn write(folder: &Path, files: &Files, force: bool) -> Result<(), Error> {
     let gone: Vec<String> = old.filter(gone).cloned().collect();
 
     let _moment = WRITING.read();
-    std::fs::create_dir_all(folder).map_err(failed(folder))?;
     let killed: Vec<String> =
         names(folder)?.into_iter().filter(|name| name.starts_with(STAGING)).collect();
     let staged = tempfile::Builder::new().prefix(STAGING).tempdir_in(folder);
@@ -285,6 +298,24 @@ mod tests {
         assert!(matches!(write(folder, &new, false), Err(Error::Edited(..))));
         write(folder, &new, true).unwrap();
         assert_eq!(standing(folder), new);
+    }
+
+    #[test]
+    fn runs_that_write_one_folder_at_once_wait_for_each_other() {
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = &temporary.path().join("paper");
+        let names: Vec<String> = (0..100).map(|k| format!("figures/fig{k:02}.svg")).collect();
+        let pairs: Vec<(&str, &str)> = names.iter().map(|name| (name.as_str(), "drawn")).collect();
+        let figures = files(&pairs);
+        std::thread::scope(|scope| {
+            for _ in 0..8 {
+                scope.spawn(|| {
+                    refuse(folder, &Files::new(), false).unwrap();
+                    write(folder, &figures, false).unwrap();
+                });
+            }
+        });
+        assert_eq!(verify(folder).unwrap(), (100, Vec::new()));
     }
 
     #[test]
