@@ -70,7 +70,6 @@ struct Inputs {
     spacing: Option<f64>,
 }
 
-/// What `eval` prints, in this order.
 #[derive(Serialize)]
 struct Answer {
     quantity: &'static str,
@@ -198,7 +197,6 @@ fn list() -> String {
     QUANTITIES.iter().map(line).collect()
 }
 
-/// The text below the options in `--help`.
 fn help() -> String {
     format!(
         "Quantities (name, equation, options, meaning):\n{}\nFloats are printed with the fewest digits that read \

@@ -84,7 +84,6 @@ fn realisations(text: &str) -> Result<Range<u64>, String> {
     some.ok_or_else(|| "give a whole number, 1 or more, or a range A..B".into())
 }
 
-/// The columns of a row, and what they hold.
 const COLUMNS: [(&str, &str); 18] = [
     ("sigma", "standard deviation of the amplitudes"),
     ("realisations", "chains drawn"),
@@ -106,7 +105,6 @@ const COLUMNS: [(&str, &str); 18] = [
     ("window", "W"),
 ];
 
-/// The text below the options in `--help`.
 fn help() -> String {
     let mut text = "Columns:\n".to_string();
     for (name, meaning) in COLUMNS {

@@ -202,7 +202,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     printed(printer.flush())
 }
 
-/// The longest line of a scenario, in bytes.
 const LONGEST: u64 = 64 << 20;
 
 /// Prints rows in blocks of whole ones: a signal that ends the program leaves no half of a number.

@@ -1,4 +1,4 @@
-//! Segments: the next impact from one state against the reference, in gap, time and closing speed.
+//! Compares the next impact from one state with the reference: gap, time and closing speed.
 //!
 //! The doubles of the scenario are exact, and chaos has no time to act. Times and closing speeds
 //! are held to the bounds of `impact_chain::rounding`, and misses and ghosts are counted. Next to
@@ -18,7 +18,6 @@ const SPEED: f64 = 47.0;
 /// An impact is no graze if v² is at least this many M₂ C ε S.
 const TRANSVERSAL: f64 = 50.0;
 
-/// The results of all segments.
 #[derive(Debug, Default)]
 struct Tally {
     segments: usize,
@@ -70,7 +69,6 @@ impl Unit {
     }
 }
 
-/// Compares one segment with the reference.
 fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
     let start = Reference::new(scenario);
     let mut chain = start.clone();

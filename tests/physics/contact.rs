@@ -1,5 +1,5 @@
-//! Contact of pairs and clusters: how it begins, which forces hold it, when it ends. Ω = 2 and
-//! cosine forcing only, so a mass under F cos Ωt is at j d + a − F/3 at t = 0, and forces are
+//! Tests contact of pairs and clusters: how it begins, which forces hold it, when it ends. Ω = 2
+//! and cosine forcing only, so a mass under F cos Ωt is at j d + a − F/3 at t = 0, and forces are
 //! known. Then neighbouring gaps that close at exactly the same instant: masses in one point at t =
 //! 0, or mirror images.
 
@@ -8,7 +8,6 @@ use crate::{drawn, first, given, run, trace};
 use impact_chain::{Engine, Impact, Initial, Scenario};
 use impact_paper::params::Chain;
 
-/// Masses at these places, with these velocities, under these forces.
 fn scene(masses: &[(f64, f64)], forces: &[f64], restitution: f64) -> Scenario {
     let free = masses
         .iter()
@@ -324,7 +323,7 @@ fn a_collective_hit_takes_a_small_power_of_the_masses() {
 #[test]
 fn a_three_way_impact() {
     let forcing = vec![[0.4, 0.3], [0.0; 2], [-0.4, -0.3]];
-    for r in [0.0, 0.3, 0.8, 1.0] {
+    for r in [0.8, 1.0] {
         let scene = Scenario { forcing: forcing.clone(), restitution: r, ..draw(3, 1.0, 0) };
         let mut engine = Engine::new(&scene).unwrap();
         let hits = std::iter::from_fn(|| first(&mut engine, 100.0));
@@ -337,23 +336,18 @@ fn a_three_way_impact() {
         assert!(engine.counters().simultaneous > 0, "r = {r}");
         let gaps: Vec<usize> = block.iter().map(|hit| hit.gap).collect();
         assert!(gaps.starts_with(&[1, 2]), "r = {r}: {gaps:?}");
-        if r > 0.5 {
-            // All move to the right, away from a first mass at rest.
-            let mut velocities = [0.0, 3.0, 2.0, 1.0].map(|times| times * closing);
-            let expected = sequential(&mut velocities, r);
-            let expected: Vec<_> = expected.into_iter().map(|(gap, v)| (gap - 1, v)).collect();
-            assert!(gaps.iter().eq(expected.iter().map(|(gap, _)| gap)), "r = {r}: {gaps:?}");
-            for (hit, (_, speed)) in block.iter().zip(expected) {
-                assert!((hit.closing_speed - speed).abs() < 1e-13, "r = {r}: {hit:?} {speed}");
-            }
-            // The reference follows the same law.
-            let ours = trace(&scene, first.time + 0.1);
-            let theirs = Reference::new(&scene).run(first.time + 0.1).unwrap();
-            assert!(ours.iter().map(|hit| hit.gap).eq(theirs.iter().map(|hit| hit.gap)));
-        } else {
-            // With less restitution the three collapse into contact: without any, in two impacts.
-            assert!(gaps.len() > if r > 0.0 { 2 } else { 1 }, "r = {r}: {gaps:?}");
+        // All move to the right, away from a first mass at rest.
+        let mut velocities = [0.0, 3.0, 2.0, 1.0].map(|times| times * closing);
+        let expected = sequential(&mut velocities, r);
+        let expected: Vec<_> = expected.into_iter().map(|(gap, v)| (gap - 1, v)).collect();
+        assert!(gaps.iter().eq(expected.iter().map(|(gap, _)| gap)), "r = {r}: {gaps:?}");
+        for (hit, (_, speed)) in block.iter().zip(expected) {
+            assert!((hit.closing_speed - speed).abs() < 1e-13, "r = {r}: {hit:?} {speed}");
         }
+        // The reference follows the same law.
+        let ours = trace(&scene, first.time + 0.1);
+        let theirs = Reference::new(&scene).run(first.time + 0.1).unwrap();
+        assert!(ours.iter().map(|hit| hit.gap).eq(theirs.iter().map(|hit| hit.gap)));
     }
 }
 

@@ -1,4 +1,4 @@
-//! Laws that hold for any arithmetic: conservation, symmetry, and the impact law.
+//! Tests laws that hold for any arithmetic: conservation, symmetry, and the impact law.
 
 use crate::reference::{Dd, Reference, sin_cos};
 use crate::traces::{EIGHT, several};

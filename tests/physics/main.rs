@@ -1,4 +1,4 @@
-//! Tests of the engine: against a second simulator of higher precision, by laws that hold for any
+//! Tests the engine: against a second simulator of higher precision, by laws that hold for any
 //! arithmetic, and in scenes whose outcome is known beforehand.
 
 mod certified;
@@ -15,7 +15,6 @@ use impact_chain::{Engine, Impact, Initial, Scenario};
 use impact_numerics::random::NormalPairs;
 use impact_paper::params::Chain;
 
-/// A chain drawn from a stream of random numbers.
 fn drawn(chain: &Chain, sigma: f64, stream: &str, index: u64) -> Scenario {
     Scenario::draw(chain, sigma, &mut NormalPairs::new(stream, 1, index))
 }
@@ -26,17 +25,14 @@ fn given(free: Vec<[f64; 2]>, forcing: Vec<[f64; 2]>) -> Scenario {
     Scenario { initial, forcing, ..drawn(&Chain::default(), 0.0, "given", 0) }
 }
 
-/// The further impacts of an engine up to a time.
 fn run(engine: &mut Engine, until: f64) -> Vec<Impact> {
     engine.impacts(until).unwrap()
 }
 
-/// The next impact of an engine up to a time.
 fn first(engine: &mut Engine, until: f64) -> Option<Impact> {
     engine.next_impact(until).unwrap()
 }
 
-/// All impacts of a scenario up to a time.
 fn trace(scenario: &Scenario, until: f64) -> Vec<Impact> {
     run(&mut Engine::new(scenario).unwrap(), until)
 }

@@ -1,4 +1,4 @@
-//! The rivals of the engine: each converges at its order, and fails as documented.
+//! Tests the rivals of the engine: each converges at its order, and fails as documented.
 
 use crate::{drawn, given, run};
 use impact_chain::methods::{

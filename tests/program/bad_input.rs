@@ -1,5 +1,5 @@
-//! `impact-paper trace` and what people get wrong: exit code 2, one line on stderr that names the
-//! field and the remedy, nothing on stdout, never a panic.
+//! Gives the program what people get wrong: exit code 2, one line on stderr that names the field
+//! and the remedy, nothing on stdout, never a panic.
 
 use crate::{SCENARIO, program, run};
 use std::fs;
@@ -12,7 +12,6 @@ fn refused(text: impl AsRef<[u8]>, words: &[&str]) {
     crate::refused(folder.path(), "trace s.json --until 5", words);
 }
 
-/// A scenario of one mass with one more field.
 fn with(field: &str) -> String {
     format!(r#"{{"forcing":[[0.9,-0.4]],{field}}}"#)
 }

@@ -1,4 +1,4 @@
-//! `impact-paper diff`: two reports, by folder or by revision of git.
+//! Runs `impact-paper diff` on two reports, by folder or by revision of git.
 
 use crate::{answer, outcome, program, put, refused, tree};
 use std::fs;
@@ -20,7 +20,6 @@ fn twice() -> tempfile::TempDir {
     folder
 }
 
-/// Replaces the first occurrence in a file.
 fn edit(path: &Path, from: &str, to: &str) {
     let before = fs::read_to_string(path).unwrap();
     let after = before.replacen(from, to, 1);

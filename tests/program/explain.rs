@@ -1,8 +1,7 @@
-//! `impact-paper explain` as a user meets it, on the report of the quick profile.
+//! Runs `impact-paper explain` on the report of the quick profile.
 
 use crate::{QUICK, answer, outcome, program, put, refused};
 
-/// A folder with the report as `r`.
 fn report() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     put(&folder.path().join("r"), &QUICK.report);

@@ -10,23 +10,20 @@ mod report;
 mod saved;
 mod verbs;
 
-use sha2::{Digest, Sha256};
+use literate::input::sha256;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::LazyLock;
 
-/// The program.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
 
-/// The project's templates.
 const TEMPLATES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/templates");
 
 /// Number of the experiments that are saved.
 const EXPERIMENTS: usize = 17;
 
-/// A chain of three masses.
 const SCENARIO: &str = r#"{"forcing":[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]}"#;
 
 /// The program in a folder, with arguments between which a blank stands; the path of the templates
@@ -45,12 +42,10 @@ fn ended_with(output: &Output) -> (i32, String, String) {
     (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
 }
 
-/// The same of a command.
 fn outcome(command: &mut Command) -> (i32, String, String) {
     ended_with(&command.output().unwrap())
 }
 
-/// The same of a run in a folder.
 fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
     outcome(&mut program(folder, arguments))
 }
@@ -78,11 +73,6 @@ fn refused(folder: &Path, arguments: &str, words: &[&str]) {
     }
 }
 
-/// SHA-256 in hexadecimal digits.
-fn digest(bytes: impl AsRef<[u8]>) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 /// A saved result with other text in its second or third line, and a checksum that is right.
 fn forged(bytes: &[u8], line: usize, from: &str, to: &str) -> Vec<u8> {
     let text = std::str::from_utf8(bytes).unwrap();
@@ -91,18 +81,16 @@ fn forged(bytes: &[u8], line: usize, from: &str, to: &str) -> Vec<u8> {
     assert_ne!(changed, lines[line], "there is no {from}");
     lines[line] = &changed;
     let made_of = format!("{}\n{}\n", lines[1], lines[2]);
-    format!("{}\n{made_of}", digest(&made_of)).into()
+    format!("{}\n{made_of}", sha256(&made_of)).into()
 }
 
-/// Copies the project's templates, which may be read-only, and changes one of their files.
+/// Copies the project's templates, and changes one of their files.
 fn templates(to: &Path, file: &str, change: impl Fn(&str) -> String) {
-    assert!(Command::new("cp").arg("-r").arg(TEMPLATES).arg(to).status().unwrap().success());
-    assert!(Command::new("chmod").args(["-R", "u+w"]).arg(to).status().unwrap().success());
+    put(to, &tree(Path::new(TEMPLATES)));
     let text = fs::read_to_string(to.join(file)).unwrap();
     fs::write(to.join(file), change(&text)).unwrap();
 }
 
-/// Files by name.
 type Files = BTreeMap<String, Vec<u8>>;
 
 /// All files below a folder, hidden ones included; none if it is not there.
@@ -127,7 +115,6 @@ fn files(folder: &Path) -> Files {
     tree(folder).into_iter().filter(|(name, _)| here(name)).collect()
 }
 
-/// Writes files into a new folder.
 fn put(folder: &Path, files: &Files) {
     for (name, bytes) in files {
         fs::create_dir_all(folder.join(name).parent().unwrap()).unwrap();

@@ -1,8 +1,8 @@
-//! Saved results: never stale, never half, whatever happens to the program; and work shared out to
-//! several machines gives the bytes of one.
+//! Tests that saved results are never stale and never half, whatever happens to the program, and
+//! that work shared out to several machines gives the bytes of one.
 
 use crate::{
-    EXPERIMENTS, Files, PROGRAM, QUICK, TEMPLATES, digest, files, forged, program, put, run, shard,
+    EXPERIMENTS, Files, PROGRAM, QUICK, TEMPLATES, files, forged, program, put, run, sha256, shard,
 };
 use std::collections::BTreeSet;
 use std::fs;
@@ -10,7 +10,6 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
-/// What three shards save, copied into the folder `results`.
 fn together() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     QUICK.shards.iter().for_each(|shard| put(&folder.path().join("results"), shard));
@@ -171,7 +170,7 @@ fn a_job_array_with_a_killed_task_gives_the_bytes_of_one_machine() {
         let (code, _, said) = run(folder.path(), &paper);
         assert_eq!(code, 0, "{said}");
         assert!(results == "local" || !said.contains("run again"), "{said}");
-        let sum = |(name, bytes): (String, Vec<u8>)| (name, digest(bytes));
+        let sum = |(name, bytes): (String, Vec<u8>)| (name, sha256(bytes));
         files(&folder.path().join(results)).into_iter().map(sum).collect()
     };
     let joined = made("results");

@@ -1,5 +1,4 @@
-//! Text from outside that is nearly right: for each of its readers a valid text is damaged in a
-//! seeded way. No reader panics or hangs, and each fault is reported in one line.
+//! Damages a valid text for each reader of text from outside, in a seeded way. No reader panics or hangs, and each fault is reported in one line.
 
 use super::QUICK;
 use impact_chain::Scenario;

@@ -68,7 +68,6 @@ fn events(text: &str) -> Vec<Event<'_>> {
     Parser::new_ext(text, Options::ENABLE_TABLES).collect()
 }
 
-/// Links of a text, and places in it.
 fn links(text: &str) -> (Vec<String>, Vec<String>) {
     let link = |event| match event {
         Event::Start(Tag::Link { dest_url: to, .. } | Tag::Image { dest_url: to, .. }) => {

@@ -1,5 +1,4 @@
-//! The pages as a browser and a reader meet them: read by an XML parser, with the results of the
-//! quick profile.
+//! Reads the pages by an XML parser, with the results of the quick profile.
 
 use super::QUICK;
 use literate::report::Files;
@@ -30,7 +29,6 @@ fn pages() -> impl Iterator<Item = (&'static str, Document<'static>)> {
 /// A card: title, first line, and which rows it has.
 type Card = (String, String, Vec<usize>);
 
-/// Rows and cards in cards.js.
 fn cards(report: &Files) -> (Vec<String>, BTreeMap<String, Card>) {
     let text = std::str::from_utf8(&report["cards.js"]).unwrap();
     let json = text.strip_prefix("CARDS = ").and_then(|text| text.strip_suffix(";\n"));

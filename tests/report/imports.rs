@@ -25,50 +25,37 @@ fn is_name(word: &str) -> bool {
 
 /// Splits Rust into words, signs and `::`, without comments, texts and characters.
 fn tokens(text: &str) -> Vec<String> {
-    let chars: Vec<char> = text.chars().collect();
-    let at = |i: usize| chars.get(i).copied().unwrap_or('\0');
-    let starts = |i: usize, what: &str| what.chars().enumerate().all(|(j, c)| at(i + j) == c);
-    // The place behind the next `end`.
-    let behind = |from: usize, end: &str| {
-        let found = (from..chars.len()).find(|&i| starts(i, end));
-        found.map_or(chars.len(), |i| i + end.len())
-    };
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let (mut all, mut i) = (Vec::new(), 0);
-    while i < chars.len() {
-        if starts(i, "//") {
-            i = behind(i, "\n");
-        } else if starts(i, "/*") {
-            i = behind(i, "*/");
-        } else if starts(i, "r\"") {
-            i = behind(i + 2, "\"");
-        } else if starts(i, "r#\"") {
-            i = behind(i + 3, "\"#");
-        } else if at(i) == '"' {
-            i += 1;
-            while i < chars.len() && at(i) != '"' {
-                i += if at(i) == '\\' { 2 } else { 1 };
+    let (mut all, mut rest) = (Vec::new(), text);
+    while let Some(c) = rest.chars().next() {
+        let behind = |begin: usize, end: &str| {
+            rest[begin..].find(end).map_or(rest.len(), |at| begin + at + end.len())
+        };
+        let after: Vec<char> = rest.chars().skip(1).take(2).collect();
+        let (length, is_token) = match (c, &after[..]) {
+            ('/', ['/', ..]) => (behind(2, "\n"), false),
+            ('r', ['"', ..]) => (behind(2, "\""), false),
+            ('r', ['#', '"']) => (behind(3, "\"#"), false),
+            ('"', _) => {
+                let mut signs = rest.char_indices().skip(1);
+                let end = loop {
+                    match signs.next() {
+                        Some((_, '\\')) => drop(signs.next()),
+                        Some((at, '"')) => break at + 1,
+                        Some(_) => (),
+                        None => break rest.len(),
+                    }
+                };
+                (end, false)
             }
-            i += 1;
-        } else if at(i) == '\'' && at(i + 1) == '\\' {
-            i = behind(i + 3, "'");
-        } else if at(i) == '\'' && at(i + 2) == '\'' {
-            i += 3;
-        } else if is_word(at(i)) {
-            let begin = i;
-            while is_word(at(i)) {
-                i += 1;
-            }
-            all.push(chars[begin..i].iter().collect());
-        } else if starts(i, "::") {
-            all.push("::".into());
-            i += 2;
-        } else {
-            if !at(i).is_whitespace() {
-                all.push(at(i).to_string());
-            }
-            i += 1;
-        }
+            ('\'', ['\\', _]) => (behind(3, "'"), false),
+            ('\'', [one, '\'']) => (2 + one.len_utf8(), false),
+            (':', [':', ..]) => (2, true),
+            (c, _) if is_word(c) => (rest.find(|c| !is_word(c)).unwrap_or(rest.len()), true),
+            (c, _) => (c.len_utf8(), !c.is_whitespace()),
+        };
+        all.extend(is_token.then(|| rest[..length].to_string()));
+        rest = &rest[length..];
     }
     all
 }
@@ -188,7 +175,6 @@ impl Modules {
         *known = module;
     }
 
-    /// Finds what a path means in a module.
     fn resolve(&self, from: &[String], path: &[String]) -> Option<Found> {
         let Some((first, rest)) = path.split_first() else {
             return Some(Found::Module(from.to_vec()));
@@ -204,7 +190,6 @@ impl Modules {
         }
     }
 
-    /// Finds what a name means in a module.
     fn named(&self, from: &[String], name: &str) -> Option<Found> {
         let child = [from, &[name.to_string()]].concat();
         if let Some(found) = self.known.borrow().get(&child) {

@@ -1,4 +1,4 @@
-//! The report in memory and what it is made of: templates, figures, pages, damaged texts, and rules
+//! Makes the report in memory, and tests it and what it is made of: templates, figures, pages, damaged texts, and rules
 //! about the source.
 
 mod damage;
@@ -51,7 +51,6 @@ impl Quick {
         results(&self.paper).1
     }
 
-    /// A document as hosts show it.
     fn markdown(&self, document: &Document) -> &str {
         std::str::from_utf8(&self.report[document.markdown]).unwrap()
     }

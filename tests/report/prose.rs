@@ -1,4 +1,4 @@
-//! The prose with the results of the quick profile: it fills, it names no unknown value and leaves
+//! Tests the prose with the results of the quick profile: it fills, it names no unknown value and leaves
 //! none unused (the assembly refuses both, and hard-coded numbers), it has every equation and
 //! figure of the paper, and every claim has its place in it.
 

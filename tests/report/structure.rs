@@ -1,10 +1,10 @@
-//! Rules about the source that no compiler checks: no path of a machine, and a README that is
+//! Tests rules about the source that no compiler checks: no path of a machine, and a README that is
 //! current.
 
 use super::QUICK;
 use literate::report::ledger::EquationEntry;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -12,21 +12,10 @@ pub fn root() -> &'static Path {
 
 /// All files below a folder with one of these endings, as (path from the top, text).
 pub fn files(folder: &str, endings: &[&str]) -> Vec<(String, String)> {
-    fn walk(folder: &Path, into: &mut Vec<PathBuf>) {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() { walk(&path, into) } else { into.push(path) }
-        }
-    }
-    let mut paths = Vec::new();
-    walk(&root().join(folder), &mut paths);
-    paths.sort();
-    let wanted = |path: &PathBuf| endings.iter().any(|e| path.to_string_lossy().ends_with(e));
-    let read = |path: PathBuf| {
-        let name = path.strip_prefix(root()).unwrap().to_string_lossy().into_owned();
-        (name, fs::read_to_string(&path).unwrap())
-    };
-    paths.into_iter().filter(wanted).map(read).collect()
+    let mut files = crate::tree(&root().join(folder));
+    files.retain(|path, _| endings.iter().any(|end| path.ends_with(end)));
+    let text = |(path, bytes)| (format!("{folder}/{path}"), String::from_utf8(bytes).unwrap());
+    files.into_iter().map(text).collect()
 }
 
 #[test]
@@ -35,11 +24,7 @@ fn no_path_of_a_machine() {
     let paths = ["/wo:rk/", "/ro:ot/", "/ho:me/", "/tm:p/", "/Us:ers/"].map(|p| p.replace(':', ""));
     let all = [".rs", ".toml", ".md", ".tex", ".bib", ".json", ".csv", ".svg", "run"];
     let folders = ["src", "crates", "tests", "templates", "paper", ".ci"];
-    let mut texts: Vec<_> = folders
-        .iter()
-        .filter(|folder| root().join(folder).is_dir())
-        .flat_map(|folder| files(folder, &all))
-        .collect();
+    let mut texts: Vec<_> = folders.iter().flat_map(|folder| files(folder, &all)).collect();
     for name in ["README.md", "DESIGN.md", "CHANGELOG.md", "Makefile", "Cargo.toml", "CITATION.cff"]
     {
         texts.push((name.into(), fs::read_to_string(root().join(name)).unwrap()));
@@ -87,7 +72,6 @@ fn the_readme_has_the_score() {
     assert_eq!(by(&["printed digit"])[1], 0);
 }
 
-/// Links of the README lead to files of the project.
 #[test]
 fn links_of_the_readme_land() {
     let readme = fs::read_to_string(root().join("README.md")).unwrap();
@@ -120,7 +104,6 @@ fn each_equation_has_one_home() {
     }
 }
 
-/// Files and folders that an experiment names are there.
 #[test]
 fn each_experiment_depends_on_files_that_are_there() {
     let paper = &QUICK.paper;

@@ -1,4 +1,4 @@
-//! Eqs. (9), (10) and (38), k* and μ, against direct sums in high precision.
+//! Compares Eqs. (9), (10) and (38), k* and μ, with direct sums in high precision.
 
 use crate::{Big, big, int, near, relative_error};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};

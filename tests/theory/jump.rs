@@ -1,4 +1,4 @@
-//! Eqs. (11) to (18) and the actual jump, against exact and 67-digit arithmetic.
+//! Compares Eqs. (11) to (18) and the actual jump with exact and 67-digit arithmetic.
 
 use crate::distribution::weights;
 use crate::{Big, big, exp, int, near, relative_error};

@@ -1,4 +1,4 @@
-//! The theory of Secs. 3 to 9 against second routes: exact and 57-digit arithmetic, enumeration,
+//! Compares the theory of Secs. 3 to 9 with second routes: exact and 57-digit arithmetic, enumeration,
 //! quadrature.
 
 mod distribution;
@@ -14,20 +14,16 @@ use impact_numerics::double_double::{DoubleDouble, sin_cos};
 /// A float of [`BITS`] bits.
 pub type Big = FBig<HalfEven, 2>;
 
-/// Precision of everything here.
 pub const BITS: usize = 192;
 
-/// The exact value of a double.
 pub fn big(x: f64) -> Big {
     Big::try_from(x).expect("a finite double").with_precision(BITS).value()
 }
 
-/// An integer.
 pub fn int(n: usize) -> Big {
     Big::from(IBig::from(n)).with_precision(BITS).value()
 }
 
-/// The square root of two.
 pub fn root_two() -> Big {
     int(2).sqrt()
 }
@@ -52,7 +48,6 @@ pub fn relative_error(ours: f64, exact: &Big) -> f64 {
     error.abs()
 }
 
-/// The double nearest to it.
 pub fn near(x: &Big) -> f64 {
     x.to_f64().value()
 }

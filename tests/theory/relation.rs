@@ -1,4 +1,4 @@
-//! Eqs. (20) to (25) against quadrature in 57-digit arithmetic.
+//! Compares Eqs. (20) to (25) with quadrature in 57-digit arithmetic.
 
 use crate::{Big, Gauss, big, exp, int, relative_error, root_two};
 use impact_circuits::Error;
@@ -21,7 +21,6 @@ impl Case {
         Case { s: big(sigma), q, d: big(d) }
     }
 
-    /// x²/(4σ²), the exponent of both densities.
     fn exponent(&self, x: &Big) -> Big {
         x.clone() * x / (int(4) * &self.s * &self.s)
     }
@@ -113,13 +112,6 @@ fn logarithm_and_probability_say_when_they_leave_the_range_of_doubles() {
     };
     assert!(law(0.0135).p().is_ok() && underflows(law(0.0125).p()));
     assert!(law(1e-130).log_p().is_ok() && underflows(law(1e-155).log_p()));
-    for sigma in [1e4, 1e6] {
-        assert_eq!(law(sigma).p(), Ok(1.0), "{sigma}");
-    }
-    // ln p near the edge of p's range is that of p.
-    assert!(
-        (law(0.0135).log_p().unwrap() / pxfm::f_log(law(0.0135).p().unwrap()) - 1.0).abs() < 1e-15
-    );
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The tables of the theory: against the circuits, by other routes, and with themselves.
+//! Compares the tables of the theory with the circuits, with other routes and with themselves.
 
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;

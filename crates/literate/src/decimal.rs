@@ -21,7 +21,6 @@ impl Decimal {
         Decimal { digits, places }
     }
 
-    /// Returns all digits of |x|.
     pub fn exact(x: f64) -> Decimal {
         Decimal::read(&format!("{:.MAX_DIGITS$e}", x.abs()))
     }
@@ -31,7 +30,6 @@ impl Decimal {
         Decimal::read(&format!("{:e}", x.abs()))
     }
 
-    /// Returns |n|.
     pub fn integer(n: i128) -> Decimal {
         Decimal::read(&n.unsigned_abs().to_string())
     }
@@ -41,7 +39,6 @@ impl Decimal {
         self.digits.len().saturating_sub(1) as i32 - self.places
     }
 
-    /// Multiplies by a power of ten.
     pub fn times_ten(self, power: i32) -> Decimal {
         Decimal { places: self.places - power, ..self }
     }

@@ -11,7 +11,6 @@ use std::io;
 /// The exit code of a program that a signal ended: 128 + SIGINT.
 pub const INTERRUPTED: u8 = 130;
 
-/// Characters of a message at most.
 const LONGEST: usize = 4000;
 
 /// Why something ended without success. Any error becomes one by `?`.

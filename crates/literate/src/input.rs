@@ -31,7 +31,6 @@ pub fn regular(path: &Path) -> Result<Vec<u8>, Error> {
     bounded(File::open(path)?)
 }
 
-/// Reads a text that was found in a folder.
 pub fn regular_text(path: &Path) -> Result<String, Error> {
     text(regular(path)?)
 }
@@ -88,7 +87,6 @@ pub fn hashes(top: &Path, place: &str) -> Result<BTreeMap<String, String>, Error
     files_in(top, place)?.into_iter().map(hash).collect()
 }
 
-/// Returns whether the error says that there is no such file.
 pub fn is_absent(error: &Error) -> bool {
     [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind())
 }

@@ -19,12 +19,10 @@ pub struct FigureSpec {
     pub name: &'static str,
     pub needs: &'static [&'static dyn AnyExperiment],
     pub draw: fn(&Results) -> Result<Figure, figures::Error>,
-    /// Where the source lists it.
     place: &'static Location<'static>,
 }
 
 impl FigureSpec {
-    /// Makes a figure that shows results of these experiments.
     #[track_caller]
     pub const fn new(
         name: &'static str,
@@ -34,7 +32,6 @@ impl FigureSpec {
         FigureSpec { name, needs, draw, place: Location::caller() }
     }
 
-    /// Draws it from results.
     pub fn figure(&self, results: &Results) -> Result<Figure, Failure> {
         let named = |error| Failure::from(error).of(format!("figure {}", self.name));
         let mut figure = (self.draw)(results).map_err(named)?;
@@ -78,14 +75,12 @@ pub struct Paper {
     pub prose: &'static str,
     /// All experiments, in the order in which they run.
     pub experiments: Vec<&'static dyn AnyExperiment>,
-    /// Tables that need several experiments.
     pub derived: Vec<DerivedTables>,
     pub figures: Vec<FigureSpec>,
     /// How each statement of `published.toml` is judged, and relations between numbers.
     pub rules: Vec<Rule>,
     pub values: Vec<Values>,
     pub rows: Option<Rows>,
-    /// What pages load to compute.
     pub lab: Option<Lab>,
 }
 
@@ -122,7 +117,6 @@ impl Paper {
         self
     }
 
-    /// Adds a rule that judges the statement with this id.
     #[track_caller]
     pub fn check(
         self,
@@ -137,7 +131,6 @@ impl Paper {
         self
     }
 
-    /// Adds a figure, which shows results of these experiments.
     #[track_caller]
     pub fn figure(
         mut self,

@@ -141,12 +141,10 @@ impl Project {
         self.path_up().unwrap_or_default().join(path)
     }
 
-    /// Finds the top of the project, as an absolute path.
     fn top(&self) -> Option<PathBuf> {
         std::env::current_dir().ok()?.join(self.path_to_top()?).canonicalize().ok()
     }
 
-    /// Returns the top of the project, or else the current folder.
     pub fn folder(&self) -> PathBuf {
         self.top().unwrap_or_else(|| ".".into())
     }

@@ -19,7 +19,6 @@ const SKIN: [(&str, &str); 8] = [
     ("report.tex", include_str!("../skin/report.tex")),
 ];
 
-/// Why there is no prose to read.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{path}: {source}; {}", remedy(source, "check --templates"))]
@@ -37,7 +36,6 @@ pub struct Templates {
 }
 
 impl Templates {
-    /// Makes templates from texts.
     pub fn of<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let files = SKIN.into_iter().chain(files);
         let files = files.map(|(path, text)| (path.to_string(), text.to_string())).collect();
@@ -79,7 +77,6 @@ impl Templates {
         format!("{}{path}", self.folder)
     }
 
-    /// Returns paths and texts, sorted.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
         self.files.iter().map(|(path, text)| (path.as_str(), text.as_str()))
     }

@@ -1,6 +1,5 @@
 //! Finds an item in the source of a program: its file, and the lines that documents quote.
 
-/// The source of a program, as the macro [`sources!`](crate::sources) gives it.
 #[derive(Clone, Copy, Debug)]
 pub struct Sources {
     pub name: &'static str,

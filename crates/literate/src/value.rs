@@ -187,7 +187,6 @@ impl Value {
         Value::new(id, number, Kind::Printed { place: place.into() })
     }
 
-    /// Sets the path of the item that computed it.
     pub fn source(mut self, item: Origin) -> Self {
         self.source = item.0;
         self
@@ -208,7 +207,6 @@ impl Value {
     }
 }
 
-/// The path of the function that computes a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin(String);
 

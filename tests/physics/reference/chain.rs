@@ -1,14 +1,12 @@
-//! The chain of Sec. 2 in absolute time: two plain free amplitudes a mass, changed by impacts.
+//! Runs the chain of Sec. 2 in absolute time: two plain free amplitudes a mass, changed by impacts.
 
 use super::gap::Gap;
 use super::{Dd, sin_cos};
 use impact_chain::{Initial, Scenario, State};
 use impact_paper::params::Boundary;
 
-/// One impact.
 #[derive(Clone, Debug)]
 pub struct Hit {
-    /// Time t.
     pub time: Dd,
     /// The gap, in the numbering of the engine.
     pub gap: usize,
@@ -24,7 +22,6 @@ enum Next {
     Root(Dd),
 }
 
-/// A chain at a time.
 #[derive(Clone, Debug)]
 pub struct Reference {
     spacing: Dd,
@@ -116,7 +113,6 @@ impl Reference {
         [gap.checked_sub(1), right]
     }
 
-    /// A gap with the amplitudes that it has now.
     pub fn gap(&self, gap: usize) -> Gap {
         let [left, right] = self.sides(gap);
         let part = |which: usize, i: usize| {
@@ -151,7 +147,6 @@ impl Reference {
         self.masses.iter().map(one).collect()
     }
 
-    /// Time of the last impact.
     pub fn time(&self) -> Dd {
         self.time
     }
@@ -189,7 +184,6 @@ impl Reference {
         }
     }
 
-    /// All impacts up to a time.
     pub fn run(&mut self, until: f64) -> Result<Vec<Hit>, String> {
         let until = Dd::from(until);
         let mut hits = Vec::new();
@@ -220,7 +214,6 @@ impl Reference {
         Hit { time, gap, closing_speed: -closing }
     }
 
-    /// The gaps whose amplitudes an impact of `gap` changes.
     fn touched(&self, gap: usize) -> Vec<usize> {
         let n = self.masses.len();
         if self.ring {

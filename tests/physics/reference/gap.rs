@@ -1,4 +1,4 @@
-//! One gap as a function of absolute time, Eq. (19), and its first root with certainty.
+//! Finds the first root of one gap, Eq. (19) as a function of absolute time, with certainty.
 
 use super::{Dd, EPS, sin_cos};
 
@@ -33,7 +33,6 @@ impl Gap {
         jet
     }
 
-    /// The same in doubles.
     fn rough_jet(&self, t: f64) -> [f64; 3] {
         let mut jet = [self.spacing.hi, 0.0, 0.0];
         for (w, [a, b]) in self.frequencies.iter().zip(&self.amplitudes) {

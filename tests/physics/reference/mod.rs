@@ -1,4 +1,4 @@
-//! An independent simulator of the chain in higher precision, with which the engine is compared.
+//! Simulates the chain a second time, in higher precision, to be compared with the engine.
 //!
 //! Nothing here is taken from the engine but the description of a scenario. It works in absolute
 //! time with the plain amplitudes of Eq. (19), and searches by certified subdivision of intervals

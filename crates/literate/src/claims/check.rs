@@ -16,7 +16,6 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Returns whether it was printed.
     pub fn is_printed(self) -> bool {
         matches!(self, Kind::Statement | Kind::Definition)
     }
@@ -35,7 +34,6 @@ macro_rules! words {
             /// All, in the order of tables.
             pub const ALL: [$name; [$($text),*].len()] = [$($name::$variant),*];
 
-            /// Returns it in words.
             pub fn words(self) -> &'static str {
                 match self {
                     $($name::$variant => $text,)*
@@ -114,7 +112,6 @@ pub struct Check {
 }
 
 impl Check {
-    /// Makes a check that is not judged yet.
     pub fn new(kind: Kind, id: &str, statement: &str, found: impl Into<Text>) -> Check {
         let (id, statement, found) = (id.into(), statement.into(), found.into());
         Check { kind, id, statement, found, ..Check::default() }

@@ -19,13 +19,11 @@ use crate::text;
 use crate::value::{Digits, Number};
 use impact_numerics::statistics::Estimate;
 
-/// Why a check could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The file of statements and the rules do not fit together.
     #[error(transparent)]
     Published(#[from] PublishedError),
-    /// A result is missing.
     #[error(transparent)]
     Experiment(#[from] experiments::Error),
     /// The samples are too small for what is asked: the statement cannot be judged.
@@ -39,7 +37,6 @@ pub enum Error {
 }
 
 impl Error {
-    /// Returns what went wrong in a check.
     pub(crate) fn cause(&self) -> &Error {
         match self {
             Error::Check { error, .. } => error,

@@ -10,7 +10,6 @@ use std::collections::BTreeSet;
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Published {
-    /// Numbers that the paper chose.
     #[serde(rename = "parameter")]
     pub parameters: Vec<Parameter>,
     #[serde(rename = "statement")]
@@ -22,7 +21,6 @@ pub struct Published {
 pub struct Parameter {
     /// Its id, `«paper.id»` in the prose.
     pub id: String,
-    /// Where it stands in the paper.
     pub place: String,
     pub value: f64,
 }
@@ -39,9 +37,7 @@ pub struct Statement {
     /// A word for the difference, if it differs: `misprint` or another; scores count each word.
     #[serde(default)]
     pub why: String,
-    /// Where it stands in the paper.
     pub place: String,
-    /// What it states, in our words.
     pub statement: String,
     /// What can be read there, in its shortest form.
     pub printed: String,
@@ -50,7 +46,6 @@ pub struct Statement {
     /// The place of its last printed digit: its decimals, and −3 if it was printed in thousands.
     #[serde(default)]
     pub decimals: Option<i32>,
-    /// The line of its id.
     #[serde(skip)]
     pub(crate) line: usize,
 }
@@ -129,7 +124,6 @@ impl Statement {
         Statement { kind, id, statement, ..Statement::default() }
     }
 
-    /// Makes an error of it, with its line.
     fn fault(&self, what: &str) -> PublishedError {
         PublishedError::at(self.line, &self.id, what)
     }
@@ -182,7 +176,6 @@ impl Statement {
         Some(Statement { value, printed, ..self.clone() })
     }
 
-    /// Returns the number with its printed decimals.
     pub(super) fn shown(&self) -> Option<String> {
         Some(written(self.value?, self.decimals?))
     }

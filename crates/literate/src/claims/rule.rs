@@ -8,7 +8,6 @@ use super::text::Text;
 use crate::experiments::Results;
 use std::panic::Location;
 
-/// How one statement or relation is judged.
 pub struct Rule {
     pub id: &'static str,
     /// What it says, if it judges a relation between numbers and nothing that was printed.
@@ -17,7 +16,6 @@ pub struct Rule {
     reads: Option<&'static str>,
     basis: Option<Basis>,
     statistical: bool,
-    /// Where the source makes it.
     pub(crate) place: &'static Location<'static>,
     judge: Box<dyn Fn(&Evidence<'_>) -> Judged + Send + Sync>,
 }
@@ -94,7 +92,6 @@ impl Rule {
     }
 }
 
-/// Returns the level of each statistical check among these.
 pub fn level_of(rules: &[Rule]) -> Level {
     Level::of(rules.iter().filter(|rule| rule.statistical).count())
 }

@@ -21,7 +21,6 @@ macro_rules! text {
 pub struct Text(pub Vec<Number>);
 
 impl Text {
-    /// Does what [`text!`](crate::text) does.
     pub fn of(sentence: &str, numbers: impl IntoIterator<Item = Number>) -> Text {
         let mut pieces = sentence.split('{');
         let mut text = Text::from(pieces.next().unwrap_or_default());
@@ -68,7 +67,6 @@ impl From<Text> for String {
     }
 }
 
-/// Writes it as terminals and data have it.
 impl fmt::Display for Text {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for piece in &self.0 {

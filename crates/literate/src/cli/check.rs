@@ -2,7 +2,7 @@
 
 use super::common::{RunOptions, scores, verdict};
 use super::terminal::print;
-use crate::claims::{Check, Published, Verdict, blind_to_their_number};
+use crate::claims::{Check, Verdict, blind_to_their_number};
 use crate::failure::Failure;
 use crate::input::one_line;
 use crate::paper::Paper;
@@ -15,7 +15,6 @@ use std::collections::BTreeMap;
 ///   check                       a line for each statement that differs or cannot be judged
 ///   check -v                    all that is known of all of them
 ///   check 12 sec7_jump          of two, by number in the ledger or by id
-///   check --format github       annotations of a pull request
 ///
 /// Saved results are used where they are fresh; what is missing is run. Exit code 1 says that a
 /// statement differs without an explanation that holds, or that a relation between numbers does not
@@ -30,17 +29,8 @@ pub(super) struct Args {
     /// Print all that is known of each, and also those that are reproduced or hold.
     #[arg(long, short)]
     verbose: bool,
-    /// Print in this form; `github` annotates what fails.
-    #[arg(long, default_value = "text")]
-    format: Format,
     #[command(flatten)]
     options: RunOptions,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Format {
-    Text,
-    Github,
 }
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
@@ -69,15 +59,10 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         checks.retain(|check| is_asked(&check.id));
     }
     blind.retain(|id| checks.iter().any(|check| check.id == *id));
-    let file = session.templates.place("published.toml");
-    print(&match args.format {
-        Format::Text => text(&checks, &blind, &args, &numbers),
-        Format::Github => github(&checks, &published, &file),
-    })?;
+    print(&text(&checks, &blind, &args, &numbers))?;
     verdict(&checks)
 }
 
-/// Returns what is known of a check, by names.
 fn fields(check: &Check) -> Vec<(&'static str, String)> {
     let mut tolerance = check.tolerance.to_string();
     if !check.reason.is_empty() {
@@ -139,33 +124,4 @@ fn text(
         out += "`check -v` prints all, `check ID` all of one\n";
     }
     out
-}
-
-/// Prints a command of GitHub's log for each check that fails, at its line.
-fn github(checks: &[Check], published: &Published, file: &str) -> String {
-    let mut out = String::new();
-    for check in checks.iter().filter(|check| check.fails()) {
-        let mut place = String::new();
-        if check.kind.is_printed() {
-            let line = published.statement(&check.id).map_or(1, |statement| statement.line);
-            place = format!("file={},line={line},", property(file));
-        }
-        let title = property(&format!("{}: {}", check.id, check.words()));
-        let mut text = check.statement.clone();
-        for (name, field) in fields(check) {
-            text += &format!("; {name}: {field}");
-        }
-        out += &format!("::error {place}title={title}::{}\n", data(&text));
-    }
-    out
-}
-
-/// Escapes the text of a workflow command.
-fn data(text: &str) -> String {
-    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
-}
-
-/// Escapes a property of a workflow command.
-fn property(text: &str) -> String {
-    data(text).replace(':', "%3A").replace(',', "%2C")
 }

@@ -8,7 +8,6 @@ use crate::input::count;
 use crate::paper::Paper;
 use std::path::PathBuf;
 
-/// Options of verbs that make a report or judge it.
 #[derive(clap::Args)]
 pub(super) struct RunOptions {
     /// Take these sample sizes.
@@ -26,12 +25,10 @@ pub(super) struct RunOptions {
 }
 
 impl RunOptions {
-    /// Returns the folder of the saved results.
     pub fn results(&self, paper: &Paper) -> PathBuf {
         self.results.clone().unwrap_or_else(|| paper.project.place("target/results"))
     }
 
-    /// Returns the run that is asked for.
     pub fn session<'a>(&self, paper: &'a Paper) -> Result<Session<'a>, Failure> {
         if let Some(file) = paper.project.changed() {
             warn(&format!(

@@ -49,7 +49,6 @@ pub(super) fn run(args: Args) -> Result<(), Failure> {
     })
 }
 
-/// The parts of a report that are compared.
 struct Parts {
     files: Files,
     values: Registry,

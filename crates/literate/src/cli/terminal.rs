@@ -11,7 +11,6 @@ use std::path::Path;
 /// The stack of a working thread in bytes; the default is less.
 const STACK: usize = 8 << 20;
 
-/// How many threads can be asked for.
 const MOST: usize = 1024;
 
 /// Prints one line on standard error, after the name of the program.
@@ -46,7 +45,6 @@ pub fn written(result: io::Result<()>) -> Result<(), Failure> {
     }
 }
 
-/// Prints text on standard output.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
@@ -81,7 +79,6 @@ pub fn is_ignored(signal: i32) -> bool {
     mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
-/// The option of a verb that works on several threads.
 #[derive(clap::Args)]
 pub struct Threads {
     /// Work on this many threads, else on all cores; no bit of the result depends on it.

@@ -26,17 +26,14 @@ pub struct Command {
     pub line: &'static str,
     /// Its parameters in a profile: an object.
     pub parameters: fn(Profile) -> Json,
-    /// Files and folders that it reads besides.
     pub reads: &'static [&'static str],
     /// Files that it writes where it runs, such as pictures; they are saved with its tables.
     pub writes: &'static [&'static str],
 }
 
-/// The result of a command.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Output {
     tables: BTreeMap<String, PrintedTable>,
-    /// The bytes of the files that it wrote.
     files: BTreeMap<String, Vec<u8>>,
 }
 
@@ -44,7 +41,6 @@ struct Output {
 const FIRST_LINES: usize = 5;
 
 impl Command {
-    /// Makes a command without parameters.
     pub const fn new(name: &'static str, line: &'static str) -> Self {
         Command { name, line, parameters: |_| Json::Null, reads: &[], writes: &[] }
     }
@@ -110,7 +106,6 @@ impl Command {
         if is_link { std::path::absolute(top.join(program)) } else { Ok(folder.join(program)) }
     }
 
-    /// Runs it for the project in the folder `top`.
     fn run(&self, top: &Path, session: &Session<'_>) -> Result<Output, Error> {
         let fail = |what: String| {
             let source = format!("`{}` {what}", self.line).into();

@@ -32,7 +32,6 @@ pub type Work<P> = fn(&P) -> u64;
 pub enum How<P, T, U> {
     /// Read from a file that is committed, or known without a run; never saved.
     Read(fn(&Session<'_>) -> Result<T, Error>),
-    /// Run as one unit of work.
     Whole(fn(&P, &Progress) -> Result<T, Error>, Work<P>),
     /// Cut into units; progress is shown under the name.
     Cut(&'static str, Cutting<P, U, T>),
@@ -126,7 +125,6 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     }
 }
 
-/// Returns whether no number in it is NaN or infinite.
 fn is_finite(value: &toml::Value) -> bool {
     match value {
         toml::Value::Float(number) => number.is_finite(),
@@ -138,7 +136,6 @@ fn is_finite(value: &toml::Value) -> bool {
 
 /// What is known of every experiment, whatever its parameters and result are.
 pub trait AnyExperiment: Sync {
-    /// Returns the name that values and saved files carry.
     fn name(&self) -> &'static str;
 
     /// Checks that the files on which its result depends are there and are all declared.
@@ -161,7 +158,6 @@ pub trait AnyExperiment: Sync {
         true
     }
 
-    /// Returns everything that its result depends on.
     fn identity(&self, session: &Session<'_>) -> Identity {
         let code = self.code(session.project);
         Identity::new(self.name(), session.profile, code, &self.parameters(session.profile))

@@ -65,7 +65,6 @@ impl PrintedTable {
         self.place(&format!("{name}_error"))
     }
 
-    /// Whether a column has the standard errors of another.
     fn is_error(&self, name: &str) -> bool {
         name.strip_suffix("_error").is_some_and(|other| self.place(other).is_some())
     }

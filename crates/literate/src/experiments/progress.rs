@@ -8,19 +8,16 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
-/// Seconds between two lines.
 const LINE_EVERY: u64 = 5;
 
 static QUIET: AtomicBool = AtomicBool::new(false);
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// Shows no progress from now on.
 pub fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// Asks all work to end.
 pub(crate) fn stop() {
     STOP.store(true, Ordering::Relaxed);
 }
@@ -37,7 +34,6 @@ impl Progress {
         Progress { quiet: true }
     }
 
-    /// Makes one that prints on standard error.
     pub fn on_stderr() -> Self {
         Progress { quiet: QUIET.load(Ordering::Relaxed) }
     }
@@ -62,7 +58,6 @@ impl Progress {
         Stage { done, _lines: lines }
     }
 
-    /// Prints one line unless quiet.
     pub fn say(&self, line: &str) {
         if !self.quiet {
             say(line);
@@ -100,7 +95,6 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Counts `units` more as done.
     pub fn advance(&self, units: u64) {
         self.done.fetch_add(units, Ordering::Relaxed);
     }

@@ -12,10 +12,8 @@ use std::sync::{Arc, OnceLock};
 /// Makes tables of the results and tables of several experiments; none if one of these was not run.
 pub type DerivedTables = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
-/// The results of the experiments that were asked for.
 #[derive(Debug)]
 pub struct Results {
-    /// The sample sizes.
     pub profile: Profile,
     /// The experiments that were run, in their order.
     found: Vec<(&'static dyn AnyExperiment, Found)>,
@@ -94,7 +92,6 @@ impl Results {
         Ok(table(self.tables()?, name)?)
     }
 
-    /// Returns the bytes of a file that a command wrote.
     pub fn file(&self, command: &Command, path: &str) -> Result<Vec<u8>, Error> {
         let found = self.found(command.name)?;
         let problem = format!("{} wrote no such file", command.name);

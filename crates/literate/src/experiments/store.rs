@@ -13,7 +13,6 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// A result that can be saved as JSON.
 pub trait Json: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static {}
 
 impl<T: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static> Json for T {}
@@ -23,7 +22,6 @@ const SCHEMA: u32 = 3;
 
 const OLDER_FORMAT: &str = "saved in an older format";
 
-/// Everything that a result depends on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Identity {
     pub experiment: String,
@@ -34,7 +32,6 @@ pub struct Identity {
     /// The unit of work, if it is only a part of the result.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     unit: Option<Unit>,
-    /// Hashes of the files that the experiment depends on.
     code: BTreeMap<String, String>,
 }
 
@@ -103,7 +100,6 @@ impl Store {
         Store { folder: Some(folder.into()) }
     }
 
-    /// Makes a store that keeps nothing.
     pub fn nowhere() -> Self {
         Store { folder: None }
     }
@@ -172,7 +168,6 @@ fn again(why: &str) -> String {
     format!("run again, {}", one_line(why, 1000))
 }
 
-/// Reads what the result in a saved file was made of.
 fn made_of(text: &str) -> Result<Identity, &'static str> {
     let lines: Vec<&str> = text.split('\n').collect();
     let [checksum, identity, body, ""] = lines[..] else {

@@ -182,7 +182,6 @@ fn ledger_of(input: &Input<'_>, parts: &[Part<'_>]) -> Ledger {
     Ledger { claims: input.claims.to_vec(), figures, equations }
 }
 
-/// Makes the files of values, ledger, tables and figures.
 fn data_files(input: &Input<'_>, values: &Registry, ledger: &Ledger) -> Result<Files, Error> {
     let jsons = [
         ("values.json", serde_json::to_string_pretty(values)),

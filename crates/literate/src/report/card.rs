@@ -61,11 +61,9 @@ impl Card {
     }
 }
 
-/// Makes cards, from what is known of a report.
 #[derive(Clone, Copy, Debug)]
 pub struct Cards<'a> {
     pub values: &'a Registry,
-    /// Claims, figures, equations.
     pub ledger: &'a Ledger,
     pub edition: &'a Edition,
     pub project: &'a Project,
@@ -272,7 +270,6 @@ fn settings(parameters: &Json) -> Vec<String> {
     all.into_iter().map(listed).collect()
 }
 
-/// Adds the values of a field, each once.
 fn collect(name: &str, value: &Json, into: &mut Vec<(String, Vec<String>)>) {
     let shown = match value {
         Json::Null => return,

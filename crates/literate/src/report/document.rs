@@ -76,7 +76,6 @@ pub struct Table {
     pub rows: Vec<Vec<Vec<Inline>>>,
 }
 
-/// One entry of the list of references.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     /// Key as in references.bib.
@@ -92,7 +91,6 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Returns the whole entry as the list shows it.
     pub fn text(&self) -> Vec<Inline> {
         let mut text = vec![Inline::Text(format!("{} ({}).", self.authors, self.year))];
         text.extend(self.rest.iter().cloned());
@@ -147,7 +145,6 @@ pub enum Inline {
     },
 }
 
-/// A formula: TeX, and the values between it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Formula(pub Vec<Part>);
 

@@ -8,14 +8,12 @@ use crate::prose::Templates;
 pub struct Edition {
     /// What it is, in a line of the help.
     pub title: &'static str,
-    /// Name and affiliation of each author.
     pub authors: Vec<(&'static str, &'static str)>,
     /// Day of this version, YYYY-MM-DD; may be empty.
     pub date: &'static str,
     /// Its licence in words; may be empty.
     pub license: &'static str,
     pub documents: Vec<Document>,
-    /// Equations that must have their place in the documents.
     pub equations: Vec<EquationEntry>,
     /// Returns the path of the item that judges the statement with this id, for its card.
     pub judged_by: fn(&str) -> String,
@@ -66,9 +64,7 @@ pub struct Document {
     pub name: &'static str,
     /// What the numbers of its sections, tables and listings begin with; nothing in the first.
     pub letter: &'static str,
-    /// Its file in Markdown.
     pub markdown: &'static str,
-    /// Its file in HTML.
     pub page: &'static str,
     /// Its file for LaTeX, without its ending `.tex`, if it is printed.
     pub print: Option<&'static str>,
@@ -77,7 +73,6 @@ pub struct Document {
 }
 
 impl Document {
-    /// A report, alone.
     pub const REPORT: Document = Document {
         prose: "report",
         name: "Report",

@@ -3,7 +3,6 @@
 use crate::input::one_line;
 use crate::table::nearest;
 
-/// The largest number of characters of a message.
 const MAX_LENGTH: usize = 1000;
 
 /// What is wrong with a report, with the place where it can be corrected.
@@ -89,7 +88,6 @@ impl Error {
         if errors.is_empty() { Ok(()) } else { Err(Error::Several(errors)) }
     }
 
-    /// Returns the errors of which it is made, one by one.
     pub(crate) fn each(self) -> Vec<Error> {
         match self {
             Error::Several(errors) => errors.into_iter().flat_map(Error::each).collect(),

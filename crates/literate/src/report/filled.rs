@@ -18,7 +18,6 @@ pub struct Filled {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Origin {
     start: usize,
-    /// Which template it comes from, and the offset there.
     template: usize,
     offset: usize,
     tag: bool,
@@ -92,7 +91,6 @@ impl<'a> Places<'a> {
         all.filter_map(|(to, at)| Some((to?, self.filled.place(*at))))
     }
 
-    /// All ids that were noted.
     pub fn ids(&self) -> impl Iterator<Item = &str> {
         self.found.iter().filter_map(|(thing, _)| thing.strip_prefix('#'))
     }

@@ -20,7 +20,6 @@ use tera::{Context, Delimiters, Kwargs, State, Tera};
 pub struct Filler {
     tera: Tera,
     templates: Templates,
-    /// Phrases with numbers that the prose may have.
     pub declared: Declared,
     context: Context,
     /// Values and tables, as the context has them.
@@ -68,7 +67,6 @@ impl Filler {
         self.context.insert(name, rows);
     }
 
-    /// Fills one template that is no prose.
     pub fn fill(&self, path: &str) -> Result<String, Error> {
         self.tera.render(path, &self.context).map_err(|error| self.failure(&error))
     }
@@ -108,7 +106,6 @@ impl Filler {
         Ok(())
     }
 
-    /// What is wrong at an offset of a template.
     fn fault(&self, path: &str, at: usize, what: &str) -> Error {
         let place = line_and_column(self.templates.text(path).unwrap_or_default(), at);
         Error::Template(self.templates.place(&format!("{path}:{place}: {what}")))
@@ -235,7 +232,6 @@ fn raw(value: &Value) -> Json {
     }
 }
 
-/// Returns the tree of all names that templates may use.
 fn names(values: &Registry, tables: &[&Table]) -> Json {
     let mut names = Json::Null;
     let mut add = |path: &[&str], value: Option<&Value>| {
@@ -269,7 +265,6 @@ fn names(values: &Registry, tables: &[&Table]) -> Json {
     names
 }
 
-/// Puts something under a path into a tree of objects.
 fn put(tree: &mut Json, path: &[&str], thing: Json) {
     *path.iter().fold(tree, |tree, part| &mut tree[*part]) = thing;
 }

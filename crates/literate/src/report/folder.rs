@@ -20,7 +20,6 @@ pub const BUILT: &str = "SHA256SUMS.built";
 /// A report in memory: paths relative to its folder, and bytes.
 pub type Files = BTreeMap<String, Vec<u8>>;
 
-/// Why a folder is not written or compared.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(
@@ -54,7 +53,6 @@ fn lines(digests: &Digests) -> String {
     digests.iter().map(|(path, digest)| format!("{digest}  {path}\n")).collect()
 }
 
-/// Adds the two lists to the files of a whole report.
 pub fn add_lists(files: &mut Files) {
     for (name, generated) in [(SUMS, false), (BUILT, true)] {
         let listed = files.iter().filter(|(path, _)| is_generated(path) == generated);
@@ -227,7 +225,6 @@ fn faults(folder: &Path, mut expected: Digests) -> Result<(usize, Vec<String>), 
     Ok((expected.len(), expected.iter().filter_map(fault).chain(strange).collect()))
 }
 
-/// Compares a folder with its lists.
 pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
     let place = folder.join(SUMS);
     let text = input::regular_text(&place).map_err(failed(&place))?;
@@ -238,7 +235,6 @@ pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
     Ok((count, faults))
 }
 
-/// Compares a folder with a whole report, byte by byte.
 pub fn compare(folder: &Path, files: &Files) -> Result<(usize, Vec<String>), Error> {
     faults(folder, digests(files.iter()))
 }

@@ -9,13 +9,11 @@ use crate::project::Project;
 use crate::prose::Templates;
 use std::collections::BTreeMap;
 
-/// What a page loads when a reader asks it to compute.
 pub const LAB: &str = "lab.js";
 
 #[derive(Clone, Copy, Debug)]
 pub struct Input<'a> {
     pub templates: &'a Templates,
-    /// The numbers that it may name.
     pub values: &'a Registry,
     /// Rows of tables that are not values or claims, by the name that templates use.
     pub rows: &'a BTreeMap<&'static str, serde_json::Value>,

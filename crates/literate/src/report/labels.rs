@@ -7,22 +7,18 @@ use super::error::Error;
 use crate::claims::Check;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What can be referred to by an id.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
     /// What references show: a number, which has brackets for an equation.
     pub shown: String,
-    /// The document in which it stands.
     pub document: Document,
 }
 
-/// All labels of all documents, by id.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
     labels: BTreeMap<String, Label>,
     /// Number of statements that have a place so far.
     statements: usize,
-    /// The sign of the verdict of each statement.
     signs: BTreeMap<String, char>,
 }
 

@@ -233,9 +233,7 @@ const SHORT: usize = 12;
 /// The two gaps of a column, 6 pt each, in characters of which 455 pt hold [`LINE`].
 const GAPS: f64 = 0.027 * LINE as f64;
 
-/// A column of a table, in characters.
 struct Column {
-    /// The letter of its alignment.
     letter: &'static str,
     /// Of its longest cell.
     width: usize,

@@ -27,14 +27,11 @@ pub struct FigureEntry {
     pub experiments: Vec<String>,
 }
 
-/// A numbered equation of the paper.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EquationEntry {
     pub number: u32,
     pub section: u32,
-    /// What it states, in a few words.
     pub what: String,
-    /// The item that is its home.
     pub home: String,
     /// The equation that the home leads to, where coding this one would be pointless.
     #[serde(default, skip_serializing_if = "Option::is_none")]

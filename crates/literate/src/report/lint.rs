@@ -19,7 +19,6 @@ pub struct Declared {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table [[literal]]")]
 struct Group {
-    /// Why the numbers in these phrases are not computed.
     why: String,
     phrases: Vec<String>,
 }

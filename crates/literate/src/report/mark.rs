@@ -34,14 +34,9 @@ fn moved_back(c: char) -> char {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Piece<'a> {
     Text(&'a str),
-    Value {
-        id: String,
-        /// The words of its filters.
-        shown: &'a str,
-    },
+    Value { id: String, shown: &'a str },
 }
 
-/// A mark with an id and what is shown.
 pub fn framed(id: &str, shown: &str) -> String {
     let id: String = id.chars().map(moved).collect();
     format!("{OPEN}{id}{NEXT}{shown}{CLOSE}")

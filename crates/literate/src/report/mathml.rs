@@ -8,7 +8,6 @@ use std::sync::LazyLock;
 
 static CONVERTER: LazyLock<LatexToMathML> = LazyLock::new(LatexToMathML::default);
 
-/// Converts TeX without values.
 fn convert(tex: &str, display: MathDisplay) -> Result<String, String> {
     let made = CONVERTER.convert_with_local_state(tex, display);
     made.map(|made| made.mathml).map_err(|error| error.to_string())

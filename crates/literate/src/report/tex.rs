@@ -75,13 +75,11 @@ fn in_text(c: char) -> Option<&'static str> {
     }
 }
 
-/// Reads words in pairs.
 pub fn pairs(list: &str) -> BTreeMap<&str, &str> {
     let words: Vec<&str> = list.split_whitespace().collect();
     words.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
 }
 
-/// Characters in running text.
 static TEXT: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
     pairs(
         r"– --  — ---  ‑ -  ‘ `  ’ '  “ ``  ” ''  … \ldots{}  § \S{}  © \textcopyright{}

@@ -10,7 +10,6 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// All values of a report, by id.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct Registry {
@@ -73,7 +72,6 @@ impl Registry {
         self.values.get(id).or_else(|| self.cell(id))
     }
 
-    /// The profile with which they were made.
     pub fn profile(&self) -> Option<Profile> {
         match &self.get("profile")?.number {
             Number::Text(name) => clap::ValueEnum::from_str(name, false).ok(),
@@ -81,7 +79,6 @@ impl Registry {
         }
     }
 
-    /// All values, sorted by id.
     pub fn iter(&self) -> impl Iterator<Item = &Value> {
         self.values.values()
     }

@@ -10,7 +10,6 @@ use std::rc::Rc;
 /// A table that is being made, of rows R.
 pub struct Building<'a, R> {
     rows: &'a [R],
-    /// Returns the realisations behind a row.
     number: Rc<dyn Fn(&R) -> usize + 'a>,
     /// What computed the cells, if that is not the code of their column.
     origin: Option<Origin>,
@@ -32,7 +31,6 @@ impl Table {
     }
 }
 
-/// Writes a unit as Markdown.
 fn markdown(unit: &str) -> String {
     match unit {
         "1" | "text" => String::new(),
@@ -97,7 +95,6 @@ impl<'a, R> Building<'a, R> {
         self.chosen(name, unit, "", get)
     }
 
-    /// Adds a key that is a name.
     pub fn text_key<F: Fn(&R) -> String>(mut self, name: &'static str, get: F) -> Self {
         self.count_key(name);
         self.words(name, "", get)
@@ -137,7 +134,6 @@ impl<'a, R> Building<'a, R> {
         })
     }
 
-    /// Adds words that were computed, or none.
     pub fn words<W: Into<Number>, F: Fn(&R) -> W>(
         self,
         name: &'static str,

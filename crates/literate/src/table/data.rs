@@ -48,13 +48,11 @@ pub struct DataFile {
 }
 
 impl DataFile {
-    /// Makes the file of a whole table of an experiment.
     pub fn of(table: &Table) -> Self {
         let (header, rows) = table.data();
         DataFile { name: Self::name_of(table.name()), header, rows }
     }
 
-    /// Returns the name of the file of a table `experiment.table`.
     pub fn name_of(table: &str) -> String {
         format!("{}.csv", table.replace('.', "-"))
     }

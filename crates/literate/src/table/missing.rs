@@ -11,7 +11,6 @@ pub struct Missing {
     address: String,
     /// What is missing, and the nearest names that there are.
     what: String,
-    /// What to do if the address is right.
     pub(super) remedy: &'static str,
     place: String,
 }

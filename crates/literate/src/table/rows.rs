@@ -15,9 +15,7 @@ pub struct Table {
     pub(super) keys: usize,
     /// For each row its address within the table (`r=0.8,sigma=0.3`), and its cells.
     pub(super) rows: Vec<(String, Vec<Value>)>,
-    /// Where the source makes it.
     pub(super) place: &'static Location<'static>,
-    /// Why it is refused.
     pub(super) fault: Option<String>,
 }
 
@@ -29,7 +27,6 @@ pub(super) struct Column {
     pub(super) unit: &'static str,
 }
 
-/// Keys of a row, with their values.
 pub type Keys<'a> = &'a [(&'a str, f64)];
 
 impl Table {
@@ -43,7 +40,6 @@ impl Table {
         place(self.place)
     }
 
-    /// Returns why it is refused, with its place.
     pub(crate) fn fault(&self) -> Option<&str> {
         self.fault.as_deref()
     }
@@ -69,7 +65,6 @@ impl Table {
         }
     }
 
-    /// Finds the place of a column.
     #[track_caller]
     pub(super) fn column(&self, name: &str) -> Result<usize, Missing> {
         match self.names().position(|column| column == name) {
@@ -149,7 +144,6 @@ impl Table {
         different(cells.map(|cell| called(&cell.number)))
     }
 
-    /// Returns all cells, row by row.
     pub(crate) fn cells(&self) -> impl Iterator<Item = &Value> {
         self.rows.iter().flat_map(|(_, cells)| cells)
     }
@@ -162,7 +156,6 @@ impl Table {
         self.names().take(self.keys)
     }
 
-    /// Returns the names of all rows, in order.
     pub fn rows(&self) -> impl Iterator<Item = &str> {
         self.rows.iter().map(|(name, _)| name.as_str())
     }
@@ -204,7 +197,6 @@ fn different<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
     found
 }
 
-/// Writes a key as addresses have it.
 pub(crate) fn called(key: &Number) -> String {
     match key {
         Number::None => "none".into(),

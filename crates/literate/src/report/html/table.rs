@@ -34,7 +34,6 @@ fn raised(words: &str) -> String {
 }
 
 impl Page<'_> {
-    /// Writes a table without its caption.
     pub(super) fn table(&self, table: &Table) -> String {
         let Table { columns, head, rows, .. } = table;
         let longest = |i: usize| rows.iter().map(|row| plain(&row[i]).len()).max().unwrap_or(0);

@@ -79,7 +79,6 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Notes hard-coded numbers that people typed.
     fn hard_coded(&mut self, found: impl IntoIterator<Item = (usize, String)>) {
         for (at, numeral) in found {
             if self.filled.is_typed(at) {
@@ -148,7 +147,6 @@ impl Reader<'_> {
         Ok(Inline::Unresolved { ids, in_sentence: false })
     }
 
-    /// Text with marks → words and values.
     fn text(
         &mut self,
         text: &str,

@@ -18,12 +18,10 @@ use pulldown_cmark::{
 };
 use std::ops::Range;
 
-/// What was read of a document.
 #[derive(Debug)]
 pub struct Parsed<'a> {
     /// The tree, without the blocks that have an error.
     pub blocks: Vec<Block>,
-    /// Where all ids and references stand.
     pub places: Places<'a>,
     pub errors: Vec<Error>,
 }
@@ -118,7 +116,6 @@ impl<'a> Reader<'a> {
         self.found.push(error.at(self.filled.place(at)));
     }
 
-    /// Notes an id, of what stands at an offset.
     fn id(&mut self, kind: &str, id: &str, at: usize) -> Result<(), Error> {
         self.places.add(format!("#{id}"), at);
         check_kind(kind, id)
@@ -210,7 +207,6 @@ impl<'a> Reader<'a> {
         Ok(block)
     }
 
-    /// A paragraph, or what stands alone in it.
     fn paragraph(&mut self, range: Range<usize>) -> Result<Block, Error> {
         let source = self.source(&range).trim_end();
         let with_id = source.strip_suffix('}').and_then(|source| source.rsplit_once("{#"));
@@ -345,7 +341,6 @@ const ELSE: &str = "this markup is not supported by every format";
 const ALONE: &str = "a figure must stand alone in its paragraph";
 const FENCE: &str = "a block of code must stand between two lines ```";
 
-/// Counts the cells of a row by its bars.
 fn cells_of(row: &str) -> usize {
     let row = row.trim();
     let row = row.strip_prefix('|').unwrap_or(row);

@@ -230,7 +230,6 @@ impl Given {
     }
 }
 
-/// A report of one document with this prose.
 fn given(prose: &str) -> Given {
     let (what, home) = ("the jump".into(), "toy::flight".into());
     let equation = ledger::EquationEntry { number: 18, section: 7, what, home, step_towards: None };
@@ -250,7 +249,6 @@ fn assembled(prose: &str) -> Result<Files, Error> {
     given(prose).made()
 }
 
-/// A file of a report as text.
 fn file(report: &Files, path: &str) -> String {
     String::from_utf8(report[path].clone()).unwrap()
 }
