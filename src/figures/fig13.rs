@@ -23,7 +23,7 @@ const CLASSES: [Class; 5] = [
 ];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sheet = Sheet::new(11_250);
+    let sheet = Sheet::new(10_600);
     let [small, middle, large] = HIGHER_P;
     let whole = N as f64 + 1.0;
     // p, first and last k, step between their numbers, and the lowest power of ten, if any.
@@ -43,19 +43,33 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             None if i == 1 => Axis::up_to(1.5 * largest(&contributions(p)[1..].concat()), label),
             None => Axis::up_to(largest(&five(p)), label),
         };
-        let (left, top) = (1200 + 4050 * (i as i32 % 2), 480 + 3300 * (i as i32 / 2));
-        let frame = Frame::new(left, top, left + 2950, top + 2100);
+        let (left, row) = (1200 + 4050 * (i as i32 % 2), i as i32 / 2);
+        let (top, height) = (480 + 2300 * row, if row == 2 { 3500 } else { 1200 });
+        let frame = Frame::new(left, top, left + 2950, top + height);
         let x = Axis::linear(first, last, step, 5, "*k*");
         let panel = sheet.panel(frame, x, y.column("P(X = k)"))?.outside(Outside::Cut);
         panel.heading(LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
         series(&panel, p)?;
+        // Next to k, or to the left end, at a height: where each class has room.
+        let places = match i {
+            4 => [(8.0, (1, -2)), (5.0, (1, -2)), (8.0, (-1, 2)), (12.0, (-2, 2)), (20.0, (1, 0))],
+            5 => [(80.0, (0, 3)), (80.0, (0, 3)), (0.0, (0, 0)), (0.0, (0, 0)), (69.0, (-2, -1))],
+            _ => continue,
+        };
+        for ((class, (_, symbol, colour, _)), (k, side)) in
+            contributions(p).iter().zip(CLASSES).zip(places)
+        {
+            if let Some((k, at)) = over_k(class).into_iter().find(|point| point.0 == k) {
+                panel.label_nearby(symbol, (k, at), side, colour)?;
+            }
+        }
     }
     let names = CLASSES.map(|(name, symbol, colour, dash)| {
         (format!("{name}, {symbol}"), colour, Stroke::dashed(colour, LINE, dash))
     });
     let all = ("all five classes".to_string(), GREY, SUM);
     for (i, (name, colour, stroke)) in (0..).zip([all].into_iter().chain(names)) {
-        let (left, y) = (1200 + 3500 * (i % 2), 10_300 + 340 * (i / 2));
+        let (left, y) = (1200 + 3500 * (i % 2), 9_650 + 340 * (i / 2));
         sheet.area.draw(&line(vec![(left, y), (left + 500, y)], stroke))?;
         let style = words(SMALL, colour, HPos::Left, VPos::Center);
         sheet.area.draw_text(&name, &style, (left + 600, y))?;

@@ -8,9 +8,11 @@ use literate::table::Table;
 /// The window of the half heights.
 const WINDOW: f64 = 200.0;
 
-/// The branches: column, name, colour.
-const BRANCHES: [(&str, &str, RGBColor); 2] =
-    [("from_rest", "from rest", BLUE), ("from_above", "from above", RED)];
+/// The branches: column, name, colour, and symbols for the first and the last of two curves.
+const BRANCHES: [(&str, &str, RGBColor, [Symbol; 2]); 2] = [
+    ("from_rest", "from rest", BLUE, [Symbol::Ring, Symbol::Disc]),
+    ("from_above", "from above", RED, [Symbol::OpenSquare, Symbol::OpenDiamond]),
+];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let halves = results.table("branches.half_heights")?;
@@ -49,15 +51,16 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
     panel.curve("from rest, n = 100", &map, Stroke::solid(GREY, LINE))?;
     let mut ends = Vec::new();
     for (place, masses) in lengths.iter().enumerate() {
-        let longest = place + 1 == lengths.len();
-        for (column, name, colour) in BRANCHES {
-            let (mark, dash) = if longest { (Symbol::Disc, SOLID) } else { (Symbol::Ring, SHORT) };
+        let longest = usize::from(place + 1 == lengths.len());
+        for (column, name, colour, marks) in BRANCHES {
+            let (mark, dash) = (marks[longest], [SHORT, SOLID][longest]);
             let points = halves.series(&[("masses", *masses)], "transient", column)?;
             let look = (mark, MEDIUM, Stroke::dashed(colour, THIN, dash));
             let name = format!("{name}, *n* = {masses}");
             panel.joined_estimates(&name, &points, look)?;
-            let points: Vec<_> = points.iter().map(|(time, half)| (*time, half.value)).collect();
-            ends.push((name, points, colour));
+            // The names stand clear of the last symbols.
+            let end = points.last().map(|(time, half)| (1.08 * time, half.value));
+            ends.push((name, Vec::from_iter(end), colour));
         }
     }
     panel.label_ends(&ends)?;
@@ -76,8 +79,8 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Drawn {
     let ends = [transients.first(), transients.last()];
     let mut labels = Vec::new();
     for (place, transient) in ends.into_iter().flatten().enumerate() {
-        let (mark, dash) = if place == 0 { (Symbol::Ring, SHORT) } else { (Symbol::Disc, SOLID) };
-        for (column, name, colour) in BRANCHES {
+        for (column, name, colour, marks) in BRANCHES {
+            let (mark, dash) = (marks[place], [SHORT, SOLID][place]);
             let points =
                 shares.series(&[("masses", masses), ("transient", *transient)], "sigma", column)?;
             let name = format!("{name}, *T* = {}", in_powers(*transient));

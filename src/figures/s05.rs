@@ -30,7 +30,9 @@ fn shares(sheet: &Sheet) -> Drawn {
     panel.curve("limit", &limit, Stroke::solid(GREY, 130))?;
     panel.guide("rim", &limit, Stroke::solid(WHITE, 76))?;
     panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), GREY)?;
-    for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
+    // Beyond their jumps all lie on the limit: the last to jump is drawn last, and each has a disc
+    // where it arrives.
+    for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate().rev() {
         let colour = ordered(place, DRAWN_VERTICES.len());
         let stroke = Stroke::solid(colour, LINE);
         // No value lies within the jump.
@@ -40,6 +42,8 @@ fn shares(sheet: &Sheet) -> Drawn {
         panel.curve(&name, &after, stroke)?;
         let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
         panel.guide("jump", &jump, Stroke::dashed(colour, THIN, DOTTED))?;
+        let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
+        panel.unrecorded().markers(&name, &jump[1..], disc)?;
         let start = (RANGE.0, 1.0 / vertices as f64);
         let name = format!("*N* = {}", power_of_ten(vertices.ilog10() as i32));
         panel.label(&name, start, (1, -1), colour)?;

@@ -5,7 +5,6 @@ use super::QUICK;
 use impact_paper::experiments::{Progress, SEGMENTS, SPACE_TIME, Store};
 use impact_paper::figures;
 use impact_paper::params::{Profile, VERTICES};
-use literate::figures::Figure;
 use roxmltree::{Document, Node};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -49,61 +48,136 @@ fn view(document: &Document) -> (f64, f64) {
     (view[2], view[3])
 }
 
-/// A label: its words and its box on the sheet.
+/// A label: its words, its colour, its box on the sheet, and the size of its smallest letters.
 #[derive(Debug)]
 struct Label {
     words: String,
+    colour: String,
     x: (f64, f64),
     y: (f64, f64),
+    size: f64,
 }
 
-/// Labels with the boxes of their letters, from the base line to the height of a capital.
-fn labels(document: &Document) -> Vec<Label> {
-    let labelled = |n: &Node| n.tag_name().name() == "g" && n.attribute("aria-label").is_some();
-    document.descendants().filter(labelled).map(|group| label(&group)).collect()
-}
-
-fn label(group: &Node) -> Label {
-    let transform = group.attribute("transform").unwrap();
-    let inner = |name: &str| {
-        let rest = transform.split(&format!("{name}(")).nth(1)?;
-        Some(numbers(rest.split(')').next().unwrap()))
-    };
-    let (at, scale) = (inner("translate").unwrap(), inner("scale").unwrap()[0]);
-    let uses = || group.children().filter(|n| n.tag_name().name() == "use");
-    let mut extent = (f64::MAX, f64::MIN);
-    let mut base = 0.0;
-    for glyph in uses() {
-        let (x, wide) = match glyph.attribute("transform") {
-            Some(moved) => (numbers(moved[10..].split(')').next().unwrap())[0], 330.0),
-            None => {
-                base = glyph.attribute("y").unwrap().parse().unwrap();
-                (glyph.attribute("x").unwrap().parse().unwrap(), 470.0)
-            }
+impl Label {
+    /// Reads a label with the box of its letters, from the base line to the height of a capital.
+    fn of(group: &Node) -> Label {
+        let inner = |transform: Option<&str>, name: &str| {
+            let rest = transform?.split(&format!("{name}(")).nth(1)?;
+            Some(numbers(rest.split(')').next().unwrap()))
         };
-        extent = (extent.0.min(x), extent.1.max(x + wide));
+        let transform = group.attribute("transform");
+        let at = inner(transform, "translate").unwrap();
+        let scale = inner(transform, "scale").unwrap()[0];
+        let (mut extent, mut base, mut least) = ((f64::MAX, f64::MIN), 0.0, 1.0_f64);
+        for glyph in group.children().filter(|n| n.tag_name().name() == "use") {
+            let x = match inner(glyph.attribute("transform"), "translate") {
+                Some(place) => place[0],
+                None => {
+                    base = glyph.attribute("y").unwrap().parse().unwrap();
+                    glyph.attribute("x").unwrap().parse().unwrap()
+                }
+            };
+            let size = inner(glyph.attribute("transform"), "scale").map_or(1.0, |scale| scale[0]);
+            least = least.min(size);
+            extent = (extent.0.min(x), extent.1.max(x + 470.0 * size));
+        }
+        let along = (extent.0 * scale, extent.1 * scale);
+        let across = (base * scale, (base + 640.0) * scale);
+        let (x, y) = if inner(transform, "rotate").is_some() {
+            ((at[0] - across.1, at[0] - across.0), (at[1] - along.1, at[1] - along.0))
+        } else {
+            ((at[0] + along.0, at[0] + along.1), (at[1] - across.1, at[1] - across.0))
+        };
+        let words = group.attribute("aria-label").unwrap().to_string();
+        let colour = group.attribute("class").unwrap().replace("fill-", "");
+        Label { words, colour, x, y, size: 1000.0 * scale * least }
     }
-    let (along, across) =
-        ((extent.0 * scale, extent.1 * scale), (base * scale, (base + 640.0) * scale));
-    let words = group.attribute("aria-label").unwrap().to_string();
-    if inner("rotate").is_some() {
-        let x = (at[0] - across.1, at[0] - across.0);
-        Label { words, x, y: (at[1] - along.1, at[1] - along.0) }
-    } else {
-        let y = (at[1] - across.1, at[1] - across.0);
-        Label { words, x: (at[0] + along.0, at[0] + along.1), y }
+
+    fn meets(&self, [left, right, top, bottom]: [f64; 4]) -> bool {
+        left < self.x.1 && right > self.x.0 && top < self.y.1 && bottom > self.y.0
     }
 }
 
-/// All pictures with their ids: of the quick profile, and those that are committed.
-fn pictures() -> Vec<(String, String)> {
-    let mut pictures = Vec::new();
-    for Figure { id, .. } in &QUICK.figures {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("paper/figures/{id}.svg"));
-        pictures.push((id.clone(), std::fs::read_to_string(file).unwrap()));
+/// A path of a series of data: the frame of its panel, the colour that shows it, its strokes, and
+/// what else tells it from others: the kind of line or mark, and its dash.
+#[derive(Debug)]
+struct Shape {
+    series: String,
+    frame: String,
+    colour: String,
+    strokes: Vec<Vec<(f64, f64)>>,
+    is_line: bool,
+    look: String,
+}
+
+/// A figure as it is measured.
+struct Picture {
+    id: String,
+    size: (f64, f64),
+    labels: Vec<Label>,
+    shapes: Vec<Shape>,
+    /// Its description, and its caption where the prose has one.
+    words: String,
+}
+
+impl Picture {
+    fn of(id: &str, svg: &str, words: String) -> Picture {
+        let document = Document::parse(svg).unwrap();
+        let (mut labels, mut shapes) = (Vec::new(), Vec::new());
+        for group in document.descendants().filter(|n| n.tag_name().name() == "g") {
+            if group.attribute("aria-label").is_some() {
+                labels.push(Label::of(&group));
+            }
+            let Some(series) = group.attribute("data-name") else { continue };
+            let frame = group.attribute("data-frame").unwrap();
+            for path in group.descendants().filter(|n| n.attribute("d").is_some()) {
+                let classes: Vec<_> = path.attribute("class").unwrap().split(' ').collect();
+                let named = |paint| classes.iter().find_map(|class| class.strip_prefix(paint));
+                let (fill, edge) = (named("fill-"), named("stroke-"));
+                // A ground is no mark, if its edge does not show.
+                let is_ground = path.attribute("fill-opacity").is_some() || fill == Some("page");
+                if (is_ground && edge.is_none()) || edge == Some("page") {
+                    continue;
+                }
+                let d = path.attribute("d").unwrap();
+                let strokes = strokes(d);
+                let letters: BTreeSet<char> = d.chars().filter(char::is_ascii_alphabetic).collect();
+                let kind = match (strokes.len(), fill) {
+                    (1, None) => "line".into(),
+                    (_, Some(fill)) => format!("{letters:?}, {}", fill == "page"),
+                    _ => format!("{letters:?}"),
+                };
+                let [width, dash] =
+                    ["stroke-width", "stroke-dasharray"].map(|name| path.attribute(name));
+                let look = format!("{kind}, {width:?}, {dash:?}");
+                shapes.push(Shape {
+                    series: series.into(),
+                    frame: frame.into(),
+                    colour: edge.or(fill).unwrap().into(),
+                    strokes,
+                    is_line: fill.is_none(),
+                    look,
+                });
+            }
+        }
+        Picture { id: id.into(), size: view(&document), labels, shapes, words }
     }
-    pictures.extend(QUICK.figures.iter().map(|figure| (figure.id.clone(), figure.svg())));
-    pictures
+}
+
+/// All pictures: of the quick profile, and those that are committed.
+fn pictures() -> Vec<Picture> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("paper");
+    let documents = QUICK.report.iter().filter(|(name, _)| name.ends_with(".md"));
+    let prose: String = documents.map(|(_, text)| String::from_utf8_lossy(text)).collect();
+    let both = QUICK.figures.iter().flat_map(|figure| {
+        let name = format!("figures/{}.svg", figure.id);
+        let before = prose.split_once(&format!("]({name})")).map(|parts| parts.0);
+        let caption = before.and_then(|text| text.rsplit_once("![")).map_or("", |parts| parts.1);
+        let words = format!("{} {caption}", figure.description.text);
+        let committed = std::fs::read_to_string(folder.join(name)).unwrap();
+        [figure.svg(), committed].map(|svg| Picture::of(&figure.id, &svg, words.clone()))
+    });
+    both.collect()
 }
 
 #[test]
@@ -159,38 +233,10 @@ fn all_coordinates_are_finite_and_on_the_sheet() {
     }
 }
 
+/// Axes say what they show and how much of it; the schematic figures name their parts.
 #[test]
-fn labels_are_on_the_sheet_and_overlap_with_nothing() {
-    for (id, svg) in pictures() {
-        let document = Document::parse(&svg).unwrap();
-        let (width, height) = view(&document);
-        let labels = labels(&document);
-        for (i, a) in labels.iter().enumerate() {
-            let inside = a.x.0 >= 0.0 && a.x.1 <= width && a.y.0 >= 0.0 && a.y.1 <= height;
-            assert!(inside, "{}: {a:?} is cut", id);
-            for b in &labels[i + 1..] {
-                let apart = a.x.1 <= b.x.0 || b.x.1 <= a.x.0 || a.y.1 <= b.y.0 || b.y.1 <= a.y.0;
-                assert!(apart, "{}: {a:?} and {b:?} overlap", id);
-            }
-        }
-        // No curve runs through one.
-        let data = document.descendants().filter(|n| n.attribute("class") == Some("data"));
-        let lines = data.flat_map(|group| group.descendants());
-        let lines = lines.filter(|line| line.attribute("fill") == Some("none"));
-        let strokes = lines.filter_map(|line| line.attribute("d")).flat_map(strokes);
-        for stretch in
-            strokes.flat_map(|stroke| stroke.windows(2).map(<[_]>::to_vec).collect::<Vec<_>>())
-        {
-            let ((x0, y0), (x1, y1)) = (stretch[0], stretch[1]);
-            // Sampled finely enough: a letter is about a hundred units wide.
-            for share in (0..=200).map(|i| f64::from(i) / 200.0) {
-                let (x, y) = (x0 + share * (x1 - x0), y0 + share * (y1 - y0));
-                let through =
-                    labels.iter().find(|l| l.x.0 < x && x < l.x.1 && l.y.0 < y && y < l.y.1);
-                assert!(through.is_none(), "{}: a curve through {through:?}", id);
-            }
-        }
-        // Axes say what they show and how much of it; the schematic figures name their parts.
+fn axes_have_numbers_and_names() {
+    for Picture { id, labels, .. } in pictures() {
         let parts: &[&str] = match id.as_str() {
             "fig01" => &["d", "nd", "(n+1)d", "Δ_1(t)"],
             "fig04" => &["L–1", "1–2", "2–3", "3–R"],
@@ -198,67 +244,201 @@ fn labels_are_on_the_sheet_and_overlap_with_nothing() {
                 let ticks =
                     |l: &&Label| l.words.chars().all(|c| c.is_ascii_digit() || "−.^".contains(c));
                 let ticks = labels.iter().filter(ticks).count();
-                assert!(ticks >= 4 && labels.len() >= ticks + 2, "{}: {labels:?}", id);
+                assert!(ticks >= 4 && labels.len() >= ticks + 2, "{id}: {labels:?}");
                 &[]
             }
         };
         for part in parts {
-            assert!(labels.iter().any(|l| l.words == *part), "{} lacks {part:?}", id);
+            assert!(labels.iter().any(|l| l.words == *part), "{id} lacks {part:?}");
         }
     }
 }
 
-/// The lightness of a colour `#rrggbb`, from 0 to 1, as the WCAG define it.
-fn luminance(colour: &str) -> f64 {
-    let part = |at: usize| {
-        let part = f64::from(u8::from_str_radix(&colour[at..at + 2], 16).unwrap()) / 255.0;
-        if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
-    };
-    0.2126 * part(1) + 0.7152 * part(3) + 0.0722 * part(5)
+/// The style of pages; its second part is for dark ones.
+const STYLE: &str = include_str!("../../crates/literate/skin/report.css");
+
+/// A colour on light and on dark pages, as parts of red, green and blue light.
+fn light_and_dark(name: &str) -> [[f64; 3]; 2] {
+    let (light, dark) = STYLE.split_once("prefers-color-scheme: dark").unwrap();
+    [light, dark].map(|style| {
+        let hex = style.split_once(&format!("--{name}: #")).unwrap().1;
+        [0, 2, 4].map(|at| {
+            let part = f64::from(u8::from_str_radix(&hex[at..at + 2], 16).unwrap()) / 255.0;
+            if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
+        })
+    })
 }
 
-/// Words are at least nine pixels high on a phone, what carries data has a contrast of three, and
-/// no mark stands under a word.
-#[test]
-fn every_figure_can_be_read() {
-    const PHONE: f64 = 360.0;
-    // Lines that carry no data.
-    const GUIDES: [&str; 1] = ["equilibrium"];
-    for (id, svg) in pictures() {
-        let document = Document::parse(&svg).unwrap();
-        let labels = labels(&document);
-        for group in document.descendants().filter(|n| n.attribute("aria-label").is_some()) {
-            let scale = group.attribute("transform").unwrap().rsplit_once("scale(").unwrap().1;
-            let size = 1000.0 * numbers(scale.trim_end_matches(')'))[0] * PHONE / view(&document).0;
-            assert!(size >= 9.0, "{}: {group:?} is {size} pixels high", id);
-        }
-        let contrast = |class: &str| {
-            let rule = svg.split(&format!(".{class}{{")).nth(1).unwrap();
-            1.05 / (luminance(&rule[rule.find('#').unwrap()..][..7]) + 0.05)
+fn times(matrix: [[f64; 3]; 3], of: [f64; 3]) -> [f64; 3] {
+    matrix.map(|row| row.iter().zip(of).map(|(a, b)| a * b).sum())
+}
+
+/// The contrast of two colours, from 1 to 21, as the WCAG define it.
+fn contrast(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let [a, b] = [a, b].map(|of| times([[0.2126, 0.7152, 0.0722]; 3], of)[0] + 0.05);
+    (a / b).max(b / a)
+}
+
+/// The distance of two colours in CIELAB for a reader without green cones (Machado, Oliveira and
+/// Fernandes, 2009).
+fn distance_without_green(a: [f64; 3], b: [f64; 3]) -> f64 {
+    const BLIND: [[f64; 3]; 3] = [
+        [0.367322, 0.860646, -0.227968],
+        [0.280085, 0.672501, 0.047413],
+        [-0.011820, 0.042940, 0.968881],
+    ];
+    const XYZ: [[f64; 3]; 3] =
+        [[0.4339, 0.3762, 0.1899], [0.2126, 0.7152, 0.0722], [0.0178, 0.1095, 0.8727]];
+    let [a, b] = [a, b].map(|of| {
+        let [x, y, z] =
+            times(XYZ, times(BLIND, of).map(|part| part.clamp(0.0, 1.0))).map(f64::cbrt);
+        [116.0 * y, 500.0 * (x - y), 200.0 * (y - z)]
+    });
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+}
+
+/// What is measured in each figure, and a drawing in which it is wrong, with the words of its
+/// description: labels are 400 units high, of which a figure on a phone shows 17 pixels.
+type Check = fn(&Picture) -> Vec<String>;
+const CHECKS: [(&str, Check, &str); 6] = [
+    (
+        "words inside the sheet",
+        cut,
+        r#"<g class="fill-ink" aria-label="cut" transform="translate(8300 500) scale(.4 -.4)"><use x="0" y="0"/></g>"#,
+    ),
+    (
+        "nothing on words",
+        overlaps,
+        r#"<g class="fill-ink" aria-label="a" transform="translate(900 500) scale(.4 -.4)"><use x="0" y="0"/></g>
+        <g data-name="line" data-frame=""><path class="stroke-ink" fill="none" d="M900 400h800"/></g>"#,
+    ),
+    (
+        "nine pixels on a phone",
+        small,
+        r#"<g class="fill-ink" aria-label="a" transform="translate(900 500) scale(.25 -.25)"><use transform="translate(0 0) scale(.7)"/></g>"#,
+    ),
+    (
+        "contrast",
+        faint,
+        r#"<g data-name="line" data-frame=""><path class="stroke-pale" fill="none" d="M900 400h800"/></g>"#,
+    ),
+    (
+        "told apart without colours",
+        alike,
+        r#"<g data-name="a" data-frame=""><path class="stroke-red" fill="none" d="M900 400h800"/></g>
+        <g data-name="b" data-frame=""><path class="stroke-green" fill="none" d="M900 500h800"/></g>"#,
+    ),
+    ("no colour of one page only", misnamed, ""),
+];
+
+fn cut(picture: &Picture) -> Vec<String> {
+    let (width, height) = picture.size;
+    let outside = |l: &&Label| l.x.0 < 0.0 || l.x.1 > width || l.y.0 < 0.0 || l.y.1 > height;
+    picture.labels.iter().filter(outside).map(|label| format!("{label:?} is cut")).collect()
+}
+
+/// Words on words, a mark under words, a curve through them.
+fn overlaps(picture: &Picture) -> Vec<String> {
+    let mut found = Vec::new();
+    for (i, label) in picture.labels.iter().enumerate() {
+        let mut others = picture.labels[i + 1..].iter();
+        let other = others.find(|b| label.meets([b.x.0, b.x.1, b.y.0, b.y.1]));
+        found.extend(other.map(|other| format!("{label:?} on {other:?}")));
+        let meets = |shape: &&Shape| {
+            let passes = |pair: &[(f64, f64)]| {
+                // Sampled finely enough: a letter is about a hundred units wide.
+                label.meets(bounds(pair))
+                    && (0..=200).map(|i| f64::from(i) / 200.0).any(|share| {
+                        let x = pair[0].0 + share * (pair[1].0 - pair[0].0);
+                        let y = pair[0].1 + share * (pair[1].1 - pair[0].1);
+                        label.meets([x, x, y, y])
+                    })
+            };
+            let is_on = |stroke: &Vec<(f64, f64)>| match shape.is_line {
+                true => stroke.windows(2).any(passes),
+                false => label.meets(bounds(stroke)),
+            };
+            shape.strokes.iter().any(is_on)
         };
-        let data = document.descendants().filter(|n| n.attribute("class") == Some("data"));
-        for group in data.filter(|n| !GUIDES.contains(&n.attribute("data-name").unwrap())) {
-            for path in group.descendants().filter(|n| n.attribute("d").is_some()) {
-                let classes = path.attribute("class").unwrap();
-                let shown = classes.split(' ').find(|class| class.starts_with("stroke"));
-                let is_ground =
-                    path.attribute("fill-opacity").is_some() || classes.contains("page");
-                if !is_ground || shown.is_some_and(|class| class != "stroke-page") {
-                    let class = shown.unwrap_or(classes);
-                    assert!(contrast(class) >= 3.0, "{}: {group:?}: {class}", id);
-                }
-                let is_mark = shown.is_some() && path.attribute("fill") != Some("none");
-                for mark in strokes(path.attribute("d").unwrap()).iter().filter(|_| is_mark) {
-                    let under = |label: &&Label| {
-                        let [left, right, top, bottom] = bounds(mark);
-                        let across = left < label.x.1 && right > label.x.0;
-                        across && top < label.y.1 && bottom > label.y.0
-                    };
-                    let label = labels.iter().find(under);
-                    assert!(label.is_none(), "{}: {group:?} under {label:?}", id);
-                }
+        let shape = picture.shapes.iter().find(meets);
+        found.extend(shape.map(|shape| format!("{label:?} on {}", shape.series)));
+    }
+    found
+}
+
+fn small(picture: &Picture) -> Vec<String> {
+    let pixels = |label: &Label| label.size * 360.0 / picture.size.0;
+    let small = picture.labels.iter().filter(|label| pixels(label) < 9.0);
+    small.map(|label| format!("{:?}: {} pixels", label.words, pixels(label))).collect()
+}
+
+/// What carries data or says something and has a contrast of less than three.
+fn faint(picture: &Picture) -> Vec<String> {
+    const GUIDES: [&str; 1] = ["equilibrium"];
+    let data = picture.shapes.iter().filter(|shape| !GUIDES.contains(&shape.series.as_str()));
+    let colours = data.map(|shape| &shape.colour);
+    let colours: BTreeSet<_> = colours.chain(picture.labels.iter().map(|l| &l.colour)).collect();
+    let least = |colour: &str| {
+        let [light, dark] = light_and_dark(colour);
+        let [white, black] = light_and_dark("page");
+        contrast(light, white).min(contrast(dark, black))
+    };
+    colours.into_iter().filter(|colour| least(colour) < 3.0).cloned().collect()
+}
+
+/// Series of one panel that differ by their colours only, which some readers do not see.
+fn alike(picture: &Picture) -> Vec<String> {
+    let mut series: BTreeMap<_, (BTreeSet<&str>, &str)> = BTreeMap::new();
+    for Shape { series: name, frame, colour, look, .. } in &picture.shapes {
+        series.entry((frame, name)).or_insert((BTreeSet::new(), colour)).0.insert(look);
+    }
+    let mut found = Vec::new();
+    for ((frame, name), (look, colour)) in &series {
+        for ((of, other), (its_look, its_colour)) in series.range((*frame, *name)..).skip(1) {
+            let [[a, b], [c, d]] = [colour, its_colour].map(|colour| light_and_dark(colour));
+            let alike = |a, b| contrast(a, b) < 1.25 || distance_without_green(a, b) < 10.0;
+            let is_alike = of == frame && look == its_look && colour != its_colour;
+            if is_alike && (alike(a, c) || alike(b, d)) {
+                found.push(format!("{name} and {other}"));
             }
         }
+    }
+    found
+}
+
+/// Words for colours that are others on a dark page.
+fn misnamed(picture: &Picture) -> Vec<String> {
+    const OTHERS: [&str; 9] =
+        ["black", "white", "dark", "darker", "light", "lighter", "pale", "brown", "yellow"];
+    let words = picture.words.split(|c: char| !c.is_alphabetic());
+    words.filter(|word| OTHERS.contains(word)).map(str::to_string).collect()
+}
+
+#[test]
+fn every_figure_can_be_read() {
+    let (pictures, mut found) = (pictures(), Vec::new());
+    for (what, check, wrong) in CHECKS {
+        let svg = format!("<svg viewBox=\"0 0 8400 4000\">{wrong}</svg>");
+        let broken = Picture::of("broken", &svg, "The darker, the more.".into());
+        assert!(!check(&broken).is_empty(), "{what}: a fault is not found");
+        let faults = |picture: &Picture| {
+            check(picture)
+                .into_iter()
+                .map(|fault| format!("{}: {what}: {fault}", picture.id))
+                .collect::<Vec<_>>()
+        };
+        found.extend(pictures.iter().flat_map(faults));
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    // A file has the colours of the page, and hues that are named stay: the same part is largest.
+    for named in QUICK.figures[0].svg().split("{fill:#").collect::<Vec<_>>().windows(2) {
+        let name = named[0].rsplit_once(".fill-").unwrap().1;
+        assert!(STYLE.contains(&format!("--{name}: #{}", &named[1][..6])), "{name}");
+    }
+    for name in ["red", "green", "blue", "orange"] {
+        let largest =
+            light_and_dark(name).map(|parts| (0..3).max_by(|a, b| parts[*a].total_cmp(&parts[*b])));
+        assert_eq!(largest[0], largest[1], "{name}");
     }
 }
 

@@ -202,7 +202,7 @@ impl DrawingBackend for Drawing {
     /// Sets words in the shipped fonts, whatever the font of the style; see `markup`. Nothing is
     /// drawn for no words.
     fn draw_text<S: BackendTextStyle>(&mut self, words: &str, style: &S, at: Point) -> Outcome {
-        let (mut glyphs, width) = font::set(words)?;
+        let (mut glyphs, width) = font::set(words, style.size() as i32)?;
         if glyphs.is_empty() {
             return Ok(());
         }

@@ -12,8 +12,11 @@ pub const EM: i32 = 1000;
 /// Height of a capital in units of the em, for vertical centring.
 pub const CAP_HEIGHT: i32 = 645;
 
-/// Size of a lowered or raised piece, in thousandths.
-pub const SCRIPT: i32 = 700;
+/// Size of a lowered or raised piece, in thousandths, in words that are large enough for it.
+const SCRIPT: i32 = 700;
+
+/// Least size of such a piece, in grid units: nine pixels where a figure is 360 pixels wide.
+const LEAST_SCRIPT: i32 = 211;
 
 /// Width of the stroke that makes a rim, half of which is visible.
 pub const RIM: u32 = 260;
@@ -34,8 +37,8 @@ pub struct Placed {
     pub glyph: u16,
     pub x: i32,
     pub y: i32,
-    /// Set at [`SCRIPT`] size.
-    pub small: bool,
+    /// Size in thousandths; less than a thousand for a lowered or raised piece.
+    pub scale: i32,
 }
 
 fn font(face: Face) -> Result<FontRef<'static>, Error> {
@@ -47,9 +50,10 @@ fn font(face: Face) -> Result<FontRef<'static>, Error> {
     FontRef::try_from_slice(file).map_err(unreadable)
 }
 
-/// Sets a label in type: returns its glyphs, in reading order and without blanks, and its width in
-/// em units. A character that the face lacks is an error.
-pub fn set(label: &str) -> Result<(Vec<Placed>, i32), Error> {
+/// Sets a label in type whose em is `size`: returns its glyphs, in reading order and without
+/// blanks, and its width in em units. A character that the face lacks is an error.
+pub fn set(label: &str, size: i32) -> Result<(Vec<Placed>, i32), Error> {
+    let script = SCRIPT.max(LEAST_SCRIPT * EM / size.max(1) + 1);
     let (mut glyphs, mut width): (Vec<Placed>, i32) = (Vec::new(), 0);
     // `x` is the pen, `start` is where a raised part stands above a lowered one.
     let (mut x, mut start, mut lift) = (0, 0, 0);
@@ -74,8 +78,8 @@ pub fn set(label: &str) -> Result<(Vec<Placed>, i32), Error> {
         }
         let (scale, y) = match piece.level {
             Level::Base => (EM, 0),
-            Level::Sub => (SCRIPT, SUB_SHIFT),
-            Level::Sup => (SCRIPT, SUP_SHIFT + lift),
+            Level::Sub => (script, SUB_SHIFT),
+            Level::Sup => (script, SUP_SHIFT + lift),
         };
         for character in piece.text.chars() {
             let id = face.glyph_id(character);
@@ -83,8 +87,8 @@ pub fn set(label: &str) -> Result<(Vec<Placed>, i32), Error> {
                 return Err(Error::Glyph { character, label: label.into() });
             }
             if !character.is_whitespace() {
-                let (face, glyph, small) = (piece.face, id.0, scale != EM);
-                glyphs.push(Placed { face, glyph, x, y, small });
+                let (face, glyph) = (piece.face, id.0);
+                glyphs.push(Placed { face, glyph, x, y, scale });
             }
             x += (face.h_advance_unscaled(id) * scale as f32 / EM as f32).round() as i32;
         }
@@ -96,7 +100,7 @@ pub fn set(label: &str) -> Result<(Vec<Placed>, i32), Error> {
 
 /// Returns the width of a label whose em is `size`.
 pub fn width(label: &str, size: i32) -> Result<i32, Error> {
-    Ok(set(label)?.1 * size / EM)
+    Ok(set(label, size)?.1 * size / EM)
 }
 
 /// Returns the name of a glyph inside a drawing.

@@ -116,7 +116,7 @@ impl Writer<'_> {
         let rim = label.rim.then_some((WHITE, Some(Stroke::solid(WHITE, font::RIM))));
         for (colour, edge) in rim.into_iter().chain([(label.colour, None)]) {
             for placed in &label.glyphs {
-                let size = if placed.small { font::SCRIPT as f32 / font::EM as f32 } else { 1.0 };
+                let size = placed.scale as f32 / font::EM as f32;
                 let place = [size, 0.0, 0.0, size, placed.x as f32, placed.y as f32];
                 self.content.save_state().transform(place);
                 let drawing = self.drawing;

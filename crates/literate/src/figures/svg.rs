@@ -90,8 +90,8 @@ fn label(label: &Label, on_page: bool) -> String {
     let mut glyphs = String::new();
     for placed in &label.glyphs {
         let (id, x, y) = (font::id(placed), placed.x, placed.y);
-        let place = if placed.small {
-            let script = f64::from(font::SCRIPT) / f64::from(font::EM);
+        let place = if placed.scale < font::EM {
+            let script = f64::from(placed.scale) / f64::from(font::EM);
             format!("transform=\"translate({x} {y}) scale({script})\"")
         } else {
             format!("x=\"{x}\" y=\"{y}\"")
