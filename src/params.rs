@@ -13,7 +13,7 @@ mod methods;
 mod nucleation;
 mod runs;
 
-pub use accuracy::{BENCH, BiasParams, RaceParams, ScaleParams, trial_settings};
+pub use accuracy::{BENCH, BiasParams, Means, RaceParams, ScaleParams, trial_settings};
 pub use chosen::*;
 pub use ensemble::{Beyond, Ensemble, Heating, lowered};
 pub use ensembles::*;

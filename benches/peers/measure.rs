@@ -7,7 +7,9 @@ use clap::Parser;
 use impact_chain::methods::{Certified, Method};
 use impact_chain::{Counters, Engine, Error, Scenario, State};
 use impact_numerics::random::NormalPairs;
-use impact_paper::params::{BiasParams, Chain, MethodName, Profile, RaceParams, Runs, Setting};
+use impact_paper::params::{
+    BiasParams, Chain, Means, MethodName, Profile, RaceParams, Runs, Setting,
+};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::sync::LazyLock;
@@ -185,12 +187,11 @@ fn cases(of: Of) -> Vec<(Runs, Setting)> {
             RaceParams::new(Profile::Full).settings.into_iter().map(|way| (race(), way)).collect()
         }
         Of::Bias => {
-            let BiasParams { chains, settings, .. } = BiasParams::new(Profile::Full);
-            let of = |runs: &Runs| {
-                let with = |n: usize| Runs { realisations: n, ..runs.clone() };
-                settings.iter().map(|(setting, n)| (with(*n), *setting)).collect::<Vec<_>>()
+            let of = |Means { chains, settings, .. }: Means| {
+                let with = move |n: usize| Runs { realisations: n, ..chains.clone() };
+                settings.into_iter().map(move |(setting, n)| (with(n), setting))
             };
-            chains.iter().flat_map(of).collect()
+            BiasParams::new(Profile::Full).means.into_iter().flat_map(of).collect()
         }
     }
 }
@@ -226,7 +227,7 @@ fn row((runs, setting): &(Runs, Setting), repetitions: usize) -> Result<Value, F
             }
         }
     };
-    let method = setting.method.with(setting.value);
+    let method = setting.method();
     let (mut best, mut engine, impacts) = (f64::INFINITY, f64::INFINITY, once(method.as_ref())?);
     for _ in 0..repetitions {
         engine = engine.min(timed(&Certified)?);

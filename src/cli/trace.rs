@@ -125,7 +125,7 @@ const METHODS: [MethodLine; 8] = [
     (
         MethodName::Truth,
         None,
-        "Every time to 106 bits, slowly: supports walls, one frequency, no contact; takes the next gap from the engine",
+        "Every time to 106 bits, slowly: supports walls, one frequency, no contact; shares nothing with the engine",
     ),
 ];
 
@@ -163,7 +163,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     let number = if args.lines { "scenario," } else { "" };
     let columns = if args.at.is_some() { "mass,position,velocity" } else { "gap,closing_speed" };
-    let method = args.method.with(setting(&args)?);
+    let method = args.method.with(setting(&args)?, 0.0);
     let latest = Arc::new(AtomicU64::new(0));
     let mut printer = Printer {
         out: BufWriter::new(io::stdout().lock()),

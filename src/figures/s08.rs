@@ -4,7 +4,7 @@
 use super::prelude::*;
 use crate::experiments::accuracy::tables::{Compared, compared};
 use crate::experiments::{BIAS, MEASURED, Results};
-use crate::params::{MethodName::Certified, Setting};
+use crate::params::{Means, MethodName::Certified, Setting};
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 
@@ -26,10 +26,12 @@ type Row = (f64, Setting, Estimate);
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (biases, measured) = (results.of(&BIAS)?, results.of(&MEASURED)?);
     let rows = compared(biases);
-    let (sigmas, number) = (&biases.parameters.chains, biases.parameters.settings.len() as i32);
-    let height = number * ROW;
-    let sheet = Sheet::new((sigmas.len() as i32 * (height + 450) + 1000) as u32);
-    for (i, chains) in sigmas.iter().enumerate() {
+    let means = &biases.parameters.means;
+    let height = |of: &Means| of.settings.len() as i32 * ROW;
+    let sheet = Sheet::new(means.iter().map(|of| height(of) + 450).sum::<i32>() as u32 + 1000);
+    let mut top = 500;
+    for (i, of) in means.iter().enumerate() {
+        let chains = &of.chains;
         let time =
             |setting| measured.method(setting, chains.chain.masses, chains.sigma)?.thousand();
         let mut found: Vec<Row> = Vec::new();
@@ -40,12 +42,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             }
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let top = 500 + i as i32 * (height + 450);
-        let frame = Frame::new(2550, top, 5750, top + height);
-        let engine = Setting { method: Certified, value: 0.0 };
-        let is_last = i + 1 == sigmas.len();
+        let frame = Frame::new(2550, top, 5750, top + height(of));
+        top += height(of) + 450;
+        let engine = Setting { method: Certified, value: 0.0, stop: 0.0 };
+        let is_last = i + 1 == means.len();
         let panel = rows_of(&sheet, frame, &found, time(engine), is_last)?;
-        panel.heading(LETTERS[i], &format!("*σ* = {}", chains.sigma))?;
+        panel.heading(LETTERS[i], &format!("*σ* = {}, *T* = {}", chains.sigma, of.transient))?;
     }
     let style = words(SMALL, INK, HPos::Right, VPos::Bottom);
     for (name, right) in [("difference (%)", 7200), ("time (s)", 8250)] {
@@ -55,7 +57,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let description = describe!(
         "Difference of the mean number of impacting gaps from the engine's, with 95 % intervals, at {} σ; rows are methods with a step or \
          tolerance, by rising time. {} of {} differences are clear (discs).",
-        sigmas.len(),
+        means.len(),
         rows.iter().filter(clear).count(),
         rows.len(),
     );

@@ -1,6 +1,6 @@
 //! Sizes of the experiments on the speed and accuracy of methods.
 
-use super::chosen::{SEED, printed_threshold};
+use super::chosen::SEED;
 use super::methods::{MethodName, Setting};
 use super::runs::Runs;
 use impact_chain::{Chain, Protocol};
@@ -34,15 +34,19 @@ const SCENES: [&[f64]; 7] =
 /// The same against the number of masses, without the last method.
 const SCALE: [&[f64]; 6] = [&[0.0], &[0.1], &[1e-12], &[1e-6], &[0.01], &[0.01]];
 
-/// The same for the error of the mean, with numbers of chains: the cheaper, the more.
-const BIAS: [&[(f64, usize)]; 7] = [
-    &[(0.0, 1000)],
-    &[(0.5, 80), (0.1, 30)],
-    &[(1e-2, 60), (1e-12, 150)],
-    &[(1e-3, 12), (1e-6, 20)],
-    &[(0.1, 300), (0.01, 40)],
-    &[(0.1, 1000), (0.01, 100)],
-    &[(0.1, 100), (0.01, 40)],
+/// σ of the chains whose mean is compared, and the time T that is dropped: up the rise, and late.
+const MEANS: [(f64, f64); 4] = [(0.11, 200.0), (0.12, 200.0), (0.14, 200.0), (0.115, 2000.0)];
+
+/// The settings there, with a number of chains for each of [`MEANS`]: the cheaper, the more, and
+/// as many as the questions of `experiments/accuracy/answers.rs` need.
+const BIAS: [&[(f64, [usize; 4])]; 7] = [
+    &[(0.0, [1000, 500, 2000, 200])],
+    &[(0.5, [12, 6, 6, 0]), (0.1, [20, 20, 20, 0])],
+    &[(1e-2, [60, 60, 60, 30]), (1e-12, [150, 100, 100, 30])],
+    &[(1e-3, [12, 8, 4, 0]), (1e-6, [12, 8, 8, 0])],
+    &[(0.1, [200, 150, 150, 60]), (0.01, [30, 30, 30, 0])],
+    &[(0.1, [1000, 500, 2000, 200]), (0.01, [60, 60, 60, 0])],
+    &[(0.1, [60, 40, 40, 30]), (0.01, [30, 30, 30, 0])],
 ];
 
 fn all<T: Copy>(values: &[&[T]]) -> Vec<(MethodName, T)> {
@@ -51,7 +55,7 @@ fn all<T: Copy>(values: &[&[T]]) -> Vec<(MethodName, T)> {
 }
 
 fn settings(values: &[&[f64]]) -> Vec<Setting> {
-    all(values).into_iter().map(|(method, value)| Setting { method, value }).collect()
+    all(values).into_iter().map(|(method, value)| Setting { method, value, stop: 0.0 }).collect()
 }
 
 /// Random stream and seed of the chains on which other programs are measured.
@@ -85,8 +89,20 @@ impl RaceParams {
     }
 }
 
+/// Stopping speeds there, each with the fine setting of a method that locates impacts.
+const STOPS: [f64; 2] = [1e-3, 1e-4];
+
+/// Returns the settings there: methods in their order, from coarse to fine, then with the stopping
+/// speeds.
 pub fn trial_settings() -> Vec<Setting> {
-    settings(&SCENES)
+    let mut all = settings(&SCENES);
+    for method in MethodName::ALL.into_iter().filter(|method| method.locates_impacts()) {
+        if let Some(fine) = all.iter().rposition(|setting| setting.method == method) {
+            let stopping = STOPS.map(|stop| Setting { stop, ..all[fine] });
+            all.splice(fine + 1..fine + 1, stopping);
+        }
+    }
+    all
 }
 
 /// Counted work of an impact against the number of masses.
@@ -113,37 +129,41 @@ impl ScaleParams {
 /// The mean number of distinct gaps by every method, on the same chains.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BiasParams {
-    /// Chains of the main sweep, for each σ on the rise.
-    pub chains: Vec<Runs>,
+    pub means: Vec<Means>,
+}
+
+/// Chains of one σ, and the methods that run them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Means {
+    /// Chains of the main sweep, to the end of the window.
+    pub chains: Runs,
     /// Time T that is dropped; the window goes from there to the end of the runs.
     pub transient: f64,
-    /// The methods, the engine first, each with its number of realisations.
+    /// The methods that run any of them, the engine first, each with its number of chains.
     pub settings: Vec<(Setting, usize)>,
 }
 
 impl BiasParams {
     pub fn new(profile: Profile) -> Self {
-        let mut sigmas = vec![0.11, printed_threshold(), 0.14];
-        let mut protocol = Protocol::default();
-        let all = all(&BIAS).into_iter();
-        let mut settings: Vec<(Setting, usize)> =
-            all.map(|(method, (value, n))| (Setting { method, value }, n)).collect();
-        if profile == Profile::Quick {
-            sigmas.remove(0);
-            protocol = Protocol { transient: 100.0, window: 100.0 };
-            settings.iter_mut().for_each(|(_, realisations)| *realisations = 2);
-        }
-        let realisations = settings.iter().map(|pair| pair.1).max().unwrap_or(0);
-        let (until, transient) = (protocol.end(), protocol.transient);
-        let chains = |sigma| {
-            let (chain, stream) = (Chain::default(), "sweep".into());
-            Runs { chain, sigma, until, realisations, stream, seed: SEED }
-        };
-        BiasParams { chains: sigmas.into_iter().map(chains).collect(), transient, settings }
+        let quick = profile == Profile::Quick;
+        let means = MEANS.iter().enumerate().skip(usize::from(quick)).map(|(i, &at)| {
+            let (sigma, transient) = if quick { (at.0, 100.0) } else { at };
+            let window = if quick { 100.0 } else { Protocol::default().window };
+            let with = |(method, (value, chains)): (MethodName, (f64, [usize; 4]))| {
+                let chains = if quick { chains[i].min(2) } else { chains[i] };
+                (Setting { method, value, stop: 0.0 }, chains)
+            };
+            let settings = all(&BIAS).into_iter().map(with).filter(|(_, chains)| *chains > 0);
+            let settings: Vec<(Setting, usize)> = settings.collect();
+            let (chain, until, stream) = (Chain::default(), transient + window, "sweep".into());
+            let realisations = settings[0].1;
+            let chains = Runs { chain, sigma, until, realisations, stream, seed: SEED };
+            Means { chains, transient, settings }
+        });
+        BiasParams { means: means.collect() }
     }
 
     pub fn runs(&self) -> u64 {
-        let realisations: usize = self.settings.iter().map(|(_, realisations)| realisations).sum();
-        (self.chains.len() * realisations) as u64
+        self.means.iter().flat_map(|of| &of.settings).map(|(_, chains)| *chains as u64).sum()
     }
 }

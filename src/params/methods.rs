@@ -30,13 +30,14 @@ impl MethodName {
         MethodName::Penalty,
     ];
 
-    /// Returns the method with a step in units of 1/ω or a tolerance, if it has one.
-    pub fn with(self, value: f64) -> Box<dyn Method> {
+    /// Returns the method with a step in units of 1/ω or a tolerance, if it has one, and with a
+    /// stopping speed, if it locates impacts by these.
+    pub fn with(self, value: f64, stop: f64) -> Box<dyn Method> {
         match self {
             MethodName::Certified => Box::new(Certified),
-            MethodName::Sampled => Box::new(Sampled { step: value }),
-            MethodName::Advancement => Box::new(Advancement { tolerance: value }),
-            MethodName::RungeKutta => Box::new(RungeKutta { tolerance: value }),
+            MethodName::Sampled => Box::new(Sampled { step: value, stop }),
+            MethodName::Advancement => Box::new(Advancement { tolerance: value, stop }),
+            MethodName::RungeKutta => Box::new(RungeKutta { tolerance: value, stop }),
             MethodName::MoreauJean => Box::new(MoreauJean { step: value }),
             MethodName::Verlet => Box::new(Verlet { step: value }),
             MethodName::Penalty => Box::new(Penalty { step: value }),
@@ -46,7 +47,7 @@ impl MethodName {
 
     /// Its name in results and on the command line: `runge-kutta`.
     pub fn id(self) -> &'static str {
-        self.with(0.0).name()
+        self.with(0.0, 0.0).name()
     }
 
     /// Returns its name in figures and tables: `Runge–Kutta`.
@@ -63,6 +64,11 @@ impl MethodName {
         }
     }
 
+    /// Whether it goes from impact to impact, so that a stopping speed helps it to a rest.
+    pub fn locates_impacts(self) -> bool {
+        matches!(self, MethodName::Sampled | MethodName::Advancement | MethodName::RungeKutta)
+    }
+
     pub fn has_tolerance(self) -> bool {
         matches!(self, MethodName::Advancement | MethodName::RungeKutta)
     }
@@ -74,4 +80,12 @@ pub struct Setting {
     pub method: MethodName,
     /// Step h in units of 1/ω, or tolerance.
     pub value: f64,
+    /// Stopping speed in units of d ω: no impact leaves a gap opening more slowly.
+    pub stop: f64,
+}
+
+impl Setting {
+    pub fn method(self) -> Box<dyn Method> {
+        self.method.with(self.value, self.stop)
+    }
 }

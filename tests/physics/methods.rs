@@ -36,9 +36,9 @@ fn impacts(method: &dyn Method, scenario: &Scenario, until: f64) -> Vec<Impact> 
 fn all() -> Vec<Box<dyn Method>> {
     vec![
         Box::new(Certified),
-        Box::new(Sampled { step: 0.01 }),
-        Box::new(Advancement { tolerance: 1e-13 }),
-        Box::new(RungeKutta { tolerance: 1e-9 }),
+        Box::new(Sampled { step: 0.01, stop: 0.0 }),
+        Box::new(Advancement { tolerance: 1e-13, stop: 0.0 }),
+        Box::new(RungeKutta { tolerance: 1e-9, stop: 0.0 }),
         Box::new(MoreauJean { step: 1e-3 }),
         Box::new(Verlet { step: 1e-3 }),
         Box::new(Penalty { step: 1e-4 }),
@@ -96,7 +96,8 @@ fn methods_have_their_order() {
         assert!((order - expected).abs() < 0.1, "{}: {order}", methods[0].name());
     }
     // The error is the tolerance's, over five decades, and the steps are its fifth root.
-    let tolerances = [&RungeKutta { tolerance: 1e-6 }, &RungeKutta { tolerance: 1e-11 }];
+    let tolerances =
+        [&RungeKutta { tolerance: 1e-6, stop: 0.0 }, &RungeKutta { tolerance: 1e-11, stop: 0.0 }];
     let grown = grown(tolerances.map(|method| method as &dyn Method));
     let [error, steps] = grown.map(|x| x.log10() / 5.0);
     assert!((error - 1.0).abs() < 0.15 && (steps - 0.2).abs() < 0.03, "{error} {steps}");
@@ -116,7 +117,7 @@ fn runs_stop_and_go_on() {
             velocities: engine.velocities(30.0).unwrap(),
         };
         let exact = run(&mut engine, 40.0);
-        let more: Box<dyn Method> = Box::new(Sampled { step: 0.1 });
+        let more: Box<dyn Method> = Box::new(Sampled { step: 0.1, stop: 0.0 });
         for method in all().into_iter().chain([more]) {
             let name = method.name();
             let mut found: Vec<Impact> = Vec::new();
@@ -165,12 +166,12 @@ fn no_method_loops_or_panics_on_bad_data() {
     }
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY, 2.0, 1e-300] {
         let wrong: [&dyn Method; 6] = [
-            &Sampled { step },
-            &Advancement { tolerance: step },
+            &Sampled { step, stop: 0.0 },
+            &Advancement { tolerance: step, stop: 0.0 },
             &MoreauJean { step },
             &Verlet { step },
             &Penalty { step },
-            &RungeKutta { tolerance: step },
+            &RungeKutta { tolerance: step, stop: 0.0 },
         ];
         for method in wrong {
             let error = trace(method, &good, 1.0).1.unwrap_err().to_string();

@@ -1,7 +1,7 @@
 //! The error of a method in the mean number of gaps that impact, on the same chains.
 
 use crate::experiments::prelude::*;
-use crate::params::{BiasParams, Runs, Setting};
+use crate::params::{BiasParams, Means, Setting};
 use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -16,23 +16,24 @@ pub type GapCount = Option<u32>;
 
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
     let stage = progress.stage("error of the mean", parameters.runs());
-    let settings = |chains: &Runs| {
-        let one = |&(Setting { method, value }, realisations): &(Setting, usize)| {
-            let method = method.with(value);
+    let methods = |of: &Means| {
+        let one = |&(setting, realisations): &(Setting, usize)| {
+            let method = setting.method();
             each(&stage, progress, 0..realisations as u64, |index| {
-                let scenario = chains.scenario(index);
+                let scenario = of.chains.scenario(index);
                 let mut hit = vec![false; scenario.gaps()];
                 let mut see = |impact: Impact| {
-                    hit[impact.gap] |= impact.time > parameters.transient;
+                    hit[impact.gap] |= impact.time > of.transient;
                     !progress.stopped()
                 };
-                let ran = method.run((&scenario, &State::of(&scenario), chains.until), &mut see);
+                let task = (&scenario, &State::of(&scenario), of.chains.until);
+                let ran = method.run(task, &mut see);
                 progress.check()?;
                 Ok(ran.ok().map(|_| hit.iter().map(|hit| u32::from(*hit)).sum()))
             })
         };
-        parameters.settings.par_iter().map(one).collect()
+        of.settings.par_iter().map(one).collect()
     };
-    let runs = parameters.chains.par_iter().map(settings).collect::<Result<_, Error>>()?;
+    let runs = parameters.means.par_iter().map(methods).collect::<Result<_, Error>>()?;
     Ok(Biases { runs, parameters: parameters.clone() })
 }

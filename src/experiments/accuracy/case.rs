@@ -113,23 +113,26 @@ impl Case {
         Scenario::parse_json(&self.scenario.to_string())
     }
 
-    /// Runs a method and judges its impacts. The run ends as soon as the outcome is known.
-    pub fn run(&self, method: &dyn Method) -> Outcome {
-        let Ok(scenario) = self.chain() else { return Outcome::Refused };
-        let mut seen = Vec::new();
+    /// Runs a method and judges its impacts. Returns the outcome, as soon as it is known, and the
+    /// least speed at which a gap opened after an impact by the law; infinite without an impact.
+    pub fn run(&self, method: &dyn Method) -> (Outcome, f64) {
+        let Ok(scenario) = self.chain() else { return (Outcome::Refused, f64::INFINITY) };
+        let (mut seen, mut slowest) = (Vec::new(), f64::INFINITY);
         let ran = method.run((&scenario, &self.start, self.until), &mut |impact| {
+            slowest = slowest.min(scenario.restitution * impact.closing_speed);
             if self.expected.counts(&impact) {
                 seen.push(impact);
             }
             seen.len() < self.expected.enough()
         });
-        match ran.map(|cost| (self.judge(&seen), cost.undecided)) {
+        let outcome = match ran.map(|cost| (self.judge(&seen), cost.undecided)) {
             Ok((Outcome::Right, _)) => Outcome::Right,
             Ok((_, undecided)) if undecided > 0 => Outcome::Warned,
             Ok((outcome, _)) => outcome,
             Err(Failure::Work { .. }) => Outcome::GaveUp,
             Err(_) => Outcome::Refused,
-        }
+        };
+        (outcome, slowest)
     }
 
     /// Judges all impacts of a run, in the order of time.
@@ -237,7 +240,7 @@ mod tests {
     fn a_method_that_errs_is_not_right() {
         for scene in scenes() {
             for case in scene.cases.iter().filter(|case| case.until < 1e3) {
-                let [late, blind] = [0.05, 0.0].map(|by| case.run(&False(by)));
+                let [late, blind] = [0.05, 0.0].map(|by| case.run(&False(by)).0);
                 if late == Outcome::Refused {
                     continue;
                 }

@@ -111,7 +111,7 @@ fn entry(
     targets: &[Target],
     progress: &Progress,
 ) -> Result<Entry, Error> {
-    let method = setting.method.with(setting.value);
+    let method = setting.method();
     let (mut cost, mut runs) = (Cost::default(), Vec::with_capacity(courses.len()));
     for course in courses {
         let (run, work) = follow(parameters, method.as_ref(), course, progress);

@@ -24,7 +24,7 @@ pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error
         let scenario = Scenario::draw(&chain, parameters.sigma, &mut normals);
         let (start, until) = (State::of(&scenario), until(setting, masses));
         let mut go_on = |_| !progress.stopped();
-        let cost = setting.method.with(setting.value).run((&scenario, &start, until), &mut go_on);
+        let cost = setting.method().run((&scenario, &start, until), &mut go_on);
         progress.check()?;
         let cost = cost.map_err(|source| Error::failed("scale", source))?;
         Ok((setting, masses, cost.evaluations_per_impact().unwrap_or(0.0)))

@@ -14,8 +14,13 @@ pub fn titled(settings: &[Setting]) -> String {
         return method.title().to_string();
     }
     let letter = if method.has_tolerance() { r"\mathrm{tol}" } else { "h" };
-    let values: Vec<String> = settings.iter().map(|setting| power(setting.value)).collect();
-    format!("{}, ${letter} = {}$", method.title(), values.join(r";\ "))
+    let joined = |values: Vec<String>| values.join(r";\ ");
+    let (bouncing, stopping): (Vec<&Setting>, Vec<&Setting>) =
+        settings.iter().partition(|setting| setting.stop == 0.0);
+    let steps = joined(bouncing.iter().map(|setting| power(setting.value)).collect());
+    let stops = joined(stopping.iter().map(|setting| power(setting.stop)).collect());
+    let stops = if stops.is_empty() { stops } else { format!(r";\ \mathrm{{stop}} = {stops}") };
+    format!("{}, ${letter} = {steps}{stops}$", method.title())
 }
 
 /// Writes 0.03 as it is, and 1e-9 as a power of ten.
@@ -89,12 +94,12 @@ pub struct Compared {
     pub share: Option<Estimate>,
 }
 
-/// Returns the comparisons of all rivals, settings outer.
+/// Returns the comparisons of all rivals, σ outer.
 pub fn compared(biases: &Biases) -> Vec<Compared> {
     let mut rows = Vec::new();
-    for (i, &(setting, _)) in biases.parameters.settings.iter().enumerate().skip(1) {
-        for (chains, runs) in biases.parameters.chains.iter().zip(&biases.runs) {
-            let both = runs[i].iter().zip(&runs[0]).filter_map(|(theirs, ours)| theirs.zip(*ours));
+    for (of, runs) in biases.parameters.means.iter().zip(&biases.runs) {
+        for (&(setting, _), run) in of.settings.iter().zip(runs).skip(1) {
+            let both = run.iter().zip(&runs[0]).filter_map(|(theirs, ours)| theirs.zip(*ours));
             let [theirs, ours]: [Vec<f64>; 2] =
                 both.map(|(a, b)| (f64::from(a), f64::from(b))).unzip().into();
             let differences: Vec<f64> = theirs.iter().zip(&ours).map(|(a, b)| a - b).collect();
@@ -104,7 +109,12 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
                 let error = standard_error(&differences).filter(|error| *error > 0.0)?;
                 Some(with_error(mean(&differences)? / mean_count, error / mean_count))
             };
-            rows.push(Compared { setting, sigma: chains.sigma, pairs: ours.len(), share: share() });
+            rows.push(Compared {
+                setting,
+                sigma: of.chains.sigma,
+                pairs: ours.len(),
+                share: share(),
+            });
         }
     }
     rows
@@ -118,9 +128,9 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
         .computed_by(origin(bias::run))
         .estimate("share", "1", "error of the mean over the mean", |row| row.share)
         .done();
-    let engine = biases.parameters.chains.iter().zip(&biases.runs).map(|(chains, runs)| {
+    let engine = biases.parameters.means.iter().zip(&biases.runs).map(|(of, runs)| {
         let counts: Vec<f64> = runs[0].iter().flatten().map(|k| f64::from(*k)).collect();
-        (chains.sigma, counts)
+        (of.chains.sigma, counts)
     });
     let engine: Vec<_> = engine.collect();
     let means = Table::of("bias.means", &engine, |(_, counts)| counts.len())

@@ -59,21 +59,55 @@ pub fn trouble(trial: &Trial) -> Option<Outcome> {
 
 pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Error> {
     let TrialParams { scenes, settings } = parameters;
-    let stage = progress.stage("scenes where methods fail", (scenes.len() * settings.len()) as u64);
+    let stage = progress.stage("scenes where methods fail", parameters.cases() as u64);
     let of_scene = |scene: &Scene| {
-        each(&stage, progress, settings, |setting| {
-            let one = |case| progress.check().map(|()| outcome(*setting, case));
-            scene.cases.iter().map(one).collect()
-        })
+        let cases = each(&stage, progress, &scene.cases, |case| {
+            progress.check().map(|()| outcomes(settings, case))
+        })?;
+        let trial = |i: usize| cases.iter().map(|found| found[i]).collect();
+        Ok((0..settings.len()).map(trial).collect())
     };
-    let found = scenes.par_iter().map(of_scene).collect::<Result<_, _>>()?;
+    let found = scenes.par_iter().map(of_scene).collect::<Result<_, Error>>()?;
     Ok(Trials { parameters: parameters.clone(), found })
 }
 
-fn outcome(Setting { method, value }: Setting, case: &Case) -> Outcome {
-    let steps = (case.until - case.start.time) / value;
-    if value > 0.0 && !method.has_tolerance() && steps > MOST_STEPS {
-        return Outcome::GaveUp;
+/// Returns the outcome with each setting; a stopping speed follows the same setting without one.
+fn outcomes(settings: &[Setting], case: &Case) -> Vec<Outcome> {
+    let mut bouncing = (Outcome::GaveUp, 0.0);
+    let of = |setting: &Setting| {
+        if setting.stop == 0.0 {
+            bouncing = outcome(*setting, case);
+        } else if bouncing.0 == Outcome::GaveUp || bouncing.1 < setting.stop {
+            return outcome(*setting, case).0;
+        }
+        // A run in which every gap opened faster is the same with a stopping speed.
+        bouncing.0
+    };
+    settings.iter().map(of).collect()
+}
+
+fn outcome(setting: Setting, case: &Case) -> (Outcome, f64) {
+    let steps = (case.until - case.start.time) / setting.value;
+    if setting.value > 0.0 && !setting.method.has_tolerance() && steps > MOST_STEPS {
+        return (Outcome::GaveUp, 0.0);
     }
-    case.run(method.with(value).as_ref())
+    case.run(setting.method().as_ref())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::MethodName;
+
+    #[test]
+    fn a_stopping_speed_brings_a_mass_to_rest() {
+        let scenes = scenes();
+        let held = scenes.iter().find(|scene| scene.id == "held").unwrap();
+        for method in MethodName::ALL.into_iter().filter(|method| method.locates_impacts()) {
+            let settings = [0.0, 1e-3].map(|stop| Setting { method, value: 1e-2, stop });
+            for case in &held.cases {
+                assert_eq!(outcomes(&settings, case), [Outcome::GaveUp, Outcome::Right]);
+            }
+        }
+    }
 }

@@ -20,11 +20,13 @@ use crate::search::earliest::Earliest;
 /// - Fails: no zero is passed, but a gap that comes within the tolerance of zero is hit, also one
 ///   that opens and turns back within it; near a graze the steps get short; a chatter has
 ///   infinitely many impacts in a finite time, and there is no rest in contact: the bound on work
-///   ends the run there.
+///   ends the run there, unless a stopping speed is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Advancement {
     /// Width of a closing gap, in units of d, at which it is hit.
     pub tolerance: f64,
+    /// No impact leaves a gap opening more slowly.
+    pub stop: f64,
 }
 
 impl Rival for Advancement {
@@ -32,7 +34,8 @@ impl Rival for Advancement {
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
         let (scenario, start, until) = task;
-        let flights = Flights::new(task)?;
+        let mut flights = Flights::new(task)?;
+        flights.stop = self.stop;
         check_tolerance(self.tolerance)?;
         let gaps = flights.topology.gaps();
         let mut queue = Earliest::new(gaps);
@@ -68,8 +71,7 @@ impl Gaps {
             let mut gap = self.flights.gap_at(k, 0.0, &phases);
             if gap.width <= self.reached && gap.rate < 0.0 {
                 let speed = -gap.rate;
-                self.flights.hit(k, speed, &phases);
-                gap.rate = self.flights.restitution * speed;
+                gap.rate = self.flights.hit(k, speed, &phases);
                 for j in self.flights.topology.near(k) {
                     tally.cost.evaluations += 1;
                     let neighbour = self.flights.gap_at(j, 0.0, &phases);

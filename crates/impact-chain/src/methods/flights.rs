@@ -23,6 +23,8 @@ pub struct Flights {
     pub topology: Topology,
     pub spacing: f64,
     pub restitution: f64,
+    /// No impact leaves a gap opening more slowly.
+    pub stop: f64,
     omega: f64,
     rate: Rate,
     /// Free parts (a_j, b_j) of all bodies; 0 for the walls.
@@ -42,6 +44,7 @@ impl Flights {
             topology: Topology::new(scenario.forcing.len(), scenario.boundary),
             spacing: scenario.spacing,
             restitution: scenario.restitution,
+            stop: 0.0,
             omega: w,
             rate: Rate::new(w),
             free: vec![[0.0; 2]; u.len()],
@@ -108,15 +111,18 @@ impl Flights {
         [INFLATION * reach, INFLATION * curvature]
     }
 
-    /// Applies the impact law at gap k: a jump of velocity only rotates into the free part.
-    pub fn hit(&mut self, k: usize, speed: f64, phases: &FlightPhases) {
+    /// Applies the impact law at gap k: a jump of velocity only rotates into the free part. Returns
+    /// the rate at which the gap opens.
+    pub fn hit(&mut self, k: usize, speed: f64, phases: &FlightPhases) -> f64 {
+        let rebound = (self.restitution * speed).max(self.stop);
         let sides = self.topology.sides(k);
         let inverse = self.topology.inverse_masses(k);
         let (sin, cos) = phases.0;
-        for (side, jump) in sides.into_iter().zip(jumps(speed, self.restitution, inverse)) {
+        for (side, jump) in sides.into_iter().zip(jumps(speed + rebound, 0.0, inverse)) {
             let kick = jump / self.omega;
             self.free[side][0] -= kick * sin;
             self.free[side][1] += kick * cos;
         }
+        rebound
     }
 }

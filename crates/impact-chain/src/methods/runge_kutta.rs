@@ -23,11 +23,13 @@ use crate::search::clock::Instant;
 /// - Order: 5 at the ends of steps, 4 between them, where impacts lie.
 /// - Fails: two roots within a step leave no change of sign, so grazes and short dips are missed,
 ///   and the steps of a loose tolerance are long; the error in flight adds up; each event costs a
-///   step of all masses; a chatter ends in the bound on work.
+///   step of all masses; a chatter ends in the bound on work, unless a stopping speed is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RungeKutta {
     /// Error allowed in a step, relative.
     pub tolerance: f64,
+    /// No impact leaves a gap opening more slowly.
+    pub stop: f64,
 }
 
 /// The first step, in units of 1/max(ω, Ω).
@@ -38,7 +40,8 @@ impl Rival for RungeKutta {
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
         let (scenario, start, until) = task;
-        let (row, now) = (Bodies::new(task)?, Instant::at(start.time));
+        let (mut row, now) = (Bodies::new(task)?, Instant::at(start.time));
+        row.stop = self.stop;
         check_tolerance(self.tolerance)?;
         let stages = Stages::new(&row, now);
         let mut steps = Steps { stages, row, now, tolerance: self.tolerance };
@@ -115,8 +118,7 @@ impl Steps {
             self.stages.cut(s / h);
             self.now = self.now.after(s);
         }
-        let bodies = self.row.u.len();
-        let (u, v) = self.stages.y.split_at_mut(bodies);
+        let (u, v) = self.stages.y.split_at_mut(self.row.u.len());
         self.row.u.copy_from_slice(u);
         self.row.v.copy_from_slice(v);
         let speed = (-self.row.rate(k)).max(0.0);
@@ -130,9 +132,6 @@ impl Steps {
 
 /// Returns the factor for the next step after one with this error.
 fn growth(error: f64) -> f64 {
-    if error == 0.0 {
-        return 5.0;
-    }
     (0.9 * pxfm::f_exp(-0.2 * pxfm::f_log(error))).clamp(0.2, 5.0)
 }
 
@@ -190,8 +189,7 @@ struct Stages {
 impl Stages {
     fn new(row: &Bodies, at: Instant) -> Stages {
         let y: Vec<f64> = row.u.iter().chain(&row.v).copied().collect();
-        let zero = vec![0.0; y.len()];
-        let k = std::array::from_fn(|_| zero.clone());
+        let k = std::array::from_fn(|_| vec![0.0; y.len()]);
         let mut stages = Stages { next: y.clone(), y, k, h: 0.0 };
         stages.restart(row, at);
         stages

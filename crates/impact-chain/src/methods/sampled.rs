@@ -18,18 +18,22 @@ use crate::search::clock::Instant;
 ///   is found.
 /// - Fails: two roots within a step leave no change of sign, so grazes and short dips are missed,
 ///   of depth up to |Δ''| h²/8; three are taken for one, often the wrong one. A chatter has
-///   infinitely many impacts in a finite time: the bound on work ends the run there.
+///   infinitely many impacts in a finite time: the bound on work ends the run there,
+///   unless a stopping speed is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
     /// Time h between two samples.
     pub step: f64,
+    /// No impact leaves a gap opening more slowly.
+    pub stop: f64,
 }
 
 impl Rival for Sampled {
     const NAME: &'static str = "sampled";
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
-        let flights = Flights::new(task)?;
+        let mut flights = Flights::new(task)?;
+        flights.stop = self.stop;
         let phases = flights.phases(Instant::at(task.1.time));
         let gaps = flights.topology.gaps();
         let begin = (0..gaps).map(|k| flights.gap_at(k, 0.0, &phases)).collect();
@@ -69,8 +73,8 @@ impl Stepper for Samples {
             let time = step.from.after(s).time();
             let before = flights.gap_at(k, s, &phases);
             let speed = (-before.rate).max(0.0);
-            flights.hit(k, speed, &phases);
-            self.begin[k] = GapState { s, width: 0.0, rate: flights.restitution * speed };
+            let rate = flights.hit(k, speed, &phases);
+            self.begin[k] = GapState { s, width: 0.0, rate };
             let near = flights.topology.near(k);
             for j in near.clone() {
                 self.begin[j] = flights.gap_at(j, s, &phases);
