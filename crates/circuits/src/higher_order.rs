@@ -1,9 +1,9 @@
 //! Counts circuits that repeat vertices (Sec. 9), class by class, and together in the sample space
 //! of five classes.
 //!
-//! The printed formulas count cyclic sequences as length!/length would, which is right only while
-//! no sequence can be a repetition of a shorter one. [`SampleSpace::FiveClasses`] counts distinct
-//! circuits. Exact counts are none beyond 128 bits.
+//! The printed formulas divide the number of sequences by their length, which is right only where
+//! no sequence repeats a shorter one. [`SampleSpace::FiveClasses`] counts distinct circuits. An
+//! exact count is none where it does not fit into 128 bits.
 
 use impact_numerics::double_double::DoubleDouble;
 
@@ -67,7 +67,7 @@ pub fn compositions(n: usize, j: usize) -> Option<u128> {
 /// **Eq. (33)**
 ///
 /// Returns φ_N^1(k) = (k − 1)/2 · N!/(N − (k − 1))!, as printed, for k ≥ 1: one vertex visited
-/// twice. Gives N/2 at k = 2, where a loop run twice is no new circuit.
+/// twice. Gives N/2 at k = 2, where the only such sequence is a loop run twice, not a new circuit.
 pub fn doubled(big_n: usize, k: usize) -> Option<f64> {
     printed(big_n, k, 2, k - 1, 2.0)
 }
@@ -156,7 +156,7 @@ impl Class {
     }
 }
 
-/// The common denominator of the five classes.
+/// The common denominator of the five classes: a factor that makes all counts whole.
 pub const SHARED: u128 = 24;
 
 /// **Eq. (38)**

@@ -20,7 +20,8 @@ impl fmt::Display for Error {
             Error::Input { field, problem, remedy } => write!(f, "{field}: {problem}; {remedy}"),
             Error::Overlap { gap, depth } => write!(
                 f,
-                "initial: gap {gap} starts overlapped by {depth:e}; give a start with all gaps ≥ 0"
+                "initial: gap {gap} starts overlapped by {depth:e}; give places, walls and displacements \
+                 that leave all gaps ≥ 0"
             ),
             Error::Work { gap, time, bound } => write!(
                 f,

@@ -125,9 +125,10 @@ impl Scenario {
                 Initial::Rest => Start::Rest,
                 Initial::Free(parts) => Start::Free(parts.clone()),
             },
-            forcing: match several {
-                true => Forcing::Several(lists),
-                false => Forcing::One(self.forcing.clone()),
+            forcing: if several {
+                Forcing::Several(lists)
+            } else {
+                Forcing::One(self.forcing.clone())
             },
         };
         serde_json::to_string(&file).unwrap_or_default()

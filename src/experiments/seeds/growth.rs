@@ -141,9 +141,12 @@ mod tests {
         let (transient, window) = (1, 2);
         let logs = closing.each_ref().map(|closing| -> Vec<f64> {
             let sends = |l: usize| {
-                let hit = |since: usize| match transient >= since {
-                    true => seen.active[transient - since][l],
-                    false => seen.reached[transient + window - since][l],
+                let hit = |since: usize| {
+                    if transient >= since {
+                        seen.active[transient - since][l]
+                    } else {
+                        seen.reached[transient + window - since][l]
+                    }
                 };
                 let bins = closing.iter().enumerate().take(transient + window);
                 let hits: f64 = bins.map(|(bin, p)| p * (hit(bin) + hit(bin + 1)) as f64).sum();

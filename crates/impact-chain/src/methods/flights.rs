@@ -26,7 +26,8 @@ pub struct Flights {
     /// No impact leaves a gap opening more slowly.
     pub stop: f64,
     omega: f64,
-    rate: Rate,
+    /// ω, in turns.
+    turns: Rate,
     /// Free parts (a_j, b_j) of all bodies; 0 for the walls.
     free: Vec<[f64; 2]>,
     forced: Vec<Component>,
@@ -46,7 +47,7 @@ impl Flights {
             restitution: scenario.restitution,
             stop: 0.0,
             omega: w,
-            rate: Rate::new(w),
+            turns: Rate::new(w),
             free: vec![[0.0; 2]; u.len()],
             forced: Component::responses(scenario),
         };
@@ -60,12 +61,13 @@ impl Flights {
         Ok(flights)
     }
 
+    /// Returns (sin, cos) of ωt and of each Ωt at an instant.
     pub fn phases(&self, at: Instant) -> FlightPhases {
-        (self.rate.sin_cos(at), phases(&self.forced, at))
+        (self.turns.sin_cos(at), phases(&self.forced, at))
     }
 
     /// Returns the phases at `s` after the beginning of a step.
-    pub fn phases_in(&self, step: &Step, s: f64) -> FlightPhases {
+    pub fn phases_within(&self, step: &Step, s: f64) -> FlightPhases {
         self.phases(if s == step.h { step.to } else { step.from.after(s) })
     }
 

@@ -59,7 +59,7 @@ struct Samples {
 
 impl Stepper for Samples {
     fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
-        let last = self.flights.phases_in(step, step.h);
+        let last = self.flights.phases_within(step, step.h);
         let gaps = self.begin.len();
         self.end.clear();
         self.end.extend((0..gaps).map(|k| self.flights.gap_at(k, step.h, &last)));
@@ -69,7 +69,7 @@ impl Stepper for Samples {
         }
         while let Some((k, s)) = self.earliest() {
             let flights = &mut self.flights;
-            let phases = flights.phases_in(step, s);
+            let phases = flights.phases_within(step, s);
             let time = step.from.after(s).time();
             let before = flights.gap_at(k, s, &phases);
             let speed = (-before.rate).max(0.0);
@@ -103,7 +103,7 @@ impl Samples {
         }
         Some(closing_time(from.s, to.s, from.width, |s| {
             tally.cost.evaluations += 1;
-            self.flights.gap_at(k, s, &self.flights.phases_in(step, s)).width
+            self.flights.gap_at(k, s, &self.flights.phases_within(step, s)).width
         }))
     }
 

@@ -20,7 +20,9 @@ pub const LATEST: f64 = 1e12;
 pub struct Instant(i128);
 
 impl Instant {
+    /// The time t = 0.
     pub const ZERO: Instant = Instant(0);
+    /// Later than every time that is reached: the key of a gap that awaits nothing.
     pub const NEVER: Instant = Instant(i128::MAX);
 
     /// Returns the instant at time `t`, |t| ≤ [`LATEST`]; exact when `t` has no bits below 2^-80.
@@ -61,7 +63,7 @@ impl Instant {
     /// Returns the time since `epoch` in whole units of 2^-58, rounded down: 0 before the epoch,
     /// the largest number from 64 units of time after it on.
     #[inline(always)]
-    pub fn fine(self, epoch: Instant) -> u64 {
+    pub fn units_since(self, epoch: Instant) -> u64 {
         let units = (self.0 - epoch.0) >> 22;
         u64::try_from(units).unwrap_or(if units < 0 { 0 } else { u64::MAX })
     }

@@ -53,7 +53,7 @@ impl Earliest {
 
     #[inline(always)]
     fn word(&self, index: usize, key: Instant) -> u64 {
-        key.fine(self.epoch) & !self.mask() | index as u64
+        key.units_since(self.epoch) & !self.mask() | index as u64
     }
 
     /// Changes the keys of `first`, `first` + 1, …, at most three.

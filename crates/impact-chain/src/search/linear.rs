@@ -16,13 +16,13 @@ pub struct Linear<const M: usize, const N: usize> {
     forced: [[[Pair; N]; 2]; M],
 }
 
-/// Computes the Taylor coefficients about s of 1 − cos νs and of sin νs, the latter with sin
-/// νs − νs for its value.
+/// Computes the Taylor coefficients about s of 1 − cos νs and of sin νs. The value of the latter
+/// is given as sin νs − νs, in which nothing cancels.
 fn waves(nu: f64, s: f64) -> [Taylor; 2] {
-    let [rest, versine] = small_sin_cos(nu * s);
-    let (sin, cos) = (nu * s + rest, 1.0 - versine);
+    let [sine_less_angle, versine] = small_sin_cos(nu * s);
+    let (sin, cos) = (nu * s + sine_less_angle, 1.0 - versine);
     let mut factor = 1.0;
-    let (mut even, mut odd) = ([versine; 10], [rest; 10]);
+    let (mut even, mut odd) = ([versine; 10], [sine_less_angle; 10]);
     for k in 1..10 {
         factor *= nu / k as f64;
         let [even_derivative, odd_derivative] = match k % 4 {
@@ -54,8 +54,8 @@ impl<const M: usize, const N: usize> Linear<M, N> {
             forced: std::array::from_fn(|m| {
                 let nu = frequencies.big_omegas[m];
                 let difference = |s: f64| {
-                    let ([versine, rest], [big_versine, big_rest]) = (waves(w, s), waves(nu, s));
-                    let mut c: Taylor = std::array::from_fn(|k| big_rest[k] - nu / w * rest[k]);
+                    let ([versine, sine], [big_versine, big_sine]) = (waves(w, s), waves(nu, s));
+                    let mut c: Taylor = std::array::from_fn(|k| big_sine[k] - nu / w * sine[k]);
                     c[1] = nu * (versine[0] - big_versine[0]);
                     c
                 };

@@ -98,7 +98,7 @@ pub fn sin_cos_turn(turn: u64) -> (f64, f64) {
     let x = remainder as f64 * RADIANS;
     let [s, c] = remainders(x, quarter_polynomials);
     let (sin, cos) = (x + s, 1.0 - c);
-    // The quarter swaps the two and sets their signs; no branch, for it is not predictable.
+    // The quarter swaps the two and sets their signs; a branch here could not be predicted.
     let quarter = shifted >> 62;
     let swap = 0u64.wrapping_sub(quarter & 1);
     let (a, b) = (sin.to_bits(), cos.to_bits());
