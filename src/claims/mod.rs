@@ -36,6 +36,6 @@ pub fn rules() -> Vec<Rule> {
 }
 
 /// Returns the level of each statistical check.
-pub fn level() -> Level {
+pub fn level() -> CheckLevel {
     level_of(&rules())
 }

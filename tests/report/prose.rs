@@ -1,5 +1,5 @@
-//! Tests the prose with the results of the quick profile: it fills, it names no unknown value and leaves
-//! none unused (the assembly refuses both, and hard-coded numbers), it has every equation and
+//! Tests the prose with the results of the quick profile: it fills, it names no unknown value (the
+//! assembly refuses it, and hard-coded numbers), it has every equation and
 //! figure of the paper, and every claim has its place in it.
 
 use super::QUICK;

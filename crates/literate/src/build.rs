@@ -85,7 +85,7 @@ impl Paper {
         let mut registry = Registry::default();
         registry.extend(printed(published))?;
         let profile = Value::text("profile", results.profile.name());
-        registry.add(profile.source(crate::value::origin(Paper::registry)).data_only())?;
+        registry.add(profile.source(crate::value::origin(Paper::registry)))?;
         for values in &self.values {
             registry.extend(values(results, published)?)?;
         }

@@ -96,18 +96,3 @@ fn next(digits: &str) -> String {
     let last = last.parse().unwrap_or(0) + 1;
     format!("{head}{last}{}", "0".repeat(digits.len() - before.len()))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tens_are_rounded_from_the_exact_number() {
-        for (value, places, text) in
-            [(5.0, -1, "0"), (5.1, -1, "10"), (15.0, -1, "20"), (96.0, -1, "100"), (1e23, -22, "1")]
-        {
-            let rounded = Decimal::exact(value).rounded(places).written();
-            assert!(rounded.starts_with(text), "{value}");
-        }
-    }
-}

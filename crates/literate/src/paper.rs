@@ -182,7 +182,7 @@ impl Paper {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiments::{Experiment, Profile, Progress, Store};
+    use crate::experiments::Experiment;
     use crate::source::toy;
     use crate::table::DataFile;
 
@@ -205,6 +205,11 @@ mod tests {
         let paper = Paper::new("toy", toy()).check("a", open).check("a", open);
         let twice = paper.check_names().unwrap_err().message;
         assert!(twice.starts_with("two rules have the name a: "), "{twice}");
+        const WALK: Experiment<(), ()> =
+            Experiment::new("walk", |_| (), |(), _| Ok(()), |()| Vec::new());
+        let paper = Paper::new("toy", toy()).experiment(&WALK).experiment(&WALK);
+        let twice = paper.check_names().unwrap_err().message;
+        assert_eq!(twice, "two experiments have the name walk: number 1 and number 2; rename one");
     }
 
     #[test]
@@ -216,15 +221,5 @@ mod tests {
         let paper = Paper::new("toy", toy()).figure("twins", &[], draw);
         let error = paper.figures[0].figure(&Results::made_up(Vec::new())).unwrap_err().message;
         assert!(error.contains("panels have one name twins.csv for their data"), "{error}");
-    }
-
-    #[test]
-    fn two_experiments_of_one_name_are_refused() {
-        const WALK: Experiment<(), ()> =
-            Experiment::new("walk", |_| (), |(), _| Ok(()), |()| Vec::new());
-        let paper = Paper::new("toy", toy()).experiment(&WALK).experiment(&WALK);
-        let session = paper.session(None, Profile::Quick, Store::nowhere(), Progress::silent());
-        let what = "two experiments have the name walk: number 1 and number 2; rename one";
-        assert_eq!(session.unwrap_err().message, what);
     }
 }

@@ -102,7 +102,7 @@ pub enum Digits {
 /// Where a number comes from, and so how far it can be trusted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum Provenance {
     /// An integer or a text that follows without rounding, or a parameter that was chosen.
     Exact,
     /// Computed without chance: a closed form, a root, a sum.
@@ -124,7 +124,7 @@ pub struct Value {
     /// Its unit as Markdown, as `$1/\omega$`; empty for a pure number.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub unit: String,
-    pub kind: Kind,
+    pub kind: Provenance,
     /// Path of the item that computed it, as the compiler writes it: `my_paper::jump::p_jump`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub source: String,
@@ -133,13 +133,10 @@ pub struct Value {
     pub experiment: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
-    /// Kept in `values.json` for readers of the data; no template needs to name it.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub for_data_only: bool,
 }
 
 impl Value {
-    pub(crate) fn new(id: impl Into<String>, number: Number, kind: Kind) -> Self {
+    pub(crate) fn new(id: impl Into<String>, number: Number, kind: Provenance) -> Self {
         Value {
             id: id.into(),
             number,
@@ -148,28 +145,27 @@ impl Value {
             source: String::new(),
             experiment: String::new(),
             note: String::new(),
-            for_data_only: false,
         }
     }
 
     pub fn integer(id: impl Into<String>, n: impl Into<Number>) -> Self {
-        Value::new(id, n.into(), Kind::Exact)
+        Value::new(id, n.into(), Provenance::Exact)
     }
 
     /// Makes a real number that was computed without chance, printed with `significant` digits.
     pub fn real(id: impl Into<String>, value: f64, significant: usize) -> Self {
         let digits = Digits::Significant(significant);
-        Value::new(id, Number::Real { value, digits }, Kind::Deterministic)
+        Value::new(id, Number::Real { value, digits }, Provenance::Deterministic)
     }
 
     /// Makes an average over `realisations`, printed with the digits that its error allows.
     pub fn ensemble(id: impl Into<String>, found: Estimate, realisations: u64) -> Self {
-        let kind = Kind::Ensemble { realisations, standard_error: found.error };
+        let kind = Provenance::Ensemble { realisations, standard_error: found.error };
         Value::new(id, found.into(), kind)
     }
 
     pub fn text(id: impl Into<String>, text: impl Into<String>) -> Self {
-        Value::new(id, Number::Text(text.into()), Kind::Exact)
+        Value::new(id, Number::Text(text.into()), Provenance::Exact)
     }
 
     /// Makes a number as somebody printed it, with its decimals, at a place of a paper.
@@ -184,7 +180,7 @@ impl Value {
         } else {
             Number::Real { value, digits: Digits::Decimals(decimals) }
         };
-        Value::new(id, number, Kind::Printed { place: place.into() })
+        Value::new(id, number, Provenance::Printed { place: place.into() })
     }
 
     pub fn source(mut self, item: Origin) -> Self {
@@ -192,16 +188,10 @@ impl Value {
         self
     }
 
-    /// Keeps it for readers of `values.json`; templates need not name it.
-    pub fn data_only(mut self) -> Self {
-        self.for_data_only = true;
-        self
-    }
-
     /// Returns its standard error, zero where it has none.
     pub fn standard_error(&self) -> f64 {
         match self.kind {
-            Kind::Ensemble { standard_error, .. } => standard_error,
+            Provenance::Ensemble { standard_error, .. } => standard_error,
             _ => 0.0,
         }
     }

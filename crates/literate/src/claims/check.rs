@@ -53,7 +53,7 @@ words! {
     Rounding = "rounding",
     /// Half a unit of the last digit that the paper printed.
     PrintedDigit = "printed digit",
-    /// Standard errors at the [level](super::Level) of all statistical checks.
+    /// Standard errors at the [level](super::CheckLevel) of all statistical checks.
     Statistics = "statistics",
     /// A measure that we chose, for a statement in words.
     OurMeasure = "our measure",

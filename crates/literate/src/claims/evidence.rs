@@ -10,7 +10,7 @@
 //! ```
 
 use super::check::{Basis, Check};
-use super::level::Level;
+use super::level::CheckLevel;
 use super::published::{Published, PublishedError, Statement};
 use super::text::Text;
 use crate::experiments::{self, Results};
@@ -61,12 +61,12 @@ pub struct Evidence<'a> {
     pub results: &'a Results,
     pub published: &'a Published,
     /// None for a rule that is not statistical.
-    pub(super) level: Option<Level>,
+    pub(super) level: Option<CheckLevel>,
 }
 
 impl Evidence<'_> {
     /// Returns the level of each statistical check, for a rule that is one.
-    pub fn level(&self) -> Result<Level, Error> {
+    pub fn level(&self) -> Result<CheckLevel, Error> {
         let (id, remedy) = (&self.statement.id, "add `.statistical()` to it");
         let what = || format!("the rule of {id} allows for standard errors; {remedy}");
         self.level.ok_or_else(|| Error::Rule(what()))

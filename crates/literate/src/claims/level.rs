@@ -9,7 +9,7 @@ pub const FAMILY_LEVEL: f64 = 0.01;
 
 /// The level of each of several statistical checks, by Šidák's correction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Level {
+pub struct CheckLevel {
     pub claims: usize,
     /// The level of each one, 1 − (1 − [`FAMILY_LEVEL`])^(1/claims).
     pub each: f64,
@@ -17,17 +17,17 @@ pub struct Level {
     pub quantile: f64,
 }
 
-impl Level {
+impl CheckLevel {
     /// Returns the level for this number of checks (at least one).
-    pub fn of(claims: usize) -> Level {
+    pub fn of(claims: usize) -> CheckLevel {
         let each = -pxfm::f_expm1(pxfm::f_log1p(-FAMILY_LEVEL) / claims.max(1) as f64);
         let quantile = (100.0 * normal_quantile(1.0 - each)).ceil() / 100.0;
-        Level { claims, each, quantile }
+        CheckLevel { claims, each, quantile }
     }
 
     /// Returns the quantile for a check that compares `rows` numbers, which share its level.
     pub fn among(self, rows: usize) -> f64 {
-        Level::of(self.claims.max(1) * rows.max(1)).quantile
+        CheckLevel::of(self.claims.max(1) * rows.max(1)).quantile
     }
 }
 
@@ -39,9 +39,9 @@ mod tests {
     /// Šidák's level for 20 checks is 5.024e-4, a little above 5e-4, and z a little below.
     #[test]
     fn the_quantile_is_that_of_the_table() {
-        assert_eq!(Level::of(1).quantile, 2.58);
-        let twenty = Level::of(20);
+        assert_eq!(CheckLevel::of(1).quantile, 2.58);
+        let twenty = CheckLevel::of(20);
         assert!((twenty.each - 5.024e-4).abs() < 1e-7, "{}", twenty.each);
-        assert_eq!((twenty.quantile, Level::of(4).among(5)), (3.48, 3.48));
+        assert_eq!((twenty.quantile, CheckLevel::of(4).among(5)), (3.48, 3.48));
     }
 }

@@ -11,7 +11,7 @@ mod text;
 
 pub use check::{Basis, Check, Kind, Verdict, score};
 pub use evidence::{Error, Evidence, Judged};
-pub use level::{FAMILY_LEVEL, Level};
+pub use level::{CheckLevel, FAMILY_LEVEL};
 pub use published::{Parameter, Published, PublishedError, Statement};
 pub use rule::{Rule, blind_to_their_number, judge_all, level_of};
 pub use text::Text;

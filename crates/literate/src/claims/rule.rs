@@ -2,7 +2,7 @@
 
 use super::check::{Basis, Check, Kind, Verdict};
 use super::evidence::{Error, Evidence, Judged};
-use super::level::Level;
+use super::level::CheckLevel;
 use super::published::{Published, Statement};
 use super::text::Text;
 use crate::experiments::Results;
@@ -92,8 +92,8 @@ impl Rule {
     }
 }
 
-pub fn level_of(rules: &[Rule]) -> Level {
-    Level::of(rules.iter().filter(|rule| rule.statistical).count())
+pub fn level_of(rules: &[Rule]) -> CheckLevel {
+    CheckLevel::of(rules.iter().filter(|rule| rule.statistical).count())
 }
 
 /// Judges all statements, in their order, each by the rule with its id, and then all relations. A

@@ -23,8 +23,8 @@ use std::process::ExitCode;
 const EXIT_CODES: &str = "Exit codes:
   0    fine
   1    a statement, relation or comparison failed, but the files were written; a rule of the
-       prose is broken (a hard-coded number, an unused value) or a run failed, and nothing was
-       written; or `paper --dry-run` found stale results
+       prose is broken (a hard-coded number) or a run failed, and nothing was written; or
+       `paper --dry-run` found stale results
   2    wrong usage or input, including broken prose, or a place that cannot be read or written
   130  ended by Ctrl-C, SIGTERM or SIGHUP
 

@@ -205,7 +205,7 @@ impl AnyExperiment for Command {
 
     fn found(&self, session: &Session<'_>) -> Result<Found, Error> {
         let run = || self.run(&session.project.folder(), session);
-        Ok(Arc::new(session.saved(&self.identity(session), run)?))
+        Ok(Arc::new(session.result(&self.identity(session), run)?))
     }
 
     fn tables(&self, found: &Found) -> Vec<Table> {

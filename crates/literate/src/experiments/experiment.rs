@@ -60,8 +60,8 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         let parameters = self.finite_parameters(session.profile)?;
         match &self.how {
             How::Read(read) => read(session),
-            How::Whole(run, _) => session.saved(&identity, || run(&parameters, progress)),
-            How::Cut(_, cutting) => session.saved(&identity, || {
+            How::Whole(run, _) => session.result(&identity, || run(&parameters, progress)),
+            How::Cut(_, cutting) => session.result(&identity, || {
                 let units = cutting.units(&parameters);
                 let (parts, _) = self.parts(&units, &parameters, &identity, session)?;
                 cutting.joined(&parameters, &units, parts, progress)

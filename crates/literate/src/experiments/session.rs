@@ -21,7 +21,7 @@ pub struct Session<'a> {
 
 impl Session<'_> {
     /// Returns the saved result if it is fresh, else that of a run, which is then saved.
-    pub(super) fn saved<T: Json>(
+    pub(super) fn result<T: Json>(
         &self,
         identity: &Identity,
         run: impl FnOnce() -> Result<T, Error>,

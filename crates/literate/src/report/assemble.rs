@@ -15,7 +15,7 @@ use super::ledger::{EquationEntry, Ledger};
 use super::lint::Declared;
 use super::mark::ids;
 use super::parse::Parsed;
-use super::values::{Registry, Value};
+use super::values::Registry;
 use super::{html, latex, ledger, lint, markdown, parse, search};
 use crate::figures::Figure;
 use crate::input::one_line;
@@ -34,17 +34,11 @@ struct Part<'a> {
 pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     let (mut values, mut filler, filled) = fill(input)?;
     let used: BTreeSet<String> = filled.iter().flat_map(|filled| ids(&filled.text)).collect();
-    let is_unused = |value: &&Value| !value.for_data_only && !used.contains(&value.id);
-    let unused: Vec<&str> = values.iter().filter(is_unused).map(|v| v.id.as_str()).collect();
-    let mut errors = Vec::new();
-    if !unused.is_empty() {
-        errors.push(Error::Unused(unused.join(", ")));
-    }
     values.keep_cells(used.iter().map(String::as_str));
     values.shorten(&input.project.sources);
 
     let declared = filler.declared.clone();
-    let (parts, labels) = parts(input, &filled, &values, &declared, errors)?;
+    let (parts, labels) = parts(input, &filled, &values, &declared)?;
     let ledger = ledger_of(input, &parts);
     let mut files = data_files(input, &values, &ledger)?;
     let mut errors = Vec::new();
@@ -113,18 +107,16 @@ fn check_texts(input: &Input<'_>, declared: &Declared) -> Result<(), Error> {
     Error::all(reasons.chain(descriptions).filter_map(Result::err).collect())
 }
 
-/// Reads all documents into trees, with their figures, numbers and references. Returns all errors,
-/// and those that there are already.
+/// Reads all documents into trees, with their figures, numbers and references. Returns all errors.
 fn parts<'a>(
     input: &Input<'a>,
     filled: &'a [Filled],
     values: &'a Registry,
     declared: &'a Declared,
-    mut errors: Vec<Error>,
 ) -> Result<(Vec<Part<'a>>, Labels), Error> {
     let library = Library::read(input.templates.text("references.bib")?)
         .map_err(|error| Error::Template(input.templates.place(&error.to_string())))?;
-    let (mut labels, mut shown) = (Labels::default(), BTreeSet::new());
+    let (mut labels, mut shown, mut errors) = (Labels::default(), BTreeSet::new(), Vec::new());
     let mut parts: Vec<Part<'_>> = Vec::new();
     let read = |filled| parse::parse(filled, values, declared, &input.project.sources);
     let read = filled.par_iter().with_max_len(1).map(read).collect::<Vec<_>>();

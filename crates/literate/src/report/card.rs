@@ -7,7 +7,7 @@ use super::claims::symbols;
 use super::document::{Inline, printed, words_and_maths};
 use super::edition::Edition;
 use super::ledger::Ledger;
-use super::values::{Digits, Kind, Number, Registry, Value};
+use super::values::{Digits, Number, Provenance, Registry, Value};
 use crate::experiments::{AnyExperiment, Profile};
 use crate::print::{Style, print};
 use crate::project::Project;
@@ -130,13 +130,13 @@ impl Cards<'_> {
             let full = Style { digits: Some(Digits::Full), ..Style::default() };
             card.words("in full", &print(&value.number, full).plain());
         }
-        if let Kind::Ensemble { realisations, standard_error } = &value.kind {
+        if let Provenance::Ensemble { realisations, standard_error } = &value.kind {
             card.words("standard error", &standard_error.to_string());
             if *realisations > 0 {
                 card.words("realisations", &realisations.to_string());
             }
         }
-        if let Kind::Printed { place } = &value.kind {
+        if let Provenance::Printed { place } = &value.kind {
             card.words("place", place);
         }
         card.item("computed by", &value.source, self.project);
@@ -239,16 +239,16 @@ pub(super) fn link_to_line(item: &str, project: &Project) -> Inline {
 /// What kind of number it is, and where it comes from.
 fn lead(value: &Value) -> String {
     let what = match &value.kind {
-        Kind::Exact => "Computed exactly".into(),
-        Kind::Deterministic => "Computed without chance".into(),
-        Kind::Ensemble { realisations: 0, .. } => {
+        Provenance::Exact => "Computed exactly".into(),
+        Provenance::Deterministic => "Computed without chance".into(),
+        Provenance::Ensemble { realisations: 0, .. } => {
             "An estimate from several samples, with its standard error in brackets".into()
         }
-        Kind::Ensemble { realisations, .. } => {
+        Provenance::Ensemble { realisations, .. } => {
             format!("Found from {realisations} realisations, with its standard error in brackets")
         }
-        Kind::Printed { .. } => "A number that the paper prints".into(),
-        Kind::Measured => "A number measured once, and an input since".into(),
+        Provenance::Printed { .. } => "A number that the paper prints".into(),
+        Provenance::Measured => "A number measured once, and an input since".into(),
     };
     match value.experiment.as_str() {
         "" => format!("{what}."),

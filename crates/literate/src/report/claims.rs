@@ -84,11 +84,11 @@ pub fn printed(published: &Published) -> Vec<Value> {
     let chosen = published.parameters.iter().map(|p| {
         let text = p.value.to_string();
         let decimals = text.split_once('.').map_or(0, |(_, after)| after.len());
-        Value::printed(format!("paper.{}", p.id), p.value, decimals, &p.place).data_only()
+        Value::printed(format!("paper.{}", p.id), p.value, decimals, &p.place)
     });
     let stated = published.statements.iter().filter_map(|s| {
         let decimals = s.decimals.unwrap_or(0).max(0) as usize;
-        Some(Value::printed(format!("printed.{}", s.id), s.value?, decimals, &s.place).data_only())
+        Some(Value::printed(format!("printed.{}", s.id), s.value?, decimals, &s.place))
     });
     chosen.chain(stated).collect()
 }
@@ -100,7 +100,7 @@ pub fn printed(published: &Published) -> Vec<Value> {
 pub fn scorecard(claims: &[Check]) -> Vec<Value> {
     let value = |name: String, count: usize| {
         let id = format!("score.{}", name.replace(' ', "_"));
-        Value::integer(id, count).source(origin(scorecard)).data_only()
+        Value::integer(id, count).source(origin(scorecard))
     };
     let (judged, definitions): (Vec<&Check>, Vec<&Check>) =
         claims.iter().partition(|claim| claim.kind == Kind::Statement);

@@ -52,8 +52,6 @@ pub enum Error {
     NotShown(String),
     #[error("equation ({0}) is not shown; add \\tag{{{0}}} to it in the prose")]
     NoEquation(String),
-    #[error("no template and no claim names {0}; use or remove it, or declare it data_only()")]
-    Unused(String),
 }
 
 impl Error {
@@ -98,7 +96,7 @@ impl Error {
     /// Whether the prose can be read but breaks a rule about its numbers and figures.
     pub fn is_of_rules(&self) -> bool {
         match self {
-            Error::HardCoded(_) | Error::NotShown(_) | Error::Unused(_) => true,
+            Error::HardCoded(_) | Error::NotShown(_) => true,
             Error::At { error, .. } => error.is_of_rules(),
             Error::Several(errors) => errors.iter().all(Error::is_of_rules),
             _ => false,

@@ -5,7 +5,7 @@ use crate::experiments::Profile;
 use crate::input::is_control;
 use crate::source::Sources;
 use crate::table::Table;
-pub use crate::value::{Digits, Kind, Number, Origin, Value, origin};
+pub use crate::value::{Digits, Number, Origin, Provenance, Value, origin};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! Makes a table: each call adds a column, keys first.
 
 use super::rows::{Column, Table, called};
-use crate::value::{Digits, Kind, Number, Origin, Value, origin_of};
+use crate::value::{Digits, Number, Origin, Provenance, Value, origin_of};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeSet;
 use std::panic::Location;
@@ -45,7 +45,7 @@ impl<'a, R> Building<'a, R> {
         (name, unit): (&'static str, &'static str),
         meaning: &str,
         get: F,
-        cell: impl Fn(&R, T) -> (Number, Kind),
+        cell: impl Fn(&R, T) -> (Number, Provenance),
     ) -> Self {
         let item = self.origin.clone().unwrap_or_else(origin_of::<F>);
         let experiment = self.table.name.split('.').next().unwrap_or_default();
@@ -112,9 +112,9 @@ impl<'a, R> Building<'a, R> {
         self.put((name, unit), meaning, get, |row, found| match found {
             Some(Estimate { error, .. }) => {
                 let realisations = number(row) as u64;
-                (found.into(), Kind::Ensemble { realisations, standard_error: error })
+                (found.into(), Provenance::Ensemble { realisations, standard_error: error })
             }
-            None => (Number::None, Kind::Exact),
+            None => (Number::None, Provenance::Exact),
         })
     }
 
@@ -129,8 +129,8 @@ impl<'a, R> Building<'a, R> {
     ) -> Self {
         let digits = Digits::Significant(digits);
         self.put((name, unit), meaning, get, |_, value| match value.into() {
-            Some(value) => (Number::Real { value, digits }, Kind::Deterministic),
-            None => (Number::None, Kind::Exact),
+            Some(value) => (Number::Real { value, digits }, Provenance::Deterministic),
+            None => (Number::None, Provenance::Exact),
         })
     }
 
@@ -140,13 +140,13 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         get: F,
     ) -> Self {
-        self.put((name, "text"), meaning, get, |_, words| (words.into(), Kind::Exact))
+        self.put((name, "text"), meaning, get, |_, words| (words.into(), Provenance::Exact))
     }
 
     /// Marks all cells so far as measured: they are an input.
     pub fn measured(mut self) -> Self {
         for cell in self.table.rows.iter_mut().flat_map(|(_, cells)| cells) {
-            cell.kind = Kind::Measured;
+            cell.kind = Provenance::Measured;
         }
         self
     }
@@ -159,14 +159,14 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         get: F,
     ) -> Self {
-        self.put((name, unit), meaning, get, |_, chosen| (chosen.into(), Kind::Deterministic))
+        self.put((name, unit), meaning, get, |_, chosen| (chosen.into(), Provenance::Deterministic))
     }
 
     /// Adds a count, shown as an integer up to a million and with its leading digits beyond.
     pub fn count<F: Fn(&R) -> u64>(self, name: &'static str, meaning: &str, get: F) -> Self {
         self.put((name, "1"), meaning, get, |_, n| match n {
-            ..1_000_000 => (n.into(), Kind::Exact),
-            _ => (Number::from(n).significant(2), Kind::Deterministic),
+            ..1_000_000 => (n.into(), Provenance::Exact),
+            _ => (Number::from(n).significant(2), Provenance::Deterministic),
         })
     }
 

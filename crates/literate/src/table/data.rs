@@ -1,7 +1,7 @@
 //! Writes data files: whole tables and the points of figures as CSV.
 
 use super::rows::{Column, Table};
-use crate::value::{Kind, Number};
+use crate::value::{Number, Provenance};
 use std::borrow::Cow;
 
 impl Table {
@@ -11,13 +11,13 @@ impl Table {
         let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); self.rows.len()]);
         for (at, Column { name, unit }) in self.columns.iter().enumerate() {
             let mut cells = self.rows.iter().map(|(_, cells)| &cells[at]);
-            let error = cells.any(|cell| matches!(cell.kind, Kind::Ensemble { .. }));
+            let error = cells.any(|cell| matches!(cell.kind, Provenance::Ensemble { .. }));
             header.push(format!("{name} ({unit})"));
             header.extend(error.then(|| format!("{name}_error ({unit})")));
             for (row, (_, cells)) in rows.iter_mut().zip(&self.rows) {
                 row.push(written(&cells[at].number));
                 row.extend(error.then(|| match cells[at].kind {
-                    Kind::Ensemble { standard_error, .. } => format!("{standard_error:?}"),
+                    Provenance::Ensemble { standard_error, .. } => format!("{standard_error:?}"),
                     _ => String::new(),
                 }));
             }

@@ -227,7 +227,7 @@ pub fn number(cell: &Value) -> Option<f64> {
 mod tests {
     use super::super::{Tables, cell, table_of};
     use super::*;
-    use crate::value::Kind;
+    use crate::value::Provenance;
     use std::sync::Arc;
 
     fn mean(row: &(f64, f64, Vec<f64>)) -> Option<Estimate> {
@@ -257,7 +257,7 @@ mod tests {
         let table = table();
         let at = |address| table.at(address).unwrap();
         let cell = at("test.rise[r=0.8,sigma=0.3].mean");
-        assert_eq!(cell.kind, Kind::Ensemble { realisations: 2, standard_error: 0.5 });
+        assert_eq!(cell.kind, Provenance::Ensemble { realisations: 2, standard_error: 0.5 });
         assert_eq!(cell.source, "literate::table::rows::tests::mean");
         assert_eq!((cell.experiment.as_str(), cell.note.as_str()), ("test", "the mean"));
         assert_eq!(table_of(&cell.id), Some("test.rise"));
