@@ -1,6 +1,6 @@
 //! Starts the program `impact-paper`: `paper` lists what the paper is made of, `DOCUMENTS` its
 //! documents, and `cli` has the verbs that it adds to those of [`literate::cli`]. The parts are in
-//! the library, [`impact_paper`].
+//! [`impact_paper`].
 
 // Macros that print panic on a closed pipe or a full disk: `literate::cli::terminal` does not.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]

@@ -153,8 +153,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         seed: args.seed,
         ..Ensemble::default()
     };
-    // Each thread has a chain, 300 bytes a mass, and a few words for each of its gaps; each
-    // realisation leaves its counts.
+    // Each thread has a chain, 300 bytes a mass and some for its gaps; realisations leave counts.
     let threads = args.threads.number() as u128;
     let needed = threads * 360 * args.masses as u128 + (1 << 10) * realisations as u128;
     fits(needed)?;

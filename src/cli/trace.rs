@@ -82,8 +82,7 @@ pub struct Args {
     tolerance: Option<f64>,
 }
 
-/// A method, its option with the usual value if it has one, and its line of `trace --help`, where
-/// `{}` is the option.
+/// A method, its option with the usual value, and its line of `trace --help` with `{}` for that.
 type MethodLine = (MethodName, Option<(&'static str, f64)>, &'static str);
 
 const METHODS: [MethodLine; 8] = [
@@ -235,8 +234,7 @@ impl Printer {
     }
 }
 
-/// Runs the scenario of a text and prints its impacts, or its states at the times that are asked
-/// for.
+/// Runs the scenario of a text and prints its impacts, or its states at given times.
 fn trace(
     args: &Args,
     method: &dyn Method,

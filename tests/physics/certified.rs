@@ -163,8 +163,7 @@ fn corner_biased_segments_have_no_miss_and_no_ghost() {
     println!("{tally:?}");
     assert!(tally.segments >= 5_000 && tally.impacts > 2000, "{tally:?}");
     assert!(tally.undecidable * 100 < tally.segments, "{tally:?}");
-    // Of these the worst had 2.3 and 0.03; a loss of digits would show here before it reaches the
-    // bounds.
+    // The worst had 2.3 and 0.03; a loss of digits shows here before it reaches the bounds.
     assert!(tally.worst < 5.0 && tally.worst_speed < 0.1, "{tally:?}");
 }
 

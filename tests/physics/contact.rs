@@ -1,7 +1,7 @@
 //! Tests contact of pairs and clusters: how it begins, which forces hold it, when it ends. Ω = 2
 //! and cosine forcing only, so a mass under F cos Ωt is at j d + a − F/3 at t = 0, and forces are
-//! known. Then neighbouring gaps that close at exactly the same instant: masses in one point at t =
-//! 0, or mirror images.
+//! known. Then neighbouring gaps that close at the same instant: masses in one point, or mirror
+//! images.
 
 use crate::reference::Reference;
 use crate::{drawn, first, given, run, trace};
@@ -27,8 +27,7 @@ fn held(engine: &mut Engine, t: f64) -> Vec<usize> {
     contacts.into_iter().map(|c| c.0).collect()
 }
 
-/// Gaps that are in contact as long as the cosine of 2t is above a number, with the factor and the
-/// constant of their forces.
+/// Gaps in contact while cos 2t is above a number; factor and constant of their forces.
 type Held = (f64, &'static [(usize, f64, f64)]);
 
 #[test]
@@ -67,8 +66,7 @@ fn clusters_are_released_gap_by_gap_where_a_force_changes_its_sign() {
     }
 }
 
-/// With Ω = √2 neither the responses nor their sums are doubles, so such a pair is apart, or in
-/// one another, by some 1e-16.
+/// With Ω = √2 neither responses nor sums are doubles, so such a pair is apart by some 1e-16.
 #[test]
 fn a_pair_that_is_shut_but_for_rounding_is_shut() {
     let big_w = std::f64::consts::SQRT_2;
@@ -166,8 +164,7 @@ fn gaps_that_are_released_together_part_without_a_crawl() {
         };
         let mut engine = Engine::new(&scenario).unwrap();
         let impacts = run(&mut engine, 30.0);
-        // The masses meet and stick, part, reach both walls at once and stick there, again and
-        // again.
+        // The masses meet and stick, part, reach both walls at once and stick there, for ever.
         let hard: Vec<usize> =
             impacts.iter().filter(|impact| impact.closing_speed > 1.0).map(|i| i.gap).collect();
         assert!(
@@ -197,8 +194,7 @@ fn a_released_gap_is_not_shut_by_rounding() {
     }
 }
 
-/// Forces that grow along the row: every contact force is a parabola along it times (F cos Ωt −
-/// 1), and all end at once.
+/// Every contact force is a parabola along the row times (F cos Ωt − 1): all end at once.
 #[test]
 fn long_runs_that_are_released_at_once_part() {
     for (n, force) in [(100, 1.04), (300, 1.31), (1600, 1.3)] {
@@ -351,8 +347,7 @@ fn a_three_way_impact() {
     }
 }
 
-/// Ties of a mirror image with an even number of masses are none of neighbours: each impact has its
-/// twin to the last bit.
+/// Ties of an even number of masses are none of neighbours: each impact has its twin.
 #[test]
 fn an_even_mirror_image_keeps_its_symmetry() {
     for (masses, index) in [(21, 1), (20, 3)] {
@@ -362,8 +357,7 @@ fn an_even_mirror_image_keeps_its_symmetry() {
         let x = engine.positions(300.0).unwrap();
         let off = |j: usize| (x[j] + x[masses - 1 - j] - (masses + 1) as f64).abs();
         let worst = (0..masses).map(off).fold(0.0, f64::max);
-        // One gap after the other cannot keep that of an odd one, whose middle mass is hit from
-        // both sides.
+        // In an odd one the middle mass is hit from both sides, one after the other.
         let odd = masses % 2 == 1;
         assert_eq!((worst > 1e-3, engine.counters().simultaneous > 0), (odd, odd));
         assert!(odd || worst < 1e-14, "{worst:e}");

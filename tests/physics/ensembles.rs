@@ -1,5 +1,4 @@
-//! Compares counts of ensembles with a list of impacts, and what follows from counts with a
-//! calculation by hand.
+//! Compares counts of ensembles with lists of impacts, and what follows with sums by hand.
 
 use crate::trace;
 use impact_chain::rise::{Mean, RisePoint};

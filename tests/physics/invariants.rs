@@ -58,8 +58,7 @@ fn arcsine_of_inverse(x: f64) -> Dd {
 /// up as k or k².
 #[test]
 fn orbits_that_repeat_themselves_keep_their_times() {
-    // Between two walls; a pair, which is a mass and a wall; three, the outer ones towards the one
-    // at rest.
+    // Between two walls; a pair, which is a mass and a wall; three, with one at rest.
     let two_walls = [1.05, 1.3, 2.3, 5.0, 10.0].map(|a| (a, vec![a]));
     let one_wall = [1.05, 1.5, 1.9].map(|a| (a, vec![0.5 * a, -0.5 * a]));
     let three = [2.3, 5.0].map(|a| (a, vec![a, 0.0, -a]));

@@ -100,8 +100,7 @@ fn release(scenario: &Scenario, gap: usize, from: f64) -> f64 {
     open
 }
 
-/// One mass that comes to rest at the left wall whenever its impacts become slow, and is held there
-/// until the forces pull it away.
+/// One mass that comes to rest at the left wall until the forces pull it away.
 fn with_rest(scenario: &Scenario, mut start: State, until: f64) -> Vec<Impact> {
     let mut impacts = Vec::new();
     loop {

@@ -83,8 +83,7 @@ fn the_true_motion_has_digits_beyond_doubles() {
 /// each mass) and kicks. The search went over times and lowered overlaps, kicks of the wrong sign,
 /// and large amplitudes; the best numbers were cut to five decimals.
 ///
-/// The impacts as gaps: L-1, 1-2, 2-3 and 3-R are 0, 1, 2 and 3. That of Sec. 5 is not simple; both
-/// close.
+/// The impacts L-1, 1-2, 2-3 and 3-R are gaps 0 to 3. That of Sec. 5 is not simple; both close.
 #[test]
 fn figures_5_and_6_show_their_circuits() {
     for (file, order) in FILES.into_iter().zip([&[0, 1, 3, 0][..], &[0, 0, 1, 0, 2, 1, 3, 3, 0]]) {

@@ -61,8 +61,7 @@ fn changed() -> tempfile::TempDir {
     folder
 }
 
-/// The largest difference in standard errors comes first, what only one report has last, and
-/// nothing that a terminal obeys.
+/// The largest difference in standard errors comes first, what only one report has last.
 #[test]
 fn number_verdict_and_files_are_told_in_each_form() {
     let folder = changed();

@@ -26,8 +26,7 @@ const EXPERIMENTS: usize = 17;
 
 const SCENARIO: &str = r#"{"forcing":[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]}"#;
 
-/// The program in a folder, with arguments between which a blank stands; the path of the templates
-/// may have blanks too.
+/// The program in a folder, with arguments between blanks; the templates' path may have some.
 fn program(folder: &Path, arguments: &str) -> Command {
     let mut command = Command::new(PROGRAM);
     let arguments = arguments.replace(TEMPLATES, "\u{1}");
@@ -50,16 +49,14 @@ fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
     outcome(&mut program(folder, arguments))
 }
 
-/// The standard output of a run that succeeds and says nothing else. Signs of life depend on how
-/// busy the machine is.
+/// The standard output of a run that succeeds and says nothing else.
 fn answer(folder: &Path, arguments: &str) -> String {
     let (code, out, note) = run(folder, &format!("-q {arguments}"));
     assert_eq!((code, note.as_str()), (0, ""), "{arguments}: {out}");
     out
 }
 
-/// Holds a run to its refusal: exit code 2, nothing on stdout, and one line on stderr, which has
-/// these words.
+/// Holds a run to its refusal: exit code 2, and one line on stderr, which has these words.
 fn refused(folder: &Path, arguments: &str, words: &[&str]) {
     let (code, out, note) = run(folder, arguments);
     let shown = (code, out.as_str(), note.lines().count());

@@ -1,5 +1,4 @@
-//! Runs `impact-paper paper` and `verify`: what runs, what is written, what is left
-//! as it is; exit codes.
+//! Runs `impact-paper paper` and `verify`: what runs, what is written, what is left.
 
 use crate::{
     EXPERIMENTS, QUICK, SCENARIO, TEMPLATES, answer, ended_with, files, program, put, sha256, tree,
@@ -77,8 +76,7 @@ fn saved_results_change_no_byte_and_neither_edits_nor_full_reports_are_written_o
     assert!(before == tree(&at("one")));
 }
 
-/// Sends a signal to a program that is at work, and holds it to exit code 130: its stdout and
-/// stderr.
+/// Sends a signal to a program at work, and holds it to exit code 130: its stdout, stderr.
 fn ended(mut child: Child, signal: &str) -> [String; 2] {
     let early = child.try_wait().unwrap();
     let kill = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();

@@ -97,8 +97,7 @@ fn the_same_bytes_for_any_number_of_threads() {
         [1, 4, 7].map(|threads| table(&format!("--sigma 0.12..0.2:0.02 --threads {threads}")));
     assert_eq!(tables[0].lines().count(), 6);
     assert!(tables.iter().all(|table| *table == tables[0]), "{tables:#?}");
-    // A row does not depend on the other rows, nor on how σ was written; another seed is another
-    // ensemble.
+    // A row depends on the seed, and neither on other rows nor on how σ was written.
     let [alone, other] = ["", " --seed 1"]
         .map(|seed| table(&format!("--sigma 0.16{seed}")).lines().nth(1).unwrap().to_string());
     assert!(tables[0].lines().any(|row| row == alone) && alone != other, "{alone}\n{other}");
@@ -119,8 +118,7 @@ fn columns_and_rows() {
     assert!(lines[2].starts_with("0.2,24,"));
 }
 
-/// Parts of an ensemble add up to the whole, windows of one run to those of several, and each
-/// option reaches the chain.
+/// Parts add up to the whole, windows are those of several runs, each option has an effect.
 #[test]
 fn parts_windows_and_parameters_of_a_sweep() {
     let cells = |options: &str| -> Vec<Vec<String>> {

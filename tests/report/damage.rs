@@ -1,4 +1,5 @@
-//! Damages a valid text for each reader of text from outside, in a seeded way. No reader panics or hangs, and each fault is reported in one line.
+//! Damages a valid text for each reader of text from outside, in a seeded way. No reader panics or
+//! hangs, and each fault is reported in one line.
 
 use super::QUICK;
 use impact_chain::Scenario;
@@ -34,8 +35,7 @@ $$
 [@bibliography]
 "#;
 
-/// What is put in anywhere: signs that mean something to one of the readers, numbers, and what can
-/// be nested.
+/// What is put in anywhere: signs that mean something, numbers, and what can be nested.
 const SIGNS: &str = "{~}~[~]~(~)~\"~\\~,~=~\n\n~\r~\0~#~$~$$~```~*~|~> ~- ~«~»~«(~<% if true %>~<!--~[@~![~\
                      {\"a\":~\\sqrt{~\u{e000}~\u{2028}~NaN~-1e309~99999999999999999999~5e-324";
 

@@ -1,5 +1,4 @@
-//! Reads the imports of all crates and of src, and refuses those that DESIGN.md does not allow, and
-//! circles.
+//! Reads all imports, and refuses those that DESIGN.md does not allow, and circles.
 
 use super::structure::{files, root};
 use std::cell::RefCell;
@@ -104,8 +103,7 @@ fn without_tests(tokens: &[String]) -> Vec<String> {
 
 type Path = Vec<String>;
 
-/// What a module has: the names of its items, of its imports with what they name, and all paths in
-/// its code.
+/// What a module has: names of items and of imports with what they name, and all paths.
 #[derive(Default)]
 struct Module {
     file: String,
@@ -324,8 +322,7 @@ fn no_file_imports_itself_through_others() {
     assert!(left.is_empty(), "these files are in circles, or import those: {:#?}", left.keys());
 }
 
-/// The layers of DESIGN.md: the start of the paths of their files, and the layers that they may
-/// import.
+/// The layers of DESIGN.md: how the paths of their files begin, and what they may import.
 fn layers() -> Vec<(String, Vec<String>)> {
     let design = fs::read_to_string(root().join("DESIGN.md")).unwrap();
     let mut layers = Vec::new();

@@ -1,5 +1,4 @@
-//! Makes the report in memory, and tests it and what it is made of: templates, figures, pages, damaged texts, and rules
-//! about the source.
+//! Makes the report in memory, and tests it and what it is made of.
 
 mod damage;
 mod documents;

@@ -1,5 +1,4 @@
-//! Tests rules about the source that no compiler checks: no path of a machine, and a README that is
-//! current.
+//! Tests rules about the source that no compiler checks, and that the README is current.
 
 use super::QUICK;
 use literate::report::ledger::EquationEntry;

@@ -53,8 +53,7 @@ fn jump_agrees_with_roots_of_exact_integers() {
 
 #[test]
 fn jump_of_a_million_vertices() {
-    // Second route: Φ(k)/Φ(1) in 67-digit arithmetic at both ends of the bracket, and ln p_jump
-    // to 1e−14 from the root at its k.
+    // Φ(k)/Φ(1) in 67-digit arithmetic at both ends of the bracket, and the root at its k.
     let big_n = 1_000_000;
     let found = jump::p_jump(Simple, big_n).unwrap();
     let exceeds = |p: f64| {

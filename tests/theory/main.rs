@@ -1,5 +1,4 @@
-//! Compares the theory of Secs. 3 to 9 with second routes: exact and 57-digit arithmetic, enumeration,
-//! quadrature.
+//! Compares the theory of Secs. 3 to 9 with exact and 57-digit arithmetic and quadrature.
 
 mod distribution;
 mod jump;

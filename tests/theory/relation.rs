@@ -70,8 +70,7 @@ const SETTINGS: [(f64, f64, f64); 7] = [
     (1e-3, 1.0, 2.0),
 ];
 
-/// p, 1 − p and ln p: each where doubles have it, and ln p where p itself is nearly 1 by the
-/// complement.
+/// p, 1 − p and ln p, each where doubles have it; ln p near p = 1 by the complement.
 #[test]
 fn closed_forms_agree_with_quadrature_to_the_last_digits() {
     let gauss = Gauss::new(20);

@@ -21,8 +21,7 @@ fn mean(space: SampleSpace, vertices: usize, p: f64) -> f64 {
     Law::new(space, vertices, p).unwrap().mean()
 }
 
-/// From 50-digit arithmetic: ((1 + √101)/100)², and the 19th root of 20·80!/99!, the least such
-/// root of all k.
+/// From 50-digit arithmetic: ((1 + √101)/100)², and the 19th root of 20·80!/99!, the least.
 #[test]
 fn p_crit_and_p_jump_of_a_hundred_vertices() {
     assert!((number("theory.jump.p_crit") - 0.012209975124224177).abs() < 1e-17);

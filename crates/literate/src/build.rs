@@ -50,8 +50,7 @@ impl Paper {
         Ok(Session { project, templates, profile, store, progress })
     }
 
-    /// Runs those of the experiments that are needed, in the order of the paper, and returns their
-    /// results.
+    /// Runs the experiments that are needed, in the order of the paper, and returns their results.
     pub fn results(
         &self,
         needs: &[&'static dyn AnyExperiment],
@@ -71,8 +70,7 @@ impl Paper {
         })
     }
 
-    /// Returns all checks: statements, those that rest on a measure of the author first, then
-    /// relations.
+    /// Returns all checks: statements, first those that rest on a measure of ours, then relations.
     pub fn checks(&self, results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
         let mut checks = judge_all(published, &self.rules, results)?;
         // First what rests on a measure of the author, where a reader may judge otherwise.

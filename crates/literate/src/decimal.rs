@@ -43,8 +43,7 @@ impl Decimal {
         Decimal { places: self.places - power, ..self }
     }
 
-    /// Rounds to a decimal place, a half to an even digit; a negative place rounds to tens,
-    /// hundreds, …
+    /// Rounds to a decimal place, a half to an even digit; −1 rounds to tens, −2 to hundreds.
     pub fn rounded(&self, places: i32) -> Decimal {
         let more = (places - self.places).clamp(0, MAX_DIGITS as i32) as usize;
         let less = (self.places - places).max(0) as usize;

@@ -16,8 +16,7 @@ const LONGEST: usize = 4000;
 /// Why something ended without success. Any error becomes one by `?`.
 #[derive(Debug)]
 pub struct Failure {
-    /// The exit code: 1 where something does not hold, is stale or failed, 2 for wrong usage or
-    /// input, 130 after Ctrl-C.
+    /// The exit code: 1 where something fails or is stale, 2 for wrong input, 130 after Ctrl-C.
     pub code: u8,
     /// One line: what, where, and what to do; several findings in the prose have a line each.
     pub message: String,

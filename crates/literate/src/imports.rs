@@ -69,8 +69,7 @@ fn paths(code: &str) -> Vec<Vec<&str>> {
     found
 }
 
-/// Reads the paths that begin with some names, from behind the `::` after these, and returns the
-/// text behind them.
+/// Reads the paths that begin with some names and `::`, and returns the text behind them.
 fn read_path<'a>(text: &'a str, mut names: Vec<&'a str>, found: &mut Vec<Vec<&'a str>>) -> &'a str {
     let mut text = text.trim_start();
     if let Some(group) = text.strip_prefix('{') {

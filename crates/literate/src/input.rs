@@ -22,8 +22,7 @@ pub fn read_from(file: impl Read) -> Result<String, Error> {
     text(bounded(file)?)
 }
 
-/// Reads a whole file that was found in a folder. Only a regular file is opened, for opening a pipe
-/// waits for its other end.
+/// Reads a whole file, if it is a regular one: opening a pipe waits for its other end.
 pub fn regular(path: &Path) -> Result<Vec<u8>, Error> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(Error::new(ErrorKind::InvalidInput, "not a regular file"));
@@ -106,8 +105,7 @@ pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
 /// How the names of files and folders begin that are not yet complete.
 pub const STAGING: &str = ".staging-literate-";
 
-/// Held for reading while files are put into place; whoever ends the program waits for that by
-/// holding it for writing.
+/// Held for reading while files are put into place, and for writing when the program ends.
 pub static WRITING: RwLock<()> = RwLock::new(());
 
 /// Describes a fault of TOML with its line, from 1, and a remedy: `12: missing field …; correct …`.

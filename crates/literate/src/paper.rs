@@ -63,8 +63,7 @@ pub type Values = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
 /// Makes rows of tables that are neither values nor checks, by the names that the prose uses.
 pub type Rows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure>;
 
-/// Makes the text of `lab.js`, which a page loads when a reader asks it to compute; none if it
-/// cannot be made here.
+/// Makes `lab.js`, which a page loads to compute; none if it cannot be made here.
 pub type Lab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
 
 /// A paper. [`Paper::cli`] gives it a command line.

@@ -137,8 +137,7 @@ fn plain(digits: String) -> Numeral {
     Numeral { digits, ..Numeral::default() }
 }
 
-/// Prints a number with its error in brackets, both times a power of ten: one digit of the error,
-/// or two after a leading 1.
+/// Prints a number with one digit of its error in brackets, or two after a leading 1.
 fn with_error(x: f64, error: f64, power: i32) -> Numeral {
     if error <= 0.0 || !error.is_finite() {
         return numeral(Decimal::shortest(x).times_ten(power));

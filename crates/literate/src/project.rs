@@ -3,7 +3,7 @@
 //!
 //! The project is the first folder from the current one upwards that has its source, or else the
 //! folder that the environment variable `LITERATE_PROJECT` names. A program that travels alone has
-//! a copy of what it reads inside.
+//! a copy inside.
 
 use crate::input::{self, sha256};
 use crate::source::Sources;
@@ -15,14 +15,12 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Project {
     pub sources: Sources,
-    /// Paths, from the top of the project, and texts of what it reads when it runs; empty unless it
-    /// travels alone.
+    /// Paths and texts of what it reads when it runs; empty unless it travels alone.
     pub copy: &'static [(&'static str, &'static str)],
     /// Folders and files on which every result depends, besides those that its experiment lists.
     pub shared: &'static [&'static str],
-    /// Files that change no result, by the beginning or the end of their paths, each with the
-    /// reason. A file that is listed may name them. They count only for an experiment that lists
-    /// them by their whole path.
+    /// Files that change no result, by the beginning or end of their paths, with the reason. They
+    /// count only for an experiment that lists them by their whole path.
     pub left_out: &'static [(&'static str, &'static str)],
 }
 
@@ -114,20 +112,17 @@ impl Project {
         Ok(())
     }
 
-    /// Finds a file or folder by its path from the top of the project; none if only the copy inside
-    /// has it.
+    /// Finds a file or folder of the project; none if only the copy inside has it.
     pub fn find(&self, path: &str) -> Option<PathBuf> {
         Some(self.path_to_top()?.join(path)).filter(|found| found.exists())
     }
 
-    /// Returns the path to the top of the project, if the current folder lies in it or the
-    /// environment names it.
+    /// Returns the path to the top of the project, by the current folder or the environment.
     fn path_to_top(&self) -> Option<PathBuf> {
         self.path_up().or_else(|| std::env::var_os("LITERATE_PROJECT").map(PathBuf::from))
     }
 
-    /// Returns the path from the current folder up to the top of the project, if it lies in it:
-    /// empty, or `../`.
+    /// Returns the way from the current folder up to the top of the project, if it lies in it.
     fn path_up(&self) -> Option<PathBuf> {
         let (path, _) = self.sources.files.iter().find(|(path, _)| path.contains('/'))?;
         let here = std::env::current_dir().ok()?;
@@ -164,8 +159,8 @@ impl Project {
         self.top().is_none_or(|top| top.join(path).exists())
     }
 
-    /// Returns the path from a folder, which need not exist, up to the top of the project: `../`.
-    /// None if the folder lies outside.
+    /// Returns the way from a folder, which need not exist, up to the top: `../`; none from
+    /// outside.
     pub fn way_up(&self, folder: &Path) -> Option<String> {
         let folder = std::path::absolute(folder).ok()?;
         let real =
@@ -177,9 +172,7 @@ impl Project {
 
     /// Reads a file by its path from the top of the project.
     ///
-    /// # Errors
-    /// As [`input::regular_text`]; [`io::ErrorKind::NotFound`] with what to do if there is no such
-    /// file.
+    /// # Errors As [`input::regular_text`]; [`io::ErrorKind::NotFound`] says what to do.
     pub fn text(&self, path: &str) -> io::Result<Cow<'static, str>> {
         if let Some(found) = self.find(path) {
             return input::regular_text(&found).map(Cow::Owned);

@@ -6,8 +6,7 @@ pub struct Sources {
     pub version: &'static str,
     /// Path of each file from the folder of its Cargo.toml, and its text.
     pub files: &'static [(&'static str, &'static str)],
-    /// Names of crates in paths of items, and the folders of their source; the name of the program
-    /// is empty.
+    /// Names of crates in paths of items, empty for the program, and the folders of their source.
     pub crates: &'static [(&'static str, &'static str)],
 }
 

@@ -48,8 +48,7 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
     assert_eq!(ledger.matches("\"differs and explained\"").count(), 1, "{ledger}");
     assert!(report.contains_key("report.html"));
 
-    // The constants to the digits that the literature has: 4.669 201 609 102… and 2.502 907 875
-    // 095….
+    // To the digits that the literature has: 4.669 201 609 102… and 2.502 907 875 095….
     let cascade = feigenbaum::CASCADE.get(&session).unwrap();
     let tables = (feigenbaum::CASCADE.tables)(&cascade);
     let limit = |column: &str| tables[1].distinct(column).unwrap()[0];

@@ -123,8 +123,7 @@ impl Check {
         Check { verdict, ..self }
     }
 
-    /// Adds an explanation, which predicts what is found (`holds`) or does not: then the check
-    /// fails, whatever the finding.
+    /// Adds an explanation; unless it predicts what is found (`holds`), the check fails.
     pub fn explained(self, why: impl Into<Text>, holds: bool) -> Check {
         let verdict = match (self.verdict, holds) {
             (_, false) => Verdict::Differs,

@@ -93,8 +93,7 @@ impl Evidence<'_> {
         Ok(found)
     }
 
-    /// Returns the [number](Self::number) with an address and its standard error; the interval is
-    /// one error to each side.
+    /// Returns the number with an address and its standard error, which is half of the interval.
     #[track_caller]
     pub fn estimate(&self, address: &str) -> Result<Estimate, Error> {
         let value = self.number(address)?;
@@ -102,8 +101,7 @@ impl Evidence<'_> {
         Ok(Estimate { value, error, interval: [value - error, value + error] })
     }
 
-    /// Judges the number of a cell: it has to round to the printed one, with room for its standard
-    /// error if it has one.
+    /// Judges the number of a cell: it has to round to the printed one, with room for its error.
     #[track_caller]
     pub fn cell(&self, address: &str) -> Judged {
         let half = self.statement.half_unit();

@@ -1,10 +1,8 @@
-//! Computes the level of each statistical check, so that all of them together rarely fail by
-//! chance.
+//! Computes the level of each statistical check, so that all together rarely fail by chance.
 
 use impact_numerics::statistics::normal_quantile;
 
-/// The probability with which at least one statistical check fails although all of them hold
-/// (ours).
+/// The probability that at least one statistical check fails although all hold (ours).
 pub const FAMILY_LEVEL: f64 = 0.01;
 
 /// The level of each of several statistical checks, by Šidák's correction.

@@ -1,5 +1,4 @@
-//! Judges statements of a paper, and relations between its numbers, by what is found: [`judge_all`]
-//! makes a [`Check`] of each.
+//! Judges statements of a paper, and relations between its numbers: [`judge_all`].
 
 mod check;
 mod evidence;

@@ -134,8 +134,7 @@ impl Statement {
         self.fault(&format!("its check judges {words:?}, {what}"))
     }
 
-    /// Reads the number from `printed` if this is a number alone, and checks one that is given
-    /// besides.
+    /// Reads the number from `printed` if this is one, and checks one that is given besides.
     fn read_number(&mut self) -> Result<(), &'static str> {
         if let Some((value, decimals)) = number_alone(&self.printed) {
             let agrees = self.value.is_none_or(|given| given == value)
@@ -164,8 +163,7 @@ impl Statement {
         Ok(())
     }
 
-    /// Returns it with another first digit in its number, also in the printed words; none if it has
-    /// no number.
+    /// Returns it with another first digit in its number and in its words; none without a number.
     pub(super) fn misprint(&self) -> Option<Statement> {
         let shown = self.shown()?;
         let value = with_other_digit(&shown).parse().ok();
@@ -193,8 +191,7 @@ impl Statement {
         format!("0.5e{}", -decimals).parse().unwrap_or(f64::NAN)
     }
 
-    /// Returns the ends of the numbers that round to the printed one: half a unit of its last digit
-    /// to both sides.
+    /// Returns the ends of the numbers that round to the printed one.
     pub fn interval(&self) -> Result<[f64; 2], PublishedError> {
         let value = self.number()?;
         Ok([value - self.half_unit(), value + self.half_unit()])

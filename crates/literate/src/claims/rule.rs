@@ -126,9 +126,8 @@ pub fn judge_all(
     Ok(checks)
 }
 
-/// Judges each statement with a printed number once more, with another first digit in it. Returns
-/// the ids of those that are still reproduced or explained: their verdicts say nothing about the
-/// number.
+/// Judges each statement once more with another first digit in its number. Returns the ids of those
+/// that are still reproduced or explained: their verdicts say nothing about the number.
 pub fn blind_to_their_number(
     published: &Published,
     rules: &[Rule],

@@ -1,5 +1,4 @@
-//! Keeps the sentences of a check as words and numbers, which a report prints with the digits they
-//! deserve.
+//! Keeps the sentences of a check as words and numbers, so that a report chooses the digits.
 
 use crate::print::{Style, print};
 use crate::value::Number;

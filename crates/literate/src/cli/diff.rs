@@ -206,8 +206,7 @@ fn signed(value: f64) -> String {
     format!("{sign}{}", Value::real("", value, 3).plain())
 }
 
-/// What became of a thing: `x: reproduced -> differs`, `x: new, reproduced`, `x: gone, was
-/// reproduced`.
+/// Writes what became of a thing: `x: old -> new`, `x: new, new`, `x: gone, was old`.
 fn fate(id: &str, sides: [Option<&str>; 2]) -> String {
     let fate = match sides {
         [Some(before), Some(after)] if before == after => before.into(),

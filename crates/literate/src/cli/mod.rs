@@ -70,8 +70,7 @@ impl Paper {
         catch_unwind(AssertUnwindSafe(run)).unwrap_or(1).into()
     }
 
-    /// Runs a command line, of which the first word is the name of the program, and returns its
-    /// exit code.
+    /// Runs a command line, which begins with the name of the program; returns its exit code.
     pub fn run(&self, line: Vec<OsString>) -> u8 {
         self.run_with(line, |none: None| match none {})
     }

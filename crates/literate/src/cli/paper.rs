@@ -39,8 +39,7 @@ pub(super) struct Args {
     /// Say which experiments would be run, and why (exit code 1 if any), and run nothing.
     #[arg(long)]
     dry_run: bool,
-    /// Run this experiment again, although its saved result is fresh (may be repeated); `all` for
-    /// all of them.
+    /// Run this experiment again, although its result is fresh (may be repeated), or `all`.
     #[arg(long, value_name = "NAME", conflicts_with = "dry_run")]
     rerun: Vec<String>,
     /// Write over files that this program did not make, or that were edited since.
@@ -119,8 +118,7 @@ fn forget(names: &[String], paper: &Paper, session: &Session<'_>) -> Result<(), 
     Ok(())
 }
 
-/// Refuses to write small samples over the full report, or single figures among those of another
-/// profile.
+/// Refuses to write over the full report, or a figure among those of another profile.
 fn refuse_over_other(profile: Profile, out: &Path, is_whole: bool) -> Result<(), Failure> {
     match profile_in(out) {
         Some(there) if there != profile && (!is_whole || there == Profile::Full) => {

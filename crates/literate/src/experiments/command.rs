@@ -2,8 +2,7 @@
 //!
 //! It runs in a temporary folder, with copies of the files that it names and nothing else, so that
 //! a file which it reads and does not name is missed at once. Links would not do: Python looks for
-//! modules where a link leads to. The manual ([`crate::manual`]) has the form of what it reads and
-//! prints.
+//! modules where a link leads to. [`crate::manual`] has the form of what it reads and prints.
 
 use super::printed::{PrintedTable, tables_by_name};
 use super::{AnyExperiment, Error, Found, Profile, Session, process};

@@ -38,8 +38,7 @@ pub enum How<P, T, U> {
 }
 
 impl<P, T> Experiment<P, T> {
-    /// Makes an experiment that is run as a whole, and again whenever the source of the paper
-    /// changes.
+    /// Makes an experiment that is run as a whole, and again whenever the source changes.
     pub const fn new(
         name: &'static str,
         parameters: fn(Profile) -> P,

@@ -17,8 +17,7 @@ pub(super) fn run(command: &mut Command, text: String) -> io::Result<Output> {
     let group = child.id();
     running().push(group);
     if let Some(mut input) = child.stdin.take() {
-        // In a thread, since a program may write much before it reads; one that reads nothing
-        // closes the pipe.
+        // In a thread, since a program may write much before it reads.
         std::thread::spawn(move || drop(input.write_all(text.as_bytes())));
     }
     let output = child.wait_with_output();

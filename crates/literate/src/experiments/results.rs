@@ -45,8 +45,7 @@ impl Results {
     /// # Errors
     /// If two have the same name, and for the first table that has a fault.
     pub fn tables(&self) -> Result<&Tables, Error> {
-        // Made before the lock is taken: a thread that waits in it for others may begin something
-        // else that looks here.
+        // Made before the lock is taken: a thread that waits in it may begin what looks here.
         let tables = match self.tables.get() {
             Some(tables) => tables,
             None => {

@@ -39,8 +39,7 @@ impl Session<'_> {
         Ok(result)
     }
 
-    /// Prints one line if some units are to be run: what they belong to, and about how long they
-    /// take.
+    /// Prints one line if some units are to be run: of what, and about how long they take.
     pub(crate) fn announce(&self, what: &str, units: &[Unit]) -> Result<(), Error> {
         if units.is_empty() {
             return Ok(());

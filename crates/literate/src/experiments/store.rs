@@ -144,8 +144,7 @@ impl Store {
         save(&path, &text).map_err(|source| Error::Store { path, source })
     }
 
-    /// Removes the files of the units of a result, and that of the result too if it is to be run
-    /// again.
+    /// Removes the units of a result, and the result too if it is to be run again.
     pub fn remove(&self, identity: &Identity, is_to_run: bool) -> Result<(), Error> {
         let stem = format!("{}-", identity.file_stem());
         let is_unit = |path: &PathBuf| {

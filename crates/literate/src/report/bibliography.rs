@@ -127,8 +127,7 @@ fn between(before: &str, inner: Vec<Inline>, after: &str) -> Vec<Inline> {
     all
 }
 
-/// Reads a field into words and formulas; empty if the entry has none. Accents are read; other
-/// macros of TeX are refused.
+/// Reads a field into words and formulas, none if it is absent; macros but accents are refused.
 fn field(entry: &Entry, name: &str) -> Result<Vec<Inline>, String> {
     let text = entry.get(name).unwrap_or_default().format_verbatim();
     let mut shown = words_and_maths(text.trim());

@@ -23,8 +23,7 @@ pub struct Card {
     pub title: Vec<Inline>,
     /// What it is in one plain sentence; may be empty.
     pub lead: String,
-    /// What is known of it: names, as "standard error", and texts; an empty name goes on with the
-    /// one before.
+    /// Names, as "standard error", and texts; an empty name goes on with the one before.
     pub rows: Vec<(&'static str, Vec<Inline>)>,
 }
 
@@ -72,8 +71,7 @@ pub struct Cards<'a> {
 }
 
 impl Cards<'_> {
-    /// The card of an id; a claim is found without its `claim:` too, a figure as `fig:spread` or
-    /// by its number, `Fig:3`.
+    /// Makes the card of an id: `fig:spread` or `Fig:3`; `claim:` may be left out.
     pub fn get(&self, id: &str) -> Option<Card> {
         let id = id.trim();
         let lower = id.to_lowercase();

@@ -78,8 +78,7 @@ fn symbol(word: &[char]) -> Option<String> {
     }
 }
 
-/// Returns the printed numbers as values: the groups `paper` (parameters) and `printed`
-/// (statements).
+/// Returns the printed numbers as values: `paper` (parameters) and `printed` (statements).
 pub fn printed(published: &Published) -> Vec<Value> {
     let chosen = published.parameters.iter().map(|p| {
         let text = p.value.to_string();

@@ -9,8 +9,7 @@ use super::tex;
 use crate::print::Shown;
 use pulldown_cmark::Alignment;
 
-/// A block of a document. Ids are written as `sec:protocol`, numbers as "2.1" or "S1"; a number is
-/// empty until the labels give it.
+/// A block, with ids as `sec:protocol`, and numbers as "2.1", which labels give.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
     /// A heading; level 1 is the title, which has no number, as have unnumbered sections.
@@ -44,8 +43,7 @@ pub enum Block {
         language: String,
         text: String,
     },
-    /// A piece of the source: the path of the item, its file in the project, and a link to that
-    /// file.
+    /// A piece of the source: the path of the item, its file, and a link to that.
     Listing {
         id: String,
         number: String,
@@ -131,8 +129,7 @@ pub enum Inline {
         ids: Vec<String>,
         in_sentence: bool,
     },
-    /// A resolved reference to `fig:3` or `ref:rice1945`, and the document that has it if it is not
-    /// this.
+    /// A resolved reference to `fig:3` or `ref:rice1945`, and the other document that has it.
     Reference {
         to: String,
         within: Option<Document>,
@@ -231,8 +228,7 @@ pub fn is_abstract(block: &Block) -> bool {
     matches!(block, Block::Heading { text, .. } if plain(text) == "Abstract")
 }
 
-/// Returns the id of a heading on a page: the one it was given, or `sec-2-1` by its number, or its
-/// words, as `references`.
+/// Returns the id of a heading on a page: its own, or `sec-2-1` by its number, or its words.
 pub fn heading_place(id: Option<&str>, number: Option<&str>, words: &[Inline]) -> String {
     match (id, number) {
         (Some(id), _) => place_on_page(id),
@@ -250,8 +246,7 @@ pub fn place_on_page(id: &str) -> String {
     place(id).replace([':', '.'], "-")
 }
 
-/// Returns an id without signs that TeX or a page would read, which a key of references.bib may
-/// have.
+/// Returns an id without signs that TeX or a page would read: a key may have them.
 pub fn place(id: &str) -> String {
     let is_safe = |c: char| c.is_ascii_alphanumeric() || ":-_.".contains(c);
     let escaped = |c| if is_safe(c) { c.to_string() } else { format!("-{:x}", u32::from(c)) };

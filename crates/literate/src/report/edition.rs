@@ -57,8 +57,7 @@ impl Edition {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Document {
-    /// Its prose: `PROSE.md` of the templates, or the files of the folder `PROSE` in the order of
-    /// their names.
+    /// Its prose: `PROSE.md`, or the files of the folder `PROSE` in the order of their names.
     pub prose: &'static str,
     /// Its name in the other documents.
     pub name: &'static str,

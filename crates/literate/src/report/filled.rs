@@ -1,5 +1,4 @@
-//! Keeps for each piece of the filled prose where it stands in the templates, so that errors name a
-//! line.
+//! Keeps where each piece of the filled prose stands in the templates.
 
 use super::error::Error;
 use super::mark::{Piece, framed, pieces};
@@ -58,8 +57,7 @@ impl Filled {
         format!("{path}:{}", line_and_column(text, (origin.offset + beyond).min(text.len())))
     }
 
-    /// Whether people typed what stands at an offset: text of the template, or a tag that writes a
-    /// plain number or a quotation.
+    /// Returns whether people typed what stands at an offset, as text or within a tag.
     pub fn is_typed(&self, offset: usize) -> bool {
         let Origin { template, offset, tag, .. } = self.origin(offset);
         let typed = self.templates[template].1[offset..].trim_start_matches(['«', '-', ' ']);

@@ -87,8 +87,7 @@ impl Filler {
         Ok(filled)
     }
 
-    /// Checks the names of numbers in conditions, since Tera takes an unknown name for *false*, and
-    /// that no plain number is shown.
+    /// Refuses unknown names in conditions, which Tera takes for *false*, and plain numbers.
     fn conditions(&self, path: &str, text: &str) -> Result<(), Error> {
         let uses = |group| text.match_indices(group).map(|(at, _)| at);
         for at in uses("raw.").chain(uses("keys.")) {

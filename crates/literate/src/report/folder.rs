@@ -127,8 +127,7 @@ fn list(folder: &Path, name: &str) -> Option<Digests> {
     read_sums(&input::regular_text(&folder.join(name)).ok()?)
 }
 
-/// The digests of committed files in the list of a folder. None if the folder has other files and
-/// no list.
+/// Returns the digests in the list of a folder; none if it has other files and no list.
 fn ours(folder: &Path) -> Result<Option<Digests>, Error> {
     let is_empty = names(folder)?.iter().all(|name| name.starts_with(STAGING));
     Ok(list(folder, SUMS).or_else(|| is_empty.then(Digests::new)))
@@ -140,9 +139,8 @@ fn lock(folder: &Path) -> Option<File> {
     File::open(folder).ok().filter(|folder| folder.lock().is_ok())
 }
 
-/// Refuses a folder that has no report, and names files that were edited: those whose bytes are
-/// neither what the list says nor what `files` will write. For a whole report all listed files are
-/// checked.
+/// Refuses a folder that has no report, and names files that were edited: neither as listed, nor as
+/// `files` has them. For a whole report all listed files are checked.
 pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
     let _alone = lock(folder);
     refuse_alone(folder, files, whole)

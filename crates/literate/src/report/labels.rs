@@ -117,8 +117,7 @@ impl Labels {
         Error::all(errors)
     }
 
-    /// Takes the verdicts, which `row:id`, `mark:id` and `sign:id` show, and refuses the place of
-    /// an unknown statement.
+    /// Takes the verdicts for `row:`, `mark:` and `sign:`; refuses the place of no statement.
     pub fn add_verdicts(&mut self, claims: &[Check]) -> Result<(), Error> {
         self.signs = claims.iter().map(|claim| (claim.id.clone(), claim.verdict.sign())).collect();
         let mut errors = Vec::new();
@@ -246,8 +245,7 @@ fn mixed(ids: &[String]) -> Error {
     Error::Named { thing: format!("@{ids}"), what }
 }
 
-/// Citations, `[@rice1945; @toda1989]` as "[Rice, 1945; Toda, 1989]", and `@rice1945` in a sentence
-/// as "Rice (1945)".
+/// Writes `[@rice1945]` as "[Rice, 1945]", and `@rice1945` in a sentence as "Rice (1945)".
 fn cite(
     keys: &[String],
     in_sentence: bool,
@@ -273,8 +271,7 @@ fn cite(
     Ok(out)
 }
 
-/// Refuses an id that does not begin with the kind of what it names: a table with the id of a
-/// figure would be called a figure.
+/// Refuses an id that does not begin with the kind of what it names.
 pub(super) fn check_kind(kind: &str, id: &str) -> Result<(), Error> {
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, ':' | '-' | '_' | '.');
     let name = id.strip_prefix(kind).and_then(|name| name.strip_prefix(':'));

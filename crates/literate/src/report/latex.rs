@@ -8,8 +8,7 @@ use super::tex;
 use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};
 
-/// Returns what the template report.tex inserts, or an error for each character that pdflatex does
-/// not know.
+/// Returns what report.tex inserts, or the characters that pdflatex does not know.
 pub fn write(blocks: &[Block], document: Document, edition: &Edition) -> Result<Json, Error> {
     let title = title(blocks)?;
     let authors = edition.authors.iter().map(|(name, of)| [tex::text(name), tex::text(of)]);
@@ -39,8 +38,7 @@ fn body(blocks: &[Block]) -> String {
             (before, end) = (None, "\\end{abstract}\n");
             continue;
         }
-        // An equation belongs to the sentence around it: no paragraph begins before it, nor after
-        // it when the sentence goes on.
+        // No paragraph begins before an equation, nor after it when the sentence goes on.
         let goes_on = before.is_some_and(|before| goes_on(before, block));
         out.push_str(if out.is_empty() || goes_on { "" } else { "\n" });
         let text = write_block(block);
@@ -298,8 +296,7 @@ fn table(table: &Table) -> String {
 }
 
 /// Lays out columns that do not all fit: short ones keep their width, and the long ones share what
-/// is free beyond their longest words. The square root keeps a very long one from starving the
-/// others.
+/// is free beyond their longest words, by the square roots of their widths.
 fn shared(columns: &[Column], line: f64, free: f64) -> String {
     let long = columns.iter().filter(|column| column.width > SHORT);
     let weights: f64 = long.map(|column| (column.width as f64).sqrt()).sum();

@@ -35,8 +35,7 @@ impl Declared {
         }
     }
 
-    /// Whether the word at this offset stands inside a declared phrase, between whose words a line
-    /// may end.
+    /// Returns whether the word at this offset stands in a declared phrase, perhaps in two lines.
     fn allows(&self, text: &str, start: usize, word: &str) -> bool {
         let stands = |phrase: &str, at: usize| {
             let begin = start.checked_sub(at);
@@ -62,8 +61,7 @@ fn is_number_word(word: &str) -> bool {
     WORDS.split_whitespace().any(|number| number == word)
 }
 
-/// Finds hard-coded numbers in the words of a part of a text, each with its offset. Marks of values
-/// are skipped.
+/// Finds hard-coded numbers in a part of a text, with their offsets; marks are skipped.
 pub fn words(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize, String)> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let (mut found, mut at) = (Vec::new(), part.start);

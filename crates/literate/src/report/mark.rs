@@ -2,8 +2,7 @@
 //!
 //! A mark holds the id of a value and the filters for its digits. Marks without an id hold the
 //! place in the template: [`marked`] puts them around each tag, and
-//! [`Filled::add`](super::filled::Filled::add) takes them out again. Between two tags the text is
-//! that of the template.
+//! [`Filled::add`](super::filled::Filled::add) takes them out again.
 
 use crate::print::Style;
 use crate::value::Digits;

@@ -13,9 +13,8 @@ fn convert(tex: &str, display: MathDisplay) -> Result<String, String> {
     made.map(|made| made.mathml).map_err(|error| error.to_string())
 }
 
-/// Writes a formula, cut at its values, which `value` writes: screen readers take a formula as a
-/// whole and would not reach a button inside it. A value in a script, a root or a fraction stays in
-/// the formula as digits.
+/// Writes a formula, cut at its values, which `value` writes: screen readers would not reach a
+/// button inside it. A value in a script, a root or a fraction stays in the formula as digits.
 pub fn write(
     formula: &Formula,
     display: MathDisplay,

@@ -1,15 +1,11 @@
 //! Makes a report from prose, values, checks and figures: its documents as Markdown, LaTeX and
 //! HTML, and its data.
 //!
-//! 1. [`values`] collects the numbers, and [`filler`] puts a mark for each into the prose that
-//!    names it.
-//! 2. [`parse`] reads the filled Markdown into the tree of `document`; `lint` refuses hard-coded
-//!    numbers.
+//! 1. [`values`] collects the numbers, and [`filler`] puts a mark for each into the prose.
+//! 2. [`parse`] reads the prose into the tree of `document`; `lint` refuses hard-coded numbers.
 //! 3. [`labels`] numbers figures, equations and sections, and resolves references and citations.
-//! 4. [`markdown`], [`latex`] and `html` write the tree, `search` indexes it, `card` says of each
-//!    number where it comes from.
-//! 5. [`assemble()`] does all of this and returns every file as bytes; [`folder`] writes and
-//!    compares them.
+//! 4. [`markdown`], [`latex`] and `html` write the tree, `search` indexes it, `card` explains.
+//! 5. [`assemble()`] returns every file as bytes; [`folder`] writes and compares them.
 
 pub(crate) mod assemble;
 pub mod bibliography;

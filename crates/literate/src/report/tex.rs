@@ -10,8 +10,7 @@ use crate::table::nearest;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
-/// Escapes running text: special characters get a backslash, others beyond ASCII a name, if they
-/// have one.
+/// Escapes running text: special characters get a backslash, others beyond ASCII a name.
 pub fn text(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -36,8 +35,7 @@ pub fn text(text: &str) -> String {
     out
 }
 
-/// Returns the characters that pdflatex does not know. Latin letters with accents are known to T1
-/// fonts.
+/// Returns the characters that pdflatex does not know; T1 fonts have letters with accents.
 pub fn unknown(tex: &str) -> BTreeSet<char> {
     tex.chars().filter(|c| !c.is_ascii() && !('\u{c0}'..='\u{17f}').contains(c)).collect()
 }

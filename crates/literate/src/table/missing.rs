@@ -34,8 +34,7 @@ pub(crate) fn no_such<'a>(kind: &str, name: &str, names: impl Iterator<Item = &'
     format!("there is no {kind} {name}; nearest: {}", nearest.join(", "))
 }
 
-/// Returns the three names that are most like one: with the most characters alike at their
-/// beginnings and ends.
+/// Returns the three names with the most characters alike at their beginnings and ends.
 pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let alike = |other: &&str| {
         let first = name.chars().zip(other.chars()).take_while(|(a, b)| a == b).count();

@@ -109,8 +109,7 @@ impl Table {
         Ok(series.into_iter().map(|(x, estimate)| (x, estimate.value)).collect())
     }
 
-    /// Returns the same with standard errors, zero where a number has none; the interval is one
-    /// error to each side.
+    /// Returns the same with standard errors, zero where a number has none.
     #[track_caller]
     pub fn series(
         &self,

@@ -19,9 +19,8 @@ const FONTS: [(&str, &[u8]); 4] = [
     ("LibertinusMath-Regular", include_bytes!("../../../fonts/LibertinusMath-Regular.woff2")),
 ];
 
-/// Returns the files that all pages share: fonts, and the cards of all values that they show. The
-/// cards are a script, since a page on a disk can load nothing else. A row that several cards have
-/// is stored once.
+/// Returns the files that all pages share: fonts, and the cards of their values as a script, since
+/// a page on a disk can load nothing else. A row of several cards is stored once.
 pub fn files(
     values: &BTreeSet<String>,
     cards: Cards<'_>,

@@ -46,8 +46,7 @@ impl Page<'_> {
             };
             class.map_or(String::new(), |class| format!(" class=\"{class}\""))
         };
-        // On a narrow screen rows of many columns become lists, with the heads as names, or at
-        // least scroll sideways.
+        // On a narrow screen rows of many columns become lists, or scroll sideways.
         let has_words = |cell: &Vec<Inline>| {
             let is_word = |inline: &Inline| matches!(inline, Inline::Text(text) if text.contains(char::is_alphabetic));
             cell.iter().any(is_word)

@@ -96,8 +96,7 @@ struct Reader<'a> {
     found: Vec<Error>,
 }
 
-/// How a caption begins, `Table: words {#tab:id}` or `Listing: words {#lst:id}`, and the kind of
-/// its id.
+/// How a caption begins, as `Table: words {#tab:id}`, and the kind of its id.
 const CAPTIONS: [(&str, &str); 2] = [("Table: ", "tab"), ("Listing: ", "lst")];
 
 impl<'a> Reader<'a> {
@@ -262,8 +261,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads a figure, which stands alone in its paragraph, followed by its id; without one the id
-    /// of `figures/NAME.svg`, or `.png`, is `fig:NAME`. The id may give the number, as `fig:3` and
-    /// `fig:S1` do.
+    /// of `figures/NAME.svg` is `fig:NAME`. The id may give the number, as `fig:S1` does.
     fn figure(&mut self, path: &str, at: usize, id: Option<String>) -> Result<Block, Error> {
         let caption = self.line()?;
         self.events.next();

@@ -2,8 +2,7 @@
 
 use super::{Given, PROSE, Table, assembled, file, given, unmarked};
 
-/// Broken prose, line and column of the error, and words of its message; lines without an arrow are
-/// headings.
+/// Broken prose, line and column of the error, and words of its message; or a heading.
 const BROKEN: &str = r##"
 A name that there is not.
 a⏎«v.half_heigth» => 15:4 => v.half_heigth: there is no such name; nearest: half_height

@@ -2,8 +2,7 @@
 
 use super::*;
 
-/// A front page repeats a figure of the report, and references lead to the document that has their
-/// target.
+/// A front page repeats a figure, and references lead to the document of their target.
 #[test]
 fn documents_refer_to_each_other() {
     const FRONT: Document = Document {
