@@ -69,7 +69,6 @@ const LEFT_OUT: &[(&str, &str)] = &[
     ("src/experiments/mod.rs", "declares modules"),
     ("src/experiments/prelude.rs", "names what stands elsewhere"),
     ("src/experiments/horizon.rs", "of the methods only the race has a horizon, and it lists this"),
-    ("src/experiments/protocol.rs", "seeds/compared.rs compares results, and no run does"),
     ("src/experiments/theory/comparison.rs", "seeds/compared.rs compares results, and no run does"),
 ];
 

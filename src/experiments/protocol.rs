@@ -3,28 +3,24 @@
 use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
 use crate::params::{self, printed_interval};
-use impact_chain::Protocol;
 use impact_chain::rise::Rise;
 
 pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::protocol, tables);
 
 pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     let Some(map) = named(found, PROTOCOL.name) else { return Vec::new() };
-    let halves = map.curves.iter().filter_map(|cell| Some((cell.rise.half_height?, cell)));
-    let mut halves: Vec<(Estimate, &Curve)> = halves.collect();
-    halves.sort_by(|a, b| a.0.value.total_cmp(&b.0.value));
-    let (least, most) = (halves.first(), halves.last());
-    let same = |cell: Option<&(Estimate, &Curve)>| Some(address(cell?.1, "half_height"));
+    let halves = map.curves.iter().filter_map(|cell| cell.rise.half_height);
+    let mut halves: Vec<Estimate> = halves.collect();
+    halves.sort_by(|a, b| a.value.total_cmp(&b.value));
     let printed = round_to_printed(map, printed_interval(), |rise| rise.half_height);
     let all = Table::of("protocol.all", &[map], |map| map.ensemble.realisations)
         .count("realisations", "chains at each σ", |map| map.ensemble.realisations as u64)
         .count("sigmas", "values of σ", |map| map.ensemble.sigmas.len() as u64)
         .count("combinations", "transients times windows", |map| map.curves.len() as u64)
         .count("as_printed", "half heights that round to the printed one", |_| printed as u64)
-        .estimate("largest", SIGMA, "largest half height", |_| most.map(|(half, _)| *half))
-        .same("largest", |_| same(most))
-        .estimate("least", SIGMA, "least half height", |_| least.map(|(half, _)| *half))
-        .same("least", |_| same(least))
+        .computed_by(origin(Curve::new))
+        .estimate("largest", SIGMA, "largest half height", |_| halves.last().copied())
+        .estimate("least", SIGMA, "least half height", |_| halves.first().copied())
         .done();
     vec![cells(map), all]
 }
@@ -47,11 +43,6 @@ pub fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate>
     let most = places.iter().max_by(|a, b| a.value.total_cmp(&b.value))?;
     let error = (least.error * least.error + most.error * most.error).sqrt();
     Some(with_error(most.value - least.value, error))
-}
-
-pub fn address(cell: &Curve, column: &str) -> String {
-    let Protocol { transient, window } = cell.protocol;
-    format!("protocol.cells[transient={transient},window={window}].{column}")
 }
 
 fn cells(map: &Counted) -> Table {

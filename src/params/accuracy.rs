@@ -1,4 +1,4 @@
-//! Sizes of the experiments on the speed and accuracy of methods.
+//! Chooses the sizes of the experiments on the speed and accuracy of methods.
 
 use super::chosen::SEED;
 use super::methods::{MethodName, Setting};

@@ -1,4 +1,4 @@
-//! Single numbers that the paper or this edition chose, and the printed threshold.
+//! Lists single numbers that the paper or this edition chose, and the printed threshold.
 
 use literate::claims::{Published, PublishedError, Statement};
 use std::sync::LazyLock;

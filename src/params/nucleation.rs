@@ -1,4 +1,4 @@
-//! Sizes of the experiments on gaps that close by themselves, and on impacts that spread from one.
+//! Chooses the sizes of the experiments on gaps that close by themselves, and on what spreads.
 
 use super::chosen::SEED;
 use super::grid::Grid;

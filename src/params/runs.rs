@@ -1,4 +1,4 @@
-//! Runs of equal chains at one σ, and the sizes of the experiments that consist of them.
+//! Defines runs of equal chains at one σ, and the sizes of the experiments that consist of them.
 
 use super::chosen::{SEED, printed_threshold};
 use impact_chain::{Chain, Scenario};

@@ -1,7 +1,6 @@
 //! Compares predicted half heights and mean counts with those of the map of the protocol.
 
 use crate::experiments::prelude::*;
-use crate::experiments::protocol::address;
 use crate::experiments::theory::comparison::root_mean_square;
 use crate::experiments::{PROTOCOL, SEEDS, SWEEP};
 
@@ -37,7 +36,6 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     let scores = Table::of("seeds.scores", &cells, |_| map.ensemble.realisations)
         .key("transient", TIME, |cell| cell.protocol.transient)
         .estimate("half_height", SIGMA, "", |cell| cell.rise.half_height_all)
-        .same("half_height", |cell| Some(address(cell, "half_height_all")))
         .estimate("deficit", SIGMA, "simulated half height less the predicted one", |cell| {
             let predicted = after(cell.protocol.transient, "half_height")?;
             Some(difference(cell.rise.half_height_all?, predicted))

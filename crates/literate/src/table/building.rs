@@ -170,20 +170,6 @@ impl<'a, R> Building<'a, R> {
         })
     }
 
-    /// Gives cells of a column the id of the number that they are: one that another table or a
-    /// value has already.
-    pub fn same(mut self, column: &str, get: impl Fn(&R) -> Option<String>) -> Self {
-        match self.table.column(column) {
-            Ok(at) => {
-                for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
-                    cells[at].id = get(row).unwrap_or_default();
-                }
-            }
-            Err(missing) => self.fault(missing.to_string()),
-        }
-        self
-    }
-
     /// Names the rows by their keys, and notes what is wrong: [`Results::tables`] refuses the
     /// table for two columns or rows of one name, and for numbers that are not finite.
     ///
@@ -212,9 +198,7 @@ impl<'a, R> Building<'a, R> {
                     let remedy = "correct it, or return None where there is no number";
                     faults.push(format!("{address} is {}; {remedy}", cell.plain()));
                 }
-                if cell.id.is_empty() {
-                    cell.id = address;
-                }
+                cell.id = address;
             }
         }
         faults.into_iter().for_each(|fault| self.fault(fault));

@@ -247,7 +247,6 @@ mod tests {
             .estimate("mean", "1", "the mean", mean)
             .count("runs", "how many", |row| row.2.len() as u64)
             .real("inverse", "1/omega", 3, "one over r", |row| (row.0 > 0.0).then(|| 1.0 / row.0))
-            .same("inverse", |row| (row.1 == 0.3).then(|| "other".into()))
             .done()
     }
 
@@ -268,9 +267,6 @@ mod tests {
         );
         assert_eq!(at("test.rise[r=0.8,sigma=0.1].inverse").unit, r"$1/\omega$");
         assert_eq!(at("test.rise[r=0.8,sigma=0.1].sigma").unit, r"$d \omega^2$");
-        assert!(
-            table.at("test.rise[r=0.8,sigma=0.3].inverse").is_none() && table.at("other").is_some()
-        );
     }
 
     #[test]
@@ -340,14 +336,12 @@ mod tests {
         let nan = one(&[1.0, 0.0]).real("x", "1", 3, "", |row| 1.0 / row).done();
         let error = Estimate { value: 1.0, error: f64::NAN, interval: [0.0; 2] };
         let error = one(&[1.0]).estimate("x", "1", "", |_| Some(error)).done();
-        let same = one(&[1.0]).same("y", |_| None).done();
         for (table, what) in [
             (twice, "two rows have the keys [r=1]"),
             (columns, "two columns have the name x"),
             (late, "the key s stands after other columns"),
             (nan, "test.bad[r=0].x is inf; "),
             (error, "test.bad[r=1].x is 1"),
-            (same, "there is no column y; nearest: r"),
         ] {
             let fault = table.fault.unwrap_or_default();
             let place = format!("{}:{}: the table test.bad: ", file!(), table.place.line());
