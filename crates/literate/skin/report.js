@@ -155,6 +155,8 @@
   const input = make("input", { type: "search", placeholder: "Search all documents" });
   input.setAttribute("aria-label", "Search all documents");
   const here = location.pathname.split("/").pop();
+  // Words up to the first sign that may be mathematics, whose text on the page is another.
+  const plain = (text) => text.match(/^[\p{Script=Latin}\d ,.;:()-]*/u)[0] || text;
   let [texts, next] = [undefined, 0];
   input.addEventListener("input", async () => {
     await (texts ??= load("search.js"));
@@ -175,7 +177,9 @@
       const after = text.slice(end, end + CONTEXT).replace(text.length > end + CONTEXT ? /\s\S*$/ : "", "");
       const where = page === here ? section : `${name}: ${section}`;
       const shown = make("small", {}, before, make("mark", {}, text.slice(at, end)), after);
-      return [[`${page}#${id}:~:text=${encodeURIComponent(text.slice(at, end + CONTEXT).replace(/\s\S*$/, "")).replaceAll("-", "%2D")}`, where, shown, whole !== null]];
+      // The words of a heading stand in the contents too: its id leads there.
+      const words_at = text === section ? "" : `:~:text=${encodeURIComponent(plain(text.slice(at, end + CONTEXT)).replace(/\s\S*$/, "")).replaceAll("-", "%2D")}`;
+      return [[`${page}#${id}${words_at}`, where, shown, whole !== null]];
     }));
     // Where the words follow one another comes first.
     places.sort((a, b) => b[3] - a[3]);
