@@ -2,28 +2,29 @@
 
 use super::shared::*;
 use crate::experiments::lengths::from_rest;
-use crate::experiments::protocol::round_to_printed;
 use crate::experiments::rise::{Curve, Rise, RisePoint};
 use crate::experiments::sweep::{self, mode_half};
+use crate::experiments::theory::comparison::LARGE_SIGMA;
 use crate::experiments::{LENGTHS, PROTOCOL, TWO_MASSES};
 use crate::params::{NEAR_SIMULTANEOUS, SLOW};
 use impact_numerics::estimates::with_error;
-use impact_numerics::statistics::Estimate;
+use impact_numerics::statistics::{Estimate, wilson};
 
 pub fn rules() -> Vec<Rule> {
     vec![
         Rule::new("sec2_parameters", parameters),
         Rule::new("sec2_few_below", few_below).on(OurMeasure),
-        Rule::new("sec2_none_below", none_below).on(OurMeasure),
+        Rule::new("sec2_none_below", none_below).on(OurMeasure).statistical(),
         Rule::new("sec2_rise_exists", rise_exists).on(OurMeasure).statistical(),
         Rule::new("sec2_jump", jump).on(OurMeasure),
+        Rule::new("sec2_mode_jump", mode_jump).on(OurMeasure),
         Rule::new("sec2_repeated", repeated).on(OurMeasure),
         Rule::new("sec2_half_height", half_height).on(PrintedDigit).reads("σ ≈ {}"),
         Rule::new("sec2_onset", onset).on(PrintedDigit).reads("σ ≈ {}"),
         Rule::new("sec2_mode_rise", mode_rise).on(PrintedDigit).reads("σ ≈ {}"),
         Rule::new("sec2_three_way", three_way).on(OurMeasure).statistical(),
         Rule::new("sec2_sticking", sticking).on(OurMeasure),
-        Rule::new("sec2_two_masses", without_impact),
+        Rule::new("sec2_two_masses", without_impact).on(FiniteCases),
         Rule::new("sec2_percolation", percolation).on(OurMeasure),
         Rule::new("sec2_walls_like_masses", walls_like_masses).on(OurMeasure).statistical(),
     ]
@@ -67,7 +68,7 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     let limit = e.number("sweep.run.gaps")? / VERY_FEW;
     let found = text!("at σ = {} a mean of {}", row.sigma, here);
     let mut means = Vec::new();
-    for curve in &ensemble(e.results.of(&PROTOCOL)?, "sweep")?.curves {
+    for curve in late(e, "sweep")? {
         means.extend(curve.rows.first().and_then(|row| row.mean?.estimate()));
     }
     let few = means.iter().filter(|mean| mean.value <= limit).count();
@@ -76,31 +77,46 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     };
     let reason =
         "ours: “very few” as a twentieth of all gaps, at two thirds of the printed threshold";
-    let check = by_windows(e, found, [few, means.len()], text!("at most {:2}", limit), reason);
-    let note = "Of {} pairs of transient T and window W, which are not printed, {} give at most {:2}, a twentieth of \
-         all gaps: from {} in the shortest window after the shortest transient to {} in the longest. Only {} of {} \
-         realisations have an impact, but in these impacts spread.";
-    Ok(check.note(text!(note, means.len(), few, limit, *first, *last, row.kept, row.ran)))
+    let check = by_runs(e, found, [few, means.len()], text!("at most {:2}", limit), reason);
+    let note = "From rest. Of {} pairs of transient T ≥ {} and window W, which are not printed, {} give at most {:2}, \
+         a twentieth of all gaps: from {} in the shortest window after the shortest transient to {} in the longest. \
+         Only {} of {} realisations have an impact, but in these impacts spread.";
+    let counts = text!(note, means.len(), RELEASED, few, limit, *first, *last, row.kept, row.ran);
+    Ok(check.note(counts))
 }
 
-/// By the share of the realisations with an impact, in each window of the map of protocols.
+/// By the share of the realisations with an impact, with its interval, in each window of the map of
+/// protocols.
 fn none_below(e: &Evidence<'_>) -> Judged {
     let row = small_force(e)?;
     let here = e.estimate(&format!("sweep.rows[sigma={}].kept", row.sigma))?;
-    let mut shares = Vec::new();
-    for curve in &ensemble(e.results.of(&PROTOCOL)?, "sweep")?.curves {
-        shares.extend(curve.rows.first().map(|row| row.kept as f64 / row.ran as f64));
-    }
     let limit = 1.0 / VERY_FEW;
-    let none = shares.iter().filter(|share| **share <= limit).count();
+    let (mut shares, mut none, mut some) = (Vec::new(), 0, 0);
+    for curve in late(e, "sweep")? {
+        let row = curve.rows.first().ok_or(Undecided)?;
+        let [low, high] =
+            wilson(row.kept as u64, row.ran as u64, 1.0 - e.level()?.each).ok_or(Undecided)?;
+        shares.push(row.kept as f64 / row.ran as f64);
+        none += usize::from(high <= limit);
+        some += usize::from(low > limit);
+    }
     let [least, most] = ends(shares.iter().copied()).ok_or(Undecided)?;
+    let random = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma))?;
+    let half = e.estimate("sweep.rise.kept_half")?;
     let found = text!("at σ = {} {} of the realisations have an impact", row.sigma, here);
     let reason = "ours: “no impacts” as in at most a twentieth of the realisations, at two thirds of the printed \
          threshold";
-    let check = by_windows(e, found, [none, shares.len()], text!("at most {:1}", limit), reason);
-    let note = "In the {} windows of the map of protocols the share lies from {:2} to {:2}; in {} of them it is at \
-         most {:1}.";
-    Ok(check.note(text!(note, shares.len(), least, most, none, limit)))
+    let check = if none + some == shares.len() {
+        by_runs(e, found, [none, shares.len()], text!("at most {:1}", limit), reason)
+    } else {
+        e.open(found)
+    };
+    let note = "From rest the share lies from {:2} to {:2} in the {} windows of the map of protocols with T ≥ {}. With \
+         its statistical error it is surely at most {:1}, a twentieth, in {} of them and surely more in {}. With random \
+         free parts, as Eq. (20) supposes, it would be at most {:1}; the start is not printed. From rest half of the \
+         realisations have an impact at σ = {}, below the printed threshold.";
+    let [all, late] = [shares.len() as f64, RELEASED];
+    Ok(check.note(text!(note, least, most, all, late, limit, none, some, random, half)))
 }
 
 /// A jump stays in one step of the grid, however fine; a slope is shared by all.
@@ -110,13 +126,37 @@ fn jump(e: &Evidence<'_>) -> Judged {
     let half = e.number("sweep.run.gaps")? / 2.0;
     let found =
         text!("largest step of the mean, between σ that are {} apart: {:2} gaps", step, one);
-    let reason = "ours: a jump is a step of half the height or more";
-    let why = "The rise is steep but gradual: over two steps of the grid the mean of the realisations with an impact \
+    let why = "From rest. The rise is steep but gradual: over two steps of the grid the mean of the realisations with an impact \
          increases {:2} times as much as over one (a slope gives 2, a jump 1); the largest step of the mean of all \
          is {:2}.";
     Ok(e.found(found, one >= half)
-        .within(text!("a step of at least {:3}", half), reason)
+        .within(text!("a step of at least {:3}", half), A_JUMP)
         .explained(text!(why, two / one, all), two / one > 1.5))
+}
+
+pub(super) const A_JUMP: &str = "ours: a jump is a step of half the height or more";
+
+/// By the bootstrap intervals of the mode at neighbouring σ: the least and the largest step that
+/// they allow.
+fn mode_jump(e: &Evidence<'_>) -> Judged {
+    let rows = &sweep::main(e.results)?.first().rows;
+    let intervals: Vec<[usize; 2]> = rows.iter().filter_map(|row| row.mode_interval).collect();
+    let steps = |from: usize, to: usize| {
+        let steps = intervals.windows(2).map(|w| w[1][to] as f64 - w[0][from] as f64);
+        steps.reduce(f64::max).map(|step| step.max(0.0)).ok_or(Undecided)
+    };
+    let (least, most) = (steps(1, 0)?, steps(0, 1)?);
+    let half = e.number("sweep.run.gaps")? / 2.0;
+    let found = text!("a largest step between {} and {} gaps", least, most);
+    let check = if least < half && most >= half {
+        e.open(found)
+    } else {
+        e.found(found, least >= half).within(text!("a step of at least {:3}", half), A_JUMP)
+    };
+    let note = "From rest, between neighbouring σ, by the bootstrap intervals of the mode; a jump would be a step of \
+         {:3} or more. At the rise the intervals are as wide as the rise, so that {} realisations do not tell a jump \
+         of the mode from a steep rise.";
+    Ok(check.note(text!(note, half, e.number("sweep.run.realisations")?)))
 }
 
 /// Against a chain in which each gap closes by itself: its rise from a quarter to three quarters,
@@ -139,31 +179,32 @@ fn rise_exists(e: &Evidence<'_>) -> Judged {
         let more = " The mean of all rises from a tenth to nine tenths within Δσ = {}.";
         note = note.then(text!(more, width));
     }
-    let windows = &ensemble(e.results.of(&PROTOCOL)?, "protocol")?.curves;
+    let windows = late(e, "protocol")?;
     let share_in =
-        |window: &Curve| Some(window.rise.kept_width?.value / window.rise.half_height?.value);
+        |window: &&Curve| Some(window.rise.kept_width?.value / window.rise.half_height?.value);
     let shares: Vec<f64> = windows.iter().filter_map(share_in).collect();
     if let Some([least, most]) = ends(shares.iter().copied()) {
-        let range = " In {} of the {} windows of the map of protocols the share is known, and lies from {:2} to {:2}.";
-        note = note.then(text!(range, shares.len(), windows.len(), least, most));
+        let range = " In {} of the {} windows of the map of protocols with T ≥ {} this width over σ½ is known, and \
+             lies from {:2} to {:2}.";
+        note = note.then(text!(range, shares.len(), windows.len(), RELEASED, least, most));
     }
     let agrees = share <= limit + e.level()?.quantile * error;
     let tolerance = text!("at most {:2}", limit);
     Ok(e.found(found, agrees).within(tolerance, reason).note(note))
 }
 
-const WITH_AN_IMPACT: &str = "Judged by the mean of the realisations with at least one impact.";
+const WITH_AN_IMPACT: &str =
+    "Judged by the mean of the realisations with at least one impact, from rest.";
 
-/// Impacts in the window for each gap that has any, at the printed threshold.
+/// Impacts in the window for each gap that has any, where σ is large.
 fn repeated(e: &Evidence<'_>) -> Judged {
-    let threshold = e.published.statement("sec2_half_height")?.number()?;
-    let row = format!("sweep.rows[sigma={threshold}]");
+    let row = format!("sweep.rows[sigma={LARGE_SIGMA}]");
     let [impacts, gaps] = e.numbers(&row, ["impacts", "mean"])?;
-    let each = impacts / gaps;
-    let found = text!("{:2} impacts for each gap that has any, at σ = {}", each, threshold);
-    let note = "In the window of our protocol. Impacts go on, so a longer window has more and a short one cannot \
-         have many: the window, which is not printed, decides.";
-    Ok(e.open(found).note(note))
+    let [each, window] = [impacts / gaps, e.number("sweep.run.window")?];
+    let found = text!("{:2} impacts for each gap that has any, at σ = {}", each, LARGE_SIGMA);
+    let note = "In a window W = {}, one in a time of {:2}. Impacts go on, so a longer window has more and a short \
+         one cannot have many: the window, which is not printed, decides.";
+    Ok(e.open(found).note(text!(note, window, window / each)))
 }
 
 /// Adds the protocol of the sweep to what is found.
@@ -174,28 +215,40 @@ fn with_protocol(e: &Evidence<'_>, found: Text) -> Result<Text, Error> {
 
 fn half_height(e: &Evidence<'_>) -> Judged {
     let found = text!("σ½ = {}", e.estimate("sweep.rise.half_height")?);
-    not_judged(e, found, WITH_AN_IMPACT, |rise| rise.half_height)
+    by_protocol(e, found, WITH_AN_IMPACT, |rise| rise.half_height)
 }
 
 fn onset(e: &Evidence<'_>) -> Judged {
     let found = text!("σ = {}", e.estimate("sweep.rise.onset")?);
-    let by = "Judged by the mean of all: where any realisation has an impact, the mean of those is above a twentieth.";
-    not_judged(e, found, by, |rise| rise.onset)
+    let by = "Judged by the mean of all, from rest: where any realisation has an impact, the mean of those is above a \
+         twentieth.";
+    by_protocol(e, found, by, |rise| rise.onset)
 }
 
-/// Leaves a place of the rise open, and says in how many windows of the map it has the printed
-/// digits, and where it lies after each transient.
-fn not_judged(
+/// Judges a place of the rise by the windows of the map that begin late enough, and by those of
+/// chains with random free parts; says where it lies after each transient.
+fn by_protocol(
     e: &Evidence<'_>,
     found: Text,
     by: &str,
     place: fn(&Rise) -> Option<Estimate>,
 ) -> Judged {
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
-    let printed = round_to_printed(map, e.statement.interval()?, place);
-    let text = " The protocol, which is not printed, decides. The printed digits come from {} of {} pairs of transient \
-         T and window W. From the narrowest W to the widest that has such a place:";
-    let mut note = Text::from(by).then(text!(text, printed, map.curves.len()));
+    let [from, to] = e.statement.interval()?;
+    let random = ensemble(e.results.of(&LENGTHS)?, "random")?.curves.iter();
+    let late = late(e, "protocol")?;
+    let printed =
+        |curve: &&Curve| place(&curve.rise).is_some_and(|place| (from..to).contains(&place.value));
+    let late_printed = late.iter().copied().filter(printed).count();
+    let random_printed = random.clone().filter(printed).count();
+    let [late_all, random_all] = [late.len(), random.len()];
+    let all = late.into_iter().chain(random.clone());
+    let unknown = all.filter(|curve| place(&curve.rise).is_none()).count();
+    let text = " The printed digits come from {} of {} pairs of transient T and window W with T ≥ {}; with random \
+         free parts, as Eq. (20) supposes, from {} of {}. From rest, from the narrowest W to the widest that has such \
+         a place:";
+    let text = text!(text, late_printed, late_all, RELEASED, random_printed, random_all);
+    let mut note = Text::from(by).then(text);
     let mut sentence = " {} to {} for T = {}";
     let same_transient = |a: &Curve, b: &Curve| a.protocol.transient == b.protocol.transient;
     for windows in map.curves.chunk_by(same_transient) {
@@ -205,7 +258,21 @@ fn not_judged(
         }
         sentence = ", {} to {} for {}";
     }
-    Ok(e.open(with_protocol(e, found)?).note(note.then(".")))
+    sentence = ". With random free parts: {} for T = {}";
+    for curve in random {
+        if let Some(place) = place(&curve.rise) {
+            note = note.then(text!(sentence, place, curve.protocol.transient));
+            sentence = ", {} for {}";
+        }
+    }
+    let (found, tolerance) = (with_protocol(e, found)?, text!("± {:1}", e.statement.half_unit()));
+    let reason = "half a unit of the last printed digit, with any start, transient and window";
+    // Where a place is not known it may agree.
+    let check = match late_printed + random_printed {
+        0 if unknown > 0 => e.open(found),
+        agree => by_runs(e, found, [agree, late_all + random_all], tolerance, reason),
+    };
+    Ok(check.note(note.then(".")))
 }
 
 /// The mode passes half of all gaps within a range of σ; it agrees if this meets the printed
@@ -214,14 +281,17 @@ fn mode_rise(e: &Evidence<'_>) -> Judged {
     let [low, high] = e.numbers("sweep.mode", ["half_from", "half_to"])?;
     let [from, to] = e.statement.interval()?;
     let found = with_protocol(e, text!("between σ = {} and {}", low, high))?;
-    let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
-    let halves = map.curves.iter().filter_map(|curve| mode_half(curve, map.ensemble.chain.gaps()));
+    let (windows, gaps) = (late(e, "protocol")?, e.number("sweep.run.gaps")? as usize);
+    let halves = windows.iter().filter_map(|curve| mode_half(curve, gaps));
     let ranges: Vec<[f64; 2]> = halves.collect();
     let meets = ranges.iter().filter(|[low, high]| *low <= to && *high >= from).count();
-    let note = "The protocol, which is not printed, decides. The mode is known to the range of σ in which its \
-         bootstrap interval reaches over half of all gaps; of the {} protocols with such a range {} have one that \
-         meets the printed digits. It follows the mean.";
-    Ok(e.open(found).note(text!(note, ranges.len(), meets)))
+    let note = "The mode is known to the range of σ in which its bootstrap interval reaches over half of all gaps; of \
+         the {} windows of the map from rest with T ≥ {} and with such a range {} have one that meets the printed \
+         digits. It follows the mean.";
+    let tolerance = text!("± {:1}", e.statement.half_unit());
+    let reason = "half a unit of the last printed digit, with any transient and window";
+    let check = by_runs(e, found, [meets, ranges.len()], tolerance, reason);
+    Ok(check.note(text!(note, ranges.len(), RELEASED, meets)))
 }
 
 /// Share of impacts that may be called negligible (ours).
@@ -272,11 +342,12 @@ fn without_impact(e: &Evidence<'_>) -> Judged {
     let reason =
         "a gap whose amplitudes add up to less than d never closes; rounding of the bracket aside";
     let agrees = found.violations == 0 && least >= 1.0 - 1e-9 && safe > 0.0;
-    let note =
-        "No direction of the forces lets the masses meet below an amplitude of {:4} on each.";
+    let directions = e.number("two_masses.bound.directions")?;
+    let note = "By {} random directions of the two forces. No direction lets the masses meet below an amplitude of \
+         {:4} on each.";
     Ok(e.found(text!(text, found.violations, least), agrees)
         .within("none below 1", reason)
-        .note(text!(note, safe)))
+        .note(text!(note, directions, safe)))
 }
 
 fn walls_like_masses(e: &Evidence<'_>) -> Judged {

@@ -9,7 +9,7 @@ pub fn rules() -> Vec<Rule> {
     vec![
         Rule::new("sec5_fig5", |e| orbit(e, 5)).on(Rounding),
         Rule::new("sec5_fig6", |e| orbit(e, 6)).on(Rounding),
-        Rule::new("sec5_masses_of_circuit", masses_of_circuit).reads("k + 1"),
+        Rule::new("sec5_masses_of_circuit", masses_of_circuit).on(FiniteCases).reads("k + 1"),
         cases("sec5_eq6", ENUMERATION).reads("(N − 1)!/(N − k)!"),
         cases("sec5_eq7", ENUMERATION).reads("N!/(k (N − k)!)"),
         Rule::new("sec5_eq8", eq8).on(OurMeasure).reads("≪ 1 for all k ≲ N"),
@@ -82,11 +82,11 @@ fn masses_of_circuit(e: &Evidence<'_>) -> Judged {
         .explained(why, printed && as_predicted))
 }
 
-/// Lengths that are about N, here as in the next statement: the largest, and three below it.
+/// Lengths that are about N, here and in the statement after the next: within a twentieth of it.
 fn eq8(e: &Evidence<'_>) -> Judged {
     let [far, from] = e.numbers("theory.lengths", ["largest_far", "from"])?;
     let found = text!("at most {:2} for k < {}", far, from);
-    let reason = "ours: “far below one” as at most a tenth; “about N” as within three of it";
+    let reason = "ours: “far below one” as at most a tenth; “about N” as within a twentieth of it, as “few” elsewhere";
     Ok(e.found(found, far <= 0.1).within(text!("at most {:1}", 0.1), reason))
 }
 
@@ -107,7 +107,7 @@ fn eq8_next(e: &Evidence<'_>) -> Judged {
 
 fn majority(e: &Evidence<'_>) -> Judged {
     let [share, peak] = e.numbers("theory.lengths", ["share", "peak"])?;
-    let found = text!("{:4} of all within three of N; the peak at k = {}", share, peak);
-    let reason = "ours: “about N” as within three of it; “majority” as more than half";
+    let found = text!("{:4} of all within a twentieth of N; the peak at k = {}", share, peak);
+    let reason = "ours: “about N” as within a twentieth of it, as “few” elsewhere; “majority” as more than half";
     Ok(e.found(found, share > 0.5).within("more than half", reason))
 }

@@ -8,15 +8,15 @@ pub fn rules() -> Vec<Rule> {
     vec![
         cases("sec7_eq11", "Every k at ten values of p.").reads("Φ(k + 1) − Φ(k) ∝ f(k)"),
         equality("sec7_eq13", 1e-13, "f at its zeros, over its largest term.").reads("k±"),
-        defined("sec7_eq14_15").reads("−1 and −(N + 1)"),
+        Rule::new("sec7_eq14_15", at_the_ends).reads("−1 and −(N + 1)"),
         cases("sec7_eq16_17", "Sign and slope at every k.").reads("−(k + 1) < 0; k (N − k) > 0"),
         Rule::new("sec7_through_zero", through_zero),
         Rule::new("sec7_start", start),
         equality("sec7_maximum", 1e-13, "f is even about that place.").reads("(Np − 1)/2p"),
         Rule::new("sec7_p_crit", p_crit).on(Rounding).reads("((1 + √(N + 1))/N)²"),
         cases("sec7_other_root", "Every N up to the number of cases.").reads("k < 0"),
-        Rule::new("sec7_inflexion", inflexion).on(Rounding),
-        Rule::new("sec7_extrema", extrema),
+        Rule::new("sec7_inflexion", inflexion).on(FiniteCases),
+        Rule::new("sec7_extrema", extrema).on(FiniteCases),
         Rule::new("sec7_still_one", still_one),
         Rule::new("sec7_jump", leaps).on(OurMeasure).reads("much larger than 1"),
         cases("sec7_monotone", "On a grid of p from the jump to one."),
@@ -26,10 +26,17 @@ pub fn rules() -> Vec<Rule> {
 
 const INTEGER: &str = "an integer is exact";
 
+fn at_the_ends(e: &Evidence<'_>) -> Judged {
+    let n = VERTICES as f64;
+    let [first, last] = [0.0, n].map(|k| jump::f(VERTICES, 0.5, k));
+    let found = text!("{} and {} for N = {}, p = {}", first, last, VERTICES, 0.5);
+    Ok(e.found(found, [first, last] == [-1.0, -(n + 1.0)]).within("none", "integers are exact"))
+}
+
 fn start(e: &Evidence<'_>) -> Judged {
     let first = e.number("theory.jump.k_at_zero")?;
     let found = text!("k* = {} as p → 0+", first);
-    let note = "At p = 0 itself Eq. (9) is 0/0; the mean there is read in the same way.";
+    let note = "At p = 0 itself Eq. (9) is 0/0.";
     Ok(e.found(found, first == e.statement.number()?).within("none", INTEGER).note(note))
 }
 

@@ -1,7 +1,9 @@
 //! Makes the rules that several sections have in common, and gives the others what they share.
 
+use crate::experiments::PROTOCOL;
 use crate::experiments::ensembles::{Counted, named};
-pub use literate::claims::Basis::{OurMeasure, PrintedDigit, Rounding};
+use crate::experiments::rise::Curve;
+pub use literate::claims::Basis::{FiniteCases, OurMeasure, PrintedDigit, Rounding};
 pub use literate::claims::Error::{self, Undecided};
 pub use literate::claims::{Check, Evidence, Judged, Kind, Rule, Text};
 pub use literate::text;
@@ -11,14 +13,23 @@ pub fn ensemble<'a>(found: &'a [Counted], name: &str) -> Result<&'a Counted, Err
     named(found, name).ok_or(Undecided)
 }
 
+/// A shorter transient counts the first impacts of a chain that has just been released (ours).
+pub const RELEASED: f64 = 100.0;
+
+/// Returns the curves of a map of protocols whose window begins late enough after the release.
+pub fn late<'a>(e: &Evidence<'a>, map: &str) -> Result<Vec<&'a Curve>, Error> {
+    let curves = ensemble(e.results.of(&PROTOCOL)?, map)?.curves.iter();
+    Ok(curves.filter(|curve| curve.protocol.transient >= RELEASED).collect())
+}
+
 /// Returns the least and the largest of some numbers.
 pub fn ends(numbers: impl Iterator<Item = f64> + Clone) -> Option<[f64; 2]> {
     Some([numbers.clone().reduce(f64::min)?, numbers.reduce(f64::max)?])
 }
 
-/// Starts a check by the windows of the map of protocols, `agree` of which agree with what was
-/// printed. If some agree and others do not, the protocol decides, which is not printed.
-pub fn by_windows(
+/// Starts a check by the protocols or values of σ that were run, `agree` of which agree with what
+/// was printed. If some agree and others do not, what was used decides, which is not printed.
+pub fn by_runs(
     e: &Evidence<'_>,
     found: Text,
     [agree, all]: [usize; 2],
@@ -62,10 +73,12 @@ pub fn cases(id: &'static str, note: &'static str) -> Rule {
         let [all, failed] = compared(e)?;
         Ok(e.all_cases(all, failed).note(note))
     })
+    .on(FiniteCases)
 }
 
 /// Makes the rule of a statement about the theory that is an equality of real numbers.
 #[track_caller]
 pub fn equality(id: &'static str, allowed: f64, note: &'static str) -> Rule {
-    Rule::new(id, move |e| Ok(e.rounding(largest_difference(e)?, allowed).note(note))).on(Rounding)
+    let judge = move |e: &Evidence<'_>| Ok(e.rounding(largest_difference(e)?, allowed).note(note));
+    Rule::new(id, judge).on(FiniteCases)
 }

@@ -8,6 +8,9 @@ use impact_circuits::graph::Graph;
 use impact_circuits::{commuting, counting, jump};
 use std::f64::consts::LN_10;
 
+/// Lengths down to so many below N are about N (ours: a twentieth of it).
+const ABOUT: usize = VERTICES / 20;
+
 /// Gaps of the chain whose simple circuits are enumerated.
 const ENUMERATED: usize = 7;
 
@@ -30,17 +33,17 @@ pub(super) fn lengths() -> Table {
     const EXCEPTIONS: &str = "lengths k < N with over a tenth as many circuits as N";
     let (shares, _) = known(counting::shares(VERTICES));
     let ratio = |k| counting::ratio_to_longest(VERTICES, k);
-    let far = largest((1..VERTICES - 3).map(ratio));
+    let far = largest((1..VERTICES - ABOUT).map(ratio));
     let exceptions = (1..VERTICES).filter(|&k| ratio(k) > 0.1).count();
     let peak = (1..=VERTICES).max_by(|a, b| shares[a - 1].total_cmp(&shares[b - 1]));
-    let long = sum(shares[VERTICES - 4..].iter().copied());
+    let long = sum(shares[VERTICES - ABOUT - 1..].iter().copied());
     one("theory.lengths", origin(counting::ratio_to_longest))
         .real("before_last", "1", 4, "Eq. (8) at k = N − 1", |()| ratio(VERTICES - 1))
-        .real("largest_far", "1", 2, "the largest for k < N − 3", |()| far)
+        .real("largest_far", "1", 2, "the largest for k that are not about N", |()| far)
         .count("exceptions", EXCEPTIONS, |()| exceptions as u64)
         .computed_by(origin(counting::shares))
         .count("peak", "the most frequent length", |()| peak.unwrap_or(VERTICES) as u64)
-        .count("from", "N − 3", |()| VERTICES as u64 - 3)
+        .count("from", "a twentieth below N", |()| (VERTICES - ABOUT) as u64)
         .real("share", "1", 2, "of simple circuits that are as long or longer", |()| long)
         .done()
 }

@@ -25,6 +25,18 @@ fn total_variation(a: &[f64], b: &[f64]) -> f64 {
     0.5 * sum(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
 }
 
+/// Returns the least of these distances if one distribution is moved by up to ten k against the
+/// other.
+fn apart_in_shape(a: &[f64], b: &[f64]) -> f64 {
+    let moved = |k: usize, by: usize| (k + by).checked_sub(10).and_then(|k| a.get(k)).copied();
+    let distance = |by: usize| {
+        let differences = (0..b.len() + 10)
+            .map(|k| (moved(k, by).unwrap_or(0.0) - b.get(k).copied().unwrap_or(0.0)).abs());
+        0.5 * sum(differences)
+    };
+    (0..=20).map(distance).fold(f64::INFINITY, f64::min)
+}
+
 /// Returns the weight of circuits with one doubled vertex over that of simple ones, to first order:
 /// it costs p and can be placed in k²/2 ways, except on a single vertex.
 fn first_order(p: &f64) -> f64 {
@@ -34,6 +46,7 @@ fn first_order(p: &f64) -> f64 {
 
 pub(super) fn classes() -> Table {
     const VARIATION: &str = "distance from the distribution of simple circuits";
+    const SHAPE: &str = "the same with one moved onto the other";
     const FIRST_ORDER: &str = "weight of one doubled vertex, to first order in p";
     let share = |p: &f64| sum(law(FiveClasses, *p).contribution(&CLASSES[0]));
     let difference = |p: &f64| law(FiveClasses, *p).mean() - law(Simple, *p).mean();
@@ -43,6 +56,8 @@ pub(super) fn classes() -> Table {
         .real("simple", "1", 2, "share of simple circuits", share)
         .computed_by(origin(total_variation))
         .real("variation", "1", 2, VARIATION, |p| total_variation(&five(*p), &simple(*p)))
+        .computed_by(origin(apart_in_shape))
+        .real("shape", "1", 2, SHAPE, |p| apart_in_shape(&five(*p), &simple(*p)))
         .computed_by(origin(Law::mean))
         .real("mean_difference", "1", 2, "μ less that of simple circuits", difference)
         .computed_by(origin(first_order))
@@ -83,6 +98,14 @@ fn multiplicities() -> Vec<f64> {
 /// Weights of k = 1..=N in proportion to P(X = k) of five classes, with such a p.
 fn by_different(p: f64, more: &[f64]) -> Vec<f64> {
     simple(p).iter().zip(more).map(|(q, more)| q * more).collect()
+}
+
+/// Returns whether with such a p each k + 1 overtakes k at a larger p than k overtook k − 1, so that
+/// k* climbs by one at a time.
+pub(crate) fn overtaken_in_order() -> bool {
+    let weights = by_different(1.0, &multiplicities());
+    let at: Vec<f64> = weights.windows(2).map(|w| w[0] / w[1]).collect();
+    at.is_sorted()
 }
 
 /// Returns the share of simple circuits in the same.

@@ -51,6 +51,8 @@ words! {
     Exact = "exact",
     /// Agreement within the rounding of double precision.
     Rounding = "rounding",
+    /// Some of the cases that are meant, each exact or to rounding; also random ones.
+    FiniteCases = "finite cases",
     /// Half a unit of the last digit that the paper printed.
     PrintedDigit = "printed digit",
     /// Standard errors at the [level](super::CheckLevel) of all statistical checks.
