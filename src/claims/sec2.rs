@@ -5,7 +5,7 @@ use crate::experiments::lengths::from_rest;
 use crate::experiments::rise::{Curve, Rise, RisePoint};
 use crate::experiments::sweep::{self, mode_half};
 use crate::experiments::theory::comparison::LARGE_SIGMA;
-use crate::experiments::{LENGTHS, PROTOCOL, TWO_MASSES};
+use crate::experiments::{LENGTHS, TWO_MASSES};
 use crate::params::{NEAR_SIMULTANEOUS, SLOW};
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::{Estimate, wilson};
@@ -81,8 +81,8 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     let note = "From rest. Of {} pairs of transient T ≥ {} and window W, which are not printed, {} give at most {:2}, \
          a twentieth of all gaps: from {} in the shortest window after the shortest transient to {} in the longest. \
          Only {} of {} realisations have an impact, but in these impacts spread.";
-    let counts = text!(note, means.len(), RELEASED, few, limit, *first, *last, row.kept, row.ran);
-    Ok(check.note(counts))
+    let all = means.len();
+    Ok(check.note(text!(note, all, RELEASED, few, limit, *first, *last, row.kept, row.ran)))
 }
 
 /// By the share of the realisations with an impact, with its interval, in each window of the map of
@@ -176,7 +176,7 @@ fn rise_exists(e: &Evidence<'_>) -> Judged {
          and the statistical error";
     let mut note = Text::from(WITH_AN_IMPACT);
     if let Ok(width) = e.estimate("sweep.rise.width") {
-        let more = " The mean of all rises from a tenth to nine tenths within Δσ = {}.";
+        let more = " From rest. The mean of all rises from a tenth to nine tenths within Δσ = {}.";
         note = note.then(text!(more, width));
     }
     let windows = late(e, "protocol")?;
@@ -193,8 +193,7 @@ fn rise_exists(e: &Evidence<'_>) -> Judged {
     Ok(e.found(found, agrees).within(tolerance, reason).note(note))
 }
 
-const WITH_AN_IMPACT: &str =
-    "Judged by the mean of the realisations with at least one impact, from rest.";
+const WITH_AN_IMPACT: &str = "Judged by the mean of the realisations with at least one impact.";
 
 /// Impacts in the window for each gap that has any, where σ is large.
 fn repeated(e: &Evidence<'_>) -> Judged {
@@ -220,60 +219,59 @@ fn half_height(e: &Evidence<'_>) -> Judged {
 
 fn onset(e: &Evidence<'_>) -> Judged {
     let found = text!("σ = {}", e.estimate("sweep.rise.onset")?);
-    let by = "Judged by the mean of all, from rest: where any realisation has an impact, the mean of those is above a \
-         twentieth.";
+    let by = "Judged by the mean of all: where any realisation has an impact, the mean of those is above a twentieth.";
     by_protocol(e, found, by, |rise| rise.onset)
 }
 
-/// Judges a place of the rise by the windows of the map that begin late enough, and by those of
-/// chains with random free parts; says where it lies after each transient.
+/// Returns what `place` finds in each window of the map of protocols that begins late enough, and
+/// in those of chains with random free parts.
+fn in_windows<T>(
+    e: &Evidence<'_>,
+    place: impl Fn(&Curve) -> Option<T>,
+) -> Result<[Vec<Option<T>>; 2], Error> {
+    let rest = late(e, "protocol")?.into_iter().map(&place).collect();
+    Ok([rest, ensemble(e.results.of(&LENGTHS)?, "random")?.curves.iter().map(place).collect()])
+}
+
+/// Judges a place of the rise by all these windows: the number of them in which it has the printed
+/// digits decides.
 fn by_protocol(
     e: &Evidence<'_>,
     found: Text,
     by: &str,
     place: fn(&Rise) -> Option<Estimate>,
 ) -> Judged {
-    let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
     let [from, to] = e.statement.interval()?;
-    let random = ensemble(e.results.of(&LENGTHS)?, "random")?.curves.iter();
-    let late = late(e, "protocol")?;
-    let printed =
-        |curve: &&Curve| place(&curve.rise).is_some_and(|place| (from..to).contains(&place.value));
-    let late_printed = late.iter().copied().filter(printed).count();
-    let random_printed = random.clone().filter(printed).count();
-    let [late_all, random_all] = [late.len(), random.len()];
-    let all = late.into_iter().chain(random.clone());
-    let unknown = all.filter(|curve| place(&curve.rise).is_none()).count();
-    let text = " The printed digits come from {} of {} pairs of transient T and window W with T ≥ {}; with random \
-         free parts, as Eq. (20) supposes, from {} of {}. From rest, from the narrowest W to the widest that has such \
-         a place:";
-    let text = text!(text, late_printed, late_all, RELEASED, random_printed, random_all);
-    let mut note = Text::from(by).then(text);
-    let mut sentence = " {} to {} for T = {}";
-    let same_transient = |a: &Curve, b: &Curve| a.protocol.transient == b.protocol.transient;
-    for windows in map.curves.chunk_by(same_transient) {
-        let places: Vec<Estimate> = windows.iter().filter_map(|curve| place(&curve.rise)).collect();
-        if let [Some(first), Some(last)] = [places.first(), places.last()] {
-            note = note.then(text!(sentence, *first, *last, windows[0].protocol.transient));
-        }
-        sentence = ", {} to {} for {}";
-    }
-    sentence = ". With random free parts: {} for T = {}";
-    for curve in random {
-        if let Some(place) = place(&curve.rise) {
-            note = note.then(text!(sentence, place, curve.protocol.transient));
-            sentence = ", {} for {}";
+    let [mut agree, mut unknown, mut all] = [0; 3];
+    let mut note = Text::from(by);
+    let sentences = [
+        " From rest it is known in {} of {} windows with T ≥ {}, from {} to {}; in {} it has the printed digits.",
+        " With random free parts, as Eq. (20) supposes, in {} of {} with T ≥ {}, from {} to {}, and in {}.",
+    ];
+    for (places, sentence) in in_windows(e, |curve| place(&curve.rise))?.into_iter().zip(sentences)
+    {
+        let mut known: Vec<Estimate> = places.iter().flatten().copied().collect();
+        known.sort_by(|a, b| a.value.total_cmp(&b.value));
+        let printed = known.iter().filter(|place| (from..to).contains(&place.value)).count();
+        agree += printed;
+        unknown += places.len() - known.len();
+        all += places.len();
+        if let [Some(least), Some(most)] = [known.first(), known.last()] {
+            let [of, all] = [known.len(), places.len()];
+            note = note.then(text!(sentence, of, all, RELEASED, *least, *most, printed));
         }
     }
     let (found, tolerance) = (with_protocol(e, found)?, text!("± {:1}", e.statement.half_unit()));
-    let reason = "half a unit of the last printed digit, with any start, transient and window";
     // Where a place is not known it may agree.
-    let check = match late_printed + random_printed {
+    let check = match agree {
         0 if unknown > 0 => e.open(found),
-        agree => by_runs(e, found, [agree, late_all + random_all], tolerance, reason),
+        _ => by_runs(e, found, [agree, all], tolerance, HALF_UNIT),
     };
-    Ok(check.note(note.then(".")))
+    Ok(check.note(note))
 }
+
+const HALF_UNIT: &str =
+    "half a unit of the last printed digit, with any start, transient and window";
 
 /// The mode passes half of all gaps within a range of σ; it agrees if this meets the printed
 /// digits.
@@ -281,17 +279,22 @@ fn mode_rise(e: &Evidence<'_>) -> Judged {
     let [low, high] = e.numbers("sweep.mode", ["half_from", "half_to"])?;
     let [from, to] = e.statement.interval()?;
     let found = with_protocol(e, text!("between σ = {} and {}", low, high))?;
-    let (windows, gaps) = (late(e, "protocol")?, e.number("sweep.run.gaps")? as usize);
-    let halves = windows.iter().filter_map(|curve| mode_half(curve, gaps));
-    let ranges: Vec<[f64; 2]> = halves.collect();
-    let meets = ranges.iter().filter(|[low, high]| *low <= to && *high >= from).count();
+    let gaps = e.number("sweep.run.gaps")? as usize;
+    let ranges = in_windows(e, |curve| mode_half(curve, gaps))?.concat();
+    let ranges: Vec<[f64; 2]> = ranges.into_iter().flatten().collect();
+    let all = ranges.len();
+    let within = ranges.iter().filter(|[low, high]| from <= *low && *high <= to).count();
+    let apart = ranges.iter().filter(|[low, high]| to < *low || *high < from).count();
     let note = "The mode is known to the range of σ in which its bootstrap interval reaches over half of all gaps; of \
-         the {} windows of the map from rest with T ≥ {} and with such a range {} have one that meets the printed \
-         digits. It follows the mean.";
+         the {} windows with T ≥ {} and such a range, from rest or with random free parts, {} have one within the printed \
+         digits and {} one apart from them. It follows the mean.";
     let tolerance = text!("± {:1}", e.statement.half_unit());
-    let reason = "half a unit of the last printed digit, with any transient and window";
-    let check = by_runs(e, found, [meets, ranges.len()], tolerance, reason);
-    Ok(check.note(text!(note, ranges.len(), RELEASED, meets)))
+    // Other ranges decide nothing.
+    let check = match [within, apart].contains(&all) {
+        true => e.found(found, within == all).within(tolerance, HALF_UNIT),
+        false => e.open(found),
+    };
+    Ok(check.note(text!(note, all, RELEASED, within, apart)))
 }
 
 /// Share of impacts that may be called negligible (ours).

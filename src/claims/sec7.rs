@@ -8,7 +8,7 @@ pub fn rules() -> Vec<Rule> {
     vec![
         cases("sec7_eq11", "Every k at ten values of p.").reads("Φ(k + 1) − Φ(k) ∝ f(k)"),
         equality("sec7_eq13", 1e-13, "f at its zeros, over its largest term.").reads("k±"),
-        Rule::new("sec7_eq14_15", at_the_ends).reads("−1 and −(N + 1)"),
+        defined("sec7_eq14_15").reads("−1 and −(N + 1)"),
         cases("sec7_eq16_17", "Sign and slope at every k.").reads("−(k + 1) < 0; k (N − k) > 0"),
         Rule::new("sec7_through_zero", through_zero),
         Rule::new("sec7_start", start),
@@ -25,13 +25,6 @@ pub fn rules() -> Vec<Rule> {
 }
 
 const INTEGER: &str = "an integer is exact";
-
-fn at_the_ends(e: &Evidence<'_>) -> Judged {
-    let n = VERTICES as f64;
-    let [first, last] = [0.0, n].map(|k| jump::f(VERTICES, 0.5, k));
-    let found = text!("{} and {} for N = {}, p = {}", first, last, VERTICES, 0.5);
-    Ok(e.found(found, [first, last] == [-1.0, -(n + 1.0)]).within("none", "integers are exact"))
-}
 
 fn start(e: &Evidence<'_>) -> Judged {
     let first = e.number("theory.jump.k_at_zero")?;

@@ -102,20 +102,28 @@ fn claims_fail_when_the_results_say_so() {
     let rows = &mut sweep.curves[0].rows;
     let row = rows.iter_mut().rfind(|row| row.sigma < 0.0804).unwrap();
     (row.mean, row.mean_all) = (mean(14.0), mean(0.6));
+    for row in rows {
+        row.mode_interval = Some([if row.sigma < 0.12 { 1 } else { 101 }; 2]);
+        row.mean = if row.sigma < 0.2 { row.mean } else { mean(50.0) };
+    }
     sweep.curves[0].rise.half_height = None;
     for run in &mut sweep.runs {
         *run.total.near.last_mut().unwrap() += 1000;
     }
     for ([first, others], expected) in
-        [([14.0, 14.0], Differs), ([0.7, 14.0], CannotBeJudged), ([0.7, 0.7], Reproduced)]
+        [([40.0, 40.0], Differs), ([0.7, 40.0], CannotBeJudged), ([0.7, 0.7], Reproduced)]
     {
         let windows = &mut results.of_mut(&PROTOCOL).unwrap()[1].curves;
         for curve in windows.iter_mut() {
             curve.rows[0].mean = mean(others);
+            (curve.rows[0].kept, curve.rows[0].ran) = (others as usize, 300);
         }
-        windows[0].rows[0].mean = mean(first);
+        let row = &mut windows.last_mut().unwrap().rows[0];
+        (row.mean, row.kept) = (mean(first), first as usize);
+        let small = ["sec2_few_below", "sec2_none_below"].map(|id| (id, expected));
         let others = [("printed_threshold", CannotBeJudged), ("sec2_three_way", Differs)];
-        judged(&results, &[&others[..], &[("sec2_few_below", expected)]].concat());
+        let large = [("sec2_mode_jump", Reproduced), ("sec8_large_sigma", Differs)];
+        judged(&results, &[small, others, large].concat());
     }
 }
 
