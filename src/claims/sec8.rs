@@ -133,8 +133,8 @@ fn p_small(e: &Evidence<'_>) -> Judged {
         ))
 }
 
-/// The p with which the theory would have the simulated mean, over that of Eq. (25): the least at any
-/// σ below the printed one, and with all windows where the simulated threshold is printed.
+/// The p with which the theory would have the simulated mean, over that of Eq. (25): the least at
+/// any σ below the printed one, and in all windows where the simulated threshold is printed.
 fn p_poor(e: &Evidence<'_>) -> Judged {
     let sigma = e.published.statement("sec2_half_height")?.number()?;
     let below = e.published.statement("sec8_p_small")?.number()?;
