@@ -3,8 +3,7 @@
 
 use literate::report::ledger::EquationEntry;
 
-/// Rows of number, section, words, the item that documents it, and for a step without code the
-/// equation it leads to.
+/// Number, section, words, the item that documents it, and the equation that a step leads to.
 macro_rules! equations {
     ($($number:literal, $section:literal, $what:literal, $home:path $(, towards $next:literal)?;)*) => {
         vec![$(EquationEntry {

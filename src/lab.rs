@@ -1,5 +1,4 @@
-//! Writes lab.js, which a page loads to compute: the engine, the results with which its runs are
-//! compared, and the script.
+//! Writes lab.js, which a page loads to compute: the engine, results, and the script.
 
 use crate::experiments::rise::{Mean, RisePoint};
 use crate::experiments::sweep;
@@ -8,8 +7,7 @@ use impact_numerics::statistics::count_quantile;
 use literate::{Failure, input};
 use serde_json::json;
 
-/// The engine as WebAssembly, where `.ci/module` has put it: the machine may have no compiler for
-/// that.
+/// The engine as WebAssembly, where `.ci/module` has put it.
 const MODULE: &str = "target/page.wasm";
 
 /// The file; none without the engine.

@@ -1,6 +1,5 @@
-//! A literate, reproducible edition of M. Homer and S. J. Hogan (2007), *Impact Dynamics of
-//! Large Dimensional Systems*: every experiment, calculation, figure and published number of
-//! that paper, computed and checked by one binary.
+//! A literate, reproducible edition of M. Homer and S. J. Hogan (2007), *Impact Dynamics of Large
+//! Dimensional Systems*: every number and figure of that paper, computed and checked.
 //!
 //! In the order of the paper, with links to the report that `make paper` has written:
 //!

@@ -1,5 +1,4 @@
-//! Holds the parameters of the experiments in each profile, and numbers that the paper or this
-//! edition chose.
+//! Holds the parameters of the experiments in each profile, and numbers that were chosen.
 //!
 //! A parameter has the paper's value wherever the paper gives one. A [`Profile`] decides the sizes
 //! of samples and nothing else: it never changes the model.

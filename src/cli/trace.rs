@@ -5,7 +5,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use impact_chain::methods::{Cost, Method};
 use impact_chain::{Counters, Engine, Error, Graze, Impact, LATEST, Scenario, State, rounding};
 use impact_paper::experiments::alive;
-use impact_paper::params::MethodName;
+use impact_paper::params::MethodName::{self, *};
 use literate::Failure;
 use literate::cli::terminal::{warn, written as printed};
 use literate::input::{self, one_line, plain};
@@ -86,47 +86,23 @@ pub struct Args {
 type MethodLine = (MethodName, Option<(&'static str, f64)>, &'static str);
 
 const METHODS: [MethodLine; 8] = [
-    (
-        MethodName::Certified,
-        None,
-        "Flight in closed form, the first root of each gap certified: misses nothing",
-    ),
-    (
-        MethodName::Sampled,
-        Some(("--step", 0.01)),
-        "Flight in closed form, gaps sampled every {}, sign changes bisected: misses grazes",
-    ),
-    (
-        MethodName::Advancement,
-        Some(("--tolerance", 1e-12)),
-        "Flight in closed form, gaps advanced by parabolas below them to {}: reports near misses as impacts",
-    ),
-    (
-        MethodName::RungeKutta,
-        Some(("--tolerance", 1e-9)),
-        "Dormand–Prince 5(4) with events, {}: misses pairs of roots within a step",
-    ),
-    (
-        MethodName::MoreauJean,
-        Some(("--step", 1e-3)),
-        "Time stepping on velocities, {}: first order, reports near misses as impacts, but can rest",
-    ),
-    (
-        MethodName::Verlet,
-        Some(("--step", 1e-3)),
-        "Velocity Verlet, reflected at the ends of steps, {}: first order, impacts late",
-    ),
-    (
-        MethodName::Penalty,
-        Some(("--step", 1e-4)),
-        "A stiff damped spring at each contact, {}: order 1/2, wrong restitution in clusters",
-    ),
-    (
-        MethodName::Truth,
-        None,
-        "Every time to 106 bits, slowly: supports walls, one frequency, no contact; shares nothing with the engine",
-    ),
+    (Certified, None, "Closed form, the first root of each gap certified: misses nothing"),
+    (Sampled, step(0.01), "Closed form, sampled every {}, then bisected: misses grazes"),
+    (Advancement, tolerance(1e-12), "Closed form, parabolas to {}: near misses are impacts"),
+    (RungeKutta, tolerance(1e-9), "Dormand–Prince 5(4) with events, {}: misses close roots"),
+    (MoreauJean, step(1e-3), "Time stepping, {}: first order, near misses are impacts, can rest"),
+    (Verlet, step(1e-3), "Velocity Verlet, reflected after steps of {}: first order, late"),
+    (Penalty, step(1e-4), "Stiff damped springs, {}: order 1/2, wrong in clusters"),
+    (Truth, None, "106 bits, slowly: walls, one frequency, no contact; the gap from the engine"),
 ];
+
+const fn step(usual: f64) -> Option<(&'static str, f64)> {
+    Some(("--step", usual))
+}
+
+const fn tolerance(usual: f64) -> Option<(&'static str, f64)> {
+    Some(("--tolerance", usual))
+}
 
 /// Returns a parser of the names of methods, which lists them with their lines in the help.
 fn method_names() -> impl TypedValueParser<Value = MethodName> {

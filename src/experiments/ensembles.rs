@@ -1,5 +1,4 @@
-//! Makes experiments of ensembles of chains, which are cut into units by σ and realisation and
-//! joined to curves.
+//! Makes experiments of ensembles of chains, cut by σ and realisation and joined to curves.
 
 use crate::params::{Ensemble, Profile, Protocol};
 use impact_chain::counts::{Counts, Total};
@@ -133,8 +132,7 @@ fn join(
     joined(all, parts).map(counted).collect()
 }
 
-/// Returns the results of a function on each item, on all threads; the stage advances by one for
-/// each.
+/// Returns the results of a function on each item, on all threads, each a step of the stage.
 pub fn each<A: Send, R: Send>(
     stage: &Stage,
     progress: &Progress,

@@ -25,8 +25,7 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
     vec![cells(map), all]
 }
 
-/// Counts the windows of the map in which a place of the rise rounds to the printed number: lies
-/// between these ends.
+/// Counts the windows in which a place of the rise lies between the ends of the printed number.
 pub fn round_to_printed(
     map: &Counted,
     [from, to]: [f64; 2],

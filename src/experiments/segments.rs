@@ -51,8 +51,7 @@ pub struct SegmentImpact {
 const POINTS: usize = 200;
 
 impl Segment {
-    /// Returns the impacts of the circuit, each once: without the last impact if it is the first
-    /// one again and closes the circuit.
+    /// Returns the impacts of the circuit, each once, without a last one that closes it.
     pub fn circuit(&self) -> &[SegmentImpact] {
         match &self.impacts[..] {
             [first, .., last] if first.gap == last.gap => &self.impacts[..self.impacts.len() - 1],

@@ -51,8 +51,7 @@ impl SpaceTime {
         firsts
     }
 
-    /// Returns for each gap that is hit the time since the first impact of a neighbour, if there is
-    /// one.
+    /// Returns for each gap that is hit the time since a neighbour's first impact, if any.
     fn waits(&self) -> Vec<(usize, Option<f64>)> {
         let firsts: Vec<f64> =
             self.firsts().into_iter().map(|first| first.unwrap_or(f64::INFINITY)).collect();

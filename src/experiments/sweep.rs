@@ -1,5 +1,4 @@
-//! Runs the simulations of Sec. 2 (Figs. 2, 3, 12 and 15): means and shares at each σ, where the
-//! rise is, and rare events.
+//! Runs the simulations of Sec. 2: means and shares at each σ, the rise, and rare events.
 
 use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;

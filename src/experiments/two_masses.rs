@@ -83,8 +83,7 @@ fn bound(chain: &Chain, forcing: &[[f64; 2]]) -> f64 {
     closing_pull(chain) / pulls(chain, &bodies).fold(0.0, f64::max)
 }
 
-/// Returns the number of impacts below the bound, and for each time the smallest ratio to the bound
-/// with an impact.
+/// Returns the impacts below the bound, and the smallest ratio with an impact by each time.
 fn thresholds(
     parameters: &TwoMassesParams,
     forcing: &[[f64; 2]],

@@ -4,8 +4,7 @@ use impact_chain::counts::{Counts, Watch};
 use impact_chain::{Chain, Engine, Error, Initial, NormalPairs, Protocol, Scenario};
 use serde::{Deserialize, Serialize};
 
-/// A stronger force before the count begins; then all forces are lowered to σ at unchanged
-/// positions and velocities.
+/// A stronger force before the count begins; then forces are lowered to σ without a jump.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Heating {
     pub sigma: f64,

@@ -25,8 +25,7 @@ impl Runs {
         Runs { chain, sigma: 0.2, until: 500.0, realisations, stream, seed: SEED }
     }
 
-    /// Runs at the printed threshold, of which the first with an impact in its last tenth is
-    /// recorded.
+    /// Runs at the printed threshold; the first with an impact in its last tenth is recorded.
     pub fn spacetime(profile: Profile) -> Self {
         let until = if profile == Profile::Quick { 400.0 } else { 4000.0 };
         let (chain, stream) = (Chain::default(), "space-time".into());

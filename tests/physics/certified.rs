@@ -160,7 +160,6 @@ fn corner_biased_segments_have_no_miss_and_no_ghost() {
     for scenario in (0..8_000).filter_map(corner) {
         hold(&scenario, 12.0, &mut tally);
     }
-    println!("{tally:?}");
     assert!(tally.segments >= 5_000 && tally.impacts > 2000, "{tally:?}");
     assert!(tally.undecidable * 100 < tally.segments, "{tally:?}");
     // The worst had 2.3 and 0.03; a loss of digits shows here before it reaches the bounds.
@@ -179,7 +178,6 @@ fn next_to_resonance_a_gap_that_hardly_moves_is_soon_passed() {
         let mut engine = Engine::new(&Scenario::given(&chain, forcing.to_vec()).unwrap()).unwrap();
         engine.run(30.0, |_| true).unwrap();
         let counters = engine.counters();
-        println!("k = {k}: {counters:?}");
         assert!(counters.impacts == 0 && counters.evaluations < 2_000_000, "k = {k}: {counters:?}");
     }
 }
@@ -203,7 +201,6 @@ fn components_that_nearly_cancel_are_soon_passed() {
         (hit, engine.counters().evaluations as f64 / hit.time)
     });
     let error = (hit.time - sum.time).abs() * sum.closing_speed;
-    println!("t = {}: {error:e}, {rate:.1} evaluations a unit of time", hit.time);
     assert!(hit.gap == sum.gap && error < 1e-6 && rate < 20.0, "{error:e}, {rate}");
 }
 

@@ -304,10 +304,6 @@ fn a_collective_hit_takes_a_small_power_of_the_masses() {
             assert_eq!(engine.contacts(0.0).unwrap().len(), n);
             let hits = run(&mut engine, 2e-3);
             let first = hits.iter().take_while(|hit| hit.time == hits[0].time).count();
-            println!(
-                "r = {r}, n = {n}: {first} at the instant of the first, {} in all",
-                hits.len()
-            );
             assert!(first <= 10 * (n + 1).pow(3), "r = {r}, n = {n}: {first}");
             assert!(r > 0.0 || first == n + 1, "without rebound each gap is hit once: {first}");
             let ties = engine.counters().simultaneous as usize;

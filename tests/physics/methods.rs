@@ -82,7 +82,6 @@ fn methods_have_their_order() {
     let grown = |methods: [&dyn Method; 2]| {
         let [(e, c), (f, d)] = methods.map(error_of);
         let (errors, steps) = (e / f, d.steps as f64 / c.steps as f64);
-        println!("{}: error {e:.1e} to {f:.1e}, {steps:.1} times the steps", methods[0].name());
         [errors, steps]
     };
     let by_steps: [([&dyn Method; 2], f64); 3] = [

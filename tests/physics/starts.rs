@@ -15,17 +15,6 @@ fn the_state_at_the_start_is_that_of_the_engine() {
     }
 }
 
-#[test]
-fn a_file_sets_positions_and_velocities() {
-    let at = r#"{"positions":[0.9,2.2],"velocities":[0.5,-0.25]}"#;
-    let json = format!(r#"{{"forcing":[[0.3,0.2],[-0.1,0.4]],"initial":{{"at":{at}}}}}"#);
-    let engine = Engine::new(&Scenario::from_json(&json).unwrap()).unwrap();
-    let found = [engine.positions(0.0).unwrap(), engine.velocities(0.0).unwrap()];
-    for (found, given) in found.iter().flatten().zip([0.9, 2.2, 0.5, -0.25]) {
-        assert!((found - given).abs() < 1e-15, "{found} {given}");
-    }
-}
-
 /// From the state at each impact the next one is that of the run that goes on, to the rounding of
 /// positions over the closing speed; gaps in contact stay so. And as JSON a scenario is the same.
 #[test]

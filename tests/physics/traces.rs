@@ -27,7 +27,6 @@ pub fn held(scenario: &Scenario, until: f64, of: &str) -> Vec<Hit> {
         assert!(!plain || a.time > 5.0 || few, "{of}: {a:?} {digits:?}");
         worst = worst.max(error);
     }
-    println!("{of}: {} impacts, largest error of a time {worst:.1e}", theirs.len());
     theirs
 }
 

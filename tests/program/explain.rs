@@ -70,33 +70,3 @@ fn things_are_found_by_part_by_number_and_as_people_write_them() {
     let says = ["there is no \"nope\"", "all are listed"];
     refused(folder.path(), "explain --paper r nope", &says);
 }
-
-/// An origin names the function that computed the number: no constant, structure or module.
-#[test]
-fn every_origin_is_a_function() {
-    let values: serde_json::Value = serde_json::from_slice(&QUICK.report["values.json"]).unwrap();
-    let values = values.as_object().unwrap();
-    let ids: Vec<&str> = values
-        .iter()
-        .filter(|(_, value)| value["source"].is_string())
-        .map(|(id, _)| &**id)
-        .collect();
-    assert!(ids.len() > 300, "{}", ids.len());
-    let folder = report();
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let paper = folder.path().join("r");
-    let cards = answer(root, &format!("explain --paper {} {}", paper.display(), ids.join(" ")));
-    for card in cards.split("\n\n") {
-        let by = card.lines().find_map(|line| line.trim_start().strip_prefix("computed by"));
-        let (item, place) = by.and_then(|by| by.trim().split_once(" (")).expect(card);
-        let (file, line) = place.trim_end_matches(')').split_once(':').expect(card);
-        let source = std::fs::read_to_string(file).unwrap();
-        let line = source.lines().nth(line.parse::<usize>().unwrap() - 1).unwrap();
-        let name = item.rsplit("::").next().unwrap();
-        assert!(line.contains(&format!("fn {name}")), "{card}: {line}");
-    }
-    let means = |id: &&&str| id.starts_with("sweep.rows") && id.ends_with(".mean");
-    for mean in ids.iter().filter(means) {
-        assert_eq!(values[*mean]["source"], "impact_chain::rise::RisePoint::new");
-    }
-}

@@ -2,6 +2,7 @@
 
 use super::QUICK;
 use literate::report::ledger::EquationEntry;
+use literate::report::{Value, values};
 use std::fs;
 use std::path::Path;
 
@@ -113,8 +114,24 @@ fn each_experiment_depends_on_files_that_are_there() {
     for experiment in paper.experiments.iter().filter(|one| one.is_saved()) {
         let code = experiment.code(&paper.project);
         assert!(code.contains_key("crates/impact-chain/src/engine.rs"));
-        let path = paper.project.sources.file(&experiment.item()).unwrap();
-        assert!(code.contains_key(path), "{path}");
         assert!(code.keys().all(|path| !path.ends_with("/tables.rs") && !path.contains("claims/")));
     }
+}
+
+/// An origin names the function that computed the number: no constant, structure or module.
+#[test]
+fn every_origin_is_a_function() {
+    let values = values::read(std::str::from_utf8(&QUICK.report["values.json"]).unwrap()).unwrap();
+    let (sources, mut functions) = (&QUICK.paper.project.sources, 0);
+    for Value { id, source, .. } in values.iter().filter(|value| !value.source.is_empty()) {
+        let (file, line) = sources.place(source).unwrap_or_else(|| panic!("{id}: {source}"));
+        let (_, text) = sources.files.iter().find(|(path, _)| *path == file).unwrap();
+        let line = text.lines().nth(line.expect(source) - 1).unwrap();
+        let name = source.rsplit("::").next().unwrap();
+        assert!(line.contains(&format!("fn {name}")), "{id}: {source}: {line}");
+        let is_mean = id.starts_with("sweep.rows") && id.ends_with(".mean");
+        assert!(!is_mean || source == "impact_chain::rise::RisePoint::new", "{id}: {source}");
+        functions += 1;
+    }
+    assert!(functions > 300, "{functions}");
 }

@@ -1,5 +1,5 @@
-//! Computes the distribution of X, the number of different impacts of a circuit drawn with weight p
-//! per edge (Sec. 6).
+//! Computes the distribution of X, the number of impacts of a circuit of weight p per edge (Sec.
+//! 6).
 //!
 //! Plain factorials leave the range of doubles at N = 171, and differences of log-gamma lose
 //! digits as N grows. Here every weight is a running product of the factors p (N − k), carried

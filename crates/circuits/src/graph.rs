@@ -3,8 +3,7 @@
 
 use std::collections::BTreeMap;
 
-/// The fully connected directed graph of N vertices and N² edges, named for a chain of N − 1
-/// masses.
+/// The fully connected directed graph of N vertices, named for a chain of N − 1 masses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Graph {
     labels: Vec<String>,

@@ -1,5 +1,4 @@
-//! Counts circuits that repeat vertices (Sec. 9), class by class, and together in the sample space
-//! of five classes.
+//! Counts circuits that repeat vertices (Sec. 9), by class and in the space of five classes.
 //!
 //! The printed formulas divide the number of sequences by their length, which is right only where
 //! no sequence repeats a shorter one. [`SampleSpace::FiveClasses`] counts distinct circuits. An

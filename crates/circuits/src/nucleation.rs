@@ -1,5 +1,4 @@
-//! Computes the probabilities that a gap of a chain from rest closes by itself, and that some gap
-//! of it does (nucleation; ours).
+//! Computes the probabilities that a gap, or some gap, of a chain from rest closes by itself.
 //!
 //! # One gap
 //! A chain from rest has free parts that cancel the forced positions and velocities at t = 0. With
@@ -156,8 +155,7 @@ fn directions(angles: usize) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// Returns when the curve turns back in a direction, between a time at which it rises and one at
-/// which it falls.
+/// Returns when the curve turns back in a direction, between a rise and a fall.
 fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64 {
     // The slope is nearly straight in an eighth: false position halves the number of bits left, and
     // a bisection now and then keeps both ends moving.

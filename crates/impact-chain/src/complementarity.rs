@@ -65,8 +65,7 @@ impl<const M: usize> Shut<'_, M> {
         }
     }
 
-    /// Decides whether an open gap is driven shut by its acceleration and the forces of its
-    /// neighbours.
+    /// Decides whether an open gap is driven shut, by its acceleration and its neighbours.
     ///
     /// Its acceleration must be negative beyond rounding: where a symmetry releases several gaps at
     /// once, those of the others are zero up to rounding, whose sign must not shut them again.
@@ -80,8 +79,7 @@ impl<const M: usize> Shut<'_, M> {
         open && total.falls(size, self.p, self.frequencies)
     }
 
-    /// Returns pivot m and right side r of gap i after those of the active gap before it, with
-    /// λ_i = (r + λ_{i+1})/m.
+    /// Returns pivot m and right side r of gap i after those before, λ_i = (r + λ_{i+1})/m.
     fn eliminated(&self, i: usize, last: Option<(f64, Force<M>)>) -> (f64, Force<M>) {
         let (k, g) = (self.inverse_mass[i], self.g[i]);
         let right = g.zip(g, |x, _| -x);

@@ -43,8 +43,7 @@ struct Changed {
 const STILL: Changed = Changed { width: 0.0, rate: 0.0, settled: true };
 
 impl<const M: usize> Simulation<M> {
-    /// Decides whether the impact of gap k at `speed` is so slow that contact may begin, or hits a
-    /// cluster.
+    /// Decides whether the impact of gap k is so slow that contact may begin, or hits a cluster.
     pub(super) fn involves_contact(&self, k: usize, speed: f64) -> bool {
         let [before, after] = self.topology.adjacent(k);
         let in_contact = |gap: Option<usize>| gap.is_some_and(|gap| self.gaps[gap].in_contact);
@@ -337,8 +336,7 @@ impl<const M: usize> Simulation<M> {
         self.make_free(&gaps, phases);
         for &k in &gaps {
             self.gaps[k].in_contact = false;
-            // A mark: if the gap is pressed again at once, its contact phase goes on and is not
-            // counted anew.
+            // A mark: if the gap is pressed again at once, its contact phase goes on.
             self.gaps[k].awaits = Awaits::Release;
         }
         gaps
@@ -350,8 +348,7 @@ impl<const M: usize> Simulation<M> {
         let frequencies = &self.search.frequencies;
         let motion = Motion { forced: force.forced, ..Motion::STILL };
         let mut frame = motion.frame(force.constant, p, frequencies);
-        // Where the force is zero and grows by its curvature alone, rounding must not end the
-        // contact.
+        // A force that grows from zero by its curvature alone must not end by rounding.
         let rounding = ROUNDING * force.size();
         if frame.f0.abs() <= rounding {
             frame.f0 = 0.0;

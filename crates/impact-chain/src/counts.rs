@@ -7,19 +7,16 @@ use crate::topology::Topology;
 use crate::{Chain, Engine, Error, Impact};
 use serde::{Deserialize, Serialize};
 
-/// The δ below which two impacts of adjacent gaps are counted as close, in the scenario's unit of
-/// time, whatever ω is.
+/// The δ below which impacts of adjacent gaps are counted as close, whatever ω is.
 pub const NEAR_DECADES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 
-/// The v below which a closing speed is counted as slow, in the scenario's unit of speed, whatever
-/// d and ω are.
+/// The v below which a closing speed is counted as slow, whatever d and ω are.
 pub const SLOW_DECADES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 
 /// Impacts after which a run checks again whether to stop.
 const CHECK_EVERY: u64 = 4096;
 
-/// The window (T, T + W] in which gaps with an impact are counted (ours; Sec. 2 has only "a
-/// suitable transient time").
+/// The window (T, T + W] in which gaps with an impact are counted (ours: Sec. 2 has none).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Protocol {
     /// Transient T that is dropped, in the scenario's unit of time.

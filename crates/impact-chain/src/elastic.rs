@@ -12,13 +12,11 @@ use super::flight::Phases;
 use super::simulation::Simulation;
 use impact_numerics::double_double::DoubleDouble;
 
-/// Closing speed, in units of d ω, below which the frame of a gap is more accurate than the
-/// motions.
+/// Closing speed over d ω below which the frame of a gap is more accurate than the motions.
 const LEAST_SPEED: f64 = 1e-3;
 
 impl<const M: usize> Simulation<M> {
-    /// Decides whether the impact of gap k at `speed` conserves the energy of its neighbours' free
-    /// motion.
+    /// Decides whether the impact of gap k conserves the energy of its neighbours' free motion.
     #[inline(always)]
     pub(super) fn is_conservative(&self, k: usize, speed: f64) -> bool {
         self.restitution == 1.0 && {

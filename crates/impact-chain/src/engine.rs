@@ -50,8 +50,7 @@ impl Engine {
         self.run_to(until, &mut sink)
     }
 
-    /// Returns the next impact up to time `until`, or none if there is no impact; the run stops
-    /// right after it.
+    /// Returns the next impact up to time `until`, if any; the run stops right after it.
     pub fn next_impact(&mut self, until: f64) -> Result<Option<Impact>, Error> {
         Ok(collect(1, |sink| self.run_to(until, sink))?.pop())
     }
@@ -61,8 +60,7 @@ impl Engine {
         collect(usize::MAX, |sink| self.run_to(until, sink))
     }
 
-    /// Not generic over the receiver: generic code would be compiled with the caller's crate, which
-    /// may be unoptimised.
+    /// Generic code would be compiled with the caller's crate, which may be unoptimised.
     fn run_to(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
         call!(&mut self.0, simulation => simulation.run(until, sink))
     }
@@ -83,8 +81,7 @@ impl Engine {
         Ok(self.state(time)?.velocities)
     }
 
-    /// Returns the free parts (a_j, b_j) of the masses 1..n; those in contact share that of their
-    /// cluster.
+    /// Returns the free parts (a_j, b_j) of the masses 1..n; a cluster shares one.
     pub fn free_parts(&self) -> Vec<[f64; 2]> {
         call!(&self.0, simulation => simulation.free_parts())
     }
@@ -105,8 +102,7 @@ impl Engine {
         call!(&self.0, simulation => simulation.work)
     }
 
-    /// Returns the first dip of a gap of which rounding could not tell whether it reaches zero;
-    /// none if all were decided.
+    /// Returns the first dip of which rounding could not tell whether it is an impact, if any.
     pub fn first_graze(&self) -> Option<Graze> {
         call!(&self.0, simulation => simulation.first_graze)
     }

@@ -144,8 +144,7 @@ impl<const M: usize> Simulation<M> {
         Ok(())
     }
 
-    /// Keeps the first dip that rounding could not decide, by searching again the gaps whose frames
-    /// are new.
+    /// Keeps the first dip that rounding could not decide, by searching new frames again.
     #[cold]
     fn note_graze(&mut self) {
         if self.work.undecided == 0 || self.first_graze.is_some() {
@@ -257,8 +256,7 @@ impl<const M: usize> Simulation<M> {
         Some(self.now.after(after))
     }
 
-    /// Counts the impact of gap k if one of a neighbouring gap is due at this instant, or was
-    /// carried out at it.
+    /// Counts the impact of gap k if one of a neighbouring gap is or was due at this instant.
     #[cold]
     fn count_tie(&mut self, k: usize) {
         let renewed = self.gaps[k].origin == self.now;

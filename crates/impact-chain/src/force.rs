@@ -1,5 +1,4 @@
-//! Describes a contact force, or an acceleration: a constant plus sinusoids with the frequencies of
-//! the forcing.
+//! Describes a contact force or acceleration: a constant plus sinusoids of the forcing.
 
 use super::flight::Phases;
 use crate::search::local_frame::{Frequencies, ROUNDING};

@@ -94,8 +94,7 @@ impl Resampled {
         bootstrap::estimate(pick(&self.whole), &resamples, LEVEL)
     }
 
-    /// Estimates the places of the rise, in the order of the fields of
-    /// [`Rise`](crate::rise::Rise).
+    /// Estimates the places of the rise, in the order of the fields of `Rise`.
     pub fn rise(&self) -> [Option<Estimate>; 7] {
         std::array::from_fn(|i| self.estimate(|sample| sample.rise[i]))
     }

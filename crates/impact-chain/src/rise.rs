@@ -55,8 +55,7 @@ pub struct RisePoint {
     pub mode_interval: Option<[usize; 2]>,
     /// Impacts of a whole chain in the window: mean over realisations with at least one.
     pub impacts: Option<Mean>,
-    /// Masses of a whole chain that are hit in the window: mean over realisations with at least one
-    /// impact.
+    /// Masses of a whole chain that are hit in the window: mean over those with an impact.
     pub masses: Option<Mean>,
     /// Numbers of realisations by their count k = 0..=N.
     pub counts: Vec<u32>,

@@ -97,8 +97,7 @@ impl Scenario {
         Ok(scenario)
     }
 
-    /// Reads a scenario as [`Scenario::from_json`] does, but does not ask whether the engine can
-    /// run it.
+    /// Reads a scenario as [`Scenario::from_json`] does, whether the engine can run it or not.
     pub fn parse_json(text: &str) -> Result<Scenario, Error> {
         parse(text)?.into_scenario()
     }

@@ -63,8 +63,7 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) budget_left: u64,
 }
 
-/// Sets a width below zero by rounding to zero, unless the gap is closing: then its impact is due
-/// now.
+/// Sets a width below zero to zero, unless the gap is closing: then its impact is due now.
 #[inline(always)]
 pub(super) fn clamp_width<const M: usize>(frame: &mut Frame<M>) {
     if frame.f0 < 0.0 && frame.g0 >= 0.0 {
@@ -121,8 +120,7 @@ impl<const M: usize> Simulation<M> {
         self.gaps[k].frame = frame;
     }
 
-    /// Takes a new frame of gap k, whose rate has just jumped by `jump`, and searches its next
-    /// impact.
+    /// Takes a new frame of gap k, whose rate has jumped by `jump`, and searches its impact.
     pub(super) fn renew_and_search(&mut self, k: usize, phases: &Phases<M>, jump: f64) {
         self.renew(k, phases, jump);
         let key = self.search_gap(k, true);
@@ -134,8 +132,7 @@ impl<const M: usize> Simulation<M> {
     pub(super) fn set_and_search(&mut self, k: usize, phases: &Phases<M>, f0: f64, g0: f64) {
         let mut frame = Frame { f0, g0, ..self.frame_of(k, phases) };
         clamp_width(&mut frame);
-        // For a gap at rest the rounding of its acceleration must not decide, or a released one
-        // would shut again.
+        // At rest the rounding of the acceleration must not decide, or a gap would shut again.
         if f0 == 0.0 && g0 == 0.0 {
             frame.prevent_fall(&self.search.frequencies);
         }

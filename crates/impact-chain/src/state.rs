@@ -19,8 +19,7 @@ pub struct State {
     pub velocities: Vec<f64>,
 }
 
-/// Rate of a shut gap, over the speed of the faster of its sides, up to which rounding explains it:
-/// it is at rest.
+/// Rate of a shut gap, over the speed of its faster side, up to which it is at rest.
 pub(crate) const AT_REST: f64 = 1e-12;
 
 /// A gap is shut up to rounding when its width is below this many roundings of its place, of a

@@ -36,8 +36,7 @@ impl Sources {
         Ok(lines.collect::<Vec<_>>().join("\n"))
     }
 
-    /// Finds the file of an item, and the line that defines it, of a method that in or after the
-    /// `impl` of its type; none of a module that is a file.
+    /// Finds the file of an item, and the line that defines it; none of a module that is a file.
     pub fn place(&self, item: &str) -> Option<(&'static str, Option<usize>)> {
         const KINDS: [&str; 7] = ["fn", "struct", "enum", "trait", "type", "const", "mod"];
         let file = self.file(item)?;

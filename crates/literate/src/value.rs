@@ -117,8 +117,7 @@ pub enum Provenance {
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Value {
-    /// The name: `version` is `«v.version»` in templates, and `printed.threshold`, with
-    /// one dot, is `«printed.threshold»`.
+    /// The name: `version` is `«v.version»`, and `printed.threshold` is `«printed.threshold»`.
     pub id: String,
     pub number: Number,
     /// Its unit as Markdown, as `$1/\omega$`; empty for a pure number.
@@ -156,12 +155,6 @@ impl Value {
     pub fn real(id: impl Into<String>, value: f64, significant: usize) -> Self {
         let digits = Digits::Significant(significant);
         Value::new(id, Number::Real { value, digits }, Provenance::Deterministic)
-    }
-
-    /// Makes an average over `realisations`, printed with the digits that its error allows.
-    pub fn ensemble(id: impl Into<String>, found: Estimate, realisations: u64) -> Self {
-        let kind = Provenance::Ensemble { realisations, standard_error: found.error };
-        Value::new(id, found.into(), kind)
     }
 
     pub fn text(id: impl Into<String>, text: impl Into<String>) -> Self {

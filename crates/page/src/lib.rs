@@ -140,8 +140,7 @@ fn answer(work: impl FnOnce(&mut Page) -> Result<bool, String>) -> u32 {
     })
 }
 
-/// Makes room for a text of so many bytes and for so many numbers, into which the page writes its
-/// arguments.
+/// Makes room for a text of so many bytes and for numbers, which the page writes.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(bytes: usize, numbers: usize) {
     PAGE.with_borrow_mut(|page| {

@@ -65,8 +65,7 @@ impl ByDistance {
         hit.iter().zip(&self.places).map(|(part, all)| *part as f64 / (*all).max(1) as f64)
     }
 
-    /// Returns the expected number of gaps, to one side, that a front has passed by the end of a
-    /// bin.
+    /// Returns the expected number of gaps that a front to one side has passed by a bin's end.
     pub(super) fn advance(&self, bin: usize) -> f64 {
         self.shares(&self.reached[bin]).skip(1).sum()
     }

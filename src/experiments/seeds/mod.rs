@@ -1,5 +1,4 @@
-//! Measures how impacts spread from one gap that closes by itself, and predicts the mean count by
-//! nucleation and growth.
+//! Measures how impacts spread from one gap, and predicts the mean count by growth.
 
 pub mod compared;
 pub mod counting;

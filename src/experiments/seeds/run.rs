@@ -138,8 +138,7 @@ mod tests {
         gaps.filter(|(_, pull)| *pull >= closing_pull(chain)).map(|(gap, _)| gap).collect()
     }
 
-    /// Against whole chains that are drawn until one is accepted: the place of its gap and the mean
-    /// square of the forces.
+    /// Against chains that are drawn until one is accepted: place of its gap, mean square force.
     #[test]
     fn a_drawn_chain_has_one_gap_that_closes_by_itself() {
         let (chain, sigma) = (Chain { masses: 5, ..Chain::default() }, 0.25);

@@ -96,8 +96,7 @@ fn means(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
         .done()
 }
 
-/// Makes the table of half heights, if every gap that closes by itself is a seed, and if only the
-/// first of a clump is.
+/// Makes the table of half heights, if all gaps of a clump are seeds, or only the first.
 fn rise(parameters: &SeedsParams, gaps: &[Prediction], clumps: &[Prediction]) -> Table {
     let rows: Vec<_> = gaps.iter().zip(clumps).collect();
     let half = |given: &Prediction| given.half_height(parameters);
@@ -136,8 +135,7 @@ mod tests {
         let mut parameters = SeedsParams::new(Profile::Quick);
         (parameters.chain.masses, parameters.sigmas) = (2, vec![0.1]);
         (parameters.bins, parameters.window, parameters.transients) = (4, 2, vec![0, 2]);
-        // The seed is hit in the first bin, its neighbours in the second and the fourth, or one of
-        // them at all.
+        // The seed is hit in the first bin, its neighbours in the second and fourth, or one.
         let run = |hits: [u64; 3], firsts: [Option<u32>; 3]| {
             let (hits, firsts) = (hits.to_vec(), firsts.to_vec());
             Some(Trace { seed: Some(1), hits, firsts })

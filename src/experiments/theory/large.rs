@@ -32,8 +32,7 @@ pub fn limit() -> Vec<(f64, f64)> {
     drawn().into_iter().map(|x| (x, limit_share(x))).collect()
 }
 
-/// Returns k*/N against p N up to the jump and beyond: 1 before it, the local maximum then, since
-/// Φ(k)/Φ(1) rises with p.
+/// Returns k*/N against p N: 1 before the jump, the local maximum beyond.
 pub fn shares(vertices: usize) -> [Vec<(f64, f64)>; 2] {
     let leap = known(p_jump(Simple, vertices));
     let (big_n, at) = (vertices as f64, leap.p * vertices as f64);

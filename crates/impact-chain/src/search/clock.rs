@@ -1,5 +1,4 @@
-//! Keeps exact time: instants on a fixed grid, and phases of a frequency without loss at any
-//! instant.
+//! Keeps exact time: instants on a fixed grid, and phases without loss at any instant.
 
 use super::trig::sin_cos_turn;
 
@@ -33,8 +32,7 @@ impl Instant {
     /// Returns the instant `s` units of time later, truncated to a tick.
     #[inline(always)]
     pub fn after(self, s: f64) -> Instant {
-        // A number from 2^-28 to 2^36 is its mantissa shifted to the left; a conversion to 128 bits
-        // is a long routine.
+        // Numbers from 2^-28 to 2^36 are shifted mantissas; conversion to 128 bits is long.
         let bits = s.to_bits();
         let shift = (bits >> 52).wrapping_sub(1075 - 80);
         if shift < 64 {

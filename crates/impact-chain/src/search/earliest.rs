@@ -89,8 +89,7 @@ impl Earliest {
         self.keys[index]
     }
 
-    /// Returns the index of the least word, and its key: no other is earlier by more than the
-    /// resolution of words.
+    /// Returns index and key of the least word: none is earlier beyond the resolution of words.
     #[inline(always)]
     pub fn first(&mut self) -> (usize, Instant) {
         let (word, mask) = (self.nodes[1], self.mask());
@@ -159,8 +158,7 @@ mod tests {
     use impact_numerics::random::generator;
     use rand::Rng;
 
-    /// Compares with a scan of all keys, with many exact ties, ties of words alone, and times
-    /// before and after the epoch.
+    /// Scans all keys: exact ties, ties of words alone, times before and after the epoch.
     #[test]
     fn agrees_with_a_scan() {
         fn check(earliest: &mut Earliest, keys: &[Instant]) {

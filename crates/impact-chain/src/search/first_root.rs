@@ -39,8 +39,7 @@ impl<const M: usize> Search<M> {
         }
     }
 
-    /// Finds the first root of the frame's function after s = 0, or proves that there is none up to
-    /// the reach.
+    /// Finds the first root after s = 0, or proves that there is none up to the reach.
     ///
     /// f₀ > 0: the first root. f₀ = 0: the first root after s = 0 if f leaves zero upwards, and
     /// s = 0 itself if it moves down. f₀ < 0 is a root at s = 0.

@@ -37,8 +37,7 @@ fn waves(nu: f64, s: f64) -> [Taylor; 2] {
 }
 
 impl<const M: usize, const N: usize> Linear<M, N> {
-    /// Tabulates the numbers that `extract` computes from a function, given by its Taylor
-    /// coefficients about any instant.
+    /// Tabulates the numbers that `extract` computes from the Taylor coefficients of a function.
     pub fn new(
         frequencies: &Frequencies<M>,
         extract: impl Fn(&dyn Fn(f64) -> Taylor) -> [Pair; N],

@@ -1,5 +1,4 @@
-//! Certifies quickly that a function stays positive over a piece of its frame, or has just one root
-//! there.
+//! Certifies quickly that a function is positive over a piece of its frame, or has one root.
 //!
 //! On a piece [a, a + w] the function f is compared with the polynomial p of degree seven that
 //! shares its value and first three derivatives at both ends (Hermite). The difference is at most

@@ -24,8 +24,7 @@ fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
 /// Ratio of stretches above which the trial by the rate is taken: of a gap that barely opens.
 const BARELY: f64 = 1e6;
 
-/// Ratio of stretches above which the trial by the width is taken: of a gap far narrower than its
-/// parts.
+/// Ratio of stretches above which the trial by the width is taken: of a very narrow gap.
 const FAR_LARGER: f64 = 1e3;
 
 /// The parts of a gap cancel where its second and third derivatives are this many times below the
@@ -68,8 +67,7 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
 }
 // end
 
-/// Returns the stretches that the worst term of K alone allows, by the rate and by the width of the
-/// gap.
+/// Returns the stretches that the worst term of K allows, by the rate and by the width.
 #[cold]
 fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
     let (down, third) = ((-p.d2).max(0.0), p.d3.abs());
@@ -137,8 +135,7 @@ fn lift<const M: usize>(p: &Point<M>, frame: &Frame<M>, frequencies: &Frequencie
     }
 }
 
-/// Evaluations after which a search stops with the stretch certified so far; the engine resumes it
-/// later.
+/// Evaluations after which a search stops with the stretch certified so far, until later.
 const PATIENCE: u32 = 64;
 
 // listing: first_root_by_steps
@@ -178,8 +175,7 @@ pub fn first_root_by_steps<const M: usize>(
         work.evaluations += 1;
         frame.at(s, frequencies)
     };
-    // Shut and at rest, and accelerated towards one another by more than rounding: they touch, and
-    // stay.
+    // Shut and at rest, and pressed together by more than rounding: they touch, and stay.
     let pressed = |lead| matches!(lead, Some((2, second)) if second < 0.0);
     if s == 0.0 && p.f == 0.0 && p.d1 == 0.0 && pressed(leading(&p, 2.0, frame, frequencies)) {
         return Next::Root { s, speed: 0.0 };
@@ -287,8 +283,7 @@ fn climb<const M: usize>(p: &Point<M>, rounding: f64) -> f64 {
     (up - p.d1) / p.d2
 }
 
-/// Returns the longest certain one of the halves, quarters and so on of a leap that failed, or none
-/// if none goes farther than a step.
+/// Returns the longest certain one of the halves, quarters, … of a leap, beyond a step.
 #[cold]
 fn shorter_leap<const M: usize>(
     p: &Point<M>,

@@ -1,5 +1,4 @@
-//! Skips long waits: finds the next time at which all parts of a sum of sinusoids can be low
-//! together.
+//! Skips long waits: finds the next time at which all parts of a sum can be low together.
 
 use super::local_frame::Frequencies;
 use super::pair::Pair;
@@ -15,8 +14,7 @@ struct Part {
     half_width: f64,
 }
 
-/// Windows are widened by this much, far more than [`rough_angles`] and rounding can move their
-/// edges.
+/// Windows are widened by this much, far more than [`rough_angles`] and rounding are off.
 const WIDENED: f64 = 1e-7;
 
 /// Windows passed in one call.

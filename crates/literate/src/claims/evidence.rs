@@ -1,13 +1,4 @@
 //! Gives a rule what it may look at, and starts its check.
-//!
-//! ```
-//! # use literate::claims::{Evidence, Judged};
-//! # let _: [fn(&Evidence<'_>) -> Judged; 3] = [
-//! |e| e.cell("cascade.limit.delta"), // rounds to what was printed
-//! |e| e.within_errors("walk.fit.slope"), // differs by some standard errors at most
-//! |e| Ok(e.near("walk.fit.onset", 0.01, "ours: a hundredth")?.explained("too few steps", true)),
-//! # ];
-//! ```
 
 use super::check::{Basis, Check};
 use super::level::CheckLevel;

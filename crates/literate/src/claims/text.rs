@@ -5,8 +5,7 @@ use crate::value::Number;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Makes a [`Text`] of a sentence in which each `{}` stands for the next of the numbers, and `{:3}`
-/// for three significant digits of it.
+/// Makes a [`Text`] of a sentence with `{}` for each number, and `{:3}` for three digits of it.
 #[macro_export]
 macro_rules! text {
     ($sentence:expr $(, $number:expr)* $(,)?) => {

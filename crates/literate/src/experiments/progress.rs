@@ -100,8 +100,7 @@ impl Stage {
     }
 }
 
-/// Returns `40 %, about 12 s left`: 100 % only when all is done, and no time below a second, for
-/// the last units may be the longest.
+/// Returns `40 %, about 12 s left`: 100 % only when all is done, and no time below a second.
 fn progress_text(done: u64, total: u64, elapsed: Duration) -> String {
     let share = if total == 0 { 1.0 } else { done as f64 / total as f64 };
     let percent = (100.0 * share).floor();

@@ -37,8 +37,7 @@ impl Library {
         self.0.iter().map(|reference| reference.key.as_str())
     }
 
-    /// Returns the list of the entries with these keys. Those that citations would not tell apart
-    /// have a letter behind the year: 1954a, 1954b.
+    /// Returns the list of these entries; those of one year have a letter behind it: 1954a.
     pub fn list(&self, keys: &BTreeSet<String>) -> Vec<Reference> {
         let cited = self.0.iter().filter(|reference| keys.contains(&reference.key));
         let mut list: Vec<Reference> = cited.cloned().collect();

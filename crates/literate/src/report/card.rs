@@ -92,8 +92,7 @@ impl Cards<'_> {
         values.chain(figures).chain(equations).chain(claims).collect()
     }
 
-    /// Returns the ids that match what a person typed: an id, "Fig. 3" or "Eq. (18)", a part of an
-    /// id, or the first digits of a value.
+    /// Returns the ids for what a person typed: "Fig. 3", a part of an id, or digits of a value.
     pub fn find(&self, asked: &str) -> Vec<String> {
         // Templates have quotation marks in names of rows; people write brackets and blanks.
         let asked = asked.trim().replace('"', "");

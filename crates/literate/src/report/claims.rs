@@ -37,8 +37,7 @@ fn sentence(text: &Text) -> String {
     text.0.iter().map(piece).collect()
 }
 
-/// Makes a formula of each variable, alone or with an index or a star, such as n, p_crit or k*; and
-/// keeps a percent sign beside its number.
+/// Makes formulas of variables such as n, p_crit or k*; ties a percent sign to its number.
 pub(super) fn symbols(text: &str) -> String {
     if text.contains('$') {
         return text.to_string();

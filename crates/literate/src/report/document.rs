@@ -58,8 +58,7 @@ pub enum Block {
         lab: String,
         caption: Vec<Inline>,
     },
-    /// The place of the list of references; filled by
-    /// [`Labels::resolve`](super::labels::Labels::resolve).
+    /// The place of the list of references, which `Labels::resolve` fills.
     Bibliography(Vec<Reference>),
 }
 

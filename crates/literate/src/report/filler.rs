@@ -143,8 +143,7 @@ impl Filler {
         found.join(", ")
     }
 
-    /// An error of Tera in one line: file, line, column, what is wrong. Tera writes a message, an
-    /// arrow to the place, and the line.
+    /// An error of Tera in one line. Tera writes a message, an arrow to the place, and the line.
     fn failure(&self, error: &tera::Error) -> Error {
         let report = error.to_string();
         let (what, place) = report.split_once("--> ").unwrap_or((&report, ""));

@@ -282,8 +282,7 @@ pub(super) fn check_kind(kind: &str, id: &str) -> Result<(), Error> {
     Err(Error::Markup(format!("the id {id:?} is not valid: write {kind}: {what}")))
 }
 
-/// What references call the things of a kind, such as `fig`: one and several of them, in short and
-/// in full. None if there is no such kind.
+/// What references call things of a kind: one and several, in short and in full.
 fn names(kind: &str) -> Option<[[&'static str; 2]; 2]> {
     Some(match kind {
         "eq" => [["Eq.", "Eqs."], ["Equation", "Equations"]],

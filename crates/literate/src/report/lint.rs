@@ -98,8 +98,7 @@ pub fn words(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize,
     found
 }
 
-/// Whether a character ends what is meant literally from a number behind a backslash on, as in
-/// `Python \3.11` and `doi:\10.1000/182`.
+/// Whether a character ends what a backslash before a number makes literal: `Python \3.11`.
 fn ends_literal(c: char) -> bool {
     c.is_whitespace() || c == '|' || c == OPEN
 }

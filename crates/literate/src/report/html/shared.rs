@@ -59,8 +59,7 @@ pub fn files(
     Ok(files)
 }
 
-/// Returns what the template data.html inserts: the documents, and the name, the number of rows and
-/// the columns of each file of data.
+/// Returns what data.html inserts: the documents, and name, rows and columns of each file.
 pub fn data_index(files: &Files, edition: &Edition) -> Json {
     let mut rows = Vec::new();
     for (path, bytes) in files {

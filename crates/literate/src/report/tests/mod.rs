@@ -110,8 +110,7 @@ fn has(report: &Files, parts: &str) {
     }
 }
 
-/// A title is plain text where no markup is read; signs that another reader of Markdown, or TeX,
-/// would take for markup are escaped.
+/// A title is plain text where no markup is read; signs that others read are escaped.
 #[test]
 fn each_format_shows_what_is_meant() {
     let [svg, pdf] = [&b"<svg/>"[..], b"%PDF-1.5"];
@@ -205,9 +204,9 @@ struct Given {
 impl Given {
     fn made(self) -> Result<Files, Error> {
         let mut values = Registry::default();
-        values.add(Value::ensemble("half_height", with_error(0.11652, 0.0004), 1000))?;
+        values.add(Value::integer("half_height", with_error(0.11652, 0.0004)))?;
         values.add(Value::real("tiny", 8.87e-4, 3))?;
-        values.add(Value::ensemble("kept", with_error(0.945, 0.008), 400))?;
+        values.add(Value::integer("kept", with_error(0.945, 0.008)))?;
         values.add(Value::integer("count", 12345))?;
         let empty = Value::real("empty", 0.0, 1);
         values.add(Value { number: values::Number::None, ..empty })?;
