@@ -1,7 +1,6 @@
 //! Judges Section 2, the simulation.
 
 use super::shared::*;
-use crate::experiments::lengths::from_rest;
 use crate::experiments::rise::{Curve, Rise, RisePoint};
 use crate::experiments::sweep::{self, mode_half};
 use crate::experiments::theory::comparison::LARGE_SIGMA;
@@ -61,28 +60,30 @@ pub(super) fn small_force<'a>(e: &Evidence<'a>) -> Result<&'a RisePoint, Error> 
 /// “Very few” is at most N over this (ours).
 pub(super) const VERY_FEW: f64 = 20.0;
 
+/// Returns the row of the smallest σ in each window of the map that begins late enough.
+fn small_in_windows<'a>(e: &Evidence<'a>) -> Result<Vec<&'a RisePoint>, Error> {
+    Ok(late(e, "sweep")?.iter().filter_map(|curve| curve.rows.first()).collect())
+}
+
 /// By the mean of the realisations with an impact, in each window of the map of protocols.
 fn few_below(e: &Evidence<'_>) -> Judged {
     let row = small_force(e)?;
     let here = e.estimate(&format!("sweep.rows[sigma={}].mean", row.sigma))?;
     let limit = e.number("sweep.run.gaps")? / VERY_FEW;
-    let found = text!("at σ = {} a mean of {}", row.sigma, here);
-    let mut means = Vec::new();
-    for curve in late(e, "sweep")? {
-        means.extend(curve.rows.first().and_then(|row| row.mean?.estimate()));
-    }
+    let means = small_in_windows(e)?.into_iter().filter_map(|row| row.mean?.estimate());
+    let means: Vec<Estimate> = means.collect();
     let few = means.iter().filter(|mean| mean.value <= limit).count();
-    let [Some(first), Some(last)] = [means.first(), means.last()] else {
-        return Err(Undecided);
-    };
+    let [first, .., last] = means[..] else { return Err(Undecided) };
+    let found = text!("at σ = {} a mean of {}", row.sigma, here);
     let reason =
         "ours: “very few” as a twentieth of all gaps, at two thirds of the printed threshold";
-    let check = by_runs(e, found, [few, means.len()], text!("at most {:2}", limit), reason);
+    let counts = [few, means.len() - few, means.len()];
+    let check = by_runs(e, found, counts, text!("at most {:2}", limit), reason);
     let note = "From rest. Of {} pairs of transient T ≥ {} and window W, which are not printed, {} give at most {:2}, \
          a twentieth of all gaps: from {} in the shortest window after the shortest transient to {} in the longest. \
          Only {} of {} realisations have an impact, but in these impacts spread.";
     let all = means.len();
-    Ok(check.note(text!(note, all, RELEASED, few, limit, *first, *last, row.kept, row.ran)))
+    Ok(check.note(text!(note, all, RELEASED, few, limit, first, last, row.kept, row.ran)))
 }
 
 /// By the share of the realisations with an impact, with its interval, in each window of the map of
@@ -91,31 +92,24 @@ fn none_below(e: &Evidence<'_>) -> Judged {
     let row = small_force(e)?;
     let here = e.estimate(&format!("sweep.rows[sigma={}].kept", row.sigma))?;
     let limit = 1.0 / VERY_FEW;
-    let (mut shares, mut none, mut some) = (Vec::new(), 0, 0);
-    for curve in late(e, "sweep")? {
-        let row = curve.rows.first().ok_or(Undecided)?;
-        let [low, high] =
-            wilson(row.kept as u64, row.ran as u64, 1.0 - e.level()?.each).ok_or(Undecided)?;
-        shares.push(row.kept as f64 / row.ran as f64);
-        none += usize::from(high <= limit);
-        some += usize::from(low > limit);
-    }
-    let [least, most] = ends(shares.iter().copied()).ok_or(Undecided)?;
+    let (rows, level) = (small_in_windows(e)?, 1.0 - e.level()?.each);
+    let intervals = rows.iter().filter_map(|row| wilson(row.kept as u64, row.ran as u64, level));
+    let none = intervals.clone().filter(|[_, high]| *high <= limit).count();
+    let some = intervals.filter(|[low, _]| *low > limit).count();
+    let shares = rows.iter().map(|row| row.kept as f64 / row.ran as f64);
+    let [least, most] = ends(shares).ok_or(Undecided)?;
     let random = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma))?;
     let half = e.estimate("sweep.rise.kept_half")?;
     let found = text!("at σ = {} {} of the realisations have an impact", row.sigma, here);
     let reason = "ours: “no impacts” as in at most a twentieth of the realisations, at two thirds of the printed \
          threshold";
-    let check = if none + some == shares.len() {
-        by_runs(e, found, [none, shares.len()], text!("at most {:1}", limit), reason)
-    } else {
-        e.open(found)
-    };
+    let counts = [none, some, rows.len()];
+    let check = by_runs(e, found, counts, text!("at most {:1}", limit), reason);
     let note = "From rest the share lies from {:2} to {:2} in the {} windows of the map of protocols with T ≥ {}. With \
          its statistical error it is surely at most {:1}, a twentieth, in {} of them and surely more in {}. With random \
          free parts, as Eq. (20) supposes, it would be at most {:1}; the start is not printed. From rest half of the \
          realisations have an impact at σ = {}, below the printed threshold.";
-    let [all, late] = [shares.len() as f64, RELEASED];
+    let [all, late] = [rows.len() as f64, RELEASED];
     Ok(check.note(text!(note, least, most, all, late, limit, none, some, random, half)))
 }
 
@@ -174,20 +168,16 @@ fn rise_exists(e: &Evidence<'_>) -> Judged {
         text!("a quarter to three quarters of all gaps within {} of σ½", with_error(share, error));
     let reason = "ours: half of what the same rise takes where impacts do not spread and each gap closes by itself; \
          and the statistical error";
-    let mut note = Text::from(WITH_AN_IMPACT);
-    if let Ok(width) = e.estimate("sweep.rise.width") {
-        let more = " From rest. The mean of all rises from a tenth to nine tenths within Δσ = {}.";
-        note = note.then(text!(more, width));
-    }
     let windows = late(e, "protocol")?;
     let share_in =
         |window: &&Curve| Some(window.rise.kept_width?.value / window.rise.half_height?.value);
     let shares: Vec<f64> = windows.iter().filter_map(share_in).collect();
-    if let Some([least, most]) = ends(shares.iter().copied()) {
-        let range = " In {} of the {} windows of the map of protocols with T ≥ {} this width over σ½ is known, and \
-             lies from {:2} to {:2}.";
-        note = note.then(text!(range, shares.len(), windows.len(), RELEASED, least, most));
-    }
+    let [least, most] = ends(shares.iter().copied()).ok_or(Undecided)?;
+    let more = " From rest. The mean of all rises from a tenth to nine tenths within Δσ = {}. In {} of the {} windows \
+         of the map of protocols with T ≥ {} this width over σ½ is known, and lies from {:2} to {:2}.";
+    let (all_rise, known) = (e.estimate("sweep.rise.width")?, shares.len());
+    let more = text!(more, all_rise, known, windows.len(), RELEASED, least, most);
+    let note = Text::from(WITH_AN_IMPACT).then(more);
     let agrees = share <= limit + e.level()?.quantile * error;
     let tolerance = text!("at most {:2}", limit);
     Ok(e.found(found, agrees).within(tolerance, reason).note(note))
@@ -223,18 +213,8 @@ fn onset(e: &Evidence<'_>) -> Judged {
     by_protocol(e, found, by, |rise| rise.onset)
 }
 
-/// Returns what `place` finds in each window of the map of protocols that begins late enough, and
-/// in those of chains with random free parts.
-fn in_windows<T>(
-    e: &Evidence<'_>,
-    place: impl Fn(&Curve) -> Option<T>,
-) -> Result<[Vec<Option<T>>; 2], Error> {
-    let rest = late(e, "protocol")?.into_iter().map(&place).collect();
-    Ok([rest, ensemble(e.results.of(&LENGTHS)?, "random")?.curves.iter().map(place).collect()])
-}
-
-/// Judges a place of the rise by all these windows: the number of them in which it has the printed
-/// digits decides.
+/// Judges a place of the rise by the windows of the map that begin late enough, and by those of
+/// chains with random free parts: the number of them in which it has the printed digits decides.
 fn by_protocol(
     e: &Evidence<'_>,
     found: Text,
@@ -242,58 +222,47 @@ fn by_protocol(
     place: fn(&Rise) -> Option<Estimate>,
 ) -> Judged {
     let [from, to] = e.statement.interval()?;
-    let [mut agree, mut unknown, mut all] = [0; 3];
+    let [mut agree, mut known, mut all] = [0; 3];
     let mut note = Text::from(by);
+    let random = ensemble(e.results.of(&LENGTHS)?, "random")?.curves.iter().collect();
     let sentences = [
         " From rest it is known in {} of {} windows with T ≥ {}, from {} to {}; in {} it has the printed digits.",
         " With random free parts, as Eq. (20) supposes, in {} of {} with T ≥ {}, from {} to {}, and in {}.",
     ];
-    for (places, sentence) in in_windows(e, |curve| place(&curve.rise))?.into_iter().zip(sentences)
-    {
-        let mut known: Vec<Estimate> = places.iter().flatten().copied().collect();
-        known.sort_by(|a, b| a.value.total_cmp(&b.value));
-        let printed = known.iter().filter(|place| (from..to).contains(&place.value)).count();
-        agree += printed;
-        unknown += places.len() - known.len();
-        all += places.len();
-        if let [Some(least), Some(most)] = [known.first(), known.last()] {
-            let [of, all] = [known.len(), places.len()];
-            note = note.then(text!(sentence, of, all, RELEASED, *least, *most, printed));
+    for (windows, sentence) in [late(e, "protocol")?, random].into_iter().zip(sentences) {
+        let mut at: Vec<Estimate> = windows.iter().filter_map(|it| place(&it.rise)).collect();
+        at.sort_by(|a, b| a.value.total_cmp(&b.value));
+        let printed = at.iter().filter(|place| (from..to).contains(&place.value)).count();
+        (agree, known, all) = (agree + printed, known + at.len(), all + windows.len());
+        if let [Some(least), Some(most)] = [at.first(), at.last()] {
+            let [of, windows] = [at.len(), windows.len()];
+            note = note.then(text!(sentence, of, windows, RELEASED, *least, *most, printed));
         }
     }
-    let (found, tolerance) = (with_protocol(e, found)?, text!("± {:1}", e.statement.half_unit()));
-    // Where a place is not known it may agree.
-    let check = match agree {
-        0 if unknown > 0 => e.open(found),
-        _ => by_runs(e, found, [agree, all], tolerance, HALF_UNIT),
-    };
-    Ok(check.note(note))
+    let (found, counts) = (with_protocol(e, found)?, [agree, known - agree, all]);
+    let tolerance = text!("± {:1}", e.statement.half_unit());
+    Ok(by_runs(e, found, counts, tolerance, HALF_UNIT).note(note))
 }
 
 const HALF_UNIT: &str =
     "half a unit of the last printed digit, with any start, transient and window";
 
-/// The mode passes half of all gaps within a range of σ; it agrees if this meets the printed
-/// digits.
+/// The mode passes half of all gaps within a range of σ; it agrees if this lies within the printed
+/// digits, and does not if it lies apart from them.
 fn mode_rise(e: &Evidence<'_>) -> Judged {
     let [low, high] = e.numbers("sweep.mode", ["half_from", "half_to"])?;
     let [from, to] = e.statement.interval()?;
     let found = with_protocol(e, text!("between σ = {} and {}", low, high))?;
-    let gaps = e.number("sweep.run.gaps")? as usize;
-    let ranges = in_windows(e, |curve| mode_half(curve, gaps))?.concat();
-    let ranges: Vec<[f64; 2]> = ranges.into_iter().flatten().collect();
-    let all = ranges.len();
-    let within = ranges.iter().filter(|[low, high]| from <= *low && *high <= to).count();
-    let apart = ranges.iter().filter(|[low, high]| to < *low || *high < from).count();
+    let (windows, gaps) = (late(e, "protocol")?, e.number("sweep.run.gaps")? as usize);
+    let ranges = windows.iter().filter_map(|curve| mode_half(curve, gaps));
+    let all = ranges.clone().count();
+    let within = ranges.clone().filter(|[low, high]| from <= *low && *high <= to).count();
+    let apart = ranges.filter(|[low, high]| to < *low || *high < from).count();
     let note = "The mode is known to the range of σ in which its bootstrap interval reaches over half of all gaps; of \
-         the {} windows with T ≥ {} and such a range, from rest or with random free parts, {} have one within the printed \
-         digits and {} one apart from them. It follows the mean.";
+         the {} windows from rest with T ≥ {} and such a range {} have one within the printed digits and {} one apart \
+         from them. It follows the mean.";
     let tolerance = text!("± {:1}", e.statement.half_unit());
-    // Other ranges decide nothing.
-    let check = match [within, apart].contains(&all) {
-        true => e.found(found, within == all).within(tolerance, HALF_UNIT),
-        false => e.open(found),
-    };
+    let check = by_runs(e, found, [within, apart, all], tolerance, HALF_UNIT);
     Ok(check.note(text!(note, all, RELEASED, within, apart)))
 }
 
@@ -368,19 +337,14 @@ fn walls_like_masses(e: &Evidence<'_>) -> Judged {
 
 /// The threshold of percolation sharpens with size. The paper compares without a quantity.
 fn percolation(e: &Evidence<'_>) -> Judged {
-    let transient = e.number("sweep.run.transient")?;
-    let widths = from_rest(e.results.of(&LENGTHS)?)
-        .filter(|(_, curve)| curve.protocol.transient == transient)
-        .filter_map(|(chains, curve)| Some((chains.ensemble.chain.masses, curve.rise.width?)));
-    let mut widths: Vec<_> = widths.filter(|(masses, _)| *masses >= 100).collect();
-    widths.sort_by_key(|(masses, _)| *masses);
-    let found = match (widths.first(), widths.last()) {
-        (Some((n, short)), Some((most, long))) if most > n => {
-            text!("width of the rise {} for n = {}, {} for n = {}", *short, *n, *long, *most)
-        }
-        _ => "chains of one length only".into(),
+    let [transient, window] = e.numbers("sweep.run", ["transient", "window"])?;
+    let [n, most] = [e.published.parameter("masses")?, e.number("lengths.all.longest")?];
+    let width = |masses: f64| {
+        let row = format!("lengths.rest[masses={masses},transient={transient},window={window}]");
+        e.estimate(&format!("{row}.width"))
     };
+    let found = "a quarter to three quarters of all gaps within {} for n = {}, {} for n = {}";
     let note = "The paper names a likeness and no number. The threshold of percolation becomes sharp in a large \
          system; this rise, after the same transient, does not.";
-    Ok(e.open(found).note(note))
+    Ok(e.open(text!(found, width(n)?, n, width(most)?, most)).note(note))
 }

@@ -56,15 +56,15 @@ fn masses_of_circuit(e: &Evidence<'_>) -> Judged {
     let segment = &e.results.of(&SEGMENTS)?.fig05;
     let gaps: BTreeSet<usize> = segment.impacts.iter().map(|impact| impact.gap).collect();
     let all = segment.masses + 1;
-    let (mut right, mut as_predicted, mut sets) = (0, true, 0);
-    for set in 1_u32..1 << all {
+    let sets = (1 << all) - 1;
+    let (mut right, mut as_predicted) = (0, true);
+    for set in 1_u32..=sets {
         let set: BTreeSet<usize> = (0..all).filter(|gap| set >> gap & 1 == 1).collect();
         let holds = bodies(&set, segment.masses) == set.len() + 1;
         // A gap begins a run of neighbours if the one before it is not in the set.
         let before = |gap: &&usize| !set.contains(&((**gap + all - 1) % all));
         as_predicted &= holds == (set.iter().filter(before).count() == 1);
-        right += usize::from(holds);
-        sets += 1;
+        right += u32::from(holds);
     }
     let found = bodies(&gaps, segment.masses);
     let printed = found as f64 == e.statement.number()?;

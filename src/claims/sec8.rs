@@ -10,11 +10,10 @@ use crate::experiments::sweep;
 use crate::experiments::theory::comparison::{self, LARGE_SIGMA, largest_distance};
 use crate::experiments::theory::law::law;
 use crate::experiments::{LENGTHS, PROTOCOL, RESTITUTION, STARTS};
-use crate::params::{Protocol, VERTICES};
+use crate::params::VERTICES;
 use impact_chain::counts::Total;
 use impact_chain::rise::RisePoint;
 use impact_circuits::distribution::SampleSpace::Simple;
-use impact_numerics::estimates::share;
 use impact_numerics::statistics::{Estimate, wilson};
 
 pub fn rules() -> Vec<Rule> {
@@ -67,46 +66,33 @@ fn expected_jump(e: &Evidence<'_>) -> Judged {
 /// impact later, has a gap with Y₀ + Y₁/|ω² − Ω²| ≥ d.
 fn no_impact(e: &Evidence<'_>) -> Judged {
     let random = ensemble(e.results.of(&STARTS)?, "random")?;
-    let (mut above, mut below) = (0, 0);
-    let (mut overlaps, mut chains) = (0, 0);
+    let [mut above, mut below, mut overlaps, mut chains] = [0; 4];
     let mut shares_of_bound = Vec::new();
-    let mut text = Text::default();
     for (row, counted) in random.runs.iter().zip(&random.first().rows) {
-        let ran = row.realisations - row.failed;
-        let begun = counted.kept + row.rejected;
+        let (ran, begun) = (row.realisations - row.failed, counted.kept + row.rejected);
         let bound = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma));
         let interval = wilson(begun as u64, ran as u64, 1.0 - e.level()?.each);
-        let found = share(begun as u64, ran as u64);
-        let (Ok(bound), Some([low, high]), Some(found)) = (bound, interval, found) else {
-            continue;
-        };
+        let (Ok(bound), Some([low, high])) = (bound, interval) else { continue };
         above += usize::from(low > bound);
         if (0.05..0.95).contains(&bound) {
-            let is_first = shares_of_bound.is_empty();
-            let sentence = if is_first {
-                "share of chains {} of {:2} at σ = {}"
-            } else {
-                "; {} of {:2} at σ = {}"
-            };
-            text = text.then(text!(sentence, found, bound, row.sigma));
-            shares_of_bound.push(found.value / bound);
+            shares_of_bound.push(begun as f64 / ran as f64 / bound);
             below += usize::from(high < 2.0 / 3.0 * bound);
-            overlaps += row.rejected;
-            chains += begun;
+            (overlaps, chains) = (overlaps + row.rejected, chains + begun);
         }
     }
     if shares_of_bound.len() < 3 {
         return Err(Undecided);
     }
-    let least = shares_of_bound.into_iter().fold(f64::INFINITY, f64::min);
+    let [least, most] = ends(shares_of_bound.iter().copied()).ok_or(Undecided)?;
+    let found = "at {} values of σ the share of chains is from {:2} to {:2} of its bound";
+    let found = text!(found, shares_of_bound.len(), least, most);
     let reason = "intervals at the level of the table, since shares of samples scatter; two thirds are ours, for gaps \
          that share a mass and come near their infimum too late";
     let note = "Chains with random free parts, as Eq. (20) supposes. {} of these {} chains overlap at the start, \
-         which Eq. (20) counts as impacts. The bound is 1 − ∏ (1 − p) over all gaps with p of Eq. (25); chains come \
-         to at least {:2} of it.";
-    Ok(e.found(text, above == 0 && below == 0)
+         which Eq. (20) counts as impacts. The bound is 1 − ∏ (1 − p) over all gaps with p of Eq. (25).";
+    Ok(e.found(found, above == 0 && below == 0)
         .within("no interval above its bound, none below two thirds of it", reason)
-        .note(text!(note, overlaps, chains, least)))
+        .note(text!(note, overlaps, chains)))
 }
 
 /// Less of a whole than this cannot be seen in a figure (ours).
@@ -205,16 +191,16 @@ fn threshold_shift(e: &Evidence<'_>) -> Judged {
     let windows = late(e, "protocol")?;
     let halves: Vec<Estimate> =
         windows.iter().filter_map(|curve| curve.rise.half_height_all).collect();
-    let agree = halves.iter().filter(|half| near(half)).count();
+    let (agree, all) = (halves.iter().filter(|half| near(half)).count(), halves.len());
     let found =
         text!("half height of the theory at σ = {:4}, of the simulation at {}", theory, half);
     let tolerance = "within a fifth of one another";
     let reason = "ours: a curve that is moved by more agrees nowhere along the rise";
-    let check = by_runs(e, found, [agree, halves.len()], tolerance, reason);
+    let check = by_runs(e, found, [agree, all - agree, all], tolerance, reason);
     let note = "Along the rise the protocol, which is not printed, decides: from rest in {} of {} windows of the map \
          with T ≥ {} both half heights are within a fifth of one another. The paper itself finds the agreement poor at \
          small σ.";
-    Ok(check.note(text!(note, agree, halves.len(), RELEASED)))
+    Ok(check.note(text!(note, agree, all, RELEASED)))
 }
 
 fn mean_is_easier(e: &Evidence<'_>) -> Judged {
@@ -245,23 +231,19 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
         return Err(Undecided);
     };
     let moved = range(halves.iter().map(|(_, half)| Some(*half))).ok_or(Undecided)?;
-    let mut note = Text::from(
-        "The paper says “perhaps”, and does not print its start. In smaller samples the share is",
-    );
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
-    let mut sentence = " {} for T = {}";
-    for curve in &ensemble(e.results.of(&LENGTHS)?, "random")?.curves {
-        let Protocol { transient, window } = curve.protocol;
-        let rest = map.curve(transient, window).and_then(|curve| curve.rise.half_height_all);
-        if let Some((rest, random)) = rest.zip(curve.rise.half_height_all) {
-            note = note.then(text!(sentence, share_of_start(rest, random, theory), transient));
-            sentence = ", {} for {}";
-        }
-    }
+    let share_after = |curve: &Curve| {
+        let rest = map.curve(curve.protocol.transient, curve.protocol.window)?;
+        let [rest, random] = [rest.rise.half_height_all?, curve.rise.half_height_all?];
+        Some(share_of_start(rest, random, theory).value)
+    };
+    let shares = ensemble(e.results.of(&LENGTHS)?, "random")?.curves.iter().filter_map(share_after);
+    let [least, most] = ends(shares).ok_or(Undecided)?;
     let found = "from rest the start makes up {} of the distance between theory and simulation";
-    let more = ". The theory assumes random free parts, for which nothing of the distance is due to the start. From \
-         r = {} to {} the half height moves by {}, more than with the start.";
-    Ok(e.open(text!(found, share)).note(note.then(text!(more, *lowest, *highest, moved))))
+    let note = "The paper says “perhaps”, and does not print its start. In smaller samples the share lies from {:2} to \
+         {:2} after other transients. The theory assumes random free parts, for which nothing of the distance is due \
+         to the start. From r = {} to {} the half height moves by {}, more than with the start.";
+    Ok(e.open(text!(found, share)).note(text!(note, least, most, *lowest, *highest, moved)))
 }
 
 /// Returns the share of all impacts that `pick` counts at r and σ; none where these were not run.
@@ -280,8 +262,8 @@ fn ensured(e: &Evidence<'_>, what: &str, pick: fn(&Total) -> u64) -> Judged {
     let share = |r, sigma| share_at(found, [r, sigma], pick);
     // Share at the paper's r and at the lowest for each σ, and whether only the lowest has many.
     let mut shares = Vec::new();
-    let all = found.iter().find(|chains| chains.ensemble.chain.restitution == lowest);
-    for sigma in all.ok_or(Undecided)?.runs.iter().map(|row| row.sigma) {
+    let chains = found.iter().find(|chains| chains.ensemble.chain.restitution == lowest);
+    for sigma in chains.ok_or(Undecided)?.runs.iter().map(|row| row.sigma) {
         if let Some((ours, without)) = share(r, sigma).zip(share(lowest, sigma)) {
             shares.push((sigma, ours, without, ours <= NEGLIGIBLE && without > NEGLIGIBLE));
         }
@@ -290,16 +272,17 @@ fn ensured(e: &Evidence<'_>, what: &str, pick: fn(&Total) -> u64) -> Judged {
     let text = "at σ = {} a share of {:1} at r = {}, {:1} at r = {}";
     let text = text!(text, sigma, ours, r, without, lowest);
     let decided: Vec<f64> = shares.iter().filter(|row| row.3).map(|row| row.0).collect();
+    let (at, all) = (decided.len(), shares.len());
+    let counts = [at, all - at, all];
     let tolerance = "at most {:1} at the paper's r, more at the lowest, at each σ";
     let tolerance = text!(tolerance, NEGLIGIBLE);
     let reason = "ours: one in a thousand, as in Section 2";
-    let check = by_runs(e, text, [decided.len(), shares.len()], tolerance, reason);
+    let check = by_runs(e, text, counts, tolerance, reason);
     let is_rare = |r: &&f64| shares.iter().all(|row| share(**r, row.0) <= Some(NEGLIGIBLE));
     let enough = *restitutions.iter().find(is_rare).ok_or(Undecided)?;
     let more = " Of the {} values of σ from {} to {} that were run with both r it decides at {}.";
-    let more = text!(more, shares.len(), first, sigma, decided.len());
-    let mut note = Text::from(what).then(more);
-    if let Some(from) = decided.first().filter(|_| decided.len() < shares.len()) {
+    let mut note = Text::from(what).then(text!(more, all, first, sigma, at));
+    if let Some(from) = decided.first().filter(|_| at < all) {
         let open = " The lowest of these is {}; which σ the paper simulated is not printed.";
         note = note.then(text!(open, *from));
     }

@@ -13,10 +13,10 @@ pub fn rules() -> Vec<Rule> {
         cases("sec9_eq29", LOOPS).reads("(N − 1)!/(N − (k − 1))!"),
         Rule::new("sec9_eq30", eq30).on(FiniteCases).reads("γ(k, 2)/2 · (N − 1)!/(N − (k − 1))!"),
         cases("sec9_eq32", SUMS).reads("(n − 1)!/((j − 1)! (n − j)!)"),
-        of_class("sec9_eq33", "(k − 1)/2 · N!/(N − (k − 1))!"),
-        of_class("sec9_eq35", "valid for k > {}"),
-        of_class("sec9_eq36", "valid for k > {}"),
-        of_class("sec9_eq37", "valid for k > {}"),
+        Rule::new("sec9_eq33", class_range).on(FiniteCases).reads("(k − 1)/2 · N!/(N − (k − 1))!"),
+        Rule::new("sec9_eq35", class_range).on(FiniteCases).reads("valid for k > {}"),
+        Rule::new("sec9_eq36", class_range).on(FiniteCases).reads("valid for k > {}"),
+        Rule::new("sec9_eq37", class_range).on(FiniteCases).reads("valid for k > {}"),
         Rule::new("sec9_eq38", eq38).on(FiniteCases).reads("Eq. (38)"),
         Rule::new("sec9_even_small_p", even_small_p).on(OurMeasure).reads("significant at p = {}"),
         Rule::new("sec9_even_small_p_different", even_small_p_different)
@@ -62,12 +62,6 @@ fn eq30(e: &Evidence<'_>) -> Judged {
     Ok(e.found(found, printed == counted)
         .within("none", INTEGER)
         .explained(text!(why, compared, compared), failed == 0 && compared > 0))
-}
-
-/// Makes the rule of one of Eqs. (33) to (37).
-#[track_caller]
-fn of_class(id: &'static str, printed: &'static str) -> Rule {
-    Rule::new(id, class_range).on(FiniteCases).reads(printed)
 }
 
 /// Of Eqs. (33) to (37), by the number in the id.

@@ -27,17 +27,18 @@ pub fn ends(numbers: impl Iterator<Item = f64> + Clone) -> Option<[f64; 2]> {
     Some([numbers.clone().reduce(f64::min)?, numbers.reduce(f64::max)?])
 }
 
-/// Starts a check by the protocols or values of σ that were run, `agree` of which agree with what
-/// was printed. If some agree and others do not, what was used decides, which is not printed.
+/// Starts a check by the protocols or values of σ that were run: how many surely agree with what
+/// was printed, how many surely do not, and how many there are. It is judged where these are all;
+/// else what was used decides, which is not printed, or the sample is too small.
 pub fn by_runs(
     e: &Evidence<'_>,
     found: Text,
-    [agree, all]: [usize; 2],
+    [agree, differ, all]: [usize; 3],
     tolerance: impl Into<Text>,
     reason: &str,
 ) -> Check {
-    if agree == 0 || agree == all {
-        e.found(found, agree > 0).within(tolerance, reason)
+    if all > 0 && [agree, differ].contains(&all) {
+        e.found(found, agree == all).within(tolerance, reason)
     } else {
         e.open(found)
     }

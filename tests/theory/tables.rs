@@ -27,6 +27,9 @@ fn p_crit_and_p_jump_of_a_hundred_vertices() {
     assert!((number("theory.jump.p_crit") - 0.012209975124224177).abs() < 1e-17);
     assert!((number("theory.jump.p_jump") - 0.01303285872435575).abs() < 1e-17);
     assert_eq!(number("theory.jump.k_after"), 20.0);
+    // Eq. (25) and the σ that it gives to the jump, from 40-digit arithmetic.
+    assert!((number("theory.gap[sigma=0.12].p") / 8.87017160097868e-4 - 1.0).abs() < 1e-14);
+    assert!((number("theory.relation.sigma_jump") - 0.1469211811).abs() < 5e-11);
 }
 
 #[test]
@@ -55,9 +58,9 @@ fn slips_of_the_paper_by_other_routes() {
     let exact = ["theory.lengths.peak", "theory.mean.at_zero", "theory.jump.k_at_one"].map(number);
     assert_eq!(exact, [99.0, 1.0, 99.0]);
     assert!((number("theory.jump.last_ratio") - 0.99).abs() < 1e-15);
-    // Near the end φ(N − j)/φ(N) = N/((N − j) j!): shares of j = 0..3 over all j.
+    // Near the end φ(N − j)/φ(N) = N/((N − j) j!): shares of j = 0..5 over all j.
     let weight = |j: usize| 100.0 / ((100 - j) as f64 * (1..=j).product::<usize>() as f64);
-    let near_end: f64 = (0..4).map(weight).sum();
+    let near_end: f64 = (0..6).map(weight).sum();
     let all: f64 = (0..18).map(weight).sum();
     assert!((number("theory.lengths.share") / (near_end / all) - 1.0).abs() < 1e-13);
     let [slope, variance] = ["theory.jump.slope", "theory.jump.variance_over_p"].map(number);
