@@ -12,7 +12,7 @@ mod program;
 mod prose;
 mod structure;
 
-use impact_paper::experiments::{ALL, Progress, Results, Session, Store};
+use impact_paper::experiments::{ALL, AnyExperiment, Progress, Results, Session, Store};
 use impact_paper::params::Profile;
 use impact_paper::{claims, contents};
 use literate::Paper;
@@ -34,20 +34,20 @@ struct Quick {
     values: Registry,
 }
 
-/// The results that the program saved, with the session that read them.
-fn results(paper: &Paper) -> (Session<'_>, Results) {
+/// Results that the program saved, of these experiments, with the session that read them.
+fn results<'a>(paper: &'a Paper, needs: &[&'static dyn AnyExperiment]) -> (Session<'a>, Results) {
     let saved = tempfile::tempdir().unwrap();
     crate::put(saved.path(), &crate::QUICK.results);
     let (store, quiet) = (Store::open(saved.path()), Progress::silent());
     let session = paper.session(None, Profile::Quick, store, quiet).unwrap();
-    let results = paper.results(ALL, &session).unwrap();
+    let results = paper.results(needs, &session).unwrap();
     (session, results)
 }
 
 impl Quick {
-    /// The results once more, to be changed.
-    fn results_again(&self) -> Results {
-        results(&self.paper).1
+    /// Results once more, to be changed.
+    fn results_again(&self, needs: &[&'static dyn AnyExperiment]) -> Results {
+        results(&self.paper, needs).1
     }
 
     fn markdown(&self, document: &Document) -> &str {
@@ -100,7 +100,7 @@ fn links_land(files: impl Fn(&Files) -> Links, least: usize, across: usize) {
 
 static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let paper = program::paper();
-    let (session, results) = results(&paper);
+    let (session, results) = results(&paper, ALL);
     let published = paper.published(&session).unwrap();
     let mut claims = claims::judge_all(&published, &claims::rules(), &results).unwrap();
     claims.retain(|check| check.kind.is_printed());

@@ -6,7 +6,7 @@ use super::QUICK;
 use impact_chain::rise::Mean;
 use impact_paper::claims::{self, Published, Verdict};
 use impact_paper::experiments::accuracy::case::Outcome::Missed;
-use impact_paper::experiments::{PROTOCOL, RACE, REPLAY, Results, SCALE, SWEEP, TRIALS};
+use impact_paper::experiments::{ALL, PROTOCOL, RACE, REPLAY, Results, SCALE, SWEEP, TRIALS};
 use impact_paper::figures;
 use impact_paper::params::MethodName;
 
@@ -63,7 +63,9 @@ fn no_verdict_survives_another_first_digit_in_the_printed_number() {
 /// Judges results, and compares the verdicts of some statements or relations.
 fn judged(results: &Results, expected: &[(&str, Verdict)]) {
     let published = Published::parse(QUICK.templates.text("published.toml").unwrap()).unwrap();
-    let checks = QUICK.paper.checks(results, &published).unwrap();
+    let mut rules = claims::rules();
+    rules.retain(|rule| expected.iter().any(|(id, _)| *id == rule.id));
+    let checks = claims::judge_all(&published, &rules, results).unwrap();
     for (id, verdict) in expected {
         let found = checks.iter().find(|check| check.id == *id).unwrap().verdict;
         assert_eq!(found, *verdict, "{id}");
@@ -85,7 +87,7 @@ fn claims_fail_when_the_results_say_so() {
         ("engine_as_promised", Reproduced),
     ];
     judged(&QUICK.results, &as_found);
-    let mut results = QUICK.results_again();
+    let mut results = QUICK.results_again(ALL);
     let sweep = &mut results.of_mut(&SWEEP).unwrap()[0];
     let rise = &mut sweep.curves[0].rise;
     rise.half_height.as_mut().unwrap().value += 0.05;
@@ -141,7 +143,7 @@ fn the_promise_of_the_engine_follows_the_numbers() {
         },
     ];
     for worse in worse {
-        let mut results = QUICK.results_again();
+        let mut results = QUICK.results_again(&[&RACE, &TRIALS, &SCALE]);
         worse(&mut results);
         judged(&results, &[("engine_as_promised", Verdict::Differs)]);
     }

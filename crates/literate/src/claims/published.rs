@@ -72,7 +72,9 @@ impl Published {
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
         let mut published: Published =
             toml::from_str(text).map_err(|error| PublishedError(toml_fault(text, &error)))?;
-        let last_line = |id: &str| lines(text, id).last().unwrap_or(1);
+        let ids: Vec<(&str, usize)> = text.lines().zip(1..).filter_map(id_of).collect();
+        let line = |found: Option<&(&str, usize)>| found.map_or(1, |(_, line)| *line);
+        let last_line = |id: &str| line(ids.iter().rfind(|(known, _)| *known == id));
         for statement in &mut published.statements {
             statement.line = last_line(&statement.id);
             statement.read_number().map_err(|what| statement.fault(what))?;
@@ -86,7 +88,7 @@ impl Published {
         let parameters = published.parameters.iter().map(|parameter| &parameter.id);
         for id in parameters.chain(published.statements.iter().map(|statement| &statement.id)) {
             if !seen.insert(id) {
-                let first = lines(text, id).next().unwrap_or(1);
+                let first = line(ids.iter().find(|(known, _)| known == id));
                 let what = format!("it stands on line {first} too; give each entry its own");
                 return Err(PublishedError::at(last_line(id), id, &what));
             }
@@ -106,11 +108,10 @@ impl Published {
     }
 }
 
-/// Finds the lines of a file, from 1, that give an entry this id.
-fn lines(text: &str, id: &str) -> impl Iterator<Item = usize> {
-    let ways = ['"', '\''].map(|quote| format!("id={quote}{id}{quote}"));
-    let is_way = move |line: &str| ways.contains(&line.split_whitespace().collect());
-    (1..).zip(text.lines()).filter(move |(_, line)| is_way(line)).map(|(number, _)| number)
+/// Returns the id that a line gives to an entry, with the number of the line.
+fn id_of((line, number): (&str, usize)) -> Option<(&str, usize)> {
+    let id = line.trim_start().strip_prefix("id")?.trim_start().strip_prefix('=')?;
+    Some((id.trim().trim_matches(['"', '\'']), number))
 }
 
 fn power_of_ten(exponent: i32) -> f64 {
