@@ -28,8 +28,8 @@ struct Quick {
     templates: Templates,
     figures: Vec<Figure>,
     report: Files,
-    /// The same as it is written into a folder of target/, and where no checkout is.
-    elsewhere: [Files; 2],
+    /// The same as it is written into a folder of target/.
+    below: Files,
     results: Results,
     values: Registry,
 }
@@ -66,12 +66,10 @@ impl Quick {
 type Links = BTreeMap<String, (Vec<String>, Vec<String>)>;
 
 /// Follows the links of files in a report that is written into paper/, into a folder of target/,
-/// and elsewhere; so many at least lead within a file, and from one to another.
+/// and where no checkout is; so many at least lead within a file, and from one to another.
 fn links_land(files: impl Fn(&Files) -> Links, least: usize, across: usize) {
-    for (report, top) in [&QUICK.report, &QUICK.elsewhere[0], &QUICK.elsewhere[1]]
-        .into_iter()
-        .zip(["../", "../../", "none"])
-    {
+    let alone = &crate::QUICK.report;
+    for (report, top) in [(&QUICK.report, "../"), (&QUICK.below, "../../"), (alone, "none")] {
         let files = files(report);
         let (mut inside, mut outside, mut up) = (0, 0, 0);
         for (name, (links, places)) in &files {
@@ -123,7 +121,7 @@ static QUICK: LazyLock<Quick> = LazyLock::new(|| {
         };
         assemble(&input).unwrap_or_else(|error| panic!("{error}"))
     };
-    let [report, below, alone] = [Some("../"), Some("../../"), None].map(made);
-    let (templates, elsewhere) = (session.templates.clone(), [below, alone]);
-    Quick { paper: program::paper(), templates, figures, report, elsewhere, results, values }
+    let [report, below] = [Some("../"), Some("../../")].map(made);
+    let templates = session.templates.clone();
+    Quick { paper: program::paper(), templates, figures, report, below, results, values }
 });
