@@ -97,24 +97,25 @@ fn program_table(tested: &[&Program]) -> Json {
 /// a right one. No method here warns of a result that it gives. `sizes` are the numbers of settings
 /// of the methods.
 fn scene(what: &str, trials: &[Trial], sizes: &[usize]) -> Json {
+    // In how many cases, and what.
     let outcome = |trial: &Trial| match (trouble(trial), trial.len() - right(trial), trial.len()) {
-        (None, ..) => "right".to_string(),
-        (Some(trouble), _, 1) => trouble.words().to_string(),
-        (Some(trouble), wrong, all) if wrong == all => format!("all {}", trouble.words()),
-        (Some(trouble), wrong, _) => format!("{wrong} {}", trouble.words()),
+        (None, ..) => (String::new(), "right"),
+        (Some(trouble), _, 1) => (String::new(), trouble.words()),
+        (Some(trouble), wrong, all) if wrong == all => ("all".into(), trouble.words()),
+        (Some(trouble), wrong, _) => (wrong.to_string(), trouble.words()),
     };
     let (mut cells, mut all) = (Vec::new(), trials.iter());
     for &size in sizes {
-        let mut outcomes: Vec<String> = all.by_ref().take(size).map(outcome).collect();
-        outcomes.dedup();
-        // Of two numbers of the same failure, the words stand once.
-        if let [coarse, fine] = &mut outcomes[..] {
-            let same = |text: &str| text.split_once(' ').map(|(_, words)| words.to_string());
-            if let Some(words) = same(coarse).filter(|words| same(fine).as_ref() == Some(words)) {
-                coarse.truncate(coarse.len() - words.len() - 1);
-            }
+        let mut outcomes: Vec<_> = all.by_ref().take(size).map(outcome).collect();
+        if outcomes.iter().all(|other| *other == outcomes[0]) {
+            outcomes.truncate(1);
         }
-        cells.push(outcomes.join("; "));
+        // Of neighbours with the same words, the last has them.
+        let text = |(i, (number, words)): (usize, &(String, &str))| match outcomes.get(i + 1) {
+            Some(next) if next.1 == *words && !number.is_empty() => number.clone(),
+            _ => format!("{number} {words}").trim().to_string(),
+        };
+        cells.push(outcomes.iter().enumerate().map(text).collect::<Vec<_>>().join("; "));
     }
     let mut all = trials.iter().flatten();
     let said =

@@ -155,7 +155,7 @@ def part_ours():
 
 def part_methods():
     """The methods of this project; `measure methods` prints rows."""
-    for of in ["race", "bias"]:
+    for of in ["race", "bias", "scale"]:
         text, _, late = call([str(MEASURE), "methods", of], 3600, keep=True)
         yield from map(json.loads, text.splitlines())
         if late:
@@ -267,7 +267,7 @@ def today():
 def of_part(row):
     """The part that writes a row."""
     by_what = dict.fromkeys(["engine", "ensemble"], "ours")
-    by_what |= {"method": "methods", "command": "commands"}
+    by_what |= {"method": "methods", "size": "methods", "command": "commands"}
     return by_what.get(row["what"], row["name"].split()[0].lower().strip(":"))
 
 

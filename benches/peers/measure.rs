@@ -8,7 +8,7 @@ use impact_chain::methods::{Certified, Method};
 use impact_chain::{Counters, Engine, Error, Scenario, State};
 use impact_numerics::random::NormalPairs;
 use impact_paper::params::{
-    BiasParams, Chain, Means, MethodName, Profile, RaceParams, Runs, Setting,
+    BiasParams, Chain, Means, MethodName, Profile, RaceParams, Runs, ScaleParams, Setting,
 };
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -79,7 +79,7 @@ fn main() -> Result<(), Failure> {
         }
         What::Methods { of, repetitions } => {
             for case in cases(of) {
-                println!("{}", row(&case, repetitions)?);
+                println!("{}", row(of, &case, repetitions)?);
             }
             return Ok(());
         }
@@ -172,6 +172,8 @@ enum Of {
     Race,
     /// The error of the mean.
     Bias,
+    /// The cost against the number of masses.
+    Scale,
 }
 
 /// The chains of the race, to its end.
@@ -193,6 +195,22 @@ fn cases(of: Of) -> Vec<(Runs, Setting)> {
             };
             BiasParams::new(Profile::Full).means.into_iter().flat_map(of).collect()
         }
+        Of::Scale => {
+            let ScaleParams { sigma, masses, rivals, settings } = ScaleParams::new(Profile::Full);
+            let of = |setting: Setting| {
+                let own = setting.method == MethodName::Certified;
+                let chains = move |n: usize| Runs {
+                    chain: Chain { masses: n, ..Chain::default() },
+                    sigma,
+                    until: 20.0,
+                    realisations: (1000 / n).max(1),
+                    ..race()
+                };
+                let masses = masses.iter().copied().filter(move |n| own || *n <= rivals);
+                masses.map(move |n| (chains(n), setting))
+            };
+            settings.into_iter().flat_map(of).collect()
+        }
     }
 }
 
@@ -200,7 +218,7 @@ fn cases(of: Of) -> Vec<(Runs, Setting)> {
 const ENOUGH: f64 = 0.2;
 
 /// A row of benches/measured.json: the best times of a method and of the engine on the same chains.
-fn row((runs, setting): &(Runs, Setting), repetitions: usize) -> Result<Value, Failure> {
+fn row(of: Of, (runs, setting): &(Runs, Setting), repetitions: usize) -> Result<Value, Failure> {
     let scenarios: Vec<Scenario> =
         (0..runs.realisations as u64).map(|index| runs.scenario(index)).collect();
     let once = |method: &dyn Method| -> Result<u64, Error> {
@@ -242,7 +260,7 @@ fn row((runs, setting): &(Runs, Setting), repetitions: usize) -> Result<Value, F
         way => format!("{}={:e}", if way.has_tolerance() { "tol" } else { "h" }, setting.value),
     };
     Ok(json!({
-        "what": "method", "name": method.name(), "version": env!("CARGO_PKG_VERSION"),
+        "what": if let Of::Scale = of { "size" } else { "method" }, "name": method.name(), "version": env!("CARGO_PKG_VERSION"),
         "settings": text, "value": setting.value, "n": runs.chain.masses, "sigma": runs.sigma,
         "until": runs.until, "chains": runs.realisations, "impacts": impacts,
         "microseconds_per_impact": (impacts > 0).then(|| best / impacts as f64 * 1e6),

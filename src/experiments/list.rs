@@ -35,8 +35,12 @@ pub const ALL: &[&dyn AnyExperiment] = &[
     &REPLAY,
 ];
 
-const DERIVED: [DerivedTables; 3] =
-    [theory::comparison::tables, seeds::compared::tables, starts::against_theory];
+const DERIVED: [DerivedTables; 4] = [
+    theory::comparison::tables,
+    seeds::compared::tables,
+    starts::against_theory,
+    super::accuracy::answers::tables,
+];
 
 /// The graph theory, which costs nothing and is never saved.
 pub const THEORY: Experiment<serde_json::Value, ()> = Experiment {
@@ -65,6 +69,7 @@ const SHARED: &[&str] = &[
 /// What changes no result although files name it that experiments list, and why.
 const LEFT_OUT: &[(&str, &str)] = &[
     ("/tables.rs", "tables are computed from saved results each time"),
+    ("/answers.rs", "so are these"),
     ("crates/literate/src", "runs experiments and saves their results, and computes none"),
     ("src/experiments/mod.rs", "declares modules"),
     ("src/experiments/prelude.rs", "names what stands elsewhere"),

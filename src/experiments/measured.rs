@@ -48,6 +48,8 @@ pub enum What {
     Engine,
     /// A method of this project with one setting, timed in turn with the engine.
     Method,
+    /// The same on chains of several lengths.
+    Size,
     Peer,
     /// What the report does not show.
     #[serde(other)]
@@ -103,11 +105,18 @@ impl Measured {
         self.sessions.iter().flat_map(|session| &session.rows).filter(move |row| row.what == what)
     }
 
+    fn rows(&self, what: What, of: Setting, n: usize) -> impl Iterator<Item = &Measurement> {
+        let rows = self.of(what).filter(move |row| row.n == n as u64);
+        rows.filter(move |row| row.name == of.method.id() && row.value == Some(of.value))
+    }
+
     pub fn method(&self, setting: Setting, n: usize, sigma: f64) -> Option<&Measurement> {
-        let alike = |row: &&Measurement| {
-            row.name == setting.method.id() && row.value == Some(setting.value)
-        };
-        self.of(What::Method).filter(alike).find(|row| row.n == n as u64 && row.sigma == sigma)
+        self.rows(What::Method, setting, n).find(|row| row.sigma == sigma)
+    }
+
+    /// Returns a method on chains of `n` masses.
+    pub fn size(&self, setting: Setting, n: usize) -> Option<&Measurement> {
+        self.rows(What::Size, setting, n).next()
     }
 
     /// Returns the microseconds of an impact by the engine, with as many masses, in a row's

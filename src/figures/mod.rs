@@ -61,7 +61,7 @@ pub const ALL: [FigureSpec; 24] = [
     FigureSpec::new("s03", &[&SEEDS, &SWEEP, &PROTOCOL, &THEORY], s03::draw),
     FigureSpec::new("s04", &[&BRANCHES, &PROTOCOL, &THEORY], s04::draw),
     FigureSpec::new("s05", &[&THEORY], s05::draw),
-    FigureSpec::new("s06", &[&RACE], |results| s06::draw(results.of(&RACE)?)),
+    FigureSpec::new("s06", &[&RACE, &MEASURED], s06::draw),
     FigureSpec::new("s07", &[&RACE, &MEASURED], s07::draw),
     FigureSpec::new("s08", &[&BIAS, &MEASURED], s08::draw),
     FigureSpec::new("s09", &[&SCALE, &MEASURED], s09::draw),

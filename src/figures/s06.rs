@@ -1,8 +1,9 @@
-//! Draws Fig. S6: error and misses of the next impact against counted work, for every method.
+//! Draws Fig. S6: error and misses of the next impact against measured time, for every method.
 
 use super::prelude::*;
-use super::rivals::{self, FINEST, Place, by_method, look};
-use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
+use super::rivals::{self, FINEST, Place, by_method, look, over_engine};
+use crate::experiments::accuracy::race::{DISPLACED, Entry};
+use crate::experiments::{MEASURED, RACE, Results};
 use crate::params::MethodName::*;
 
 /// Where the names stand in the upper panel.
@@ -28,9 +29,10 @@ const MISSED: [Place; 6] = [
 /// Methods whose marks coincide.
 const ALIKE: &str = "Verlet, penalty springs";
 
-pub fn draw(race: &Race) -> Result<Figure, Error> {
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let (race, measured) = (results.of(&RACE)?, results.of(&MEASURED)?);
     let sheet = Sheet::new(8300);
-    let cost_axis = || Axis::decades(0, 6, 1, "evaluations per impact").between(0.7, 9e5);
+    let cost_axis = rivals::time_axis;
     let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
     let (x, y) =
         (cost_axis().without_numbers(), error.column("error of the next impact's time (1/omega)"));
@@ -50,20 +52,22 @@ pub fn draw(race: &Race) -> Result<Figure, Error> {
     let misses = Frame::new(1300, 4950, 8250, 7250);
     let misses = sheet.lettered("(b)", misses, cost_axis(), axis)?.outside(Outside::Edge);
 
-    let method = |e: &Entry| e.setting.method;
-    let spread = |e: &Entry| Some((method(e), (e.work?, e.errors?[0], e.errors?[1])));
-    let median = |e: &Entry| Some((method(e), (e.work?, e.errors?[0])));
-    let missed = |e: &Entry| Some((method(e), (e.work?, e.misses as f64 / e.tried.max(1) as f64)));
-    for (method, bars) in by_method(&race.entries, spread) {
-        let thin = Stroke { width: HAIR, ..look(method).2 };
-        errors.bars(method.title(), &bars, 0, thin)?;
+    let time = |e: &Entry| over_engine(race, measured, e.setting);
+    let median = |e: &Entry| Some((e.setting, (time(e)?, e.errors?[0])));
+    let share = |e: &Entry| e.misses as f64 / e.tried.max(1) as f64;
+    let missed = |e: &Entry| Some((e.setting, (time(e)?, share(e))));
+    for entry in &race.entries {
+        if let Some((time, [median, largest])) = time(entry).zip(entry.errors) {
+            let thin = Stroke { width: HAIR, ..look(entry.setting.method).2 };
+            errors.bars(&entry.setting.name(), &[(time, median, largest)], 0, thin)?;
+        }
     }
     rivals::draw(&errors, &by_method(&race.entries, median), &NAMES)?;
     rivals::draw(&misses, &by_method(&race.entries, missed), &MISSED)?;
-    let certified = race.entries.iter().find(|e| method(e) == Certified);
+    let certified = race.entries.iter().find(|e| e.setting.method == Certified);
     let largest = certified.and_then(|entry| Some(entry.errors?[1]));
     let description = describe!(
-        "Against counted work, a mark for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
+        "Against measured time over the engine's, a mark for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
          impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
          next impact is missed.",
         race.parameters.growth.chain.masses,

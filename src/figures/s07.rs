@@ -2,10 +2,10 @@
 //! of one impact.
 
 use super::prelude::*;
-use super::rivals::{self, FINEST, Place, by_method, look, programs};
+use super::rivals::{self, FINEST, Place, by_method, look, over_engine, programs};
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
 use crate::experiments::{MEASURED, RACE, Results};
-use crate::params::MethodName::*;
+use crate::params::{MethodName::*, Setting};
 use impact_numerics::statistics::Estimate;
 
 /// The rounding of doubles, 2⁻⁵³.
@@ -14,7 +14,7 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 /// Where names stand in (a); methods with fixed steps have one name.
 const NAMES: [Place; 4] = [
     (Certified, FINEST, (2, 0), None),
-    (Sampled, FINEST, (2, 1), None),
+    (Sampled, 2, (-2, 0), None),
     (Advancement, 2, (-2, 0), None),
     (RungeKutta, FINEST, (2, 0), None),
 ];
@@ -48,9 +48,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (race, measured) = (results.of(&RACE)?, results.of(&MEASURED)?);
     let sheet = Sheet::new(8700);
     let top = (race.parameters.until / 50.0).ceil() * 50.0;
-    let x = Axis::decades(0, 4, 1, "measured time of an impact over the engine’s")
-        .between(0.2, 8e3)
-        .column("measured time over the engine's (1)");
+    let x = rivals::time_axis();
     let by_time = Frame::new(1100, 430, 8250, 4330);
     let by_time = sheet.lettered("(a)", by_time, x, horizon_axis(top))?.outside(Outside::Edge);
     let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").between(1e-20, 0.5);
@@ -70,25 +68,28 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let stroke = Stroke::dashed(GREY, HAIR, DOTTED);
         by_time.unrecorded().curve(program, points, stroke)?;
     }
-    let time = |e: &Entry| match e.setting.method {
-        Certified => Some(1.0),
-        _ => measured.method(e.setting, run.chain.masses, run.sigma)?.over_engine(),
-    };
-    let timed = |e: &Entry| Some((e.setting.method, (time(e)?, e.horizon()?)));
-    let median = |e: &Entry| Some((e.setting.method, (e.errors?[0], e.horizon()?)));
+    let time = |e: &Entry| over_engine(race, measured, e.setting);
+    let timed = |e: &Entry| Some((e.setting, (time(e)?, e.horizon()?)));
+    let median = |e: &Entry| Some((e.setting, (e.errors?[0], e.horizon()?)));
     let timed = by_method(&race.entries, timed);
     let by_median = by_method(&race.entries, median);
+    let mut drawn = Vec::new();
     for (panel, methods, places) in
         [(&by_time, timed, &NAMES[..]), (&by_error, by_median, &BY_ERROR[..])]
     {
         for (method, found) in &methods {
-            let bars = found.iter().map(|(x, t)| (*x, t.value - t.error, t.value + t.error));
             let stroke = Stroke { width: HAIR, ..look(*method).2 };
-            panel.bars(method.title(), &bars.collect::<Vec<_>>(), 0, stroke)?;
+            for (setting, (x, t)) in found {
+                let bar = (*x, t.value - t.error, t.value + t.error);
+                panel.bars(&setting.name(), &[bar], 0, stroke)?;
+            }
         }
-        let points = |found: Vec<(f64, Estimate)>| found.into_iter().map(|(x, t)| (x, t.value));
-        let curves = methods.into_iter().map(|(method, found)| (method, points(found).collect()));
-        rivals::draw(panel, &curves.collect(), places)?;
+        let point = |(setting, (x, t)): (Setting, (f64, Estimate))| (setting, (x, t.value));
+        let points = |found: Vec<_>| found.into_iter().map(point).collect::<Vec<_>>();
+        let curves = methods.into_iter().map(|(method, found)| (method, points(found)));
+        let curves: rivals::Curves<(f64, f64)> = curves.collect();
+        rivals::draw(panel, &curves, places)?;
+        drawn.push(curves);
     }
     // Their marks lie above those of the methods, and their lines are where no name may be.
     for (program, points) in &others {
@@ -101,7 +102,23 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             by_time.label_nearby(place.1, (at.0, at.1.min(top)), place.3, GREY)?;
         }
     }
-    by_time.label_nearby("fixed steps", (150.0, 14.0), (0, -1), INK)?;
+    for (method, points) in &drawn[0] {
+        // Of those whose marks lie close together, the coarsest and the finest.
+        let last = points.len() - 1;
+        for (i, (setting, at)) in points.iter().enumerate() {
+            let offset = match method {
+                Advancement => (1, 0),
+                RungeKutta if i == last => (0, -1),
+                RungeKutta if i > 0 => (1, 1),
+                Sampled if i == 0 => (-1, 0),
+                Sampled if i == last => (1, 0),
+                Verlet if i == 0 || i == last => (0, -1),
+                _ => continue,
+            };
+            by_time.label(&in_powers(setting.value), *at, offset, GREY)?;
+        }
+    }
+    by_time.label("fixed steps", (0.22, 17.0), (1, -1), INK)?;
     by_error.label_nearby("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
     let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
     let description = describe!(

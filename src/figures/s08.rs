@@ -47,7 +47,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let engine = Setting { method: Certified, value: 0.0, stop: 0.0 };
         let is_last = i + 1 == means.len();
         let panel = rows_of(&sheet, frame, &found, time(engine), is_last)?;
-        panel.heading(LETTERS[i], &format!("*σ* = {}, *T* = {}", chains.sigma, of.transient))?;
+        let late = if of.transient == means[0].transient {
+            "".into()
+        } else {
+            format!(", *T* = {}", of.transient)
+        };
+        panel.heading(LETTERS[i], &format!("*σ* = {}{late}", chains.sigma))?;
     }
     let style = words(SMALL, INK, HPos::Right, VPos::Bottom);
     for (name, right) in [("difference (%)", 7200), ("time (s)", 8250)] {
@@ -97,11 +102,11 @@ fn rows_of(
     }
     for (row, (time, setting, difference)) in (1..).map(|i| -f64::from(i)).zip(found) {
         let Estimate { value, error, .. } = *difference;
-        panel.record(setting.method.title(), [(*time, *difference)]);
+        panel.record(&setting.name(), [(*time, *difference)]);
         let is_clear = value.abs() > CLEAR * error;
         let stroke = Stroke::solid(INK, if is_clear { LINE } else { HAIR });
         let ends = [value - BOUND * error, value + BOUND * error].map(|end| (end, row));
-        panel.guide(setting.method.title(), &ends, stroke)?;
+        panel.guide(&setting.name(), &ends, stroke)?;
         let symbol = if is_clear { Symbol::Disc } else { Symbol::Ring };
         if value.abs() < RANGE {
             let mark = (symbol, MEDIUM, Stroke::solid(INK, THIN));

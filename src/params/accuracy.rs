@@ -35,7 +35,7 @@ const SCENES: [&[f64]; 7] =
 const SCALE: [&[f64]; 6] = [&[0.0], &[0.1], &[1e-12], &[1e-6], &[0.01], &[0.01]];
 
 /// σ of the chains whose mean is compared, and the time T that is dropped: up the rise, and late.
-const MEANS: [(f64, f64); 4] = [(0.11, 200.0), (0.12, 200.0), (0.14, 200.0), (0.115, 2000.0)];
+const MEANS: [(f64, f64); 4] = [(0.11, 500.0), (0.12, 500.0), (0.14, 500.0), (0.115, 2000.0)];
 
 /// The settings there, with a number of chains for each of [`MEANS`]: the cheaper, the more, and
 /// as many as the questions of `experiments/accuracy/answers.rs` need.

@@ -85,6 +85,21 @@ pub struct Setting {
 }
 
 impl Setting {
+    /// Returns its name in tables and data: `Verlet, h = 0.01`, `Runge–Kutta, tol = 1e-6`.
+    pub fn name(self) -> String {
+        let letter = match self.method {
+            MethodName::Certified => return self.method.title().into(),
+            method if method.has_tolerance() => "tol",
+            _ => "h",
+        };
+        let shown = |value: f64| {
+            if value < 0.01 { format!("{value:e}") } else { value.to_string() }
+        };
+        let stop =
+            if self.stop > 0.0 { format!(", stop = {}", shown(self.stop)) } else { "".into() };
+        format!("{}, {letter} = {}{stop}", self.method.title(), shown(self.value))
+    }
+
     pub fn method(self) -> Box<dyn Method> {
         self.method.with(self.value, self.stop)
     }

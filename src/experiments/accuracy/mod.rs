@@ -1,6 +1,7 @@
 //! Compares speed and accuracy: the cost of each method, and where it fails. Cost is counted work
 //! here; times of the clock are in [`super::measured`].
 
+pub mod answers;
 pub mod bias;
 pub mod case;
 pub mod race;
