@@ -100,7 +100,7 @@ fn none_below(e: &Evidence<'_>) -> Judged {
     let [least, most] = ends(shares).ok_or(Undecided)?;
     let random = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma))?;
     let half = e.estimate("sweep.rise.kept_half")?;
-    let found = text!("at σ = {} {} of the realisations have an impact", row.sigma, here);
+    let found = text!("{} of the realisations have an impact at σ = {}", here, row.sigma);
     let reason = "ours: “no impacts” as in at most a twentieth of the realisations, at two thirds of the printed \
          threshold";
     let counts = [none, some, rows.len()];
