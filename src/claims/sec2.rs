@@ -108,7 +108,7 @@ fn none_below(e: &Evidence<'_>) -> Judged {
     let note = "From rest the share lies from {:2} to {:2} in the {} windows of the map of protocols with T ≥ {}. With \
          its statistical error it is surely at most {:1}, a twentieth, in {} of them and surely more in {}. With random \
          free parts, as Eq. (20) supposes, it would be at most {:1}; the start is not printed. From rest half of the \
-         realisations have an impact at σ = {}, below the printed threshold.";
+         realisations have an impact at σ = {}.";
     let [all, late] = [rows.len() as f64, RELEASED];
     Ok(check.note(text!(note, least, most, all, late, limit, none, some, random, half)))
 }
@@ -147,10 +147,9 @@ fn mode_jump(e: &Evidence<'_>) -> Judged {
     } else {
         e.found(found, least >= half).within(text!("a step of at least {:3}", half), A_JUMP)
     };
-    let note = "From rest, between neighbouring σ, by the bootstrap intervals of the mode; a jump would be a step of \
-         {:3} or more. At the rise the intervals are as wide as the rise, so that {} realisations do not tell a jump \
-         of the mode from a steep rise.";
-    Ok(check.note(text!(note, half, e.number("sweep.run.realisations")?)))
+    let note = "From rest, between neighbouring σ, by the bootstrap intervals of the mode, each from {} realisations at \
+         most; a jump would be a step of {:3} or more.";
+    Ok(check.note(text!(note, e.number("sweep.run.realisations")?, half)))
 }
 
 /// Against a chain in which each gap closes by itself: its rise from a quarter to three quarters,
