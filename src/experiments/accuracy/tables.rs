@@ -57,10 +57,6 @@ fn entries(name: &'static str, entries: &[&Entry]) -> Table {
 }
 
 fn all(race: &Race) -> Table {
-    let rival = |entry: &&Entry| entry.setting.method != MethodName::Certified;
-    let faultless = race.entries.iter().filter(rival).filter(|entry| entry.misses == 0);
-    let costs = faultless.filter_map(|entry| Some((entry, entry.work?)));
-    let best = costs.min_by(|a, b| a.1.total_cmp(&b.1));
     let tried = race.entries.iter().map(|entry| entry.tried).max().unwrap_or(0);
     // ln of a displacement over the rounding of one.
     let folds = pxfm::f_log(DISPLACED / (f64::EPSILON / 2.0));
@@ -77,10 +73,6 @@ fn all(race: &Race) -> Table {
         .estimate("ceiling", TIME, "time that chaos allows to doubles", |()| {
             growth.map(|g| with_error(folds / g.value, folds / g.value * g.error / g.value))
         })
-        .words("best", "the cheapest rival without a miss", |()| {
-            best.map(|(entry, _)| titled(&[entry.setting]).replace(", $", " with $"))
-        })
-        .real("best_work", "1", 2, "its evaluations per impact", |()| best.map(|(_, work)| work))
         .done()
 }
 
