@@ -124,11 +124,8 @@ fn evaluate(name: &str, inputs: &Inputs) -> Result<Value, Error> {
 }
 
 impl Inputs {
-    /// Fills in the defaults of the inputs that the quantity needs.
-    ///
-    /// # Errors
-    /// Exit code 2 for an option that it does not use, which is a misunderstanding, and for one
-    /// that is missing.
+    /// Fills in the defaults of the inputs that the quantity needs. Refuses options that it does not
+    /// use, which are a misunderstanding, and a lack of those that it needs.
     fn of(mut self, name: &str, needed: &str) -> Result<Inputs, Failure> {
         let needs = |need: &str| needed.split(' ').any(|needed| needed == need);
         let given = serde_json::to_value(&self).unwrap_or_default();

@@ -318,10 +318,7 @@ fn in_file(name: &str, error: Error) -> Failure {
     }
 }
 
-/// The step or tolerance of the method; its range is checked by the method.
-///
-/// # Errors
-/// Exit code 2 for an option that the method does not have.
+/// Returns the step or tolerance; refuses an option that the method does not have.
 fn setting(args: &Args) -> Result<f64, Failure> {
     let (_, option, _) =
         METHODS.into_iter().find(|(method, ..)| *method == args.method).unwrap_or(METHODS[0]);

@@ -11,15 +11,10 @@ use crate::report::filler::Filler;
 use crate::report::{Files, Input, Registry, Value, assemble};
 use rayon::prelude::*;
 use std::path::Path;
-use std::sync::Arc;
 
 impl Paper {
-    /// Returns a run with the prose of a folder, or else that of the project, or the copy inside
-    /// the program.
-    ///
-    /// # Errors
-    /// If two things have one name, if a file of an experiment is missing or not declared, or if
-    /// there is no prose that can be read.
+    /// Returns a run with the prose of a folder, or else that of the project, or the copy inside.
+    /// Fails if two things have one name, or if a file or the prose is missing or not declared.
     pub fn session(
         &self,
         prose: Option<&Path>,
@@ -87,7 +82,7 @@ impl Paper {
         for values in &self.values {
             registry.extend(values(results, published)?)?;
         }
-        results.tables()?.values().try_for_each(|table| registry.add_table(Arc::clone(table)))?;
+        registry.add_tables(results.tables()?)?;
         Ok(registry)
     }
 }

@@ -56,11 +56,8 @@ pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Lists a file, or all files below a folder, by their paths from the folder `top`. Links are
-/// followed.
-///
-/// # Errors
-/// With the path of what is missing, or is neither a folder nor a file that can be opened.
+/// Lists a file, or all files below a folder, links too, by their paths from the folder `top`. An
+/// error has the path of what is missing, or cannot be opened.
 pub fn files_in(top: &Path, place: &str) -> Result<Vec<String>, Error> {
     let (mut files, mut open) = (Vec::new(), vec![place.to_string()]);
     while let Some(path) = open.pop() {

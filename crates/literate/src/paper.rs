@@ -83,12 +83,6 @@ pub struct Paper {
     pub lab: Option<Lab>,
 }
 
-impl std::fmt::Debug for Paper {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Paper {:?}", self.edition.title)
-    }
-}
-
 impl Paper {
     /// Makes a paper with one document, `report`, and its prose in the folder `prose`.
     pub fn new(title: &'static str, sources: Sources) -> Self {

@@ -214,21 +214,6 @@ mod tests {
     }
 
     #[test]
-    fn declared_digits_and_powers() {
-        for (value, digits, text) in [
-            (0.012_209_975_124, 6, "0.0122100"),
-            (8.870_17e-4, 3, "8.87e-4"),
-            (8.5e-301, 2, "8.5e-301"),
-            (99.96, 3, "100"),
-            (9.996e-4, 3, "0.00100"),
-            (1234.5, 2, "1200"),
-            (0.0, 4, "0"),
-        ] {
-            assert_eq!(real(value, digits).plain(), text, "{value}");
-        }
-    }
-
-    #[test]
     fn each_markup_has_its_minus_power_and_percent() {
         let big = print(&Number::Integer(1_234_567), Style::default());
         let number = with_error(0.9453, 0.0081).into();
@@ -277,6 +262,12 @@ mod tests {
         let two = Some(Digits::Significant(2));
         for (number, digits, percent, text) in [
             (full(9.112_847_118_503_352e-5), None, false, "9.112847118503352e-5"),
+            (full(0.012_209_975_124), Some(Digits::Significant(6)), false, "0.0122100"),
+            (full(8.5e-301), two, false, "8.5e-301"),
+            (full(99.96), Some(Digits::Significant(3)), false, "100"),
+            (full(9.996e-4), Some(Digits::Significant(3)), false, "0.00100"),
+            (full(1234.5), two, false, "1200"),
+            (full(0.0), two, false, "0"),
             (u64::MAX.into(), None, false, "18446744073709551615"),
             (9_007_199_254_740_993_i64.into(), None, false, "9007199254740993"),
             // As a double it is halfway.

@@ -73,10 +73,7 @@ impl Project {
         Some(text)
     }
 
-    /// Checks that files that an experiment lists are there.
-    ///
-    /// # Errors
-    /// A problem, and what to do about it.
+    /// Checks that files that an experiment lists are there, or says what to do.
     pub fn check_listed(&self, files: &[&str]) -> Result<(), (String, &'static str)> {
         let is_there = |place: &str| {
             let copied = self.copied(place).is_some();
@@ -91,10 +88,7 @@ impl Project {
     }
 
     /// Checks that files that an experiment lists, or those that all share, name no module that
-    /// would change a result unnoticed.
-    ///
-    /// # Errors
-    /// A problem, and what to do about it.
+    /// would change a result unnoticed, or says what to do.
     pub fn check_named(&self, files: &[&str]) -> Result<(), (String, &'static str)> {
         let remedy = "list that file too, or give the reason why it changes no result in \
                       `project.left_out`";
@@ -171,8 +165,6 @@ impl Project {
     }
 
     /// Reads a file by its path from the top of the project.
-    ///
-    /// # Errors As [`input::regular_text`]; [`io::ErrorKind::NotFound`] says what to do.
     pub fn text(&self, path: &str) -> io::Result<Cow<'static, str>> {
         if let Some(found) = self.find(path) {
             return input::regular_text(&found).map(Cow::Owned);

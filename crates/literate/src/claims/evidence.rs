@@ -46,7 +46,7 @@ impl From<Missing> for Error {
 pub type Judged = Result<Check, Error>;
 
 /// What a rule may look at: its statement, the results, and all that was printed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Evidence<'a> {
     pub statement: &'a Statement,
     pub results: &'a Results,

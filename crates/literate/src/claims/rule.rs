@@ -97,10 +97,8 @@ pub fn level_of(rules: &[Rule]) -> CheckLevel {
 }
 
 /// Judges all statements, in their order, each by the rule with its id, and then all relations. A
-/// statement without a rule stays open, without a reason, so that it [fails](Check::fails).
-///
-/// # Errors
-/// If there is no statement for a rule, or if a rule needs a number that is missing.
+/// statement without a rule stays open, without a reason, so that it [fails](Check::fails). A rule
+/// without a statement, or without a number that it needs, is an error.
 pub fn judge_all(
     published: &Published,
     rules: &[Rule],

@@ -44,10 +44,8 @@ impl Command {
         Command { name, line, parameters: |_| Json::Null, reads: &[], writes: &[] }
     }
 
-    /// Lists the files and folders that it names, from the folder `top`.
-    ///
-    /// # Errors
-    /// A sentence about the first that is missing, or lies outside the project.
+    /// Lists the files and folders that it names, from the folder `top`; an error says which is
+    /// missing, or lies outside the project.
     fn inputs(&self, top: &Path) -> Result<Vec<&'static str>, String> {
         let mut inputs = Vec::new();
         for (at, word) in self.line.split_whitespace().enumerate() {

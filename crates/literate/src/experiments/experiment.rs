@@ -138,9 +138,6 @@ pub trait AnyExperiment: Sync {
     fn name(&self) -> &'static str;
 
     /// Checks that the files on which its result depends are there and are all declared.
-    ///
-    /// # Errors
-    /// [`Error::Input`] with the experiment's name and that of the file.
     fn check(&self, project: &Project) -> Result<(), Error>;
 
     /// Returns path and hash of every file on which its result depends.
@@ -201,12 +198,6 @@ pub trait AnyExperiment: Sync {
     fn found(&self, session: &Session<'_>) -> Result<Found, Error>;
 
     fn tables(&self, found: &Found) -> Vec<Table>;
-}
-
-impl std::fmt::Debug for dyn AnyExperiment {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
 }
 
 impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {

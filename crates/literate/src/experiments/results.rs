@@ -12,7 +12,6 @@ use std::sync::{Arc, OnceLock};
 /// Makes tables of the results and tables of several experiments; none if one of these was not run.
 pub type DerivedTables = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
-#[derive(Debug)]
 pub struct Results {
     pub profile: Profile,
     /// The experiments that were run, in their order.
@@ -40,10 +39,7 @@ impl Results {
         Arc::get_mut(found)?.downcast_mut()
     }
 
-    /// Returns the tables of all results, by name.
-    ///
-    /// # Errors
-    /// If two have the same name, and for the first table that has a fault.
+    /// Returns the tables of all results, by name. Fails if two have one name or one has a fault.
     pub fn tables(&self) -> Result<&Tables, Error> {
         // Made before the lock is taken: a thread that waits in it may begin what looks here.
         let tables = match self.tables.get() {
@@ -104,11 +100,7 @@ impl Results {
         Ok(number_at(self.tables()?, address)?)
     }
 
-    /// Runs experiments in this order, and returns their results: saved ones where they are fresh,
-    /// else those of runs.
-    ///
-    /// # Errors
-    /// Of the first run that fails or is interrupted.
+    /// Returns results of experiments in this order: saved ones where they are fresh, else of runs.
     pub fn run(
         experiments: &[&'static dyn AnyExperiment],
         derived: &[DerivedTables],

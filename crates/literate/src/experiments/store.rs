@@ -178,11 +178,8 @@ fn made_of(text: &str) -> Result<Identity, &'static str> {
     serde_json::from_str(identity).map_err(|_| OLDER_FORMAT)
 }
 
-/// Writes a result as text that reads back to the same bits.
-///
-/// # Errors
-/// [`Error::NotFinite`]: JSON has neither NaN nor infinity, and serde_json writes null instead.
-/// Reading it back finds all such losses.
+/// Writes a result as text that reads back to the same bits. JSON has neither NaN nor infinity, and
+/// serde_json writes null instead: reading back finds all such losses.
 fn written<T: Json>(identity: &Identity, result: &T) -> Result<String, Error> {
     let not_finite = || Error::NotFinite { experiment: identity.experiment.clone() };
     let body = serde_json::to_string(result).map_err(|_| not_finite())?;

@@ -60,7 +60,7 @@ impl Card {
     }
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Cards<'a> {
     pub values: &'a Registry,
     pub ledger: &'a Ledger,

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 pub const LAB: &str = "lab.js";
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Input<'a> {
     pub templates: &'a Templates,
     pub values: &'a Registry,

@@ -4,18 +4,17 @@ use super::error::Error;
 use crate::experiments::Profile;
 use crate::input::is_control;
 use crate::source::Sources;
-use crate::table::Table;
+use crate::table::{Table, Tables};
 pub use crate::value::{Digits, Number, Origin, Provenance, Value, origin};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct Registry {
     values: BTreeMap<String, Value>,
     #[serde(skip)]
-    tables: BTreeMap<String, Arc<Table>>,
+    tables: Tables,
 }
 
 impl Registry {
@@ -28,20 +27,20 @@ impl Registry {
         Ok(())
     }
 
-    /// Adds a table: its cells are found by their addresses.
-    pub fn add_table(&mut self, table: Arc<Table>) -> Result<(), Error> {
-        if let Some(value) = self.values.get(table.name()) {
-            return Err(Error::twice(&value.id, &value.source, &table.place()));
+    /// Takes tables, whose cells are found by their addresses.
+    pub fn add_tables(&mut self, tables: &Tables) -> Result<(), Error> {
+        for table in tables.values() {
+            if let Some(value) = self.values.get(table.name()) {
+                return Err(Error::twice(&value.id, &value.source, &table.place()));
+            }
+            table.cells().try_for_each(showable)?;
         }
-        table.cells().try_for_each(showable)?;
-        match self.tables.insert(table.name().to_string(), table) {
-            Some(before) => Err(Error::twice(before.name(), &before.place(), "another table")),
-            None => Ok(()),
-        }
+        self.tables = tables.clone();
+        Ok(())
     }
 
     pub fn tables(&self) -> impl Iterator<Item = &Table> {
-        self.tables.values().map(Arc::as_ref)
+        self.tables.values().map(AsRef::as_ref)
     }
 
     /// Makes the cells values that something names: those are listed, the others stand in the data.

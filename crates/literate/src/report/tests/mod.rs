@@ -11,7 +11,7 @@ use crate::figures::prelude::{HPos, INK, Sheet, VPos, words};
 use crate::project::Project;
 use crate::prose::Templates;
 use crate::source::toy;
-use crate::table::{DataFile, Table};
+use crate::table::{DataFile, Table, Tables};
 use impact_numerics::estimates::with_error;
 use std::sync::Arc;
 
@@ -211,7 +211,7 @@ impl Given {
         let empty = Value::real("empty", 0.0, 1);
         values.add(Value { number: values::Number::None, ..empty })?;
         if let Some(table) = self.table {
-            values.add_table(Arc::new(table))?;
+            values.add_tables(&Tables::from([(table.name(), Arc::new(table))]))?;
         }
         let templates = self.files.iter().map(|(path, text)| (*path, text.as_str()));
         assemble(&Input {
