@@ -13,7 +13,7 @@ use super::error::Error;
 use super::input::Input;
 use super::{latex, mathml};
 use crate::claims::Verdict;
-use crate::figures::{Glyphs, escape as text, outlines};
+use crate::figures::{Glyphs, escape, outlines};
 use crate::print::{Numeral, Shown};
 use math_core::MathDisplay;
 use serde_json::{Value as Json, json};
@@ -374,6 +374,11 @@ fn scroll(name: &str, inner: &str) -> String {
 
 fn code(words: &str) -> String {
     format!("<pre tabindex=\"0\"><code>{}</code></pre>\n", text(words.trim_end()))
+}
+
+/// Escapes words; a number and its sign of per cent stay on one line.
+fn text(words: &str) -> String {
+    escape(words).replace(" %", "\u{a0}%")
 }
 
 /// Whether it is a formula that ends before its right side.
