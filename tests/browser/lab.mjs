@@ -27,12 +27,7 @@ export async function labs({ report, open, check, stays_narrow, accessible, pict
   check((await offered("index.html", { javaScriptEnabled: false })) === 0, "without scripts a lab is offered");
   check((await offered("index.html", { before: () => delete globalThis.WebAssembly })) === 0, "without WebAssembly a lab is offered");
 
-  for (const [file, lab, width, scheme] of [
-    ["index.html", "chain", 1280, "light"],
-    ["beyond.html", "chain", 390, "dark"],
-    ["report.html", "theory", 1280, "dark"],
-    ["report.html", "theory", 390, "light"],
-  ]) {
+  const tried = async ([file, lab, width, scheme]) => {
     const name = `${file} lab ${width}`;
     const page = await open(file, width, scheme, { loads: true, reducedMotion: "reduce" });
     await page.evaluate(() => {
@@ -62,7 +57,9 @@ export async function labs({ report, open, check, stays_narrow, accessible, pict
     await page.emulateMedia({ media: "print" });
     check(!(await figure.isVisible()), `${name}: it is printed`);
     await page.context().close();
-  }
+  };
+  await Promise.all([["index.html", "chain", 1280, "light"], ["beyond.html", "chain", 390, "dark"]].map(tried));
+  await Promise.all([["report.html", "theory", 1280, "dark"], ["report.html", "theory", 390, "light"]].map(tried));
 }
 
 async function chains(page, name, figure, { report, check }) {

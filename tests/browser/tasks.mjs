@@ -41,7 +41,7 @@ async function act(page, action) {
 
 /** Tries all tasks on a wide screen and on a phone. */
 export async function tasks({ open, check }) {
-  for (const width of [1440, 390]) {
+  const at = async (width) => {
     for (const [task, [actions, expected]] of Object.entries(TASKS)) {
       const page = await open("index.html", width, "light", { loads: true });
       let [text, seen] = ["", ""];
@@ -58,5 +58,6 @@ export async function tasks({ open, check }) {
       }
       await page.context().close();
     }
-  }
+  };
+  await Promise.all([1440, 390].map(at));
 }
