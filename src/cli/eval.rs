@@ -124,8 +124,8 @@ fn evaluate(name: &str, inputs: &Inputs) -> Result<Value, Error> {
 }
 
 impl Inputs {
-    /// Fills in the defaults of the inputs that the quantity needs. Refuses options that it does not
-    /// use, which are a misunderstanding, and a lack of those that it needs.
+    /// Fills in defaults; refuses options that the quantity does not use, and a lack of those that
+    /// it needs.
     fn of(mut self, name: &str, needed: &str) -> Result<Inputs, Failure> {
         let needs = |need: &str| needed.split(' ').any(|needed| needed == need);
         let given = serde_json::to_value(&self).unwrap_or_default();
