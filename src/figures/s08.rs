@@ -5,14 +5,7 @@ use super::prelude::*;
 use crate::experiments::accuracy::tables::{Compared, compared};
 use crate::experiments::{BIAS, MEASURED, Results};
 use crate::params::{Means, MethodName::Certified, Setting};
-use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
-
-/// Differences of more standard errors are clear: among all of them, one exceeds two by chance.
-const CLEAR: f64 = 3.0;
-
-/// Standard errors from the value to the end of a 95 % interval.
-const BOUND: f64 = 1.96;
 
 /// The differences in the panels, in per cent.
 const RANGE: f64 = 40.0;
@@ -20,8 +13,8 @@ const RANGE: f64 = 40.0;
 /// From one row to the next.
 const ROW: i32 = 255;
 
-/// A method with its time and its difference, in per cent.
-type Row = (f64, Setting, Estimate);
+/// A time and a difference.
+type Row<'a> = (f64, &'a Compared);
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (biases, measured) = (results.of(&BIAS)?, results.of(&MEASURED)?);
@@ -35,11 +28,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let time =
             |setting| measured.method(setting, chains.chain.masses, chains.sigma)?.thousand();
         let mut found: Vec<Row> = Vec::new();
-        for row in rows.iter().filter(|row| row.sigma == chains.sigma) {
-            if let Some((time, share)) = time(row.setting).zip(row.share) {
-                let percent = with_error(100.0 * share.value, 100.0 * share.error);
-                found.push((time, row.setting, percent));
-            }
+        for row in rows.iter().filter(|row| row.sigma == chains.sigma && row.share.is_some()) {
+            found.extend(time(row.setting).map(|time| (time, row)));
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         let frame = Frame::new(2550, top, 5750, top + height(of));
@@ -58,12 +48,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     for (name, right) in [("difference (%)", 7200), ("time (s)", 8250)] {
         sheet.area.draw_text(name, &style, (right, 420))?;
     }
-    let clear = |row: &&Compared| row.share.is_some_and(|off| off.value.abs() > CLEAR * off.error);
     let description = describe!(
         "Difference of the mean number of impacting gaps from the engine's, with 95 % intervals, at {} σ; rows are methods with a step or \
          tolerance, by rising time. {} of {} differences are clear (discs).",
         means.len(),
-        rows.iter().filter(clear).count(),
+        rows.iter().filter(|row| row.is_clear()).count(),
         rows.len(),
     );
     Ok(sheet.finish("Error of a mean, by method", description))
@@ -84,7 +73,7 @@ fn rows_of(
     let y = Axis::linear(-0.6 - found.len() as f64, 0.6, 1.0, 1, "");
     let mut y = y.column("error of the mean (%)");
     y.ticks = vec![Tick { at: 0.0, label: Some("engine".into()) }];
-    for (_, setting, _) in found {
+    for setting in found.iter().map(|row| row.1.setting) {
         let name = format!("{}, {}", setting.method.title(), in_powers(setting.value));
         y.ticks.insert(0, Tick { at: -(y.ticks.len() as f64), label: Some(name) });
     }
@@ -100,13 +89,15 @@ fn rows_of(
     if let Some(time) = engine {
         write(&short(time, 2), 8250, 0.0)?;
     }
-    for (row, (time, setting, difference)) in (1..).map(|i| -f64::from(i)).zip(found) {
-        let Estimate { value, error, .. } = *difference;
-        panel.record(&setting.name(), [(*time, *difference)]);
-        let is_clear = value.abs() > CLEAR * error;
+    for (row, (time, compared)) in (1..).map(|i| -f64::from(i)).zip(found) {
+        let Some(share) = compared.share else { continue };
+        let interval = share.interval.map(|end| 100.0 * end);
+        let (value, error) = (100.0 * share.value, 100.0 * share.error);
+        let name = compared.setting.name();
+        panel.record(&name, [(*time, Estimate { value, error, interval })]);
+        let is_clear = compared.is_clear();
         let stroke = Stroke::solid(INK, if is_clear { LINE } else { HAIR });
-        let ends = [value - BOUND * error, value + BOUND * error].map(|end| (end, row));
-        panel.guide(&setting.name(), &ends, stroke)?;
+        panel.guide(&name, &interval.map(|end| (end, row)), stroke)?;
         let symbol = if is_clear { Symbol::Disc } else { Symbol::Ring };
         if value.abs() < RANGE {
             let mark = (symbol, MEDIUM, Stroke::solid(INK, THIN));
@@ -115,7 +106,7 @@ fn rows_of(
             let (from, to) = (0.8 * RANGE * value.signum(), RANGE * value.signum());
             panel.area.draw(&arrow(vec![(from, row), (to, row)], stroke))?;
         }
-        let half = BOUND * error;
+        let half = interval[1] - value;
         let decimals = if half < 10.0 { 1 } else { 0 };
         let shown = format!("{} ± {}", number(value, decimals), number(half, decimals));
         write(&shown, 7200, row)?;

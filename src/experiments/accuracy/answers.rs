@@ -7,10 +7,8 @@ use super::trials::Trials;
 use crate::experiments::prelude::*;
 use crate::experiments::{BIAS, MEASURED, Measured, RACE, TRIALS};
 use crate::params::{Means, MethodName::Certified, Setting};
-use impact_numerics::statistics::mean;
-
-/// Standard errors from the value to the end of a 95 % interval.
-const BOUND: f64 = 1.96;
+use impact_numerics::estimates::LEVEL;
+use impact_numerics::statistics::{mean, student_quantile};
 
 /// How far a mean may be off, relative to it, at each σ.
 const MEANS: [(f64, f64); 4] = [(0.11, 0.05), (0.12, 0.05), (0.14, 0.01), (0.115, 0.05)];
@@ -38,15 +36,21 @@ struct Answer {
 }
 
 impl Answer {
+    /// Returns half of the 95 % interval, by Student's t.
+    fn half(&self) -> f64 {
+        let quantile = student_quantile(LEVEL, self.chains.saturating_sub(1));
+        quantile.map_or(f64::INFINITY, |t| t * self.found.error)
+    }
+
     /// Whether the 95 % interval lies inside of what is allowed.
     fn is_enough(&self) -> bool {
-        self.margin >= BOUND * self.found.error
+        self.margin >= self.half()
     }
 
     /// Returns the number of chains that would decide whether the method is enough, rounded up to
     /// two digits; none if these chains do.
     fn chains_to_decide(&self) -> Option<u64> {
-        let ratio = BOUND * self.found.error / self.margin.abs();
+        let ratio = self.half() / self.margin.abs();
         let chains = (self.chains as f64 * ratio * ratio).ceil() as u64;
         let unit = 10u64.pow(chains.max(1).ilog10().saturating_sub(1));
         (ratio > 1.0).then(|| chains.div_ceil(unit) * unit)
@@ -242,7 +246,7 @@ mod tests {
         ];
         assert_eq!(cheapest(&answers).unwrap().seconds, 0.3);
         assert!(cheapest(&answers[..2]).is_none());
-        // 1.96 errors of 0.02 are 0.0392, and 0.03 is (0.0392/0.03)² times as many chains away.
+        // 1.98 errors of 0.02 are 0.0397, and 0.03 is (0.0397/0.03)² times as many chains away.
         let wanted: Vec<_> = answers.iter().map(Answer::chains_to_decide).collect();
         assert_eq!(wanted, [None, Some(180), None, None]);
         let question =

@@ -5,7 +5,8 @@ use super::race::{self, DISPLACED, Entry, Race};
 use super::scale::{self, Scale};
 use crate::experiments::prelude::*;
 use crate::params::{MethodName, Setting};
-use impact_numerics::statistics::{mean, standard_error};
+use impact_numerics::estimates::LEVEL;
+use impact_numerics::statistics::{mean, standard_error, student_quantile};
 
 /// Returns a method with its steps or tolerances, as Markdown.
 pub fn titled(settings: &[Setting]) -> String {
@@ -82,8 +83,19 @@ pub struct Compared {
     pub sigma: f64,
     /// Chains that both ran to the end.
     pub pairs: usize,
-    /// Mean difference of their counts over the engine's mean, with the error chain by chain.
+    /// Mean difference of their counts over the mean of the engine, its error chain by chain, and the
+    /// 95 % interval by Student's t.
     pub share: Option<Estimate>,
+}
+
+/// One in a thousand differences is clear by chance.
+const CLEAR: f64 = 0.999;
+
+impl Compared {
+    pub fn is_clear(&self) -> bool {
+        let bound = student_quantile(CLEAR, self.pairs.saturating_sub(1)).unwrap_or(f64::INFINITY);
+        self.share.is_some_and(|off| off.value.abs() > bound * off.error)
+    }
 }
 
 /// Returns the comparisons of all rivals, σ outer.
@@ -99,7 +111,10 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
                 let mean_count = mean(&ours).filter(|mean| *mean > 0.0)?;
                 // With few chains all differences may be equal.
                 let error = standard_error(&differences).filter(|error| *error > 0.0)?;
-                Some(with_error(mean(&differences)? / mean_count, error / mean_count))
+                let half = student_quantile(LEVEL, ours.len() - 1)? * error / mean_count;
+                let value = mean(&differences)? / mean_count;
+                let interval = [value - half, value + half];
+                Some(Estimate { value, error: error / mean_count, interval })
             };
             rows.push(Compared {
                 setting,
