@@ -1,4 +1,4 @@
-// What a reviewer wants to do with a report, from the front page, by clicks and keys: three at most.
+// What a reviewer wants to do with a report, from the front page, by three clicks or keys at most.
 import { existsSync, readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
@@ -13,12 +13,12 @@ const in_sight = () =>
 const TASKS = {
   "read statement 27": [[{ type: "statement 27" }, "Enter"], /^27$[^]*sticking/m],
   "know the number of realisations": [[{ type: "number of realisations" }, "Enter"], /number of realisations per value of \S+ is \d+/],
-  "know the licence": [["End"], /text and figures CC BY 4\.0, code MIT OR Apache-2\.0/],
+  "know the licence": [[{ type: "licence" }, "Enter"], /Licence: text, figures and data/],
   "go from Eq. (25) to its line of code": [["Eq. (25)", "(25)"], /, line \d+/],
   "find the original": [["Edition", "Homer & Hogan, 2007"], /Homer, M\., & Hogan, S\. J\. \(2007\)\. Impact dynamics/],
   "cite this edition": [["How to cite", "Copy"], /(Copied|Selected)\n@misc\{[a-z0-9]+,/],
   "have the data of a figure": [["data of the figures", "fig12.csv"], /^series \(text\),/],
-  "choose a method": [[{ type: "what to take" }, "Enter"], /What to take\n[^]*Verlet/],
+  "choose a method": [["Methods"], /What to take for each question/],
   "run the chain at σ = 0.1": [[{ type: "0.1", into: "force σ, typed" }, "Fig. 3 at σ = 0.1, realisation 3"], /^[1-9]\d* of 101 gaps have impacts[^]*✓ same bits/m],
   "learn what becomes of grazing": [[{ type: "grazing" }, "Enter"], /graz/],
 };
@@ -28,8 +28,8 @@ async function act(page, action) {
   if (action.type !== undefined) {
     await (action.into ? page.getByLabel(action.into) : page.getByRole("searchbox")).fill(action.type);
     await page.locator(".search li a").first().waitFor({ timeout: action.into ? 1 : 8000 }).catch(() => {});
-  } else if (["Enter", "End"].includes(action)) {
-    await page.keyboard.press(action);
+  } else if (action === "Enter") {
+    await page.keyboard.press("Enter");
   } else {
     const words = new RegExp(`^\\s*${action.replaceAll(/[().]/g, "\\$&").replaceAll(" ", "\\s")}\\s*$`);
     const target = page.locator("a, button, summary").filter({ hasText: words, visible: true }).first();
