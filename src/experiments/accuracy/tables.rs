@@ -83,8 +83,8 @@ pub struct Compared {
     pub sigma: f64,
     /// Chains that both ran to the end.
     pub pairs: usize,
-    /// Mean difference of their counts over the mean of the engine, its error chain by chain, and the
-    /// 95 % interval by Student's t.
+    /// Mean difference of their counts over the engine's mean, with its error, chain by chain, and
+    /// its 95 % interval, by Student's t.
     pub share: Option<Estimate>,
 }
 
