@@ -77,12 +77,12 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     let found = text!("at σ = {} a mean of {}", row.sigma, here);
     let reason =
         "ours: “very few” as a twentieth of all gaps, at two thirds of the printed threshold";
-    let counts = [few, means.len() - few, means.len()];
+    let all = means.len();
+    let counts = [few, all - few, all];
     let check = by_runs(e, found, counts, text!("at most {:2}", limit), reason);
     let note = "From rest. Of {} pairs of transient T ≥ {} and window W, which are not printed, {} give at most {:2}, \
          a twentieth of all gaps: from {} in the shortest window after the shortest transient to {} in the longest. \
          Only {} of {} realisations have an impact, but in these impacts spread.";
-    let all = means.len();
     Ok(check.note(text!(note, all, RELEASED, few, limit, first, last, row.kept, row.ran)))
 }
 
@@ -243,8 +243,7 @@ fn by_protocol(
     Ok(by_runs(e, found, counts, tolerance, HALF_UNIT).note(note))
 }
 
-const HALF_UNIT: &str =
-    "half a unit of the last printed digit, with any start, transient and window";
+const HALF_UNIT: &str = "half a unit of the last printed digit, with any protocol";
 
 /// The mode passes half of all gaps within a range of σ; it agrees if this lies within the printed
 /// digits, and does not if it lies apart from them.
