@@ -103,13 +103,13 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         }
     }
     for (method, points) in &drawn[0] {
-        // Of those whose marks lie close together, the coarsest and the finest.
+        // Where lines leave room.
         let last = points.len() - 1;
         for (i, (setting, at)) in points.iter().enumerate() {
             let offset = match method {
-                Advancement => (1, 0),
-                RungeKutta if i == last => (0, -1),
-                RungeKutta if i > 0 => (1, 1),
+                Advancement if i > 0 => (1, 0),
+                RungeKutta if i == last => (1, -1),
+                RungeKutta if i == 2 || i == 4 => (1, 1),
                 Sampled if i == 0 => (-1, 0),
                 Sampled if i == last => (1, 0),
                 Verlet if i == 0 || i == last => (0, -1),
