@@ -7,8 +7,8 @@ use std::collections::BTreeSet;
 
 pub fn rules() -> Vec<Rule> {
     vec![
-        Rule::new("sec5_fig5", |e| orbit(e, 5)).on(Rounding),
-        Rule::new("sec5_fig6", |e| orbit(e, 6)).on(Rounding),
+        Rule::new("sec5_fig5", |e| orbit(e, 5)).on(FiniteCases),
+        Rule::new("sec5_fig6", |e| orbit(e, 6)).on(FiniteCases),
         Rule::new("sec5_masses_of_circuit", masses_of_circuit).on(FiniteCases).reads("k + 1"),
         cases("sec5_eq6", ENUMERATION).reads("(N − 1)!/(N − k)!"),
         cases("sec5_eq7", ENUMERATION).reads("N!/(k (N − k)!)"),

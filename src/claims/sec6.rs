@@ -47,10 +47,12 @@ fn step(e: &Evidence<'_>) -> Judged {
 
 fn mean_zero(e: &Evidence<'_>) -> Judged {
     let least = e.number("theory.mean.at_zero")?;
-    let note = "At p = 0 Eq. (9) is 0/0, and a value there is a convention: zero is the number of a graph without \
-         edges. As p goes to zero the circuits of one edge hold all the weight, and μ goes to one, as does the mode, \
-         for which the paper gives this limit as its value at p = 0.";
-    Ok(e.open(text!("0/0 at p = 0; μ → {:1} as p → 0+", least)).note(note))
+    let why = "At p = 0 itself Eq. (9) is 0/0. The paper gives the limit of the mode, one, as its value there; read \
+         in the same way the mean is one too, since the circuits of one edge then hold all the weight. Zero is the \
+         number of a graph without edges.";
+    Ok(e.found(text!("μ → {:1} as p → 0+", least), least == e.statement.number()?)
+        .within("none", "a limit is exact")
+        .explained(why, least == e.number("theory.jump.k_at_zero")?))
 }
 
 fn like_simulation(e: &Evidence<'_>) -> Judged {

@@ -8,7 +8,7 @@ pub fn rules() -> Vec<Rule> {
     vec![
         cases("sec7_eq11", "Every k at ten values of p.").reads("Φ(k + 1) − Φ(k) ∝ f(k)"),
         equality("sec7_eq13", 1e-13, "f at its zeros, over its largest term.").reads("k±"),
-        defined("sec7_eq14_15").reads("−1 and −(N + 1)"),
+        Rule::new("sec7_eq14_15", ends_of_f).on(FiniteCases).reads("−1 and −(N + 1)"),
         cases("sec7_eq16_17", "Sign and slope at every k.").reads("−(k + 1) < 0; k (N − k) > 0"),
         Rule::new("sec7_through_zero", through_zero),
         Rule::new("sec7_start", start),
@@ -31,6 +31,14 @@ fn start(e: &Evidence<'_>) -> Judged {
     let found = text!("k* = {} as p → 0+", first);
     let note = "At p = 0 itself Eq. (9) is 0/0.";
     Ok(e.found(found, first == e.statement.number()?).within("none", INTEGER).note(note))
+}
+
+fn ends_of_f(e: &Evidence<'_>) -> Judged {
+    let n = VERTICES as f64;
+    let at = |k: f64| [0.0, 0.5, 1.0].map(|p| jump::f(VERTICES, p, k));
+    let agrees = at(0.0) == [-1.0; 3] && at(n) == [-(n + 1.0); 3];
+    let found = text!("{} and {}", at(0.0)[0], at(n)[0]);
+    Ok(e.found(found, agrees).within("none", INTEGER).note("At three values of p."))
 }
 
 fn through_zero(e: &Evidence<'_>) -> Judged {

@@ -85,15 +85,14 @@ fn class_range(e: &Evidence<'_>) -> Judged {
     })
 }
 
-/// From the k on where each formula is in its range; the count of all k is in the note.
+/// Of all k, and of those from which on each formula is in its range.
 fn eq38(e: &Evidence<'_>) -> Judged {
     let [all, wrong] = compared(e)?;
     let row = "theory.cases[statement=sec9_eq38_in_range]";
     let [in_range, failed] = e.numbers(row, ["compared", "failed"])?.map(|count| count as usize);
-    let note = "From k = 3 on. No smallest k is printed, and the distribution needs k = 1 and 2 as well, for which \
-         formulas are used below their range: of all cases {} of {} agree. That a range is missing counts once, at \
-         Eq. (33).";
-    Ok(e.all_cases(in_range, failed).note(text!(note, all - wrong, all)))
+    let why = "Each of {} cases from k = 3 on agrees. No smallest k is printed, and the distribution needs k = 1 and \
+         2 as well; there the sum takes Eqs. (35) to (37) below the ranges that are printed with them.";
+    Ok(e.all_cases(all, wrong).explained(text!(why, in_range), failed == 0 && in_range > 0))
 }
 
 /// Returns a number of the distribution with five classes at one p.
