@@ -4,36 +4,19 @@ use super::bias::{self, Biases};
 use super::race::{self, DISPLACED, Entry, Race};
 use super::scale::{self, Scale};
 use crate::experiments::prelude::*;
-use crate::params::{MethodName, Setting};
+use crate::params::Setting;
 use impact_numerics::estimates::LEVEL;
 use impact_numerics::statistics::{mean, standard_error, student_quantile};
 
-/// Returns a method with its steps or tolerances, as Markdown.
+/// Returns a method with its steps or tolerances: `sampling, h = 0.1; 0.01; stop = 1e-3; 1e-4`.
 pub fn titled(settings: &[Setting]) -> String {
-    let method = settings[0].method;
-    if method == MethodName::Certified {
-        return method.title().to_string();
+    let mut title = settings[0].name();
+    for pair in settings.windows(2) {
+        let (name, starts) = (pair[1].name(), pair[0].stop == 0.0 && pair[1].stop > 0.0);
+        let value = name.rsplit(" = ").next().unwrap_or_default();
+        title += &format!("; {}{value}", if starts { "stop = " } else { "" });
     }
-    let letter = if method.has_tolerance() { r"\mathrm{tol}" } else { "h" };
-    let joined = |values: Vec<String>| values.join(r";\ ");
-    let (bouncing, stopping): (Vec<&Setting>, Vec<&Setting>) =
-        settings.iter().partition(|setting| setting.stop == 0.0);
-    let steps = joined(bouncing.iter().map(|setting| power(setting.value)).collect());
-    let stops = joined(stopping.iter().map(|setting| power(setting.stop)).collect());
-    let stops = if stops.is_empty() { stops } else { format!(r";\ \mathrm{{stop}} = {stops}") };
-    format!("{}, ${letter} = {steps}{stops}$", method.title())
-}
-
-/// Writes 0.03 as it is, and 1e-9 as a power of ten.
-fn power(value: f64) -> String {
-    let text = format!("{value:e}");
-    match text.split_once('e') {
-        Some((mantissa, exponent)) if value < 0.01 => match mantissa {
-            "1" => format!("10^{{{exponent}}}"),
-            _ => format!(r"{mantissa}\times10^{{{exponent}}}"),
-        },
-        _ => format!("{value}"),
-    }
+    title
 }
 
 /// Makes the tables of Figs. S6 and S7.
