@@ -68,7 +68,7 @@ fn every_statement_is_listed_and_one_that_differs_fails() {
 const FAULTS: &str = r##"1 front.md +About 12 of them. => :$:7: hard-coded number 12
 2 literals.toml why = "what the model is -> why = " " # => : [
 2 published.toml [[statement]] -> [[statement => :
-2 published.toml printed = "N − 1" -> printed = "N − 2" => :437: the id "sec7_limit": its check judges "N − 1", and not its printed
+2 published.toml printed = "N − 1" -> printed = "N − 2" => :436: the id "sec7_limit": its check judges "N − 1", and not its printed
 2 published.toml "sec2_half_height" -> "sec2_new" => : no statement "sec2_half_height""##;
 
 #[test]
