@@ -73,7 +73,6 @@ impl Paper {
         Ok(checks)
     }
 
-    /// Returns all values that the prose may name.
     pub fn registry(&self, results: &Results, published: &Published) -> Result<Registry, Failure> {
         let mut registry = Registry::default();
         registry.extend(printed(published))?;

@@ -72,7 +72,6 @@ impl Decimal {
         if found.digits.len() as i32 > digits { found.rounded(found.places - 1) } else { found }
     }
 
-    /// Writes it without a power of ten.
     pub fn written(&self) -> String {
         let Decimal { digits, places } = self;
         match usize::try_from(*places) {

@@ -33,12 +33,10 @@ impl Failure {
         Failure { code: 1, message: one_line(&message.into(), LONGEST) }
     }
 
-    /// Makes a failure to read or write `what`: exit code 2.
     pub fn io(error: &io::Error, what: impl Display, otherwise: &str) -> Self {
         Failure::input(format!("{what}: {error}; {}", remedy(error, otherwise)))
     }
 
-    /// Puts a place or an option before the message.
     pub fn of(self, place: impl Display) -> Self {
         Failure { message: format!("{place}: {}", self.message), ..self }
     }

@@ -12,12 +12,10 @@ use std::sync::RwLock;
 /// MiB at most of a file that is read whole. A scenario of a million masses has less.
 const MOST: u64 = 64;
 
-/// Reads a text from a file or a pipe that the user names.
 pub fn read(path: &Path) -> Result<String, Error> {
     read_from(File::open(path)?)
 }
 
-/// Reads a text from anything that can be read.
 pub fn read_from(file: impl Read) -> Result<String, Error> {
     text(bounded(file)?)
 }
@@ -171,7 +169,6 @@ const PLAIN: [(&str, &str); 11] = [
     ("cannot parse integer from empty string", WHOLE),
 ];
 
-/// Replaces the types of Rust in a message of a parser by plain words.
 pub fn plain(message: &str) -> String {
     PLAIN
         .iter()

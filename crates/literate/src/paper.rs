@@ -12,7 +12,6 @@ use serde_json::Value as Json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::Location;
 
-/// A figure of a paper: its name, the experiments whose results it shows, and how it is drawn.
 #[derive(Clone, Copy)]
 pub struct FigureSpec {
     /// Its name; its picture is `figures/NAME.svg`.
@@ -66,7 +65,6 @@ pub type Rows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, F
 /// Makes `lab.js`, which a page loads to compute; none if it cannot be made here.
 pub type Lab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
 
-/// A paper. [`Paper::cli`] gives it a command line.
 pub struct Paper {
     pub edition: Edition,
     pub project: Project,

@@ -10,7 +10,6 @@ use crate::value::{Digits, Number, Value};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Style {
     pub percent: bool,
-    /// Other digits than those of the value.
     pub digits: Option<Digits>,
 }
 
@@ -21,7 +20,6 @@ pub enum Shown {
     Number(Numeral),
 }
 
-/// The pieces of a printed number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Numeral {
     pub negative: bool,
@@ -29,7 +27,6 @@ pub struct Numeral {
     pub digits: String,
     /// The standard error in units of the last digit, which is printed in brackets.
     pub error: Option<String>,
-    /// The power of ten that multiplies it.
     pub exponent: Option<i32>,
     pub percent: bool,
 }
@@ -109,7 +106,6 @@ impl Numeral {
         self.exponent.is_some() && self.digits == "1" && !self.negative && self.error.is_none()
     }
 
-    /// Returns the number as TeX if it has a power of ten.
     pub fn tex_power(&self) -> Option<String> {
         let exponent = self.exponent?;
         if self.is_power_alone() {

@@ -24,7 +24,6 @@ pub struct Project {
     pub left_out: &'static [(&'static str, &'static str)],
 }
 
-/// Returns whether a path is `place`, or lies below it.
 fn is_in(path: &str, place: &str) -> bool {
     let place = place.trim_start_matches("./").trim_end_matches('/');
     path.strip_prefix(place).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))

@@ -27,7 +27,6 @@ pub enum Error {
     Missing(String),
 }
 
-/// All template files, by path relative to their folder.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Templates {
     files: BTreeMap<String, String>,

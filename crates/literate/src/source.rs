@@ -91,17 +91,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_listing_is_what_stands_between_its_marks() {
-        let kick = toy().listing("toy::flight::Motion::kick").unwrap();
-        assert!(kick.starts_with("/// A jump") && kick.ends_with("p.cos;\n}"), "{kick}");
-        let error = toy().listing("toy::flight::kik").unwrap_err();
-        assert!(
-            error.contains("`toy::flight::kik`") && error.contains("// listing: kik"),
-            "{error}"
-        );
-    }
-
-    #[test]
     fn an_item_has_the_file_of_its_module() {
         for (item, file) in [
             ("toy::flight::Motion::kick", Some("src/flight.rs")),

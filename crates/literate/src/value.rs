@@ -7,7 +7,6 @@
 use impact_numerics::statistics::Estimate;
 use serde::{Deserialize, Serialize};
 
-/// The number itself, with what decides how many digits of it are printed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Number {
@@ -99,7 +98,6 @@ pub enum Digits {
     Full,
 }
 
-/// Where a number comes from, and so how far it can be trusted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Provenance {
@@ -107,10 +105,14 @@ pub enum Provenance {
     Exact,
     /// Computed without chance: a closed form, a root, a sum.
     Deterministic,
-    /// An average over realisations.
-    Ensemble { realisations: u64, standard_error: f64 },
+    Ensemble {
+        realisations: u64,
+        standard_error: f64,
+    },
     /// Printed in the paper, at this section, figure or equation.
-    Printed { place: String },
+    Printed {
+        place: String,
+    },
     /// Measured once on a machine (times), and an input since then.
     Measured,
 }
@@ -194,7 +196,6 @@ impl Value {
 pub struct Origin(String);
 
 impl Origin {
-    /// Makes the origin of what a command computes.
     pub fn of(words: &str) -> Origin {
         Origin(words.into())
     }

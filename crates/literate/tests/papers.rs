@@ -70,7 +70,6 @@ fn a_program() {
     std::process::exit(code.into());
 }
 
-/// The example as a program in a folder.
 fn program(folder: &Path, line: &str) -> Command {
     let mut program = Command::new(std::env::current_exe().unwrap());
     program.args(["--ignored", "--exact", "a_program"]).current_dir(folder);
@@ -78,7 +77,6 @@ fn program(folder: &Path, line: &str) -> Command {
     program
 }
 
-/// Its exit code, standard output and standard error.
 fn run(folder: &Path, line: &str) -> (i32, String, String) {
     let output = program(folder, line).output().unwrap();
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();

@@ -26,7 +26,6 @@ pub struct Orbit {
     distance: Option<f64>,
 }
 
-/// The experiment: it is run once, saved, and used again.
 pub const CASCADE: Experiment<Depth, Vec<Orbit>> =
     Experiment::new("cascade", |_| Depth { deepest: 16 }, cascade, |cascade| tables(cascade));
 

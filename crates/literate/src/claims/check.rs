@@ -6,12 +6,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// A statement that was printed.
     #[default]
     Statement,
     /// A definition of words or symbols that was printed: it is judged, and no score counts it.
     Definition,
-    /// A relation between numbers that must hold.
     Relation,
 }
 
@@ -31,7 +29,6 @@ macro_rules! words {
         }
 
         impl $name {
-            /// All, in the order of tables.
             pub const ALL: [$name; [$($text),*].len()] = [$($name::$variant),*];
 
             pub fn words(self) -> &'static str {
@@ -70,7 +67,6 @@ words! {
     DiffersAndExplained = "differs and explained",
     /// It does not, or our explanation of a difference fails.
     Differs = "differs",
-    /// The results do not decide.
     #[default]
     CannotBeJudged = "cannot be judged",
 }
@@ -101,11 +97,9 @@ pub struct Check {
     pub statement: String,
     /// What can be read there, in its shortest form.
     pub expected: String,
-    /// What we find, with its error.
     pub found: Text,
     /// How far from the printed value a finding may lie.
     pub tolerance: Text,
-    /// Why the tolerance has this size.
     pub reason: String,
     pub basis: Basis,
     pub verdict: Verdict,
@@ -119,7 +113,6 @@ impl Check {
         Check { kind, id, statement, found, ..Check::default() }
     }
 
-    /// Sets the verdict by whether the finding lies within the tolerance.
     pub fn judged(self, agrees: bool) -> Check {
         let verdict = if agrees { Verdict::Reproduced } else { Verdict::Differs };
         Check { verdict, ..self }
@@ -135,12 +128,10 @@ impl Check {
         Check { verdict, ..self }.note(why)
     }
 
-    /// Sets the tolerance, and why it has this size.
     pub fn within(self, tolerance: impl Into<Text>, reason: &str) -> Check {
         Check { tolerance: tolerance.into(), reason: reason.into(), ..self }
     }
 
-    /// Sets what explains a difference, or what else a reader should know.
     pub fn note(self, note: impl Into<Text>) -> Check {
         Check { note: note.into(), ..self }
     }

@@ -22,7 +22,6 @@ pub enum Error {
     Undecided,
     #[error("check {id}: {error}")]
     Check { id: String, error: Box<Error> },
-    /// Something that its author has to correct.
     #[error("{0}")]
     Rule(String),
 }
@@ -45,7 +44,6 @@ impl From<Missing> for Error {
 /// A check, or why there is none.
 pub type Judged = Result<Check, Error>;
 
-/// What a rule may look at: its statement, the results, and all that was printed.
 #[derive(Clone, Copy)]
 pub struct Evidence<'a> {
     pub statement: &'a Statement,

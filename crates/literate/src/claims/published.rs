@@ -6,7 +6,6 @@ use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 
-/// Everything that the paper printed and this edition judges or uses.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Published {
@@ -25,7 +24,6 @@ pub struct Parameter {
     pub value: f64,
 }
 
-/// A quantitative statement of the paper.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table [[statement]]")]
 pub struct Statement {
@@ -101,7 +99,6 @@ impl Published {
         found.ok_or_else(|| PublishedError::missing("statement", id))
     }
 
-    /// Returns the number that the paper chose under this id.
     pub fn parameter(&self, id: &str) -> Result<f64, PublishedError> {
         let found = self.parameters.iter().find(|parameter| parameter.id == id);
         found.map(|one| one.value).ok_or_else(|| PublishedError::missing("parameter", id))

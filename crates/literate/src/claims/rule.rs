@@ -12,7 +12,6 @@ pub struct Rule {
     pub id: &'static str,
     /// What it says, if it judges a relation between numbers and nothing that was printed.
     relation: Option<&'static str>,
-    /// The printed words or formula that it judges.
     reads: Option<&'static str>,
     basis: Option<Basis>,
     statistical: bool,
@@ -55,7 +54,6 @@ impl Rule {
         Rule { reads: Some(words), ..self }
     }
 
-    /// Returns whether it judges something that was printed.
     pub fn is_of_statement(&self) -> bool {
         self.relation.is_none()
     }
@@ -249,17 +247,6 @@ mod tests {
         assert!(error.contains("src/claims/rule.rs:"), "{error}");
         let error = refused("mean", |e| Ok(e.found(text!("{}", f64::NAN), true)));
         assert!(error.starts_with("check mean: a number of it is NaN; "), "{error}");
-    }
-
-    #[test]
-    fn verdicts_that_another_number_would_have_too_are_named() {
-        let rules = [
-            Rule::new("rise", |e| e.cell("toy.all.rise")),
-            Rule::new("mean", |e| Ok(e.found("always", true))),
-            Rule::new("words", |e| Ok(e.found("always", true))),
-        ];
-        let published = Published::parse(PUBLISHED).unwrap();
-        assert_eq!(blind_to_their_number(&published, &rules, &results()), ["mean"]);
     }
 
     #[test]

@@ -73,7 +73,6 @@ pub(super) fn scores(checks: &[Check]) -> Vec<String> {
     lines
 }
 
-/// Returns a failure that names all that does not hold.
 pub(super) fn verdict(checks: &[Check]) -> Result<(), Failure> {
     let mut faults = Vec::new();
     for (is_printed, what) in [

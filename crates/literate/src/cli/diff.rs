@@ -87,7 +87,6 @@ fn git(arguments: &[&str]) -> Result<Vec<u8>, String> {
     if output.status.success() { Ok(output.stdout) } else { Err(words.into_owned()) }
 }
 
-/// Reads the files of `./paper` in a revision of git.
 fn committed(name: &str) -> Result<Files, Failure> {
     let neither = |reason: String| {
         let what = "neither a folder nor a revision of git with a report in ./paper here";
@@ -106,7 +105,6 @@ fn committed(name: &str) -> Result<Files, Failure> {
     paths.map(|path| Ok((path.to_string(), blob(path)?))).collect()
 }
 
-/// Lists files that one report lacks, and files that differ.
 fn files(before: &Files, after: &Files) -> Vec<String> {
     let paths: BTreeSet<&String> = before.keys().chain(after.keys()).collect();
     let line = |path: &String| match (before.get(path), after.get(path)) {

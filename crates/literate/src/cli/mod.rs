@@ -57,7 +57,6 @@ enum Verb<V: Subcommand> {
 enum None {}
 
 impl Paper {
-    /// Runs the command line of this paper, and returns its exit code.
     pub fn cli(self) -> ExitCode {
         self.cli_with(|none: None| match none {})
     }

@@ -101,7 +101,6 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     verdict(&checks).map_err(more).and(printed)
 }
 
-/// Removes the saved results of experiments by their names, or of `all`.
 fn forget(names: &[String], paper: &Paper, session: &Session<'_>) -> Result<(), Failure> {
     let known: Vec<&str> = paper.experiments.iter().map(|experiment| experiment.name()).collect();
     for name in names {

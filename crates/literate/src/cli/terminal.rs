@@ -13,7 +13,6 @@ const STACK: usize = 8 << 20;
 
 const MOST: usize = 1024;
 
-/// Prints one line on standard error, after the name of the program.
 pub fn warn(line: &str) {
     let program = std::env::current_exe().unwrap_or_default();
     let name = program.file_stem().unwrap_or_default().to_string_lossy();
@@ -30,7 +29,6 @@ pub(super) fn report_panic(fault: &std::panic::PanicHookInfo<'_>) {
     warn(&one_line(&line, 4000));
 }
 
-/// Returns a path as messages show it.
 pub(super) fn shown(path: &Path) -> String {
     one_line(&path.display().to_string(), 500)
 }
@@ -92,7 +90,6 @@ fn threads(text: &str) -> Result<usize, String> {
 }
 
 impl Threads {
-    /// Returns how many there will be.
     pub fn number(&self) -> usize {
         self.asked.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
     }

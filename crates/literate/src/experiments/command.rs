@@ -36,7 +36,6 @@ struct Output {
     files: BTreeMap<String, Vec<u8>>,
 }
 
-/// Lines of an output that a message repeats.
 const FIRST_LINES: usize = 5;
 
 impl Command {
@@ -73,7 +72,6 @@ impl Command {
         Ok(inputs)
     }
 
-    /// Returns path and hash of each file among its inputs.
     fn hashes(&self, top: &Path) -> BTreeMap<String, String> {
         let inputs = self.inputs(top).unwrap_or_default().into_iter();
         inputs.filter_map(|input| input::hashes(top, input).ok()).flatten().collect()
@@ -136,7 +134,6 @@ impl Command {
         Ok(Output { tables, files })
     }
 
-    /// Returns the bytes of a file that it wrote; none if there is no such file.
     pub(super) fn file(&self, found: &Found, path: &str) -> Option<Vec<u8>> {
         found.downcast_ref::<Output>()?.files.get(path).cloned()
     }

@@ -14,7 +14,6 @@ use std::sync::Arc;
 
 /// An experiment with parameters P and result T; U is what a unit of one that is cut gives.
 pub struct Experiment<P: 'static, T: 'static, U: 'static = ()> {
-    /// The name that values and saved files carry.
     pub name: &'static str,
     /// The files and folders on which the result depends, from the top of the project, the main one
     /// first. A saved result is fresh as long as these, and those that all experiments share, are
@@ -143,7 +142,6 @@ pub trait AnyExperiment: Sync {
     /// Returns path and hash of every file on which its result depends.
     fn code(&self, project: &Project) -> BTreeMap<String, String>;
 
-    /// Returns the parameters with which it is run in a profile.
     fn parameters(&self, profile: Profile) -> serde_json::Value;
 
     /// Returns the path of its module: `experiments::sweep` for `src/experiments/sweep.rs`.

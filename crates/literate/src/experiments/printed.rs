@@ -60,7 +60,6 @@ impl PrintedTable {
         self.names().position(|other| other == name)
     }
 
-    /// The column of the standard errors of a column, if there is one.
     fn error_of(&self, name: &str) -> Option<usize> {
         self.place(&format!("{name}_error"))
     }

@@ -9,7 +9,6 @@ use std::time::Duration;
 /// The ids of the programs that run, each of which leads a process group of the same id.
 static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
 
-/// Starts a program, gives it a text to read, and waits for its end.
 pub(super) fn run(command: &mut Command, text: String) -> io::Result<Output> {
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     command.process_group(0);

@@ -14,7 +14,6 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// Returns its name on the command line, in reports and in names of files.
     pub fn name(self) -> &'static str {
         match self {
             Profile::Quick => "quick",

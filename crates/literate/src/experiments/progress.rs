@@ -22,14 +22,12 @@ pub(crate) fn stop() {
     STOP.store(true, Ordering::Relaxed);
 }
 
-/// Shows the progress of an experiment, and says whether it is to end.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
     quiet: bool,
 }
 
 impl Progress {
-    /// Makes one that shows nothing: for tests.
     pub fn silent() -> Self {
         Progress { quiet: true }
     }
@@ -43,12 +41,10 @@ impl Progress {
         STOP.load(Ordering::Relaxed)
     }
 
-    /// Returns [`Error::Interrupted`] if the work was asked to end.
     pub fn check(&self) -> Result<(), Error> {
         if self.stopped() { Err(Error::Interrupted) } else { Ok(()) }
     }
 
-    /// Begins a stage of `total` units of work.
     pub fn stage(&self, name: &str, total: u64) -> Stage {
         let (name, began, done) = (name.to_string(), Instant::now(), Arc::new(AtomicU64::new(0)));
         let position = Arc::clone(&done);

@@ -14,7 +14,6 @@ pub type DerivedTables = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 pub struct Results {
     pub profile: Profile,
-    /// The experiments that were run, in their order.
     found: Vec<(&'static dyn AnyExperiment, Found)>,
     /// The tables that need several of them.
     derived: Vec<DerivedTables>,

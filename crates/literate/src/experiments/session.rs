@@ -9,7 +9,6 @@ use crate::input::count;
 use crate::project::Project;
 use crate::prose::Templates;
 
-/// A run: which project, prose and samples it takes, and where it keeps results.
 #[derive(Debug)]
 pub struct Session<'a> {
     pub project: &'a Project,

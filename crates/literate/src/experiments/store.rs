@@ -17,7 +17,6 @@ pub trait Json: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static
 
 impl<T: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static> Json for T {}
 
-/// The version of the format of saved files; others are not read.
 const SCHEMA: u32 = 3;
 
 const OLDER_FORMAT: &str = "saved in an older format";
@@ -27,9 +26,7 @@ pub struct Identity {
     pub experiment: String,
     profile: Profile,
     schema: u32,
-    /// The parameters, seed included.
     pub parameters: serde_json::Value,
-    /// The unit of work, if it is only a part of the result.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     unit: Option<Unit>,
     code: BTreeMap<String, String>,

@@ -9,7 +9,6 @@ use biblatex::{Bibliography, ChunksExt, Entry, EntryType, Person};
 use std::collections::BTreeSet;
 use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};
 
-/// All entries of a .bib file, in the order in which a list shows them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Library(Vec<Reference>);
 
@@ -115,7 +114,6 @@ fn reference(entry: &Entry) -> Result<Reference, String> {
     })
 }
 
-/// Puts something between two marks, unless it is empty.
 fn between(before: &str, inner: Vec<Inline>, after: &str) -> Vec<Inline> {
     if inner.is_empty() {
         return inner;

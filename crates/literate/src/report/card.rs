@@ -14,12 +14,10 @@ use crate::project::Project;
 use crate::table::{DataFile, table_of};
 use serde_json::Value as Json;
 
-/// A card: a title and rows, for any format.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Card {
     /// Id of what it is about: `sweep.rise.half_height`, `fig:3`, `eq:18`, `claim:sec7_jump`.
     pub id: String,
-    /// What it is about, as the report shows it.
     pub title: Vec<Inline>,
     /// What it is in one plain sentence; may be empty.
     pub lead: String,
@@ -286,18 +284,5 @@ fn collect(name: &str, value: &Json, into: &mut Vec<(String, Vec<String>)>) {
         Some((_, values)) if values.contains(&shown) => (),
         Some((_, values)) => values.push(shown),
         None => into.push((name.into(), vec![shown])),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn parameters_of_parameters_have_both_names() {
-        let parameters = serde_json::json!({"seed": 7, "chain": {"masses": 3}, "r": [0.5, 0.25],
-            "runs": [{"from": 1.0, "to": 2}, {"from": 1.0, "to": 3}], "none": null});
-        let all = "chain masses: 3; r: 0.5, 0.25; runs from: 1; runs to: 2, 3; seed: 7";
-        assert_eq!(settings(&parameters).join("; "), all);
     }
 }

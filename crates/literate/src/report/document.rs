@@ -62,7 +62,6 @@ pub enum Block {
     Bibliography(Vec<Reference>),
 }
 
-/// A table; one with a caption has a number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     pub id: Option<String>,
@@ -75,7 +74,6 @@ pub struct Table {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
-    /// Key as in references.bib.
     pub key: String,
     /// Whom a citation names, as "Homer & Hogan".
     pub names: String,
@@ -83,7 +81,6 @@ pub struct Reference {
     pub year: String,
     /// All authors, as the list shows them before the year in brackets.
     pub authors: String,
-    /// What the list shows behind the year.
     pub rest: Vec<Inline>,
 }
 
@@ -99,7 +96,6 @@ impl Reference {
 pub enum Inline {
     /// Words; no markup inside.
     Text(String),
-    /// A line break, which is a space.
     Soft,
     Code(String),
     Emphasis(Vec<Inline>),
@@ -160,7 +156,6 @@ impl Formula {
         self.0.iter().map(part).collect()
     }
 
-    /// Returns the whole formula as TeX, with the digits of its values.
     pub fn digits(&self) -> String {
         self.tex(|_, shown| shown.tex())
     }
@@ -186,7 +181,6 @@ pub fn printed(shown: &Shown) -> Vec<Inline> {
     }
 }
 
-/// Replaces each end of a line and each tab by a blank.
 pub fn in_one_line(words: &str) -> String {
     words.replace("\r\n", " ").replace(['\n', '\r', '\t'], " ")
 }
@@ -213,7 +207,6 @@ pub fn words_and_maths(text: &str) -> Vec<Inline> {
     out
 }
 
-/// Returns the words of the title, the first heading of level 1.
 pub fn title(blocks: &[Block]) -> Result<&[Inline], Error> {
     let found = blocks.iter().find_map(|block| match block {
         Block::Heading { level: 1, text, .. } => Some(text.as_slice()),

@@ -3,15 +3,12 @@
 use super::ledger::EquationEntry;
 use crate::prose::Templates;
 
-/// What a report says of itself, and the documents of which it is made.
 #[derive(Clone, Debug)]
 pub struct Edition {
-    /// What it is, in a line of the help.
     pub title: &'static str,
     pub authors: Vec<(&'static str, &'static str)>,
     /// Day of this version, YYYY-MM-DD; may be empty.
     pub date: &'static str,
-    /// Its licence in words; may be empty.
     pub license: &'static str,
     pub documents: Vec<Document>,
     pub equations: Vec<EquationEntry>,
@@ -59,7 +56,6 @@ impl Edition {
 pub struct Document {
     /// Its prose: `PROSE.md`, or the files of the folder `PROSE` in the order of their names.
     pub prose: &'static str,
-    /// Its name in the other documents.
     pub name: &'static str,
     /// What the numbers of its sections, tables and listings begin with; nothing in the first.
     pub letter: &'static str,

@@ -5,7 +5,6 @@ use crate::table::nearest;
 
 const MAX_LENGTH: usize = 1000;
 
-/// What is wrong with a report, with the place where it can be corrected.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{0} has no number; say what stands there, by «… | otherwise(words=\"…\")»")]

@@ -4,7 +4,6 @@ use super::error::Error;
 use super::mark::{Piece, framed, pieces};
 use crate::input::line_and_column;
 
-/// Templates and the text that was made of them, one after the other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Filled {
     /// The text; values are marks in it.
@@ -83,7 +82,6 @@ impl<'a> Places<'a> {
         self.found.push((thing, offset));
     }
 
-    /// Where all links lead to, each with its place.
     pub fn links(&self) -> impl Iterator<Item = (&str, String)> {
         let all = self.found.iter().map(|(thing, at)| (thing.strip_prefix('('), at));
         all.filter_map(|(to, at)| Some((to?, self.filled.place(*at))))

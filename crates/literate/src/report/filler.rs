@@ -15,7 +15,6 @@ use serde_json::Value as Json;
 use std::collections::BTreeSet;
 use tera::{Context, Delimiters, Kwargs, State, Tera};
 
-/// Tera, set up with the templates, and the names that they may use.
 #[derive(Clone, Debug)]
 pub struct Filler {
     tera: Tera,
@@ -209,7 +208,6 @@ fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
     }
 }
 
-/// What `holds` says when the words that it stands behind are no longer true.
 const NOT_TRUE: &str = "the words before are no longer true";
 
 /// A file that Tera fills; prose with its place marks.

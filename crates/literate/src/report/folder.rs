@@ -11,10 +11,8 @@ use std::fs::File;
 use std::io;
 use std::path::Path;
 
-/// The list of committed files, in the folder.
 pub const SUMS: &str = "SHA256SUMS";
 
-/// The list of files that are built and not committed.
 pub const BUILT: &str = "SHA256SUMS.built";
 
 /// A report in memory: paths relative to its folder, and bytes.
@@ -79,7 +77,6 @@ pub fn read_sums(text: &str) -> Option<Digests> {
     text.lines().map(entry).collect::<Option<Digests>>().filter(|list| !list.is_empty())
 }
 
-/// Names in a folder; none if it is not there.
 fn names(folder: &Path) -> Result<Vec<String>, Error> {
     let name = |entry: io::Result<std::fs::DirEntry>| {
         entry.map(|entry| entry.file_name().to_string_lossy().into_owned())

@@ -80,11 +80,8 @@ const CLOSING: [char; 12] = ['.', ',', ';', ':', '!', '?', ')', ']', '”', '’
 
 pub(super) struct Page<'a> {
     input: &'a Input<'a>,
-    /// The ids of the cards that it opens.
     values: RefCell<BTreeSet<String>>,
-    /// The outlines of letters that its figures use.
     glyphs: RefCell<Glyphs>,
-    /// Of formulas that cannot be shown.
     errors: RefCell<Vec<Error>>,
 }
 
@@ -337,7 +334,7 @@ impl<'a> Page<'a> {
     fn value(&self, id: &str, shown: &Shown, blank: char) -> String {
         self.values.borrow_mut().insert(id.to_string());
         // A line that ends in an attribute would be read as a blank.
-        let id = text(id).replace('\n', "&#10;");
+        let id = escape(id).replace('\n', "&#10;");
         let shown = match shown {
             Shown::Words(words) => text(&document::in_one_line(words)),
             Shown::Number(numeral) => number(numeral, blank),
@@ -387,26 +384,4 @@ fn relates(inline: &Inline) -> bool {
     let ends = ["=", "<", ">", r"\approx", r"\le", r"\ge", r"\lt", r"\gt", r"\pm"];
     let tex = formula.digits();
     ends.iter().any(|end| tex.trim_end().ends_with(end))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::values::Value;
-    use super::*;
-    use crate::print::{Style, print};
-
-    #[test]
-    fn digits_are_text() {
-        for (value, digits, percent, html) in [
-            (-3.25, 3, false, "−3.25"),
-            (8.87e-4, 3, false, "8.87\u{202f}×\u{202f}10<sup>−4</sup>"),
-            (1e-9, 1, false, "10<sup>−9</sup>"),
-            (0.945, 3, true, "94.5\u{202f}%"),
-        ] {
-            let style = Style { percent, ..Style::default() };
-            let shown = print(&Value::real("x", value, digits).number, style);
-            let Shown::Number(numeral) = shown else { panic!("{shown:?}") };
-            assert_eq!(number(&numeral, '\u{202f}'), html);
-        }
-    }
 }

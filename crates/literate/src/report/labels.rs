@@ -182,7 +182,6 @@ impl Labels {
         Error::all(errors)
     }
 
-    /// References of one kind, `[@fig:3; @fig:8a]`.
     fn refer(&self, ids: &[String], here: Document) -> Result<Vec<Inline>, Error> {
         let (asked, several) = (kind(&ids[0]), ids.len() > 1);
         let lower = asked.to_lowercase();

@@ -233,7 +233,6 @@ const GAPS: f64 = 0.027 * LINE as f64;
 
 struct Column {
     letter: &'static str,
-    /// Of its longest cell.
     width: usize,
     /// How narrow it can be: a short one does not wrap, a long one keeps its longest word whole.
     least: usize,

@@ -8,7 +8,6 @@ use crate::input::toml_fault;
 use serde::Deserialize;
 use std::ops::Range;
 
-/// Phrases with numbers that are not results, with their reasons: `literals.toml`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Declared {
@@ -108,7 +107,6 @@ fn literal_digit(sign: &str) -> Option<&str> {
     sign.strip_prefix('\\').filter(|digit| digit.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// Returns a text without the backslashes before numbers that are meant literally.
 pub fn literal(text: &str) -> String {
     tex::signs(text).map(|sign| literal_digit(sign).unwrap_or(sign)).collect()
 }

@@ -15,7 +15,6 @@ pub(super) const CLOSE: char = '\u{e002}';
 /// digits is moved to private-use characters from here on.
 const MOVED: u32 = 0xe100;
 
-/// Whether a character is part of a mark.
 pub(super) fn is_of_mark(c: char) -> bool {
     (OPEN..=CLOSE).contains(&c) || moved_back(c) != c
 }

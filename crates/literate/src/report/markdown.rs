@@ -103,7 +103,6 @@ fn fence(code: &str, least: usize) -> String {
     "`".repeat(length)
 }
 
-/// Returns an HTML anchor, `fig-3` for `fig:3`.
 fn anchor(id: &str) -> String {
     format!("<a id=\"{}\"></a>", place_on_page(id))
 }
@@ -202,7 +201,6 @@ fn write_inline(inline: &Inline, out: &mut String) {
     }
 }
 
-/// Escapes what Markdown would read in words.
 fn write_text(text: &str, out: &mut String) {
     // After a displayed equation the line starts anew.
     let text = if out.ends_with('\n') { text.trim_start() } else { text };
@@ -253,7 +251,6 @@ static RESPELT: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
     )
 });
 
-/// TeX that survives Markdown.
 fn maths(tex: &str) -> String {
     let signs: Vec<&str> = tex::signs(tex).collect();
     let mut out = String::with_capacity(tex.len());

@@ -25,7 +25,6 @@ impl Index {
         self.add_at(&self.section[0].clone(), text);
     }
 
-    /// Adds text with the id of its place on the page.
     fn add_at(&mut self, place: &str, text: &str) {
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
         if !text.is_empty() {

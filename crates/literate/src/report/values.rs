@@ -27,7 +27,6 @@ impl Registry {
         Ok(())
     }
 
-    /// Takes tables, whose cells are found by their addresses.
     pub fn add_tables(&mut self, tables: &Tables) -> Result<(), Error> {
         for table in tables.values() {
             if let Some(value) = self.values.get(table.name()) {

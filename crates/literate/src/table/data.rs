@@ -26,7 +26,6 @@ impl Table {
     }
 }
 
-/// Writes a number as data files have it.
 fn written(number: &Number) -> String {
     match number {
         Number::None => String::new(),
@@ -36,14 +35,12 @@ fn written(number: &Number) -> String {
     }
 }
 
-/// One CSV file with a header that names each column and its unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataFile {
     /// File name, such as `fig09a.csv`.
     pub name: String,
     /// Column names with units, such as `sigma (d omega^2)`; 1 stands for a pure number.
     pub header: Vec<String>,
-    /// The rows, each as long as the header.
     pub rows: Vec<Vec<String>>,
 }
 
@@ -67,7 +64,6 @@ impl DataFile {
     }
 }
 
-/// Quotes a cell of a CSV file if it has to be.
 fn quoted(cell: &str) -> Cow<'_, str> {
     if cell.contains([',', '"', '\n']) {
         format!("\"{}\"", cell.replace('"', "\"\"")).into()

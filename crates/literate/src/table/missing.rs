@@ -9,7 +9,6 @@ use std::panic::Location;
 #[error("{address}: {what}; {remedy}, or correct it in {place}")]
 pub struct Missing {
     address: String,
-    /// What is missing, and the nearest names that there are.
     what: String,
     pub(super) remedy: &'static str,
     place: String,
@@ -25,7 +24,6 @@ impl Missing {
 
 pub(super) const NO_NUMBER: &str = "this cell has no number";
 
-/// Says that there is nothing of this name, with the nearest names that there are.
 pub(crate) fn no_such<'a>(kind: &str, name: &str, names: impl Iterator<Item = &'a str>) -> String {
     let nearest = nearest(name, names);
     if nearest.is_empty() {

@@ -185,7 +185,6 @@ impl Table {
     }
 }
 
-/// Returns each of several things once, in their order.
 fn different<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
     let mut found = Vec::new();
     for one in all {
@@ -213,7 +212,6 @@ fn is_number(cell: &Value, wanted: f64) -> bool {
     }
 }
 
-/// Returns the number of a cell; none of words.
 pub fn number(cell: &Value) -> Option<f64> {
     match cell.number {
         Number::Integer(n) => Some(n as f64),
@@ -297,32 +295,6 @@ mod tests {
         for no in ["half_height", "v.half_height", "a[b]c"] {
             assert_eq!(table_of(no), None, "{no}");
         }
-    }
-
-    #[test]
-    fn rows_have_names_for_templates() {
-        let table = table();
-        let named = table.named();
-        for name in ["r=0.8,sigma=0.3", "r=last,sigma=0.3", "r=0.8,sigma=last", "r=last,sigma=last"]
-        {
-            assert_eq!(named[name]["mean"].id, "test.rise[r=0.8,sigma=0.3].mean", "{name}");
-        }
-        assert_eq!(named["r=first,sigma=0.1"]["mean"].id, "test.rise[r=0,sigma=0.1].mean");
-        assert_eq!(table.distinct("r").unwrap(), [0.0, 0.8]);
-        let last = table.at("test.rise[r=last,sigma=first].mean");
-        assert_eq!(last.unwrap().id, "test.rise[r=0.8,sigma=0.1].mean");
-    }
-
-    #[test]
-    fn figures_and_data_take_columns() {
-        let table = table();
-        assert_eq!(table.curve(&[("r", 0.0)], "sigma", "mean").unwrap(), [(0.1, 1.5)]);
-        let found = table.series(&[("r", 0.8)], "sigma", "mean").unwrap();
-        assert_eq!((found.len(), found[1].0, found[1].1.error), (2, 0.3, 0.5));
-        let (header, rows) = table.data();
-        assert_eq!(header[1..4], ["sigma (d omega^2)", "mean (1)", "mean_error (1)"]);
-        assert_eq!(rows[1], ["0", "0.3", "", "", "0", ""]);
-        assert_eq!(rows[3], ["0.8", "0.3", "7.5", "0.5", "2", "1.25"]);
     }
 
     /// Every fault that a table itself can have is noted with its table, row and column.

@@ -6,7 +6,6 @@ use crate::figures::escape as text;
 use pulldown_cmark::Alignment;
 use std::fmt::Write as _;
 
-/// Characters of a cell that is text.
 const TEXT: usize = 100;
 /// Columns whose cells have more characters than this get a minimum width.
 const WIDTHS: [(usize, &str); 3] = [(300, "long"), (TEXT, "text"), (40, "words")];

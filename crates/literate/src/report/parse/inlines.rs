@@ -203,7 +203,6 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// A formula with macros that every format can show.
     fn formula(&mut self, tex: &str, at: usize) -> Result<Formula, Error> {
         let mut formula = Formula::default();
         for piece in pieces(tex) {

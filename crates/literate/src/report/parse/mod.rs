@@ -110,7 +110,6 @@ impl<'a> Reader<'a> {
         &self.filled.text[range.clone()]
     }
 
-    /// Notes an error at an offset; reading goes on.
     fn note(&mut self, at: usize, error: Error) {
         self.found.push(error.at(self.filled.place(at)));
     }
@@ -282,7 +281,6 @@ impl<'a> Reader<'a> {
         Ok(Block::Figure { id, number, name, files, alt, origin, caption })
     }
 
-    /// A block of code, or the listing of an item of the source.
     fn code(&mut self, kind: CodeBlockKind<'_>, range: &Range<usize>) -> Result<Block, Error> {
         let mut text = String::new();
         while let Some((Event::Text(piece), _)) = self.events.peek() {

@@ -48,6 +48,7 @@ A table or a formula that is broken.
 Table: A. {#tab:b}⏎⏎words => 14:1 => a caption must be followed by its table
 Table: A. {#tab:&amp;}⏎⏎| a |⏎|---| => 14:1 => write tab: followed by
 Words.⏎⏎«code(item="toy::flight::Motion::kick")» => 16:1 => needs a paragraph `Listing: 
+Words.⏎⏎«code(item="toy::flight::kik")» => 16:1 => there is no listing `toy::flight::kik`; it needs the lines `// listing: kik`
 at $\left( x$ => 14:4 => cannot be shown
 $$ x \tag{a b} $$ => 14:1 => write eq: followed by
 $$⏎a = b⏎+ c⏎$$ => 16:1 => an unclosed formula

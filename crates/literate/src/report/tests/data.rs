@@ -54,7 +54,8 @@ fn words_of_data_are_data() {
         assert!(tex.contains(&format!("{{{tex_line}}} \\\\\n")), "{words:?}: {tex}");
         let page = file(&report, "report.html");
         let id = format!("toy.words[name={words}].word");
-        let [escaped, escaped_id] = [&line, &id].map(|text| crate::figures::escape(text));
+        let [escaped, escaped_id] =
+            [&line.replace(" %", "\u{a0}%"), &id].map(|text| crate::figures::escape(text));
         let value = format!("\"{}\">{escaped}</span>", escaped_id.replace('\n', "&#10;"));
         assert_eq!(page.matches(&value).count(), 3, "{words:?}");
         let cards = file(&report, "cards.js");

@@ -22,7 +22,7 @@ const SAMPLE: &str = r#"# Impact\_dynamics & large % systems: R&D $\sigma_{1/2}$
 ## Introduction {#sec:introduction}
 
 Masses in a row ([@rice1945]; see [@fig:3], [@eq:18; @eq:25] and [@sec:protocol]). With
-«v.half_height» and $\sigma = «v.half_height»$, far below «v.tiny», the $n$-th mass of
+«v.half_height» and $\sigma = «v.half_height»$, far below «v.tiny» or «v.least», the $n$-th mass of
 $f_{N,p}(k)$ and $\Phi'_{N,p}\,(k) < 1$ moves *fast*, **very** fast, at \100 % of `a_b`.
 
 $$
@@ -121,7 +121,7 @@ fn each_format_shows_what_is_meant() {
     let parts = r##"
 report.md => ## <a id="sec-introduction"></a>1 Introduction⏎
 report.md => ([[Rice, 1945](#ref-rice1945)]; see [Fig.·3](#fig-3), Eqs.·[(18)](#eq-18) and
-report.md => ⏎0.1165(4) and $\sigma = 0.1165(4)$, far below $8.87\times10^{-4}$, the $n\text{-th}$
+report.md => ⏎0.1165(4) and $\sigma = 0.1165(4)$, far below $-8.87\times10^{-4}$ or $10^{-9}$, the $n\text{-th}$
 report.md => $\Phi'_{N,p}\thinspace(k) \lt 1$ moves *fast*, **very** fast
 report.md => <a id="eq-18"></a>⏎⏎$$⏎p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{N}\right)^2⏎\tag{18}⏎$$⏎
 report.md => ⏎\begin{aligned} a &= b \cr c &= d \end{aligned}⏎
@@ -162,7 +162,10 @@ report.tex => ⏎{}[q] & c
 report.tex => \item {}[z] a
 report.tex => \title{Impact\_dynamics \& large \% systems: R\&D $\sigma_{1/2}$}
 report.tex => pdftitle={Impact\_dynamics \& large \% systems: R\&D sigma\_1/2}
-report.html => <title>Impact_dynamics &amp; large % systems: R&amp;D σ_1/2</title>
+report.html => >−8.87 × 10<sup>−4</sup></span> or <span
+report.html => >10<sup>−9</sup></span>, the
+report.html => >94.5(8)·%</span></td>
+report.html => <title>Impact_dynamics &amp; large·% systems: R&amp;D σ_1/2</title>
 report.html => <img src="figures/photo.svg" alt="Balls on [rods]."/>
 figures/photo.svg => <svg/>
 figures/photo.pdf => %PDF-1.5
@@ -205,7 +208,8 @@ impl Given {
     fn made(self) -> Result<Files, Error> {
         let mut values = Registry::default();
         values.add(Value::integer("half_height", with_error(0.11652, 0.0004)))?;
-        values.add(Value::real("tiny", 8.87e-4, 3))?;
+        values.add(Value::real("tiny", -8.87e-4, 3))?;
+        values.add(Value::real("least", 1e-9, 1))?;
         values.add(Value::integer("kept", with_error(0.945, 0.008)))?;
         values.add(Value::integer("count", 12345))?;
         let empty = Value::real("empty", 0.0, 1);
