@@ -38,6 +38,21 @@ pub fn paper() -> Paper {
     }
 }
 
+/// A document whose files have the name of its prose.
+macro_rules! document {
+    ($prose:literal, $name:literal, $letter:literal) => {
+        Document {
+            prose: $prose,
+            name: $name,
+            letter: $letter,
+            markdown: concat!($prose, ".md"),
+            page: concat!($prose, ".html"),
+            print: Some($prose),
+            ..Document::REPORT
+        }
+    };
+}
+
 /// The documents: overview (five minutes), edition (half an hour), second paper, methods, ledger.
 const DOCUMENTS: [Document; 5] = [
     Document {
@@ -50,31 +65,7 @@ const DOCUMENTS: [Document; 5] = [
         ..Document::REPORT
     },
     Document { prose: "edition", name: "Edition", ..Document::REPORT },
-    Document {
-        prose: "beyond",
-        name: "Beyond the paper",
-        letter: "S",
-        markdown: "beyond.md",
-        page: "beyond.html",
-        print: Some("beyond"),
-        ..Document::REPORT
-    },
-    Document {
-        prose: "methods",
-        name: "Methods",
-        letter: "M",
-        markdown: "methods.md",
-        page: "methods.html",
-        print: Some("methods"),
-        ..Document::REPORT
-    },
-    Document {
-        prose: "ledger",
-        name: "Ledger",
-        letter: "L",
-        markdown: "ledger.md",
-        page: "ledger.html",
-        print: None,
-        ..Document::REPORT
-    },
+    document!("beyond", "Beyond the paper", "S"),
+    document!("methods", "Methods", "M"),
+    Document { print: None, ..document!("ledger", "Ledger", "L") },
 ];

@@ -10,10 +10,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sweep = sweep::main(results)?;
     let half_height = results.number("sweep.rise.half_height").ok();
     let sheet = Sheet::new(7550);
-    let n = gaps(results)?;
+    let n = sweep.ensemble.chain.gaps();
     let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
     let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
-    let (all, means) = (swept(results, "mean_all")?, means(results)?);
+    let rows = results.table("sweep.rows")?;
+    let swept = |column| rows.curve(&[], "sigma", column);
+    let (all, means) = (swept("mean_all")?, means(results)?);
     let intervals = sweep
         .comparable()
         .filter_map(|row| row.mean?.interval.map(|[low, high]| (row.sigma, low, high)));
@@ -37,7 +39,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (x, y) = (sigma_axis(), Axis::linear(0.0, 1.0, 0.5, 5, "share"));
     let share = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 6650), x, y)?;
     let share = share.outside(Outside::Cut);
-    let fraction = swept(results, "kept")?;
+    let fraction = swept("kept")?;
     let line = Stroke::solid(RED, THIN);
     let dot = (Symbol::Disc, 38, Stroke::solid(RED, HAIR));
     share.marked_curve("share with an impact", &fraction, line, dot)?;

@@ -7,7 +7,7 @@ use crate::params::VERTICES;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(5450);
-    let n = gaps(results)?;
+    let n = results.number("sweep.run.gaps")? as usize;
     let threshold = printed_threshold();
     let panel = sheet.panel(MAIN, sigma_axis(), count_axis(n, "expected number of impacts"))?;
     let panel = panel.outside(Outside::Cut);

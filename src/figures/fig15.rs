@@ -7,7 +7,7 @@ use crate::experiments::Results;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(7550);
-    let n = gaps(results)?;
+    let n = results.number("sweep.run.gaps")? as usize;
     let threshold = printed_threshold();
     let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
     let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);

@@ -8,10 +8,8 @@ pub use crate::params::printed_threshold;
 /// The label of an axis of σ.
 pub const FORCING: &str = "*σ* (*d ω*^{2})";
 
-/// Line of the simulation's marks.
-pub const CROSS: Stroke = Stroke::solid(RED, THIN);
-
-pub const CROSSES: Marker = (Symbol::Cross, 56, CROSS);
+/// Marks of the simulation.
+pub const CROSSES: Marker = (Symbol::Cross, 56, Stroke::solid(RED, THIN));
 
 /// Bars of intervals, which stay behind the marks.
 pub const INTERVAL: Stroke = Stroke::solid(GREY, 30);
@@ -38,21 +36,11 @@ pub fn printed(panel: &Panel, from: f64) -> Drawn {
     panel.label(&format!("paper: {printed}"), line[1], (0, -1), INK)
 }
 
-/// Number of gaps of the chains of the main sweep.
-pub fn gaps(results: &Results) -> Result<usize, Error> {
-    Ok(results.number("sweep.run.gaps")? as usize)
-}
-
 /// Mean over the realisations with an impact against σ. The mean of a single one is drawn, though
 /// it has no error and so no cell.
 pub fn means(results: &Results) -> Result<Vec<(f64, f64)>, Error> {
     let rows = sweep::main(results)?.comparable();
     Ok(rows.filter_map(|row| Some((row.sigma, row.mean?.value))).collect())
-}
-
-/// A column of the main sweep against σ.
-pub fn swept(results: &Results, column: &str) -> Result<Vec<(f64, f64)>, Error> {
-    Ok(results.table("sweep.rows")?.curve(&[], "sigma", column)?)
 }
 
 /// A theory curve up to the largest σ of the main sweep.

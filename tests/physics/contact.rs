@@ -3,8 +3,7 @@
 //! known. Then neighbouring gaps that close at the same instant: masses in one point, or mirror
 //! images.
 
-use crate::reference::Reference;
-use crate::{drawn, first, given, run, trace};
+use crate::{drawn, given, run};
 use impact_chain::{Engine, Impact, Initial, Scenario};
 use impact_paper::params::Chain;
 
@@ -309,37 +308,6 @@ fn a_collective_hit_takes_a_small_power_of_the_masses() {
             let ties = engine.counters().simultaneous as usize;
             assert!((first - 1..=hits.len()).contains(&ties), "{ties} of {first}");
         }
-    }
-}
-
-#[test]
-fn a_three_way_impact() {
-    let forcing = vec![[0.4, 0.3], [0.0; 2], [-0.4, -0.3]];
-    for r in [0.8, 1.0] {
-        let scene = Scenario { forcing: forcing.clone(), restitution: r, ..draw(3, 1.0, 0) };
-        let mut engine = Engine::new(&scene).unwrap();
-        let hits = std::iter::from_fn(|| first(&mut engine, 100.0));
-        let Some(first) = hits.into_iter().find(|hit| [1, 2].contains(&hit.gap)) else {
-            panic!("r = {r}: the middle mass is not hit")
-        };
-        let mut block = vec![first];
-        block.extend(run(&mut engine, first.time + 1e-13));
-        let closing = first.closing_speed;
-        assert!(engine.counters().simultaneous > 0, "r = {r}");
-        let gaps: Vec<usize> = block.iter().map(|hit| hit.gap).collect();
-        assert!(gaps.starts_with(&[1, 2]), "r = {r}: {gaps:?}");
-        // All move to the right, away from a first mass at rest.
-        let mut velocities = [0.0, 3.0, 2.0, 1.0].map(|times| times * closing);
-        let expected = sequential(&mut velocities, r);
-        let expected: Vec<_> = expected.into_iter().map(|(gap, v)| (gap - 1, v)).collect();
-        assert!(gaps.iter().eq(expected.iter().map(|(gap, _)| gap)), "r = {r}: {gaps:?}");
-        for (hit, (_, speed)) in block.iter().zip(expected) {
-            assert!((hit.closing_speed - speed).abs() < 1e-13, "r = {r}: {hit:?} {speed}");
-        }
-        // The reference follows the same law.
-        let ours = trace(&scene, first.time + 0.1);
-        let theirs = Reference::new(&scene).run(first.time + 0.1).unwrap();
-        assert!(ours.iter().map(|hit| hit.gap).eq(theirs.iter().map(|hit| hit.gap)));
     }
 }
 

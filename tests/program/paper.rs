@@ -195,17 +195,3 @@ fn a_rerun_finds_what_the_list_cannot() {
     let (code, out, _) = crate::run(here, "verify r");
     assert_eq!((code, &*out), (1, "missing  data/fig02.csv\nunlisted data/strange.csv\n"));
 }
-
-/// The exit codes of `--help` and DESIGN.md are the same.
-#[test]
-fn exit_codes_are_those_of_the_design() {
-    let help = answer(Path::new("."), "--help");
-    let design = fs::read_to_string("DESIGN.md").unwrap();
-    for (code, words) in [(0, "fine"), (1, "failed"), (2, "usage"), (130, "SIGTERM")] {
-        let says = |line: &str| line.contains(words);
-        let row = |line: &&str| line.trim_start().starts_with(&format!("{code} ")) && says(line);
-        assert!(help.lines().any(|line| row(&line)), "{help}");
-        let row = format!("| {code} | ");
-        assert!(design.lines().any(|line| line.starts_with(&row) && says(line)), "{code}");
-    }
-}

@@ -37,12 +37,6 @@ fn section<'a>(markdown: &'a str, heading: &str) -> &'a str {
 }
 
 #[test]
-fn words_are_counted_as_a_reader_does() {
-    let text = "## One *two*\n\nThree [four](five/six.md) $a + b$ <a id=\"x\"></a>(five) – six.\n\n| no | no |\n|---|---|\n\n```rust\nno\n```\n\n$$\nno\n$$\n\n$$no$$\n";
-    assert_eq!(words(text), 7);
-}
-
-#[test]
 fn no_document_outgrows_its_reader() {
     let text =
         |name: &str| std::str::from_utf8(&QUICK.report[&format!("{name}.md")]).unwrap().to_owned();

@@ -104,20 +104,6 @@ fn each_equation_has_one_home() {
     }
 }
 
-#[test]
-fn each_experiment_depends_on_files_that_are_there() {
-    let paper = &QUICK.paper;
-    let all = paper.project.code(&[]);
-    for place in paper.project.shared {
-        assert!(all.keys().any(|path| path.starts_with(place)), "there is no {place}");
-    }
-    for experiment in paper.experiments.iter().filter(|one| one.is_saved()) {
-        let code = experiment.code(&paper.project);
-        assert!(code.contains_key("crates/impact-chain/src/engine.rs"));
-        assert!(code.keys().all(|path| !path.ends_with("/tables.rs") && !path.contains("claims/")));
-    }
-}
-
 /// An origin names the function that computed the number: no constant, structure or module.
 #[test]
 fn every_origin_is_a_function() {

@@ -43,10 +43,6 @@ thread_local! {
 }
 
 impl Page {
-    fn set_text(&mut self, text: impl ToString) {
-        self.text = text.to_string().into_bytes();
-    }
-
     /// Starts the run that numbers and text describe.
     fn open(&mut self) -> Result<(), String> {
         self.run = None;
@@ -134,7 +130,7 @@ fn answer(work: impl FnOnce(&mut Page) -> Result<bool, String>) -> u32 {
     PAGE.with_borrow_mut(|page| match work(page) {
         Ok(on) => u32::from(on),
         Err(refused) => {
-            page.set_text(refused);
+            page.text = refused.into_bytes();
             2
         }
     })
@@ -220,58 +216,4 @@ pub extern "C" fn numbers() -> *const f64 {
 #[unsafe(no_mangle)]
 pub extern "C" fn picture() -> *const u32 {
     PAGE.with_borrow(|page| page.picture.as_ptr())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const NUMBERS: [f64; 12] = [50.0, 20.0, 30.0, 1.0, 1.0, 1.5, 0.8, 0.0, 0.0, 0.3, 1.0, 4.0];
-
-    fn opened(stream: &str, numbers: &[f64]) -> Result<Page, String> {
-        let mut page = Page { text: stream.into(), numbers: numbers.into(), ..Page::default() };
-        page.open().map(|()| page)
-    }
-
-    #[test]
-    fn numbers_and_a_name_are_a_run() {
-        for (boundary, ring, gaps) in [(Boundary::Walls, 0.0, 31), (Boundary::Ring, 1.0, 30)] {
-            let mut numbers = NUMBERS;
-            numbers[7] = ring;
-            let mut pieces = opened("page", &numbers).unwrap();
-            while pieces.advance(10).unwrap() {}
-            let chain = Chain { masses: 30, forcing_frequency: 1.5, boundary, ..Chain::default() };
-            let scenario = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("page", 1, 4));
-            let impacts = Engine::new(&scenario).unwrap().impacts(70.0).unwrap();
-            let hit =
-                |gap: usize| impacts.iter().any(|hit| hit.gap % gaps == gap && hit.time > 50.0);
-            let distinct = (0..gaps).filter(|gap| hit(*gap)).count();
-            let count = impacts.len() as f64;
-            assert_eq!(pieces.numbers, [70.0, count, distinct as f64, gaps as f64, COLUMNS as f64]);
-            assert!(count > 100.0);
-            assert_eq!(pieces.picture.iter().sum::<u32>() as f64, count);
-            // The same amplitudes one by one, in one piece.
-            let amplitudes = scenario.forcing.into_iter().flatten();
-            let given: Vec<f64> = numbers[..9].iter().copied().chain(amplitudes).collect();
-            let mut whole = opened("", &given).unwrap();
-            assert!(!whole.advance(u64::MAX).unwrap());
-            assert_eq!((whole.text.len(), &whole.text), (64, &pieces.text));
-        }
-        let none = opened("", &NUMBERS[..9]).map(|_| ()).unwrap_err();
-        assert!(none.starts_with("forcing: it has 0 pairs for 30 masses; give one"), "{none}");
-    }
-
-    #[test]
-    fn the_law_is_that_of_the_theory() {
-        assert_eq!(law(100, f64::NAN), 2);
-        assert_eq!(law(100, 0.02), 0);
-        let numbers = PAGE.with_borrow(|page| page.numbers.clone());
-        assert_eq!(numbers.len(), 6 + 2 * 100);
-        assert!((numbers[6..106].iter().sum::<f64>() - 1.0).abs() < 1e-12);
-        assert_eq!((numbers[0], numbers[1]), (k_star(100, 0.02), mean(100, 0.02)));
-        assert!(
-            numbers[2] < numbers[3] && numbers[4] < numbers[5] && numbers[5].ceil() == numbers[0]
-        );
-        assert!(p_of_sigma(0.01) == 0.0 && p_of_sigma(0.2) > p_of_sigma(0.1));
-    }
 }

@@ -310,29 +310,3 @@ pub fn short(value: f64, digits: usize) -> String {
         shown
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn labels(axis: &Axis) -> Vec<&str> {
-        axis.ticks.iter().filter_map(|t| t.label.as_deref()).collect()
-    }
-
-    #[test]
-    fn ticks_are_exact_multiples_and_powers() {
-        let axis = Axis::linear(-0.1, 0.3, 0.1, 2, "σ");
-        assert_eq!((labels(&axis), axis.ticks.len()), (vec!["−0.1", "0", "0.1", "0.2", "0.3"], 9));
-        let axis = Axis::decades(-3, 0, 1, "p");
-        assert_eq!(labels(&axis), ["10^{−3}", "10^{−2}", "10^{−1}", "10^{0}"]);
-        assert_eq!(axis.ticks.len(), 4 + 3 * 8);
-        let short = Axis::decades(-1, 1, 1, "").between(0.2, 2.0).label_1_2_5();
-        assert_eq!((short.lo, labels(&short)), (0.2, vec!["0.2", "0.5", "1", "2"]));
-        let axis = Axis::decades(-20, 7, 1, "");
-        let whole = axis.ticks.iter().filter(|tick| tick.label.is_some());
-        assert!(whole.zip(-20..).all(|(tick, power)| axis.position(tick.at) == f64::from(power)));
-        assert!(!axis.contains(0.0) && !axis.contains(-1.0) && !axis.contains(f64::NAN));
-        let around = Axis::decades_around([0.02, 30.0].into_iter(), 1, "");
-        assert_eq!((around.lo, around.hi), (0.01, 100.0));
-    }
-}

@@ -96,31 +96,3 @@ impl Record {
         Some(DataFile { name: format!("{}.csv", self.suffix), header, rows })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_series_is_one_set_of_rows_whatever_it_is_drawn_with() {
-        let (x, y) = ("sigma (d omega^2)".into(), "t, or so (1/omega)".into());
-        let mut record = Record { suffix: "a".into(), x, y, ..Record::default() };
-        assert_eq!(record.file(), None);
-        record.add("*σ* = 3", [(0.3, 0.1, 0.9).into()]);
-        let twice = [(0.5, 0.5), (0.5, 0.5), (0.5, 0.6), (0.1, 0.2)];
-        record.add("other", twice.map(DataPoint::from));
-        record.add("*σ* = 3", [(0.1, 0.2).into(), (0.3, 0.25).into()]);
-        let error = Estimate { value: 0.2, error: 0.01, interval: [0.2; 2] };
-        record.add("*σ* = 3", [(0.1, error).into()]);
-        let lines = [
-            "series (text),sigma (d omega^2),\"t, or so (1/omega)\",standard_error (1/omega),low (1/omega),high (1/omega)",
-            "sigma = 3,0.1,0.2,0.01,,",
-            "sigma = 3,0.3,0.25,,0.1,0.9",
-            "other,0.5,0.5,,,",
-            "other,0.5,0.6,,,",
-            "other,0.1,0.2,,,",
-        ];
-        let file = record.file().unwrap();
-        assert_eq!((file.name.as_str(), file.csv()), ("a.csv", lines.join("\n") + "\n"));
-    }
-}
