@@ -1,6 +1,7 @@
 //! Runs the verb `sweep`: an ensemble, with a row for each σ.
 
 use super::range::{Values, values, within};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
 use impact_chain::rise::{Mean, RisePoint};
 use impact_chain::{Boundary, Chain, Counts, Graze, LATEST, Protocol, Start};
@@ -11,6 +12,7 @@ use literate::Failure;
 use literate::cli::terminal::{Threads, print, warn};
 use literate::experiments::cutting::Cutting;
 use literate::table::{DataFile, shortest};
+use serde_json::from_value;
 use std::ops::Range;
 
 /// Run an ensemble of random chains at each σ and print a row for each σ
@@ -59,11 +61,11 @@ pub struct Args {
     #[arg(long, value_name = "r", default_value = "0.8", value_parser = within(0.0, 1.0), allow_hyphen_values = true)]
     restitution: f64,
     /// How a realisation starts: at rest, without free part, or with a random one.
-    #[arg(long, value_name = "START", default_value = "rest", value_parser = ["rest", "zero", "random"])]
-    initial: String,
+    #[arg(long, value_name = "START", default_value = "rest", value_parser = PossibleValuesParser::new(["rest", "zero", "random"]).try_map(|name| from_value::<Start>(name.into())))]
+    initial: Start,
     /// What stands at the ends.
-    #[arg(long, value_name = "BOUNDARY", default_value = "walls", value_parser = ["walls", "ring"])]
-    boundary: String,
+    #[arg(long, value_name = "BOUNDARY", default_value = "walls", value_parser = PossibleValuesParser::new(["walls", "ring"]).try_map(|name| from_value::<Boundary>(name.into())))]
+    boundary: Boundary,
     /// Master seed of the random streams.
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
@@ -121,12 +123,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
         natural_frequency: args.natural_frequency,
         forcing_frequency: args.forcing_frequency.unwrap_or(default.forcing_frequency),
         restitution: args.restitution,
-        boundary: if args.boundary == "ring" { Boundary::Ring } else { Boundary::Walls },
-        start: match args.initial.as_str() {
-            "zero" => Start::Zero,
-            "random" => Start::Random,
-            _ => Start::Rest,
-        },
+        boundary: args.boundary,
+        start: args.initial,
     };
     if chain.forcing_frequency == chain.natural_frequency {
         let what =

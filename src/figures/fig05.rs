@@ -28,7 +28,7 @@ pub fn draw_circuit(
 
     let duration = segment.until - segment.from;
     let walls = (segment.masses + 1) as f64;
-    let x = time_axis(duration);
+    let x = Axis::linear(0.0, duration, 1.0, 5, "time *t* (1/*ω*)");
     let y = Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*");
     let panel = sheet.panel(Frame::new(1200, 4900, 8000, 8500), x, y)?.with_suffix("b");
     sheet.area.draw_text("(b)", &style, (260, 4690))?;
@@ -42,13 +42,6 @@ pub fn draw_circuit(
         short(duration, 3),
     );
     Ok(sheet.finish(title, description))
-}
-
-fn time_axis(duration: f64) -> Axis {
-    let label = "time *t* (1/*ω*)";
-    let step = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0].into_iter().find(|s| duration / s <= 8.0);
-    let step = step.unwrap_or(50.0);
-    Axis::linear(0.0, duration, step, if step == 2.0 { 2 } else { 5 }, label)
 }
 
 /// Walls, equilibria, paths and impacts; these have the number of the edge that leaves them in (a).

@@ -96,6 +96,7 @@ trace s.json --until 5 --max-impacts=-1|1.5|99999999999999999999 => --max-impact
 trace s.json --until 5 --step 0.1 => --step; certified takes neither; leave it out
 trace s.json --until 5 --method verlet --step 0 => --step: 0.0; give a number
 trace s.json --until 5 --method verlet --tolerance 0.1 => --tolerance; --step
+trace ring.json --until 9 --method truth => walls only; another method
 trace s.json --until 5 --method euler => euler; verlet; certified
 sweep --masses 5 => --sigma
 sweep --sigma -0.1|NaN|x|0.2..0.1:0.01|0.1..0.2:0|0.1..0.2|0..1e6:1 => --sigma
@@ -139,6 +140,7 @@ fn options_out_of_range() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     fs::write(here.join("s.json"), SCENARIO).unwrap();
+    fs::write(here.join("ring.json"), with(r#""boundary":"ring""#)).unwrap();
     fs::write(here.join("file"), "").unwrap();
     fs::create_dir(here.join("empty")).unwrap();
     crate::refused(here, "trace --until 1 no\nsuch", &["no such: "]);

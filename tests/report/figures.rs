@@ -42,12 +42,6 @@ fn strokes(d: &str) -> Vec<Vec<(f64, f64)>> {
     strokes
 }
 
-fn view(document: &Document) -> (f64, f64) {
-    let view = numbers(document.root_element().attribute("viewBox").unwrap());
-    assert_eq!(&view[..2], [0.0, 0.0]);
-    (view[2], view[3])
-}
-
 /// A label: its words, its colour, its box on the sheet, and the size of its smallest letters.
 #[derive(Debug)]
 struct Label {
@@ -123,6 +117,7 @@ struct Picture {
 impl Picture {
     fn of(id: &str, svg: &str, words: String) -> Picture {
         let document = Document::parse(svg).unwrap();
+        let size = numbers(document.root_element().attribute("viewBox").unwrap());
         let (mut labels, mut shapes) = (Vec::new(), Vec::new());
         for group in document.descendants().filter(|n| n.tag_name().name() == "g") {
             if group.attribute("aria-label").is_some() {
@@ -160,7 +155,7 @@ impl Picture {
                 });
             }
         }
-        Picture { id: id.into(), size: view(&document), labels, shapes, words }
+        Picture { id: id.into(), size: (size[2], size[3]), labels, shapes, words }
     }
 }
 

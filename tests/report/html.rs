@@ -8,18 +8,17 @@ use std::sync::LazyLock;
 
 static PAGES: LazyLock<BTreeMap<&str, String>> = LazyLock::new(|| {
     let text = |page: &str| String::from_utf8(QUICK.report[page].clone()).unwrap();
-    QUICK
-        .paper
-        .edition
-        .documents
-        .iter()
-        .map(|document| (document.page, text(document.page)))
-        .collect()
+    let documents = QUICK.paper.edition.documents.iter();
+    documents.map(|document| (document.page, text(document.page))).collect()
 });
 
-fn page(name: &str) -> Document<'static> {
+fn parsed(text: &str) -> Document<'_> {
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
-    Document::parse_with_options(&PAGES[name], options).unwrap_or_else(|error| panic!("{error}"))
+    Document::parse_with_options(text, options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn page(name: &str) -> Document<'static> {
+    parsed(&PAGES[name])
 }
 
 fn pages() -> impl Iterator<Item = (&'static str, Document<'static>)> {
@@ -46,15 +45,10 @@ fn words(node: Node<'_, '_>) -> String {
 #[test]
 fn every_link_lands_wherever_the_report_is_written() {
     let links = |text: &str| {
-        let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
-        let page = Document::parse_with_options(text, options).unwrap();
-        let all = |names: [&str; 2]| -> Vec<String> {
-            let nodes = page.descendants();
-            nodes
-                .filter_map(|n| names.iter().find_map(|name| n.attribute(*name)).map(String::from))
-                .collect()
-        };
-        (all(["href", "src"]), all(["id", "id"]))
+        let page = parsed(text);
+        let all =
+            |name| page.descendants().filter_map(move |n| n.attribute(name)).map(String::from);
+        (all("href").chain(all("src")).collect(), all("id").collect())
     };
     super::links_land(
         |report| {

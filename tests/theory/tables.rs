@@ -30,6 +30,11 @@ fn p_crit_and_p_jump_of_a_hundred_vertices() {
     // Eq. (25) and the σ that it gives to the jump, from 40-digit arithmetic.
     assert!((number("theory.gap[sigma=0.12].p") / 8.87017160097868e-4 - 1.0).abs() < 1e-14);
     assert!((number("theory.relation.sigma_jump") - 0.1469211811).abs() < 5e-11);
+    // For a start from rest, from 40-digit arithmetic, and 1 − (1 − p_rest)^101.
+    assert!((number("theory.gap[sigma=0.12].p_rest") - 0.0309524).abs() < 1e-7);
+    assert!((number("theory.gap[sigma=0.12].any_rest") - 0.958).abs() < 1e-3);
+    assert!((0.099..0.1).contains(&number("theory.relation.sigma_kept_half")));
+    assert!((0.07..0.09).contains(&number("theory.relation.sigma_kept_onset")));
 }
 
 #[test]
@@ -49,15 +54,6 @@ fn sigmas_invert_the_relation() {
     ] {
         assert!((found / wanted - 1.0).abs() < 1e-12, "{found} {wanted}");
     }
-}
-
-/// p_rest from 40-digit arithmetic, and 1 − (1 − p_rest)^101.
-#[test]
-fn gaps_that_close_by_themselves_have_their_known_values() {
-    assert!((number("theory.gap[sigma=0.12].p_rest") - 0.0309524).abs() < 1e-7);
-    assert!((number("theory.gap[sigma=0.12].any_rest") - 0.958).abs() < 1e-3);
-    assert!((0.099..0.1).contains(&number("theory.relation.sigma_kept_half")));
-    assert!((0.07..0.09).contains(&number("theory.relation.sigma_kept_onset")));
 }
 
 #[test]
