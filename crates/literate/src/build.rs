@@ -86,8 +86,7 @@ impl Paper {
     }
 }
 
-/// Runs every experiment that is not in the store, and makes every file of a report, in memory,
-/// with links that hold in the folder `out`. Returns also what was judged.
+/// Makes every file of a report, in memory, with links that hold in the folder `out`, and judges.
 pub fn make_report(
     paper: &Paper,
     session: &Session<'_>,

@@ -1,5 +1,4 @@
-//! Reads files up to a bounded size, computes their hashes, and prepares text for messages: one
-//! short line without control characters, in plain words.
+//! Reads files up to a bounded size, computes their hashes, and prepares text for messages.
 
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -209,10 +208,7 @@ mod tests {
         let long = format!("begin{}end", "σ".repeat(1000));
         let line = one_line(&long, 30);
         assert_eq!(line.chars().count(), 30);
-        assert!(
-            line.starts_with("begin") && line.ends_with("σend") && line.contains('…'),
-            "{line}"
-        );
+        assert!(line.starts_with("beginσ") && line.ends_with("σend"), "{line}");
         assert_eq!(one_line("abc", 3), "abc");
     }
 }

@@ -226,8 +226,7 @@ mod tests {
         }
     }
 
-    /// A million doubles of any bits and integers: all digits read back the same. In some of the
-    /// doubles fewer digits are those of the decimal conversion of Rust, which rounds exactly.
+    /// Fewer digits of a double are those of the decimal conversion of Rust, which rounds exactly.
     #[test]
     fn numbers_are_rounded_once_and_read_back_the_same() {
         let plain = |number| print(&number, Style::default()).plain();

@@ -65,8 +65,7 @@ impl PublishedError {
 }
 
 impl Published {
-    /// Reads the file. In an error is the line of what has another form, an id that stands twice,
-    /// or a number that is not what was printed.
+    /// Reads the file; an error has the line of what is wrong.
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
         let mut published: Published =
             toml::from_str(text).map_err(|error| PublishedError(toml_fault(text, &error)))?;

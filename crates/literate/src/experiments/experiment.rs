@@ -51,8 +51,7 @@ impl<P, T> Experiment<P, T> {
 pub type Found = Arc<dyn Any + Send + Sync>;
 
 impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
-    /// Returns the saved result if it is fresh, else that of a run, which is then saved. Units in
-    /// the store are not run again; each of the others is saved as soon as it is done.
+    /// Returns the saved result if it is fresh, else that of a run, which is then saved.
     pub fn get(&self, session: &Session<'_>) -> Result<T, Error> {
         let (identity, progress) = (self.identity(session), &session.progress);
         let parameters = self.finite_parameters(session.profile)?;
@@ -80,8 +79,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
         }
     }
 
-    /// Returns the results of some units of an experiment that is cut, in their order, and how many
-    /// of them had to be run because they were not in the store.
+    /// Returns the results of some units, in their order, and how many of them had to be run.
     fn parts(
         &self,
         units: &[Unit],
@@ -172,8 +170,7 @@ pub trait AnyExperiment: Sync {
         units
     }
 
-    /// Runs those of the given units that are not in the store, and saves each as soon as it is
-    /// done; none if its result is fresh. Returns how many were run.
+    /// Runs and saves those of the units that are not in the store; returns how many were run.
     fn run_units(&self, _: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
         let is_stale = self.stale(session).is_some();
         self.found(session).map(|_| usize::from(is_stale))

@@ -1,5 +1,4 @@
-//! Shows progress as plain lines on standard error, a few seconds apart, and says whether a run is
-//! to end. Nothing of it goes into a result.
+//! Shows progress as plain lines on standard error, and says whether a run is to end.
 
 use super::Error;
 use std::io::Write;

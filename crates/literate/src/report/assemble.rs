@@ -54,8 +54,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     Ok(files)
 }
 
-/// Fills the prose of each document; returns the values with the scorecard among them, the filler
-/// with all names that templates use, and the filled prose.
+/// Fills the prose of each document; returns also the values, with the scorecard among them.
 fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     let mut values = input.values.clone();
     values.extend(scorecard(input.claims))?;
@@ -189,8 +188,7 @@ fn data_files(input: &Input<'_>, values: &Registry, ledger: &Ledger) -> Result<F
     Ok(files)
 }
 
-/// Adds each document in its formats, and what its pages load, and the errors of those that cannot
-/// be written; returns the ids of all values and statements of which a page opens the card.
+/// Adds each document in its formats; returns the ids of all things of which a page opens the card.
 fn write_documents(
     input: &Input<'_>,
     parts: &[Part<'_>],
@@ -255,8 +253,7 @@ fn data(file: &DataFile) -> (String, Vec<u8>) {
     (format!("data/{}", file.name), file.csv().into_bytes())
 }
 
-/// Returns an error for each link that leads neither to a place of its document, nor to a file or
-/// folder of the report or of the project, nor to the web.
+/// Returns an error for each link that leads neither to a place or a file nor to the web.
 fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_>) -> Vec<Error> {
     let committed = || files.keys().map(String::as_str).filter(|path| !is_generated(path));
     let is_page = |to: &str| input.edition.documents.iter().any(|document| document.page == to);

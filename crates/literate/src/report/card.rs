@@ -1,5 +1,4 @@
-//! Makes the card of a value, figure, equation or statement, for pages and for the terminal: all
-//! that is known of it.
+//! Makes the card of a value, figure, equation or statement: all that is known of it.
 //!
 //! Cards need values.json, ledger.json and the parameters of the profile, and no run.
 

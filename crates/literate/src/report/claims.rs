@@ -91,10 +91,8 @@ pub fn printed(published: &Published) -> Vec<Value> {
     chosen.chain(stated).collect()
 }
 
-/// Counts the statements as values: `score.total`, `score.reproduced`,
-/// `score.differs_and_explained`, `score.differs`, `score.cannot_be_judged`; for each basis those
-/// reproduced, `score.exact`, and all, `score.exact_of`; for each word for a difference,
-/// `score.misprint`; and `score.definitions`.
+/// Counts the statements as values: all, by verdict, by basis (those reproduced, and of how many),
+/// by word for a difference; and the definitions.
 pub fn scorecard(claims: &[Check]) -> Vec<Value> {
     let value = |name: String, count: usize| {
         let id = format!("score.{}", name.replace(' ', "_"));

@@ -167,8 +167,7 @@ impl From<&str> for Formula {
     }
 }
 
-/// Returns a printed value as text, or as a formula where it has a power of ten. Words are data:
-/// whatever signs they have, they are text in one line.
+/// Returns a printed value as text, or as a formula where it has a power of ten.
 pub fn printed(shown: &Shown) -> Vec<Inline> {
     let numeral = match shown {
         Shown::Words(words) => return vec![Inline::Text(in_one_line(words))],

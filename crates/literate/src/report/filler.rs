@@ -183,8 +183,7 @@ impl Filler {
     }
 }
 
-/// Reads the name with which an expression begins, `table["row"].column`: its keys, none for a row
-/// that is computed, each with where it ends in the expression.
+/// Reads the name that begins an expression: each key, none of a computed row, and where it ends.
 fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
     let (mut steps, mut end) = (Vec::new(), 0);
     loop {

@@ -87,8 +87,7 @@ fn names(folder: &Path) -> Result<Vec<String>, Error> {
     }
 }
 
-/// Returns the paths of all files below a folder, sorted, with slashes. Links are listed and not
-/// followed; what a killed run left unfinished is skipped.
+/// Returns the paths of all files below a folder, sorted; links are listed and not followed.
 pub fn walk(folder: &Path) -> Result<Vec<String>, Error> {
     let mut paths = Vec::new();
     let mut open = vec![String::new()];
@@ -205,8 +204,7 @@ pub fn write(folder: &Path, files: &Files, force: bool) -> Result<(), Error> {
     Ok(())
 }
 
-/// Compares a folder with the files that are expected; returns how many there are, and a line for
-/// each that is missing, differs or is not expected. Files that are built may be missing.
+/// Returns how many files are expected, and a line for each fault; what is built may be missing.
 fn faults(folder: &Path, mut expected: Digests) -> Result<(usize, Vec<String>), Error> {
     expected.retain(|path, _| !is_generated(path) || folder.join(path).exists());
     let fault = |(path, digest): (&String, &String)| match input::regular(&folder.join(path)) {
@@ -277,9 +275,7 @@ mod tests {
         // A page is listed too; in a clone it is absent.
         fs::write(folder.join("report.html"), "edited").unwrap();
         assert_eq!(verify(folder).unwrap().1, ["differs  report.html"]);
-        assert!(
-            matches!(write(folder, &new, false), Err(Error::Edited(_, names)) if names == ["report.html"])
-        );
+        assert!(matches!(write(folder, &new, false), Err(Error::Edited(..))));
         for lost in ["report.html", BUILT] {
             fs::remove_file(folder.join(lost)).unwrap();
             assert_eq!(verify(folder).unwrap(), (3, Vec::new()), "{lost}");

@@ -41,8 +41,7 @@ impl Labels {
         self.labels.get(id)
     }
 
-    /// Numbers the sections, figures, equations, captioned tables, listings and statements of a
-    /// document, in order; figures and equations that have a number keep it.
+    /// Numbers what references can name, in order; a number that is given is kept.
     pub fn number_all(&mut self, blocks: &mut [Block], document: Document) -> Result<(), Error> {
         let mut given: Vec<(&str, String)> = Vec::new();
         visit(blocks, &mut |inline| {

@@ -1,5 +1,4 @@
-//! Finds hard-coded numbers: each number in prose has to be a value, part of mathematics, a
-//! reference, or declared. The manual ([`crate::manual`]) lists what is exempt.
+//! Finds hard-coded numbers in prose; the manual ([`crate::manual`]) lists what is exempt.
 
 use super::error::Error;
 use super::mark::{CLOSE, OPEN};
@@ -175,8 +174,7 @@ pub fn formula(tex: &str) -> Option<String> {
     sides.iter().find(|side| is_hard_coded(side)).cloned()
 }
 
-/// Refuses hard-coded numbers in texts outside the prose, such as a reason or an alternative text.
-/// These have no formulas, so `0` and `1` are allowed as in a formula.
+/// Refuses hard-coded numbers in texts without formulas; `0` and `1` are allowed as in a formula.
 pub fn check(place: &str, text: &str, declared: &Declared) -> Result<(), Error> {
     let mut found = words(text, 0..text.len(), declared);
     found.retain(|(_, numeral)| !["0", "1"].contains(&numeral.as_str()));

@@ -1,5 +1,4 @@
-//! Makes the index of the search: the words of a document, each with its section, statement or
-//! equation.
+//! Makes the index of the search: the words of a document, each with its place.
 
 use super::document::{Block, Inline, Table, heading_place, place_on_page, spelt};
 use super::tex;
@@ -7,8 +6,7 @@ use super::tex;
 /// What the search can find: the id of its place, the name of its section, and its text.
 type Passage = [String; 3];
 
-/// Returns a passage for each heading, paragraph, equation with a number, caption, item of a list,
-/// row of a table and reference of a document.
+/// Returns a passage for each piece of a document that has text.
 pub fn passages(blocks: &[Block], document: &str) -> Vec<Passage> {
     let mut index = Index { section: ["text".into(), document.into()], passages: Vec::new() };
     index.blocks(blocks);

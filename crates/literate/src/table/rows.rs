@@ -259,10 +259,8 @@ mod tests {
         assert_eq!(table_of(&cell.id), Some("test.rise"));
         assert_eq!(table.number(&[("r", 0.8), ("sigma", 0.3)], "mean"), Ok(7.5));
         // A closure's item is the function in which it stands.
-        assert_eq!(
-            at("test.rise[r=0,sigma=0.1].runs").source,
-            "literate::table::rows::tests::table"
-        );
+        let source = &at("test.rise[r=0,sigma=0.1].runs").source;
+        assert_eq!(source, "literate::table::rows::tests::table");
         assert_eq!(at("test.rise[r=0.8,sigma=0.1].inverse").unit, r"$1/\omega$");
         assert_eq!(at("test.rise[r=0.8,sigma=0.1].sigma").unit, r"$d \omega^2$");
     }
@@ -278,10 +276,7 @@ mod tests {
         let tables = Tables::from([(table.name(), Arc::new(table.clone()))]);
         let what = |address| cell(&tables, address).unwrap_err().to_string();
         assert!(what("test.rise[r=0,sigma=0.1].meen").contains("no column meen; nearest: mean"));
-        assert!(
-            what("test.ris.mean")
-                .contains("no table test.ris; nearest: test.rise; add its experiment")
-        );
+        assert!(what("test.ris.mean").contains("nearest: test.rise; add its experiment"));
         // Nothing is drawn of a column, a key or a row that is not there.
         let column = table.series(&[], "sigma", "meen").unwrap_err();
         assert!(column.to_string().contains("test.rise: there is no column meen; nearest: mean"));

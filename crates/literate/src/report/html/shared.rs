@@ -19,8 +19,7 @@ const FONTS: [(&str, &[u8]); 4] = [
     ("LibertinusMath-Regular", include_bytes!("../../../fonts/LibertinusMath-Regular.woff2")),
 ];
 
-/// Returns the files that all pages share: fonts, and the cards of their values as a script, since
-/// a page on a disk can load nothing else. A row of several cards is stored once.
+/// Returns fonts, and cards as a script, since a page on a disk can load nothing else.
 pub fn files(
     values: &BTreeSet<String>,
     cards: Cards<'_>,
