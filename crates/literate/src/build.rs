@@ -68,7 +68,6 @@ impl Paper {
     /// Returns all checks: statements, first those that rest on a measure of ours, then relations.
     pub fn checks(&self, results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
         let mut checks = judge_all(published, &self.rules, results)?;
-        // First what rests on a measure of the author, where a reader may judge otherwise.
         checks.sort_by_key(|check| (check.kind, check.basis != Basis::OurMeasure));
         Ok(checks)
     }

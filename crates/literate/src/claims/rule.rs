@@ -246,8 +246,7 @@ mod tests {
     #[test]
     fn other_printed_words_are_refused_and_the_basis_stays_without_a_verdict() {
         let rule = |words| Rule::new("rise", |_| Err(Error::Undecided)).reads(words);
-        let checks = judged(&[rule("{}").on(Basis::OurMeasure)]).unwrap();
-        let check = &checks[0];
+        let check = &judged(&[rule("{}").on(Basis::OurMeasure)]).unwrap()[0];
         assert_eq!((check.verdict, check.basis), (Verdict::CannotBeJudged, Basis::OurMeasure));
         assert!(!check.fails(), "{}", check.note);
         let error = judged(&[rule("{} or so")]).unwrap_err();

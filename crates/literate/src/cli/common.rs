@@ -31,9 +31,7 @@ impl RunOptions {
 
     pub fn session<'a>(&self, paper: &'a Paper) -> Result<Session<'a>, Failure> {
         if let Some(file) = paper.project.changed() {
-            warn(&format!(
-                "{file} has changed since this program was built; build it again to see the change"
-            ));
+            warn(&format!("{file} has changed since this program was built; build it again"));
         }
         let store = Store::open(&self.results(paper));
         paper.session(self.templates.as_deref(), self.profile, store, Progress::on_stderr())

@@ -51,7 +51,6 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         }
         found.extend(ids);
     }
-    // Of many things that one name means, a line each.
     let in_short = args.ids.len() < 2 && found.len() > 1;
     let found: Vec<Card> = found.iter().filter_map(|id| cards.get(id)).collect();
     let text = |card: &Card| if in_short { line(card) } else { shown(card) };

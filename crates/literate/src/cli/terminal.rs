@@ -8,9 +8,6 @@ use signal_hook::iterator::Signals;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
-/// The stack of a working thread in bytes; the default is less.
-const STACK: usize = 8 << 20;
-
 const MOST: usize = 1024;
 
 pub fn warn(line: &str) {
@@ -100,7 +97,7 @@ impl Threads {
         work: impl FnOnce() -> Result<T, Failure> + Send,
     ) -> Result<T, Failure> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.asked.unwrap_or(0));
-        let pool = pool.stack_size(STACK).build().map_err(|error| {
+        let pool = pool.stack_size(8 << 20).build().map_err(|error| {
             Failure::input(format!("--threads: {error}; give a smaller number of threads"))
         })?;
         pool.install(work)

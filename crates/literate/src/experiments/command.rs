@@ -36,8 +36,6 @@ struct Output {
     files: BTreeMap<String, Vec<u8>>,
 }
 
-const FIRST_LINES: usize = 5;
-
 impl Command {
     pub const fn new(name: &'static str, line: &'static str) -> Self {
         Command { name, line, parameters: |_| Json::Null, reads: &[], writes: &[] }
@@ -147,7 +145,7 @@ impl Command {
         let tables = tables_by_name(&mut reader).and_then(|found| reader.end().map(|()| found));
         let tables = tables.map_err(|error| {
             let printed = String::from_utf8_lossy(printed);
-            let first: Vec<&str> = printed.lines().take(FIRST_LINES).collect();
+            let first: Vec<&str> = printed.lines().take(5).collect();
             let problem = format!("printed no tables in JSON, which has null for NaN: {error}");
             format!("{problem}; {form}; it printed:\n{}", first.join("\n"))
         })?;

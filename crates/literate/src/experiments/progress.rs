@@ -7,8 +7,6 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
-const LINE_EVERY: u64 = 5;
-
 static QUIET: AtomicBool = AtomicBool::new(false);
 
 static STOP: AtomicBool = AtomicBool::new(false);
@@ -70,8 +68,7 @@ pub fn alive(line: impl Fn() -> String + Send + 'static) -> Sender<()> {
     let (ends, ended) = channel();
     let began = Instant::now();
     let speak = move || {
-        while ended.recv_timeout(Duration::from_secs(LINE_EVERY)) == Err(RecvTimeoutError::Timeout)
-        {
+        while ended.recv_timeout(Duration::from_secs(5)) == Err(RecvTimeoutError::Timeout) {
             if !QUIET.load(Ordering::Relaxed) {
                 say(&format!("{}, after {} s", line(), began.elapsed().as_secs()));
             }

@@ -307,7 +307,6 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> (Vec<String>, Vec<Erro
         }
         shown.push(figure.id.clone());
     }
-    // The path of an item leads to its line.
     let linked = |inline| match inline {
         Inline::Code(item) if item.contains("::") => link_to_line(&item, input.project),
         other => other,

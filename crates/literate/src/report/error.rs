@@ -9,9 +9,7 @@ const MAX_LENGTH: usize = 1000;
 pub enum Error {
     #[error("{0} has no number; say what stands there, by «… | otherwise(words=\"…\")»")]
     NoNumber(String),
-    #[error(
-        "value {0}: not a finite number; leave the value out or say why there is none in words"
-    )]
+    #[error("value {0}: not a finite number; leave it out or say why there is none in words")]
     NotFinite(String),
     #[error(
         "value {}: its words have the character U+{:04X}, which no format can show; leave it out where they come from",

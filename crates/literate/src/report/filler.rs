@@ -148,7 +148,6 @@ impl Filler {
         let (what, place) = report.split_once("--> ").unwrap_or((&report, ""));
         let what = what.split(" Available fields: ").next().unwrap_or_default();
         let what = plain(what.trim_start_matches("error: ").trim_end());
-        // Tera names its usual signs.
         let signs = [("%}", "%>"), ("{%", "<%"), ("}}", "»"), ("{{", "«")];
         let what = signs.iter().fold(what, |what, (theirs, ours)| what.replace(theirs, ours));
         let place: Vec<&str> = place.lines().next().unwrap_or_default().split(':').collect();
@@ -277,9 +276,7 @@ fn register(tera: &mut Tera, empty: BTreeSet<String>) {
     tera.register_filter("significant", move |text: &str, arguments: Kwargs, _: &State| {
         match arguments.must_get("digits") {
             Ok(digits @ 0..=MAX_DIGITS) => with(text, &format!("significant{digits}")),
-            _ => Err(tera::Error::message(
-                "`significant` needs a number of digits, as in significant(digits=2)",
-            )),
+            _ => Err(tera::Error::message("`significant` needs digits: significant(digits=2)")),
         }
     });
     tera.register_filter("otherwise", move |text: &str, arguments: Kwargs, _: &State| {

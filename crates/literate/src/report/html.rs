@@ -299,7 +299,6 @@ impl<'a> Page<'a> {
                 let file = within.map_or("", |document| document.page);
                 let sign = shown.chars().next();
                 let verdict = Verdict::ALL.iter().find(|verdict| Some(verdict.sign()) == sign);
-                // A sign alone has its word for those who do not see it.
                 // Elsewhere than in the ledger it opens the card of its statement.
                 let class = verdict.map_or(String::new(), |verdict| {
                     let words = verdict.words();

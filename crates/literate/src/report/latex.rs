@@ -194,7 +194,6 @@ fn inline(inline: &Inline) -> String {
         Inline::Reference { to, within: None, shown } => {
             format!("\\hyperref[{}]{{{}}}", place(to), tex::text(shown))
         }
-        // A PDF is read without the other documents.
         Inline::Reference { shown, .. } => tex::text(shown),
         Inline::Anchor { id, number } => format!("{}{number}", label(id)),
         Inline::Unresolved { ids, .. } => tex::text(&ids.join("; ")),
@@ -285,7 +284,6 @@ fn table(table: &Table) -> String {
     for end in ["\\endfirsthead\n", "\\endhead\n\\bottomrule\n\\endlastfoot\n"] {
         out.push_str(&format!("\\toprule\n{head}\\midrule\n{end}"));
     }
-    // Rows of several lines get a space between them.
     for cells in &table.rows {
         out.push_str(&row(cells));
         out.push_str(if wraps { "\\addlinespace[2pt]\n" } else { "" });

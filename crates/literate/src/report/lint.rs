@@ -27,9 +27,9 @@ impl Declared {
         let declared: Declared = toml::from_str(text).map_err(syntax)?;
         match declared.literal.iter().find(|group| group.why.trim().is_empty()) {
             None => Ok(declared),
-            Some(Group { phrases, .. }) => Err(Error::Template(format!(
-                "literals.toml: {phrases:?} have no reason; write it in `why`"
-            ))),
+            Some(Group { phrases, .. }) => {
+                Err(Error::Template(format!("literals.toml: {phrases:?} have no reason in `why`")))
+            }
         }
     }
 

@@ -65,7 +65,6 @@ fn block(block: &Block) -> String {
             inlines(origin),
             fence = fence(text, 3)
         ),
-        // Markdown runs nothing.
         Block::Lab { .. } => String::new(),
         Block::Bibliography(entries) => {
             let entry = |entry: &document::Reference| {
@@ -196,7 +195,6 @@ fn write_inline(inline: &Inline, out: &mut String) {
         }
         Inline::Anchor { id, number } => out.push_str(&format!("{}{number}", anchor(id))),
         Inline::Unresolved { ids, .. } => out.push_str(&ids.join("; ")),
-        // Part of the running text.
         Inline::Maths(_) | Inline::Value { .. } => (),
     }
 }

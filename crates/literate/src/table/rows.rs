@@ -258,7 +258,6 @@ mod tests {
         assert_eq!((cell.experiment.as_str(), cell.note.as_str()), ("test", "the mean"));
         assert_eq!(table_of(&cell.id), Some("test.rise"));
         assert_eq!(table.number(&[("r", 0.8), ("sigma", 0.3)], "mean"), Ok(7.5));
-        // A closure's item is the function in which it stands.
         let source = &at("test.rise[r=0,sigma=0.1].runs").source;
         assert_eq!(source, "literate::table::rows::tests::table");
         assert_eq!(at("test.rise[r=0.8,sigma=0.1].inverse").unit, r"$1/\omega$");
@@ -284,7 +283,6 @@ mod tests {
             assert!(table.curve(&keys, "sigma", "mean").is_err(), "{keys:?}");
         }
         assert!(table.distinct("rr").is_err() && table.number(&[("r", 0.8)], "mean").is_err());
-        // There is a cell, and it has no number.
         assert!(table.number(&[("r", 0.0), ("sigma", 0.3)], "mean").is_err());
         assert!(table.number(&[("r", 0.0), ("sigma", 0.1)], "inverse").is_err());
         for no in ["half_height", "v.half_height", "a[b]c"] {

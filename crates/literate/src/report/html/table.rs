@@ -45,7 +45,6 @@ impl Page<'_> {
             };
             class.map_or(String::new(), |class| format!(" class=\"{class}\""))
         };
-        // On a narrow screen rows of many columns become lists, or scroll sideways.
         let has_words = |cell: &Vec<Inline>| {
             let is_word = |inline: &Inline| matches!(inline, Inline::Text(text) if text.contains(char::is_alphabetic));
             cell.iter().any(is_word)
@@ -74,7 +73,6 @@ impl Page<'_> {
                     "<span aria-hidden=\"true\">{words}</span><span class=\"unseen\">{spelt}</span>"
                 );
             }
-            // A head without words is no head.
             let _ = if words.trim().is_empty() {
                 write!(out, "<td{}></td>", class(i))
             } else {

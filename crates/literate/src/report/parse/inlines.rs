@@ -55,14 +55,10 @@ impl Reader<'_> {
                 Inline::Code(self.plain(&code)?)
             }
             Event::InlineMath(_) if self.hides > 0 => {
-                return Err(markup(
-                    "GitHub does not render a formula inside emphasis or a link; move it out",
-                ));
+                return Err(markup("GitHub renders no formula in emphasis or a link; move it out"));
             }
             Event::InlineMath(_) if self.filled.text[..range.start].ends_with(touches) => {
-                return Err(markup(
-                    "GitHub does not render a formula right after a word or a number; put a space between them, or move the word into the formula",
-                ));
+                return Err(markup("a formula right after a word or a number needs a space"));
             }
             Event::InlineMath(tex) => {
                 self.check_numbers(&range);
@@ -106,7 +102,6 @@ impl Reader<'_> {
             if *link_type == LinkType::ShortcutUnknown {
                 return self.reference(dest_url, range.start);
             }
-            // An address between < and > is shown as it is.
             let to = self.plain(dest_url)?;
             return Ok(Inline::Link { to: to.clone(), shown: vec![Inline::Text(to)] });
         }

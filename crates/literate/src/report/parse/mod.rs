@@ -174,7 +174,7 @@ impl<'a> Reader<'a> {
                 id.iter().try_for_each(|id| self.id("sec", id, range.start))?;
                 if level > 3 || level == 1 && std::mem::replace(&mut self.titled, true) {
                     return Err(markup(
-                        "a document has one title (#), and sections with ## and ###",
+                        "a document has one title (#) and sections with ## and ###",
                     ));
                 }
                 let text = self.line()?;

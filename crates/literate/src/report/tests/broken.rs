@@ -63,7 +63,7 @@ at $a \\ b$ => 14:4 => \begin{aligned}
 at $\begin{align} a \end{align}$ => 14:4 => an environment must be one of aligned, 
 at $x^«v.half_height»$ => 14:4 => a value used as an index
 at «v.half_height»$x$ => 14:19 => right after a word or a number
-a *word with $x$* => 14:14 => inside emphasis
+a *word with $x$* => 14:14 => in emphasis
 A delimiter that is not closed.
 at $\frac{1}{2$ of => 14:4 => a dollar sign alone
 a *word => 14:3 => unclosed markup
@@ -109,7 +109,6 @@ fn faults_in_prose_are_reported_with_their_places() {
 fn several_faults_have_their_places() {
     for (broken, expected) in [
         ("a *b\n\n12\n\n- at $\\nosuch x$", ["14:3:", "16:1:", "18:6:"].as_slice()),
-        // A broken heading keeps its id.
         ("## A *b {#sec:b}\n\nSee [@sec:b], [@sec:c].", &["14:6:", "16:15"]),
         ("漢\n\nat é and $\\left( x$\n\nand 字", &["14:1:", "16:10", "18:5:"]),
     ] {

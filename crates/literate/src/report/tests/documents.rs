@@ -46,7 +46,6 @@ fn documents_refer_to_each_other() {
         let files = files.map(|(path, text)| (path, text.replace(from, to))).to_vec();
         Given { files, edition, ..given }.made()
     };
-    // A mistake in the second file of a document has its place there.
     let error = with("", "").unwrap_err().to_string();
     assert!(error.starts_with("report/02-second.md:3:24: [@sec:b.]: nothing"), "{error}");
     let report = with("[@sec:b.]", "[@sec:b]").unwrap();
@@ -69,7 +68,6 @@ more.tex => \renewcommand{\thesection}{S\arabic{section}}"##;
     has(&report, parts);
     let text = file(&report, "report.md");
     assert!(text.find("First") < text.find("Last"));
-    // Only a front page shows a figure again.
     let error = with("# More", "# More\n\n![Again.](figures/fig03.svg)").unwrap_err().to_string();
     assert!(error.contains("fig:fig03: two things"), "{error}");
 }
