@@ -1,5 +1,4 @@
-//! Gives the templates what they can name besides the cells of tables: some values, and the rows of
-//! generated tables.
+//! Gives the templates what is in no table: some values, and the rows of generated tables.
 //!
 //! A value is computed here from results and carries the path of the function that computed it,
 //! which the compiler gives ([`literate::value::origin`]). Groups are `v` (ours), `paper` (numbers
@@ -94,8 +93,7 @@ fn program_table(tested: &[&Program]) -> Json {
 
 /// What goes wrong most often in a scene with each method, at its settings from coarse to fine, and
 /// in how many cases; and whether failures end with an error or with a wrong result that looks like
-/// a right one. No method here warns of a result that it gives. `sizes` are the numbers of settings
-/// of the methods.
+/// a right one. No method here warns of a result that it gives. `sizes` counts settings by method.
 fn scene(what: &str, trials: &[Trial], sizes: &[usize]) -> Json {
     // In how many cases, and what.
     let outcome = |trial: &Trial| match (trouble(trial), trial.len() - right(trial), trial.len()) {

@@ -1,5 +1,4 @@
-//! Lists the numbered equations of the paper, and where each is in the source: a test finds
-//! `**Eq. (n)**` there.
+//! Lists the numbered equations of the paper with their homes, where a test finds `**Eq. (n)**`.
 
 use literate::report::ledger::EquationEntry;
 

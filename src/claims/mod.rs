@@ -1,8 +1,7 @@
 //! Judges what the paper states, row by row, by what this edition finds: [`Check`].
 //!
 //! A statement stands in `templates/published.toml` ([`Published`]) with its place; the [`Rule`]
-//! here with the same id judges it by the results of the experiments. Prose, table, `check` and its
-//! exit code read the same check.
+//! here with the same id judges it by the results of the experiments.
 //!
 //! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a
 //! difference no longer has the size that its explanation predicts. Relations compare numbers

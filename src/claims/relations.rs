@@ -35,12 +35,10 @@ pub fn rules() -> Vec<Rule> {
     }
 }
 
-/// Departures from a relation, each over its tolerance (chance, and the error of a formula): at
-/// most one.
+/// Departures from a relation, each over its tolerance (chance, and the error of a formula).
 type Departures = Result<Vec<f64>, Error>;
 
-/// Makes the rule of a relation that holds if no departure is above one; without any it cannot be
-/// judged.
+/// Makes the rule of a relation that holds if no departure is above one; without any it is open.
 fn relation(
     id: &'static str,
     statement: &'static str,
@@ -191,8 +189,7 @@ fn seeds_before_circuits(e: &Evidence<'_>) -> Departures {
 /// changes the share by some gaps of n times λ²e^{−λ}/2.
 const LEFT_OUT: f64 = 1.5;
 
-/// Up to the error of the formula and chance: five standard errors, and five chains where hardly
-/// any is expected.
+/// Up to the error of the formula, five standard errors, and five chains where few are expected.
 fn first_impacts_as_expected(e: &Evidence<'_>) -> Departures {
     let chains = e.results.table("nucleation.chains")?;
     let mut departures = Vec::new();
@@ -207,8 +204,7 @@ fn first_impacts_as_expected(e: &Evidence<'_>) -> Departures {
     Ok(departures)
 }
 
-/// Largest allowed error of a waiting time, in units of ε (d + R₁ + R₂) over the closing
-/// speed (ours).
+/// Largest error allowed of a waiting time, in units of ε (d + R₁ + R₂)/closing speed (ours).
 const WAITING: f64 = 8.0;
 
 /// What was promised before it was measured: no miss, waiting times to some units of rounding,

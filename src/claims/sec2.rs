@@ -86,8 +86,7 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     Ok(check.note(text!(note, all, RELEASED, few, limit, first, last, row.kept, row.ran)))
 }
 
-/// By the share of the realisations with an impact, with its interval, in each window of the map of
-/// protocols.
+/// By the share of the realisations with an impact, with its interval, in each window of the map.
 fn none_below(e: &Evidence<'_>) -> Judged {
     let row = small_force(e)?;
     let here = e.estimate(&format!("sweep.rows[sigma={}].kept", row.sigma))?;
@@ -130,8 +129,7 @@ fn jump(e: &Evidence<'_>) -> Judged {
 
 pub(super) const A_JUMP: &str = "ours: a jump is a step of half the height or more";
 
-/// By the bootstrap intervals of the mode at neighbouring σ: the least and the largest step that
-/// they allow.
+/// By the least and the largest step that bootstrap intervals of the mode allow at neighbouring σ.
 fn mode_jump(e: &Evidence<'_>) -> Judged {
     let rows = &sweep::main(e.results)?.first().rows;
     let intervals: Vec<[usize; 2]> = rows.iter().filter_map(|row| row.mode_interval).collect();

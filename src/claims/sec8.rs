@@ -292,10 +292,9 @@ fn ensured(e: &Evidence<'_>, what: &str, pick: fn(&Total) -> u64) -> Judged {
     let decided: Vec<f64> = shares.iter().filter(|row| row.3).map(|row| row.0).collect();
     let (at, all) = (decided.len(), shares.len());
     let counts = [at, all - at, all];
-    let tolerance = "at most {:1} at the paper's r, more at the lowest, at each σ";
-    let tolerance = text!(tolerance, NEGLIGIBLE);
-    let reason = "ours: one in a thousand, as in Section 2";
-    let check = by_runs(e, text, counts, tolerance, reason);
+    let tolerance =
+        text!("at most {:1} at the paper's r, more at the lowest, at each σ", NEGLIGIBLE);
+    let check = by_runs(e, text, counts, tolerance, "ours: one in a thousand, as in Section 2");
     let is_rare = |r: &&f64| shares.iter().all(|row| share(**r, row.0) <= Some(NEGLIGIBLE));
     let enough = *restitutions.iter().find(is_rare).ok_or(Undecided)?;
     let more = " Of the {} values of σ from {} to {} that were run with both r it decides at {}.";

@@ -49,8 +49,7 @@ pub fn half_unit(e: &Evidence<'_>) -> Result<f64, Error> {
     Ok(e.published.statement("sec2_half_height")?.half_unit())
 }
 
-/// Counts the cases in which a statement about the theory was compared, and those in which the
-/// paper is wrong.
+/// Counts the cases in which a statement about the theory was compared, and those where it fails.
 pub fn compared(e: &Evidence<'_>) -> Result<[usize; 2], Error> {
     let row = format!("theory.cases[statement={}]", e.statement.id);
     Ok(e.numbers(&row, ["compared", "failed"])?.map(|count| count as usize))

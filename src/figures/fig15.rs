@@ -1,5 +1,4 @@
-//! Draws Fig. 15: as Fig. 12, with higher-order circuits, and the change by these, which the paper
-//! does not show.
+//! Draws Fig. 15: as Fig. 12, with higher orders, and their change, which the paper does not show.
 
 use super::prelude::*;
 use super::simulated::*;

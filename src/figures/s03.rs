@@ -1,5 +1,4 @@
-//! Draws Fig. S3: how impacts spread from one gap that closes by itself, and the mean count
-//! that follows.
+//! Draws Fig. S3: how impacts spread from one gap, and the mean count that follows.
 
 use super::prelude::*;
 use super::simulated::{FORCING, count_axis};

@@ -1,5 +1,4 @@
-//! Draws Fig. S7: how long all impacts of a run are right, against its time and against the error
-//! of one impact.
+//! Draws Fig. S7: how long all impacts of a run are right, against its time and one impact's error.
 
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, by_method, look, over_engine, programs};

@@ -14,8 +14,7 @@ pub const CROSSES: Marker = (Symbol::Cross, 56, Stroke::solid(RED, THIN));
 /// Bars of intervals, which stay behind the marks.
 pub const INTERVAL: Stroke = Stroke::solid(GREY, 30);
 
-/// Makes the axis of σ around the rise. Beyond its end nothing changes any more; the data files
-/// have all σ.
+/// Makes the axis of σ around the rise; the data files have all σ.
 pub fn sigma_axis() -> Axis {
     Axis::linear(0.05, 0.25, 0.05, 5, FORCING)
 }

@@ -1,5 +1,4 @@
-//! Sets labels in type, as glyph outlines of the two shipped faces: a figure looks the same
-//! everywhere.
+//! Sets labels in type, as glyph outlines of the two shipped faces: the same on every machine.
 
 use super::error::Error;
 use super::markup::{self, Face, Level};

@@ -237,8 +237,7 @@ impl Panel {
     }
 
     /// Names something as [`Panel::label`] does, at this offset or at the nearest one where the
-    /// name is in the way of no line and no words drawn so far. Leaves the name out if there is no
-    /// room.
+    /// name is in the way of no line and no words drawn so far; leaves it out if there is none.
     pub fn label_nearby(
         &self,
         text: &str,

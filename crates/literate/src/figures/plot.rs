@@ -59,8 +59,7 @@ impl Plot {
         self
     }
 
-    /// Labels the horizontal axis and makes it logarithmic: numbers that are not positive are left
-    /// out.
+    /// Labels the horizontal axis and makes it logarithmic; only positive numbers are shown.
     pub fn log_x(mut self, label: &str) -> Self {
         self.x.is_log = true;
         self.x(label)
@@ -108,8 +107,7 @@ impl Plot {
         self.add(name, estimates.to_vec(), Some(Symbol::Disc))
     }
 
-    /// Adds a function of x across the plot; the range of y follows from it only where there is no
-    /// other data.
+    /// Adds a function of x across the plot; the range of y follows from other data, if any.
     pub fn curve(mut self, name: &str, function: impl Fn(f64) -> f64 + 'static) -> Self {
         let function: Option<Function> = Some(Box::new(function));
         self.series.push(Series { name: name.into(), points: Vec::new(), symbol: None, function });
@@ -152,8 +150,7 @@ impl Plot {
         Ok(sheet.finish(title, description))
     }
 
-    /// Draws the plot and returns the sheet and the panel, whose `area` takes any series or element
-    /// of plotters.
+    /// Draws the plot and returns sheet and panel, to which plotters can add series and elements.
     pub fn draw(mut self) -> Result<(Sheet, Panel), Error> {
         let (x, y) = self.axes();
         let first = self.series.first().ok_or(Error::NoSeries)?;

@@ -12,25 +12,17 @@ use plotters_backend::BackendTextStyle;
 /// Width of every figure: one column.
 pub const WIDTH: u32 = 8400;
 
-/// Size of axis labels: 8 points.
+/// Sizes of axis labels, 8 points, and of tick labels, 7 points.
 pub const TEXT: i32 = 282;
-
-/// Size of tick labels: 7 points.
 pub const SMALL: i32 = 247;
 
-/// Thickness of axes and ticks.
+/// Thickness of axes and ticks, of thin curves, and of curves.
 pub const HAIR: u32 = 16;
-
-/// Thickness of a thin curve.
 pub const THIN: u32 = 22;
-
-/// Thickness of a curve.
 pub const LINE: u32 = 36;
 
-/// Half the width of symbols that stand close together.
+/// Half the width of symbols, where they stand close together and elsewhere.
 pub const MEDIUM: i32 = 52;
-
-/// Half the width of symbols.
 pub const LARGE: i32 = 58;
 
 /// Text and axes.
@@ -129,8 +121,7 @@ pub fn words(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static
 }
 
 /// Makes the style of words that may stand on something: a rim of the page's colour sets them off.
-/// A style of plotters cannot say so. The name of the font does, since all words are set in the
-/// shipped fonts.
+/// A style of plotters cannot say so. The name of its font does, which chooses no font here.
 pub fn rimmed(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
     FontDesc::from(("rimmed", size)).color(&colour).pos(Pos::new(h, v))
 }
