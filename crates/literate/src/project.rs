@@ -123,8 +123,7 @@ impl Project {
         Some("../".repeat(above).into())
     }
 
-    /// Returns where a file or folder of the project is written that is given by its path from the
-    /// top: below the current folder, unless this lies in the project.
+    /// Returns where a file of the project is written: from outside, below the current folder.
     pub fn place(&self, path: &str) -> PathBuf {
         self.path_up().unwrap_or_default().join(path)
     }

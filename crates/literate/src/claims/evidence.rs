@@ -70,14 +70,10 @@ impl Evidence<'_> {
 
     /// Returns several numbers of one row of a table, `theory.jump` or `theory.gap[sigma=0.2]`.
     #[track_caller]
-    pub fn numbers<const N: usize>(
-        &self,
-        row: &str,
-        columns: [&str; N],
-    ) -> Result<[f64; N], Error> {
+    pub fn numbers<const N: usize>(&self, row: &str, names: [&str; N]) -> Result<[f64; N], Error> {
         let mut found = [0.0; N];
-        for (number, column) in found.iter_mut().zip(columns) {
-            *number = self.number(&format!("{row}.{column}"))?;
+        for (number, name) in found.iter_mut().zip(names) {
+            *number = self.number(&format!("{row}.{name}"))?;
         }
         Ok(found)
     }

@@ -30,9 +30,8 @@ impl Rule {
         Rule { id, relation: None, reads: None, basis: None, statistical: false, place, judge }
     }
 
-    /// Makes it the rule of a relation between numbers that must hold, and of nothing that was
-    /// printed. It may allow for standard errors at the level of the statistical checks, and does
-    /// not count as one of them.
+    /// Makes it the rule of a relation between numbers that must hold. It may allow for standard
+    /// errors at the level of the statistical checks, and does not count as one of them.
     pub fn relation(self, relation: &'static str) -> Rule {
         Rule { relation: Some(relation), ..self }
     }
@@ -94,9 +93,8 @@ pub fn level_of(rules: &[Rule]) -> CheckLevel {
     CheckLevel::of(rules.iter().filter(|rule| rule.statistical).count())
 }
 
-/// Judges all statements, in their order, each by the rule with its id, and then all relations. A
-/// statement without a rule stays open, without a reason, so that it [fails](Check::fails). A rule
-/// without a statement, or without a number that it needs, is an error.
+/// Judges all statements, in their order, and then all relations. A statement without a rule stays
+/// open and [fails](Check::fails); a rule without a statement, or a number, is an error.
 pub fn judge_all(
     published: &Published,
     rules: &[Rule],

@@ -1,6 +1,4 @@
 //! Reads `references.bib` into the list of references and the labels of citations.
-//!
-//! Articles, books, doctoral theses and software; entries of other kinds are refused.
 
 use super::document::{Inline, Reference, plain, words_and_maths};
 use super::error::Error;

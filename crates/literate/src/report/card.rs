@@ -1,6 +1,4 @@
 //! Makes the card of a value, figure, equation or statement: all that is known of it.
-//!
-//! Cards need values.json, ledger.json and the parameters of the profile, and no run.
 
 use super::claims::symbols;
 use super::document::{Inline, printed, words_and_maths};

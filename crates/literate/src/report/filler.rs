@@ -263,9 +263,7 @@ fn put(tree: &mut Json, path: &[&str], thing: Json) {
     *path.iter().fold(tree, |tree, part| &mut tree[*part]) = thing;
 }
 
-/// Registers the filters on values, of which `otherwise` has words in place of no number;
-/// `literal` for a number that the prose may type with a reason; `holds` for a condition on which
-/// words rest; and `code` for an item of the source, which [`super::parse`] makes a listing.
+/// Registers the filters and functions that the manual lists; the values `empty` have no number.
 fn register(tera: &mut Tera, empty: BTreeSet<String>) {
     let with = |text: &str, word: &str| {
         let what =

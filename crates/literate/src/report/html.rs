@@ -328,8 +328,7 @@ impl<'a> Page<'a> {
         })
     }
 
-    /// Writes a value, which opens its card, with this blank before a percent sign. (Browsers break
-    /// lines around a `<button>` but not within text.)
+    /// Writes a value, which opens its card. (Browsers break lines around a `<button>`.)
     fn value(&self, id: &str, shown: &Shown, blank: char) -> String {
         self.values.borrow_mut().insert(id.to_string());
         // A line that ends in an attribute would be read as a blank.

@@ -290,7 +290,6 @@ mod tests {
         }
     }
 
-    /// Every fault that a table itself can have is noted with its table, row and column.
     #[test]
     fn a_wrong_table_says_what_is_wrong_and_where() {
         let one =
@@ -314,7 +313,6 @@ mod tests {
         }
     }
 
-    /// Keys are integers of up to 64 bits, also where doubles have no such integer.
     #[test]
     fn neighbouring_integers_beyond_doubles_are_two_keys() {
         let seeds = [9_007_199_254_740_992_u64, 9_007_199_254_740_993, u64::MAX];

@@ -10,8 +10,7 @@ const TEXT: usize = 100;
 /// Columns whose cells have more characters than this get a minimum width.
 const WIDTHS: [(usize, &str); 3] = [(300, "long"), (TEXT, "text"), (40, "words")];
 
-/// So many columns do not fit side by side on a narrow screen, nor more than a few if one of them
-/// is text.
+/// So many columns do not fit side by side on a narrow screen, nor more than few if one is text.
 const MANY: usize = 6;
 const FEW: usize = 3;
 

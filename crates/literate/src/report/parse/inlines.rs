@@ -142,43 +142,38 @@ impl Reader<'_> {
         Ok(Inline::Unresolved { ids, in_sentence: false })
     }
 
-    fn text(
-        &mut self,
-        text: &str,
-        range: Range<usize>,
-        out: &mut Vec<Inline>,
-    ) -> Result<(), Error> {
+    fn text(&mut self, text: &str, part: Range<usize>, out: &mut Vec<Inline>) -> Result<(), Error> {
         let source = &self.filled.text;
         // An id is in one piece of text, or at the end of several.
-        let id_at = self.id_at.start.max(range.start)..self.id_at.end.min(range.end);
+        let id_at = self.id_at.start.max(part.start)..self.id_at.end.min(part.end);
         let cut = if !id_at.is_empty() {
             Some(id_at.clone())
-        } else if *text == source[range.clone()] {
-            mentioned(source, range.clone())
+        } else if *text == source[part.clone()] {
+            mentioned(source, part.clone())
         } else {
             None
         };
         if let Some(cut) = cut {
-            let [from, to] = [cut.start - range.start, cut.end - range.start];
+            let [from, to] = [cut.start - part.start, cut.end - part.start];
             let [before, after] = [text.get(..from), text.get(to..)].map(Option::unwrap_or_default);
-            self.text(before, range.start..cut.start, out)?;
+            self.text(before, part.start..cut.start, out)?;
             if cut != id_at {
                 let id = source[cut.start + 1..cut.end].to_string();
                 self.places.add(format!("@{id}"), cut.start);
                 out.push(Inline::Unresolved { ids: vec![id], in_sentence: true });
             }
-            return self.text(after, cut.end..range.end, out);
+            return self.text(after, cut.end..part.end, out);
         }
-        if let Some((at, what)) = leftover(source, range.start, text)
+        if let Some((at, what)) = leftover(source, part.start, text)
             && at >= self.quiet
         {
             self.quiet = at + source[at..].find("\n\n").unwrap_or(source.len());
             let what = if self.filled.is_typed(at) { what } else { GROUP };
             return Err(markup(what).at(self.filled.place(at)));
         }
-        self.hard_coded(lint::words(source, range.clone(), self.declared));
+        self.hard_coded(lint::words(source, part.clone(), self.declared));
         // A backslash before a backslash is meant.
-        let escaped = usize::from(source[..range.start].ends_with('\\') && text.starts_with('\\'));
+        let escaped = usize::from(source[..part.start].ends_with('\\') && text.starts_with('\\'));
         let text = &(text[..escaped].to_string() + &lint::literal(&text[escaped..]));
         for piece in pieces(text) {
             match piece {

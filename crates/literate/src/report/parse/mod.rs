@@ -119,8 +119,7 @@ impl<'a> Reader<'a> {
         check_kind(kind, id)
     }
 
-    /// Reads blocks up to the end of what contains them. What is wrong stands at the begin of its
-    /// block unless a piece of text has a place of its own. After an error reading goes on with the
+    /// Reads blocks up to the end of what contains them. After an error reading goes on with the
     /// next block, except in lists and quotations.
     fn blocks(&mut self) -> Result<Vec<Block>, Error> {
         let (mut blocks, within) = (Vec::new(), self.within > 0);

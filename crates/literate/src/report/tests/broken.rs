@@ -104,7 +104,6 @@ fn faults_in_prose_are_reported_with_their_places() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// All faults are reported at once, those too that only a writer can see.
 #[test]
 fn several_faults_have_their_places() {
     for (broken, expected) in [

@@ -2,7 +2,6 @@
 
 use super::*;
 
-/// Whatever signs words from data have, as cells and as names of rows, each format shows them.
 #[test]
 fn words_of_data_are_data() {
     let shown = |words: &str| {

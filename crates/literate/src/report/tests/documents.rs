@@ -2,7 +2,6 @@
 
 use super::*;
 
-/// A front page repeats a figure, and references lead to the document of their target.
 #[test]
 fn documents_refer_to_each_other() {
     const FRONT: Document = Document {
