@@ -4,7 +4,7 @@
 //! keeps its bytes until `make measure` writes them again, with date and machine.
 
 use crate::experiments::prelude::*;
-use crate::params::Setting;
+use crate::params::{MethodName, Setting};
 use literate::input::one_line;
 use serde::de::DeserializeOwned;
 
@@ -119,6 +119,14 @@ impl Measured {
         self.rows(What::Size, setting, n).next()
     }
 
+    /// Returns the seconds of one core for a thousand chains: those of the engine, times the ratio
+    /// to it on the same chains.
+    pub fn thousand(&self, row: &Measurement) -> Option<f64> {
+        let engine = Setting { method: MethodName::Certified, value: 0.0, stop: 0.0 };
+        let engine = self.method(engine, row.n as usize, row.sigma)?;
+        Some(row.over_engine()? * engine.seconds? / engine.chains as f64 * 1e3)
+    }
+
     /// Returns the microseconds of an impact by the engine, with as many masses, in a row's
     /// session.
     pub fn engine(&self, row: &Measurement) -> Option<f64> {
@@ -132,11 +140,6 @@ impl Measurement {
     /// Returns the time over that of the engine on the same chains.
     pub fn over_engine(&self) -> Option<f64> {
         Some(self.seconds? / self.engine_seconds?)
-    }
-
-    /// Seconds for a thousand chains.
-    pub fn thousand(&self) -> Option<f64> {
-        Some(self.seconds? / self.chains as f64 * 1e3)
     }
 }
 
@@ -163,6 +166,18 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         .computed_by(origin(tables))
         .real("engine", "us", 2, ENGINE, |()| engine)
         .measured();
+    let one = measured.of(What::Engine).chain(measured.of(What::Peer));
+    let one: Vec<_> = one.filter(|row| row.chains == 1 && row.horizon_time.is_some()).collect();
+    let finest = one.chunk_by(|a, b| (&a.name, a.n) == (&b.name, b.n)).filter_map(<[_]>::last);
+    let finest: Vec<_> = finest.collect();
+    let chain = Table::of("measured.chain", &finest, |_| 1)
+        .text_key("program", |row| row.name.split(' ').next().unwrap_or_default().into())
+        .key("n", "1", |row| row.n as f64)
+        .computed_by(origin(tables))
+        .real("horizon", TIME, 4, "time up to which its run of one chain is right", |row| {
+            row.horizon_time
+        })
+        .measured();
     let rows: Vec<&Measurement> = measured.of(What::Method).collect();
     let methods = Table::of("measured.methods", &rows, |row| row.chains as usize)
         .text_key("setting", |row| match row.value {
@@ -171,8 +186,10 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         })
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(tables))
-        .real("thousand", "s", 2, "time of one core for a thousand chains", |row| row.thousand())
+        .real("thousand", "s", 2, "time of one core for a thousand chains", |row| {
+            measured.thousand(row)
+        })
         .real("over_engine", "1", 2, "time over the engine's", |row| row.over_engine())
         .measured();
-    vec![machine.done(), impact.done(), methods.done()]
+    vec![machine.done(), impact.done(), chain.done(), methods.done()]
 }

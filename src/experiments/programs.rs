@@ -72,9 +72,8 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
         .flat_map(|of| of.settings.iter().enumerate().map(move |(i, run)| (of, i + 1, run)))
         .collect();
     let total = |of: fn(&Trial) -> usize, run: &Run| run.outcomes.values().map(of).sum::<usize>();
-    let warned = |trial: &Trial| {
-        let said = [Outcome::GaveUp, Outcome::Refused, Outcome::Warned];
-        trial.iter().filter(|outcome| said.contains(outcome)).count()
+    let among = |run: &Run, these: &[Outcome]| {
+        run.outcomes.values().flatten().filter(|outcome| these.contains(outcome)).count() as u64
     };
     let table = Table::of("programs.all", &rows, |_| 1)
         .text_key("script", |(of, ..)| of.script.clone())
@@ -86,9 +85,21 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
         .computed_by(origin(complete))
         .count("cases", "cases of all scenes", |(.., run)| total(Trial::len, run) as u64)
         .count("right", "cases with the expected outcome", |(.., run)| total(right, run) as u64)
-        .count("warned", "cases that gave up, were refused or had a warning", |(.., run)| {
-            total(warned, run) as u64
+        .count("warned", "cases that were refused or had a message", |(.., run)| {
+            among(run, &[Outcome::Refused, Outcome::Warned])
         })
+        .count("late", "cases that ran out of time", |(.., run)| among(run, &[Outcome::GaveUp]))
         .measured();
-    vec![table.done()]
+    let scenes = scenes();
+    let all_right = |of: &Scene| {
+        rows.iter().filter(|(.., run)| right(run.trial(of)) == of.cases.len()).count() as u64
+    };
+    let by_scene = Table::of("programs.scenes", &scenes, |of| of.cases.len())
+        .text_key("scene", |of| of.id.clone())
+        .computed_by(origin(complete))
+        .count("cases", "its cases", |of| of.cases.len() as u64)
+        .count("settings", "programs and settings", |_| rows.len() as u64)
+        .count("right", "of them, right in all cases", all_right)
+        .measured();
+    vec![table.done(), by_scene.done()]
 }

@@ -78,11 +78,12 @@ pub fn by_method<T, P>(rows: &[T], point: impl Fn(&T) -> Option<(Setting, P)>) -
     MethodName::ALL.into_iter().map(points_of).filter(|(_, points)| !points.is_empty()).collect()
 }
 
-/// Returns other programs on one chain of `masses` masses: for each setting the time of an impact
-/// over the engine's, and the time up to which the run is right, at most its end.
+/// Returns the engine and other programs on one chain of `masses` masses: for each setting the time
+/// of an impact over the engine's, and the time up to which the run is right, at most its end.
 pub fn programs(measured: &Measured, masses: usize) -> Vec<(&str, Vec<(f64, f64)>)> {
     let mut found: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
-    for row in measured.of(What::Peer).filter(|row| row.n == masses as u64) {
+    let rows = measured.of(What::Engine).chain(measured.of(What::Peer));
+    for row in rows.filter(|row| row.n == masses as u64 && row.chains == 1) {
         let time = row.microseconds_per_impact.zip(measured.engine(row));
         let Some(time) = time.map(|(time, engine)| time / engine) else { continue };
         let point = (time, row.horizon_time.unwrap_or(row.until));

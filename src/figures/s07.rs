@@ -19,7 +19,8 @@ const NAMES: [Place; 4] = [
 ];
 
 /// The same for other programs: name of the row, name here.
-const PROGRAMS: [(&str, &str, usize, (i32, i32)); 5] = [
+const PROGRAMS: [(&str, &str, usize, (i32, i32)); 6] = [
+    ("impact-paper", "engine, one chain", FINEST, (2, 0)),
     ("heyoka", "heyoka", FINEST, (0, -2)),
     ("SUNDIALS CVODE", "CVODE", FINEST, (2, 0)),
     ("SciPy DOP853", "SciPy", FINEST, (-2, 0)),
@@ -91,14 +92,15 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         drawn.push(curves);
     }
     // Their marks lie above those of the methods, and their lines are where no name may be.
+    let colour = |program: &str| if program == "impact-paper" { RED } else { GREY };
     for (program, points) in &others {
-        let look = (Symbol::OpenDiamond, MEDIUM, Stroke::solid(GREY, THIN));
+        let look = (Symbol::OpenDiamond, MEDIUM, Stroke::solid(colour(program), THIN));
         by_time.markers(program, points, look)?;
     }
     for (program, points) in others {
         let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };
         if let Some(at) = points.get(place.2).or(points.last()) {
-            by_time.label_nearby(place.1, (at.0, at.1.min(top)), place.3, GREY)?;
+            by_time.label_nearby(place.1, (at.0, at.1.min(top)), place.3, colour(program))?;
         }
     }
     for (method, points) in &drawn[0] {

@@ -25,8 +25,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let mut top = 500;
     for (i, of) in means.iter().enumerate() {
         let chains = &of.chains;
-        let time =
-            |setting| measured.method(setting, chains.chain.masses, chains.sigma)?.thousand();
+        let time = |setting| {
+            measured.thousand(measured.method(setting, chains.chain.masses, chains.sigma)?)
+        };
         let mut found: Vec<Row> = Vec::new();
         for row in rows.iter().filter(|row| row.sigma == chains.sigma && row.share.is_some()) {
             found.extend(time(row.setting).map(|time| (time, row)));

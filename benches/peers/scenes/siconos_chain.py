@@ -21,6 +21,7 @@ SETTINGS = [
     ("Moreau-Jean, h=1e-3", 1e-3),
     ("Moreau-Jean, h=1e-4", 1e-4),
 ]
+GRID = 0.1  # from one event of its grid to the next, in event-driven runs
 
 # The drive: z holds the number of frequencies, then for each of them itself and the amplitudes of
 # all masses; then constant forces.
@@ -50,7 +51,7 @@ def plugin():
 plugin()
 
 
-def model(case):
+def model(case, until):
     """The chain and its gaps."""
     n = case.n
     masses = sk.LagrangianLinearTIDS(case.x.copy(), case.v.copy(), np.eye(n))
@@ -61,7 +62,7 @@ def model(case):
     z = np.concatenate([*z, case.w2 * case.places])
     masses.setzPtr(z)
     masses.setComputeFExtFunction("./ChainPlugin", "drive")
-    chain = sk.NonSmoothDynamicalSystem(case.time, case.until)
+    chain = sk.NonSmoothDynamicalSystem(case.time, until)
     chain.insertDynamicalSystem(masses)
     gaps = []
     for gap in range(n + 1):
@@ -78,7 +79,9 @@ def model(case):
 
 
 def simulate(case, h, hit):
-    chain, masses, gaps, z = model(case)  # z must live as long as the masses
+    # Event-driven runs end at the last event of the grid.
+    until = case.until + 2 * GRID if h is None else case.until
+    chain, masses, gaps, z = model(case, until)  # z must live as long as the masses
     if h is None:
         return events(case, chain, masses, gaps, hit)
     steps = sk.TimeDiscretisation(case.time, h)
@@ -92,7 +95,7 @@ def simulate(case, h, hit):
 
 def events(case, chain, masses, gaps, hit):
     # Events of the grid hold up nothing, and LSODAR has fewer steps from one to the next.
-    simulation = sk.EventDriven(chain, sk.TimeDiscretisation(case.time, 0.1))
+    simulation = sk.EventDriven(chain, sk.TimeDiscretisation(case.time, GRID))
     integrator = sk.LsodarOSI()
     simulation.insertIntegrator(integrator)
     simulation.insertNonSmoothProblem(sk.LCP(), sk.SICONOS_OSNSP_ED_IMPACT)

@@ -1,14 +1,16 @@
 //! Chooses, for each question about the chains, the method that answers it in the least time.
 
 use super::bias::{Biases, GapCount};
-use super::case::Outcome;
+use super::case::Expected;
 use super::race::Entry;
-use super::trials::Trials;
+use super::trials::{Trials, right};
 use crate::experiments::prelude::*;
-use crate::experiments::{BIAS, MEASURED, Measured, RACE, TRIALS};
+use crate::experiments::programs::{Program, Run};
+use crate::experiments::{BIAS, MEASURED, Measured, PROGRAMS, RACE, TRIALS};
 use crate::params::{Means, MethodName::Certified, Setting};
 use impact_numerics::estimates::LEVEL;
-use impact_numerics::statistics::{mean, student_quantile};
+use impact_numerics::statistics::{mean, student_quantile, wilson};
+use literate::table::Building;
 
 /// How far a mean may be off, relative to it, at each σ.
 const MEANS: [(f64, f64); 4] = [(0.11, 0.05), (0.12, 0.05), (0.14, 0.01), (0.115, 0.05)];
@@ -17,11 +19,16 @@ const MEANS: [(f64, f64); 4] = [(0.11, 0.05), (0.12, 0.05), (0.14, 0.01), (0.115
 /// height between the first two, relative to it.
 const ALIKE: f64 = 0.01;
 
-/// Times to which an orbit is wanted, in units of 1/ω.
+/// Times to which an orbit is wanted, in units of 1/ω, and the share of chains in which it is.
 const ORBITS: [f64; 2] = [10.0, 100.0];
+const MOST: f64 = 0.5;
 
-/// The scenes in which masses come to rest.
+/// Times that differ by less than this factor may change their order from run to run.
+const TIE: f64 = 1.3;
+
+/// The scenes in which masses come to rest, and those of dips that just reach zero.
 const REST: [&str; 4] = ["ball", "table", "held", "squeezed"];
+const GRAZES: [&str; 2] = ["grazing-hits", "square-root"];
 
 /// What a method answers.
 struct Answer {
@@ -29,31 +36,33 @@ struct Answer {
     /// Seconds of one core for a thousand chains.
     seconds: f64,
     chains: usize,
-    /// The error, or the horizon.
+    /// The error, or the share of runs that are right to the time that is asked.
     found: Estimate,
     /// How far this is inside of what is allowed; negative outside.
     margin: f64,
+    /// From the value to the end of its 95 % interval that lies towards what is allowed.
+    half: f64,
+}
+
+/// Returns half of the 95 % interval of a mean over chains, by Student's t.
+fn half(chains: usize, error: f64) -> f64 {
+    let quantile = student_quantile(LEVEL, chains.saturating_sub(1));
+    quantile.map_or(f64::INFINITY, |t| t * error)
 }
 
 impl Answer {
-    /// Returns half of the 95 % interval, by Student's t.
-    fn half(&self) -> f64 {
-        let quantile = student_quantile(LEVEL, self.chains.saturating_sub(1));
-        quantile.map_or(f64::INFINITY, |t| t * self.found.error)
-    }
-
     /// Whether the 95 % interval lies inside of what is allowed.
     fn is_enough(&self) -> bool {
-        self.margin >= self.half()
+        self.margin >= self.half
     }
 
     /// Returns the number of chains that would decide whether the method is enough, rounded up to
     /// two digits; none if these chains do.
     fn chains_to_decide(&self) -> Option<u64> {
-        let ratio = self.half() / self.margin.abs();
+        let ratio = self.half / self.margin.abs();
         let chains = (self.chains as f64 * ratio * ratio).ceil() as u64;
         let unit = 10u64.pow(chains.max(1).ilog10().saturating_sub(1));
-        (ratio > 1.0).then(|| chains.div_ceil(unit) * unit)
+        (ratio > 1.0 && ratio.is_finite()).then(|| chains.div_ceil(unit) * unit)
     }
 }
 
@@ -79,6 +88,16 @@ impl Question {
         self.answers.iter().find(|answer| answer.setting.method == Certified)
     }
 
+    /// Names the method of the least time, or says that it and the engine tie.
+    fn take(&self) -> String {
+        let both = self.rival().zip(self.engine().filter(|engine| engine.is_enough()));
+        let ratio = both.map(|(rival, engine)| rival.seconds / engine.seconds);
+        match ratio {
+            Some(ratio) if ratio < TIE && ratio * TIE > 1.0 => "tie".into(),
+            _ => named(cheapest(&self.answers)),
+        }
+    }
+
     /// Names the cheapest of the methods that might answer in less time than the rival, or at all,
     /// and the number of chains that would decide.
     fn undecided(&self) -> Option<String> {
@@ -99,9 +118,15 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
         let run = &race.parameters.growth;
         let answer = |entry: &Entry| {
             let row = measured.method(entry.setting, run.chain.masses, run.sigma)?;
-            let (found, setting) = (entry.horizon()?, entry.setting);
-            let (chains, margin) = (entry.runs.len(), found.value - until);
-            Some(Answer { setting, seconds: row.thousand()?, chains, found, margin })
+            let (chains, setting, seconds) =
+                (entry.runs.len(), entry.setting, measured.thousand(row)?);
+            let right = entry.runs.iter().filter(|left| **left >= until).count();
+            let interval = wilson(right as u64, chains as u64, LEVEL)?;
+            let value = right as f64 / chains as f64;
+            let error = (interval[1] - interval[0]) / 4.0;
+            let (found, margin) = (Estimate { value, error, interval }, value - MOST);
+            let half = if margin > 0.0 { value - interval[0] } else { interval[1] - value };
+            Some(Answer { setting, seconds, chains, found, margin, half })
         };
         Question {
             id: until.to_string(),
@@ -109,34 +134,62 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
             answers: race.entries.iter().filter_map(answer).collect(),
         }
     });
-    let (rest, scenes) = at_rest(results.of(&TRIALS).ok()?);
-    let rest = Table::of("answers.rest", &[()], |()| scenes)
+    let programs = results.of(&PROGRAMS).ok()?;
+    let trials = results.of(&TRIALS).ok()?;
+    let (rest, scenes) = at_rest(trials, programs);
+    let all = Table::of("answers.all", &[()], |()| scenes)
+        .chosen("share", "1", "share of chains in which an orbit must be right", |()| Some(MOST))
+        .chosen("tie", "1", "times that differ by less than this factor tie", |()| Some(TIE))
         .computed_by(origin(at_rest))
-        .words("methods", "methods that are right wherever masses come to rest", |()| {
+        .words("methods", "settings that are right wherever masses come to rest", |()| {
             rest.join("; ")
         })
+        .real("cradle", "d", 1, "gap between balls of the cradle as the first comes", |()| {
+            cradle(trials)
+        })
+        .words("rest", "programs that are, with one of their settings", |()| names(programs, rests))
+        .words("grazes", "programs that see the most grazes", |()| {
+            let most = programs.iter().flat_map(|of| &of.settings).map(grazes).max();
+            names(programs, |run| Some(grazes(run)) == most)
+        })
         .done();
-    let means = table("answers.means", "1", &questions(biases, measured));
-    Some(vec![means, table("answers.orbits", TIME, &orbits), rest])
+    let means = table("answers.means", "1", &questions(biases, measured)).done();
+    let orbits = table("answers.orbits", "1", &orbits)
+        .words("right", "runs of the rival that are right to that time", |of| {
+            of.rival().map_or("–".into(), |answer| {
+                let right = (answer.found.value * answer.chains as f64).round();
+                format!("right in {right} of {}", answer.chains)
+            })
+        })
+        .done();
+    Some(vec![means, orbits, all])
 }
 
-fn table(name: &'static str, unit: &'static str, questions: &[Question]) -> Table {
+fn named(answer: Option<&Answer>) -> String {
+    answer.map_or("–".into(), |of| of.setting.name())
+}
+
+fn table<'a>(
+    name: &'static str,
+    unit: &'static str,
+    questions: &'a [Question],
+) -> Building<'a, Question> {
     let seconds = |answer: Option<&Answer>| answer.map(|answer| answer.seconds);
-    let named = |answer: Option<&Answer>| answer.map_or("–".into(), |of| of.setting.name());
     const CHEAPEST: &str = "seconds of one core for a thousand chains";
     Table::of(name, questions, |of| of.rival().map_or(0, |answer| answer.chains))
         .text_key("id", |of| of.id.clone())
         .words("question", "what is asked", |of| of.words.clone())
         .computed_by(origin(tables))
-        .words("take", "the method of the least time", |of| named(cheapest(&of.answers)))
+        .words("take", "the method of the least time", Question::take)
         .words("rival", "the rival of the least time", |of| named(of.rival()))
         .real("seconds", "s", 2, CHEAPEST, |of| seconds(of.rival()))
-        .estimate("found", unit, "its error or horizon", |of| Some(of.rival()?.found))
+        .estimate("found", unit, "its error, or share of runs that are right", |of| {
+            Some(of.rival()?.found)
+        })
         .real("engine", "s", 2, "the engine's seconds", |of| seconds(of.engine()))
         .words("undecided", "the cheapest on which more chains must decide", |of| {
             of.undecided().unwrap_or("–".into())
         })
-        .done()
 }
 
 /// Returns what a method and the engine count in the chains that both ran to the end, by chain.
@@ -169,10 +222,11 @@ fn question(
             _ => average(&values).filter(|found| found.error > 0.0)?,
         };
         let masses = all[0].0.chains.chain.masses;
-        let time = |sigma: &f64| measured.method(setting, masses, *sigma)?.thousand();
+        let time = |sigma: &f64| measured.thousand(measured.method(setting, masses, *sigma)?);
         let seconds = sigmas.iter().map(time).sum::<Option<f64>>()?;
-        let margin = tolerance - found.value.abs();
-        Some(Answer { setting, seconds, chains: values.len(), found, margin })
+        let (chains, margin) = (values.len(), tolerance - found.value.abs());
+        let half = half(chains, found.error);
+        Some(Answer { setting, seconds, chains, found, margin, half })
     };
     let answers = all[0].0.settings.iter().filter_map(answer).collect();
     Some(Question { id, words, answers })
@@ -195,7 +249,8 @@ fn questions(biases: &Biases, measured: &Measured) -> Vec<Question> {
         }));
     }
     let (low, high, percent) = (MEANS[0].0, MEANS[1].0, 100.0 * ALIKE);
-    let words = format!("the share of chains with an impact to {percent} %, σ = {low}");
+    let words =
+        format!("the share of chains with an impact to {percent} percentage point, σ = {low}");
     all.extend(question(both, &[low], ALIKE, ["share".into(), words], |pairs| {
         let any = |count: f64| f64::from(u8::from(count > 0.0));
         pairs[0].iter().map(|pair| any(pair[0]) - any(pair[1])).collect()
@@ -213,16 +268,43 @@ fn questions(biases: &Biases, measured: &Measured) -> Vec<Question> {
     all
 }
 
-/// Names the methods with settings that are right in all cases in which masses come to rest, and
-/// counts these cases.
-fn at_rest(trials: &Trials) -> (Vec<String>, usize) {
+/// Names the methods, and then the programs, with settings that are right in all cases in which
+/// masses come to rest, and counts these cases.
+fn at_rest(trials: &Trials, programs: &[Program]) -> (Vec<String>, usize) {
     let scenes = trials.parameters.scenes.iter().zip(&trials.found);
     let rest: Vec<_> = scenes.filter(|(scene, _)| REST.contains(&&*scene.id)).collect();
     let is_right =
-        |i: usize| rest.iter().all(|(_, found)| found[i].iter().all(|of| *of == Outcome::Right));
+        |i: usize| rest.iter().all(|(scene, found)| right(&found[i]) == scene.cases.len());
     let settings = trials.parameters.settings.iter().enumerate();
-    let right = settings.filter(|(i, _)| is_right(*i)).map(|(_, setting)| setting.name());
-    (right.collect(), rest.iter().map(|(scene, _)| scene.cases.len()).sum())
+    let methods = settings.filter(|(i, _)| is_right(*i)).map(|(_, setting)| setting.name());
+    let runs = programs.iter().flat_map(|of| &of.settings).filter(|run| rests(run));
+    let runs = runs.map(|run| format!("{}, {}", run.name, run.settings));
+    (methods.chain(runs).collect(), rest.iter().map(|(scene, _)| scene.cases.len()).sum())
+}
+
+/// Returns the gap between two balls of the cradle when the first comes, in units of d: they start
+/// in one place, and their sites are one apart.
+fn cradle(trials: &Trials) -> Option<f64> {
+    let scene = trials.parameters.scenes.iter().find(|scene| scene.id == "cradle")?;
+    let case = scene.cases.first()?;
+    let Expected::Impacts { impacts, .. } = &case.expected else { return None };
+    let frequency = case.scenario["natural_frequency"].as_f64()?;
+    Some(1.0 - pxfm::f_cos(frequency * impacts.first()?.0))
+}
+
+fn rests(run: &Run) -> bool {
+    REST.iter().all(|scene| right(&run.outcomes[*scene]) == run.outcomes[*scene].len())
+}
+
+/// Returns the number of grazes that are seen.
+fn grazes(run: &Run) -> usize {
+    GRAZES.iter().map(|scene| right(&run.outcomes[*scene])).sum()
+}
+
+/// Names the programs of which a setting is chosen.
+fn names(programs: &[Program], chosen: impl Fn(&Run) -> bool) -> String {
+    let of = programs.iter().filter_map(|of| of.settings.iter().find(|run| chosen(run)));
+    of.map(|run| &*run.name).collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]
@@ -232,7 +314,14 @@ mod tests {
 
     fn answer(seconds: f64, margin: f64, error: f64) -> Answer {
         let setting = Setting { method: Verlet, value: seconds, stop: 0.0 };
-        Answer { setting, seconds, chains: 100, found: with_error(0.0, error), margin }
+        Answer {
+            setting,
+            seconds,
+            chains: 100,
+            found: with_error(0.0, error),
+            margin,
+            half: half(100, error),
+        }
     }
 
     #[test]

@@ -8,13 +8,13 @@ use crate::params::Setting;
 use impact_numerics::estimates::LEVEL;
 use impact_numerics::statistics::{mean, standard_error, student_quantile};
 
-/// Returns a method with its steps or tolerances: `sampling, h = 0.1; 0.01; stop = 1e-3; 1e-4`.
+/// Returns a method with its steps or tolerances: `sampling, h = 0.1; 0.01; least rebound = 1e-3`.
 pub fn titled(settings: &[Setting]) -> String {
     let mut title = settings[0].name();
     for pair in settings.windows(2) {
         let (name, starts) = (pair[1].name(), pair[0].stop == 0.0 && pair[1].stop > 0.0);
         let value = name.rsplit(" = ").next().unwrap_or_default();
-        title += &format!("; {}{value}", if starts { "stop = " } else { "" });
+        title += &format!("; {}{value}", if starts { "least rebound = " } else { "" });
     }
     title
 }
