@@ -93,8 +93,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     }
     // Their marks lie above those of the methods, and their lines are where no name may be.
     let colour = |program: &str| if program == "impact-paper" { RED } else { GREY };
+    let width = |program: &str| if program == "impact-paper" { LINE } else { THIN };
     for (program, points) in &others {
-        let look = (Symbol::OpenDiamond, MEDIUM, Stroke::solid(colour(program), THIN));
+        let look = (Symbol::OpenDiamond, MEDIUM, Stroke::solid(colour(program), width(program)));
         by_time.markers(program, points, look)?;
     }
     for (program, points) in others {
