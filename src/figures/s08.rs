@@ -38,11 +38,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let engine = Setting { method: Certified, value: 0.0, stop: 0.0 };
         let is_last = i + 1 == means.len();
         let panel = rows_of(&sheet, frame, &found, time(engine), is_last)?;
-        let late = if of.transient == means[0].transient {
-            "".into()
-        } else {
-            format!(", *T* = {}", of.transient)
-        };
+        let is_late = of.transient != means[0].transient;
+        let late = if is_late { format!(", *T* = {}", of.transient) } else { String::new() };
         panel.heading(LETTERS[i], &format!("*σ* = {}{late}", chains.sigma))?;
     }
     let style = words(SMALL, INK, HPos::Right, VPos::Bottom);

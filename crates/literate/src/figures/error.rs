@@ -10,6 +10,8 @@ use thiserror::Error;
 pub enum Error {
     #[error("a figure lacks its data: {0}")]
     Data(#[from] experiments::Error),
+    #[error("a figure lacks its data: {0}")]
+    Missing(#[from] Missing),
     #[error("row {row} of the series {series:?}, ({x}, {y}), {}", outside(*x, *y))]
     Outside { series: String, row: usize, x: f64, y: f64 },
     #[error(
@@ -41,12 +43,6 @@ fn outside(x: f64, y: f64) -> &'static str {
 }
 
 pub type Drawn = Result<(), Error>;
-
-impl From<Missing> for Error {
-    fn from(missing: Missing) -> Self {
-        experiments::Error::from(missing).into()
-    }
-}
 
 impl From<Error> for DrawingErrorKind<Error> {
     fn from(error: Error) -> Self {
