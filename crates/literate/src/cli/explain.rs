@@ -68,10 +68,8 @@ fn rows_of(asked: &str, folder: &Path) -> Option<String> {
     let (head, rows) = text.split_once('\n')?;
     head.split(',').find(|name| name.split(" (").next() == Some(column))?;
     let keys = table.trim_end_matches(']').split_once('[').map_or("", |(_, keys)| keys);
-    let values: Vec<&str> =
-        keys.split(',').filter_map(|key| Some(key.split_once('=')?.1)).collect();
-    let is_meant =
-        |row: &&str| values.iter().all(|value| row.split(',').any(|cell| cell == *value));
+    let given: Vec<&str> = keys.split(',').filter_map(|key| Some(key.split_once('=')?.1)).collect();
+    let is_meant = |row: &&str| given.iter().all(|value| row.split(',').any(|cell| cell == *value));
     let lines = [head].into_iter().chain(rows.lines().filter(is_meant));
     let lines: String = lines.map(|line| format!("  {}\n", clean(line))).collect();
     Some(format!("{}: in {path}\n{lines}", clean(&address)))

@@ -173,9 +173,8 @@ impl AnyExperiment for Command {
     }
 
     fn check(&self, project: &Project) -> Result<(), Error> {
-        let problem =
-            |problem: String| Error::input(self.name, format!("`{}`", self.line), problem);
-        self.inputs(&project.folder()).map(drop).map_err(problem)
+        let error = |what: String| Error::input(self.name, format!("`{}`", self.line), what);
+        self.inputs(&project.folder()).map(drop).map_err(error)
     }
 
     fn code(&self, project: &Project) -> BTreeMap<String, String> {

@@ -223,8 +223,7 @@ mod tests {
         let library = Library::read(text).map_err(|error| error.to_string())?;
         let keys = library.keys().map(String::from).collect();
         let shown = |entry: &Reference| markdown::inlines(&entry.text());
-        let entry =
-            |entry: &Reference| format!("{}, {}: {}", entry.names, entry.year, shown(entry));
+        let entry = |one: &Reference| format!("{}, {}: {}", one.names, one.year, shown(one));
         Ok(library.list(&keys).iter().map(entry).collect())
     }
 

@@ -266,8 +266,7 @@ fn put(tree: &mut Json, path: &[&str], thing: Json) {
 /// Registers the filters and functions that the manual lists; the values `empty` have no number.
 fn register(tera: &mut Tera, empty: BTreeSet<String>) {
     let with = |text: &str, word: &str| {
-        let what =
-            || tera::Error::message(format!("`{word}` is a filter for values such as v.name"));
+        let what = || tera::Error::message(format!("`{word}` is a filter for values, as v.name"));
         mark::with(text, word).ok_or_else(what)
     };
     tera.register_filter("percent", move |text: &str, _: Kwargs, _: &State| with(text, "percent"));

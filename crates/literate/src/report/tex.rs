@@ -111,9 +111,8 @@ fn in_maths(c: char) -> Option<&'static str> {
 
 /// The macros that the manual lists, and those of environments.
 static ALLOWED: LazyLock<BTreeSet<&str>> = LazyLock::new(|| {
-    let manual =
-        include_str!("../manual.md").split_once("The macros are these").unwrap_or_default();
-    let listed = manual.1.split_whitespace().filter_map(|word| word.strip_prefix('\\'));
+    let page = include_str!("../manual.md").split_once("The macros are these").unwrap_or_default();
+    let listed = page.1.split_whitespace().filter_map(|word| word.strip_prefix('\\'));
     let is_name = |name: &&str| name.starts_with(|c: char| c.is_ascii_alphabetic());
     listed.filter(is_name).chain(["tag", "begin", "end"]).collect()
 });
