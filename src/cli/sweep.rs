@@ -22,9 +22,9 @@ use std::ops::Range;
 ///   sweep --sigma 0.12,0.13 --masses 1000 --realisations 100
 ///   sweep --sigma 0.12 --realisations 1000..2000 --transient 100,500 --window 200,1000
 ///
-/// Read in a row how many distinct gaps impact in the window (T, T + W]; realisations without any
+/// Each row says how many distinct gaps impact in the window (T, T + W]; realisations without any
 /// are not kept. Realisation i has the same standard normals at every σ. All windows are read from
-/// one run. Rows come together at the end. Standard error names realisations that the engine ended
+/// one run. All rows come at the end. Warnings (stderr) name realisations that the engine ended
 /// early, rows with more than a tenth of the starts rejected, or with more than one in a hundred
 /// impacts at the instant of another, and grazes that rounding could not decide.
 ///
@@ -95,7 +95,7 @@ const COLUMNS: [(&str, &str); 18] = [
     ("standard_error", "of this mean"),
     ("mode_distinct", "most frequent number of the kept, the lowest of several"),
     ("impacts_per_time", "impacts in the window over W, mean of the kept"),
-    ("impacts", "impacts of whole runs, transients too"),
+    ("impacts", "impacts in whole runs, transients too"),
     ("near_simultaneous", "those within 1e-9 of one in a gap next to it, whatever w"),
     ("slow", "those with a closing speed below 1e-8, whatever d and w"),
     ("contact_phases", "times that a gap came to rest in contact"),

@@ -21,8 +21,8 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 /// Masses 1..n in a row, points, each on a spring to its place: between impacts
 ///   x_j'' = w^2 (j d - x_j) + alpha_j cos Wt + beta_j sin Wt.
 /// Where neighbours meet, their velocities jump: the gap opens at r times the speed at which it
-/// closed, and momentum is kept. All masses are 1; walls, at 0 and (n + 1) d, do not move. Times
-/// are in units of 1/w, lengths of d, if these are 1. Not in the model: damping, springs between
+/// closed, and momentum is conserved. All masses are 1; walls, at 0 and (n + 1) d, do not move.
+/// Times are in units of 1/w, lengths of d, if these are 1. Not in the model: damping, springs between
 /// masses, unequal masses or springs, friction, a law for three at once (pairs are hit in turn).
 ///
 /// Examples:
@@ -35,7 +35,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 ///
 /// Count gaps from the left wall: gap 0 lies between it and mass 1, gap j between masses j and j +
 /// 1; on a ring gap n lies between masses n and 1. Of neighbouring gaps that close at exactly the
-/// same instant the fastest is hit first. Standard error reports how many impacts are so, and how
+/// same instant the fastest is hit first. A note on stderr says how many impacts coincide so, and how
 /// often rounding could not decide whether a gap closes (method certified).
 ///
 /// Do not trust single impacts far into a chaotic run: errors grow about tenfold in a dozen units
@@ -43,8 +43,8 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 /// time to 106 bits, but only for walls, one frequency and no contact; it takes the next gap from
 /// the engine, so it cannot show an impact that the engine misses.
 ///
-/// Give smaller amplitudes where rounding may move a gap by more than 1e-6 of the spacing (near
-/// resonance, say): they are refused. From 1e-9 on, standard error reports by how much (methods in
+/// Amplitudes are refused where rounding may move a gap by more than 1e-6 of the spacing (near
+/// resonance, say): give smaller ones. From 1e-9 on, a note on stderr says by how much (methods in
 /// closed form). Bodies that part more slowly than 1e-10 d w stay in contact while forces press
 /// them.
 #[derive(clap::Args)]
@@ -58,11 +58,11 @@ pub struct Args {
     #[arg(long, value_name = "T", value_parser = within(0.0, LATEST), allow_hyphen_values = true,
         required_unless_present = "at")]
     until: Option<f64>,
-    /// Print time, mass, position and velocity at these times instead: a list, rising, or a range.
+    /// Print time, mass, position and velocity at these times instead: a rising list or a range.
     #[arg(long, value_name = "A..B:STEP|LIST", value_parser = values(0.0, LATEST), allow_hyphen_values = true,
         conflicts_with_all = ["until", "max_impacts"])]
     at: Option<Values>,
-    /// Read a scenario from each line; a first column has the number of the line. Each is answered
+    /// Read a scenario from each line; the first column is its number. Each is answered
     /// before the next is read; the first that is refused ends the run.
     #[arg(long)]
     lines: bool,
@@ -73,11 +73,11 @@ pub struct Args {
     #[arg(long, value_name = "NAME", value_parser = method_names(), default_value = MethodName::Certified.id(),
         hide_default_value = true)]
     method: MethodName,
-    /// Take this step in time, of the methods that have one.
+    /// Step in time, for the methods that have one.
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Allow this error in a step, of runge-kutta, or this width of a gap that is hit, of
-    /// advancement.
+    /// For runge-kutta the error allowed in a step, for advancement the width at which a gap counts
+    /// as closed.
     #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
     tolerance: Option<f64>,
 }

@@ -13,8 +13,8 @@ use std::collections::BTreeMap;
 ///
 /// Examples:
 ///   check                       a line for each statement that differs or cannot be judged
-///   check -v                    all that is known of all of them
-///   check 12 sec7_jump          of two, by number in the ledger or by id
+///   check -v                    everything about every statement
+///   check 12 sec7_jump          these two, by number in the ledger or by id
 ///
 /// Saved results are used where they are fresh; what is missing is run. Exit code 1 says that a
 /// statement differs without an explanation that holds, or that a relation between numbers does not

@@ -19,7 +19,7 @@ use std::process::Command;
 ///
 /// Examples:
 ///   diff paper target/paper          two folders
-///   diff v1.0.0 paper                a revision of git, whose folder paper/ is meant, and a folder
+///   diff v1.0.0 paper                the folder paper/ of a git revision, and a folder
 ///
 /// A difference is no failure: the exit code is 0.
 #[derive(clap::Args)]
@@ -131,7 +131,7 @@ fn rows(old: &[u8], new: &[u8]) -> String {
     format!("{} of {all} lines; {}", pairs.count(), first.unwrap_or_default())
 }
 
-/// Lists checks of which the verdict, the expected number or the tolerance changed.
+/// Lists checks whose verdict, expected number or tolerance changed.
 fn checks(before: &Ledger, after: &Ledger) -> Vec<String> {
     let ids: BTreeSet<&String> =
         before.claims.iter().chain(&after.claims).map(|check| &check.id).collect();
@@ -189,7 +189,7 @@ fn change(id: &str, both: [Option<&Value>; 2]) -> (f64, String) {
     let Some((before, after)) = number(old).zip(number(new)) else { return (f64::INFINITY, line) };
     let difference = after - before;
     line += &format!("; Δ {}", signed(difference));
-    // Runs with the same seed share their chance, and then this overrates the error.
+    // Runs with the same seed are correlated, and then this overestimates the error.
     let [a, b] = [old, new].map(Value::standard_error);
     let error = (a * a + b * b).sqrt();
     if error > 0.0 {
@@ -204,7 +204,7 @@ fn signed(value: f64) -> String {
     format!("{sign}{}", Value::real("", value, 3).plain())
 }
 
-/// Writes what became of a thing: `x: old -> new`, `x: new, new`, `x: gone, was old`.
+/// Says how something changed: `x: old -> new`, `x: new, new`, `x: gone, was old`.
 fn fate(id: &str, sides: [Option<&str>; 2]) -> String {
     let fate = match sides {
         [Some(before), Some(after)] if before == after => before.into(),

@@ -20,7 +20,7 @@ use std::time::Instant;
 ///   paper --dry-run                          what would be run, and why
 ///   paper --profile quick                    small samples, into target/paper-quick/
 ///   paper --figure 3 --out target/figure     one figure and its data
-///   paper --rerun sweep                      with one result made anew, although it is fresh
+///   paper --rerun sweep                      with one result computed again, although it is fresh
 ///
 /// Stop it whenever you like: files are moved into place at the very end, results of long runs are
 /// saved, and used again as long as parameters and source are the same. Only files that an earlier

@@ -14,7 +14,7 @@ use crate::paper::Paper;
 ///   paper --results DIR               then on one, which joins the units and runs what is missing
 ///
 /// Start it again after Ctrl-C, a crash or a lost machine: each unit is saved as soon as it is
-/// there, whole or not at all, and none is run twice. Shards may save in one folder, or in several
+/// done, whole or not at all, and none is run twice. Shards may save in one folder, or in several
 /// that are copied together.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
@@ -55,7 +55,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
 /// How many shards there can be at most; more would have nothing to do.
 const MOST: usize = 100_000;
 
-/// Runs each N-th unit that is not in the store. Returns how many were run, and were there.
+/// Runs each N-th unit that is not in the store. Returns how many were run, and how many were there.
 fn run_shard(
     experiments: &[&'static dyn AnyExperiment],
     (shard, of): (usize, usize),

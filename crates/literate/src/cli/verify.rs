@@ -14,7 +14,7 @@ use std::path::PathBuf;
 ///
 /// Examples:
 ///   verify                                      paper/ and its list
-///   verify --rerun                              every number from nothing, every byte compared
+///   verify --rerun                              every number from scratch, every byte compared
 ///   verify --rerun --results target/results     the same with saved results
 ///
 /// Nothing is written. Exit code 1 says that a file differs, is missing, or is there without being

@@ -1,8 +1,8 @@
 //! Runs a command in another language as an experiment.
 //!
 //! It runs in a temporary folder, with copies of the files that it names and nothing else, so that
-//! a file which it reads and does not name is missed at once. Links would not do: Python looks for
-//! modules where a link leads to. [`crate::manual`] has the form of what it reads and prints.
+//! a file which it reads but does not name is missing at once. Links would not do: Python looks for
+//! modules where a link leads. [`crate::manual`] has the form of what it reads and prints.
 
 use super::printed::{PrintedTable, tables_by_name};
 use super::{AnyExperiment, Error, Found, Profile, Session, process};
@@ -21,7 +21,7 @@ pub struct Command {
     pub name: &'static str,
     /// The program and its arguments, with blanks between. A program is found in `PATH` unless it
     /// has a slash. Arguments that are files or folders of the project, alone or behind `=`, are
-    /// copied to where the command runs, and belong to what a saved result is known by.
+    /// copied to where the command runs, and are part of what identifies a saved result.
     pub line: &'static str,
     /// Its parameters in a profile: an object.
     pub parameters: fn(Profile) -> Json,
@@ -82,7 +82,7 @@ impl Command {
             }
             for path in input::files_in(top, input)? {
                 let copy = folder.join(&path);
-                // Absolute paths, and those that two inputs have, are there.
+                // Absolute paths, and those that two inputs have, are already there.
                 if !copy.exists() {
                     std::fs::create_dir_all(copy.parent().unwrap_or(folder))?;
                     std::fs::copy(top.join(path), copy)?;
@@ -93,7 +93,7 @@ impl Command {
         if !program.contains('/') {
             return Ok(program.into());
         }
-        // That of a virtual environment finds its modules from where its link lies.
+        // Python in a virtual environment finds its modules by the place of its link.
         let is_link = top.join(program).is_symlink();
         if is_link { std::path::absolute(top.join(program)) } else { Ok(folder.join(program)) }
     }

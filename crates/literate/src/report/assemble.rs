@@ -242,7 +242,7 @@ fn write_documents(
     Ok(shown)
 }
 
-/// Returns the files of the picture of a figure, which has this licence, and its data.
+/// Returns the files of a figure: its picture, which names this licence, and its data.
 pub fn files_of(figure: &Figure, license: &str) -> Files {
     let files = figure.files(license).into_iter();
     let picture = files.map(|(name, bytes)| (format!("figures/{name}"), bytes));

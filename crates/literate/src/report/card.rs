@@ -18,7 +18,7 @@ pub struct Card {
     pub title: Vec<Inline>,
     /// What it is in one plain sentence; may be empty.
     pub lead: String,
-    /// Names, as "standard error", and texts; an empty name goes on with the one before.
+    /// Names, as "standard error", and texts; an empty name continues the row before.
     pub rows: Vec<(&'static str, Vec<Inline>)>,
 }
 
@@ -61,7 +61,7 @@ pub struct Cards<'a> {
     pub ledger: &'a Ledger,
     pub edition: &'a Edition,
     pub project: &'a Project,
-    /// Those whose parameters the cards of their results show.
+    /// Experiments, for the parameters that cards of their results show.
     pub experiments: &'a [&'static dyn AnyExperiment],
 }
 

@@ -1,4 +1,4 @@
-//! Defines the tree of a document, which is between the prose and its formats.
+//! Defines the tree of a document, which stands between the prose and its formats.
 //!
 //! [`super::parse`] makes it from filled Markdown, [`super::labels`] adds numbers and resolves
 //! references, and each format has one writer that walks it. Writers decide on markup only.
@@ -9,7 +9,7 @@ use super::tex;
 use crate::print::Shown;
 use pulldown_cmark::Alignment;
 
-/// A block, with ids as `sec:protocol`, and numbers as "2.1", which labels give.
+/// A block, with ids such as `sec:protocol`, and numbers as "2.1", which labels give.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
     /// A heading; level 1 is the title, which has no number, as have unnumbered sections.
@@ -75,7 +75,7 @@ pub struct Table {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     pub key: String,
-    /// Whom a citation names, as "Homer & Hogan".
+    /// The authors as a citation names them: "Homer & Hogan".
     pub names: String,
     /// Year of a citation, with a letter where several would look alike: "1954a".
     pub year: String,
@@ -100,7 +100,7 @@ pub enum Inline {
     Code(String),
     Emphasis(Vec<Inline>),
     Strong(Vec<Inline>),
-    /// Small and raised, as the number of a note: verdicts behind a statement.
+    /// Small and raised, as the number of a note: verdicts after a statement.
     Raised(Vec<Inline>),
     Maths(Formula),
     /// A displayed equation without its tag; one without an id has no number.
@@ -244,7 +244,7 @@ pub fn place(id: &str) -> String {
     id.chars().map(escaped).collect()
 }
 
-/// Whether a sentence goes on from one paragraph to the next, with or after a displayed equation.
+/// Whether a sentence continues from one paragraph to the next, with or after a displayed equation.
 pub fn goes_on(before: &Block, next: &Block) -> bool {
     let (Block::Paragraph(before), Block::Paragraph(next)) = (before, next) else { return false };
     match (before.as_slice(), next.as_slice()) {

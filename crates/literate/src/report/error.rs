@@ -60,7 +60,7 @@ impl Error {
         Error::Template(format!("{id}: {first} and {second} {what}"))
     }
 
-    /// Something that the prose names and that is not there, with the names that are most like it.
+    /// Something that the prose names and that is not there, with the most similar names.
     pub(crate) fn unknown<'a>(
         thing: String,
         what: String,
