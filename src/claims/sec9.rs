@@ -64,7 +64,7 @@ fn eq30(e: &Evidence<'_>) -> Judged {
         .explained(text!(why, compared, compared), failed == 0 && compared > 0))
 }
 
-/// Of Eqs. (33) to (37), by the number in the id.
+/// Judges one of Eqs. (33) to (37), by the number in the id.
 fn class_range(e: &Evidence<'_>) -> Judged {
     let equation = e.statement.id.trim_start_matches("sec9_eq");
     let row = format!("theory.class_ranges[equation={equation}]");
@@ -85,7 +85,7 @@ fn class_range(e: &Evidence<'_>) -> Judged {
     })
 }
 
-/// Of all k, and of those from which on each formula is in its range.
+/// Counts the cases of all k, and those from which on each formula is in its range.
 fn eq38(e: &Evidence<'_>) -> Judged {
     let [all, wrong] = compared(e)?;
     let row = "theory.cases[statement=sec9_eq38_in_range]";
@@ -154,7 +154,7 @@ fn convergence(e: &Evidence<'_>) -> Judged {
         .explained(text!(why, last, p_last), falls && later.len() > 2 && b < 0.5 * a))
 }
 
-/// As the last, where the distributions are moved onto one another.
+/// Compares the distributions after one is moved onto the other.
 fn shape(e: &Evidence<'_>) -> Judged {
     let [a, b] = CONVERGENCE_P.map(|p| of_five(e, p, "shape"));
     let (a, b, [p_a, p_b]) = (a?, b?, CONVERGENCE_P);
@@ -174,7 +174,7 @@ fn mean_large_p(e: &Evidence<'_>) -> Judged {
         .within(text!("at most {:1}", 0.05), "ours: “very good” as within one in twenty"))
 }
 
-/// An explanation by orders that are counted, where those that are left out weigh more.
+/// Leaves open an explanation by the orders that are counted: those left out weigh more.
 fn explains_agreement(e: &Evidence<'_>) -> Judged {
     let doubling = e.number("theory.higher.doubling")?;
     let found = "at p = {} one more doubled vertex multiplies the weight by {:3}";

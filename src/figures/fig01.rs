@@ -9,7 +9,7 @@ const HEIGHT: i32 = 1060;
 const RADIUS: i32 = 235;
 
 /// The masses as drawn: the place on the sheet in units of the spacing, the name, the place in the
-/// row, and how far the mass is bent from its equilibrium.
+/// row, and how far the mass is displaced from its equilibrium.
 const MASSES: [(i32, &str, &str, i32); 4] = [
     (1, "1", "*d*", 250),
     (2, "2", "2*d*", -270),

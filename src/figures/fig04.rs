@@ -9,7 +9,7 @@ pub fn draw() -> Result<Figure, Error> {
     layout.edges(&sheet, Stroke::solid(BLUE, 26))?;
     layout.vertices(&sheet, &[0, 1, 2, 3])?;
 
-    // Of the four vertices each leads to each.
+    // Each of the four vertices leads to all four.
     let (edges, arrows, pairs) = (4 * 4, 4 * 3, 4 * 3 / 2);
     let description = describe!(
         "A directed graph with the four vertices L-1, 1-2, 2-3 and 3-R at the corners \

@@ -98,7 +98,7 @@ pub struct Check {
     /// What can be read there, in its shortest form.
     pub expected: String,
     pub found: Text,
-    /// How far from the printed value a finding may lie.
+    /// How far from the printed value a result may lie.
     pub tolerance: Text,
     pub reason: String,
     pub basis: Basis,

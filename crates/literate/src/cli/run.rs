@@ -55,7 +55,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
 /// How many shards there can be at most; more would have nothing to do.
 const MOST: usize = 100_000;
 
-/// Runs each N-th unit that is not in the store. Returns how many were run, and how many were there.
+/// Runs each N-th unit that is not in the store. Returns the numbers of those run and those there.
 fn run_shard(
     experiments: &[&'static dyn AnyExperiment],
     (shard, of): (usize, usize),

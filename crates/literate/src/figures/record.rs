@@ -4,14 +4,14 @@ use super::markup::spelled;
 use crate::table::{DataFile, shortest};
 use impact_numerics::statistics::Estimate;
 
-/// A point of a series: x, and those known of value, standard error and both ends of a bar.
+/// A point of a series: x and, where known, the value, its standard error and both ends of a bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DataPoint {
     x: f64,
     known: [Option<f64>; 4],
 }
 
-/// The columns of these in data files; the value has the name of the axis.
+/// Their columns in data files; that of the value has the name of the axis.
 const KNOWN: [&str; 4] = ["", "standard_error", "low", "high"];
 
 impl From<(f64, f64)> for DataPoint {

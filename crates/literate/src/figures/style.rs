@@ -27,7 +27,7 @@ pub const LARGE: i32 = 58;
 
 /// Text and axes.
 pub const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
-/// What steps back: construction lines, unused edges.
+/// Less prominent parts: construction lines, unused edges.
 pub const GREY: RGBColor = RGBColor(0x6b, 0x6b, 0x6b);
 /// Light fills and guides.
 pub const PALE: RGBColor = RGBColor(0xbd, 0xbd, 0xbd);
@@ -70,7 +70,7 @@ pub fn ordered(place: usize, count: usize) -> RGBColor {
     SHADES[(3 * place.min(last) + last / 2) / last]
 }
 
-/// The line as plotters has it; it knows no dashes.
+/// The line for plotters, without its dashes.
 impl From<Stroke> for ShapeStyle {
     fn from(stroke: Stroke) -> Self {
         stroke.colour.stroke_width(stroke.width)
