@@ -55,15 +55,6 @@ impl Answer {
     fn is_enough(&self) -> bool {
         self.margin >= self.half
     }
-
-    /// Returns the number of chains that would decide whether the method is enough, rounded up to
-    /// two digits; none if these chains do.
-    fn chains_to_decide(&self) -> Option<u64> {
-        let ratio = self.half / self.margin.abs();
-        let chains = (self.chains as f64 * ratio * ratio).ceil() as u64;
-        let unit = 10u64.pow(chains.max(1).ilog10().saturating_sub(1));
-        (ratio > 1.0 && ratio.is_finite()).then(|| chains.div_ceil(unit) * unit)
-    }
 }
 
 /// Returns the answer in the least time of those that are enough.
@@ -96,17 +87,6 @@ impl Question {
             Some(ratio) if ratio < TIE && ratio * TIE > 1.0 => "tie".into(),
             _ => named(cheapest(&self.answers)),
         }
-    }
-
-    /// Names the cheapest of the methods that might answer in less time than the rival, or at all,
-    /// and the number of chains that would decide.
-    fn undecided(&self) -> Option<String> {
-        let least = self.rival().map_or(f64::INFINITY, |best| best.seconds);
-        let open =
-            self.answers.iter().filter_map(|answer| Some((answer, answer.chains_to_decide()?)));
-        let (answer, chains) = open.min_by(|a, b| a.0.seconds.total_cmp(&b.0.seconds))?;
-        let named = || format!("{} ({chains} chains)", answer.setting.name());
-        (answer.seconds < least).then(named)
     }
 }
 
@@ -187,9 +167,6 @@ fn table<'a>(
             Some(of.rival()?.found)
         })
         .real("engine", "s", 2, "the engine's seconds", |of| seconds(of.engine()))
-        .words("undecided", "the cheapest on which more chains must decide", |of| {
-            of.undecided().unwrap_or("–".into())
-        })
 }
 
 /// Returns what a method and the engine count in the chains that both ran to the end, by chain.
@@ -335,11 +312,5 @@ mod tests {
         ];
         assert_eq!(cheapest(&answers).unwrap().seconds, 0.3);
         assert!(cheapest(&answers[..2]).is_none());
-        // 1.98 errors of 0.02 are 0.0397, and 0.03 is (0.0397/0.03)² times as many chains away.
-        let wanted: Vec<_> = answers.iter().map(Answer::chains_to_decide).collect();
-        assert_eq!(wanted, [None, Some(180), None, None]);
-        let question =
-            Question { id: String::new(), words: String::new(), answers: answers.into() };
-        assert_eq!(question.undecided().unwrap(), "Verlet, h = 0.2 (180 chains)");
     }
 }
