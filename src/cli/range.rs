@@ -53,3 +53,28 @@ pub fn values(
         (0..=steps as u32).map(value).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::values;
+
+    #[test]
+    fn lists_and_ranges() {
+        let sigmas = values(0.0, 1e6);
+        let read = |text: &str| sigmas(text).unwrap().to_vec();
+        assert_eq!(read("0.1,0.12"), [0.1, 0.12]);
+        assert_eq!(read(" 0.3 "), [0.3]);
+        // 0.1 + 0.02 is 0.12000000000000001 in binary; in decimals it is 0.12.
+        assert_eq!(read("0.1..0.14:0.02"), [0.1, 0.12, 0.14]);
+        assert_eq!(read("0.1..0.15:0.02"), [0.1, 0.12, 0.14]);
+        assert_eq!(read("0..0.001:5e-4"), [0.0, 5e-4, 1e-3]);
+        assert_eq!(read("0.12..0.12:1"), [0.12]);
+        // Three steps of 0.033333 end 1e−6 below 0.1: not short by STEP/1000.
+        assert_eq!(read("0..0.1:0.033333").len(), 4);
+        assert_eq!(read("0..0.1:0.03334").len(), 4);
+        assert_eq!(read("0..0.1:0.0334").len(), 3);
+        for wrong in ["0.2..0.1:0.01", "0.1..0.2:0", "0.1..0.2", "x", "0..1e6:1", "-0.1", "NaN"] {
+            assert!(sigmas(wrong).is_err(), "{wrong}");
+        }
+    }
+}

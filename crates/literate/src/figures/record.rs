@@ -4,14 +4,14 @@ use super::markup::spelled;
 use crate::table::{DataFile, shortest};
 use impact_numerics::statistics::Estimate;
 
-/// A point of a series: x and, where known, the value, its standard error and both ends of a bar.
+/// A point of a series: x, and those known of value, standard error and both ends of a bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DataPoint {
     x: f64,
     known: [Option<f64>; 4],
 }
 
-/// Their columns in data files; that of the value has the name of the axis.
+/// The columns of these in data files; the value has the name of the axis.
 const KNOWN: [&str; 4] = ["", "standard_error", "low", "high"];
 
 impl From<(f64, f64)> for DataPoint {
@@ -57,7 +57,8 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// Adds rows to a series: bars, symbols and curves of one name are one set, by rising x.
+    /// Adds rows to a series: bars, symbols and curves of one name are one set of rows, by rising
+    /// x.
     pub(super) fn add(&mut self, name: &str, rows: impl IntoIterator<Item = DataPoint>) {
         let name = spelled(name);
         let Some((_, known)) = self.series.iter_mut().find(|series| series.0 == name) else {
@@ -93,5 +94,33 @@ impl Record {
         };
         let rows = points.iter().map(cells).collect();
         Some(DataFile { name: format!("{}.csv", self.suffix), header, rows })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_series_is_one_set_of_rows_whatever_it_is_drawn_with() {
+        let (x, y) = ("sigma (d omega^2)".into(), "t, or so (1/omega)".into());
+        let mut record = Record { suffix: "a".into(), x, y, ..Record::default() };
+        assert_eq!(record.file(), None);
+        record.add("*σ* = 3", [(0.3, 0.1, 0.9).into()]);
+        let twice = [(0.5, 0.5), (0.5, 0.5), (0.5, 0.6), (0.1, 0.2)];
+        record.add("other", twice.map(DataPoint::from));
+        record.add("*σ* = 3", [(0.1, 0.2).into(), (0.3, 0.25).into()]);
+        let error = Estimate { value: 0.2, error: 0.01, interval: [0.2; 2] };
+        record.add("*σ* = 3", [(0.1, error).into()]);
+        let lines = [
+            "series (text),sigma (d omega^2),\"t, or so (1/omega)\",standard_error (1/omega),low (1/omega),high (1/omega)",
+            "sigma = 3,0.1,0.2,0.01,,",
+            "sigma = 3,0.3,0.25,,0.1,0.9",
+            "other,0.5,0.5,,,",
+            "other,0.5,0.6,,,",
+            "other,0.1,0.2,,,",
+        ];
+        let file = record.file().unwrap();
+        assert_eq!((file.name.as_str(), file.csv()), ("a.csv", lines.join("\n") + "\n"));
     }
 }
