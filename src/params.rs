@@ -1,7 +1,5 @@
-//! Holds the parameters of the experiments in each profile, and numbers that were chosen.
-//!
-//! A parameter has the paper's value wherever the paper gives one. A [`Profile`] decides the sizes
-//! of samples and nothing else: it never changes the model.
+//! Holds parameters in each profile, the paper's wherever it gives one, and chosen numbers. A
+//! [`Profile`] decides the sizes of samples and nothing else: it never changes the model.
 
 mod accuracy;
 mod chosen;

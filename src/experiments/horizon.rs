@@ -66,8 +66,7 @@ const GROWING: std::ops::Range<f64> = 1e-13..1e-4;
 /// Units of time in which the largest difference is one point of the growth.
 const STRIDE: f64 = 5.0;
 
-/// Returns the rate λ of the growth e^λt of differences with their times, which rise: by a straight
-/// line through the logarithms of the largest in each stride; none from fewer than three points.
+/// Returns the rate λ of e^λt by a straight line through the largest logarithm in each stride.
 fn rate(differences: &[(f64, f64)]) -> Option<f64> {
     let stride = |point: &(f64, f64)| (point.0 / STRIDE) as u64;
     let points: Vec<(f64, f64)> = differences

@@ -1,5 +1,4 @@
-//! Lists the experiments in the order in which they run, the tables that need several of them, and
-//! what all saved results depend on; and makes the paper with these alone.
+//! Lists the experiments in the order in which they run, and the tables that need several.
 
 use super::{
     BIAS, BRANCHES, HORIZON, LENGTHS, MEASURED, NUCLEATION, PROGRAMS, PROTOCOL, RACE, REPLAY,

@@ -1,7 +1,5 @@
-//! Reads times that were measured once, on one machine: `benches/measured.json`.
-//!
-//! Times differ from run to run, so nothing of the reproduction depends on them, and the report
-//! keeps its bytes until `make measure` writes them again, with date and machine.
+//! Reads times that were measured once, on one machine: `benches/measured.json`. They differ from
+//! run to run, so nothing of the reproduction depends on them.
 
 use crate::experiments::prelude::*;
 use crate::params::{MethodName, Setting};
@@ -76,8 +74,7 @@ pub struct Measurement {
     pub chains: u64,
     /// The best of several repetitions.
     pub microseconds_per_impact: Option<f64>,
-    /// Time, in the reference, of the first impact with a wrong gap or a time off by more than
-    /// 1e−3; none if all that were compared are right.
+    /// Time of the first impact with a wrong gap or off by more than 1e−3; none if all are right.
     pub horizon_time: Option<f64>,
     /// Time of all of it: of the clock, for methods of the processor.
     pub seconds: Option<f64>,
@@ -119,16 +116,14 @@ impl Measured {
         self.rows(What::Size, setting, n).next()
     }
 
-    /// Returns the seconds of one core for a thousand chains: those of the engine, times the ratio
-    /// to it on the same chains.
+    /// Returns the seconds of one core for a thousand chains: the engine's, times the ratio to it.
     pub fn thousand(&self, row: &Measurement) -> Option<f64> {
         let engine = Setting { method: MethodName::Certified, value: 0.0, stop: 0.0 };
         let engine = self.method(engine, row.n as usize, row.sigma)?;
         Some(row.over_engine()? * engine.seconds? / engine.chains as f64 * 1e3)
     }
 
-    /// Returns the microseconds of an impact by the engine, with as many masses, in a row's
-    /// session.
+    /// Returns the microseconds of an impact by the engine, as many masses, in a row's session.
     pub fn engine(&self, row: &Measurement) -> Option<f64> {
         let session = self.sessions.iter().find(|session| session.rows.contains(row))?;
         let engine = session.rows.iter().filter(|at| at.what == What::Engine && at.n == row.n);

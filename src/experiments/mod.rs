@@ -1,6 +1,5 @@
-//! Runs chains and computes the theory: a file or a folder for each experiment, with its
-//! parameters, run and tables, and the list of all ([`ALL`]). [`literate::experiments`] saves their
-//! results and cuts them into units.
+//! Runs chains and computes the theory: a file or a folder for each experiment, and the list
+//! ([`ALL`]). [`literate::experiments`] saves results and cuts experiments into units.
 
 // Functions take parameters and results as the types that an experiment declares, also vectors.
 #![allow(clippy::ptr_arg)]

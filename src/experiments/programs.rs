@@ -1,6 +1,4 @@
-//! Reads how programs that people use fare in the scenes where methods fail: `benches/scenes.json`.
-//!
-//! `make measure` runs them, with a bound on processor time; the report only reads what they gave.
+//! Reads how programs that people use fare in the scenes, from `make measure`: `scenes.json`.
 
 use crate::experiments::accuracy::case::{Outcome, Scene, scenes};
 use crate::experiments::accuracy::trials::{Trial, right};

@@ -51,8 +51,7 @@ pub struct ReplayResult {
     pub contact_phases: u64,
     /// Runs of neighbouring gaps that closed at one instant.
     pub simultaneous: u64,
-    /// SHA-256 over the impacts, in hexadecimal: of each the time, the gap as the engine numbers
-    /// it, and the closing speed; eight bytes each, the lowest first, doubles bit by bit.
+    /// SHA-256, in hexadecimal, over time, gap and closing speed of all impacts, little-endian.
     pub digest: String,
 }
 

@@ -82,8 +82,7 @@ impl Segment {
         Segment { impacts, ..self.clone() }
     }
 
-    /// Of a segment over two periods: the largest distance of positions, and of impacts in time,
-    /// one period apart; infinite if the second period has other impacts.
+    /// Largest distance of positions and impact times one period apart; infinite if impacts differ.
     fn apart(&self) -> f64 {
         let half = self.impacts.len() / 2;
         let (first, second) = self.impacts.split_at(half);

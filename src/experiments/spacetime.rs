@@ -1,5 +1,4 @@
-//! Records one long run at the printed threshold, impact by impact: the first realisation of its
-//! stream that still has impacts in its last part.
+//! Records one long run at the printed threshold: the first with impacts in its last part.
 
 use crate::experiments::prelude::*;
 use crate::params::Runs;
@@ -64,8 +63,7 @@ impl SpaceTime {
         waits
     }
 
-    /// Returns the gaps at which impacts start: hit when neither neighbour had been. They close by
-    /// themselves, since their masses move as they did from the beginning.
+    /// Returns the gaps at which impacts start, by themselves: hit when neither neighbour had been.
     pub fn starts(&self) -> Vec<usize> {
         let starts = self.waits().into_iter().filter(|(_, wait)| wait.is_none());
         starts.map(|(gap, _)| gap).collect()

@@ -36,8 +36,7 @@ pub fn against_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
     Some(vec![table.done()])
 }
 
-/// Returns the part of the distance between theory and simulation that the start explains, from
-/// the half heights from rest, from random free parts, and of the theory.
+/// Returns the part that the start explains of the distance between theory and simulation.
 pub fn share_of_start(rest: Estimate, random: Estimate, theory: f64) -> Estimate {
     let (moved, all) = (difference(random, rest), theory - rest.value);
     with_error(moved.value / all, moved.error / all)

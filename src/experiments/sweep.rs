@@ -105,9 +105,8 @@ fn modes(sweep: &Counted) -> Table {
         .done()
 }
 
-/// Returns the impacts within [`NEAR_SIMULTANEOUS`] of one in an adjacent gap, and those slower
-/// than [`SLOW`], that are expected by chance: from those within δ = 1e−2 in proportion to δ, and
-/// from those below v = 0.1 in proportion to v², as the rate of impacts grows with v.
+/// Returns the near-simultaneous and the slow impacts expected by chance: from those within
+/// δ = 1e−2 in proportion to δ, and below v = 0.1 in proportion to v², as the rate grows with v.
 fn expected(total: &Total) -> [f64; 2] {
     let (near, slow) = (NEAR_SIMULTANEOUS / NEAR_DECADES[1], SLOW / SLOW_DECADES[0]);
     [total.near[1] as f64 * near, total.slow[0] as f64 * slow * slow]
@@ -132,8 +131,7 @@ fn rare(sweep: &Counted, total: &Total) -> Table {
         .done()
 }
 
-/// Returns the probability that the forces on a pair can press it together: an amplitude of ΔF,
-/// Rayleigh distributed with scale √2 σ, above d ω² = 1.
+/// Returns the chance that forces press a pair together: Rayleigh ΔF, scale √2 σ, above d ω² = 1.
 fn can_stick(sigma: &f64) -> f64 {
     pxfm::f_exp(-0.25 / (sigma * sigma))
 }
@@ -149,8 +147,7 @@ fn mode_intervals(curve: &Curve) -> impl Iterator<Item = (f64, [usize; 2])> {
     curve.rows.iter().filter_map(|row| Some((row.sigma, row.mode_interval?)))
 }
 
-/// Returns the σ between which the mode passes half of all gaps: by its bootstrap intervals it is
-/// under one half below the first, and over it from the second on.
+/// Returns the σ between which the mode passes half of all gaps, by its bootstrap intervals.
 pub fn mode_half(curve: &Curve, gaps: usize) -> Option<[f64; 2]> {
     let half = gaps as f64 / 2.0;
     let intervals: Vec<(f64, [usize; 2])> = mode_intervals(curve).collect();

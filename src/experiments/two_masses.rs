@@ -69,9 +69,8 @@ pub fn tables(found: &TwoMasses) -> Vec<Table> {
     vec![bound, excess]
 }
 
-/// Returns the amplitude of each of two neighbouring masses below which R1 + R2 < d in their gap
-/// for every direction, after a start from rest: forces at most F differ by at most 2F, so
-/// R2 ≤ 2F/|ω² − Ω²| and R1 ≤ max(1, Ω/ω) R2.
+/// Returns the amplitude of two neighbours below which R1 + R2 < d in every direction, from rest:
+/// forces differ by at most 2F, so R2 ≤ 2F/|ω² − Ω²| and R1 ≤ max(1, Ω/ω) R2.
 pub fn safe_force(chain: &Chain) -> f64 {
     bound(chain, &WORST)
 }
@@ -106,7 +105,7 @@ fn thresholds(
         while !hits(hitting, time)? {
             (quiet, hitting) = (hitting, 2.0 * hitting);
         }
-        // The threshold is monotone: a smaller amplitude makes the excursion later or never.
+        // The threshold is monotone.
         for _ in 0..HALVINGS {
             let middle = 0.5 * (quiet + hitting);
             if hits(middle, time)? {

@@ -37,8 +37,7 @@ const SCALE: [&[f64]; 6] = [&[0.0], &[0.1], &[1e-12], &[1e-6], &[0.01], &[0.01]]
 /// σ of the chains whose mean is compared, and the time T that is dropped: up the rise, and late.
 const MEANS: [(f64, f64); 4] = [(0.11, 500.0), (0.12, 500.0), (0.14, 500.0), (0.115, 2000.0)];
 
-/// The settings there, with a number of chains for each of [`MEANS`]: the cheaper, the more, and
-/// as many as the questions of `experiments/accuracy/answers.rs` need.
+/// The settings there, each with as many chains at each of [`MEANS`] as the questions need.
 const BIAS: [&[(f64, [usize; 4])]; 7] = [
     &[(0.0, [1000, 400, 1600, 100])],
     &[(0.5, [12, 0, 0, 0]), (0.1, [12, 12, 12, 0])],
@@ -89,11 +88,10 @@ impl RaceParams {
     }
 }
 
-/// Stopping speeds there, each with the fine setting of a method that locates impacts.
+/// Least rebound speeds there, each with the fine setting of a method that locates impacts.
 const STOPS: [f64; 2] = [1e-3, 1e-4];
 
-/// Returns the settings there: methods in their order, from coarse to fine, then with the stopping
-/// speeds.
+/// Returns the settings there: methods from coarse to fine, then with the least rebound speeds.
 pub fn trial_settings() -> Vec<Setting> {
     let mut all = settings(&SCENES);
     for method in MethodName::ALL.into_iter().filter(|method| method.locates_impacts()) {

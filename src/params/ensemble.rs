@@ -85,8 +85,7 @@ impl Ensemble {
         rejected as f64 <= self.most_rejected * self.realisations_at(sigma) as f64
     }
 
-    /// Estimates the impacts of one realisation, plus one for the first search of each mass: to cut
-    /// work into units and to show progress. No result depends on it.
+    /// Estimates the impacts of one realisation, plus one a mass: to cut work and show progress.
     pub fn work(&self, sigma: f64) -> u64 {
         // Impacts per unit of time and mass, of the paper's chain, roughly.
         let rate = |sigma: f64| (1.6 * (sigma - 0.085)).clamp(0.0, 0.3);
@@ -98,8 +97,7 @@ impl Ensemble {
         (self.chain.masses as f64 * (1.0 + impacts)) as u64
     }
 
-    /// Runs a realisation at a σ, `index` after the first, and counts its impacts; ends early, with
-    /// incomplete counts, when `stopped` returns true.
+    /// Counts the impacts of a realisation at a σ; incomplete when `stopped` returns true.
     pub fn realisation(
         &self,
         sigma: f64,
@@ -138,9 +136,8 @@ impl Ensemble {
     }
 }
 
-/// Returns the continuation of a scenario from `time` when its forces change by `factor`, with time
-/// counted from there: every phase is advanced by it. Positions and velocities are continuous, so
-/// the free parts, `free` until then, take up the change of the forced response.
+/// Returns the continuation from `time` when forces change by `factor`: phases advance by it, and
+/// `free` takes up the change of the forced response, so that the motion is continuous.
 pub fn lowered(scenario: &Scenario, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
     let (omega, frequency) = (scenario.natural_frequency, scenario.forcing_frequency);
     let mut parts = advanced(free, omega * time);

@@ -129,8 +129,7 @@ pub fn lengths(profile: Profile) -> Vec<Ensemble> {
     sizes.iter().map(rest).chain([random]).collect()
 }
 
-/// Chains of two lengths from rest and from above, under the same forces. Each σ is run as long as
-/// it brackets a half height, and σ = 0.09 on both branches for the share at a fixed σ.
+/// Chains from rest and from above at the σ of their half heights; σ = 0.09 for a fixed σ.
 pub fn branches(profile: Profile) -> Vec<Ensemble> {
     const REST: Option<Heating> = None;
     const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });

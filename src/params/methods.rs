@@ -30,8 +30,7 @@ impl MethodName {
         MethodName::Penalty,
     ];
 
-    /// Returns the method with a step in units of 1/ω or a tolerance, if it has one, and with a
-    /// stopping speed, if it locates impacts by these.
+    /// Returns the method with its step or tolerance, and a least rebound speed if it can have one.
     pub fn with(self, value: f64, stop: f64) -> Box<dyn Method> {
         match self {
             MethodName::Certified => Box::new(Certified),
@@ -64,7 +63,7 @@ impl MethodName {
         }
     }
 
-    /// Whether it goes from impact to impact, so that a stopping speed helps it to a rest.
+    /// Whether it goes from impact to impact: a least rebound speed helps it to a rest.
     pub fn locates_impacts(self) -> bool {
         matches!(self, MethodName::Sampled | MethodName::Advancement | MethodName::RungeKutta)
     }
@@ -80,7 +79,7 @@ pub struct Setting {
     pub method: MethodName,
     /// Step h in units of 1/ω, or tolerance.
     pub value: f64,
-    /// Stopping speed in units of d ω: no impact leaves a gap opening more slowly.
+    /// Least rebound speed in units of d ω: no impact leaves a gap opening more slowly.
     pub stop: f64,
 }
 

@@ -8,8 +8,7 @@
 use crate::graph::{Circuit, Graph};
 use std::collections::BTreeSet;
 
-/// Counts, by enumeration, the simple circuits on `big_n` gaps in a row, and their classes: in one
-/// class exchanges of neighbouring impacts without a common mass lead from each to each.
+/// Counts, by enumeration, simple circuits on `big_n` gaps, and classes that exchanges connect.
 pub fn simple_classes(big_n: usize) -> [usize; 2] {
     let all = Graph::of_chain(big_n - 1).circuits(big_n);
     let mut left: BTreeSet<Circuit> = all.filter(|circuit| circuit.repeats().is_empty()).collect();
@@ -24,7 +23,6 @@ pub fn simple_classes(big_n: usize) -> [usize; 2] {
     [circuits, classes]
 }
 
-/// Lists a circuit after each allowed exchange of two neighbours.
 fn exchanged(word: &[usize]) -> impl Iterator<Item = Circuit> + '_ {
     let after = |at: usize| (at + 1) % word.len();
     let free = move |at: &usize| word[*at].abs_diff(word[after(*at)]) > 1;
@@ -35,8 +33,7 @@ fn exchanged(word: &[usize]) -> impl Iterator<Item = Circuit> + '_ {
     })
 }
 
-/// Returns the mean number of different gaps if each set of k gaps weighs p^k once, and not
-/// (k − 1)! times: the mean of a binomial variable without the empty set.
+/// Returns the mean number of different gaps if each set of k gaps weighs p^k once.
 pub fn mean_without_orders(big_n: usize, p: f64) -> f64 {
     let share = p / (1.0 + p);
     let empty = (0..big_n).fold(1.0, |empty, _| empty * (1.0 - share));

@@ -1,5 +1,4 @@
-//! Counts simple circuits (Sec. 5): by exact integers where they fit into 128 bits, and beyond by
-//! the weights of Eq. (10) at p = 1, which are the numbers of circuits.
+//! Counts simple circuits (Sec. 5): exactly up to 128 bits, beyond by Eq. (10) at p = 1.
 
 use crate::distribution::{Law, SampleSpace};
 use crate::higher_order::arrangements;

@@ -1,5 +1,4 @@
-//! Computes the distribution of X, the number of impacts of a circuit of weight p per edge (Sec.
-//! 6).
+//! Computes the distribution of X, the number of impacts of a circuit (Sec. 6).
 //!
 //! Plain factorials leave the range of doubles at N = 171, and differences of log-gamma lose
 //! digits as N grows. Here every weight is a running product of the factors p (N − k), carried
@@ -11,8 +10,7 @@ use impact_chain::{Error, within};
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::scaled::Scaled;
 
-/// The largest number of vertices N for which a quantity is computed: its time grows at most in
-/// proportion to N, and is some seconds at this bound.
+/// The largest N for which a quantity is computed: it takes some seconds, at most ∝ N.
 pub const LARGEST_N: usize = 10_000_000;
 
 pub(crate) fn check_vertices(big_n: usize) -> Result<(), Error> {
@@ -62,8 +60,7 @@ impl Weights {
         }
     }
 
-    /// Whether all later weights are known to fall: then the ratio of neighbours, which is at most
-    /// p (N − k) (k + 3)/(k − 1), or p (N − k) for simple circuits, stays below 1.
+    /// Whether the ratio of neighbours, ≤ p (N − k) (k + 3)/(k − 1), stays below 1 from here.
     pub(crate) fn falls_from_here(&self) -> bool {
         let k = self.k as f64;
         let ratio = self.p.hi * (self.big_n - self.k) as f64;
@@ -137,7 +134,6 @@ impl Law {
         Ok((self.weight(k)? / self.sums().total).to_f64())
     }
 
-    /// Returns P(X = k) for k = 1..=N.
     pub fn probabilities(&self) -> Vec<f64> {
         let total = self.sums().total;
         self.all_weights().map(|weight| (weight / total).to_f64()).collect()
@@ -148,8 +144,7 @@ impl Law {
         self.weights().map(|weights| weights.moment() / Scaled::from(weights.k))
     }
 
-    /// Returns the part of one of the five classes in P(X = k), k = 1..=N; the classes add up to
-    /// [`Law::probabilities`]. For a sample space of five classes.
+    /// Returns the part of one of the five classes in P(X = k), k = 1..=N. For five classes.
     pub fn contribution(&self, class: &higher_order::Class) -> Vec<f64> {
         let total = self.sums().total;
         let extra = (0..class.excess()).fold(Scaled::ONE, |w, _| w * self.p);

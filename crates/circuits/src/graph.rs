@@ -1,5 +1,4 @@
-//! Builds the directed graph of Sec. 3: a vertex for each pair that can impact, an edge for each
-//! possible flight from one impact to the next, loops included. Periodic orbits are its circuits.
+//! Builds the directed graph of Sec. 3: a vertex for each pair that can impact, loops included.
 
 use std::collections::BTreeMap;
 
@@ -14,8 +13,7 @@ pub struct Graph {
 pub struct Circuit(Vec<usize>);
 
 impl Graph {
-    /// The graph of `masses` masses between two walls: vertices L-1, 1-2, …, n-R in the order of
-    /// the gaps (Fig. 4 for three masses). Without masses the walls face each other: L-R.
+    /// The graph of `masses` masses between walls: vertices L-1, 1-2, …, n-R; without masses L-R.
     pub fn of_chain(masses: usize) -> Self {
         let body = |j: usize| match j {
             0 => "L".to_string(),
@@ -29,7 +27,6 @@ impl Graph {
         self.labels.len()
     }
 
-    /// Name of a vertex, such as `L-1`, `1-2` or `3-R`.
     pub fn label(&self, vertex: usize) -> &str {
         &self.labels[vertex]
     }
@@ -79,8 +76,7 @@ impl Circuit {
         visits
     }
 
-    /// Its class in Eq. (34): how many vertices are visited j + 1 times, j = 1, 2, …, without
-    /// trailing zeros; empty for a simple circuit.
+    /// Its class in Eq. (34): how many vertices are visited j + 1 times; empty if simple.
     pub fn repeats(&self) -> Vec<usize> {
         let visits = self.visits();
         let most = visits.values().copied().max().unwrap_or(1);

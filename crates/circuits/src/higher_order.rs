@@ -6,7 +6,6 @@
 
 use impact_numerics::double_double::DoubleDouble;
 
-/// The circuits that are possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleSpace {
     /// Simple circuits only (Sec. 6).
@@ -136,8 +135,7 @@ impl Class {
         k.checked_sub(self.excess()).filter(|d| *d >= repeated.max(1))
     }
 
-    /// Returns [`SHARED`] times the number of circuits with k different vertices, over φ_N(k): by
-    /// the printed formula, or as primitive circuits. A whole polynomial in k, for any N.
+    /// Returns [`SHARED`] times the number of circuits with k different vertices, over φ_N(k).
     pub fn per_simple_circuit(&self, space: SampleSpace, k: usize) -> u128 {
         let short = space == SampleSpace::FiveClasses;
         let k = k as u128;

@@ -69,8 +69,7 @@ fn square(x: DoubleDouble) -> DoubleDouble {
     x * x
 }
 
-/// Squares a frequency. The double nearest to √2 stands for √2 itself, the paper's Ω: far in
-/// the tail the difference, one part in 10^16, is a thousand times larger in p.
+/// Squares a frequency; the double nearest to √2 stands for √2: in the tail p changes by 1e−13.
 fn squared(frequency: f64) -> DoubleDouble {
     if frequency == SQRT_2 { dd(2.0) } else { square(dd(frequency)) }
 }
@@ -86,8 +85,7 @@ fn underflow(what: &str, sigma: f64, remedy: &str) -> Error {
     Error::input("sigma", problem, remedy)
 }
 
-/// An exponent below which p differs from 1 by so little that 1 − p is the more accurate of the
-/// two: its rounding falls below the last bit of p.
+/// An exponent below which 1 − p is more accurate than p: its rounding falls below p's last bit.
 const NEARLY_ONE: f64 = 0.01;
 
 impl ImpactProbability {
@@ -217,8 +215,7 @@ impl ImpactProbability {
         1.0 - q2 / (4.0 * sigma2 * sigma2) * integral
     }
 
-    /// Returns the probability that a gap closes by itself after a start from rest. The integrand
-    /// is periodic and analytic, so the trapezoidal rule converges faster than any power; the
+    /// Returns p from rest. The trapezoidal rule converges fast as the integrand is periodic; the
     /// largest value of the exponential is taken out first, so small values keep their digits.
     pub fn p_from_rest(&self) -> Result<f64, Error> {
         let scale = square(self.half_ratio * self.detuning);
@@ -228,8 +225,7 @@ impl ImpactProbability {
         let (rate, reach_f64) = (scale.to_f64(), reach.to_f64());
         let least = scale / square(reach);
         let half = (-least).times_power_of_two(0.5).exp();
-        // The mean is at most one. Where even this is too small the mean would be that of a spike,
-        // to which the rule converges slowly and in vain.
+        // Where even this is too small the mean would be that of a spike: slow, and in vain.
         if half * half >= f64::MIN_POSITIVE {
             let decay = |theta| pxfm::f_exp(-rate * excess(kappa, reach_f64, theta));
             let p = (half * half_period_mean(decay)) * half;
@@ -241,8 +237,7 @@ impl ImpactProbability {
     }
 }
 
-/// Returns 1/D(θ)² − 1/D_max² with D(θ) = 1 + √(cos²θ + κ sin²θ), the excess of the
-/// exponent over its least value, without cancellation.
+/// Returns 1/D(θ)² − 1/D_max², D(θ) = 1 + √(cos²θ + κ sin²θ), without cancellation.
 fn excess(kappa: f64, reach: f64, theta: f64) -> f64 {
     let (sin, cos) = pxfm::f_sincos(theta);
     let root = (cos * cos + kappa * sin * sin).sqrt();
@@ -252,8 +247,7 @@ fn excess(kappa: f64, reach: f64, theta: f64) -> f64 {
     shortfall * (reach + d) / (d * d * reach * reach)
 }
 
-/// Returns the mean of an even function of period π over [0, π/2], by the trapezoidal rule with
-/// as many intervals as it takes (at most 2^20).
+/// Returns the mean of an even function of period π; at most 2^20 trapezoidal intervals.
 fn half_period_mean(f: impl Fn(f64) -> f64) -> f64 {
     let mut intervals = 32;
     let mut sum = 0.5 * (f(0.0) + f(FRAC_PI_2));

@@ -58,8 +58,7 @@ pub fn p_crit(big_n: usize) -> Result<f64, Error> {
     Ok(root * root)
 }
 
-/// Returns the k > 1 at which Φ_{N,p}(k) over integers has its local maximum (the lower of two
-/// equal ones), or 1 if Φ falls everywhere: ⌈k+⌉, since f is a forward difference.
+/// Returns the local maximum k > 1 of Φ_{N,p} (the lower of two), or 1 if Φ falls: ⌈k+⌉.
 pub fn local_maximum(big_n: usize, p: f64) -> usize {
     let Some([_, plus]) = zeros(big_n, p) else { return 1 };
     // Rounding may put k+ on the wrong side of an integer: exact signs decide.
@@ -77,15 +76,13 @@ pub fn local_maximum(big_n: usize, p: f64) -> usize {
     k
 }
 
-/// Returns the p at which k* steps from k to k + 1 once k* > 1: f_{N,p}(k) = 0, so
-/// (k + 1)/(k (N − k)).
+/// Returns the p at which k* > 1 steps from k to k + 1: (k + 1)/(k (N − k)), by f = 0.
 pub fn step(big_n: usize, k: usize) -> f64 {
     (k + 1) as f64 / (k * (big_n - k)) as f64
 }
 
-/// Returns the first local maximum of Φ over integers as p grows: the k > 1 where f_{N,p}(k) = 0
-/// at the smallest p, and that p as a fraction. It is a little above p_crit, unless k+ is an
-/// integer there. None for N < 3.
+/// Returns the first local maximum of Φ as p grows: its k > 1, and its p as a fraction, a little
+/// above p_crit unless k+ is an integer there. None for N < 3.
 pub fn first_local_maximum(big_n: usize) -> Option<(usize, [usize; 2])> {
     // (k + 1)/(k (N − k)) over k: compare as integers, exactly.
     let parts = |k: usize| [k + 1, k * (big_n - k)];
@@ -95,14 +92,12 @@ pub fn first_local_maximum(big_n: usize) -> Option<(usize, [usize; 2])> {
     Some((k, parts(k).map(|part| part / gcd(above, below))))
 }
 
-/// Returns the greatest common divisor, with gcd(0, b) = b.
 fn gcd(a: usize, b: usize) -> usize {
     if a == 0 { b } else { gcd(b % a, a) }
 }
 
 impl Law {
-    /// Returns k*, the most likely number of different impacts; the lowest of several. That of
-    /// simple circuits is either 1 or the one local maximum, found from exact signs of f.
+    /// Returns k*, the most likely number of different impacts; the lowest of several.
     pub fn k_star(&self) -> usize {
         if self.space != SampleSpace::Simple {
             return self.sums().largest_at;
@@ -175,8 +170,7 @@ pub fn limit_share(p_big_n: f64) -> f64 {
     (1.0 - 1.0 / p_big_n).max(0.0)
 }
 
-/// Returns the larger root of k² = 2 N (ln k − 1), to which k* jumps for many vertices, up to about
-/// ln k (ours); none for N ≤ e³, where there is no root.
+/// Returns the larger root of k² = 2 N (ln k − 1), to which k* jumps (ours); none for N ≤ e³.
 pub fn jump_rule(big_n: usize) -> Option<f64> {
     let big_n = big_n as f64;
     let beyond = |k: f64| k * k >= 2.0 * big_n * (pxfm::f_log(k) - 1.0);
@@ -189,8 +183,7 @@ pub fn jump_rule(big_n: usize) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Second routes: the exact jump, from which the rule is off by about ln k; and ⌈k+⌉ of Eq.
-    /// (13), which is N − 1/p up to one and 1/(p k*).
+    /// Second routes: the exact jump, off by about ln k; and ⌈k+⌉ of Eq. (13).
     #[test]
     fn the_rules_for_many_vertices_are_near_the_jump_and_its_share() {
         for big_n in [21, 100, 1000, 1_000_000] {

@@ -54,7 +54,6 @@ pub struct Reach {
     pub radii: Vec<f64>,
 }
 
-/// Angles at which a reach is computed.
 pub const ANGLES: usize = 256;
 
 /// Angles of the rule for neighbours, whose cost grows as their square.
@@ -79,8 +78,7 @@ fn along([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> f64 {
 }
 
 impl Reach {
-    /// Computes the reach within each of some rising times, rounded down to eighths of 1/ω. Maxima
-    /// are exact to rounding, except two of them less than an eighth apart.
+    /// Computes the reach within each of some rising times, rounded down to eighths of 1/ω.
     pub fn within(chain: &Chain, times: &[f64], angles: usize) -> Vec<Reach> {
         let step = 1.0 / (STEPS as f64 * chain.natural_frequency);
         let directions: Vec<[f64; 2]> = directions(angles).collect();
@@ -118,8 +116,7 @@ impl Reach {
         Reach { radii: directions(angles).map(radius).collect() }
     }
 
-    /// Returns the probability that a gap closes by itself whose two amplitudes differ by normals
-    /// with variance `variance` each: 2σ² between masses, σ² at a wall; d is the `spacing`.
+    /// Returns p of a gap with amplitude differences of this `variance`: 2σ², at a wall σ².
     pub fn probability(&self, spacing: f64, variance: f64) -> f64 {
         let beyond = |radius: &f64| {
             let least = spacing / radius;
@@ -130,8 +127,7 @@ impl Reach {
     }
 }
 
-/// Lists |ω² − Ω²| (R₁ + R₂) of each gap from rest between bodies with these forces, zero for a
-/// wall, where R₁ and R₂ are the amplitudes of its free and its forced part.
+/// Lists |ω² − Ω²| (R₁ + R₂) of each gap from rest between bodies with these forces; wall: zero.
 pub fn pulls(chain: &Chain, bodies: &[[f64; 2]]) -> impl Iterator<Item = f64> {
     let ratio = chain.forcing_frequency / chain.natural_frequency;
     bodies.windows(2).map(move |pair| {
@@ -147,7 +143,6 @@ pub fn closing_pull(chain: &Chain) -> f64 {
     chain.spacing * (omega * omega - big_omega * big_omega).abs()
 }
 
-/// Lists (cos θ, sin θ) at equally spaced angles.
 fn directions(angles: usize) -> impl Iterator<Item = [f64; 2]> {
     (0..angles).map(move |i| {
         let (sin, cos) = pxfm::f_sincos(TAU * i as f64 / angles as f64);
@@ -157,8 +152,7 @@ fn directions(angles: usize) -> impl Iterator<Item = [f64; 2]> {
 
 /// Returns when the curve turns back in a direction, between a rise and a fall.
 fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64 {
-    // The slope is nearly straight in an eighth: false position halves the number of bits left, and
-    // a bisection now and then keeps both ends moving.
+    // The slope is nearly straight: false position, and a bisection now and then moves both ends.
     let slope = |time: f64| along(curve(chain, time).1, direction);
     let (mut rises, mut falls) = (slope(from), slope(until));
     for round in 0..24 {
@@ -176,8 +170,7 @@ fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64
 /// Points of the rule on each side of the angle from which on the other radius decides.
 const POINTS: usize = 20;
 
-/// Returns the probability that two neighbouring gaps, of variances v_1 and v_2 (2σ² between
-/// masses, σ² at a wall), both close by themselves, by [`COARSE`] of the angles.
+/// Returns the probability that two neighbours of variances v_1, v_2 both close by themselves.
 fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
     let rule = GaussLegendre::new(POINTS);
     let shared = sigma * sigma;
@@ -214,9 +207,7 @@ fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct Chances {
-    /// A gap between masses.
     pub p: f64,
-    /// A gap at a wall.
     pub wall: f64,
     /// Both of two neighbouring gaps between masses.
     pub pair: f64,
@@ -237,8 +228,7 @@ impl Chances {
         }
     }
 
-    /// Returns the probability 1 − e^{−λ} that at least one gap closes by itself in a chain of
-    /// `masses` ≥ 1 masses between walls or in a ring.
+    /// Returns 1 − e^{−λ}: that at least one gap of `masses` ≥ 1 masses closes by itself.
     pub fn at_least_one(&self, masses: usize, boundary: Boundary) -> f64 {
         let walls = boundary == Boundary::Walls && masses > 1;
         let mut clumps = 0.0;

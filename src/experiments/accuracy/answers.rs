@@ -15,8 +15,7 @@ use literate::table::Building;
 /// How far a mean may be off, relative to it, at each σ.
 const MEANS: [(f64, f64); 4] = [(0.11, 0.05), (0.12, 0.05), (0.14, 0.01), (0.115, 0.05)];
 
-/// How far the share of chains with any impact may be off, at the first of these σ, and the half
-/// height between the first two, relative to it.
+/// How far the share of chains with any impact, and the half height, may be off, relative to it.
 const ALIKE: f64 = 0.01;
 
 /// Times to which an orbit is wanted, in units of 1/ω, and the share of chains in which it is.
@@ -30,7 +29,6 @@ const TIE: f64 = 1.3;
 const REST: [&str; 4] = ["ball", "table", "held", "squeezed"];
 const GRAZES: [&str; 2] = ["grazing-hits", "square-root"];
 
-/// What a method answers.
 struct Answer {
     setting: Setting,
     /// Seconds of one core for a thousand chains.
@@ -63,7 +61,6 @@ fn cheapest<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> Option<&'a Ans
     enough.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
 }
 
-/// A question and all answers to it.
 struct Question {
     id: String,
     words: String,
@@ -176,8 +173,7 @@ fn pairs(of: &Means, runs: &[Vec<GapCount>], setting: Setting) -> Vec<[f64; 2]> 
     both.filter_map(|(theirs, ours)| Some([f64::from((*theirs)?), f64::from((*ours)?)])).collect()
 }
 
-/// Asks how far a mean over chains is off. `values` turns the pairs of a method, at each of the σ,
-/// into an error for each chain; the engine errs by nothing, as the others are held against it.
+/// Asks how far a mean over chains is off; `values` turns a method's pairs at each σ into errors.
 fn question(
     (biases, measured): (&Biases, &Measured),
     sigmas: &[f64],
@@ -245,8 +241,7 @@ fn questions(biases: &Biases, measured: &Measured) -> Vec<Question> {
     all
 }
 
-/// Names the methods, and then the programs, with settings that are right in all cases in which
-/// masses come to rest, and counts these cases.
+/// Names methods and programs that are right wherever masses come to rest; counts these cases.
 fn at_rest(trials: &Trials, programs: &[Program]) -> (Vec<String>, usize) {
     let scenes = trials.parameters.scenes.iter().zip(&trials.found);
     let rest: Vec<_> = scenes.filter(|(scene, _)| REST.contains(&&*scene.id)).collect();
@@ -259,8 +254,7 @@ fn at_rest(trials: &Trials, programs: &[Program]) -> (Vec<String>, usize) {
     (methods.chain(runs).collect(), rest.iter().map(|(scene, _)| scene.cases.len()).sum())
 }
 
-/// Returns the gap between two balls of the cradle when the first comes, in units of d: they start
-/// in one place, and their sites are one apart.
+/// Returns the gap between two balls of the cradle when the first comes, in units of d.
 fn cradle(trials: &Trials) -> Option<f64> {
     let scene = trials.parameters.scenes.iter().find(|scene| scene.id == "cradle")?;
     let case = scene.cases.first()?;
@@ -273,12 +267,10 @@ fn rests(run: &Run) -> bool {
     REST.iter().all(|scene| right(&run.outcomes[*scene]) == run.outcomes[*scene].len())
 }
 
-/// Returns the number of grazes that are seen.
 fn grazes(run: &Run) -> usize {
     GRAZES.iter().map(|scene| right(&run.outcomes[*scene])).sum()
 }
 
-/// Names the programs of which a setting is chosen.
 fn names(programs: &[Program], chosen: impl Fn(&Run) -> bool) -> String {
     let of = programs.iter().filter_map(|of| of.settings.iter().find(|run| chosen(run)));
     of.map(|run| &*run.name).collect::<Vec<_>>().join(", ")

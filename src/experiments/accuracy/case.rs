@@ -1,5 +1,4 @@
-//! Reads the scenes of `scenes/scenes.json`, runs a method on a case, and judges what it finds.
-//! `scenes/README.md` describes the fields and the rules for authors of other programs.
+//! Reads `scenes/scenes.json` (see `scenes/README.md`), runs a method on a case, and judges it.
 
 use crate::experiments::prelude::*;
 use impact_chain::Error as Failure;
@@ -56,8 +55,7 @@ pub enum Expected {
     },
     /// From that time on no impact with more than this closing speed.
     Rest { since: f64, slower: f64 },
-    /// Of three masses that meet in one point: no mass passes another, momentum is kept, and energy
-    /// does not grow, by the first impacts with the walls.
+    /// Three masses meet: none passes another, momentum is kept, and energy does not grow.
     Law,
 }
 
@@ -113,8 +111,7 @@ impl Case {
         Scenario::parse_json(&self.scenario.to_string())
     }
 
-    /// Runs a method and judges its impacts. Returns the outcome, as soon as it is known, and the
-    /// least speed at which a gap opened after an impact by the law; infinite without an impact.
+    /// Returns the outcome, and the least speed at which a gap opened by the law; infinite if none.
     pub fn run(&self, method: &dyn Method) -> (Outcome, f64) {
         let Ok(scenario) = self.chain() else { return (Outcome::Refused, f64::INFINITY) };
         let (mut seen, mut slowest) = (Vec::new(), f64::INFINITY);

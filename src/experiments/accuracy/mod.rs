@@ -1,5 +1,4 @@
-//! Compares speed and accuracy: the cost of each method, and where it fails. Cost is counted work
-//! here; times of the clock are in [`super::measured`].
+//! Compares counted work and accuracy of each method, and where it fails.
 
 pub mod answers;
 pub mod bias;

@@ -1,5 +1,4 @@
-//! Every method against the true motion: the next impact from exact states, and whole runs until
-//! they leave the truth, with the counted work of both.
+//! Every method against the true motion: the next impact, and whole runs until they leave it.
 
 use crate::experiments::horizon::{self, Horizon};
 use crate::experiments::prelude::*;
@@ -30,8 +29,7 @@ pub struct Entry {
     pub setting: Setting,
     /// Evaluations per impact of the runs.
     pub work: Option<f64>,
-    /// When each run left the truth: at the first impact that it has not within [`DISPLACED`], or
-    /// at its end.
+    /// When each run left the truth: at the first impact not within [`DISPLACED`], or at its end.
     pub runs: Vec<f64>,
     /// Number of exact states from which the next impact was computed.
     pub tried: u64,
@@ -44,8 +42,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// Returns the mean time at which the runs left the truth: a lower bound if some did not, which
-    /// count with the end of the run.
+    /// Returns the mean time of leaving the truth: a lower bound if some did not.
     pub fn horizon(&self) -> Option<Estimate> {
         mean(&self.runs).map(|mean| with_error(mean, standard_error(&self.runs).unwrap_or(0.0)))
     }
@@ -82,8 +79,7 @@ struct Target {
     unit: f64,
 }
 
-/// At most `number` states right after impacts of the true motion. Each is moved to t = 0, the
-/// forcing with it, so that the rounding of a late time hides no error.
+/// States right after impacts of the true motion, moved to t = 0, so that rounding hides no error.
 fn targets(number: usize, courses: &[Course]) -> Result<Vec<Target>, impact_chain::Error> {
     let mut targets = Vec::with_capacity(number);
     for Course { scenario, hits } in courses {
@@ -145,8 +141,7 @@ fn entry(
     })
 }
 
-/// Runs one chain from its start until it has left the truth and its cost is known. Returns the
-/// time at which it left, and the cost, zero if the method failed before.
+/// Returns the time at which a chain left the truth, and its cost, zero if the method failed.
 fn follow(
     parameters: &RaceParams,
     method: &dyn Method,

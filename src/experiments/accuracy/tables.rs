@@ -66,8 +66,7 @@ pub struct Compared {
     pub sigma: f64,
     /// Chains that both ran to the end.
     pub pairs: usize,
-    /// Mean difference of their counts over the engine's mean, with its error, chain by chain, and
-    /// its 95 % interval, by Student's t.
+    /// Mean difference of their counts over the engine's mean, and its 95 % interval.
     pub share: Option<Estimate>,
 }
 

@@ -71,7 +71,7 @@ pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Erro
     Ok(Trials { parameters: parameters.clone(), found })
 }
 
-/// Returns the outcome with each setting; a stopping speed follows the same setting without one.
+/// Returns the outcome with each setting; a least rebound speed follows the setting without.
 fn outcomes(settings: &[Setting], case: &Case) -> Vec<Outcome> {
     let mut bouncing = (Outcome::GaveUp, 0.0);
     let of = |setting: &Setting| {
@@ -80,7 +80,7 @@ fn outcomes(settings: &[Setting], case: &Case) -> Vec<Outcome> {
         } else if bouncing.0 == Outcome::GaveUp || bouncing.1 < setting.stop {
             return outcome(*setting, case).0;
         }
-        // A run in which every gap opened faster is the same with a stopping speed.
+        // A run in which every gap opened faster is the same with a least rebound speed.
         bouncing.0
     };
     settings.iter().map(of).collect()

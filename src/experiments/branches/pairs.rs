@@ -118,8 +118,7 @@ impl Pair {
     }
 }
 
-/// Returns the exponent of a power law of T through the distances of some pairs, by least squares
-/// in logarithms. None if a distance is not positive.
+/// Returns the exponent of a power law of T by least squares; none if a distance is not positive.
 pub(super) fn exponent(pairs: &[Pair], without: Option<usize>) -> Option<f64> {
     let point = |pair: &Pair| {
         let distance = distance(pair, without).filter(|distance| *distance > 0.0)?;
@@ -152,9 +151,8 @@ mod tests {
         Pair { masses: 1, transient, rest: made_up(rest), above: made_up(above) }
     }
 
-    /// Places of chains on both branches: a part that both share, with a standard deviation of
-    /// 0.06, and parts of each branch, with 0.03 and 0.04. The distance of the half heights then
-    /// has the error 0.05/√12.
+    /// Places on both branches: a shared part, with a standard deviation of 0.06, and parts with
+    /// 0.03 and 0.04. The distance of the half heights then has the error 0.05/√12.
     fn drawn(index: u64) -> [Vec<f64>; 2] {
         let mut normals = NormalPairs::new("test of branches", 1, index);
         let mut places = [Vec::new(), Vec::new()];
@@ -178,9 +176,8 @@ mod tests {
             let [from, to] = interval(Some(found), CHAINS).unwrap();
             inside += u64::from((from..to).contains(&0.2));
         }
-        // 4000 mean squares with 11 degrees of freedom: known to √(2/11/4000) = 0.7 %. Resampling
-        // with replacement would give 11/12 of it, errors combined as if branches were independent
-        // nearly four times as much.
+        // 4000 mean squares with 11 degrees of freedom: known to √(2/11/4000) = 0.7 %.
+        // Resampling would give 11/12 of it, independent branches nearly four times as much.
         let known = 0.05 * 0.05 / CHAINS as f64;
         assert!((squares / known - 1.0).abs() < 0.03, "{}", squares / known);
         // 95 % to √(0.95 · 0.05/4000) = 0.34 %.

@@ -1,7 +1,5 @@
-//! Runs chains from rest and from above, and keeps the count of every chain.
-//!
-//! A chain from above runs well beyond the rise first; then all its forces are lowered by one
-//! factor. Chain i has the same forces on both branches and at every σ.
+//! Counts chains from rest and from above; the latter run well beyond the rise first, then all
+//! forces are lowered by one factor. Chain i has the same forces on both branches and at every σ.
 
 use crate::experiments::ensembles::{joined, part, rows};
 use crate::experiments::prelude::*;

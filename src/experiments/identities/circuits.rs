@@ -74,8 +74,7 @@ pub(super) fn eq32() -> Cases {
     cases((1..=10).flat_map(|n| (1..=n).map(move |j| (n, j))).map(agrees))
 }
 
-/// Compares Eq. (38) from a k on with the circuits of all five classes. From k = 3 on no formula is
-/// used below its printed range, since Eq. (37) has length k + 2 > 4.
+/// Compares Eq. (38) from a k on with all five classes; from k = 3 on Eq. (37) is in its range.
 pub(super) fn eq38(census: &Census, from: usize) -> Cases {
     let lengths = |(n, longest): (usize, usize)| {
         (from..=n).take_while(move |k| k + 3 <= longest).map(move |k| (n, k))

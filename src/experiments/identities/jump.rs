@@ -74,8 +74,7 @@ pub(super) fn monotone() -> Cases {
     cases(found.windows(2).map(|w| w[1] >= w[0]))
 }
 
-/// Returns the difference of f on both sides of its maximum, about which it is even by Eq. (12),
-/// over the largest of its terms.
+/// Returns the difference of f on both sides of its maximum, relative; zero by Eq. (12).
 pub(super) fn maximum() -> f64 {
     let pairs = |p| [0.5, 3.0, 40.0].map(|away| (p, top(p) + away, top(p) - away));
     let off = |(p, a, b)| (f(p, a) - f(p, b)).abs() / size(p, a).max(size(p, b));
@@ -91,8 +90,7 @@ pub(super) fn other_root() -> Cases {
     }))
 }
 
-/// Compares the weights at ⌈k₋⌉ and ⌈k₊⌉ with their neighbours, at p from the first integer maximum
-/// to one; at the ends of 1..=N there is one neighbour.
+/// Compares the weights at ⌈k₋⌉ and ⌈k₊⌉ with their neighbours in 1..=N, at p up to one.
 pub(super) fn extrema() -> Cases {
     let first = jump::first_local_maximum(VERTICES).map_or(1.0, |(_, [a, b])| a as f64 / b as f64);
     let mut agree = Vec::new();
@@ -110,8 +108,7 @@ pub(super) fn extrema() -> Cases {
     cases(agree)
 }
 
-/// Returns the distance of f at p_crit from −p (k − k_touch)², its form with a double zero, over
-/// the largest of its terms: Φ flattens there and falls on both sides.
+/// Returns the relative distance of f at p_crit from −p (k − k_touch)², with a double zero.
 pub(super) fn inflexion() -> f64 {
     let p = known(jump::p_crit(VERTICES));
     let off = |k: f64| (f(p, k) + p * (k - top(p)) * (k - top(p))).abs() / size(p, k);

@@ -1,6 +1,5 @@
-//! Compares each exact statement of Secs. 3 to 9 with a second route: formulas with the enumeration
-//! of small graphs, closed forms with quadrature, zeros with the function. What a claim judges is
-//! how many cases fail, or by how much: a row for each, under the id of the statement.
+//! Compares each exact statement of Secs. 3 to 9 with a second route. A claim judges how many
+//! cases fail, or by how much: a row for each, under the id of the statement.
 
 pub(crate) mod circuits;
 pub(crate) mod jump;

@@ -70,8 +70,7 @@ impl ByDistance {
         self.shares(&self.reached[bin]).skip(1).sum()
     }
 
-    /// Returns the exponent of a power law of time through the advance from a quarter of the last
-    /// time on, by least squares in logarithms. None if a front has not passed a gap by then.
+    /// Returns the exponent of a power law of time from a quarter on; none if no gap was passed.
     pub(super) fn exponent(&self) -> Option<f64> {
         let last = self.reached.len() - 1;
         let point = |bin: usize| {

@@ -1,7 +1,6 @@
 //! Measures how fronts advance: how long each waits for the next gap.
 //!
-//! Ahead of a front no mass was ever hit, and no gap closes by itself there. So a front takes one
-//! gap after the other, and between two first impacts it waits for the gap ahead. A wait ends with
+//! Ahead of a front no gap closes by itself, so it takes one gap after the other. A wait ends with
 //! a step or with the run; a front at a wall has no wait any more.
 
 use super::Trace;
@@ -24,8 +23,7 @@ pub struct Fronts {
     pub standing: f64,
 }
 
-/// Returns the time 2π/|Ω − ω| after which free and forced motion have the same relative phase
-/// again: a gap that the present motions can close is closed by then, as a rule.
+/// Returns the beat 2π/|Ω − ω|: what present motions can close is closed by then, as a rule.
 pub fn beat(chain: &Chain) -> f64 {
     TAU / (chain.forcing_frequency - chain.natural_frequency).abs()
 }

@@ -42,8 +42,7 @@ impl Prediction {
     }
 }
 
-/// Returns for each σ the chances that impacts begin at a gap at a wall, and at any other, in each
-/// bin: at every gap that closes by itself, or only at the first of each clump of them.
+/// Returns by σ the chances that impacts begin in each bin, at walls and elsewhere; or of clumps.
 fn closing(parameters: &SeedsParams, only_first: bool) -> Vec<[Vec<f64>; 2]> {
     let chain = &parameters.chain;
     let edges: Vec<f64> = (1..=parameters.bins).map(|bin| bin as f64 * parameters.bin).collect();

@@ -33,8 +33,7 @@ fn apart_in_shape(a: &[f64], b: &[f64]) -> f64 {
     (0..=10).map(moved).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the weight of circuits with one doubled vertex over that of simple ones, to first order:
-/// it costs p and can be placed in k²/2 ways, except on a single vertex.
+/// Returns the weight of circuits with one doubled vertex over simple ones, to first order.
 fn first_order(p: &f64) -> f64 {
     let higher = (1_u32..).zip(simple(*p)).skip(1);
     sum(higher.map(|(k, q)| q * p * f64::from(k) * f64::from(k) / 2.0))
@@ -85,8 +84,7 @@ fn doubling(p: f64) -> f64 {
     weight(&CLASSES[1]) / weight(&CLASSES[0])
 }
 
-/// Circuits of five classes with k different vertices for each simple one, k = 1..=N, if a circuit
-/// weighs p^k by its different vertices and not by its length.
+/// Circuits of five classes for each simple one, if one weighs p^k by its k different vertices.
 fn multiplicities() -> Vec<f64> {
     (1..=VERTICES).map(|k| multiplicity(FiveClasses, DoubleDouble::ONE, k).to_f64()).collect()
 }

@@ -86,9 +86,8 @@ pub(crate) fn touching() -> f64 {
     roots::bracket(1e-6, 1.0, |p| top(p) > 0.0 && jump::f(VERTICES, p, top(p)) >= 0.0)[1]
 }
 
-/// Returns the p and the real k at which Φ, with Γ functions for its factorials, has a stationary
-/// inflexion: ln Φ has the derivative ln p − 1/k + ψ(N + 1 − k), which is zero twice in k where
-/// 1/k² = ψ′(N + 1 − k).
+/// Returns the p and real k of a stationary inflexion of Φ with Γ functions: its logarithm has the
+/// derivative ln p − 1/k + ψ(N + 1 − k), zero twice in k where 1/k² = ψ′(N + 1 − k).
 pub(crate) fn flat() -> [f64; 2] {
     let k = roots::bracket(1.0, N / 2.0, |k| 1.0 / (k * k) <= pxfm::f_trigamma(N + 1.0 - k))[1];
     [pxfm::f_exp(1.0 / k - pxfm::f_digamma(N + 1.0 - k)), k]

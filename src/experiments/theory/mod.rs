@@ -1,6 +1,5 @@
-//! Computes the graph theory of Secs. 3 to 9 as tables, and beyond the paper many vertices and
-//! circuits up to the order of distant impacts, in some tenths of a second. Curves that only a
-//! figure draws are functions, as its data file has their values.
+//! Computes the graph theory of Secs. 3 to 9 as tables, and beyond the paper many vertices, in
+//! some tenths of a second. Curves that only a figure draws are functions.
 
 pub(crate) mod basics;
 pub(crate) mod census;

@@ -71,9 +71,8 @@ fn any(p: f64, gaps: usize) -> f64 {
     -pxfm::f_expm1(gaps as f64 * pxfm::f_log1p(-p))
 }
 
-/// Returns the same by p of Eq. (25), for random free parts, with another p for gaps at the walls,
-/// which do not move: an upper bound, since normal variables make symmetric convex events no less
-/// likely together than one by one.
+/// Returns the same by Eq. (25), for random free parts, with another p at the walls: an upper
+/// bound, since normal variables make symmetric convex events no less likely together.
 fn any_random(sigma: &f64) -> f64 {
     let none = (Chain::default().gaps() - 2) as f64 * pxfm::f_log1p(-p_of(*sigma));
     -pxfm::f_expm1(none + 2.0 * pxfm::f_log1p(-p_of(sigma / SQRT_2)))
@@ -84,14 +83,12 @@ fn sigma_kept(share: f64) -> f64 {
     smallest_sigma(|sigma| any(p_rest_of(sigma), Chain::default().gaps()) >= share)
 }
 
-/// Returns the share of random free parts that overlap, over p: Δ(0) = d + δα_0 − δα_1 is normal
-/// with variance 4σ².
+/// Returns the share of starts that overlap, over p: Δ(0) = d + δα_0 − δα_1 has variance 4σ².
 fn overlap(sigma: f64) -> f64 {
     0.5 * pxfm::f_erfc(Chain::default().spacing / (2.0 * sigma) / SQRT_2) / p_of(sigma)
 }
 
-/// Returns the largest relative difference between the closed form of Eq. (25) and the double
-/// integral, at σ where the latter has some digits of p left.
+/// Returns the largest relative difference of the closed form of Eq. (25) and the integral.
 fn eq25() -> f64 {
     largest([0.15, 0.2, 0.3, 0.5, 1.0].map(|sigma| {
         let gap = known(ImpactProbability::of_paper(sigma));
