@@ -31,7 +31,6 @@ pub struct Counted {
     pub ensemble: Ensemble,
     /// Totals of whole runs, for each σ.
     pub runs: Vec<RunTotals>,
-    /// Counts against σ, for each window.
     pub curves: Vec<Curve>,
 }
 
@@ -39,9 +38,7 @@ pub struct Counted {
 pub struct RunTotals {
     pub sigma: f64,
     pub realisations: usize,
-    /// Realisations with an overlapping start.
     pub rejected: usize,
-    /// Realisations that the engine ended early.
     pub failed: usize,
     pub total: Total,
 }
@@ -64,7 +61,6 @@ impl Counted {
     }
 }
 
-/// Lists each ensemble with each of its σ.
 fn cases(all: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
     all.iter().flat_map(|one| one.sigmas.iter().map(move |&sigma| (one, sigma)))
 }

@@ -30,7 +30,6 @@ pub struct Twins {
 }
 
 impl Horizon {
-    /// Returns the growth rate λ.
     pub fn growth(&self) -> Option<Estimate> {
         average(&self.twins.iter().filter_map(|twins| twins.growth).collect::<Vec<_>>())
     }
@@ -66,7 +65,7 @@ const GROWING: std::ops::Range<f64> = 1e-13..1e-4;
 /// Units of time in which the largest difference is one point of the growth.
 const STRIDE: f64 = 5.0;
 
-/// Returns the rate λ of e^λt by a straight line through the largest logarithm in each stride.
+/// Returns λ by a line through the largest logarithm of each stride; none below three points.
 fn rate(differences: &[(f64, f64)]) -> Option<f64> {
     let stride = |point: &(f64, f64)| (point.0 / STRIDE) as u64;
     let points: Vec<(f64, f64)> = differences

@@ -53,7 +53,6 @@ pub const THEORY: Experiment<serde_json::Value, ()> = Experiment {
     },
 };
 
-/// What every result depends on.
 const SHARED: &[&str] = &[
     "Cargo.lock",
     "crates/numerics/src",

@@ -14,7 +14,6 @@ pub const MEASURED: Experiment<(), Measured> = Experiment {
     tables,
 };
 
-/// Path of the file from the top of the project.
 pub const FILE: &str = "benches/measured.json";
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,7 +25,6 @@ pub struct Measured {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeasuredOn {
-    /// YYYY-MM-DD.
     pub date: String,
     pub machine: Machine,
     pub rows: Vec<Measurement>,
@@ -34,7 +32,6 @@ pub struct MeasuredOn {
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Machine {
-    /// Its model, as the system calls it.
     pub processor: String,
     pub os: String,
 }
@@ -49,7 +46,6 @@ pub enum What {
     /// The same on chains of several lengths.
     Size,
     Peer,
-    /// What the report does not show.
     #[serde(other)]
     Other,
 }
@@ -63,13 +59,10 @@ pub enum What {
 pub struct Measurement {
     pub what: What,
     pub name: String,
-    /// Step or tolerance of a method.
     pub value: Option<f64>,
-    /// Number of masses n; 0 for a command that has many.
     pub n: u64,
     /// Standard deviation σ of the forcing; 0 for a command that has many.
     pub sigma: f64,
-    /// Simulated time T.
     pub until: f64,
     pub chains: u64,
     /// The best of several repetitions.
@@ -111,7 +104,6 @@ impl Measured {
         self.rows(What::Method, setting, n).find(|row| row.sigma == sigma)
     }
 
-    /// Returns a method on chains of `n` masses.
     pub fn size(&self, setting: Setting, n: usize) -> Option<&Measurement> {
         self.rows(What::Size, setting, n).next()
     }

@@ -15,9 +15,7 @@ pub use literate::table::Table;
 pub use literate::value::origin;
 pub use serde::{Deserialize, Serialize};
 
-/// Unit of σ and of forces.
 pub const SIGMA: &str = "d omega^2";
-/// Unit of times.
 pub const TIME: &str = "1/omega";
 
 /// The half height of the mean of all realisations.

@@ -1,4 +1,4 @@
-//! Reads how programs that people use fare in the scenes, from `make measure`: `scenes.json`.
+//! Reads how programs fare in the scenes, from `make measure`: `benches/scenes.json`.
 
 use crate::experiments::accuracy::case::{Outcome, Scene, scenes};
 use crate::experiments::accuracy::trials::{Trial, right};
@@ -6,7 +6,6 @@ use crate::experiments::measured::{Machine, committed};
 use crate::experiments::prelude::*;
 use std::collections::BTreeMap;
 
-/// Programs that people use, in the scenes where methods fail.
 pub const PROGRAMS: Experiment<(), Vec<Program>> = Experiment {
     name: "programs",
     code: &["src/experiments/programs.rs", FILE],
@@ -30,7 +29,6 @@ pub struct Program {
     pub settings: Vec<Run>,
 }
 
-/// One setting.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Run {
@@ -42,7 +40,6 @@ pub struct Run {
 }
 
 impl Run {
-    /// Returns the outcomes in a scene.
     pub fn trial(&self, scene: &Scene) -> &Trial {
         &self.outcomes[&scene.id]
     }
@@ -63,7 +60,6 @@ fn complete(programs: Vec<Program>) -> Result<Vec<Program>, Error> {
     Ok(programs)
 }
 
-/// Makes the table of programs and settings.
 fn tables(programs: &Vec<Program>) -> Vec<Table> {
     let rows: Vec<(&Program, usize, &Run)> = programs
         .iter()

@@ -46,12 +46,11 @@ pub struct Replays {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReplayResult {
     pub impacts: u64,
-    /// Different gaps with an impact in the window.
     pub distinct: u64,
     pub contact_phases: u64,
     /// Runs of neighbouring gaps that closed at one instant.
     pub simultaneous: u64,
-    /// SHA-256, in hexadecimal, over time, gap and closing speed of all impacts, little-endian.
+    /// SHA-256 (hexadecimal) of the impacts' times, gaps and closing speeds, 8 bytes little-endian.
     pub digest: String,
 }
 
@@ -136,7 +135,6 @@ fn replay(asked: &Request) -> Result<ReplayResult, Failure> {
     })
 }
 
-/// Makes the tables of the digests with which the pages compare their runs.
 pub fn tables(all: &Replays) -> Vec<Table> {
     let rows: Vec<_> = all.parameters.iter().zip(&all.found).collect();
     let runs = Table::of("replay.runs", &rows, |_| 1)

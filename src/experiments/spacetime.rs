@@ -14,7 +14,6 @@ pub const SPACE_TIME: Experiment<Runs, SpaceTime> = Experiment {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpaceTime {
     pub parameters: Runs,
-    /// Time of each impact, rising.
     pub times: Vec<f64>,
     /// Gap of each impact, from 0.
     pub gaps: Vec<u32>,

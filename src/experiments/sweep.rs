@@ -6,7 +6,6 @@ use crate::params::{self, LEVEL, NEAR_SIMULTANEOUS, SLOW, printed_threshold};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
 use impact_chain::rise::RisePoint;
 
-/// The main sweep of Sec. 2.
 pub const SWEEP: Ensembles = ensembles("sweep", "main sweep", params::sweep, tables);
 
 /// The rise again, with another seed.

@@ -27,7 +27,6 @@ const QUICK: [&[f64]; 7] = [&[0.0], &[0.1], &[1e-9], &[1e-3], &[0.1], &[0.1], &[
 const TOLERANCES: &[f64] = &[1e-6, 1e-12];
 const FEW_STEPS: &[f64] = &[1e-2, 1e-4];
 
-/// The settings there.
 const SCENES: [&[f64]; 7] =
     [&[0.0], &[0.1, 0.01], TOLERANCES, TOLERANCES, FEW_STEPS, FEW_STEPS, FEW_STEPS];
 
@@ -65,7 +64,6 @@ pub const BENCH: (&str, u64) = ("bench", 1);
 pub struct RaceParams {
     /// The twins whose growth gives the horizon that chaos allows; all methods run the same chains.
     pub growth: Runs,
-    /// Length of the runs; a run ends where it has left the truth.
     pub until: f64,
     /// Until then a run goes on although it has left the truth, so that its cost is known.
     pub at_least: f64,
@@ -107,7 +105,6 @@ pub fn trial_settings() -> Vec<Setting> {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScaleParams {
     pub sigma: f64,
-    /// Numbers of masses n, rising.
     pub masses: Vec<usize>,
     /// Largest n of all methods but the engine.
     pub rivals: usize,

@@ -34,7 +34,6 @@ pub struct Ensemble {
     pub sigmas: Vec<f64>,
     /// The windows, all of which are read from one run.
     pub protocols: Vec<Protocol>,
-    /// Number of the first realisation.
     pub first: u64,
     pub realisations: usize,
     pub beyond: Option<Beyond>,
@@ -151,7 +150,6 @@ pub fn lowered(scenario: &Scenario, free: &[[f64; 2]], time: f64, factor: f64) -
     Scenario { initial: Initial::Free(parts), forcing, ..scenario.clone() }
 }
 
-/// Advances the phase of each a cos φ + b sin φ by `angle`.
 fn advanced(pairs: &[[f64; 2]], angle: f64) -> Vec<[f64; 2]> {
     let (sin, cos) = pxfm::f_sincos(angle);
     pairs.iter().map(|[a, b]| [a * cos + b * sin, b * cos - a * sin]).collect()

@@ -44,12 +44,10 @@ impl MethodName {
         }
     }
 
-    /// Its name in results and on the command line: `runge-kutta`.
     pub fn id(self) -> &'static str {
         self.with(0.0, 0.0).name()
     }
 
-    /// Returns its name in figures and tables: `Runge–Kutta`.
     pub fn title(self) -> &'static str {
         match self {
             MethodName::Certified => "engine",

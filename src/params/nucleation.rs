@@ -12,7 +12,6 @@ use serde::{Deserialize, Serialize};
 pub struct NucleationParams {
     /// Numbers of masses n, each with its realisations at each σ.
     pub lengths: Vec<(usize, usize)>,
-    /// Standard deviations σ, rising.
     pub sigmas: Vec<f64>,
     /// Times T by which a first impact is looked for, rising.
     pub times: Vec<f64>,
@@ -52,7 +51,6 @@ impl NucleationParams {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SeedsParams {
     pub chain: Chain,
-    /// Standard deviations σ, rising.
     pub sigmas: Vec<f64>,
     pub realisations: usize,
     /// Width of the bins of time since its first impact ...

@@ -6,7 +6,6 @@ use impact_numerics::random::NormalPairs;
 use literate::experiments::Profile;
 use serde::{Deserialize, Serialize};
 
-/// Chains of one kind at one σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Runs {
     pub chain: Chain,

@@ -106,7 +106,6 @@ pub fn two_doubled(big_n: usize, k: usize) -> Option<f64> {
 /// vertex at most once: the index of φ_N^{…, δ_3, δ_2, δ_1}.
 #[derive(Clone, Copy, Debug)]
 pub struct Class {
-    /// The printed equation that counts it.
     pub equation: u32,
     /// δ_1, δ_2, …: index j − 1 holds δ_j.
     pub repeats: &'static [usize],

@@ -78,7 +78,8 @@ fn along([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> f64 {
 }
 
 impl Reach {
-    /// Computes the reach within each of some rising times, rounded down to eighths of 1/ω.
+    /// Computes the reach within each of some rising times, rounded down to eighths of 1/ω. Maxima
+    /// are exact to rounding, except two of them less than an eighth apart.
     pub fn within(chain: &Chain, times: &[f64], angles: usize) -> Vec<Reach> {
         let step = 1.0 / (STEPS as f64 * chain.natural_frequency);
         let directions: Vec<[f64; 2]> = directions(angles).collect();

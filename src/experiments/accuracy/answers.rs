@@ -49,13 +49,11 @@ fn half(chains: usize, error: f64) -> f64 {
 }
 
 impl Answer {
-    /// Whether the 95 % interval lies inside of what is allowed.
     fn is_enough(&self) -> bool {
         self.margin >= self.half
     }
 }
 
-/// Returns the answer in the least time of those that are enough.
 fn cheapest<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> Option<&'a Answer> {
     let enough = answers.into_iter().filter(|answer| answer.is_enough());
     enough.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
@@ -87,7 +85,6 @@ impl Question {
     }
 }
 
-/// Makes the table of the methods of least time, and the list of those that bring masses to rest.
 pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     let (biases, measured) = (results.of(&BIAS).ok()?, results.of(&MEASURED).ok()?);
     let race = results.of(&RACE).ok()?;

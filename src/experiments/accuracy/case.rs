@@ -8,7 +8,6 @@ use serde_json::Value as Json;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Short name: `grazing-hits`.
     pub id: String,
     pub what: String,
     /// Why the outcome is what it is.
@@ -19,7 +18,6 @@ pub struct Scene {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// The smaller, the harder.
     pub difficulty: f64,
     /// The chain and its forcing, as [`Scenario::parse_json`] reads them.
     pub scenario: Json,
@@ -34,7 +32,6 @@ pub enum Expected {
     /// The impacts that count, in the order of time.
     Impacts {
         impacts: Vec<(f64, usize)>,
-        /// How far off a time may be.
         within: f64,
         /// Slower impacts do not count: the last bounces of a chatter depend on the method.
         #[serde(default)]
@@ -76,7 +73,6 @@ pub enum Outcome {
     Late,
     WrongSpeed,
     WrongRest,
-    /// The bound on work was passed.
     GaveUp,
     /// The method does not support the case, and says so.
     Refused,
@@ -132,7 +128,6 @@ impl Case {
         (outcome, slowest)
     }
 
-    /// Judges all impacts of a run, in the order of time.
     pub fn judge(&self, impacts: &[Impact]) -> Outcome {
         let counted = impacts.iter().copied().filter(|impact| self.expected.counts(impact));
         let seen: Vec<Impact> = counted.take(self.expected.enough()).collect();
@@ -163,7 +158,6 @@ impl Expected {
         }
     }
 
-    /// Returns the number of impacts that decide the outcome.
     fn enough(&self) -> usize {
         match self {
             Expected::Impacts { impacts, only, .. } => impacts.len() + usize::from(*only),

@@ -99,7 +99,6 @@ fn targets(number: usize, courses: &[Course]) -> Result<Vec<Target>, impact_chai
     Ok(targets)
 }
 
-/// Runs a method along every course and from every target.
 fn entry(
     parameters: &RaceParams,
     setting: Setting,

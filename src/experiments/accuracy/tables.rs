@@ -19,7 +19,6 @@ pub fn titled(settings: &[Setting]) -> String {
     title
 }
 
-/// Makes the tables of Figs. S6 and S7.
 pub fn race(race: &Race) -> Vec<Table> {
     let methods = race.entries.chunk_by(|a, b| a.setting.method == b.setting.method);
     let (coarsest, finest): (Vec<&Entry>, Vec<&Entry>) =
@@ -130,7 +129,6 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
     vec![cells, means]
 }
 
-/// Makes the table of Fig. S9.
 pub fn scale(scale: &Scale) -> Vec<Table> {
     let methods = scale.chunk_by(|a, b| a.0.method == b.0.method);
     let ends: Vec<_> = methods.map(|rows| (&rows[0], &rows[rows.len() - 1])).collect();

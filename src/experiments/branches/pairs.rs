@@ -59,7 +59,6 @@ impl Branch {
     }
 }
 
-/// Both branches of chains of one length after one transient.
 pub(super) struct Pair {
     pub masses: usize,
     pub transient: f64,
@@ -70,7 +69,6 @@ pub(super) struct Pair {
 /// A quantity of both branches, over all chains but one.
 pub(super) type Quantity = fn(&Pair, Option<usize>) -> Option<f64>;
 
-/// The half heights on both branches.
 pub(super) const FROM_REST: Quantity = |pair, without| pair.rest.half_height(without);
 pub(super) const FROM_ABOVE: Quantity = |pair, without| pair.above.half_height(without);
 

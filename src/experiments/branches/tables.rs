@@ -42,7 +42,6 @@ fn last_three(pairs: &[Pair]) -> &[Pair] {
     &pairs[pairs.len().saturating_sub(3)..]
 }
 
-/// Makes the table of the powers by which the distance falls with T.
 fn laws(lengths: &[&[Pair]]) -> Table {
     const LAW: &str = "d ln(distance)/d ln T by least squares over the last three transients";
     const EARLY: &str = "the same over the first two transients";
@@ -96,7 +95,6 @@ fn late(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-/// Estimates by how much the share from above exceeds that from rest at a σ.
 fn excess(pair: &Pair, sigma: f64) -> Option<Estimate> {
     pair.estimate(|pair, without| {
         Some(pair.above.share(sigma, without)? - pair.rest.share(sigma, without)?)
@@ -131,7 +129,6 @@ fn fixed(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-/// Makes the table of shares at every σ that was run on a branch.
 fn shares(pairs: &[Pair]) -> Table {
     const SHARE: &str = "share of all gaps with an impact";
     const EXCESS: &str = "share from above less that from rest";

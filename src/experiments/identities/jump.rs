@@ -26,12 +26,10 @@ fn f(p: f64, k: f64) -> f64 {
     jump::f(VERTICES, p, k)
 }
 
-/// Returns the largest of the three terms of f at k.
 fn size(p: f64, k: f64) -> f64 {
     largest([p * k * k, ((N * p - 1.0) * k).abs(), 1.0])
 }
 
-/// Compares μ at neighbouring p of a grid of [0, 1].
 pub(super) fn mean_rises() -> Cases {
     let means: Vec<f64> = (0..=200).map(|i| simple(f64::from(i) / 200.0).mean()).collect();
     cases(means.windows(2).map(|w| w[1] >= w[0]))
@@ -65,7 +63,6 @@ pub(super) fn slopes() -> Cases {
     cases(agree)
 }
 
-/// Compares k* at neighbouring p of a grid from just beyond the jump to one.
 pub(super) fn monotone() -> Cases {
     let from = known(jump::p_jump(Simple, VERTICES)).bracket[1];
     let p = |i: i32| (from + (1.0 - from) * f64::from(i) / 1000.0).min(1.0);

@@ -9,7 +9,6 @@ use crate::experiments::prelude::*;
 use crate::experiments::theory::basics::Cases;
 use crate::experiments::theory::census::census;
 
-/// Makes the tables of the comparisons, for the paper's N.
 pub fn tables() -> Vec<Table> {
     let census = census();
     let rows: [(&str, Cases); 16] = [

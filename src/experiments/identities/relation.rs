@@ -34,7 +34,7 @@ pub(super) fn separation() -> f64 {
     }))
 }
 
-/// Returns the largest distance of the integral of a density from the weight of a disc, s by s.
+/// Returns the largest distance of the integral of a density up to x from the weight of that disc.
 pub(super) fn distributions() -> f64 {
     let rule = GaussLegendre::new(20);
     let disc = |x: f64, s: f64| {

@@ -10,7 +10,6 @@ pub struct Nucleation {
     pub parameters: NucleationParams,
     /// For each length and σ, length by length, the time of each chain's first impact.
     pub rows: Vec<Vec<Option<f64>>>,
-    /// At each σ that was run.
     pub gaps: Vec<Gaps>,
     /// Within the latest time, at σ that lie closer together, for curves.
     pub curve: Vec<(f64, Chances)>,

@@ -4,7 +4,6 @@ use super::run::{Gaps, Nucleation};
 use crate::experiments::prelude::*;
 use impact_circuits::nucleation::Chances;
 
-/// Chains of one length at one σ by some time.
 struct Chains {
     masses: usize,
     sigma: f64,
@@ -12,7 +11,6 @@ struct Chains {
     ran: u64,
     /// Those of them with an impact by then.
     hit: u64,
-    /// Their expected share.
     expected: f64,
 }
 
@@ -37,7 +35,6 @@ pub fn tables(found: &Nucleation) -> Vec<Table> {
     ]
 }
 
-/// Makes the table of single gaps and neighbours in unlimited time.
 fn single(gaps: &[Gaps]) -> Table {
     Table::of("nucleation.gaps", gaps, |_| 0)
         .key("sigma", SIGMA, |row| row.sigma)

@@ -20,7 +20,6 @@ pub(super) fn ran(traces: &[Option<Trace>]) -> impl Iterator<Item = (usize, &Tra
     traces.iter().flatten().filter_map(|trace| Some((trace.seed?, trace)))
 }
 
-/// Returns the bits of `count` bins from one on.
 pub(super) fn bits(from: usize, count: usize) -> u64 {
     (from..from + count).fold(0, |all, bin| all | 1 << bin)
 }

@@ -21,7 +21,6 @@ pub(super) const GROUPS: usize = 8;
 
 /// Mean counts after one transient.
 pub(super) struct Prediction {
-    /// The transient, in bins.
     pub transient: usize,
     /// Without each group in turn, and last with all of them, for each σ.
     means: Vec<Vec<f64>>,
@@ -42,7 +41,7 @@ impl Prediction {
     }
 }
 
-/// Returns by σ the chances that impacts begin in each bin, at walls and elsewhere; or of clumps.
+/// Returns by σ the chances that gaps, or clumps only, begin in each bin: at a wall, elsewhere.
 fn closing(parameters: &SeedsParams, only_first: bool) -> Vec<[Vec<f64>; 2]> {
     let chain = &parameters.chain;
     let edges: Vec<f64> = (1..=parameters.bins).map(|bin| bin as f64 * parameters.bin).collect();

@@ -9,7 +9,6 @@ pub(crate) fn known<T>(found: Result<T, Error>) -> T {
     found.expect("the theory exists for the paper's N and p")
 }
 
-/// Begins a table of one row.
 pub(crate) fn one(name: &'static str, item: Origin) -> Building<'static, ()> {
     Table::of(name, &[()], |()| 0).computed_by(item)
 }

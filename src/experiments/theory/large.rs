@@ -10,7 +10,6 @@ use rayon::prelude::*;
 /// At most this many steps of k* between two values of p N are drawn one by one.
 const FEW: usize = 3;
 
-/// Values of p N that are drawn.
 fn drawn() -> Vec<f64> {
     Grid::default().and(0, 500, 1, 200).values()
 }
@@ -27,7 +26,6 @@ pub(super) fn large() -> Table {
         .done()
 }
 
-/// Returns the limit of k*/N against p N.
 pub fn limit() -> Vec<(f64, f64)> {
     drawn().into_iter().map(|x| (x, limit_share(x))).collect()
 }

@@ -12,7 +12,6 @@ pub(crate) fn law(space: SampleSpace, p: f64) -> Law {
     known(Law::new(space, VERTICES, p))
 }
 
-/// Returns P(X = k) of simple circuits, k = 1..=N.
 pub fn simple(p: f64) -> Vec<f64> {
     law(Simple, p).probabilities()
 }

@@ -21,7 +21,6 @@ pub(super) fn p_of(sigma: f64) -> f64 {
     known(ImpactProbability::of_paper(sigma)).p().unwrap_or(0.0)
 }
 
-/// Returns the same for a start from rest.
 fn p_rest_of(sigma: f64) -> f64 {
     known(ImpactProbability::of_paper(sigma)).p_from_rest().unwrap_or(0.0)
 }
@@ -31,7 +30,6 @@ fn smallest_sigma(holds: impl FnMut(f64) -> bool) -> f64 {
     roots::bracket(0.0, 1.0, holds)[1]
 }
 
-/// Returns the σ at which a probability is p.
 pub(super) fn reaches(p_of: fn(f64) -> f64, p: f64) -> f64 {
     smallest_sigma(|sigma| p_of(sigma) >= p)
 }
