@@ -4,14 +4,12 @@ use super::flight::Phases;
 use super::force::Force;
 use crate::search::local_frame::Frequencies;
 
-/// Finds which gaps of a run stay shut; returns for each gap its contact force λ_i, or none if it
-/// opens. Gaps that are not `allowed` stay open.
+/// Returns for each gap of a run its contact force λ_i, none if it opens or is not `allowed`.
 ///
-/// Gap i accelerates by g_i + K_i λ_i − λ_{i−1} − λ_{i+1}, where K_i is `inverse_mass` and
-/// λ_i ≥ 0 the contact force; a shut gap needs acceleration ≥ 0, and λ_i = 0 where it is > 0.
-/// The matrix is an M-matrix, so starting from no gap and adding every gap that would be driven
-/// shut ends at the solution after at most as many rounds as there are gaps (Chandrasekaran, 1970,
-/// Opsearch 7, 263).
+/// Gap i accelerates by g_i + K_i λ_i − λ_{i−1} − λ_{i+1}, where K_i is `inverse_mass` and λ_i ≥ 0
+/// the contact force; a shut gap needs acceleration ≥ 0, and λ_i = 0 where it is > 0. The matrix is
+/// an M-matrix, so starting from no gap and adding every gap that would be driven shut ends at the
+/// solution after at most as many rounds as there are gaps (Chandrasekaran, 1970, Opsearch 7, 263).
 pub fn contact_forces<const M: usize>(
     g: &[Force<M>],
     inverse_mass: &[f64],
@@ -65,10 +63,8 @@ impl<const M: usize> Shut<'_, M> {
         }
     }
 
-    /// Decides whether an open gap is driven shut, by its acceleration and its neighbours.
-    ///
-    /// Its acceleration must be negative beyond rounding: where a symmetry releases several gaps at
-    /// once, those of the others are zero up to rounding, whose sign must not shut them again.
+    /// Decides whether an open gap is driven shut: by an acceleration that is negative beyond
+    /// rounding, as those of gaps released together by a symmetry are zero up to rounding.
     fn is_driven(&self, i: usize, neighbours: [Force<M>; 2]) -> bool {
         let size = neighbours.iter().fold(self.g[i].size(), |size, force| size + force.size());
         // Elimination adds up the rounding of the gaps of a long run.

@@ -1,12 +1,10 @@
 //! Reflects neighbours under equal forces in elastic impacts (r = 1), which conserve the energy of
-//! their relative motion. Such orbits may be periodic, and a rounding that is the same in every
-//! period would add up.
+//! their relative motion. In periodic orbits an equal rounding in every period would add up.
 //!
-//! The impact reflects the relative free part X = (a, b) of the two in the direction n = (−sin
-//! ωt, cos ωt) of their kick: X' = X − 2 n (n·X)/(n·n). In double-doubles this keeps |X| to
-//! 1e−31, whatever the rounding of n. And n is turned to the instant at which the motions close
-//! the gap, some 1e−16 from the root that was found, so the rounding of the search moves one
-//! impact and none after it.
+//! The impact reflects the relative free part X = (a, b) in the direction n = (−sin ωt, cos ωt) of
+//! the kick: X' = X − 2 n (n·X)/(n·n). In double-doubles this keeps |X| to 1e−31, whatever the
+//! rounding of n, which is turned to the instant at which the motions close the gap, some 1e−16
+//! from the root that was found: the rounding of the search moves one impact and none after it.
 
 use super::flight::Phases;
 use super::simulation::Simulation;

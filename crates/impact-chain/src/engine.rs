@@ -86,8 +86,7 @@ impl Engine {
         call!(&self.0, simulation => simulation.free_parts())
     }
 
-    /// Returns the gaps in contact and their contact forces (≥ 0 while it lasts) at a time from the
-    /// last event to the next.
+    /// Returns the gaps in contact and their contact forces (≥ 0) at a time up to the next event.
     pub fn contacts(&self, time: f64) -> Result<Vec<(usize, f64)>, Error> {
         call!(&self.0, simulation => simulation.contacts(time))
     }

@@ -4,13 +4,11 @@ use std::fmt::{self, Debug};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Error {
-    /// A field of the scenario has a value that the model does not allow: what is wrong, with the
-    /// value, and what to write instead.
+    /// A field has a value that the model does not allow: what is wrong, and what to write instead.
     Input { field: String, problem: String, remedy: String },
     /// The start has masses in reversed order, first at this gap, overlapped by this length.
     Overlap { gap: usize, depth: f64 },
-    /// The run had more events than the bound within one unit of time, the last at this gap and
-    /// time.
+    /// More events than the bound within one unit of time, the last at this gap and time.
     Work { gap: usize, time: f64, bound: u64 },
 }
 

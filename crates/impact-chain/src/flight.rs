@@ -3,8 +3,7 @@
 use crate::search::clock::Instant;
 use crate::search::local_frame::{Frame, Frequencies};
 
-/// Returns the response (c, s) of an undamped oscillator to a component of Eq. (3), with ω² −
-/// Ω² as (ω − Ω)(ω + Ω).
+/// Returns the response (c, s) to a component of Eq. (3), with ω² − Ω² as (ω − Ω)(ω + Ω).
 pub fn response(w: f64, big_w: f64, amplitudes: [f64; 2]) -> [f64; 2] {
     let factor = (w - big_w) * (w + big_w);
     amplitudes.map(|amplitude| amplitude / factor)
@@ -47,8 +46,7 @@ pub struct Motion<const M: usize> {
     pub a: f64,
     /// b, free part along sin ωt.
     pub b: f64,
-    /// Forced response of each component: c = α/(ω² − Ω²) along cos Ωt, s = β/(ω² −
-    /// Ω²) along sin Ωt.
+    /// Forced responses: c = α/(ω² − Ω²) along cos Ωt, s = β/(ω² − Ω²) along sin Ωt.
     pub forced: [[f64; 2]; M],
     /// Distance of the centre of motion from j d: 0, except in a cluster.
     pub offset: f64,

@@ -10,8 +10,7 @@ pub struct Force<const M: usize> {
     pub forced: [[f64; 2]; M],
 }
 
-/// Derivatives that [`Force::falls`] examines, the value included: more than any known symmetry
-/// makes zero at once.
+/// Derivatives that [`Force::falls`] examines, the value included: more than symmetry makes zero.
 const ORDERS: usize = 6;
 
 impl<const M: usize> Force<M> {

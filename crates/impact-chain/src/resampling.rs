@@ -1,5 +1,4 @@
 //! Finds means, modes and places of the rise in a sample of counts, with bootstrap errors.
-//!
 //! The realisations are resampled, not the rows: realisation i has the same standard normals at
 //! every σ, so a resample takes its counts at all σ together.
 

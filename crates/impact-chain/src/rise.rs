@@ -36,8 +36,7 @@ impl Mean {
     }
 }
 
-/// Counts at one σ, of chains or of the pieces into which they are cut. The paper discards those
-/// without an impact in the window.
+/// Counts at one σ, of chains or their pieces. The paper discards those without an impact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RisePoint {
     /// Standard deviation σ of the amplitudes.

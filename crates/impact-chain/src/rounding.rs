@@ -3,10 +3,8 @@
 //! Take the doubles of a scenario as exact, and let gap Δ of two neighbours close next, at t + s,
 //! falling with speed v = −Δ'(t + s). Then the engine's waiting time is off by at most
 //! |δs| ≤ C ε S/v, with C = [`TIME`], ε = 2⁻⁵² and S = d + Q₁ + Q₂, where Q₁ and Q₂ are the free
-//! and the forced amplitudes of *both* neighbours, summed. Amplitudes that two neighbours share
-//! vanish from the gap, but their roundings do not: each forced amplitude is divided by ω² −
-//! Ω² separately. Impacts that nearly graze are excepted: there no double can decide whether the
-//! gap closes.
+//! and the forced amplitudes of *both* neighbours, summed: shared amplitudes vanish from the gap,
+//! but their roundings do not. Impacts that nearly graze are excepted: no double can decide them.
 //!
 //! Scenarios whose C ε S exceeds [`LARGEST`] of d are refused: near resonance S is the amplitude
 //! over |ω² − Ω²|, however slowly the motion grows.
@@ -20,9 +18,8 @@ pub const LARGEST: f64 = 1e-6;
 /// `trace` reports E where it is a larger part of d than this.
 pub const REPORTED: f64 = 1e-9;
 
-/// C of the waiting time, measured: eighteen times the largest value, 3.7, in 560 000 impacts of
-/// random chains biased to extreme cases, against a simulator of 106 bits
-/// (`tests/physics/certified.rs`).
+/// C of the waiting time: eighteen times the largest value, 3.7, measured in 560 000 impacts of
+/// extreme random chains against a simulator of 106 bits (`tests/physics/certified.rs`).
 pub const TIME: f64 = 66.3;
 
 /// Returns E = C ε S at the start, with a bound of S over all gaps: rounding may change the width

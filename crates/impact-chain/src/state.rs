@@ -45,9 +45,8 @@ impl State {
         state
     }
 
-    /// Returns the displacements of all bodies from their places, from the left wall (0) to the
-    /// right one (n + 1). Gaps that overlap by no more than rounding are shut exactly, and so are
-    /// gaps at rest that are as narrow.
+    /// Returns the displacements of bodies from the left wall (0) to the right one (n + 1). Gaps
+    /// that overlap by no more than rounding are shut exactly, and so are gaps at rest as narrow.
     pub(crate) fn displacements(&self, scenario: &Scenario) -> Result<Vec<f64>, Error> {
         scenario.validate()?;
         self.validate(scenario.forcing.len())?;
@@ -94,8 +93,7 @@ impl State {
         Ok(())
     }
 
-    /// Returns the scenario that starts at t = 0 exactly where this state is: the forcing rotated
-    /// by Ωt, the free parts derived.
+    /// Returns the scenario that starts at t = 0 exactly at this state, its forcing rotated by Ωt.
     ///
     /// # Errors
     /// [`Error::Input`] for a scenario or a state outside the model, [`Error::Overlap`] for an

@@ -4,9 +4,8 @@ use super::random::generator;
 use super::statistics::{Estimate, quantile, standard_deviation};
 use rand::Rng;
 
-/// Draws how often each of `size` members of a sample is drawn in resample `index`: `size` draws
-/// with replacement. Equal (seed, index, size) give equal weights, so quantities are resampled
-/// jointly by use of the same index.
+/// Draws how often each of `size` members is drawn, with replacement, in resample `index`. Equal
+/// (seed, index, size) give equal weights: one index resamples several quantities jointly.
 pub fn weights(seed: u64, index: u64, size: usize) -> Vec<u32> {
     let mut random = generator("bootstrap", seed, index);
     let mut weights = vec![0; size];

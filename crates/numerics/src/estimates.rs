@@ -28,8 +28,7 @@ pub fn difference(a: Estimate, b: Estimate) -> Estimate {
 }
 
 /// Returns `statistic` of all realisations, with the jackknife error from its values without each
-/// in turn (its argument is the one left out). None if one of these does not exist, or there are
-/// fewer than two realisations.
+/// (its argument). None if one of these does not exist, or with fewer than two realisations.
 pub fn jackknife(
     realisations: usize,
     statistic: impl Fn(Option<usize>) -> Option<f64>,

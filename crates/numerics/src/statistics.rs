@@ -79,9 +79,8 @@ pub fn wilson(successes: u64, trials: u64, level: f64) -> Option<[f64; 2]> {
     (trials > 0).then_some([low, high])
 }
 
-/// Finds where y(x) rises to `level` for good: the last x from which on all values are at or above
-/// it, linear between the points, without those that have no value. None if y ends below the level
-/// or never lies below it.
+/// Finds where y(x) rises to `level` for good, linear between the points that have a value: from
+/// there on none is below it. None if y ends below the level or never lies below it.
 pub fn last_rise(x: &[f64], y: &[Option<f64>], level: f64) -> Option<f64> {
     let points: Vec<(f64, f64)> = x.iter().zip(y).filter_map(|(&x, &y)| Some((x, y?))).collect();
     let below = points.iter().rposition(|&(_, y)| y < level)?;

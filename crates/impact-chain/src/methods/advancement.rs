@@ -20,7 +20,7 @@ use crate::search::earliest::Earliest;
 /// - Fails: no zero is passed, but a gap that comes within the tolerance of zero is hit, also one
 ///   that opens and turns back within it; near a graze the steps get short; a chatter has
 ///   infinitely many impacts in a finite time, and there is no rest in contact: the bound on work
-///   ends the run there, unless a stopping speed is given.
+///   ends the run there, unless a least rebound speed is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Advancement {
     /// Width of a closing gap, in units of d, at which it is hit.

@@ -8,8 +8,7 @@ use crate::impact::jumps;
 use crate::search::clock::Instant;
 use crate::topology::Topology;
 
-/// The bodies of a chain with their state and forces; bodies are numbered from the left wall (0) to
-/// the right one (n + 1).
+/// The bodies of a chain with state and forces, from the left wall (0) to the right one (n + 1).
 pub struct Bodies {
     pub topology: Topology,
     pub spacing: f64,
@@ -80,8 +79,7 @@ impl Bodies {
         phases(&self.forcing, at)
     }
 
-    /// Computes the accelerations in flight at displacements `u` and an instant. The walls have
-    /// none.
+    /// Computes the accelerations in flight at displacements `u` and an instant; walls have none.
     pub fn accelerations(&self, at: Instant, u: &[f64], out: &mut [f64]) {
         for (out, u) in out.iter_mut().zip(u) {
             *out = -self.stiffness * u;

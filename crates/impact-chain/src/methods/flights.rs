@@ -71,8 +71,7 @@ impl Flights {
         self.phases(if s == step.h { step.to } else { step.from.after(s) })
     }
 
-    /// Returns the forced response of the right one of two bodies less that of the left one, and
-    /// its rate.
+    /// Returns the forced response of the right body less that of the left one, and its rate.
     fn response(&self, [left, right]: [usize; 2], phases: &FlightPhases) -> [f64; 2] {
         let [mut v, mut rate] = [0.0; 2];
         for (component, (sin, cos)) in self.forced.iter().zip(&phases.1) {
@@ -113,8 +112,7 @@ impl Flights {
         [INFLATION * reach, INFLATION * curvature]
     }
 
-    /// Applies the impact law at gap k: a jump of velocity only rotates into the free part. Returns
-    /// the rate at which the gap opens.
+    /// Applies the impact law at gap k to the free parts. Returns the rate at which the gap opens.
     pub fn hit(&mut self, k: usize, speed: f64, phases: &FlightPhases) -> f64 {
         let rebound = (self.restitution * speed).max(self.stop);
         let sides = self.topology.sides(k);

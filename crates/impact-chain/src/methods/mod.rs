@@ -2,7 +2,7 @@
 //!
 //! Each rival is a method that is in use, at its best, so that its cost and its failures can be
 //! measured on the same scenes. Its documentation names its source, its order and its failures.
-//! Methods that locate impacts may be given a stopping speed: no gap opens more slowly, so that
+//! Methods that locate impacts may be given a least rebound speed: no gap opens more slowly, so
 //! masses at rest stay together by many small impacts (the micro-collisions of Mirtich).
 //!
 //! - [`Certified`]: the engine of this project. [`Truth`], [`truth::TrueMotion`]: the motion to 106

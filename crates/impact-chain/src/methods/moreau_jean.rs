@@ -29,8 +29,7 @@ pub struct MoreauJean {
     pub step: f64,
 }
 
-/// The largest number of sweeps of Gauss–Seidel in one step. A cluster of m contacts needs some
-/// m².
+/// The most sweeps of Gauss–Seidel in one step. A cluster of m contacts needs some m².
 const SWEEPS: usize = 1000;
 
 /// The sweeps end when no impulse changes by more than this part of the largest.

@@ -23,7 +23,7 @@ use crate::search::clock::Instant;
 /// - Order: 5 at the ends of steps, 4 between them, where impacts lie.
 /// - Fails: two roots within a step leave no change of sign, so grazes and short dips are missed,
 ///   and the steps of a loose tolerance are long; the error in flight adds up; each event costs a
-///   step of all masses; a chatter ends in the bound on work, unless a stopping speed is given.
+///   step of all masses; a chatter ends in the bound on work, or a least rebound speed is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RungeKutta {
     /// Error allowed in a step, relative.
@@ -170,8 +170,7 @@ const DENSE: [f64; 7] = [
     69997945.0 / 29380423.0,
 ];
 
-/// The absolute tolerance over the relative one, as in the defaults of solve_ivp in SciPy and of
-/// ode45 in MATLAB, 1e-6 and 1e-3.
+/// The absolute tolerance over the relative one, as in solve_ivp (SciPy) and ode45 (MATLAB).
 const ABSOLUTE: f64 = 1e-3;
 
 /// Below this an error is rounding, in units of the spacing.

@@ -19,7 +19,7 @@ use crate::search::clock::Instant;
 /// - Fails: two roots within a step leave no change of sign, so grazes and short dips are missed,
 ///   of depth up to |Δ''| h²/8; three are taken for one, often the wrong one. A chatter has
 ///   infinitely many impacts in a finite time: the bound on work ends the run there,
-///   unless a stopping speed is given.
+///   unless a least rebound speed is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
     /// Time h between two samples.
@@ -49,8 +49,7 @@ impl Rival for Sampled {
 /// All gaps in one step.
 struct Samples {
     flights: Flights,
-    /// Gaps at the beginning of the step, or right after the last impact of the gap or one next to
-    /// it.
+    /// Gaps at the beginning of the step, or right after the last impact at or next to the gap.
     begin: Vec<GapState>,
     end: Vec<GapState>,
     /// The times between at which gaps close.
@@ -94,8 +93,7 @@ impl Stepper for Samples {
 }
 
 impl Samples {
-    /// Returns the time after the beginning of the step at which gap k comes to zero, or none if
-    /// its sign does not change.
+    /// Returns the time in the step at which gap k comes to zero, none if it changes no sign.
     fn locate(&self, k: usize, step: &Step, tally: &mut Tally) -> Option<f64> {
         let (from, to) = (self.begin[k], self.end[k]);
         if to.width >= 0.0 {
@@ -107,8 +105,7 @@ impl Samples {
         }))
     }
 
-    /// Returns the gap that closes first, the lowest of several, and the time; none if no gap
-    /// closes.
+    /// Returns the gap that closes first, the lowest of several, and the time; none if none does.
     fn earliest(&self) -> Option<(usize, f64)> {
         let found = self.roots.iter().enumerate().filter_map(|(k, s)| Some((k, (*s)?)));
         found.reduce(|best, next| if next.1 < best.1 { next } else { best })

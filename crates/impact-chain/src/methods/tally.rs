@@ -63,8 +63,7 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Counts an impact if it has a speed. A gap at rest at zero has none, but is an event: it may
-    /// stay there for ever.
+    /// Counts an impact if it has a speed. A gap at rest at zero has none, but is an event.
     pub fn event(&mut self, k: usize, time: f64, speed: f64) -> Result<(), Stop> {
         if speed > 0.0 { self.impact(k, time, speed) } else { self.spend(k, time) }
     }

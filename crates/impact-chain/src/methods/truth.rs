@@ -1,9 +1,9 @@
 //! Computes the motion of a chain to 106 bits, with which every method is compared.
 //!
 //! Nothing is taken from the engine or its search. Each gap goes from an instant at which it is
-//! certainly open to the next, the zero of a parabola below it, until these instants converge; all
-//! of it with 106 bits. Chaos enlarges 1e−31 to 1e−3 in about twice the time in which it enlarges
-//! the rounding of doubles, so runs are right far beyond the horizon of any method.
+//! certainly open to the next, the zero of a parabola below it, until these instants converge.
+//! Chaos enlarges 1e−31 to 1e−3 in about twice the time of the rounding of doubles, so runs are
+//! right far beyond the horizon of any method.
 
 use super::method::Task;
 use super::rival::{Rival, Run};
@@ -49,8 +49,7 @@ fn dd(x: f64) -> DoubleDouble {
     DoubleDouble::from(x)
 }
 
-/// The true motion of a chain between walls. Bodies are numbered from the left wall (0) to the
-/// right one (n + 1).
+/// The true motion of a chain. Bodies count from the left wall (0) to the right one (n + 1).
 #[derive(Clone, Debug)]
 pub struct TrueMotion {
     scenario: Scenario,
@@ -143,8 +142,7 @@ impl TrueMotion {
         [dd(self.scenario.spacing) + (right[0] - left[0]), right[1] - left[1]]
     }
 
-    /// Returns the amplitudes R₁ and R₂ of the free and the forced part of a gap, as long as
-    /// neither side is hit.
+    /// Returns the amplitudes R₁ and R₂ of a gap's free and forced part until a side is hit.
     fn amplitudes(&self, gap: usize) -> [f64; 2] {
         [&self.free, &self.forced].map(|parts| {
             let [left, right] = [gap, gap + 1].map(|m| parts[m].map(DoubleDouble::to_f64));
@@ -206,9 +204,8 @@ impl TrueMotion {
         }
     }
 
-    /// Returns a time for which a gap with this width and rate is certainly open: to the zero of
-    /// f + g s − b s²/2, where b bounds its second derivative; for ever if its amplitudes add up to
-    /// less than d.
+    /// Returns a time for which a gap is certainly open: to the zero of f + g s − b s²/2, where b
+    /// bounds its second derivative; for ever if its amplitudes add up to less than d.
     fn certainly_open(&self, gap: usize, f: DoubleDouble, g: DoubleDouble) -> DoubleDouble {
         let [free, forced] = self.amplitudes(gap).map(|r| r * INFLATION);
         if free + forced < self.scenario.spacing {

@@ -13,7 +13,6 @@ const INVERSE_TAU: [u64; 4] =
 pub const LATEST: f64 = 1e12;
 
 /// A moment, as a whole number of ticks of 2^-80 units of time since t = 0.
-///
 /// Sums of waiting times are exact up to one tick (8e-25), so nothing is lost at large times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Instant(i128);
@@ -78,8 +77,7 @@ impl Instant {
 pub struct Rate([u64; 3]);
 
 impl Rate {
-    /// Computes the rate of an angular frequency `omega`, 0 < `omega` ≤ 1e6, to 2^-128 turns per
-    /// unit time.
+    /// Computes the rate of `omega`, 0 < `omega` ≤ 1e6, to 2^-128 turns per unit time.
     pub fn new(omega: f64) -> Rate {
         // omega = mantissa · 2^exponent exactly.
         let bits = omega.to_bits();
@@ -108,8 +106,7 @@ impl Rate {
     /// Returns the phase at an instant ≥ 0 as a fraction of a turn in units of 2^-64.
     ///
     /// The product of 128 and 192 bits is taken modulo one turn, without what lies below 2^-80
-    /// turns, so the error is below 2^-63 turns up to the time [`LATEST`], and does not grow with
-    /// the history of the run.
+    /// turns, so the error is below 2^-63 turns up to [`LATEST`], whatever the history of the run.
     #[inline(always)]
     pub fn turn(self, at: Instant) -> u64 {
         let t = at.0 as u128;

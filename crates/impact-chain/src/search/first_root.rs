@@ -16,8 +16,7 @@ pub struct Search<const M: usize> {
     pieces: [Piece<M>; (1 << (LEVELS + 1)) - 1],
     eighths: Eighths<M>,
     nodes: Nodes<M>,
-    /// M₂ ≥ |f''| of a frame is this times its M₄: 1 over the square of the slowest
-    /// frequency.
+    /// M₂ ≥ |f''| of a frame is this times its M₄: 1 over the square of the slowest frequency.
     curvature: f64,
 }
 
@@ -67,7 +66,6 @@ impl<const M: usize> Search<M> {
 
     /// Decides whether a root at s > 0 where f falls with `speed` is the first, given that the
     /// coefficients of the whole reach change their sign once.
-    ///
     /// Their polynomial q lies below f and is above zero before its one root (Descartes). With M₂
     /// ≥ |f''|, f ≥ speed h − M₂ h²/2 at s − h, so there is no root within speed/M₂
     /// before s. Where that stretch begins (if it is before 0, nothing is left to show) f is at

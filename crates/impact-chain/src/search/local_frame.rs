@@ -2,8 +2,7 @@
 //!
 //! In the *local frame* of an instant, with s the time since then, the function is
 //!
-//! f(s) = f₀ + (g₀/ω) sin ωs − α (1 − cos ωs) + Σ_m [δ (sin Ωs − (Ω/ω) sin ωs)
-//! − γ (1 − cos Ωs)],
+//! f(s) = f₀ + (g₀/ω) sin ωs − α (1 − cos ωs) + Σ_m [δ (sin Ωs − (Ω/ω) sin ωs) − γ (1 − cos Ωs)],
 //!
 //! where f₀ and g₀ are its value and slope at s = 0, α the amplitude of cos ωs, and γ and δ
 //! those of cos Ωs and sin Ωs for each of the `M` frequencies Ω (M₂, M₄, … are bounds of
@@ -69,8 +68,7 @@ pub struct Frame<const M: usize> {
     pub forced: [[f64; 2]; M],
     /// M₄ ≥ |f''''(s)| for every s: Σ ω⁴ R over the parts, R ≥ the amplitude of the part.
     pub bound: f64,
-    /// Bound of the sum of the absolute terms of f, the scale of its rounding:
-    /// |mean| + R₁ + Σ (1 + 2 Ω/ω) R₂.
+    /// Bound of f's absolute terms, the scale of its rounding: |mean| + R₁ + Σ (1 + 2 Ω/ω) R₂.
     pub size: f64,
 }
 
@@ -88,9 +86,8 @@ pub struct Point<const M: usize> {
     forced: [[f64; 2]; M],
 }
 
-/// Rounding of one evaluation, in units of the sum of the absolute values of its terms: each term
-/// carries at most five roundings of 2^-53 and the sum four more, 9 · 2^-53 < 5e-16 times 2;
-/// doubled, as the margin is used at both sides.
+/// Rounding of one evaluation over the sum of its absolute terms: each carries at most five
+/// roundings of 2^-53 and the sum four, 9 · 2^-53 < 5e-16 times 2; doubled, for both sides.
 pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Below this fraction of d a gap keeps its width and rate from its last frame when a neighbour is

@@ -1,5 +1,4 @@
-//! Finds a root to full accuracy from a guess, without a sine: by the Taylor polynomial about the
-//! nearest of fixed nodes.
+//! Finds a root to full accuracy from a guess by the Taylor polynomial about the nearest node.
 //!
 //! The Taylor coefficients of f about a node are linear in the frame of f ([`Linear`]). At the
 //! first node, s = 0, they are exact, so a short wait keeps its relative accuracy.
@@ -12,9 +11,8 @@ use super::pair::{Pair, splat};
 /// Nodes over the reach, both ends included; a power of two.
 const NODES: usize = 32;
 
-/// The largest distance from a node at which its polynomial is used, over the fastest frequency:
-/// the remainder is 0.06¹⁰/10! < 2e-19 of the size of f and 0.06⁹/9! < 3e-17 of that of its
-/// slope. Nodes are 0.092 apart.
+/// The largest distance from a node of use, over the fastest frequency: the remainder is
+/// 0.06¹⁰/10! < 2e-19 of f's size and 0.06⁹/9! < 3e-17 of its slope's. Nodes are 0.092 apart.
 const RADIUS: f64 = 0.06;
 
 #[derive(Clone, Debug)]
@@ -46,8 +44,7 @@ impl<const M: usize> Nodes<M> {
         }
     }
 
-    /// Returns the root near `guess`, 0 ≤ `guess` ≤ reach, and −f' there; none if there is no
-    /// root near it.
+    /// Returns the root near `guess`, 0 ≤ `guess` ≤ reach, and −f' there; none if there is none.
     #[inline(always)]
     pub fn root(&self, frame: &Frame<M>, guess: f64, work: &mut Counters) -> Option<(f64, f64)> {
         let mut s = guess;

@@ -74,8 +74,7 @@ pub struct Coefficients {
     slack: f64,
 }
 
-/// Returns C(i, k) k! (8 − k)!/8! wᵏ, the factor of the k-th Taylor coefficient at an end in
-/// the i-th Bernstein coefficient.
+/// Returns C(i, k) k! (8 − k)!/8! wᵏ: the k-th Taylor coefficient in the i-th of Bernstein.
 fn weight(i: usize, k: usize, w: f64) -> f64 {
     let mut out = 1.0;
     for m in 0..k {
@@ -84,8 +83,7 @@ fn weight(i: usize, k: usize, w: f64) -> f64 {
     out
 }
 
-/// Returns b₁ … b₈ of the Hermite polynomial with the given value and three derivatives at
-/// both ends.
+/// Returns b₁ … b₈ of the Hermite polynomial to value and three derivatives at both ends.
 fn hermite(left: Taylor, right: Taylor, w: f64) -> CoefficientPairs {
     let mut b = [0.0; N + 1];
     for i in 0..4 {
@@ -124,8 +122,7 @@ impl<const M: usize> Piece<M> {
     /// Bounds f − q, rounding included.
     #[inline(always)]
     pub fn largest_difference(&self, frame: &Frame<M>) -> f64 {
-        // f − q ≤ 2 M₈ (w/2)⁸/8!, which is 140/256 of b₄'s part, so b₄'s part is
-        // enough.
+        // f − q ≤ 2 M₈ (w/2)⁸/8!, which is 140/256 of b₄'s part, so b₄'s part is enough.
         let [_, difference] = self.difference.to_array();
         frame.bound * difference + SLACK * frame.size
     }
@@ -173,8 +170,7 @@ impl<const M: usize> Piece<M> {
 const SLACK: f64 = 64.0 * f64::EPSILON;
 
 impl Coefficients {
-    /// Whether b₁ … b₈ are positive beyond rounding, so that f > 0 on (a, a + w] if f(a) ≥
-    /// 0.
+    /// Whether b₁ … b₈ are positive beyond rounding, so f > 0 on (a, a + w] if f(a) ≥ 0.
     #[inline(always)]
     pub fn are_positive(&self) -> bool {
         let [a, b, c, d] = self.row;
@@ -182,8 +178,7 @@ impl Coefficients {
         pair::signs(less(splat(self.slack), least)) == 0b11
     }
 
-    /// Whether the signs of b₁ … b₈, which are not all plus, change at most once, from plus
-    /// to minus.
+    /// Whether the signs of b₁ … b₈, not all plus, change at most once, from plus to minus.
     #[inline(always)]
     pub fn change_sign_once(&self) -> bool {
         let plus = signs(self.row.map(|b| less(splat(self.slack), b)));

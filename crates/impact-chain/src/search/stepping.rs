@@ -3,8 +3,7 @@
 use super::local_frame::{Frame, Frequencies, NEARLY_SHUT, Point, ROUNDING};
 use super::outcome::{Counters, Next};
 
-/// Returns the first root h > 0 of the parabola f + g h − ½ K h², f ≥ 0; `far` if there is
-/// none before it.
+/// Returns the first root h > 0 of f + g h − ½ K h², f ≥ 0; `far` if there is none before it.
 #[inline]
 fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
     let discriminant = g * g + 2.0 * k * f;
@@ -27,8 +26,7 @@ const BARELY: f64 = 1e6;
 /// Ratio of stretches above which the trial by the width is taken: of a very narrow gap.
 const FAR_LARGER: f64 = 1e3;
 
-/// The parts of a gap cancel where its second and third derivatives are this many times below the
-/// bound of the fourth.
+/// A gap's parts cancel where f'' and f''' are this many times below the bound of the fourth.
 const CANCELS: f64 = 1e4;
 
 // listing: stretch
@@ -81,9 +79,8 @@ fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
 ///
 /// The quintic through these six numbers differs from f by at most M₆ t³ (h − t)³/720
 /// (Hermite's remainder), with M₆ ≤ max(ω, Ω)² M₄. Quintic minus remainder is a polynomial
-/// of degree six, and its Bernstein coefficients on the interval bound it from below; they need no
-/// square root and no division. The first is f(a) ≥ 0 and the last f(b); `slack` covers the
-/// rounding of the values.
+/// of degree six, and its Bernstein coefficients on the interval bound it from below. The first is
+/// f(a) ≥ 0 and the last f(b); `slack` covers the rounding of the values.
 #[inline]
 fn stays_open<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64, slack: f64) -> bool {
     let (ga, gb) = (h * a.d1, h * b.d1);
@@ -100,8 +97,7 @@ fn stays_open<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64, s
     coefficients.iter().all(|&c| c > slack)
 }
 
-/// Returns order and value of the first of f'', f''' and f'''' that exceeds `times` its rounding,
-/// or none.
+/// Returns order and value of the first of f'', f''', f'''' above `times` its rounding, or none.
 fn leading<const M: usize>(
     p: &Point<M>,
     times: f64,
@@ -121,8 +117,7 @@ fn leading<const M: usize>(
 }
 
 /// Returns the length of a stretch over which f''' > 0 alone, or f'''' > 0 where f''' is zero too,
-/// lifts f from a point where it does not fall and f'' is zero, all to rounding; 0 if there is
-/// none.
+/// lifts f from a point where it does not fall and f'' is zero, all to rounding; 0 if none.
 ///
 /// With f, f' ≥ 0, f ≥ f'' h²/2 + f''' h³/12 while h ≤ 2 f'''/M₄. That is never below
 /// −(8/3) |f''|³/f'''², far less than the rounding of positions, and positive from h = 6

@@ -25,10 +25,8 @@ const ADDED: [[f64; 2]; 6] = [
 ];
 
 /// Coefficients of (sin x − x)/x³ and (1 − cos x)/x² in x²: −1/3!, 1/5!, … up to x^29 of the sine,
-/// and 1/2!, −1/4!, … up to x^28 of the cosine.
-///
-/// Every factorial up to 18! is exact in a double; the later ones are rounded, which changes the
-/// sums by less than 1e-24.
+/// and 1/2!, −1/4!, … up to x^28 of the cosine. Factorials beyond 18! are rounded in a double,
+/// which changes the sums by less than 1e-24.
 const TABLE: [[f64; 2]; TERMS] = {
     let mut table = [[0.0; 2]; TERMS];
     let (mut odd, mut even) = (6.0, 2.0);
@@ -59,9 +57,8 @@ fn polynomials(z: Pair) -> Pair {
     even + z * odd
 }
 
-/// Evaluates the first eight rows alone, enough for a quarter turn: the first omitted ones are
-/// below 1e-19 and 3e-18. The order is that of least latency, since all work at an event waits for
-/// its phases.
+/// Evaluates the first eight rows, enough for a quarter turn: the first omitted ones are below
+/// 1e-19 and 3e-18. The order has the least latency, since all work at an event waits for phases.
 #[inline(always)]
 fn quarter_polynomials(z: Pair) -> Pair {
     let square = z * z;
@@ -76,19 +73,15 @@ fn remainders(x: f64, polynomials: impl Fn(Pair) -> Pair) -> [f64; 2] {
     (polynomials(splat(z)) * Pair::from([z * x, z])).to_array()
 }
 
-/// Returns sin x − x and 1 − cos x for |x| ≤ [`RANGE`], each to a few units in its last
-/// place.
-///
+/// Returns sin x − x and 1 − cos x for |x| ≤ [`RANGE`], each to a few units in its last place.
 /// The omitted terms are below 2.83^31/31! < 2e-20 and 2.83^30/30! < 2e-19.
 #[inline(always)]
 pub fn small_sin_cos(x: f64) -> [f64; 2] {
     remainders(x, polynomials)
 }
 
-/// Returns (sin, cos) of a phase given as a fraction of a turn in units of 2^-64, to 1.2 units of
-/// 2^-53.
-///
-/// The reduction to the nearest quarter turn is exact integer arithmetic.
+/// Returns (sin, cos) of a phase in units of 2^-64 turns, to 1.2 units of 2^-53. The reduction to
+/// the nearest quarter turn is exact integer arithmetic.
 #[inline(always)]
 pub fn sin_cos_turn(turn: u64) -> (f64, f64) {
     const QUARTER: u64 = 1 << 62;
@@ -123,8 +116,7 @@ const ARCTAN: [f64; 10] = [
     -0.001701169973,
 ];
 
-/// Returns the angles of two vectors from the x axis, in [−π, π] and to 2e-9, for windows that
-/// are widened by more than that.
+/// Returns the angles of two vectors, in [−π, π] and to 2e-9, for windows widened by more.
 #[inline(always)]
 pub fn rough_angles(y: Pair, x: Pair) -> Pair {
     use std::f64::consts::{FRAC_PI_2, PI};
