@@ -34,8 +34,7 @@ struct Shut<'a, const M: usize> {
 }
 
 impl<const M: usize> Shut<'_, M> {
-    /// Adds gaps that are driven shut; returns true if none is left. A sweep to the right and one
-    /// to the left let a long run grow in few rounds.
+    /// Adds gaps driven shut, in a sweep each way; returns true if none is left.
     fn grow(&mut self) -> bool {
         let n = self.g.len();
         self.spread(0..n);
@@ -50,8 +49,7 @@ impl<const M: usize> Shut<'_, M> {
         more.is_empty()
     }
 
-    /// Adds, one after the other, every gap that the run before it drives shut. The last force of
-    /// that run is taken as if the next gap were open, which is a lower bound.
+    /// Adds in turn each gap that the run before it drives shut, its last force a lower bound.
     fn spread(&mut self, order: impl Iterator<Item = usize>) {
         let mut last = None;
         for i in order {

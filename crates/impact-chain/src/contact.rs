@@ -89,7 +89,6 @@ impl<const M: usize> Simulation<M> {
         self.settle_runs(changed, phases, None);
     }
 
-    /// Releases gap k, whose contact force has come to zero, and settles its cluster without it.
     pub(super) fn release(&mut self, k: usize, phases: &Phases<M>) {
         let freed = self.free_cluster(k, phases);
         self.settle(phases, &freed, Some(k));
@@ -112,8 +111,7 @@ impl<const M: usize> Simulation<M> {
             && rate.abs() <= SETTLED_RATE * self.spacing * self.search.frequencies.omega
     }
 
-    /// Takes the gaps whose state has just changed, grows them to whole runs of shut and slow
-    /// gaps, settles each run, and takes new frames of all gaps that were touched.
+    /// Grows gaps that have just changed to runs of shut and slow gaps, settles and reframes them.
     fn settle_runs(
         &mut self,
         mut known: BTreeMap<usize, Changed>,
@@ -174,8 +172,7 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// Lists the maximal runs of adjacent settled gaps, from left to right. On a ring a run may
-    /// pass from the last gap to the first.
+    /// Lists the maximal runs of settled gaps from the left; on a ring one may pass the last gap.
     fn runs(&self, known: &BTreeMap<usize, Changed>) -> Vec<Vec<usize>> {
         let follows = |run: &[usize], k: usize| {
             run.last().is_some_and(|last| self.topology.adjacent(*last)[1] == Some(k))
@@ -194,8 +191,7 @@ impl<const M: usize> Simulation<M> {
         runs
     }
 
-    /// Gives a run a common velocity and finds from the contact forces which of its gaps stay shut.
-    /// Returns the jumps of velocity of its first and last mass.
+    /// Gives a run a common velocity, decides what stays shut; returns its end masses' jumps.
     fn settle_run(
         &mut self,
         gaps: &[usize],
@@ -239,8 +235,7 @@ impl<const M: usize> Simulation<M> {
         jumps
     }
 
-    /// Returns the jumps of velocity of the first and the last mass along `gaps` when all take a
-    /// common one. Velocities are relative to that of the first.
+    /// Returns the jumps of the end masses of `gaps` to one velocity, all relative to the first.
     fn jumps_of_run(&self, gaps: &[usize], rates: &[f64]) -> [f64; 2] {
         let members = self.members(gaps);
         let mut last = 0.0;
@@ -342,7 +337,6 @@ impl<const M: usize> Simulation<M> {
         gaps
     }
 
-    /// Searches for the zero of the contact force of gap k.
     pub(super) fn watch_contact(&mut self, k: usize, p: &Phases<M>) {
         let force = self.forces[k];
         let frequencies = &self.search.frequencies;

@@ -38,12 +38,10 @@ impl Protocol {
     }
 }
 
-/// The counts of realisations in their order, for each window. Counts of realisations that follow
-/// one another are joined by collecting them.
+/// Counts of realisations in order, for each window; those that follow one another can be joined.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
-    /// Different gaps with an impact in each window, of each realisation; none if it did not run to
-    /// the end of the window, or the engine ended it early.
+    /// Different gaps with an impact, by window and realisation; none of a run that ended before.
     pub distinct: Vec<Vec<Option<u32>>>,
     /// Impacts in each window, of each realisation.
     pub impacts: Vec<Vec<u64>>,
@@ -118,8 +116,7 @@ pub struct Watch {
     /// Time of the last impact of each gap.
     last: Vec<f64>,
     transients: Vec<f64>,
-    /// `firsts[transient][gap]`: time of the first impact of the gap after the transient, infinite
-    /// until known. All windows follow from these.
+    /// `firsts[transient][gap]`: time of the gap's first impact after the transient, or infinite.
     firsts: Vec<Vec<f64>>,
     /// For each gap the number of transients whose first impact is known.
     known: Vec<usize>,
@@ -253,8 +250,7 @@ mod tests {
     use super::*;
     use crate::Boundary;
 
-    /// Gaps 0 and 4 of a row of four masses are at its walls. On a ring of five the masses at both
-    /// ends of gap 0 (or 5) are the last and the first.
+    /// Gaps 0 and 4 of four masses are at walls; on a ring of five, gap 0 joins the last and first.
     #[test]
     fn masses_between_gaps_by_hand() {
         for (hit, row, ring) in [

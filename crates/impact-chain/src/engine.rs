@@ -96,7 +96,6 @@ impl Engine {
         call!(&self.0, simulation => simulation.now.time())
     }
 
-    /// Returns the counted work so far.
     pub fn counters(&self) -> Counters {
         call!(&self.0, simulation => simulation.work)
     }

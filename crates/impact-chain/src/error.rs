@@ -33,7 +33,6 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {}
 
 impl Error {
-    /// Creates an [`Error::Input`] from its three parts.
     pub fn input(
         field: impl Into<String>,
         problem: impl Into<String>,
@@ -43,7 +42,6 @@ impl Error {
     }
 }
 
-/// Refuses a number outside [low, high].
 pub fn within<T: PartialOrd + Debug>(field: &str, x: T, low: T, high: T) -> Result<(), Error> {
     if low <= x && x <= high {
         return Ok(());

@@ -28,12 +28,10 @@ const EVENTS_PER_GAP: u64 = 100_000;
 /// Overlap, as a fraction of `Frame::size`, beyond which a gap cannot be explained by rounding.
 const OVERLAP: f64 = 1e-12;
 
-/// Below this fraction of the sum of the terms of its positions at t = 0, a gap may be exactly
-/// shut: roundings of amplitudes and sums add up to 5 · 2^-53.
+/// A gap at t = 0 may be shut below this part of its positions' terms: they round to 5 · 2^-53.
 const SHUT_AT_START: f64 = 4.0 * f64::EPSILON;
 
-/// Rate of a shut gap at t = 0, over the sum of the terms of the speeds of its sides, up to which
-/// rounding explains it: it is at rest.
+/// Rate of a shut gap at t = 0, over the terms of its sides' speeds, up to which it is at rest.
 const AT_REST_OF_TERMS: f64 = 64.0 * f64::EPSILON;
 
 impl<const M: usize> Simulation<M> {
@@ -112,8 +110,7 @@ impl<const M: usize> Simulation<M> {
         Ok(())
     }
 
-    /// Returns the width and the rate of gap k at t = 0 up to which rounding explains them: by the
-    /// sums of the absolute terms of the positions and the velocities of both neighbours.
+    /// Returns width and rate of gap k at t = 0 up to which rounding of its terms explains them.
     fn rounding_at_start(&self, k: usize, phases: &Phases<M>) -> [f64; 2] {
         let frequencies = &self.search.frequencies;
         let (mut width, mut fastest, mut rate) = (self.spacing, 0.0_f64, 0.0);
@@ -240,8 +237,7 @@ impl<const M: usize> Simulation<M> {
         Ok(None)
     }
 
-    /// Passes a dip of gap k of which the rounding of its new frame hides whether it closes;
-    /// returns the key of its next search, or none if there is no such dip.
+    /// Passes a dip of gap k that rounding hides; returns its next key, none if no dip.
     #[inline(always)]
     fn pass_dip(&mut self, k: usize) -> Option<Instant> {
         let frame = &self.gaps[k].frame;
@@ -294,7 +290,6 @@ impl<const M: usize> Simulation<M> {
         Ok(())
     }
 
-    /// Carries out the impact of gap k at `speed`.
     #[inline(always)]
     fn collide(&mut self, k: usize, speed: f64, phases: &Phases<M>) {
         if self.involves_contact(k, speed) {

@@ -14,7 +14,6 @@ pub fn response(w: f64, big_w: f64, amplitudes: [f64; 2]) -> [f64; 2] {
 pub struct Phases<const M: usize> {
     pub sin: f64,
     pub cos: f64,
-    /// (sin Ωt, cos Ωt).
     pub forced: [[f64; 2]; M],
 }
 

@@ -29,13 +29,11 @@ impl<const M: usize> Force<M> {
         p.evaluate(&self.forced).iter().fold(self.constant, |sum, part| sum + part[0])
     }
 
-    /// Returns the sum of the absolute values of the coefficients.
     pub fn size(&self) -> f64 {
         self.forced.iter().fold(self.constant.abs(), |sum, [c, s]| sum + c.abs() + s.abs())
     }
 
-    /// Decides whether an acceleration is negative at an instant or right after it: by the first
-    /// derivative that exceeds the rounding of terms of this `size`.
+    /// Whether an acceleration is or falls below zero: its first derivative above rounding.
     pub fn falls(&self, size: f64, p: &Phases<M>, frequencies: &Frequencies<M>) -> bool {
         let parts = p.evaluate(&self.forced);
         let (mut powers, mut rounding) = ([1.0; M], ROUNDING * size);

@@ -43,7 +43,6 @@ impl Component {
         Component::list(scenario, |_, force| force)
     }
 
-    /// Lists the components of the forced response.
     pub fn responses(scenario: &Scenario) -> Vec<Component> {
         let w = scenario.natural_frequency;
         Component::list(scenario, |big_w, force| response(w, big_w, force))

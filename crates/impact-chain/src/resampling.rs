@@ -9,7 +9,6 @@ use impact_numerics::statistics::{Estimate, count_quantile, last_rise, mode};
 /// Share of N at which the rise has its onset.
 pub const ONSET: f64 = 0.05;
 
-/// Resamples behind each interval.
 const RESAMPLES: u64 = 1000;
 
 /// Means and modes at each σ, and places of the rise, of a sample or of a resample.
@@ -32,7 +31,6 @@ pub struct Sample<'a> {
 }
 
 impl Sample<'_> {
-    /// Returns the largest count that is possible.
     fn largest(&self) -> usize {
         self.gaps.ceil() as usize
     }
@@ -98,8 +96,7 @@ impl Resampled {
         std::array::from_fn(|i| self.estimate(|sample| sample.rise[i]))
     }
 
-    /// Returns the percentile interval of the mode at a σ: whole numbers, at both ends an order
-    /// statistic; none if there is no mode.
+    /// Returns the interval of the mode at a σ, from order statistics; none if there is no mode.
     pub fn mode_interval(&self, row: usize) -> Option<[usize; 2]> {
         self.whole.mode[row]?;
         let mut histogram = vec![0; self.largest + 1];

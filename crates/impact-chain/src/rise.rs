@@ -1,5 +1,4 @@
-//! Summarises the counts of random chains: means, shares and modes at each σ, and where the number
-//! of impacts rises, with bootstrap errors.
+//! Summarises counts of random chains at each σ and where they rise, with bootstrap errors.
 
 use crate::counts::{Counts, Protocol};
 pub use crate::resampling::ONSET;
@@ -60,8 +59,7 @@ pub struct RisePoint {
     pub counts: Vec<u32>,
 }
 
-/// The place of the rise on the σ axis, in several senses. Each is the last rise of a curve
-/// through a level, linear between rows; none if the curve does not rise through it.
+/// Places of the rise on the σ axis, each the last rise of a curve through a level, or none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rise {
     /// Half height: the mean over realisations with an impact reaches N/2.
@@ -117,8 +115,7 @@ impl Curve {
 }
 
 impl RisePoint {
-    /// Computes the row of a σ in one window, without the interval of the mode; counts go up to
-    /// `largest`, and the intervals are those of both means.
+    /// Computes the row of a σ, without the interval of the mode; counts go up to `largest`.
     pub fn new(
         sigma: f64,
         found: &Counts,

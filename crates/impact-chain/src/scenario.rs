@@ -7,13 +7,11 @@ use impact_numerics::random::NormalPairs;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Initial {
-    /// At rest at equilibrium.
     Rest,
     /// Given free parts (a_j, b_j): x_j = j d + a_j cos ωt + b_j sin ωt + forced response.
     Free(Vec<[f64; 2]>),
 }
 
-/// The largest number of components of the forcing.
 pub const COMPONENTS: usize = 8;
 
 /// Draws one pair of normals with standard deviation `sigma` for each mass.
@@ -26,13 +24,9 @@ pub(crate) fn draw_pairs(masses: usize, sigma: f64, normals: &mut NormalPairs) -
 /// **Eq. (3)**: the forcing is a sum over components; the paper goes on with one, Eq. (5).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
-    /// Distance d between equilibria.
     pub spacing: f64,
-    /// Natural frequency ω.
     pub natural_frequency: f64,
-    /// Forcing frequency Ω.
     pub forcing_frequency: f64,
-    /// Coefficient of restitution r.
     pub restitution: f64,
     pub boundary: Boundary,
     pub initial: Initial,
@@ -119,7 +113,6 @@ impl Scenario {
         std::iter::once((self.forcing_frequency, self.forcing.as_slice())).chain(further)
     }
 
-    /// Returns the largest of ω and the frequencies of the forcing.
     pub fn fastest(&self) -> f64 {
         self.components().fold(self.natural_frequency, |fastest, (big_w, _)| fastest.max(big_w))
     }

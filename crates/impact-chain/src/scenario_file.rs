@@ -30,7 +30,6 @@ struct ScenarioFile {
     forcing: Forcing,
 }
 
-/// The forcing: one component, or several.
 #[derive(Deserialize, Serialize)]
 #[serde(untagged, expecting = "neither a list of pairs [alpha, beta] nor one for each frequency")]
 enum Forcing {
@@ -216,7 +215,6 @@ impl ScenarioFile {
     }
 }
 
-/// Returns the places of all bodies if any are given.
 fn places(
     masses: usize,
     spacing: f64,
@@ -236,7 +234,6 @@ fn places(
     Ok(Some([vec![left], places, vec![right]].concat()))
 }
 
-/// Returns the components of the forcing with their frequencies.
 fn components(
     forcing: Forcing,
     frequency: Option<f64>,

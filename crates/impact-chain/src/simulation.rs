@@ -19,8 +19,7 @@ pub(super) enum Awaits {
     Nothing,
     /// An impact at this closing speed.
     Impact(f64),
-    /// The search goes on; the gap is certified open until then. `whole_reach` if that is the end
-    /// of a frame that came from the motions.
+    /// The search goes on: open until then; `whole_reach` if a frame from the motions ends there.
     Search { whole_reach: bool },
     /// In contact: the contact force vanishes (or, with `Search`, must be searched further).
     Release,
@@ -82,8 +81,7 @@ impl<const M: usize> Simulation<M> {
         jumps
     }
 
-    /// Takes new frames of the gaps next to gap k, whose masses' velocities have just jumped by
-    /// `jumps`, and searches their next impacts.
+    /// Takes and searches new frames of the gaps next to gap k, whose masses jumped by `jumps`.
     pub(super) fn renew_adjacent(&mut self, k: usize, phases: &Phases<M>, jumps: [f64; 2]) {
         for near in self.topology.near(k) {
             self.renew_and_search(near, phases, self.jump_of_gap(near, k, jumps));
@@ -120,15 +118,13 @@ impl<const M: usize> Simulation<M> {
         self.gaps[k].frame = frame;
     }
 
-    /// Takes a new frame of gap k, whose rate has jumped by `jump`, and searches its impact.
     pub(super) fn renew_and_search(&mut self, k: usize, phases: &Phases<M>, jump: f64) {
         self.renew(k, phases, jump);
         let key = self.search_gap(k, true);
         self.queue.set(k, [key]);
     }
 
-    /// Takes a new frame of gap k with width `f0` and rate `g0`, which are more accurate than those
-    /// of the motions, and searches its next impact.
+    /// Searches gap k from `f0` and `g0`, more accurate than the motions, in a new frame.
     pub(super) fn set_and_search(&mut self, k: usize, phases: &Phases<M>, f0: f64, g0: f64) {
         let mut frame = Frame { f0, g0, ..self.frame_of(k, phases) };
         clamp_width(&mut frame);
@@ -185,8 +181,7 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// Lets gap k, which is open, wait without a search for as long as it certainly stays open, if
-    /// that is longer than the reach of a search. Returns whether it does.
+    /// Lets an open gap k wait without a search if it certainly outlasts one; returns if so.
     pub(super) fn try_long_wait(&mut self, k: usize, phases: &Phases<M>) -> bool {
         let [left, right] = self.topology.sides(k);
         let motion = self.motions[right].minus(&self.motions[left]);
@@ -242,7 +237,6 @@ impl<const M: usize> Simulation<M> {
         self.masses().map(|(_, motion)| [motion.a, motion.b]).collect()
     }
 
-    /// Lists the masses 1..n with their motions.
     fn masses(&self) -> impl Iterator<Item = (usize, &Motion<M>)> {
         let n = self.motions.len() - 2;
         self.motions.iter().enumerate().skip(1).take(n)

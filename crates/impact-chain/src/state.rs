@@ -15,7 +15,6 @@ pub struct State {
     pub time: f64,
     /// x_1..x_n, counted from the left wall.
     pub positions: Vec<f64>,
-    /// The velocities of the masses 1..n.
     pub velocities: Vec<f64>,
 }
 
@@ -27,7 +26,6 @@ pub(crate) const AT_REST: f64 = 1e-12;
 const UNITS: f64 = 16.0;
 
 impl State {
-    /// Returns the start of a scenario, at t = 0.
     pub fn of(scenario: &Scenario) -> State {
         let w = scenario.natural_frequency;
         let mut state = State { time: 0.0, positions: Vec::new(), velocities: Vec::new() };

@@ -2,8 +2,7 @@
 
 use crate::Boundary;
 
-/// The neighbours of masses and gaps. Inside the engine gaps are numbered 0..N, and masses 1..=n;
-/// between walls, 0 and n + 1 stand for the walls.
+/// Neighbours of masses 1..=n and gaps 0..N inside the engine; bodies 0 and n + 1 are the walls.
 #[derive(Clone, Copy, Debug)]
 pub struct Topology {
     masses: usize,
@@ -28,7 +27,6 @@ impl Topology {
         }
     }
 
-    /// Returns the neighbours (left, right) of gap k.
     #[inline]
     pub fn sides(&self, k: usize) -> [usize; 2] {
         match self.boundary {

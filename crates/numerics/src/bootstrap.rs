@@ -17,8 +17,7 @@ pub fn weights(seed: u64, index: u64, size: usize) -> Vec<u32> {
     weights
 }
 
-/// Counts how often each count occurs in a resample, by the weights of the members that have one.
-/// `histogram` must be longer than the largest count.
+/// Counts each count in a resample, by weights; `histogram` is longer than the largest count.
 pub fn histogram(counts: &[Option<u32>], weights: &[u32], histogram: &mut [u32]) {
     histogram.fill(0);
     for (&count, &weight) in counts.iter().zip(weights) {
@@ -41,8 +40,7 @@ pub fn total(histogram: &[u32]) -> [u64; 2] {
 /// Share of resamples without a value above which there is no interval.
 const MISSING: f64 = 0.01;
 
-/// Returns the percentile interval of `resampled` around the estimate of the whole sample. None if
-/// there is no such estimate, or if more than one resample in a hundred has none.
+/// Returns the percentile interval around an estimate; none without it or if over 1 % fail.
 pub fn estimate(value: Option<f64>, resampled: &[Option<f64>], level: f64) -> Option<Estimate> {
     let value = value?;
     let mut present: Vec<f64> = resampled.iter().copied().flatten().collect();

@@ -149,7 +149,6 @@ impl Div for DoubleDouble {
     }
 }
 
-/// π/2 to 106 bits.
 const HALF_PI: DoubleDouble =
     DoubleDouble { hi: std::f64::consts::FRAC_PI_2, lo: 6.123_233_995_736_766e-17 };
 

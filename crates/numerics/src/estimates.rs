@@ -2,7 +2,6 @@
 
 use super::statistics::{Estimate, mean, normal_quantile, standard_error};
 
-/// The level of intervals.
 pub const LEVEL: f64 = 0.95;
 
 /// Joins a number, its standard error, and the normal interval that follows from it.

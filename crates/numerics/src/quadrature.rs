@@ -8,8 +8,7 @@ pub struct GaussLegendre {
 }
 
 impl GaussLegendre {
-    /// Creates the rule with n = `points` ≥ 1 points, exact for polynomials of degree 2n − 1. The
-    /// nodes are zeros of the Legendre polynomial, by Newton's method.
+    /// Creates the rule of n = `points` ≥ 1, exact to degree 2n − 1: Legendre's zeros by Newton.
     pub fn new(points: usize) -> Self {
         let n = points as f64;
         let (mut nodes, mut weights) = (Vec::new(), Vec::new());

@@ -1,5 +1,4 @@
-//! Numbers ≥ 0 of any magnitude: 106 bits and a separate binary exponent, so that products of a
-//! million factors neither overflow nor lose digits.
+//! Numbers ≥ 0 of any magnitude, for products of a million factors: 106 bits and an exponent.
 
 use super::double_double::DoubleDouble;
 use std::ops::{Add, Div, Mul};

@@ -37,8 +37,7 @@ pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     Some(sorted[below] + rest * (sorted[above] - sorted[below]))
 }
 
-/// Returns the quantile of whole numbers given as a histogram: the smallest k such that at least
-/// `share` of all lies at or below it.
+/// Returns the smallest k with at least `share` of a histogram at or below it.
 pub fn count_quantile(histogram: &[u32], share: f64) -> Option<usize> {
     let total: u64 = histogram.iter().copied().map(u64::from).sum();
     let mut below = 0;
@@ -120,8 +119,7 @@ mod tests {
 
     #[test]
     fn wilson_against_printed_values() {
-        // Wilson's score interval is the set of p with |s − n p| ≤ z √(n p (1 − p)): both
-        // ends must solve that equation, which is the second route.
+        // Both ends of Wilson's interval must solve |s − n p| = z √(n p (1 − p)), the second route.
         let z = normal_quantile(0.95);
         // Tables give 1.959964.
         assert!((z - 1.959_964).abs() < 5e-7);

@@ -54,7 +54,6 @@ struct Gaps {
     flights: Flights,
     /// The time up to which each gap is certainly open.
     queue: Earliest,
-    /// Width at which a closing gap is hit.
     reached: f64,
 }
 

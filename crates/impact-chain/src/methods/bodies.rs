@@ -66,7 +66,6 @@ impl Bodies {
         self.v[right] - self.v[left]
     }
 
-    /// Applies the impact law at gap k.
     pub fn hit(&mut self, k: usize, speed: f64) {
         let [left, right] = self.topology.sides(k);
         let change = speed + (self.restitution * speed).max(self.stop);
@@ -116,8 +115,7 @@ impl Bodies {
         }
     }
 
-    /// Makes a step of Verlet with all bodies. Between steps their velocities are those half of the
-    /// last step ago, so that each step goes over the masses once.
+    /// Makes a step of Verlet; between steps velocities are those half of the last step ago.
     pub fn leap(&mut self, step: &Step) {
         let (kick, phases) = (0.5 * (self.last + step.h), self.phases);
         let waves = |i: usize| [kick * phases[i].1, kick * phases[i].0];

@@ -61,7 +61,6 @@ impl Flights {
         Ok(flights)
     }
 
-    /// Returns (sin, cos) of ωt and of each Ωt at an instant.
     pub fn phases(&self, at: Instant) -> FlightPhases {
         (self.turns.sin_cos(at), phases(&self.forced, at))
     }
@@ -96,8 +95,7 @@ impl Flights {
         GapState { s, width, rate }
     }
 
-    /// Bounds by how far gap k departs from d, Σ R over its sinusoids of amplitude R, the free part
-    /// among them, and its second derivative, Σ R Ω².
+    /// Bounds how far gap k is from d, Σ R over its sinusoids, and its second derivative, Σ R Ω².
     pub fn bounds(&self, k: usize) -> [f64; 2] {
         let [left, right] = self.topology.sides(k);
         let length = |x: f64, y: f64| (x * x + y * y).sqrt();

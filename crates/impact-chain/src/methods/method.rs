@@ -19,14 +19,12 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Returns the evaluations per impact, or none without an impact.
     pub fn evaluations_per_impact(&self) -> Option<f64> {
         (self.impacts > 0).then(|| self.evaluations as f64 / self.impacts as f64)
     }
 }
 
-/// The task of a method: a chain, a state from which it starts, and the time until which it runs.
-/// The start of the scenario is ignored.
+/// A chain, the state from which it starts (not the scenario's), and the time until which it runs.
 pub type Task<'a> = (&'a Scenario, &'a State, f64);
 
 pub trait Method: Sync {
@@ -49,7 +47,6 @@ pub trait Method: Sync {
         Ok(collect(1, |sink| self.run(task, sink))?.pop())
     }
 
-    /// Returns all impacts, in order.
     fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
         collect(usize::MAX, |sink| self.run(task, sink))
     }

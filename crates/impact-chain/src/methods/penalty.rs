@@ -71,9 +71,7 @@ struct Springs {
     row: Bodies,
     /// ω_c²: force per overlap and reduced mass.
     stiffness: f64,
-    /// 2ζω_c.
     damping: f64,
-    /// Whether the gap is in an episode of contact.
     touching: Vec<bool>,
     /// Such gaps, with what opens them.
     contacts: Vec<(usize, f64)>,

@@ -9,7 +9,6 @@ use crate::{Error, Sink};
 pub trait Rival: Sync {
     const NAME: &'static str;
 
-    /// Sets a task at its start.
     fn begin(&self, task: Task) -> Result<Run, Error>;
 }
 
@@ -33,12 +32,10 @@ impl<R: Rival> Method for R {
     }
 }
 
-/// A method with a fixed step.
 pub trait Stepper: 'static {
     fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop>;
 }
 
-/// Runs a task in steps of length `h`.
 pub fn run_steps(task: Task, h: f64, mut stepper: impl Stepper) -> Result<Run, Error> {
     let mut steps = steps(task, h)?;
     Ok(Box::new(move |tally| {

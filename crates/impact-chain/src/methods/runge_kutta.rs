@@ -86,8 +86,7 @@ impl Steps {
         Ok(())
     }
 
-    /// Returns the gap that closes first, and the time in the step at which it does; none if no gap
-    /// is negative at the end of the step.
+    /// Returns the gap that closes first, and its time in the step; none if no gap ends negative.
     fn event(&self, h: f64, tally: &mut Tally) -> Option<(usize, f64)> {
         let (row, stages) = (&self.row, &self.stages);
         let gaps = row.topology.gaps();
@@ -180,7 +179,6 @@ const LEAST: f64 = 1e-15;
 struct Stages {
     y: Vec<f64>,
     next: Vec<f64>,
-    /// The derivatives k_1..k_7.
     k: [Vec<f64>; 7],
     h: f64,
 }
@@ -199,8 +197,7 @@ impl Stages {
         derivative(row, at, &self.y, &mut self.k[0]);
     }
 
-    /// Tries a step of length `h`. Returns its error in units of that which `tolerance` allows:
-    /// root mean square over all components, absolute and relative.
+    /// Tries a step of length `h`. Returns the root mean square of its errors over those allowed.
     fn attempt(&mut self, row: &Bodies, from: Instant, h: f64, tolerance: f64) -> f64 {
         self.h = h;
         for (stage, coefficients) in STAGES.iter().enumerate() {

@@ -46,7 +46,6 @@ impl Rival for Sampled {
     }
 }
 
-/// All gaps in one step.
 struct Samples {
     flights: Flights,
     /// Gaps at the beginning of the step, or right after the last impact at or next to the gap.

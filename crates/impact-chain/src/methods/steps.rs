@@ -16,7 +16,6 @@ pub struct Step {
     pub h: f64,
 }
 
-/// Lists the steps of length `h` of a task, in order.
 pub fn steps(
     (scenario, start, until): Task,
     h: f64,
@@ -44,7 +43,6 @@ pub fn check_end(until: f64) -> Result<(), Error> {
     within("until", until, -LATEST, LATEST)
 }
 
-/// Refuses a tolerance outside 1e-15 to 0.1.
 pub fn check_tolerance(tolerance: f64) -> Result<(), Error> {
     within("tolerance", tolerance, 1e-15, 0.1)
 }

@@ -5,8 +5,7 @@ use super::steps::{MAX_STEPS, too_many};
 use crate::topology::Topology;
 use crate::{Error, Impact, Scenario, Sink};
 
-/// The largest mean number of events per gap within one unit of time 1/ω. A rival that cannot rest
-/// in contact has infinitely many impacts in a finite time there.
+/// The largest mean number of events per gap within 1/ω; some rivals cannot rest in contact.
 const EVENTS_PER_GAP: u64 = 10_000;
 
 /// Why a run ends early: an error, or none if the receiver of the impacts stopped it.

@@ -53,7 +53,6 @@ fn dd(x: f64) -> DoubleDouble {
 #[derive(Clone, Debug)]
 pub struct TrueMotion {
     scenario: Scenario,
-    /// ω and Ω.
     rates: [DoubleDouble; 2],
     /// Free parts (a, b) of the bodies.
     free: Vec<[DoubleDouble; 2]>,
@@ -84,12 +83,10 @@ const FOR_EVER: f64 = 1e300;
 
 const INFLATION: f64 = 1.0 + 1e-12;
 
-/// Sine and cosine of ωt and Ωt.
 type TruePhases = [[DoubleDouble; 2]; 2];
 
 impl TrueMotion {
-    /// Starts the chain of a scenario from exactly the state that is given. It must have one
-    /// component of forcing, no contact, and walls at both ends.
+    /// Starts exactly at a state: one component of forcing, no contact, walls at both ends.
     pub fn of(scenario: &Scenario, state: &State) -> TrueMotion {
         let rates = [scenario.natural_frequency, scenario.forcing_frequency].map(dd);
         let factor = rates[0] * rates[0] - rates[1] * rates[1];
@@ -117,7 +114,6 @@ impl TrueMotion {
         self.rates.map(|rate| sin_cos(rate * t))
     }
 
-    /// Returns the place m d of body m.
     fn place(&self, m: usize) -> DoubleDouble {
         dd(self.scenario.spacing) * m as f64
     }
@@ -128,7 +124,6 @@ impl TrueMotion {
         [c * *cos + s * *sin, self.rates[1] * (s * *cos - c * *sin)]
     }
 
-    /// Returns displacement and velocity of body m.
     fn motion(&self, m: usize, phases: &TruePhases) -> [DoubleDouble; 2] {
         let [v, rate] = self.forced_motion(m, phases);
         let [a, b] = self.free[m];
@@ -136,7 +131,6 @@ impl TrueMotion {
         [a * cos + b * sin + v, self.rates[0] * (b * cos - a * sin) + rate]
     }
 
-    /// Returns width and rate of a gap.
     fn gap(&self, gap: usize, phases: &TruePhases) -> [DoubleDouble; 2] {
         let [left, right] = [gap, gap + 1].map(|m| self.motion(m, phases));
         [dd(self.scenario.spacing) + (right[0] - left[0]), right[1] - left[1]]
@@ -173,8 +167,7 @@ impl TrueMotion {
         State { time: self.time.to_f64(), positions, velocities }
     }
 
-    /// Finds the next impact up to time `until`, or none if there is no impact; does not carry it
-    /// out. A gap that touches without speed, so that masses may stay together, is an error.
+    /// Finds the next impact up to `until`, or none; a gap that touches without speed is an error.
     pub fn next(&mut self, until: f64) -> Result<Option<Hit>, Error> {
         loop {
             let earlier = |a: usize, b: usize| if self.open[b] < self.open[a] { b } else { a };
@@ -217,7 +210,6 @@ impl TrueMotion {
         if g.hi < 0.0 { f * 2.0 / (root - g) } else { (g + root) / dd(b) }
     }
 
-    /// Advances to an impact and carries it out.
     pub fn advance(&mut self, hit: &Hit) {
         let phases = self.phases(hit.time);
         let [_, rate] = self.gap(hit.gap, &phases);

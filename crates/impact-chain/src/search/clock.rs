@@ -18,7 +18,6 @@ pub const LATEST: f64 = 1e12;
 pub struct Instant(i128);
 
 impl Instant {
-    /// The time t = 0.
     pub const ZERO: Instant = Instant(0);
     /// Later than every time that is reached: the key of a gap that awaits nothing.
     pub const NEVER: Instant = Instant(i128::MAX);
@@ -57,8 +56,7 @@ impl Instant {
         sticky as i64 as f64 * f64::from_bits(u64::from(1023 + 65 - 80 - zeros) << 52)
     }
 
-    /// Returns the time since `epoch` in whole units of 2^-58, rounded down: 0 before the epoch,
-    /// the largest number from 64 units of time after it on.
+    /// Returns the time since `epoch` in units of 2^-58, rounded down, from 0 to 64 in time.
     #[inline(always)]
     pub fn units_since(self, epoch: Instant) -> u64 {
         let units = (self.0 - epoch.0) >> 22;

@@ -115,8 +115,7 @@ impl Earliest {
         least <= self.mask()
     }
 
-    /// Returns the index of the earliest of the full keys, and that key; among equal keys the
-    /// index of largest `speed`, and the lowest of those.
+    /// Returns index and key of the earliest full key; of equal ones the fastest, then the lowest.
     #[cold]
     pub fn first_in_full(&self, speed: impl Fn(usize) -> f64) -> (usize, Instant) {
         let mut agreeing = vec![1];

@@ -77,8 +77,7 @@ impl<const M: usize> Search<M> {
         speed > 0.0 && speed * speed > 4.0 * bound * self.pieces[0].largest_difference(frame)
     }
 
-    /// Finds the first root by the halves of the reach, and the halves of those that do not decide;
-    /// by certified steps where all of them are too coarse.
+    /// Finds the first root by repeated halves of the reach, or by certified steps.
     #[inline(always)]
     fn by_pieces(&self, frame: &Frame<M>, work: &mut Counters) -> Next {
         let reach = self.frequencies.reach;

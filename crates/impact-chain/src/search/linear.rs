@@ -16,8 +16,7 @@ pub struct Linear<const M: usize, const N: usize> {
     forced: [[[Pair; N]; 2]; M],
 }
 
-/// Computes the Taylor coefficients about s of 1 − cos νs and of sin νs. The value of the latter
-/// is given as sin νs − νs, in which nothing cancels.
+/// Computes the Taylor coefficients about s of 1 − cos νs and sin νs (its value as sin νs − νs).
 fn waves(nu: f64, s: f64) -> [Taylor; 2] {
     let [sine_less_angle, versine] = small_sin_cos(nu * s);
     let (sin, cos) = (nu * s + sine_less_angle, 1.0 - versine);

@@ -32,7 +32,6 @@ pub struct Frequencies<const M: usize> {
 }
 
 impl<const M: usize> Frequencies<M> {
-    /// Creates the table of frequencies > 0.
     pub fn new(omega: f64, big_omegas: [f64; M]) -> Self {
         let fastest = big_omegas.iter().fold(omega, |a, &b| a.max(b));
         let reach = RANGE / fastest;
@@ -58,9 +57,7 @@ impl<const M: usize> Frequencies<M> {
 /// A function in the local frame of an instant (see the module).
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<const M: usize> {
-    /// f₀, value at s = 0.
     pub f0: f64,
-    /// g₀, slope at s = 0.
     pub g0: f64,
     /// α, amplitude of cos ωs.
     pub alpha: f64,
@@ -108,8 +105,7 @@ impl<const M: usize> Frame<M> {
         slope * frequencies.inverse_omega
     }
 
-    /// Prevents the fall of a function at rest at zero that cannot fall: a curvature that rounding
-    /// made negative is set to the bound of that rounding.
+    /// Keeps a function at rest at zero from falling by a curvature that is negative by rounding.
     pub fn prevent_fall(&mut self, frequencies: &Frequencies<M>) {
         let w2 = frequencies.omega * frequencies.omega;
         let (mut forced, mut size) = (0.0, w2 * self.alpha.abs());

@@ -1,5 +1,4 @@
-//! Computes with two numbers side by side, in one register where the processor is known to have
-//! it. Each operation is that of both numbers, so the bits are the same everywhere.
+//! Computes with two numbers side by side, with the bits of each number alone on every machine.
 
 #[cfg(target_arch = "x86_64")]
 pub use safe_arch::{

@@ -33,8 +33,7 @@ impl<const M: usize> Eighths<M> {
         Eighths { values, width }
     }
 
-    /// Guesses the root of a function that is not negative at s = 0 and falls below zero once, by
-    /// the secant of the eighth in which it lies.
+    /// Guesses the root of a function that falls below zero once: the secant of its eighth.
     #[inline(always)]
     pub fn guess(&self, frame: &Frame<M>) -> f64 {
         let row = self.values.evaluate(frame).map(|x| x + splat(frame.f0));
@@ -135,8 +134,7 @@ impl<const M: usize> Piece<M> {
         Coefficients { row, slack: SLACK * frame.size }
     }
 
-    /// Guesses the root, counted from the frame's instant, if f falls over the whole piece to below
-    /// zero at its end; otherwise returns none. `first` is f(a) > 0.
+    /// Guesses the root, from the frame's instant, if f falls from `first` to < 0; or none.
     #[inline(always)]
     pub fn only_root(&self, frame: &Frame<M>, first: f64, c: &Coefficients) -> Option<f64> {
         let [b1, b2, b3, b4, b5, b6, b7, b8] = c.all();
@@ -147,8 +145,7 @@ impl<const M: usize> Piece<M> {
         if !all_fall || b8 >= -c.slack {
             return None;
         }
-        // The parabola with value, slope and curvature of p at the end that is nearer to zero. No
-        // processor can predict which one it is, so a mask replaces a branch.
+        // The parabola of p at the end nearer to zero, by a mask: no processor can predict which.
         let at_left = less(splat(first), splat(-b8));
         let nearer = |left: [f64; 2], right: [f64; 2]| {
             select(at_left, Pair::from(left), Pair::from(right)).to_array()

@@ -257,8 +257,7 @@ pub fn first_root_by_steps<const M: usize>(
 /// Widths above this fraction of the size of a frame are no part of a dip that rounding hides.
 pub const SHALLOW: f64 = 1e-6;
 
-/// Returns where a frame from the motions has a dip of which its rounding hides whether it reaches
-/// zero, and a time after it; none if it has none close to its instant.
+/// Returns the dip of a frame from the motions that rounding hides, and a time after it; or none.
 #[cold]
 pub fn hidden_dip<const M: usize>(
     frame: &Frame<M>,
@@ -319,8 +318,7 @@ fn beyond_root<const M: usize>(p: &Point<M>, root: f64, discriminant: f64, left:
     if better > 0.0 { (1.0625 * better).min(left) } else { guess }
 }
 
-/// Guesses a point shortly before the first root between `a`, where f > 0, and `b` = a + h,
-/// where f < 0, from the quintic through both ends; returns none if that leads nowhere.
+/// Guesses a point before the first root in (`a`, a + h) by the quintic of both ends; or none.
 #[inline]
 fn before_root<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64) -> Option<f64> {
     let (ga, gb) = (h * a.d1, h * b.d1);

@@ -17,7 +17,6 @@ struct Part {
 /// Windows are widened by this much, far more than [`rough_angles`] and rounding are off.
 const WIDENED: f64 = 1e-7;
 
-/// Windows passed in one call.
 const HOPS: u32 = 64;
 
 /// Returns a time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain; none if it is at
