@@ -43,7 +43,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         panel.heading(LETTERS[i], &format!("*σ* = {}{late}", chains.sigma))?;
     }
     let style = words(SMALL, INK, HPos::Right, VPos::Bottom);
-    for (name, right) in [("difference (%)", 7200), ("time (s)", 8250)] {
+    for (name, right) in [("diff. (%)", 7200), ("time (s)", 8250)] {
         sheet.area.draw_text(name, &style, (right, 420))?;
     }
     let description = describe!(
