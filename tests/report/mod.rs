@@ -5,6 +5,8 @@ mod documents;
 mod figures;
 mod html;
 mod imports;
+mod legibility;
+mod picture;
 // What the paper is made of.
 #[path = "../../src/main.rs"]
 #[allow(dead_code)]

@@ -69,3 +69,16 @@ fn large_graphs_go_on_from_the_paper() {
         assert!(sides.contains(&y), "{x} {y} {sides:?}");
     }
 }
+
+#[test]
+fn slips_of_the_paper_by_other_routes() {
+    // Eq. (8) at k = N − 1 is N/(N − 1) by hand.
+    assert!((number("theory.lengths.before_last") - 100.0 / 99.0).abs() < 1e-15);
+    let exact = ["theory.lengths.peak", "theory.mean.at_zero", "theory.jump.k_at_one"].map(number);
+    assert_eq!(exact, [99.0, 1.0, 99.0]);
+    assert!((number("theory.jump.last_ratio") - 0.99).abs() < 1e-15);
+    // Near the end φ(N − j)/φ(N) = N/((N − j) j!): shares of j = 0..5 over all j.
+    let weight = |j: usize| 100.0 / ((100 - j) as f64 * (1..=j).product::<usize>() as f64);
+    let [near_end, all] = [6, 18].map(|count| (0..count).map(weight).sum::<f64>());
+    assert!((number("theory.lengths.share") / (near_end / all) - 1.0).abs() < 1e-13);
+}

@@ -217,3 +217,16 @@ pub extern "C" fn numbers() -> *const f64 {
 pub extern "C" fn picture() -> *const u32 {
     PAGE.with_borrow(|page| page.picture.as_ptr())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_run_and_no_probability_is_refused() {
+        let numbers = vec![50.0, 20.0, 30.0, 1.0, 1.0, 1.5, 0.8, 0.0, 0.0];
+        let none = Page { numbers, ..Page::default() }.open().unwrap_err();
+        assert!(none.starts_with("forcing: it has 0 pairs for 30 masses; give one"), "{none}");
+        assert_eq!([law(100, f64::NAN), law(100, 0.02)], [2, 0]);
+    }
+}
