@@ -52,7 +52,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         series(&panel, p)?;
         // Next to k, or to the left end, at a height: where each class has room.
         let places = match i {
-            4 => [(8.0, (1, -2)), (5.0, (1, -2)), (8.0, (-1, 2)), (12.0, (-2, 2)), (20.0, (1, 0))],
+            4 => [(8.0, (1, -2)), (5.0, (1, -2)), (9.0, (-2, 3)), (12.0, (-2, 2)), (20.0, (1, 0))],
             5 => [(80.0, (0, 3)), (80.0, (0, 3)), (0.0, (0, 0)), (0.0, (0, 0)), (69.0, (-2, -1))],
             _ => continue,
         };

@@ -8,7 +8,7 @@ use crate::params::MethodName::*;
 
 /// Where the names stand in the upper panel.
 const NAMES: [Place; 6] = [
-    (Certified, FINEST, (3, 0), None),
+    (Certified, FINEST, (-2, 0), None),
     (Sampled, FINEST, (2, 0), None),
     (Advancement, 0, (2, 0), None),
     (RungeKutta, FINEST, (2, 0), None),

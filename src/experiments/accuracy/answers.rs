@@ -110,12 +110,12 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     });
     let programs = results.of(&PROGRAMS).ok()?;
     let trials = results.of(&TRIALS).ok()?;
-    let (rest, scenes) = at_rest(trials, programs);
+    let (rest, scenes) = at_rest(trials);
     let all = Table::of("answers.all", &[()], |()| scenes)
         .chosen("share", "1", "share of chains in which an orbit must be right", |()| Some(MOST))
         .chosen("tie", "1", "times that differ by less than this factor tie", |()| Some(TIE))
         .computed_by(origin(at_rest))
-        .words("methods", "settings that are right wherever masses come to rest", |()| {
+        .words("methods", "methods that are right wherever masses come to rest", |()| {
             rest.join("; ")
         })
         .real("cradle", "d", 1, "gap between balls of the cradle as the first comes", |()| {
@@ -238,17 +238,15 @@ fn questions(biases: &Biases, measured: &Measured) -> Vec<Question> {
     all
 }
 
-/// Names methods and programs that are right wherever masses come to rest; counts these cases.
-fn at_rest(trials: &Trials, programs: &[Program]) -> (Vec<String>, usize) {
+/// Names the methods that are right wherever masses come to rest; counts these cases.
+fn at_rest(trials: &Trials) -> (Vec<String>, usize) {
     let scenes = trials.parameters.scenes.iter().zip(&trials.found);
     let rest: Vec<_> = scenes.filter(|(scene, _)| REST.contains(&&*scene.id)).collect();
     let is_right =
         |i: usize| rest.iter().all(|(scene, found)| right(&found[i]) == scene.cases.len());
     let settings = trials.parameters.settings.iter().enumerate();
     let methods = settings.filter(|(i, _)| is_right(*i)).map(|(_, setting)| setting.name());
-    let runs = programs.iter().flat_map(|of| &of.settings).filter(|run| rests(run));
-    let runs = runs.map(|run| format!("{}, {}", run.name, run.settings));
-    (methods.chain(runs).collect(), rest.iter().map(|(scene, _)| scene.cases.len()).sum())
+    (methods.collect(), rest.iter().map(|(scene, _)| scene.cases.len()).sum())
 }
 
 /// Returns the gap between two balls of the cradle when the first comes, in units of d.
