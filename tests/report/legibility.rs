@@ -93,9 +93,9 @@ fn overlaps(picture: &Picture) -> Vec<String> {
                         label.meets([x, x, y, y])
                     })
             };
-            let is_on = |stroke: &Vec<(f64, f64)>| match shape.is_line {
-                true => stroke.windows(2).any(passes),
-                false => label.meets(bounds(stroke)),
+            let is_on = |stroke: &Vec<(f64, f64)>| {
+                let is_box = !shape.is_line && label.meets(bounds(stroke));
+                is_box || shape.is_line && stroke.windows(2).any(passes)
             };
             shape.strokes.iter().any(is_on)
         };
