@@ -6,15 +6,15 @@ const LEFT: i32 = 640;
 const SPACING: i32 = 1187;
 const FLOOR: i32 = 2280;
 const HEIGHT: i32 = 1060;
-const RADIUS: i32 = 235;
+const RADIUS: i32 = 280;
 
 /// The masses as drawn: the place on the sheet in units of the spacing, the name, the place in the
 /// row, and how far the mass is displaced from its equilibrium.
 const MASSES: [(i32, &str, &str, i32); 4] = [
-    (1, "1", "*d*", 250),
-    (2, "2", "2*d*", -270),
-    (4, "*n*−1", "(*n*−1)*d*", 190),
-    (5, "*n*", "*nd*", -250),
+    (1, "1", "*d*", 190),
+    (2, "2", "2*d*", -220),
+    (4, "*n*−1", "(*n*−1)*d*", 160),
+    (5, "*n*", "*nd*", -200),
 ];
 
 pub fn draw() -> Result<Figure, Error> {
@@ -24,7 +24,7 @@ pub fn draw() -> Result<Figure, Error> {
     for (slot, name, _, bend) in MASSES {
         draw_mass(&sheet.area, LEFT + slot * SPACING, name, bend)?;
     }
-    let middle = LEFT + 3 * SPACING + 300;
+    let middle = LEFT + 3 * SPACING + 260;
     for dx in [-170, 0, 170] {
         let dot = (Symbol::Disc, 26, Stroke::solid(INK, 4));
         sheet.area.draw(&markers(vec![(middle + dx, HEIGHT)], dot))?;
@@ -68,9 +68,7 @@ fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Drawn {
     draw_line(sheet, stem, 50)?;
     let centre = (root + bend, HEIGHT);
     sheet.draw(&markers(vec![centre], (Symbol::Ring, RADIUS, Stroke::solid(INK, 36))))?;
-    // A long name must stay inside its disc: 6.6 points.
-    let size = if name.len() > 3 { 233 } else { SMALL };
-    Ok(sheet.draw_text(name, &words(size, INK, HPos::Center, VPos::Center), centre)?)
+    Ok(sheet.draw_text(name, &words(SMALL, INK, HPos::Center, VPos::Center), centre)?)
 }
 
 fn floor_labels(sheet: &SheetArea, right: i32) -> Drawn {

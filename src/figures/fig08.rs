@@ -18,13 +18,16 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let (letter, p, mean) = (LETTERS[i], short(at, 3), short(cell("mean")?, 3));
         let name = format!("probability at p = {p}");
         panel.columns(&name, &probability, Stroke::solid(GREEN, THIN))?;
-        // The next hump is near the third: names stand to the left.
+        // Names stand to the left; near the last hump is the third, so a line leads to its name.
         let peak = largest(&probability);
         let (place, side) = match i {
             0 => ((3.0, peak), [(1, 0), (1, 3)]),
-            3 => ((k_star, peak), [(0, -4), (0, -1)]),
+            3 => ((k_star, 1.6 * peak), [(0, -4), (0, -1)]),
             _ => ((k_star - 3.0, peak), [(-1, -4), (-1, -1)]),
         };
+        if i == 3 {
+            panel.guide("leader", &[(k_star, 1.05 * peak), place], Stroke::solid(INK, HAIR))?;
+        }
         panel.label(&format!("{letter} *p* = {p}"), place, side[0], INK)?;
         panel.label(&format!("*k*^{{∗}} = {k_star}, *μ* = {mean}"), place, side[1], INK)?;
         seen.push(format!("{letter} p = {p}: mean {mean}"));

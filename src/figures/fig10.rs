@@ -20,15 +20,14 @@ pub fn draw() -> Result<Figure, Error> {
         };
         let letter = LETTERS[i];
         let left = sheet.panel(Frame::new(1000, edge, 4000, edge + 1700), k(), signs(at))?;
-        let left = left.with_suffix(&format!("{letter}-f"));
         let p = match i {
             0 => "*p* → 0".to_string(),
             1 => format!("*p* = *p*_{{crit}} = {}", short(at, 4)),
             3 => format!("*p* = *p*_{{jump}} = {}", short(at, 4)),
             _ => format!("*p* = {}", short(at, 4)),
         };
-        left.label(&format!("{} {p}", LETTERS[i]), (0.0, left.y.hi), (1, -1), INK)?;
-        sign(&left, at)?;
+        left.heading(letter, &p)?;
+        sign(&left.with_suffix(&format!("{letter}-f")), at)?;
         let mut columns = simple(at);
         columns.truncate(shown as usize);
         let room = if i == 0 { 1.0 } else { 1.02 };
@@ -65,17 +64,17 @@ fn sign(panel: &Panel, p: f64) -> Drawn {
     let panel = panel.outside(Outside::Cut);
     panel.level("zero", 0.0, Stroke::solid(GREY, HAIR))?;
     panel.curve("f", &f(p), Stroke::solid(BLUE, LINE))?;
-    if let Some(zeros) = zeros(p) {
-        let at = zeros.map(|k| (k, 0.0));
-        let disc = (Symbol::Disc, 60, Stroke::solid(BLUE, HAIR));
-        panel.markers("zeros of f", &at, disc)?;
-        if zeros[0] < zeros[1] {
-            // Where the curve is not: below the line inside the arch, above it outside.
-            panel.label("*k*_{−}", at[0], (1, 1), INK)?;
-            panel.label("*k*_{+}", at[1], (1, -1), INK)?;
-        }
+    let Some(zeros) = zeros(p) else {
+        return panel.label("*f* < 0: no zero", (5.0, -1.0), (1, 0), INK);
+    };
+    let at = zeros.map(|k| (k, 0.0));
+    panel.markers("zeros of f", &at, (Symbol::Disc, 60, Stroke::solid(BLUE, HAIR)))?;
+    if zeros[0] == zeros[1] {
+        return panel.label("double zero", at[0], (1, -1), INK);
     }
-    Ok(())
+    // Where the curve is not: below the line inside the arch, above it outside.
+    panel.label("*k*_{−}", at[0], (1, 1), INK)?;
+    panel.label("*k*_{+}", at[1], (1, -1), INK)
 }
 
 fn weight(panel: &Panel, highest: &[usize], shown: &[f64]) -> Drawn {

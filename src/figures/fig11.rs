@@ -2,7 +2,7 @@
 //! logarithmic axis as well, which the paper does not have.
 
 use super::prelude::*;
-use super::simulated::FORCING;
+use super::simulated::{FORCING, reaches};
 use crate::experiments::Results;
 
 /// Lowest decade of the logarithmic panel.
@@ -29,9 +29,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     linear.curve("p of Eq. (25)", &from_zero(&p), main)?;
     decades.curve("p for a start from rest", &from_rest, rest)?;
     decades.curve("p of Eq. (25)", &p, main)?;
-    let on = |points: &[(f64, f64)], height| super::simulated::reaches(points, height);
-    linear.label("start from rest", on(&from_rest, 0.35), (-3, 0), GREY)?;
-    linear.label("Eq. (25): random free parts", on(&p, 0.2), (2, 0), BLUE)?;
+    linear.label("start from rest", reaches(&from_rest, 0.35), (-3, 0), GREY)?;
+    linear.label("Eq. (25): random free parts", reaches(&p, 0.2), (2, 0), BLUE)?;
 
     let (level, bottom) = (results.number("theory.jump.p_jump")?, decades.y.lo);
     let jump = results.number("theory.relation.sigma_jump")?;

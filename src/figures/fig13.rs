@@ -22,46 +22,47 @@ const CLASSES: [Class; 5] = [
     ("two vertices twice", "*ϕ*_{*N*}^{2}", INK, ALTERNATE),
 ];
 
+/// Where a class is named: its place in [`CLASSES`], a k, and millimetres to the right and down
+/// from its curve there; names at one k stand in a row, at the height of the first.
+type Name = (usize, usize, i32, i32);
+
+/// A panel: p, first and last k, step between their numbers, the least P if logarithmic, names.
+type Shown = (f64, [f64; 3], Option<f64>, &'static [Name]);
+
+/// The names in (e) and (f).
+const E: [Name; 5] = [(0, 6, 1, -2), (1, 2, -1, 0), (2, 3, 0, 2), (3, 4, 0, 2), (4, 12, 1, 0)];
+const F: [Name; 5] = [(0, 81, 0, 2), (1, 80, -3, 3), (2, 80, 0, 3), (3, 80, 3, 3), (4, 72, -2, -1)];
+
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sheet = Sheet::new(10_600);
+    let sheet = Sheet::new(11_200);
     let [small, middle, large] = HIGHER_P;
-    let whole = N as f64 + 1.0;
-    // p, first and last k, step between their numbers, and the lowest power of ten, if any.
-    let panels = [
-        (small, 0.0, whole, 50.0, None),
-        (small, 0.0, 12.0, 6.0, None),
-        (middle, 0.0, 40.0, 20.0, None),
-        (large, 0.0, whole, 50.0, None),
-        (small, 0.0, 20.0, 10.0, Some(-12)),
-        (large, 50.0, whole, 25.0, Some(-8)),
+    let panels: [Shown; 6] = [
+        (small, [0.0, 8.0, 2.0], None, &[(0, 2, 2, 0)]),
+        (small, [0.0, 12.0, 4.0], None, &[(0, 8, 1, -2), (1, 3, 1, -2)]),
+        (middle, [0.0, 20.0, 5.0], None, &[(0, 3, 2, 0)]),
+        (large, [65.0, 95.0, 10.0], None, &[(4, 78, -2, 0)]),
+        (small, [0.0, 12.0, 4.0], Some(3e-10), &E),
+        (large, [65.0, 95.0, 10.0], Some(1e-7), &F),
     ];
-    for (i, (p, first, last, step, lowest)) in panels.into_iter().enumerate() {
+    for (i, (p, [first, last, step], least, names)) in panels.into_iter().enumerate() {
         let label = if i % 2 == 0 { "*P*(*X* = *k*)" } else { "" };
-        let y = match lowest {
-            Some(lowest) => Axis::decades(lowest, 0, 4, label),
+        let (classes, most) = (contributions(p), largest(&five(p)));
+        let y = match least {
+            Some(least) => Axis::decades(-12, 0, 2, label).between(least, 1.5 * most),
             // The detail shows the higher orders: the simple circuits leave it at its upper edge.
-            None if i == 1 => Axis::up_to(1.5 * largest(&contributions(p)[1..].concat()), label),
-            None => Axis::up_to(largest(&five(p)), label),
+            None if i == 1 => Axis::up_to(1.5 * largest(&classes[1..].concat()), label),
+            None => Axis::up_to(most, label),
         };
-        let (left, row) = (1200 + 4050 * (i as i32 % 2), i as i32 / 2);
-        let (top, height) = (480 + 2300 * row, if row == 2 { 3500 } else { 1200 });
-        let frame = Frame::new(left, top, left + 2950, top + height);
-        let x = Axis::linear(first, last, step, 5, "*k*");
+        let (left, top) = (1200 + 4050 * (i as i32 % 2), 480 + 3250 * (i as i32 / 2));
+        let frame = Frame::new(left, top, left + 2950, top + 2050);
+        let x = Axis::linear(first, last, step, 2, "*k*");
         let panel = sheet.panel(frame, x, y.column("P(X = k)"))?.outside(Outside::Cut);
         panel.heading(LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
         series(&panel, p)?;
-        // Next to k, or to the left end, at a height: where each class has room.
-        let places = match i {
-            4 => [(8.0, (1, -2)), (5.0, (1, -2)), (9.0, (-2, 3)), (12.0, (-2, 2)), (20.0, (1, 0))],
-            5 => [(80.0, (0, 3)), (80.0, (0, 3)), (0.0, (0, 0)), (0.0, (0, 0)), (69.0, (-2, -1))],
-            _ => continue,
-        };
-        for ((class, (_, symbol, colour, _)), (k, side)) in
-            contributions(p).iter().zip(CLASSES).zip(places)
-        {
-            if let Some((k, at)) = over_k(class).into_iter().find(|point| point.0 == k) {
-                panel.label_nearby(symbol, (k, at), side, colour)?;
-            }
+        for &(class, k, right, down) in names {
+            let first = names.iter().find(|name| name.1 == k).map_or(class, |name| name.0);
+            let (_, symbol, colour, _) = CLASSES[class];
+            panel.label(symbol, (k as f64, classes[first][k - 1]), (right, down), colour)?;
         }
     }
     let names = CLASSES.map(|(name, symbol, colour, dash)| {
@@ -69,15 +70,14 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     });
     let all = ("all five classes".to_string(), GREY, SUM);
     for (i, (name, colour, stroke)) in (0..).zip([all].into_iter().chain(names)) {
-        let (left, y) = (1200 + 3500 * (i % 2), 9_650 + 340 * (i / 2));
+        let (left, y) = (1200 + 3500 * (i / 3), 10_250 + 360 * (i % 3));
         sheet.area.draw(&line(vec![(left, y), (left + 500, y)], stroke))?;
         let style = words(SMALL, colour, HPos::Left, VPos::Center);
         sheet.area.draw_text(&name, &style, (left + 600, y))?;
     }
 
     let share = |p: f64| {
-        let share = results.number(&format!("theory.classes[p={p}].simple"));
-        share.map(|share| short(share, 2))
+        results.number(&format!("theory.classes[p={p}].simple")).map(|share| short(share, 2))
     };
     let description = describe!(
         "Probability of k different impacts, N = {N}, for five classes of circuits: a thin grey line for the sum, broken ones for the \

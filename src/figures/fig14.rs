@@ -7,31 +7,31 @@ use crate::experiments::theory::law::simple;
 use crate::params::{CONVERGENCE_P, VERTICES as N};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sheet = Sheet::new(3450);
-    let line = Stroke::solid(GREEN, LINE);
-    let broken = Stroke::dashed(BLUE, LINE, LONG);
+    let sheet = Sheet::new(6950);
     let mut seen = Vec::new();
     let top = largest(&CONVERGENCE_P.map(|p| largest(&five(p)).max(largest(&simple(p)))));
     for (i, at) in CONVERGENCE_P.into_iter().enumerate() {
-        let (simple, higher) = (simple(at), five(at));
         let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "*k*");
+        let x = if i == 0 { x.without_numbers() } else { x };
         let y = Axis::up_to(top, "*P*(*X* = *k*)");
-        let left = 1080 + 4150 * i as i32;
-        let panel = sheet.panel(Frame::new(left, 480, left + 2970, 2580), x, y)?;
-        let p = short(at, 3);
-        panel.heading(LETTERS[i], &format!("*p* = {p}"))?;
-        panel.curve("simple circuits", &over_k(&simple), line)?;
-        panel.curve("five classes", &over_k(&higher), broken)?;
-        let peak = |values: &[f64]| {
-            let highest = |a: &(f64, f64), b: &(f64, f64)| a.1.total_cmp(&b.1);
-            over_k(values).into_iter().max_by(highest).unwrap_or_default()
-        };
-        let (simple, higher) = (peak(&simple), peak(&higher));
-        let name = |name, peak: (f64, f64)| format!("{name}: *k*^{{∗}} = {}", peak.0);
-        panel.label(&name("simple", simple), (0.0, simple.1), (1, [-5, 1][i]), GREEN)?;
-        panel.label(&name("higher", higher), (panel.x.hi, higher.1), (-1, -1), BLUE)?;
-        let distance = results.number(&format!("theory.classes[p={at}].variation"))?;
-        let distance = short(distance, 3);
+        let edge = 480 + 3100 * i as i32;
+        let (frame, p) = (Frame::new(1200, edge, 8150, edge + 2450), short(at, 3));
+        let head = format!("{} *p* = {p}", LETTERS[i]);
+        let panel = sheet.lettered(&head, frame, x, y)?.with_suffix(LETTERS[i]);
+        for (name, values, side, stroke) in [
+            ("simple circuits", simple(at), -1, Stroke::solid(GREEN, LINE)),
+            ("higher orders", five(at), 1, Stroke::dashed(BLUE, LINE, LONG)),
+        ] {
+            let (points, peak) = (over_k(&values), largest(&values));
+            panel.curve(name, &points, stroke)?;
+            let k_star = points.iter().find(|point| point.1 == peak).map_or(0.0, |point| point.0);
+            // Each is named at its outer flank, near the peak.
+            let mut flank = points.into_iter().filter(|point| point.1 >= 0.85 * peak);
+            let at = if side < 0 { flank.next() } else { flank.next_back() }.unwrap_or_default();
+            panel.label(name, at, (side, -5), stroke.colour)?;
+            panel.label(&format!("*k*^{{∗}} = {k_star}"), at, (side, -1), stroke.colour)?;
+        }
+        let distance = short(results.number(&format!("theory.classes[p={at}].variation"))?, 3);
         seen.push(format!("{} p = {p}: total variation distance {distance}", LETTERS[i]));
     }
     let description = describe!(

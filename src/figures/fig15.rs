@@ -5,31 +5,34 @@ use super::simulated::*;
 use crate::experiments::Results;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sheet = Sheet::new(7550);
+    let sheet = Sheet::new(7900);
     let n = results.number("sweep.run.gaps")? as usize;
     let threshold = printed_threshold();
     let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
     let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
     let (simple, higher) = (curve(results, "simple")?, curve(results, "higher")?);
-    panel.curve("simple circuits", &simple, Stroke::solid(GREEN, LINE))?;
-    let blue = Stroke::dashed(BLUE, LINE, LONG);
+    let (green, blue) = (Stroke::solid(GREEN, LINE), Stroke::dashed(BLUE, LINE, LONG));
+    panel.curve("simple circuits", &simple, green)?;
     panel.curve("five classes", &higher, blue)?;
     let simulated = means(results)?;
     printed(&panel, 0.6 * n as f64)?;
     panel.markers("simulation", &simulated, CROSSES)?;
     panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
-    panel.label("simple circuits only", reaches(&simple, 0.5 * n as f64), (2, 0), GREEN)?;
-    panel.label("with higher orders", reaches(&higher, 0.08 * n as f64), (-2, 0), BLUE)?;
-    // The change by the orders, since the two lines nearly coincide.
+    // The two lines nearly coincide, so a key names them.
+    for (name, line, high) in [("with higher orders", blue, 0.5), ("simple circuits", green, 0.4)] {
+        let sample = [0.17, 0.185].map(|sigma| (sigma, high * n as f64));
+        panel.guide("key", &sample, line)?;
+        panel.label(name, sample[1], (1, 0), line.colour)?;
+    }
     let change: Vec<_> =
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);
-    let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "added");
-    let added = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 6650), sigma_axis(), y)?;
+    let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "impacts added");
+    let added = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 7000), sigma_axis(), y)?;
     let added = added.outside(Outside::Cut);
     added.curve("difference of the theories", &change, Stroke::solid(BLUE, LINE))?;
     let peak = (reaches(&change, most).0, 0.7 * most);
-    added.label("what the higher orders add", peak, (5, 0), BLUE)?;
+    added.label("by the higher orders", peak, (5, 0), BLUE)?;
 
     let description = describe!(
         "(a) Expected number of impacts against σ: crosses for the simulation, {} at σ = {threshold}; lines for the theory with simple \

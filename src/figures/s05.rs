@@ -25,11 +25,6 @@ fn shares(sheet: &Sheet) -> Drawn {
     let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
     let panel =
         sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?.outside(Outside::Cut);
-    // Wide, with a rim of the page's colour for the curves that lie on it.
-    let limit = large::limit();
-    panel.curve("limit", &limit, Stroke::solid(GREY, 130))?;
-    panel.guide("rim", &limit, Stroke::solid(WHITE, 76))?;
-    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), GREY)?;
     // Beyond their jumps all lie on the limit: the last to jump is drawn last, and each has a disc
     // where it arrives.
     for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate().rev() {
@@ -48,7 +43,9 @@ fn shares(sheet: &Sheet) -> Drawn {
         let name = format!("*N* = {}", power_of_ten(vertices.ilog10() as i32));
         panel.label(&name, start, (1, -1), colour)?;
     }
-    Ok(())
+    // On top, so that it is seen on the curves that lie on it.
+    panel.curve("limit", &large::limit(), Stroke::dashed(ORANGE, LINE, LONG))?;
+    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), ORANGE)
 }
 
 fn jumps(sheet: &Sheet, table: &Table) -> Drawn {
