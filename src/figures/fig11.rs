@@ -39,8 +39,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     decades.guide("jump of k*", &[(0.0, level), (jump, level), (jump, bottom)], guide)?;
     decades.guide("jump from rest", &[(jump_rest, level), (jump_rest, bottom)], guide)?;
     let text = format!("*k*^{{∗}} jumps at *p* = {}", short(level, 4));
-    decades.label(&text, (jump, level), (2, 2), INK)?;
-    decades.label(&number(jump, 4), (jump, 10.0 * bottom), (1, 0), BLUE)?;
+    decades.label(&text, (jump, level), (2, 6), INK)?;
+    decades.label(&number(jump, 4), (jump, level), (2, 2), BLUE)?;
     decades.label(&number(jump_rest, 4), (jump_rest, level), (-1, -1), GREY)?;
 
     let above = from_rest.iter().zip(&p).rfind(|(rest, p)| rest.1 > p.1);
