@@ -1,5 +1,5 @@
-//! Draws methods and other programs in all charts of speed and accuracy: this engine red, all
-//! others grey, each named next to its symbols.
+//! Draws methods in all charts of speed and accuracy: this engine red, methods of fixed steps in
+//! colours of their own, all others grey, each named next to its symbols.
 
 use super::prelude::*;
 use crate::experiments::Measured;
@@ -9,29 +9,32 @@ use crate::params::{MethodName, Setting};
 
 /// The look of a method; its line joins the settings of the method.
 pub fn look(method: MethodName) -> Marker {
-    let (mark, size) = match method {
+    let (mark, size, colour) = match method {
         MethodName::Certified => return (Symbol::Disc, LARGE + 12, Stroke::solid(RED, LINE)),
-        MethodName::Sampled => (Symbol::Ring, MEDIUM + 4),
-        MethodName::Advancement => (Symbol::OpenSquare, MEDIUM),
-        MethodName::RungeKutta => (Symbol::Disc, MEDIUM),
-        MethodName::MoreauJean => (Symbol::Plus, MEDIUM + 14),
-        MethodName::Penalty => (Symbol::OpenTriangle, MEDIUM),
-        MethodName::Verlet | MethodName::Truth => (Symbol::Cross, MEDIUM),
+        MethodName::Sampled => (Symbol::Ring, MEDIUM + 4, GREY),
+        MethodName::Advancement => (Symbol::OpenSquare, MEDIUM, GREY),
+        MethodName::RungeKutta => (Symbol::Disc, MEDIUM, GREY),
+        MethodName::MoreauJean => (Symbol::Plus, MEDIUM + 14, BLUE),
+        MethodName::Penalty => (Symbol::OpenTriangle, MEDIUM + 4, PURPLE),
+        MethodName::Verlet | MethodName::Truth => (Symbol::Cross, MEDIUM, ORANGE),
     };
-    (mark, size, Stroke::solid(GREY, THIN))
+    (mark, size, Stroke::solid(colour, THIN))
 }
 
+/// A point of a setting, with its interval if it has one.
+pub type Point = (f64, f64, Option<[f64; 2]>);
+
 /// Points of methods, with their settings.
-pub type Curves<P> = Vec<(MethodName, Vec<(Setting, P)>)>;
+pub type Curves = Vec<(MethodName, Vec<(Setting, Point)>)>;
 
 /// Where the name of a method stands: next to which of its settings, with an offset to the right
-/// and down in millimetres; and another name, for methods whose marks coincide.
-pub type Place = (MethodName, usize, (i32, i32), Option<&'static str>);
+/// and down in millimetres; from afar a line leads to it.
+pub type Place = (MethodName, usize, (i32, i32));
 
 /// Returns the axis of times that S6 and S7 share.
 pub fn time_axis() -> Axis {
     Axis::decades(0, 4, 1, "measured time of an impact over the engine’s")
-        .between(0.2, 8e3)
+        .between(0.2, 4e3)
         .column("measured time over the engine's (1)")
 }
 
@@ -39,25 +42,53 @@ pub const FINEST: usize = usize::MAX;
 
 /// Draws the settings of each method as marks on a line, and the names of some next to their marks.
 /// In the data each setting is a series.
-pub fn draw(panel: &Panel, curves: &Curves<(f64, f64)>, places: &[Place]) -> Drawn {
+pub fn draw(panel: &Panel, curves: &Curves, places: &[Place]) -> Drawn {
     for (method, points) in curves {
         let look = look(*method);
-        let line = Stroke { width: THIN, ..look.2 };
-        let places: Vec<(f64, f64)> = points.iter().map(|point| point.1).collect();
-        panel.unrecorded().marked_curve(method.title(), &places, line, look)?;
-        for (setting, point) in points {
-            panel.record(&setting.name(), [*point]);
+        // Thin lines of several colours would not be told apart.
+        let bar = Stroke::solid(if *method == MethodName::Certified { RED } else { GREY }, HAIR);
+        for (setting, (x, y, interval)) in points {
+            if let Some([low, high]) = interval {
+                panel.bars(&setting.name(), &[(*x, *low, *high)], 0, bar)?;
+            }
+            panel.record(&setting.name(), [(*x, *y)]);
         }
+        let places: Vec<_> = points.iter().map(|(_, (x, y, _))| (*x, *y)).collect();
+        let line = Stroke { width: THIN, ..look.2 };
+        panel.unrecorded().marked_curve(method.title(), &places, line, look)?;
     }
-    for (method, setting, offset, name) in places {
+    for (method, setting, offset) in places {
         let curve = curves.iter().find(|curve| curve.0 == *method).map(|curve| &curve.1);
-        if let Some((_, at)) = curve.and_then(|curve| curve.get(*setting).or(curve.last())) {
-            let inside = (at.0, at.1.clamp(panel.y.lo, panel.y.hi));
-            let colour = if *method == MethodName::Certified { RED } else { INK };
-            panel.label_nearby(name.unwrap_or(method.title()), inside, *offset, colour)?;
+        if let Some((_, (x, y, _))) = curve.and_then(|curve| curve.get(*setting).or(curve.last())) {
+            let inside = (*x, y.clamp(panel.y.lo, panel.y.hi));
+            let colour = look(*method).2.colour;
+            let colour = if colour == GREY { INK } else { colour };
+            panel.label_nearby(method.title(), inside, *offset, colour)?;
+            if offset.0 > 3 {
+                let ends = [20, 90].map(|share| (share * offset.0, share * offset.1));
+                let leader = PathElement::new(ends, Stroke::solid(colour, HAIR));
+                panel.area.draw(&(EmptyElement::at(inside) + leader))?;
+            }
         }
     }
     Ok(())
+}
+
+/// Draws the marks of the methods of fixed steps, whose curves lie close together, with their
+/// names, one below the other.
+pub fn key(panel: &Panel, x: f64, heights: [f64; 3]) -> Drawn {
+    let methods = [MethodName::MoreauJean, MethodName::Verlet, MethodName::Penalty];
+    for (method, y) in methods.into_iter().zip(heights) {
+        panel.unrecorded().markers(method.title(), &[(x, y)], look(method))?;
+        panel.label(method.title(), (x, y), (2, 0), INK)?;
+    }
+    Ok(())
+}
+
+/// Draws an arrow to the corner where the best methods stand.
+pub fn better(panel: &Panel, from: (f64, f64), to: (f64, f64)) -> Drawn {
+    panel.area.draw(&arrow(vec![from, to], Stroke::solid(INK, THIN)))?;
+    panel.label("better", from, (0, if to.1 > from.1 { 1 } else { -1 }), INK)
 }
 
 /// Returns the measured time of an impact over the engine's, on the chains of the race.
@@ -70,7 +101,7 @@ pub fn over_engine(race: &Race, measured: &Measured, setting: Setting) -> Option
 }
 
 /// Points of each method that has some, in the order of [`MethodName::ALL`].
-pub fn by_method<T, P>(rows: &[T], point: impl Fn(&T) -> Option<(Setting, P)>) -> Curves<P> {
+pub fn by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<(Setting, Point)>) -> Curves {
     let points_of = |method: MethodName| {
         let at = rows.iter().filter_map(&point).filter(|at| at.0.method == method);
         (method, at.collect::<Vec<_>>())

@@ -12,30 +12,27 @@ const DETAIL: f64 = 400.0;
 const INTERVALS: f64 = 200.0;
 
 /// Numbers of impacts that have one shade.
-const SHADES: [&str; 4] = ["1", "2–3", "4–7", "8 or more"];
-
-/// A gap at which impacts start.
-const START: Marker = (Symbol::Disc, 62, Stroke::solid(RED, HAIR));
+const SHADES: [&str; 3] = ["1", "2–3", "4 or more"];
 
 pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9350);
+    let sheet = Sheet::new(9700);
     let until = run.parameters.until;
     let gaps = || Axis::linear(-1.0, run.width() as f64, 20.0, 2, "gap");
     let time = |from: f64, to: f64, step: f64| Axis::linear(from, to, step, 2, "time *t* (1/*ω*)");
 
     // Thousandths are finer than the picture, and a file of all digits would be twice as long.
     let whole = time(0.0, until, until / 4.0).column("time_to_thousandths (1/omega)");
-    let whole = sheet.lettered("(a)", Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
+    let whole = sheet.lettered("(a)", Frame::new(1200, 780, 8150, 4480), whole, gaps())?;
     let impacts = points(run, 0.0, until);
     whole.record("impacts", impacts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
-    shades(&sheet, &whole, run, until / INTERVALS)?;
     window(&whole, until)?;
+    shades(&sheet, &whole, run, until / INTERVALS)?;
     starts(&whole, run, until)?;
 
     // From a round time before the first impact on.
     let from = (run.times.first().unwrap_or(&0.0) / 10.0).floor() * 10.0;
     let to = from + DETAIL;
-    let near = Frame::new(1200, 5250, 8150, 8550);
+    let near = Frame::new(1200, 5600, 8150, 8900);
     let near = sheet.lettered("(b)", near, time(from, to, DETAIL / 4.0), gaps())?.unrecorded();
     let first = ticks(points(run, from, to), 14, Stroke::solid(INK, 30));
     near.draw_series("first impacts", [first])?;
@@ -71,19 +68,20 @@ fn shades(sheet: &Sheet, panel: &Panel, run: &SpaceTime, length: f64) -> Drawn {
     let Frame { left, top, right, bottom } = panel.frame;
     let row = (bottom - top) as u32 / (run.width() as u32 + 1);
     let width = (right - left) / INTERVALS as i32 + 1;
-    let style = |colour| words(SMALL, colour, HPos::Left, VPos::Bottom);
+    let style = words(SMALL, INK, HPos::Left, VPos::Bottom);
     let title = format!("impacts in {}/*ω*:", short(length, 2));
-    sheet.area.draw_text(&title, &style(INK), (left + 2870, top - 80))?;
+    let base = top - 450;
+    sheet.area.draw_text(&title, &style, (left + 2250, base))?;
     for (shade, name) in SHADES.into_iter().enumerate() {
         let colour = ordered(shade, SHADES.len());
-        let with_shade = counts.iter().filter(|(_, count)| count.ilog2().min(3) == shade as u32);
+        let with_shade = counts.iter().filter(|(_, count)| count.ilog2().min(2) == shade as u32);
         let places = with_shade
             .map(|((interval, gap), _)| ((*interval as f64 + 0.5) * length, f64::from(*gap)));
-        let places =
-            ticks(places.collect(), width, Stroke::solid(colour, row * (shade as u32 + 1) / 4));
-        panel.draw_series("impacts", [places])?;
-        let x = left + [4670, 4920, 5420, 5920][shade];
-        sheet.area.draw_text(name, &style(colour), (x, top - 80))?;
+        let stroke = Stroke::solid(colour, row * (shade as u32 + 1) / 3);
+        panel.draw_series("impacts", [ticks(places.collect(), width, stroke)])?;
+        let x = left + [4150, 4800, 5700][shade];
+        sheet.area.draw(&Rectangle::new([(x, base - 170), (x + 250, base)], colour.filled()))?;
+        sheet.area.draw_text(name, &style, (x + 330, base))?;
     }
     Ok(())
 }
@@ -95,10 +93,9 @@ fn window(panel: &Panel, until: f64) -> Drawn {
     if to > until {
         return Ok(());
     }
-    let (low, high) = (panel.y.lo, panel.y.hi);
-    let corners = [(from, low), (to, low), (to, high), (from, high)];
-    panel.draw_series("window", [Polygon::new(corners, ORANGE.mix(0.3))])?;
-    panel.label("counting window", (from, high), (1, -1), ORANGE)
+    let corners = [(from, panel.y.lo), (to, panel.y.hi)];
+    panel.draw_series("window", [Rectangle::new(corners, ORANGE.mix(0.3).filled())])?;
+    panel.label("counting window", (from, panel.y.hi), (1, -1), ORANGE)
 }
 
 /// A disc at the first impact of each gap at which impacts start.
@@ -106,7 +103,8 @@ fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Drawn {
     let firsts = run.firsts();
     let starts = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
     let starts: Vec<_> = starts.filter(|(time, _)| *time <= until).collect();
-    panel.unrecorded().markers("starts", &starts, START)?;
+    let disc = (Symbol::Disc, 62, Stroke::solid(RED, HAIR));
+    panel.unrecorded().markers("starts", &starts, disc)?;
     panel.record("starts", starts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     Ok(())
 }

@@ -32,8 +32,7 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn 
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
     let mut kept = sweep.curve(&[], "sigma", "kept")?;
     kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
-    let ring = (Symbol::Ring, LARGE, Stroke::solid(INK, THIN));
-    panel.markers("kept", &kept, ring)?;
+    panel.markers("kept", &kept, (Symbol::Cross, 42, Stroke::solid(INK, HAIR)))?;
     let last = found.distinct("time")?.last().copied().unwrap_or_default();
     let lengths = found.distinct("masses")?;
     for (place, &masses) in lengths.iter().enumerate() {
@@ -49,8 +48,11 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn 
         let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-3, 0)) };
         panel.label(&name, (at(&rising, height).unwrap_or(SIGMAS.0), height), side, colour)?;
     }
-    let ring = kept.iter().copied().rfind(|(_, share)| *share < 0.9);
-    ring.map_or(Ok(()), |ring| panel.label("main sweep, *n* = 100", ring, (2, 1), INK))
+    let last = kept.iter().rfind(|(_, share)| *share < 0.9);
+    let Some((sigma, share)) = last else { return Ok(()) };
+    let leader = [(sigma + 0.001, share - 0.03), (sigma + 0.004, share - 0.1)];
+    panel.guide("leader", &leader, Stroke::solid(INK, HAIR))?;
+    panel.label("main sweep, *n* = 100", leader[1], (1, 1), INK)
 }
 
 fn times(sheet: &Sheet, found: &Table) -> Drawn {

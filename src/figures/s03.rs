@@ -6,6 +6,7 @@ use crate::experiments::Results;
 use crate::experiments::ensembles::Counted;
 use crate::experiments::sweep;
 use crate::experiments::theory::comparison::at;
+use crate::params::printed_threshold;
 use literate::table::Table;
 
 /// The σ of (a).
@@ -63,15 +64,10 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Draw
     let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
     panel.markers("simulation", &points, look)?;
     let low = points.iter().copied().rfind(|(_, mean)| *mean < 40.0);
-    low.map_or(Ok(()), |low| panel.label("simulation", low, (2, 1), RED))
-}
-
-/// The first, the middle and the last.
-fn spread<T: Copy>(all: &[T]) -> Vec<T> {
-    let last = all.len().saturating_sub(1);
-    let mut places = vec![0, last / 2, last];
-    places.dedup();
-    places.into_iter().filter_map(|place| all.get(place).copied()).collect()
+    let Some((sigma, mean)) = low else { return Ok(()) };
+    let leader = [(sigma + 0.001, mean - 3.0), (sigma + 0.004, mean - 10.0)];
+    panel.guide("leader", &leader, Stroke::solid(RED, HAIR))?;
+    panel.label("simulation", leader[1], (1, 1), RED)
 }
 
 fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
@@ -79,11 +75,12 @@ fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
     let y = Axis::decades(-1, 2, 1, "advance (gaps)").between(0.3, 80.0);
     let panel =
         sheet.lettered("(b)", Frame::new(1150, 5250, 3850, 7650), x, y)?.outside(Outside::Cut);
-    let sigmas = spread(&advance.distinct("sigma")?);
+    let sigmas = advance.distinct("sigma")?;
+    let three = [sigmas.first().copied(), Some(printed_threshold()), sigmas.last().copied()];
     let mut drawn = Vec::new();
-    for (place, sigma) in sigmas.iter().enumerate() {
-        let points = advance.curve(&[("sigma", *sigma)], "time", "advance")?;
-        let (name, colour) = (format!("*σ* = {sigma}"), ordered(place, sigmas.len()));
+    for (place, sigma) in three.into_iter().flatten().enumerate() {
+        let points = advance.curve(&[("sigma", sigma)], "time", "advance")?;
+        let (name, colour) = (format!("*σ* = {sigma}"), ordered(place, 3));
         panel.curve(&name, &points, Stroke::solid(colour, LINE))?;
         drawn.push((name, points, colour));
     }

@@ -8,10 +8,10 @@ use literate::table::Table;
 /// The window of the half heights.
 const WINDOW: f64 = 200.0;
 
-/// The branches: column, name, colour, and symbols for the first and the last of two curves.
+/// The branches: column, name, colour, and symbols for shorter and for the longest chains.
 const BRANCHES: [(&str, &str, RGBColor, [Symbol; 2]); 2] = [
     ("from_rest", "from rest", BLUE, [Symbol::Ring, Symbol::Disc]),
-    ("from_above", "from above", RED, [Symbol::OpenSquare, Symbol::OpenDiamond]),
+    ("from_above", "from above", RED, [Symbol::OpenSquare, Symbol::Square]),
 ];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
@@ -38,7 +38,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 }
 
 fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64]) -> Drawn {
-    let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 1.1e5);
+    let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 1.25e5);
     let y = Axis::linear(0.06, 0.14, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
         .column("half_height (d omega^2)");
     let panel =
@@ -59,7 +59,7 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
             let name = format!("{name}, *n* = {masses}");
             panel.joined_estimates(&name, &points, look)?;
             // The names stand clear of the last symbols.
-            let end = points.last().map(|(time, half)| (1.08 * time, half.value));
+            let end = points.last().map(|(time, half)| (1.2 * time, half.value));
             ends.push((name, Vec::from_iter(end), colour));
         }
     }
@@ -80,11 +80,10 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Drawn {
     let mut labels = Vec::new();
     for (place, transient) in ends.into_iter().flatten().enumerate() {
         for (column, name, colour, marks) in BRANCHES {
-            let (mark, dash) = (marks[place], [SHORT, SOLID][place]);
             let points =
                 shares.series(&[("masses", masses), ("transient", *transient)], "sigma", column)?;
             let name = format!("{name}, *T* = {}", in_powers(*transient));
-            let look = (mark, MEDIUM, Stroke::dashed(colour, THIN, dash));
+            let look = (marks[1], MEDIUM, Stroke::solid(colour, THIN));
             panel.joined_estimates(&name, &points, look)?;
             // Where a label has room next to its curve.
             let (at, side) = match (column, place) {

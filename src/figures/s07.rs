@@ -1,39 +1,35 @@
 //! Draws Fig. S7: how long all impacts of a run are right, against its time and one impact's error.
 
 use super::prelude::*;
-use super::rivals::{self, FINEST, Place, by_method, look, over_engine, programs};
+use super::rivals::{self, FINEST, Place, by_method, over_engine, programs};
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
 use crate::experiments::{MEASURED, RACE, Results};
-use crate::params::{MethodName::*, Setting};
+use crate::params::MethodName::*;
 use impact_numerics::statistics::Estimate;
 
 /// The rounding of doubles, 2⁻⁵³.
 const ROUNDING: f64 = f64::EPSILON / 2.0;
 
-/// Where names stand in (a); methods with fixed steps have one name.
-const NAMES: [Place; 4] = [
-    (Certified, FINEST, (2, 0), None),
-    (Sampled, 2, (-2, 0), None),
-    (Advancement, 2, (-2, 0), None),
-    (RungeKutta, FINEST, (2, 0), None),
-];
+/// Where names stand in (a).
+const NAMES: [Place; 3] =
+    [(Certified, FINEST, (2, 0)), (Advancement, 1, (-2, 0)), (RungeKutta, FINEST, (2, 0))];
 
-/// The same for other programs: name of the row, name here.
+/// The same in (b), for other programs: name of the row, name here.
 const PROGRAMS: [(&str, &str, usize, (i32, i32)); 6] = [
-    ("impact-paper", "engine, one chain", FINEST, (2, 0)),
+    ("impact-paper", "engine", FINEST, (2, 0)),
     ("heyoka", "heyoka", FINEST, (0, -2)),
     ("SUNDIALS CVODE", "CVODE", FINEST, (2, 0)),
     ("SciPy DOP853", "SciPy", FINEST, (-2, 0)),
-    ("pymunk", "pymunk", FINEST, (0, -2)),
-    ("diffsol tsit45", "diffsol", 0, (-2, 1)),
+    ("pymunk", "pymunk", FINEST, (-2, -1)),
+    ("diffsol tsit45", "diffsol", 0, (-2, 0)),
 ];
 
-/// The same for (b).
+/// The same for (c).
 const BY_ERROR: [Place; 4] = [
-    (Certified, FINEST, (-2, 0), None),
-    (Sampled, 0, (-2, 0), None),
-    (Advancement, 2, (0, 3), None),
-    (RungeKutta, 0, (-2, -1), None),
+    (Certified, FINEST, (-2, 0)),
+    (Sampled, 0, (-2, 0)),
+    (Advancement, 2, (0, 3)),
+    (RungeKutta, 1, (-2, 0)),
 ];
 
 /// Returns the time in which an error ε grows to [`DISPLACED`], ln([`DISPLACED`]/ε)/λ, and its
@@ -46,14 +42,16 @@ fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (race, measured) = (results.of(&RACE)?, results.of(&MEASURED)?);
-    let sheet = Sheet::new(8700);
+    let sheet = Sheet::new(10900);
     let top = (race.parameters.until / 50.0).ceil() * 50.0;
-    let x = rivals::time_axis();
-    let by_time = Frame::new(1100, 430, 8250, 4330);
-    let by_time = sheet.lettered("(a)", by_time, x, horizon_axis(top))?.outside(Outside::Edge);
+    let x = rivals::time_axis;
+    let (by_time, others) = (Frame::new(1100, 430, 8250, 3230), Frame::new(1100, 3800, 8250, 6600));
+    let by_time = sheet.lettered("(a)", by_time, x().without_numbers(), horizon_axis(top))?;
+    let by_time = by_time.outside(Outside::Edge);
+    let others = sheet.lettered("(b)", others, x(), horizon_axis(top))?.outside(Outside::Edge);
     let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").between(1e-20, 0.5);
-    let by_error = Frame::new(1100, 5500, 8250, 7700);
-    let by_error = sheet.lettered("(b)", by_error, x, horizon_axis(top))?.outside(Outside::Edge);
+    let by_error = Frame::new(1100, 7750, 8250, 9950);
+    let by_error = sheet.lettered("(c)", by_error, x, horizon_axis(top))?.outside(Outside::Edge);
 
     chaos(&by_error, race)?;
     if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|t| t[1] < top) {
@@ -63,73 +61,49 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         by_time.label("what chaos allows in double precision", end, (-1, -1), GREY)?;
     }
     let run = &race.parameters.growth;
-    let others = programs(measured, run.chain.masses);
-    for (program, points) in &others {
-        let stroke = Stroke::dashed(GREY, HAIR, DOTTED);
-        by_time.unrecorded().curve(program, points, stroke)?;
-    }
     let time = |e: &Entry| over_engine(race, measured, e.setting);
-    let timed = |e: &Entry| Some((e.setting, (time(e)?, e.horizon()?)));
-    let median = |e: &Entry| Some((e.setting, (e.errors?[0], e.horizon()?)));
+    let point = |x: f64, t: Estimate| (x, t.value, Some([t.value - t.error, t.value + t.error]));
+    let timed = |e: &Entry| Some((e.setting, point(time(e)?, e.horizon()?)));
+    let median = |e: &Entry| Some((e.setting, point(e.errors?[0], e.horizon()?)));
     let timed = by_method(&race.entries, timed);
-    let by_median = by_method(&race.entries, median);
-    let mut drawn = Vec::new();
-    for (panel, methods, places) in
-        [(&by_time, timed, &NAMES[..]), (&by_error, by_median, &BY_ERROR[..])]
-    {
-        for (method, found) in &methods {
-            let stroke = Stroke { width: HAIR, ..look(*method).2 };
-            for (setting, (x, t)) in found {
-                let bar = (*x, t.value - t.error, t.value + t.error);
-                panel.bars(&setting.name(), &[bar], 0, stroke)?;
-            }
-        }
-        let point = |(setting, (x, t)): (Setting, (f64, Estimate))| (setting, (x, t.value));
-        let points = |found: Vec<_>| found.into_iter().map(point).collect::<Vec<_>>();
-        let curves = methods.into_iter().map(|(method, found)| (method, points(found)));
-        let curves: rivals::Curves<(f64, f64)> = curves.collect();
-        rivals::draw(panel, &curves, places)?;
-        drawn.push(curves);
-    }
-    // Their marks lie above those of the methods, and their lines are where no name may be.
-    let colour = |program: &str| if program == "impact-paper" { RED } else { GREY };
-    let width = |program: &str| if program == "impact-paper" { LINE } else { THIN };
-    for (program, points) in &others {
-        let look = (Symbol::OpenDiamond, MEDIUM, Stroke::solid(colour(program), width(program)));
-        by_time.markers(program, points, look)?;
-    }
-    for (program, points) in others {
+    rivals::draw(&by_time, &timed, &NAMES)?;
+    rivals::draw(&by_error, &by_method(&race.entries, median), &BY_ERROR)?;
+    for (program, points) in programs(measured, run.chain.masses) {
         let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };
+        let colour = if place.1 == "engine" { RED } else { INK };
+        let diamond = (Symbol::OpenDiamond, LARGE, Stroke::solid(colour, THIN));
+        others.marked_curve(program, &points, diamond.2, diamond)?;
         if let Some(at) = points.get(place.2).or(points.last()) {
-            by_time.label_nearby(place.1, (at.0, at.1.min(top)), place.3, colour(program))?;
+            others.label_nearby(place.1, (at.0, at.1.min(top)), place.3, colour)?;
         }
     }
-    for (method, points) in &drawn[0] {
-        // Where lines leave room.
-        let last = points.len() - 1;
-        for (i, (setting, at)) in points.iter().enumerate() {
-            let offset = match method {
-                Advancement if i > 0 => (1, 0),
-                RungeKutta if i == last => (1, -1),
-                RungeKutta if i == 2 || i == 4 => (1, 1),
-                Sampled if i == 0 => (-1, 0),
-                Sampled if i == last => (1, 0),
-                Verlet if i == 0 || i == last => (0, -1),
-                _ => continue,
-            };
-            by_time.label(&in_powers(setting.value), *at, offset, GREY)?;
+    // The coarsest and the finest setting of each method; fixed steps are the same in all.
+    for (method, points) in &timed {
+        let offsets = match method {
+            Advancement => [(1, -1), (2, 0)],
+            RungeKutta => [(1, -1), (0, -1)],
+            Sampled => [(-1, -1), (1, 1)],
+            Verlet => [(0, -1), (0, -1)],
+            _ => continue,
+        };
+        let ends = points.first().into_iter().chain(points.iter().skip(1).last());
+        for ((setting, (x, t, _)), offset) in ends.zip(offsets) {
+            by_time.label_nearby(&in_powers(setting.value), (*x, t.min(top)), offset, GREY)?;
         }
     }
-    by_time.label("fixed steps", (0.22, 17.0), (1, -1), INK)?;
+    by_time.label_nearby("sampling", (12.0, 0.34 * top), (-1, 0), INK)?;
+    rivals::key(&by_time, 330.0, [0.48, 0.37, 0.26].map(|share| share * top))?;
+    rivals::better(&by_time, (0.5, 0.5 * top), (0.28, 0.7 * top))?;
+    rivals::better(&others, (0.5, 0.5 * top), (0.28, 0.7 * top))?;
     by_error.label_nearby("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
     let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
     let description = describe!(
-        "Time up to which a run has every impact right, mean of {} chains, n = {}, σ = {}: (a) against measured time over the \
-         engine's, the engine at the top left; (b) against the median error of one impact, with the line that the growth λ = \
-         {growth} allows.",
-        race.parameters.chains,
+        "Time up to which a run has every impact right, n = {}, σ = {}: against measured time over the engine's (a) for this program, \
+         mean of {} chains, the engine at the top left, and (b) for others on one chain; (c) against the median error of one impact, \
+         with the line that λ = {growth} allows.",
         run.chain.masses,
         run.sigma,
+        race.parameters.chains,
     );
     Ok(sheet.finish("How long a run is true", description))
 }

@@ -8,43 +8,44 @@ use crate::params::{Means, MethodName::Certified, Setting};
 use impact_numerics::statistics::Estimate;
 
 /// The differences in the panels, in per cent.
-const RANGE: f64 = 40.0;
+const RANGE: f64 = 50.0;
 
 /// From one row to the next.
-const ROW: i32 = 255;
+const ROW: i32 = 275;
 
-/// A time and a difference.
-type Row<'a> = (f64, &'a Compared);
+/// The width of a decimal with its point.
+const DECIMAL: i32 = 170;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (biases, measured) = (results.of(&BIAS)?, results.of(&MEASURED)?);
     let rows = compared(biases);
     let means = &biases.parameters.means;
     let height = |of: &Means| of.settings.len() as i32 * ROW;
-    let sheet = Sheet::new(means.iter().map(|of| height(of) + 450).sum::<i32>() as u32 + 1000);
-    let mut top = 500;
+    let sheet = Sheet::new(means.iter().map(|of| height(of) + 480).sum::<i32>() as u32 + 1500);
+    let mut top = 1000;
     for (i, of) in means.iter().enumerate() {
         let chains = &of.chains;
         let time = |setting| {
             measured.thousand(measured.method(setting, chains.chain.masses, chains.sigma)?)
         };
-        let mut found: Vec<Row> = Vec::new();
+        let mut found = Vec::new();
         for row in rows.iter().filter(|row| row.sigma == chains.sigma && row.share.is_some()) {
             found.extend(time(row.setting).map(|time| (time, row)));
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let frame = Frame::new(2550, top, 5750, top + height(of));
-        top += height(of) + 450;
+        let frame = Frame::new(2450, top, 5350, top + height(of));
+        top += height(of) + 480;
         let engine = Setting { method: Certified, value: 0.0, stop: 0.0 };
         let is_last = i + 1 == means.len();
         let panel = rows_of(&sheet, frame, &found, time(engine), is_last)?;
-        let is_late = of.transient != means[0].transient;
-        let late = if is_late { format!(", *T* = {}", of.transient) } else { String::new() };
-        panel.heading(LETTERS[i], &format!("*σ* = {}{late}", chains.sigma))?;
+        let heading = format!("*σ* = {}, *T* = {}", chains.sigma, of.transient);
+        panel.heading(LETTERS[i], &heading)?;
     }
     let style = words(SMALL, INK, HPos::Right, VPos::Bottom);
-    for (name, right) in [("diff. (%)", 7200), ("time (s)", 8250)] {
-        sheet.area.draw_text(name, &style, (right, 420))?;
+    let heads =
+        [("difference (%)", 7250, 350), ("± 95 % half-width", 7250, 650), ("time (s)", 8250, 650)];
+    for (name, right, base) in heads {
+        sheet.area.draw_text(name, &style, (right, base))?;
     }
     let description = describe!(
         "Difference of the mean number of impacting gaps from the engine's, with 95 % intervals, at {} σ; rows are methods with a step or \
@@ -61,11 +62,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn rows_of(
     sheet: &Sheet,
     frame: Frame,
-    found: &[Row],
+    found: &[(f64, &Compared)],
     engine: Option<f64>,
     is_last: bool,
 ) -> Result<Panel, Error> {
-    let x = Axis::linear(-RANGE, RANGE, 20.0, 4, "difference from the engine’s mean (%)");
+    let x = Axis::linear(-RANGE, RANGE, 25.0, 5, "difference from the engine’s mean (%)");
     let x = x.column("time of one core for a thousand chains (s)");
     let x = if is_last { x } else { x.without_numbers() };
     let y = Axis::linear(-0.6 - found.len() as f64, 0.6, 1.0, 1, "");
@@ -75,17 +76,26 @@ fn rows_of(
         let name = format!("{}, {}", setting.method.title(), in_powers(setting.value));
         y.ticks.insert(0, Tick { at: -(y.ticks.len() as f64), label: Some(name) });
     }
+    // A ground under every second row.
+    let height = f64::from(frame.bottom - frame.top) / (found.len() as f64 + 1.2);
+    for row in (1..=found.len()).step_by(2) {
+        let upper = frame.top + (height * (row as f64 + 0.1)) as i32;
+        let ground = [(60, upper), (8340, upper + height as i32)];
+        sheet.area.draw(&Rectangle::new(ground, PALE.mix(0.3).filled()))?;
+    }
     let panel = sheet.panel(frame, x, y)?;
     panel.guide("engine", &[(0.0, panel.y.lo), (0.0, 0.0)], Stroke::solid(RED, THIN))?;
     let disc = (Symbol::Disc, LARGE + 12, Stroke::solid(RED, THIN));
     panel.unrecorded().markers("engine", &[(0.0, 0.0)], disc)?;
     let style = words(SMALL, INK, HPos::Right, VPos::Center);
-    let write = |words: &str, right: i32, row: f64| {
-        let at = panel.area.map_coordinate(&(0.0, row));
-        sheet.area.draw_text(words, &style, (right, at.1))
+    let decimals = |value: f64| usize::from(value < 9.95);
+    // Writes a number whose units end at a place.
+    let write = |before: &str, value: f64, decimals: usize, units: i32, row: f64| {
+        let at = (units + decimals as i32 * DECIMAL, panel.area.map_coordinate(&(0.0, row)).1);
+        sheet.area.draw_text(&(before.to_owned() + &number(value, decimals)), &style, at)
     };
     if let Some(time) = engine {
-        write(&short(time, 2), 8250, 0.0)?;
+        write("", time, decimals(time), 8000, 0.0)?;
     }
     for (row, (time, compared)) in (1..).map(|i| -f64::from(i)).zip(found) {
         let Some(share) = compared.share else { continue };
@@ -105,10 +115,11 @@ fn rows_of(
             panel.area.draw(&arrow(vec![(from, row), (to, row)], stroke))?;
         }
         let half = interval[1] - value;
-        let decimals = if half < 10.0 { 1 } else { 0 };
-        let shown = format!("{} ± {}", number(value, decimals), number(half, decimals));
-        write(&shown, 7200, row)?;
-        write(&short(*time, 2), 8250, row)?;
+        write("", value, decimals(half), 6300, row)?;
+        // A space is half as wide as a digit.
+        let before = ["± ", "±   "][decimals(half)];
+        write(before, half, decimals(half), 7000, row)?;
+        write("", *time, decimals(*time), 8000, row)?;
     }
     Ok(panel)
 }

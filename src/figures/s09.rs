@@ -5,12 +5,14 @@ use super::rivals::{self, FINEST, Place, by_method};
 use crate::experiments::{MEASURED, Results, SCALE};
 use crate::params::{MethodName::*, Setting};
 
-const NAMES: [Place; 5] = [
-    (Certified, FINEST, (0, -2), None),
-    (Sampled, FINEST, (2, 0), None),
-    (Advancement, FINEST, (2, 0), None),
-    (RungeKutta, FINEST, (2, -1), None),
-    (Verlet, FINEST, (2, 0), Some("Verlet, time stepping")),
+/// Where names stand in both panels.
+const NAMES: [Place; 6] = [
+    (Certified, FINEST, (0, -2)),
+    (Sampled, FINEST, (0, -2)),
+    (Advancement, FINEST, (6, 1)),
+    (RungeKutta, FINEST, (-1, -1)),
+    (MoreauJean, FINEST, (6, -4)),
+    (Verlet, FINEST, (6, -1)),
 ];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
@@ -21,13 +23,13 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let y = Axis::decades_around(scale.iter().map(|row| row.2), 1, "evaluations per impact");
     let counted =
         sheet.lettered("(a)", Frame::new(1200, 430, 8250, 3330), masses().without_numbers(), y)?;
-    let all = by_method(scale, |row| Some((row.0, (row.1 as f64, row.2))));
+    let all = by_method(scale, |row| Some((row.0, (row.1 as f64, row.2, None))));
     rivals::draw(&counted, &all, &NAMES)?;
 
     // The same chains and settings, on one thread.
     let timed = |row: &(Setting, usize, f64)| {
         let time = measured.size(row.0, row.1)?.microseconds_per_impact?;
-        Some((row.0, (row.1 as f64, time)))
+        Some((row.0, (row.1 as f64, time, None)))
     };
     let times: Vec<_> = scale.iter().filter_map(timed).collect();
     let y = Axis::decades_around(times.iter().map(|at| at.1.1), 1, "µs per impact");
@@ -37,7 +39,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let most = scale.iter().rfind(|row| row.0.method == Certified);
     let counted = most.map(|(_, n, work)| format!("{} at n = {n}", short(*work, 2)));
     let longest = times.iter().rfind(|at| at.0.method == Certified);
-    let timed = longest.map(|(_, (n, time))| format!("{} at n = {n}", short(*time, 2)));
+    let timed = longest.map(|(_, (n, time, _))| format!("{} at n = {n}", short(*time, 2)));
     let description = describe!(
         "Cost against the number of masses n, all axes logarithmic. (a) Evaluations per impact: this engine lowest and nearly level, \
          {}; Runge–Kutta grows with n. (b) Microseconds per impact, of this engine {}.",

@@ -116,7 +116,7 @@ pub fn markers<C>(points: Vec<C>, (symbol, r, line): Marker) -> CustomElement<C>
     CustomElement::new(points, move |drawing, points| {
         let mut path: Vec<Step> = Vec::new();
         for (x, y) in points {
-            let mut corners = |places: &[Point]| {
+            let mut sides = |places: &[Point]| {
                 let places = places.iter().map(|(right, down)| (x + right * r, y + down * r));
                 path.extend(polygon(places));
             };
@@ -127,13 +127,13 @@ pub fn markers<C>(points: Vec<C>, (symbol, r, line): Marker) -> CustomElement<C>
                     path.extend(polyline([(x, y - r), (x, y + r)]));
                 }
                 Symbol::Disc | Symbol::Ring => path.extend(circle((x, y), r)),
-                Symbol::OpenSquare => corners(&[(-1, -1), (1, -1), (1, 1), (-1, 1)]),
-                Symbol::OpenTriangle => corners(&[(-1, 1), (0, -1), (1, 1)]),
-                Symbol::OpenDiamond => corners(&[(0, -1), (1, 0), (0, 1), (-1, 0)]),
+                Symbol::Square | Symbol::OpenSquare => sides(&[(-1, -1), (1, -1), (1, 1), (-1, 1)]),
+                Symbol::OpenTriangle => sides(&[(-1, 1), (0, -1), (1, 1)]),
+                Symbol::OpenDiamond => sides(&[(0, -1), (1, 0), (0, 1), (-1, 0)]),
             }
         }
         let fill = match symbol {
-            Symbol::Disc => Some((line.colour, 100)),
+            Symbol::Disc | Symbol::Square => Some((line.colour, 100)),
             Symbol::Cross => return Ok(()),
             Symbol::Plus => None,
             _ => Some((WHITE, 100)),

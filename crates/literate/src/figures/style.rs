@@ -110,6 +110,7 @@ pub enum Symbol {
     Plus,
     Disc,
     Ring,
+    Square,
     OpenSquare,
     OpenTriangle,
     OpenDiamond,
