@@ -102,6 +102,11 @@ pub fn scenes() -> Vec<Scene> {
 }
 
 impl Case {
+    /// Returns the simulated time from its start to its end.
+    pub fn length(&self) -> f64 {
+        self.until - self.start.time
+    }
+
     /// Returns the chain of the case; the engine may refuse to run it.
     pub fn chain(&self) -> Result<Scenario, Failure> {
         Scenario::parse_json(&self.scenario.to_string())

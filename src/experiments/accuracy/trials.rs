@@ -12,18 +12,18 @@ pub struct TrialParams {
 }
 
 /// Runs that last longer are left out in the quick profile.
-const QUICK: f64 = 500.0;
+const QUICK: f64 = 100.0;
 
 impl TrialParams {
     pub fn new(profile: Profile) -> Self {
         let mut scenes = scenes();
         if profile == Profile::Quick {
             for scene in &mut scenes {
-                scene.cases.retain(|case| case.until - case.start.time < QUICK);
+                scene.cases.retain(|case| case.length() < QUICK);
             }
             scenes.retain(|scene| !scene.cases.is_empty());
         }
-        TrialParams { settings: trial_settings(), scenes }
+        TrialParams { settings: trial_settings(profile), scenes }
     }
 
     pub fn cases(&self) -> usize {
@@ -44,6 +44,10 @@ pub type Trial = Vec<Outcome>;
 /// A run that takes more steps than this is not begun, and counts as given up.
 const MOST_STEPS: f64 = 2e7;
 
+/// A setting that gives up in a case, or misses an impact in one that is shorter by more than this
+/// factor than the next, is not run in the next, and counts as failing alike there.
+const LONGER: f64 = 5.0;
+
 pub fn right(trial: &Trial) -> usize {
     trial.iter().filter(|outcome| **outcome == Outcome::Right).count()
 }
@@ -59,35 +63,44 @@ pub fn trouble(trial: &Trial) -> Option<Outcome> {
 
 pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Error> {
     let TrialParams { scenes, settings } = parameters;
-    let stage = progress.stage("scenes where methods fail", parameters.cases() as u64);
+    let alike: Vec<_> =
+        settings.chunk_by(|a, b| (a.method, a.value) == (b.method, b.value)).collect();
+    let stage = progress.stage("scenes where methods fail", (scenes.len() * alike.len()) as u64);
     let of_scene = |scene: &Scene| {
-        let cases = each(&stage, progress, &scene.cases, |case| {
-            progress.check().map(|()| outcomes(settings, case))
-        })?;
-        let trial = |i: usize| cases.iter().map(|found| found[i]).collect();
-        Ok((0..settings.len()).map(trial).collect())
+        let found = each(&stage, progress, &alike, |settings| trials(settings, scene, progress))?;
+        Ok(found.concat())
     };
     let found = scenes.par_iter().map(of_scene).collect::<Result<_, Error>>()?;
     Ok(Trials { parameters: parameters.clone(), found })
 }
 
-/// Returns the outcome with each setting; a least rebound speed follows the setting without.
-fn outcomes(settings: &[Setting], case: &Case) -> Vec<Outcome> {
-    let mut bouncing = (Outcome::GaveUp, 0.0);
-    let of = |setting: &Setting| {
-        if setting.stop == 0.0 {
-            bouncing = outcome(*setting, case);
-        } else if bouncing.0 == Outcome::GaveUp || bouncing.1 < setting.stop {
-            return outcome(*setting, case).0;
+/// Tries a setting and the same with least rebound speeds, which follow it, in a scene.
+fn trials(settings: &[Setting], scene: &Scene, progress: &Progress) -> Result<Vec<Trial>, Error> {
+    let mut trials = vec![Trial::new(); settings.len()];
+    for (i, case) in scene.cases.iter().enumerate() {
+        let longer = i > 0 && case.length() > LONGER * scene.cases[i - 1].length();
+        // The outcome without a least rebound speed, and the least speed at which a gap opened.
+        let mut bouncing = (Outcome::GaveUp, 0.0);
+        for (setting, trial) in settings.iter().zip(&mut trials) {
+            progress.check()?;
+            let found = match trial.last() {
+                Some(Outcome::GaveUp) => (Outcome::GaveUp, 0.0),
+                Some(Outcome::Missed) if longer => (Outcome::Missed, 0.0),
+                // A run in which every gap opened faster is the same with a least rebound speed.
+                _ if bouncing.0 != Outcome::GaveUp && bouncing.1 >= setting.stop => bouncing,
+                _ => outcome(*setting, case),
+            };
+            if setting.stop == 0.0 {
+                bouncing = found;
+            }
+            trial.push(found.0);
         }
-        // A run in which every gap opened faster is the same with a least rebound speed.
-        bouncing.0
-    };
-    settings.iter().map(of).collect()
+    }
+    Ok(trials)
 }
 
 fn outcome(setting: Setting, case: &Case) -> (Outcome, f64) {
-    let steps = (case.until - case.start.time) / setting.value;
+    let steps = case.length() / setting.value;
     if setting.value > 0.0 && !setting.method.has_tolerance() && steps > MOST_STEPS {
         return (Outcome::GaveUp, 0.0);
     }
@@ -105,9 +118,20 @@ mod tests {
         let held = scenes.iter().find(|scene| scene.id == "held").unwrap();
         for method in MethodName::ALL.into_iter().filter(|method| method.locates_impacts()) {
             let settings = [0.0, 1e-3].map(|stop| Setting { method, value: 1e-2, stop });
-            for case in &held.cases {
-                assert_eq!(outcomes(&settings, case), [Outcome::GaveUp, Outcome::Right]);
-            }
+            let found = trials(&settings, held, &Progress::silent()).unwrap();
+            assert_eq!(found, [[Outcome::GaveUp; 2], [Outcome::Right; 2]]);
         }
+    }
+
+    #[test]
+    fn a_longer_case_is_not_run_after_a_miss() {
+        let setting = Setting { method: MethodName::Sampled, value: 0.1, stop: 0.0 };
+        let mut grazes = scenes().into_iter().find(|scene| scene.id == "grazing-hits").unwrap();
+        // A graze that is missed, and before and after it one that is seen, in a longer run.
+        let [mut seen, missed] = [0, 12].map(|i| grazes.cases[i].clone());
+        seen.until += 10.0 * missed.length();
+        grazes.cases = vec![seen.clone(), missed, seen];
+        let found = trials(&[setting], &grazes, &Progress::silent()).unwrap();
+        assert_eq!(found, [[Outcome::Right, Outcome::Missed, Outcome::Missed]]);
     }
 }
