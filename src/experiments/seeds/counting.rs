@@ -27,22 +27,28 @@ pub(super) fn bits(from: usize, count: usize) -> u64 {
 impl ByDistance {
     pub(super) fn count(parameters: &SeedsParams, traces: &[Option<Trace>]) -> Self {
         let (gaps, bins, window) = (parameters.chain.gaps(), parameters.bins, parameters.window);
-        let starts = 0..=bins.saturating_sub(window);
-        let reached = (0..=bins).map(|bin| bits(0, bin));
-        let masks: Vec<u64> = reached.chain(starts.map(|from| bits(from, window))).collect();
+        let starts = bins.saturating_sub(window) + 1;
         let mut places = vec![0; gaps];
-        let mut hit = vec![vec![0; gaps]; masks.len()];
+        let [mut reached, mut active] = [bins + 1, starts].map(|rows| vec![vec![0; gaps]; rows]);
         for (seed, trace) in ran(traces) {
-            for (gap, bits) in trace.hits.iter().enumerate() {
+            for (gap, &bits) in trace.hits.iter().enumerate() {
                 let distance = gap.abs_diff(seed);
                 places[distance] += 1;
-                for (hit, mask) in hit.iter_mut().zip(&masks) {
-                    hit[distance] += u64::from(bits & mask != 0);
+                if bits == 0 {
+                    continue;
+                }
+                reached[bits.trailing_zeros() as usize + 1][distance] += 1;
+                let windows = (0..window).fold(0, |windows, bin| windows | bits >> bin);
+                for (start, active) in active.iter_mut().enumerate() {
+                    active[distance] += windows >> start & 1;
                 }
             }
         }
-        let active = hit.split_off(bins + 1);
-        ByDistance { places, active, reached: hit }
+        for bin in 1..=bins {
+            let (before, now) = reached.split_at_mut(bin);
+            add(&mut now[0], &before[bin - 1]);
+        }
+        ByDistance { places, reached, active }
     }
 
     /// Returns the sum over groups of runs, perhaps without one of them.

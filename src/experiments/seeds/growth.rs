@@ -62,16 +62,20 @@ fn closing(parameters: &SeedsParams, only_first: bool) -> Vec<[Vec<f64>; 2]> {
     parameters.sigmas.iter().map(of).collect()
 }
 
-/// Returns the predictions of all transients, from the counts of groups of runs at each σ.
+/// Returns the sums without each group of runs in turn, and last with all of them, for each σ.
+pub(super) fn sums(seen: &[Vec<ByDistance>]) -> Vec<Vec<ByDistance>> {
+    let left_out = (0..GROUPS).map(Some).chain([None]);
+    let sums = left_out.map(|out| seen.iter().map(move |groups| ByDistance::sum(groups, out)));
+    sums.map(Iterator::collect).collect()
+}
+
+/// Returns the predictions of all transients, from the sums of groups of runs.
 pub(super) fn predictions(
     parameters: &SeedsParams,
-    seen: &[Vec<ByDistance>],
+    sums: &[Vec<ByDistance>],
     only_first: bool,
 ) -> Vec<Prediction> {
     let closing = closing(parameters, only_first);
-    let left_out = (0..GROUPS).map(Some).chain([None]);
-    let sums = left_out.map(|out| seen.iter().map(move |groups| ByDistance::sum(groups, out)));
-    let sums: Vec<Vec<ByDistance>> = sums.map(Iterator::collect).collect();
     let prediction = |&transient: &usize| {
         let mean = |(chances, seen)| expected(parameters, chances, seen, transient);
         let means = sums.iter().map(|sums| closing.iter().zip(sums).map(mean).collect());
@@ -109,11 +113,17 @@ fn expected(
         all
     };
     let (wall, inner) = (sends(wall), sends(inner));
-    let open = |x: usize, y: usize| {
-        let at_wall = y == 0 || y + 1 == gaps;
-        1.0 - if at_wall { &wall } else { &inner }[x.abs_diff(y)]
+    // To one side of a gap: no impact from so many gaps in a row, of which the last is at a wall.
+    let mut side = vec![1.0];
+    let mut all_inner = 1.0;
+    for (wall, inner) in wall.iter().zip(&inner).skip(1) {
+        side.push(all_inner * (1.0 - wall));
+        all_inner *= 1.0 - inner;
+    }
+    let silent = |x: usize| {
+        let own = if x == 0 || x + 1 == gaps { wall[0] } else { inner[0] };
+        side[x] * (1.0 - own) * side[gaps - 1 - x]
     };
-    let silent = |x| (0..gaps).fold(1.0, |silent, y| silent * open(x, y));
     (0..gaps).fold(0.0, |mean, x| mean + (1.0 - silent(x)))
 }
 

@@ -2,7 +2,7 @@
 
 use super::counting::{bits, ran};
 use super::fronts::{Fronts, beat, over};
-use super::growth::{GROUPS, Prediction, predictions};
+use super::growth::{GROUPS, Prediction, predictions, sums};
 use super::{ByDistance, Part, Seeds, Trace};
 use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
@@ -32,8 +32,8 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
         let seen = ByDistance::sum(groups, None);
         rows.push(RunsAtSigma { sigma, runs, seen, groups, fronts });
     }
-    let predicted = predictions(parameters, &groups, false);
-    let clumped = predictions(parameters, &groups, true);
+    let sums = sums(&groups);
+    let [predicted, clumped] = [false, true].map(|only| predictions(parameters, &sums, only));
     vec![
         course(parameters, &rows),
         advance(parameters, &rows),

@@ -56,7 +56,7 @@ const WORDS: &str = "two three four five six seven eight nine ten eleven twelve 
 fn is_number_word(word: &str) -> bool {
     let word = word.to_lowercase();
     let word = word.strip_suffix("fold").unwrap_or(&word);
-    WORDS.split_whitespace().any(|number| number == word)
+    WORDS.contains(word) && WORDS.split_whitespace().any(|number| number == word)
 }
 
 /// Finds hard-coded numbers in a part of a text, with their offsets; marks are skipped.
