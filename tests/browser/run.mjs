@@ -63,7 +63,7 @@ async function reads_well(page, name, least) {
     const wrong = [];
     for (const face of document.fonts)
       if (face.status !== "loaded" && face.style === "normal" && face.family === "Libertinus Serif") wrong.push(`font ${face.family} ${face.weight}: ${face.status}`);
-    const figures = [...document.querySelectorAll("svg[role=img]")].filter((svg) => !svg.closest("[hidden]"));
+    const figures = [...document.querySelectorAll("svg[role=img]")].filter((svg) => !svg.closest(".runs .front figure:has(+ .lab)"));
     for (const svg of figures) {
       const box = svg.getBoundingClientRect();
       const inner = svg.getBBox();

@@ -29,11 +29,11 @@ fn words(markdown: &str) -> usize {
     text.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count()
 }
 
-/// The text from one heading on to the next, by the words of the heading.
+/// The text from a heading, given by its words, on to the next heading or figure.
 fn section<'a>(markdown: &'a str, heading: &str) -> &'a str {
-    let from = markdown.find(&format!("\n## {heading}")).unwrap_or_else(|| panic!("no {heading}"));
-    let rest = &markdown[from + 1..];
-    rest.find("\n## ").map_or(rest, |end| &rest[..end])
+    let rest = &markdown[markdown.find(&format!("\n## {heading}")).unwrap() + 1..];
+    let end = ["\n## ", "\n!["].iter().filter_map(|end| rest.find(end)).min();
+    &rest[..end.unwrap_or(rest.len())]
 }
 
 #[test]

@@ -11,10 +11,10 @@
   // A page on a disk can load nothing but scripts, which are loaded when they are first needed.
   const load = (src) => new Promise((onload, onerror) => document.head.append(make("script", { src, onload, onerror })));
 
-  // What readers can run; on the first page it starts by itself, in place of the figure before it.
+  // What readers can run; on the first page it starts by itself, in place of the figure before it,
+  // which the style sheet hides from the beginning.
   let lab;
-  const front = document.querySelector(".documents a")?.hasAttribute("aria-current");
-  for (const figure of all("WebAssembly" in globalThis ? ".lab" : "#none")) {
+  for (const figure of all(".runs .lab")) {
     const status = figure.querySelector("[role=status]");
     const run = (asked) => (lab ??= load("lab.js")).then(() => open_lab(figure, asked));
     figure.hidden = false;
@@ -25,8 +25,10 @@
         status.textContent = "lab.js cannot be loaded; it belongs beside this page.";
       });
     });
-    const still = figure.previousElementSibling;
-    if (front) addEventListener("load", () => run(false).then(() => (still.hidden = still.matches("figure"))).catch(() => (lab = undefined)));
+    if (document.body.className === "front") run(false).catch(() => {
+      lab = undefined;
+      document.documentElement.className = "";
+    });
   }
 
   // The card of a number.
@@ -125,9 +127,8 @@
   preview.addEventListener("pointerleave", () => soon(hide));
   addEventListener("keydown", ({ key }) => key === "Escape" && hide());
 
-  // The contents, which a narrow screen folds, mark the section that is being read.
+  // The contents mark the section that is being read.
   const contents = document.querySelector("nav.contents");
-  if (matchMedia("(max-width: 64rem)").matches) contents.querySelector("details")?.removeAttribute("open");
   const sections = all("main h2[id], main h3[id]");
   const mark = () => {
     const above = sections.findLast((section) => section.getBoundingClientRect().top < innerHeight / 3);
@@ -219,10 +220,20 @@
       left -= data.length;
     }
     const words = make("span", {}, bare(start.cloneContents()), " …");
-    cell.replaceChildren(make("details", {}, make("summary", {}, words), ...cell.childNodes));
+    const fold = make("details", {}, make("summary", {}, words), ...cell.childNodes);
+    cell.replaceChildren(fold);
+    // The last column stands below the first words of its row.
+    const place = cell.nextElementSibling ? null : cell.parentElement.querySelector(".text");
+    place?.append(fold);
+    if (place) cell.hidden = true;
   }
+  for (const table of all(".lists:has(td.long[hidden])")) table.tHead.rows[0].lastElementChild.hidden = true;
   // A row that a link leads to is open.
-  const unfold = () => all("details", document.getElementById(decodeURIComponent(location.hash.slice(1)))?.closest("tr") ?? make("p")).forEach((fold) => (fold.open = true));
+  const unfold = () => {
+    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    const row = target?.closest("tr");
+    for (const fold of row ? all("details", row) : all("details.cite:target")) fold.open = true;
+  };
   addEventListener("hashchange", unfold);
   unfold();
   addEventListener("beforeprint", () => all("main details").forEach((fold) => (fold.open = true)));
@@ -238,6 +249,7 @@
       const column = head.cellIndex;
       const words = [...new Set(lines.map((line) => word(line, column)))];
       if (words.length < 2 || words.length > FEW) return [];
+      if (head.hidden) return [];
       const options = words.map((text) => make("option", { value: text }, text));
       const select = make("select", {}, make("option", { value: "" }, "all"), ...options);
       return [{ column, select, label: make("label", {}, `${head.textContent.trim()} `, select) }];

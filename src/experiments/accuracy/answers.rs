@@ -132,7 +132,7 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
         .words("right", "runs of the rival that are right to that time", |of| {
             of.rival().map_or("–".into(), |answer| {
                 let right = (answer.found.value * answer.chains as f64).round();
-                format!("right in {right} of {}", answer.chains)
+                format!("{right} of {}", answer.chains)
             })
         })
         .done();

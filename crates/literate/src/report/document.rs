@@ -214,7 +214,7 @@ pub fn title(blocks: &[Block]) -> Result<&[Inline], Error> {
     found.ok_or_else(|| Error::Markup("a report begins with its title, `# Words`".into()))
 }
 
-/// Whether it is the heading of the abstract, which extends to the next heading.
+/// Whether it is the heading of the abstract, which extends to the next heading or figure.
 pub fn is_abstract(block: &Block) -> bool {
     matches!(block, Block::Heading { text, .. } if plain(text) == "Abstract")
 }

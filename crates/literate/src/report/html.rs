@@ -94,7 +94,7 @@ impl<'a> Page<'a> {
     fn blocks(&self, blocks: &[Block]) -> String {
         let (mut out, mut end) = (String::new(), "");
         for block in blocks {
-            if matches!(block, Block::Heading { .. }) {
+            if matches!(block, Block::Heading { .. } | Block::Figure { .. }) {
                 out += std::mem::take(&mut end);
             }
             if document::is_abstract(block) {
@@ -333,12 +333,12 @@ impl<'a> Page<'a> {
         self.values.borrow_mut().insert(id.to_string());
         // A line that ends in an attribute would be read as a blank.
         let id = escape(id).replace('\n', "&#10;");
-        let shown = match shown {
-            Shown::Words(words) => text(&document::in_one_line(words)),
-            Shown::Number(numeral) => number(numeral, blank),
+        let (class, shown) = match shown {
+            Shown::Words(words) => ("value phrase", text(&document::in_one_line(words))),
+            Shown::Number(numeral) => ("value", number(numeral, blank)),
         };
         format!(
-            "<span role=\"button\" tabindex=\"0\" class=\"value\" data-card=\"{id}\">{shown}</span>"
+            "<span role=\"button\" tabindex=\"0\" class=\"{class}\" data-card=\"{id}\">{shown}</span>"
         )
     }
 }

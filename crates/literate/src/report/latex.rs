@@ -30,7 +30,7 @@ fn body(blocks: &[Block]) -> String {
     let mut out = String::new();
     let (mut before, mut end): (Option<&Block>, _) = (None, "");
     for block in blocks {
-        if matches!(block, Block::Heading { .. }) {
+        if matches!(block, Block::Heading { .. } | Block::Figure { .. }) {
             out.push_str(std::mem::take(&mut end));
         }
         if is_abstract(block) {
