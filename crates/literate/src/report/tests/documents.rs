@@ -51,7 +51,7 @@ fn documents_refer_to_each_other() {
     let parts = r##"
 README.md => # Front⏎⏎<a id="fig-fig03"></a>⏎![It rises \[steeply\].](figures/fig03.svg)⏎⏎**Figure 1.**
 report.md => # Report⏎⏎*A. Uthor (R & D), B. Uthor, 2026-11-24*⏎⏎## Abstract⏎⏎It *rises*.⏎⏎## 
-report.html => </h1>⏎<p class="byline">A. Uthor (R &amp; D), B. Uthor, 2026-11-24 · <a href="#cite">How to cite</a></p>
+report.html => </h1>⏎<p class="byline">A. Uthor (R &amp; D), B. Uthor, 2026-11-24
 report.html => <section class="abstract">⏎<h2 id="abstract"><a href="#abstract">Abstract</a></h2>⏎<p>It <em>rises</em>.</p>⏎</section>⏎<h2
 report.tex => \author{A. Uthor\\{\small R \& D} \and B. Uthor}⏎\date{2026-11-24}⏎
 report.tex => \maketitle⏎⏎\begin{abstract}⏎⏎It \emph{rises}.⏎\end{abstract}⏎⏎\section{First}
