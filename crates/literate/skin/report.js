@@ -219,7 +219,7 @@
       start.setEnd(texts.currentNode, data.slice(left).search(/\s|$/) + Math.min(left, data.length));
       left -= data.length;
     }
-    const words = make("span", {}, bare(start.cloneContents()), " …");
+    const words = make("span", {}, bare(start.cloneContents()), "\u00a0…");
     const fold = make("details", {}, make("summary", {}, words), ...cell.childNodes);
     cell.replaceChildren(fold);
     // The last column stands below the first words of its row.
