@@ -2,7 +2,6 @@
 
 use super::sec2::{A_JUMP, NEGLIGIBLE};
 use super::shared::*;
-use crate::experiments::ensembles::Counted;
 use crate::experiments::protocol::range;
 use crate::experiments::rise::Curve;
 use crate::experiments::starts::share_of_start;
@@ -33,8 +32,12 @@ pub fn rules() -> Vec<Rule> {
         Rule::new("sec8_threshold_shift", threshold_shift).on(OurMeasure),
         Rule::new("sec8_mean_is_easier", mean_is_easier).on(OurMeasure),
         Rule::new("sec8_restitution_omitted", restitution_omitted).on(OurMeasure),
-        Rule::new("sec8_restitution_ensures", restitution_ensures).on(OurMeasure),
-        Rule::new("sec8_restitution_multiple", restitution_multiple).on(OurMeasure),
+        Rule::new("sec8_restitution_ensures", |e| ensured(e, PHASES, |all| all.contact_phases))
+            .on(OurMeasure),
+        Rule::new("sec8_restitution_multiple", |e| {
+            ensured(e, NEAR, |Total { near: [.., all], .. }| *all)
+        })
+        .on(OurMeasure),
     ]
 }
 
@@ -42,6 +45,10 @@ const SOLVED: &str =
     "Against the equations of motion solved by variation of constants, at five times.";
 const INTEGRATED: &str = "The probability of Y ≤ x at five x and three σ, against the integral of the two normal \
          densities over a disc; the second also at |ω² − Ω²| = 1/2.";
+
+const PHASES: &str = "Contact phases over impacts. Two masses alone can stick only if their forces differ by more than d ω².";
+const NEAR: &str = "Impacts near in time to one in a gap beside theirs, over all, as in Section 2. Which the paper \
+         means by “multiple” it does not say.";
 
 fn eq25(e: &Evidence<'_>) -> Judged {
     let note =
@@ -264,24 +271,21 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     Ok(e.open(text!(found, share)).note(text!(note, least, most, *lowest, *highest, moved)))
 }
 
-/// Returns the share of all impacts that `pick` counts at r and σ; none where these were not run.
-fn share_at(found: &[Counted], [r, sigma]: [f64; 2], pick: fn(&Total) -> u64) -> Option<f64> {
-    let chains = found.iter().find(|chains| chains.ensemble.chain.restitution == r)?;
-    let total = &chains.runs.iter().find(|row| row.sigma == sigma)?.total;
-    Some(pick(total) as f64 / total.impacts.max(1) as f64)
-}
-
 /// Judges whether the paper's r makes a share of impacts negligible that another r does not, at all
 /// σ. Where no r has more, none ensures it.
 fn ensured(e: &Evidence<'_>, what: &str, pick: fn(&Total) -> u64) -> Judged {
     let restitutions = e.results.table("restitution.curves")?.distinct("r")?;
     let (r, lowest) = (e.published.parameter("restitution")?, restitutions[0]);
     let found = e.results.of(&RESTITUTION)?;
-    let share = |r, sigma| share_at(found, [r, sigma], pick);
+    let chains = |r: f64| found.iter().find(|chains| chains.ensemble.chain.restitution == r);
+    // Of all impacts at r and σ; none where these were not run.
+    let share = |r, sigma| {
+        let total = &chains(r)?.runs.iter().find(|row| row.sigma == sigma)?.total;
+        Some(pick(total) as f64 / total.impacts.max(1) as f64)
+    };
     // Share at the paper's r and at the lowest for each σ, and whether only the lowest has many.
     let mut shares = Vec::new();
-    let chains = found.iter().find(|chains| chains.ensemble.chain.restitution == lowest);
-    for sigma in chains.ok_or(Undecided)?.runs.iter().map(|row| row.sigma) {
+    for sigma in chains(lowest).ok_or(Undecided)?.runs.iter().map(|row| row.sigma) {
         if let Some((ours, without)) = share(r, sigma).zip(share(lowest, sigma)) {
             shares.push((sigma, ours, without, ours <= NEGLIGIBLE && without > NEGLIGIBLE));
         }
@@ -305,16 +309,4 @@ fn ensured(e: &Evidence<'_>, what: &str, pick: fn(&Total) -> u64) -> Judged {
     }
     let wide = " Every r from {} on has at most {:1}.";
     Ok(check.note(note.then(text!(wide, enough, NEGLIGIBLE))))
-}
-
-fn restitution_ensures(e: &Evidence<'_>) -> Judged {
-    let what = "Contact phases over impacts. Two masses alone can stick only if their forces differ by more than d \
-         ω².";
-    ensured(e, what, |total| total.contact_phases)
-}
-
-fn restitution_multiple(e: &Evidence<'_>) -> Judged {
-    let what = "Impacts near in time to one in a gap beside theirs, over all, as in Section 2. Which the paper means \
-         by “multiple” it does not say.";
-    ensured(e, what, |total| total.near.last().copied().unwrap_or(0))
 }

@@ -108,11 +108,8 @@ const COLUMNS: [(&str, &str); 18] = [
 ];
 
 fn help() -> String {
-    let mut text = "Columns:\n".to_string();
-    for (name, meaning) in COLUMNS {
-        text += &format!("  {name:<19} {meaning}\n");
-    }
-    text
+    let lines = COLUMNS.map(|(name, meaning)| format!("  {name:<19} {meaning}\n"));
+    format!("Columns:\n{}", lines.concat())
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {

@@ -153,19 +153,18 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let unread = |error: io::Error| {
         Failure::input(format!("{name}: {error}; give a scenario, see `trace --help`"))
     };
-    if !args.lines {
-        let path = &args.scenario;
-        let text = if piped { input::read_from(io::stdin()) } else { input::read(path) };
-        return trace(&args, &*method, &name, &text.map_err(unread)?, &mut printer);
-    }
     let mut file: Box<dyn BufRead> = if piped {
         Box::new(io::stdin().lock())
     } else {
         Box::new(BufReader::new(File::open(&args.scenario).map_err(unread)?))
     };
+    if !args.lines {
+        let text = input::read_from(file).map_err(unread)?;
+        return trace(&args, &*method, &name, &text, &mut printer);
+    }
     for number in 1.. {
         let mut line = Vec::new();
-        (&mut file).take(LONGEST).read_until(b'\n', &mut line).map_err(unread)?;
+        (&mut file).take(input::MOST << 20).read_until(b'\n', &mut line).map_err(unread)?;
         if line.is_empty() {
             break;
         }
@@ -176,8 +175,6 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     printed(printer.flush())
 }
-
-const LONGEST: u64 = 64 << 20;
 
 /// Prints rows in blocks of whole ones: a signal that ends the program leaves no half of a number.
 struct Printer {

@@ -59,10 +59,7 @@ impl Paper {
     /// Returns what was printed; nothing without a file `published.toml`.
     pub fn published(&self, session: &Session<'_>) -> Result<Published, Failure> {
         let read = Published::parse(session.templates.text("published.toml")?);
-        read.map_err(|error| {
-            let failure = Failure::from(error);
-            Failure { message: session.templates.place(&failure.message), ..failure }
-        })
+        read.map_err(|error| Failure::input(session.templates.place(&error.to_string())))
     }
 
     /// Returns all checks: statements, first those that rest on a measure of ours, then relations.

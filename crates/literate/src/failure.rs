@@ -53,12 +53,8 @@ impl<E: std::error::Error + 'static> From<E> for Failure {
         let code = match run {
             Some(Error::Interrupted) => INTERRUPTED,
             Some(Error::Store { .. } | Error::Input { .. }) => 2,
-            _ if any.is::<folder::Error>()
-                || any.is::<prose::Error>()
-                || any.is::<PublishedError>() =>
-            {
-                2
-            }
+            _ if any.is::<folder::Error>() || any.is::<prose::Error>() => 2,
+            _ if any.is::<PublishedError>() => 2,
             _ if matches!(judged, Some(claims::Error::Published(_))) => 2,
             _ if any.downcast_ref().is_some_and(|error: &report::Error| !error.is_of_rules()) => 2,
             _ => 1,

@@ -9,11 +9,7 @@ use std::path::Path;
 use std::sync::RwLock;
 
 /// MiB at most of a file that is read whole. A scenario of a million masses has less.
-const MOST: u64 = 64;
-
-pub fn read(path: &Path) -> Result<String, Error> {
-    read_from(File::open(path)?)
-}
+pub const MOST: u64 = 64;
 
 pub fn read_from(file: impl Read) -> Result<String, Error> {
     text(bounded(file)?)
@@ -199,7 +195,7 @@ mod tests {
         std::fs::write(file.path(), "\u{feff}$a\r\n= b$\r\n\r\nc\rd\n").unwrap();
         assert_eq!(regular_text(file.path()).unwrap(), "$a\n= b$\n\nc\rd\n");
         std::fs::write(file.path(), [b'a', 0xff]).unwrap();
-        assert_eq!(read(file.path()).unwrap_err().to_string(), "not valid UTF-8");
+        assert_eq!(regular_text(file.path()).unwrap_err().to_string(), "not valid UTF-8");
     }
 
     #[test]

@@ -68,8 +68,7 @@ impl Project {
     }
 
     fn copied(&self, path: &str) -> Option<&'static str> {
-        let (_, text) = self.copy.iter().find(|(known, _)| *known == path)?;
-        Some(text)
+        self.copy.iter().find(|(known, _)| *known == path).map(|(_, text)| *text)
     }
 
     /// Checks that files that an experiment lists are there, or says what to do.

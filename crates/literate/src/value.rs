@@ -7,10 +7,11 @@
 use impact_numerics::statistics::Estimate;
 use serde::{Deserialize, Serialize};
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Number {
     /// No number: nothing was found. Tables show a dash; prose must say what stands there.
+    #[default]
     None,
     /// An exact integer of at most 64 bits, with a sign or without.
     Integer(i128),
@@ -98,10 +99,11 @@ pub enum Digits {
     Full,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Provenance {
     /// An integer or a text that follows without rounding, or a parameter that was chosen.
+    #[default]
     Exact,
     /// Computed without chance: a closed form, a root, a sum.
     Deterministic,
@@ -117,7 +119,7 @@ pub enum Provenance {
     Measured,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Value {
     /// The name: `version` is `«v.version»`, and `printed.threshold` is `«printed.threshold»`.
     pub id: String,
@@ -138,15 +140,7 @@ pub struct Value {
 
 impl Value {
     pub(crate) fn new(id: impl Into<String>, number: Number, kind: Provenance) -> Self {
-        Value {
-            id: id.into(),
-            number,
-            unit: String::new(),
-            kind,
-            source: String::new(),
-            experiment: String::new(),
-            note: String::new(),
-        }
+        Value { id: id.into(), number, kind, ..Value::default() }
     }
 
     pub fn integer(id: impl Into<String>, n: impl Into<Number>) -> Self {

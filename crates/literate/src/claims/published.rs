@@ -121,14 +121,8 @@ impl Statement {
         Statement { kind, id, statement, ..Statement::default() }
     }
 
-    fn fault(&self, what: &str) -> PublishedError {
+    pub(super) fn fault(&self, what: &str) -> PublishedError {
         PublishedError::at(self.line, &self.id, what)
-    }
-
-    /// Makes the error of other printed words than those that its rule judges.
-    pub(super) fn unread(&self, words: &str) -> PublishedError {
-        let what = "and not its printed; restore the one that is wrong";
-        self.fault(&format!("its check judges {words:?}, {what}"))
     }
 
     /// Reads the number from `printed` if this is one, and checks one that is given besides.
@@ -184,8 +178,7 @@ impl Statement {
     }
 
     pub fn half_unit(&self) -> f64 {
-        let decimals = self.decimals.unwrap_or(0);
-        format!("0.5e{}", -decimals).parse().unwrap_or(f64::NAN)
+        0.5 * power_of_ten(-self.decimals.unwrap_or(0))
     }
 
     /// Returns the ends of the numbers that round to the printed one.

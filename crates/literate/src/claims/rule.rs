@@ -68,7 +68,8 @@ impl Rule {
         if let Some(words) = self.reads {
             let words = words.replace("{}", &statement.shown().unwrap_or_default());
             if words != statement.printed {
-                return Err(statement.unread(&words).into());
+                let what = "and not its printed; restore the one that is wrong";
+                return Err(statement.fault(&format!("its check judges {words:?}, {what}")).into());
             }
         }
         let mut check = match (self.judge)(evidence) {

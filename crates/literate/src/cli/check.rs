@@ -53,29 +53,13 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let numbers: BTreeMap<String, String> =
         printed.zip(1..).map(|(check, number)| (check.id.clone(), number.to_string())).collect();
     if !args.ids.is_empty() {
-        let is_asked = |id: &String| {
+        checks.retain(|Check { id, .. }| {
             args.ids.contains(id) || numbers.get(id).is_some_and(|number| args.ids.contains(number))
-        };
-        checks.retain(|check| is_asked(&check.id));
+        });
     }
     blind.retain(|id| checks.iter().any(|check| check.id == *id));
     print(&text(&checks, &blind, &args, &numbers))?;
     verdict(&checks)
-}
-
-fn fields(check: &Check) -> Vec<(&'static str, String)> {
-    let mut tolerance = check.tolerance.to_string();
-    if !check.reason.is_empty() {
-        tolerance += &format!(" ({})", check.reason);
-    }
-    let mut fields = vec![
-        ("printed", check.expected.clone()),
-        ("found", check.found.to_string()),
-        ("tolerance", tolerance),
-        ("note", check.note.to_string()),
-    ];
-    fields.retain(|(_, text)| !text.is_empty());
-    fields
 }
 
 /// Prints a line for each check that is not reproduced, failed ones first, and the scores; with -v,
@@ -101,8 +85,16 @@ fn text(
         if all {
             let place = if check.place.is_empty() { "" } else { &format!("{}, ", check.place) };
             out += &format!(" ({place}{})\n         {}\n", check.basis.words(), check.statement);
-            for (name, text) in fields(check) {
-                out += &format!("         {name:10} {text}\n");
+            let reason = if check.reason.is_empty() { "" } else { &format!(" ({})", check.reason) };
+            for (name, text) in [
+                ("printed", check.expected.clone()),
+                ("found", check.found.to_string()),
+                ("tolerance", format!("{}{reason}", check.tolerance)),
+                ("note", check.note.to_string()),
+            ] {
+                if !text.is_empty() {
+                    out += &format!("         {name:10} {text}\n");
+                }
             }
         } else {
             for (side, text) in [("paper", &check.expected), ("here", &check.found.to_string())] {

@@ -40,10 +40,9 @@ pub(super) fn tables_by_name<'de, D: Deserializer<'de>>(
         fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
             let mut tables = BTreeMap::new();
             while let Some((name, table)) = map.next_entry::<String, PrintedTable>()? {
-                if tables.contains_key(&name) {
+                if tables.insert(name.clone(), table).is_some() {
                     return Err(A::Error::custom(format!("there are two tables {name}")));
                 }
-                tables.insert(name, table);
             }
             Ok(tables)
         }
@@ -62,10 +61,6 @@ impl PrintedTable {
 
     fn error_of(&self, name: &str) -> Option<usize> {
         self.place(&format!("{name}_error"))
-    }
-
-    fn is_error(&self, name: &str) -> bool {
-        name.strip_suffix("_error").is_some_and(|other| self.place(other).is_some())
     }
 
     /// What is wrong with it, if anything: a name, a field for a column that is not there, a row.
@@ -127,7 +122,8 @@ impl PrintedTable {
         let name = leaked(&format!("{experiment}.{name}"));
         let mut table = Table::of(name, &self.rows, |_| 0).computed_by(Origin::of(line));
         for (at, name) in self.names().enumerate() {
-            if !self.is_error(name) {
+            let estimate = name.strip_suffix("_error").and_then(|other| self.place(other));
+            if estimate.is_none() {
                 table = self.add(table, at, leaked(name));
             }
         }
@@ -174,11 +170,9 @@ fn exact(cell: &Json) -> Number {
     match cell {
         Json::Null => Number::None,
         Json::String(words) => Number::Text(words.clone()),
-        Json::Number(number) => match (number.as_i64(), number.as_u64()) {
-            (Some(integer), _) => integer.into(),
-            (_, Some(integer)) => integer.into(),
-            _ => number.as_f64().into(),
-        },
+        Json::Number(number) => {
+            number.as_i128().map_or_else(|| number.as_f64().into(), Number::Integer)
+        }
         _ => Number::Text(cell.to_string()),
     }
 }

@@ -41,14 +41,13 @@ pub struct EquationEntry {
 pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
     let figure = |figure: &Figure| FigureEntry {
         id: figure.id.clone(),
-        label: String::new(),
-        number: String::new(),
         title: figure.title.clone(),
         description: figure.description.text.clone(),
         picture: format!("figures/{}", figure.names()[0]),
         data: figure.data.iter().map(|data| format!("data/{}", data.name)).collect(),
         source: figure.source.clone(),
         experiments: figure.experiments.iter().copied().map(String::from).collect(),
+        ..FigureEntry::default()
     };
     figures.iter().map(figure).collect()
 }

@@ -88,18 +88,14 @@ fn table(table: &Table) -> String {
     let rules: Vec<&str> = table.columns.iter().map(rule).collect();
     let mut out = row(&table.head);
     out.push_str(&format!("|{}|\n", rules.join("|")));
-    for cells in &table.rows {
-        out.push_str(&row(cells));
-    }
+    out.extend(table.rows.iter().map(|cells| row(cells)));
     out
 }
 
 /// Returns a fence of at least this many grave accents, longer than any in the code.
 fn fence(code: &str, least: usize) -> String {
     let longest = code.split(|c| c != '`').map(str::len).max().unwrap_or_default();
-    let fits = |length: usize| !code.contains('`') || length > longest;
-    let length = if fits(least) { least } else { longest + 1 };
-    "`".repeat(length)
+    "`".repeat(least.max(longest + 1))
 }
 
 fn anchor(id: &str) -> String {
