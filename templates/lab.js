@@ -26,7 +26,7 @@ globalThis.open_lab = (() => {
     .key::before { content: ""; display: inline-block; width: 1.3em; height: 0; margin-right: 0.4em; vertical-align: middle; border-top: 2px solid var(--of); }
     .key.dashed::before { border-top-style: dashed; }
     .key.dot::before { width: 0.6em; height: 0.6em; border: 0; border-radius: 50%; background: var(--of); }
-    .key.band::before { height: 0.8em; border: 0; background: var(--of); opacity: 0.5; }
+    .key.band::before { height: 0.8em; border: 0; background: var(--of); opacity: 0.75; }
     .first { display: grid; grid-template-columns: minmax(0, 1fr) max-content; gap: 0.6rem 1.2rem; align-items: center; }
     .first .fields { max-width: 30rem; grid-template-columns: 1fr; }
     @media (max-width: 40rem) {
@@ -172,7 +172,7 @@ globalThis.open_lab = (() => {
         c.imageSmoothingEnabled = source.height > box.height;
         c.drawImage(source, box.x, box.y, box.width, box.height);
       },
-      band(points, name, alpha = 0.5) {
+      band(points, name, alpha = 0.75) {
         [c.fillStyle, c.globalAlpha] = [colour(name), alpha];
         c.beginPath();
         points.forEach(([x, , high]) => c.lineTo(px(x), py(high)));
@@ -291,7 +291,7 @@ globalThis.open_lab = (() => {
       const { transient: from, window, chain, forces } = asked;
       const until = from + window;
       const draw = (found, state) => {
-        told.textContent = `${found.distinct} of ${found.gaps} gaps have impacts from t = ${said(from)} to ${said(until)}; impacts in all: ${found.impacts.toLocaleString("en")}${state}.`;
+        told.replaceChildren(...rich(`${found.distinct} of ${found.gaps} gaps have impacts from *t* = ${said(from)} to ${said(until)}; impacts in all: ${found.impacts.toLocaleString("en")}${state}.`));
         const picture = plot(where, tall(300), [0, until, "time *t* (1/*ω*)"], [0, found.gaps, "gap"], `Gap against time, a mark for each impact. ${told.textContent}`);
         picture.band([[from, 0, found.gaps], [until, 0, found.gaps]], "orange", 0.35);
         picture.words("counted", from + window / 2, found.gaps, "orange");
@@ -301,7 +301,7 @@ globalThis.open_lab = (() => {
       const known = runs.find((one) => JSON.stringify(one.asked) === JSON.stringify(asked));
       const began = performance.now();
       proof.replaceChildren();
-      const found = await run(asked, (found) => draw(found, `, so far to t = ${said(found.time)}`));
+      const found = await run(asked, (found) => draw(found, `, so far to *t* = ${said(found.time)}`));
       if (!found) return;
       draw(found, "");
       Object.assign(bench.dataset, { time: performance.now() - began, digest: found.digest, bytes: found.bytes });
@@ -335,6 +335,10 @@ globalThis.open_lab = (() => {
       picture.line(theory, "green");
       picture.line(rows(2), "grey", [5, 4]);
       picture.line(rows(1), "ink");
+      // Each name is beside its curve, where that rises.
+      const beyond = (line, share) => (line.find(([, y]) => y > share) ?? [0.3])[0];
+      picture.words("theory", beyond(theory, 0.5) + 0.032, 0.5, "green");
+      picture.words("simulation", beyond(rows(1), 0.85) - 0.05, 0.85);
       picture.marks(points, "red", 2.5);
       picture.marks([last], "red", 5);
     }

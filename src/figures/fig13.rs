@@ -30,7 +30,7 @@ type Name = (usize, usize, i32, i32);
 type Shown = (f64, [f64; 3], Option<f64>, &'static [Name]);
 
 /// The names in (e) and (f).
-const E: [Name; 5] = [(0, 6, 1, -2), (1, 2, -1, 0), (2, 3, 0, 2), (3, 4, 0, 2), (4, 12, 1, 0)];
+const E: [Name; 5] = [(0, 6, 1, -2), (1, 3, -3, 0), (2, 4, 0, 2), (3, 5, 0, 2), (4, 2, -1, 1)];
 const F: [Name; 5] = [(0, 81, 0, 2), (1, 80, -3, 3), (2, 80, 0, 3), (3, 80, 3, 3), (4, 72, -2, -1)];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
@@ -95,18 +95,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn series(panel: &Panel, p: f64) -> Drawn {
     panel.curve("all five classes", &over_k(&five(p)), SUM)?;
     for (class, (name, _, colour, dash)) in contributions(p).iter().zip(CLASSES) {
-        // On a logarithmic axis each is visible.
-        let points = if panel.y.is_log { over_k(class) } else { visible(class, panel.y.hi) };
-        panel.curve(name, &points, Stroke::dashed(colour, LINE, dash))?;
+        panel.curve(name, &over_k(class), Stroke::dashed(colour, LINE, dash))?;
     }
     Ok(())
-}
-
-/// The stretch over which a class stands out from the axis, so that it is not a mere zero line.
-fn visible(probability: &[f64], top: f64) -> Vec<(f64, f64)> {
-    let stands_out = |p: &f64| *p > 0.002 * top;
-    let points = over_k(probability);
-    let Some(first) = probability.iter().position(stands_out) else { return Vec::new() };
-    let last = probability.iter().rposition(stands_out).unwrap_or(first);
-    points[first.saturating_sub(1)..(last + 2).min(points.len())].to_vec()
 }

@@ -3,6 +3,7 @@
 use super::bias::{Biases, GapCount};
 use super::case::Expected;
 use super::race::Entry;
+use super::tables::in_formulas;
 use super::trials::{Trials, right};
 use crate::experiments::prelude::*;
 use crate::experiments::programs::{Program, Run};
@@ -104,7 +105,7 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
         };
         Question {
             id: until.to_string(),
-            words: format!("every impact in its order, to t = {until}"),
+            words: format!("every impact in its order, to $t = {until}$"),
             answers: race.entries.iter().filter_map(answer).collect(),
         }
     });
@@ -140,7 +141,7 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
 }
 
 fn named(answer: Option<&Answer>) -> String {
-    answer.map_or("–".into(), |of| of.setting.name())
+    answer.map_or("–".into(), |of| in_formulas(&of.setting.name()))
 }
 
 fn table<'a>(
@@ -211,7 +212,7 @@ fn questions(biases: &Biases, measured: &Measured) -> Vec<Question> {
         let (sigma, transient) = (of.chains.sigma, of.transient);
         let Some(&(_, tolerance)) = MEANS.iter().find(|mean| mean.0 == sigma) else { continue };
         let percent = 100.0 * tolerance;
-        let words = format!("a mean to {percent} %, σ = {sigma}, T = {transient}");
+        let words = format!("a mean to {percent} %, $σ = {sigma}$, $T = {transient}$");
         let named = [format!("mean-{sigma}"), words];
         all.extend(question(both, &[sigma], tolerance, named, |pairs| {
             let ours = ours(&pairs[0]).unwrap_or(f64::NAN);
@@ -220,7 +221,7 @@ fn questions(biases: &Biases, measured: &Measured) -> Vec<Question> {
     }
     let (low, high, percent) = (MEANS[0].0, MEANS[1].0, 100.0 * ALIKE);
     let words =
-        format!("the share of chains with an impact to {percent} percentage point, σ = {low}");
+        format!("the share of chains with an impact to {percent} percentage point, $σ = {low}$");
     all.extend(question(both, &[low], ALIKE, ["share".into(), words], |pairs| {
         let any = |count: f64| f64::from(u8::from(count > 0.0));
         pairs[0].iter().map(|pair| any(pair[0]) - any(pair[1])).collect()
@@ -245,7 +246,8 @@ fn at_rest(trials: &Trials) -> (Vec<String>, usize) {
     let is_right =
         |i: usize| rest.iter().all(|(scene, found)| right(&found[i]) == scene.cases.len());
     let settings = trials.parameters.settings.iter().enumerate();
-    let methods = settings.filter(|(i, _)| is_right(*i)).map(|(_, setting)| setting.name());
+    let methods =
+        settings.filter(|(i, _)| is_right(*i)).map(|(_, setting)| in_formulas(&setting.name()));
     (methods.collect(), rest.iter().map(|(scene, _)| scene.cases.len()).sum())
 }
 

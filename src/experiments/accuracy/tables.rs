@@ -8,13 +8,27 @@ use crate::params::Setting;
 use impact_numerics::estimates::LEVEL;
 use impact_numerics::statistics::{mean, standard_error, student_quantile};
 
-/// Returns a method with its steps or tolerances: `sampling, h = 0.1; 0.01; least rebound = 1e-3`.
+/// Writes the name of a setting with its formula: `Verlet, $h = 0.1$`.
+pub fn in_formulas(name: &str) -> String {
+    let Some((method, setting)) = name.split_once(", ") else { return name.into() };
+    let setting = setting.replace("tol", r"\mathrm{tol}");
+    format!("{method}, ${}$", power(&setting))
+}
+
+/// Writes the number at the end as a power where it has an exponent: `h = 10^{-4}` for `h = 1e-4`.
+fn power(text: &str) -> String {
+    let written = text.split_once("1e").map(|(before, e)| format!("{before}10^{{{e}}}"));
+    written.unwrap_or_else(|| text.into())
+}
+
+/// Returns a method with its steps or tolerances: `sampling, $h = 0.1$; $0.01$`, and its least
+/// rebound speeds.
 pub fn titled(settings: &[Setting]) -> String {
-    let mut title = settings[0].name();
+    let mut title = in_formulas(&settings[0].name());
     for pair in settings.windows(2) {
         let (name, starts) = (pair[1].name(), pair[0].stop == 0.0 && pair[1].stop > 0.0);
-        let value = name.rsplit(" = ").next().unwrap_or_default();
-        title += &format!("; {}{value}", if starts { "least rebound = " } else { "" });
+        let value = power(name.rsplit(" = ").next().unwrap_or_default());
+        title += &format!("; {}${value}$", if starts { "least rebound $=$ " } else { "" });
     }
     title
 }

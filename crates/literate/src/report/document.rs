@@ -167,10 +167,10 @@ impl From<&str> for Formula {
     }
 }
 
-/// Returns a printed value as text, or as a formula where it has a power of ten.
+/// Returns a printed value as text, with its formulas, or as one where it has a power of ten.
 pub fn printed(shown: &Shown) -> Vec<Inline> {
     let numeral = match shown {
-        Shown::Words(words) => return vec![Inline::Text(in_one_line(words))],
+        Shown::Words(words) => return words_and_maths(&in_one_line(words)),
         Shown::Number(numeral) => numeral,
     };
     let percent = if numeral.percent { "\u{a0}%" } else { "" };

@@ -334,7 +334,7 @@ impl<'a> Page<'a> {
         // A line that ends in an attribute would be read as a blank.
         let id = escape(id).replace('\n', "&#10;");
         let (class, shown) = match shown {
-            Shown::Words(words) => ("value phrase", text(&document::in_one_line(words))),
+            Shown::Words(_) => ("value phrase", self.inlines(&document::printed(shown))),
             Shown::Number(numeral) => ("value", number(numeral, blank)),
         };
         format!(
