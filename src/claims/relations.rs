@@ -23,15 +23,15 @@ macro_rules! relations {
 pub fn rules() -> Vec<Rule> {
     relations! {
         printed_threshold: "with our protocol the mean of the realisations with an impact passes half of all gaps at the printed σ";
-        two_seeds: "two seeds of the main sweep have one half height, and one mean at each σ";
-        laws_of_chance: "impacts near in time go with the time between, and slow ones with the square of their speed";
-        map_meets_sweep: "the map of protocols and the main sweep, which drew other forces, have one rise";
-        no_rise_before_seeds: "from rest no share of the chains has impacts before as many have a gap that closes by itself";
+        two_seeds: "two seeds of the main sweep have the same half height, and the same mean at each σ";
+        laws_of_chance: "the number of impacts near in time is proportional to the time between them, that of slow ones to the square of their speed";
+        map_meets_sweep: "the map of protocols and the main sweep, which drew other forces, have the same rise";
+        no_rise_before_seeds: "from rest, the share of chains with impacts never exceeds that of chains with a gap that closes by itself";
         above_stays_above: "chains from above have at least as many gaps with an impact as chains from rest under the same forces";
         branches_approach: "with time the half heights from rest and from above do not part";
         seeds_before_circuits: "mean counts by nucleation and growth are nearer to the simulation than those by circuits after every transient";
         first_impacts_as_expected: "as many chains have an impact as the theory of clumps expects";
-        engine_as_promised: "the engine misses no impact from exact states, is exact to rounding, does not work more in long chains, and meets each scene of failure as expected or refuses it";
+        engine_as_promised: "the engine misses no impact from exact states, is exact to rounding, does no more work in long chains, and handles each scene of failure as expected or refuses it";
     }
 }
 

@@ -42,7 +42,7 @@ fn parameters(e: &Evidence<'_>) -> Judged {
     }
     let words = format!("n = {n}, d = m = ω = {d}, Ω = √{}, r = {r}", square.round());
     let found = text!("n = {}, d = {}, ω = {}, Ω² = {:1}, r = {}", n, d, omega, square, r);
-    let note = "The paper prints neither initial condition nor transient nor window; for these it refers to Homer \
+    let note = "The paper prints no initial condition, transient or window; for these it refers to Homer \
          (1999).";
     Ok(e.found(found, same && e.statement.printed == words)
         .within("none", "the same numbers")
@@ -82,7 +82,7 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     let check = by_runs(e, found, counts, text!("at most {:2}", limit), reason);
     let note = "From rest. Of {} pairs of transient T ≥ {} and window W, which are not printed, {} give at most {:2}, \
          a twentieth of all gaps: from {} in the shortest window after the shortest transient to {} in the longest. \
-         Only {} of {} realisations have an impact, but in these impacts spread.";
+         Only {} of {} realisations have an impact, but in these, impacts spread.";
     Ok(check.note(text!(note, all, RELEASED, few, limit, first, last, row.kept, row.ran)))
 }
 
@@ -105,7 +105,7 @@ fn none_below(e: &Evidence<'_>) -> Judged {
     let counts = [none, some, rows.len()];
     let check = by_runs(e, found, counts, text!("at most {:1}", limit), reason);
     let note = "From rest the share lies from {:2} to {:2} in the {} windows of the map of protocols with T ≥ {}. With \
-         its statistical error it is surely at most {:1}, a twentieth, in {} of them and surely more in {}. With random \
+         its statistical error it is clearly at most {:1}, a twentieth, in {} of them and clearly more in {}. With random \
          free parts, as Eq. (20) supposes, it would be at most {:1}; the start is not printed. From rest half of the \
          realisations have an impact at σ = {}.";
     let [all, late] = [rows.len() as f64, RELEASED];
@@ -188,7 +188,7 @@ fn repeated(e: &Evidence<'_>) -> Judged {
     let [impacts, gaps] = e.numbers(&row, ["impacts", "mean"])?;
     let [each, window] = [impacts / gaps, e.number("sweep.run.window")?];
     let found = text!("{:2} impacts for each gap that has any, at σ = {}", each, LARGE_SIGMA);
-    let note = "In a window W = {}, one in a time of {:2}. Impacts go on, so a longer window has more and a short \
+    let note = "In a window W = {}, one per {:2} time units. Impacts go on, so a longer window has more and a short \
          one cannot have many: the window, which is not printed, decides.";
     Ok(e.open(found).note(text!(note, window, window / each)))
 }
@@ -223,8 +223,8 @@ fn by_protocol(
     let mut note = Text::from(by);
     let random = ensemble(e.results.of(&LENGTHS)?, "random")?.curves.iter().collect();
     let sentences = [
-        " From rest it is known in {} of {} windows with T ≥ {}, from {} to {}; in {} it has the printed digits.",
-        " With random free parts, as Eq. (20) supposes, in {} of {} with T ≥ {}, from {} to {}, and in {}.",
+        " From rest it is known in {} of {} windows with T ≥ {}, from {} to {}; in {} of these it has the printed digits.",
+        " With random free parts, as Eq. (20) supposes, in {} of {} with T ≥ {}, from {} to {}, and in {} of these.",
     ];
     for (windows, sentence) in [late(e, "protocol")?, random].into_iter().zip(sentences) {
         let mut at: Vec<Estimate> = windows.iter().filter_map(|it| place(&it.rise)).collect();
@@ -255,7 +255,7 @@ fn mode_rise(e: &Evidence<'_>) -> Judged {
     let within = ranges.clone().filter(|[low, high]| from <= *low && *high <= to).count();
     let apart = ranges.filter(|[low, high]| to < *low || *high < from).count();
     let note = "The mode is known to the range of σ in which its bootstrap interval reaches over half of all gaps; of \
-         the {} windows from rest with T ≥ {} and such a range {} have one within the printed digits and {} one apart \
+         the {} windows from rest with T ≥ {} and such a range, {} have it within the printed digits and {} apart \
          from them. It follows the mean.";
     let tolerance = text!("± {:1}", e.statement.half_unit());
     let check = by_runs(e, found, [within, apart, all], tolerance, HALF_UNIT);
@@ -311,7 +311,7 @@ fn without_impact(e: &Evidence<'_>) -> Judged {
         "a gap whose amplitudes add up to less than d never closes; rounding of the bracket aside";
     let agrees = found.violations == 0 && least >= 1.0 - 1e-9 && safe > 0.0;
     let directions = e.number("two_masses.bound.directions")?;
-    let note = "By {} random directions of the two forces. No direction lets the masses meet below an amplitude of \
+    let note = "With {} random directions of the two forces. No direction lets the masses meet below an amplitude of \
          {:4} on each.";
     Ok(e.found(text!(text, found.violations, least), agrees)
         .within("none below 1", reason)
@@ -340,7 +340,7 @@ fn percolation(e: &Evidence<'_>) -> Judged {
         e.estimate(&format!("{row}.width"))
     };
     let found = "a quarter to three quarters of all gaps within {} for n = {}, {} for n = {}";
-    let note = "The paper names a likeness and no number. The threshold of percolation becomes sharp in a large \
+    let note = "The paper names a likeness but no number. The threshold of percolation becomes sharp in a large \
          system; this rise, after the same transient, does not.";
     Ok(e.open(text!(found, width(n)?, n, width(most)?, most)).note(note))
 }

@@ -36,9 +36,9 @@ fn realised(e: &Evidence<'_>) -> Judged {
     let [circuits, gaps, classes] =
         e.numbers("theory.commuting", ["circuits", "gaps", "classes"])?;
     let note = "We searched for the orbits of Figs. 5 and 6 only, and chose the forces for them. For all circuits, \
-         or for given forces, it is not shown. Orbits with other orders of impacts differ. But two impacts without a \
+         or for given forces, nothing is shown. Orbits with other orders of impacts differ. But two impacts without a \
          common mass may change places, and every mass still has its impacts in the same order: of the {} simple \
-         circuits of {} gaps a mass can tell {} apart.";
+         circuits of {} gaps the masses can tell {} apart.";
     Ok(e.open(text!(text, found[0], found[1])).note(text!(note, circuits, gaps, classes)))
 }
 
@@ -50,7 +50,7 @@ fn few_and_many(e: &Evidence<'_>) -> Judged {
     let mean = |sigma: f64| e.estimate(&format!("sweep.rows[sigma={sigma}].mean"));
     let (few, many) = (mean(low)?, mean(high)?);
     let found = text!("{} different impacts at σ = {}, {} at {}", few, low, many, high);
-    let note = "What is found are means of realisations with at least one impact. That they consist of periodic \
+    let note = "What we find are means of realisations with at least one impact. That they consist of periodic \
          orbits is an assumption that no simulation can test, since the chain is chaotic; impacts in an orbit cannot \
          be counted.";
     Ok(e.open(found).note(note))

@@ -39,7 +39,7 @@ fn orbit(e: &Evidence<'_>, figure: usize) -> Judged {
     let text = "{}; after a period of {:4} again, to {:1}";
     let text = text!(text, found.join(", "), period, apart);
     let note = "A solution of the equations of motion with the period of the forces, which were chosen for it; the \
-         figure draws another, which is not periodic. How likely such forces are is not said.";
+         figure draws another, which is not periodic. Nothing is said of how likely such forces are.";
     Ok(e.found(text, agrees)
         .within(text!("{:1}", allowed), "rounding, which the impacts of a period enlarge")
         .note(note))
@@ -70,7 +70,7 @@ fn masses_of_circuit(e: &Evidence<'_>) -> Judged {
     let printed = found as f64 == e.statement.number()?;
     let text = text!("{} for Fig. 5; k + 1 for {} of {} sets of gaps", found, right, sets);
     let why = "A circuit whose gaps are neighbours, as on a ring, has k + 1 bodies, and the printed example is one. \
-         A gap apart from the others brings two bodies, and the last gap of the whole ring none.";
+         A gap apart from the others adds two bodies, and the last gap of the whole ring none.";
     Ok(e.found(text, printed && right == sets)
         .within("none", "integers are exact")
         .explained(why, printed && as_predicted))
@@ -89,7 +89,7 @@ fn eq8_next(e: &Evidence<'_>) -> Judged {
     let [ratio, exceptions] = e.numbers("theory.lengths", columns)?;
     let n = VERTICES as f64;
     let reason = "ours: “far below one” as at most a tenth";
-    let why = "The ratio at k = N − 1 is N/(N − 1), above one. Above a tenth are the {} lengths next to N, where \
+    let why = "The ratio at k = N − 1 is N/(N − 1), above one. The ratio exceeds a tenth for the {} lengths next to N, where \
          most circuits are.";
     Ok(e.found(text!("at k = N − 1: {:4}", ratio), exceptions == 0.0)
         .within(text!("at most {:1}", 0.1), reason)

@@ -59,7 +59,7 @@ fn like_simulation(e: &Evidence<'_>) -> Judged {
     let theory = e.numbers("theory.mean", ["at_zero", "at_one"])?;
     let [least, most] = theory.map(|mean| mean / VERTICES as f64);
     let found = text!("of the theory from {:2} to {:2} of N as p grows", least, most);
-    let note = "The paper names a likeness of curves over different axes, and no quantity. Any two curves that rise \
-         from few to all would have it. With the relation of σ and p they can be compared, in Section 8.";
+    let note = "The paper names a likeness of curves over different axes, but no quantity. Any two curves that rise \
+         from few to all would have it. With the relation between σ and p they can be compared, in Section 8.";
     Ok(e.open(found).note(note))
 }

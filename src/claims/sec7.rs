@@ -12,7 +12,7 @@ pub fn rules() -> Vec<Rule> {
         cases("sec7_eq16_17", "Sign and slope at every k.").reads("−(k + 1) < 0; k (N − k) > 0"),
         Rule::new("sec7_through_zero", through_zero),
         Rule::new("sec7_start", start),
-        equality("sec7_maximum", 1e-13, "f is even about that place.").reads("(Np − 1)/2p"),
+        equality("sec7_maximum", 1e-13, "f is symmetric about that place.").reads("(Np − 1)/2p"),
         Rule::new("sec7_p_crit", p_crit).on(Rounding).reads("((1 + √(N + 1))/N)²"),
         cases("sec7_other_root", "Every N up to the number of cases.").reads("k < 0"),
         Rule::new("sec7_inflexion", inflexion).on(FiniteCases),
@@ -45,7 +45,7 @@ fn through_zero(e: &Evidence<'_>) -> Judged {
     let [all, failed] = compared(e)?;
     let found = text!("f passes zero at some p ≤ 1 for {} of {} k", all - failed, all);
     let last = jump::f(VERTICES, 1.0, VERTICES as f64 - 1.0);
-    let why = "At k = N − 1 f is p (N − 1) − N, which is {:1} at p = 1 and less before; so k* ends at N − 1.";
+    let why = "At k = N − 1, f is p (N − 1) − N, which is {:1} at p = 1 and less before; so k* ends at N − 1.";
     Ok(e.found(found, failed == 0)
         .within("none", INTEGER)
         .explained(text!(why, last), failed == 1 && last < 0.0))
@@ -75,7 +75,7 @@ fn extrema(e: &Evidence<'_>) -> Judged {
     let [first, crit] = ["theory.first_maximum.p", "theory.jump.p_crit"].map(|at| e.number(at));
     let (first, crit) = (first?, crit?);
     let found = text!("from p = {:8} on; p_crit = {:8}", first, crit);
-    let why = "From there on it holds in all {} cases that were tried: local extrema at ⌈k₋⌉ and ⌈k₊⌉, since f is a \
+    let why = "From there on the statement holds in all {} cases that were tried, with local extrema at ⌈k₋⌉ and ⌈k₊⌉, since f is a \
          forward difference. Between p_crit and there both zeros of f lie between two integers.";
     Ok(e.found(found, first <= crit)
         .within("none", "exact: the first p at which integers have a local maximum")

@@ -116,7 +116,7 @@ fn p_small(e: &Evidence<'_>) -> Judged {
     let reason = "ours: no larger than the p that the paper calls very small where it compares distributions";
     let rise = e.published.statement("sec2_half_height")?.number()?;
     let at_rise = e.number(&format!("theory.gap[sigma={rise}].p"))?;
-    let why = "It holds up to the rise: p = {:2} at σ = {}. At the printed σ it is not small for the theory: p \
+    let why = "The statement holds up to the rise: p = {:2} at σ = {}. At the printed σ it is not small for the theory: p \
          reaches p_crit at σ = {:4} and p_jump at {:4}, less than a tenth below it.";
     Ok(e.found(found, p <= EXTREMELY_SMALL)
         .within(text!("at most {:1}", EXTREMELY_SMALL), reason)
@@ -153,10 +153,10 @@ fn p_poor(e: &Evidence<'_>) -> Judged {
     });
     let [poor, all] = [rest[0] + random[0], rest[1] + random[1]];
     let found = text!("the theory needs at least {:2} times the p of Eq. (25) for the mean", here);
-    let note = "At each σ below {}, from rest with our protocol. It needs at least twice as much at each of these σ in \
-         {} of {} windows from rest with T ≥ {}, and in {} of {} with random free parts, as Eq. (20) supposes; which \
-         were used is not printed. At σ = {} it needs at least {:2} times as much in each window from rest. The paper \
-         suspects p; that the theory itself is at fault the numbers do not exclude.";
+    let note = "At each σ below {}, from rest with our protocol. It needs at least twice the p at each of these σ in \
+         {} of {} windows from rest with T ≥ {}, and in {} of {} with random free parts, as Eq. (20) supposes; the paper \
+         does not print its start. At σ = {} it needs at least {:2} times the p in each window from rest. The paper \
+         suspects p; the numbers do not exclude that the theory itself is at fault.";
     let note = text!(note, below, rest[0], rest[1], RELEASED, random[0], random[1], sigma, there);
     let reason = "ours: “poor” as less than half of what is needed";
     Ok(by_runs(e, found, [poor, all - poor, all], "at least twice", reason).note(note))
@@ -200,7 +200,7 @@ fn large_sigma(e: &Evidence<'_>) -> Judged {
     let forced = law(Simple, pxfm::f_exp(-0.25 / (LARGE_SIGMA * LARGE_SIGMA))).mean();
     let note = "Reached at σ = {}; in all windows of the map with T ≥ {} at most {:2}. A relation without free parts \
          would leave {:2} gaps there, so that the comparison can fail. It is weak all the same: both curves approach \
-         all gaps, and the constant N is at most {:2} away. From where on σ is large the paper does not say: at {}, \
+         all gaps, and the constant N is at most {:2} away. The paper does not say from where on σ is large: at {}, \
          below which it finds its own estimate poor, {:2} gaps are missing, and the limit is passed from σ = {} down.";
     Ok(e.found(found, far <= limit)
         .within(text!("at most {:3}", limit), "ours: a tenth of all gaps")
@@ -220,10 +220,10 @@ fn threshold_shift(e: &Evidence<'_>) -> Judged {
     let found =
         text!("half height of the theory at σ = {:4}, of the simulation at {}", theory, half);
     let tolerance = "within a fifth of one another";
-    let reason = "ours: a curve that is moved by more agrees nowhere along the rise";
+    let reason = "ours: a curve that is shifted further agrees nowhere along the rise";
     let check = by_runs(e, found, [agree, all - agree, all], tolerance, reason);
     let note = "Along the rise the protocol, which is not printed, decides: from rest in {} of {} windows of the map \
-         with T ≥ {} both half heights are within a fifth of one another. The paper itself finds the agreement poor at \
+         with T ≥ {} the half heights are within a fifth of one another. The paper itself finds the agreement poor at \
          small σ.";
     Ok(check.note(text!(note, agree, all, RELEASED)))
 }
@@ -266,7 +266,7 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     let [least, most] = ends(shares).ok_or(Undecided)?;
     let found = "from rest the start makes up {} of the distance between theory and simulation";
     let note = "The paper says “perhaps”, and does not print its start. In smaller samples the share lies from {:2} to \
-         {:2} after other transients. The theory assumes random free parts, for which nothing of the distance is due \
+         {:2} after other transients. The theory assumes random free parts, for which none of the distance is due \
          to the start. From r = {} to {} the half height moves by {}, more than with the start.";
     Ok(e.open(text!(found, share)).note(text!(note, least, most, *lowest, *highest, moved)))
 }
@@ -301,12 +301,12 @@ fn ensured(e: &Evidence<'_>, what: &str, pick: fn(&Total) -> u64) -> Judged {
     let check = by_runs(e, text, counts, tolerance, "ours: one in a thousand, as in Section 2");
     let is_rare = |r: &&f64| shares.iter().all(|row| share(**r, row.0) <= Some(NEGLIGIBLE));
     let enough = *restitutions.iter().find(is_rare).ok_or(Undecided)?;
-    let more = " Of the {} values of σ from {} to {} that were run with both r it decides at {}.";
+    let more = " Of the {} values of σ from {} to {} that were run with both, r decides at {}.";
     let mut note = Text::from(what).then(text!(more, all, first, sigma, at));
     if let Some(from) = decided.first().filter(|_| at < all) {
         let open = " The lowest of these is {}; which σ the paper simulated is not printed.";
         note = note.then(text!(open, *from));
     }
-    let wide = " Every r from {} on has at most {:1}.";
+    let wide = " Every r from {} on has a share of at most {:1}.";
     Ok(check.note(note.then(text!(wide, enough, NEGLIGIBLE))))
 }

@@ -73,7 +73,7 @@ fn class_range(e: &Evidence<'_>) -> Judged {
     // A printed "k > 3" means from 4 on; without a printed range every length is meant.
     let printed_from = e.statement.value.map_or(1.0, |k| k + 1.0);
     let agrees = right_from == printed_from && failed == 0.0 && compared > 3.0;
-    let why = "One length below, on three vertices, the formula gives {} and enumeration finds {}: sequences that \
+    let why = "At one length below, on three vertices, the formula gives {} and enumeration finds {}: sequences that \
          repeat a shorter one.";
     let why = text!(why, formula, counted);
     let found = text!("right from k = {} on", right_from);
@@ -148,7 +148,7 @@ fn convergence(e: &Evidence<'_>) -> Judged {
     let reason =
         "ours: the least that can be seen in a figure, as for higher orders at the smallest p";
     let why = "The distance falls at every p that was computed, to {:2} at p = {}; the two come together only beyond \
-         the p of the figure. It is a shift of all k by about one: see the next statement.";
+         the p of the figure. The difference is a shift of all k by about one: see the next statement.";
     Ok(e.found(found, falls && near)
         .within(text!("falling, and at most {:1} in panel (b)", VISIBLE), reason)
         .explained(text!(why, last, p_last), falls && later.len() > 2 && b < 0.5 * a))
@@ -179,7 +179,7 @@ fn explains_agreement(e: &Evidence<'_>) -> Judged {
     let doubling = e.number("theory.higher.doubling")?;
     let found = "at p = {} one more doubled vertex multiplies the weight by {:3}";
     let found = text!(found, HIGHER_P[2], doubling);
-    let note = "An explanation is not a number. The orders that are left out outweigh those that are counted, and \
+    let note = "There is no number to compare. The orders that are left out outweigh those that are counted, and \
          theory and simulation both approach all gaps whatever the weights are.";
     Ok(e.open(found).note(note))
 }
@@ -222,7 +222,7 @@ fn fig15_modest(e: &Evidence<'_>) -> Judged {
         text!("largest change {:3} at σ = {}; the half height moves by {:2}", change, at, shift);
     let reason = "ours: “small σ” as what is not large in Section 8; “modest” as half a unit of the digit in which \
          the paper prints the threshold";
-    let note = "Where the curve is so steep the change is seen along σ; in the number itself it is {:2} of N.";
+    let note = "Where the curve is so steep, the change is seen along σ; in the number itself it is {:2} of N.";
     Ok(e.found(found, at < LARGE_SIGMA && shift.abs() <= allowed)
         .within(text!("below σ = {:1}; by at most {:1}", LARGE_SIGMA, allowed), reason)
         .note(text!(note, change / VERTICES as f64)))
@@ -254,7 +254,7 @@ fn improves(e: &Evidence<'_>) -> Judged {
         better += usize::from(simple.zip(higher).is_some_and(|(a, b)| improved([a, b])));
     }
     let reason = "ours: “slightly”; the distance is the root of the mean square over all rows";
-    let note = "It decreases so in {} of the {} windows of the map of protocols with T ≥ {}.";
+    let note = "It falls likewise in {} of the {} windows of the map of protocols with T ≥ {}.";
     Ok(e.found(found, improved([simple, higher]) && better == windows.len())
         .within("a decrease by at most a fifth", reason)
         .note(text!(note, better, windows.len(), RELEASED)))

@@ -80,14 +80,14 @@ struct Answer {
 /// The quantities of the theory: name, equation, needed inputs (`oscillator` stands for ω, Ω and
 /// d), meaning. Those with `higher-` are of five classes of circuits, the others of simple ones.
 const QUANTITIES: [[&str; 4]; 14] = [
-    ["p-crit", "Eq. (18)", "N", "p at which Φ gets a stationary point"],
+    ["p-crit", "Eq. (18)", "N", "p at which f gets a double zero"],
     ["p-jump", "Sec. 7", "N", "infimum of p with k* > 1 (N ≥ 4)"],
     ["k-after-jump", "Sec. 7", "N", "k* just after the jump (N ≥ 4)"],
     ["k-star", "Sec. 6", "N p", "most likely number of impacts; the lowest of several"],
     ["mean-impacts", "Sec. 6", "N p", "μ, the expected number of impacts"],
     ["probability", "Eqs. (9), (10)", "N p k", "P(X = k)"],
     ["log-circuits", "Eq. (7)", "N k", "ln φ_N(k), number of simple circuits of length k"],
-    ["p-of-sigma", "Eqs. (20) to (25)", "sigma oscillator", "p(σ), that a gap closes by itself"],
+    ["p-of-sigma", "Eqs. (20) to (25)", "sigma oscillator", "p(σ) that a gap closes by itself"],
     ["log-p-of-sigma", "Eqs. (20) to (25)", "sigma oscillator", "ln p(σ)"],
     ["higher-p-jump", "Eq. (38)", "N", "p-jump of the five classes (N ≥ 2)"],
     ["higher-k-after-jump", "Eq. (38)", "N", "k-after-jump of the five classes (N ≥ 2)"],

@@ -24,7 +24,7 @@ use std::ops::Range;
 ///
 /// Each row says how many distinct gaps impact in the window (T, T + W]; realisations without any
 /// are not kept. Realisation i has the same standard normals at every σ. All windows are read from
-/// one run. All rows come at the end. Warnings (stderr) name realisations that the engine ended
+/// one run. Rows are printed at the end. Warnings (stderr) name realisations that the engine ended
 /// early, rows with more than a tenth of the starts rejected, or with more than one in a hundred
 /// impacts at the instant of another, and grazes that rounding could not decide.
 ///
@@ -54,7 +54,7 @@ pub struct Args {
     /// Forcing frequency Ω, different from ω [default: √2].
     #[arg(long, value_name = "Omega", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
     forcing_frequency: Option<f64>,
-    /// Distance d of the places of the masses.
+    /// Distance d between neighbouring places of the masses.
     #[arg(long, value_name = "d", default_value = "1", value_parser = within(1e-6, 1e6), allow_hyphen_values = true)]
     spacing: f64,
     /// Coefficient of restitution r.
@@ -93,15 +93,15 @@ const COLUMNS: [(&str, &str); 18] = [
     ("rejected", "those whose start overlaps"),
     ("mean_distinct", "different gaps with an impact in the window, mean of the kept"),
     ("standard_error", "of this mean"),
-    ("mode_distinct", "most frequent number of the kept, the lowest of several"),
+    ("mode_distinct", "most frequent number among the kept, the lowest if several"),
     ("impacts_per_time", "impacts in the window over W, mean of the kept"),
-    ("impacts", "impacts in whole runs, transients too"),
-    ("near_simultaneous", "those within 1e-9 of one in a gap next to it, whatever w"),
-    ("slow", "those with a closing speed below 1e-8, whatever d and w"),
+    ("impacts", "impacts in whole runs, including transients"),
+    ("near_simultaneous", "those within 1e-9 of one in an adjacent gap, whatever w is"),
+    ("slow", "those with a closing speed below 1e-8, whatever d and w are"),
     ("contact_phases", "times that a gap came to rest in contact"),
     ("mean_all", "different gaps with an impact, mean of all that ran"),
     ("standard_error_all", "of this mean"),
-    ("simultaneous", "impacts at exactly the instant of one in a gap next to it"),
+    ("simultaneous", "impacts at exactly the instant of one in an adjacent gap"),
     ("undecided", "grazes that rounding could not decide, taken for misses"),
     ("transient", "T"),
     ("window", "W"),

@@ -23,7 +23,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 /// Where neighbours meet, their velocities jump: the gap opens at r times the speed at which it
 /// closed, and momentum is conserved. All masses are 1; walls, at 0 and (n + 1) d, do not move.
 /// Times are in units of 1/w, lengths of d, if these are 1. Not in the model: damping, springs
-/// between masses, unequal masses or springs, friction, three at once (pairs are hit in turn).
+/// between masses, unequal masses or springs, friction, three at once (pairs collide in turn).
 ///
 /// Examples:
 ///   trace chain.json --until 100
@@ -35,11 +35,11 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 ///
 /// Count gaps from the left wall: gap 0 lies between it and mass 1, gap j between masses j and j +
 /// 1; on a ring gap n lies between masses n and 1. Of neighbouring gaps that close at exactly the
-/// same instant the fastest is hit first. A note on stderr says how many impacts coincide, and how
+/// same instant, the fastest comes first. A note on stderr says how many impacts coincide, and how
 /// often rounding could not decide whether a gap closes (method certified).
 ///
 /// Do not trust single impacts far into a chaotic run: errors grow about tenfold in a dozen units
-/// of time. Compare with --method truth to see from where on a run is off. The truth has every
+/// of time. Compare with --method truth to see from when on a run is off. The truth has every
 /// time to 106 bits, but only for walls, one frequency and no contact; it takes the next gap from
 /// the engine, so it cannot show an impact that the engine misses.
 ///

@@ -61,7 +61,7 @@ fn the_readme_has_the_score() {
     };
     let [theory, measures] = [by(&["exact", "rounding", "finite cases"]), by(&["our measure"])];
     let split = format!(
-        "decide {} of them, and {} are reproduced; measures of ours for statements in words decide {}, and {} are; the one number printed for the simulation, in {} readings, cannot",
+        "decide {} of them, of which {} are reproduced; measures of ours decide {} statements in words, of which {} are; the one number printed for the simulation, in {} readings, cannot",
         theory[0],
         theory[1],
         measures[0],

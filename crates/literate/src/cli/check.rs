@@ -26,7 +26,7 @@ pub(super) struct Args {
     /// Judge only these statements, by id or by number in the ledger.
     #[arg(value_name = "ID")]
     ids: Vec<String>,
-    /// Print all that is known of each, and also those that are reproduced or hold.
+    /// Print all that is known of each, including those that are reproduced or hold.
     #[arg(long, short)]
     verbose: bool,
     #[command(flatten)]

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 #[derive(clap::Args)]
 pub(super) struct RunOptions {
-    /// Take these sample sizes.
+    /// Use these sample sizes.
     #[arg(long, default_value = "full")]
     pub profile: Profile,
     #[command(flatten)]

@@ -25,7 +25,7 @@ const EXIT_CODES: &str = "Exit codes:
   1    a statement, relation or comparison failed, but the files were written; a rule of the
        prose is broken (a hard-coded number) or a run failed, and nothing was written; or
        `paper --dry-run` found stale results
-  2    wrong usage or input, including broken prose, or a place that cannot be read or written
+  2    wrong usage or input, including broken prose, or a path that cannot be read or written
   130  ended by Ctrl-C, SIGTERM or SIGHUP
 
 The project is the first folder from the current one upwards that has the source of this program;

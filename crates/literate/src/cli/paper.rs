@@ -20,12 +20,12 @@ use std::time::Instant;
 ///   paper --dry-run                          what would be run, and why
 ///   paper --profile quick                    small samples, into target/paper-quick/
 ///   paper --figure 3 --out target/figure     one figure and its data
-///   paper --rerun sweep                      with one result computed again, although it is fresh
+///   paper --rerun sweep                      with one result computed again, even if fresh
 ///
 /// Stop it whenever you like: files are moved into place at the very end, results of long runs are
 /// saved, and used again as long as parameters and source are the same. Only files that an earlier
 /// run wrote, and nobody edited since, are replaced. Exit code 1 says that a statement or a
-/// relation fails; the report is still written.
+/// relation failed; the report is still written.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
@@ -39,10 +39,10 @@ pub(super) struct Args {
     /// Say which experiments would be run, and why (exit code 1 if any), and run nothing.
     #[arg(long)]
     dry_run: bool,
-    /// Run this experiment again, although its result is fresh (may be repeated), or `all`.
+    /// Run this experiment again, even if its result is fresh (may be repeated), or `all`.
     #[arg(long, value_name = "NAME", conflicts_with = "dry_run")]
     rerun: Vec<String>,
-    /// Write over files that this program did not make, or that were edited since.
+    /// Overwrite files that this program did not make, or that were edited since.
     #[arg(long)]
     force: bool,
     #[command(flatten)]

@@ -76,7 +76,7 @@ pub fn is_ignored(signal: i32) -> bool {
 
 #[derive(clap::Args)]
 pub struct Threads {
-    /// Work on this many threads, else on all cores; no bit of the result depends on it.
+    /// Use this many threads instead of one for each core; the result is the same bit for bit.
     #[arg(long = "threads", value_name = "K", allow_hyphen_values = true, value_parser = threads)]
     asked: Option<usize>,
 }
