@@ -47,8 +47,8 @@ const INTEGRATED: &str = "The probability of Y ≤ x at five x and three σ, aga
          densities over a disc; the second also at |ω² − Ω²| = 1/2.";
 
 const PHASES: &str = "Contact phases over impacts. Two masses alone can stick only if their forces differ by more than d ω².";
-const NEAR: &str = "Impacts near in time to one in a gap beside theirs, over all, as in Section 2. Which the paper \
-         means by “multiple” it does not say.";
+const NEAR: &str = "Impacts near in time to one in a gap beside theirs, over all, as in Section 2. The paper \
+         does not say what it means by “multiple”.";
 
 fn eq25(e: &Evidence<'_>) -> Judged {
     let note =

@@ -72,7 +72,7 @@ fn sign(panel: &Panel, p: f64) -> Drawn {
     if zeros[0] == zeros[1] {
         return panel.label("double zero", at[0], (1, -1), INK);
     }
-    // Where the curve is not: below the line inside the arch, above it outside.
+    // Clear of the curve: below the line inside the arch, above it outside.
     panel.label("*k*_{−}", at[0], (1, 1), INK)?;
     panel.label("*k*_{+}", at[1], (1, -1), INK)
 }

@@ -11,7 +11,7 @@ const DETAIL: f64 = 400.0;
 /// The intervals of time in which the first panel counts.
 const INTERVALS: f64 = 200.0;
 
-/// Numbers of impacts that have one shade.
+/// Numbers of impacts that share a shade.
 const SHADES: [&str; 3] = ["1", "2–3", "4 or more"];
 
 pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
@@ -58,7 +58,7 @@ fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {
     all.filter(|(time, _)| (from..=to).contains(time)).collect()
 }
 
-/// Shades each gap by the number of its impacts in intervals of this length, and says how.
+/// Shades each gap by the number of its impacts in intervals of this length, with a key.
 fn shades(sheet: &Sheet, panel: &Panel, run: &SpaceTime, length: f64) -> Drawn {
     let mut counts: BTreeMap<(u64, u16), u64> = BTreeMap::new();
     for (time, gap) in points(run, 0.0, panel.x.hi) {
@@ -86,7 +86,7 @@ fn shades(sheet: &Sheet, panel: &Panel, run: &SpaceTime, length: f64) -> Drawn {
     Ok(())
 }
 
-/// The window in which gaps are counted, as a ground, if the run is that long.
+/// The window in which gaps are counted, as a background, if the run is that long.
 fn window(panel: &Panel, until: f64) -> Drawn {
     let Protocol { transient, window } = Protocol::default();
     let (from, to) = (transient, transient + window);

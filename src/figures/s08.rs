@@ -76,7 +76,7 @@ fn rows_of(
         let name = format!("{}, {}", setting.method.title(), in_powers(setting.value));
         y.ticks.insert(0, Tick { at: -(y.ticks.len() as f64), label: Some(name) });
     }
-    // A ground under every second row.
+    // A background for every second row.
     let height = f64::from(frame.bottom - frame.top) / (found.len() as f64 + 1.2);
     for row in (1..=found.len()).step_by(2) {
         let upper = frame.top + (height * (row as f64 + 0.1)) as i32;
@@ -89,7 +89,7 @@ fn rows_of(
     panel.unrecorded().markers("engine", &[(0.0, 0.0)], disc)?;
     let style = words(SMALL, INK, HPos::Right, VPos::Center);
     let decimals = |value: f64| usize::from(value < 9.95);
-    // Writes a number whose units end at a place.
+    // Writes a number so that its units digit ends at a place.
     let write = |before: &str, value: f64, decimals: usize, units: i32, row: f64| {
         let at = (units + decimals as i32 * DECIMAL, panel.area.map_coordinate(&(0.0, row)).1);
         sheet.area.draw_text(&(before.to_owned() + &number(value, decimals)), &style, at)

@@ -43,7 +43,7 @@ impl Sources {
 /// A file without comments and without its module of tests; `mod name;` is the path `self::name`.
 fn code(text: &str) -> String {
     let mut code = String::new();
-    // Clippy refuses code behind such a module.
+    // Clippy refuses code after such a module.
     let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
     for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
         let line = line.split(" //").next().unwrap_or_default();
@@ -69,7 +69,7 @@ fn paths(code: &str) -> Vec<Vec<&str>> {
     found
 }
 
-/// Reads the paths that begin with some names and `::`, and returns the text behind them.
+/// Reads the paths that begin with some names and `::`, and returns the text after them.
 fn read_path<'a>(text: &'a str, mut names: Vec<&'a str>, found: &mut Vec<Vec<&'a str>>) -> &'a str {
     let mut text = text.trim_start();
     if let Some(group) = text.strip_prefix('{') {

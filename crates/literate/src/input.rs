@@ -49,8 +49,8 @@ pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Lists a file, or all files below a folder, links too, by their paths from the folder `top`. An
-/// error has the path of what is missing, or cannot be opened.
+/// Lists a file, or all files below a folder, links included, by their paths from the folder `top`.
+/// An error names the path that is missing or cannot be opened.
 pub fn files_in(top: &Path, place: &str) -> Result<Vec<String>, Error> {
     let (mut files, mut open) = (Vec::new(), vec![place.to_string()]);
     while let Some(path) = open.pop() {
@@ -92,13 +92,13 @@ pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
     }
 }
 
-/// How the names of files and folders begin that are not yet complete.
+/// Prefix of the names of files and folders that are not yet complete.
 pub const STAGING: &str = ".staging-literate-";
 
 /// Held for reading while files are put into place, and for writing when the program ends.
 pub static WRITING: RwLock<()> = RwLock::new(());
 
-/// Describes a fault of TOML with its line, from 1, and a remedy: `12: missing field …; correct …`.
+/// Describes a TOML error with its line, from 1, and a remedy: `12: missing field …; correct …`.
 pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {
     let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
     let what = one_line(&plain(error.message()), 300);

@@ -37,8 +37,7 @@ impl FigureSpec {
         figure.data.iter_mut().for_each(|file| file.name.insert_str(0, self.name));
         let mut names = BTreeSet::new();
         if let Some(file) = figure.data.iter().find(|file| !names.insert(&file.name)) {
-            let what =
-                format!("figure {}: panels have one name {} for their data", self.name, file.name);
+            let what = format!("figure {}: two panels name their data {}", self.name, file.name);
             return Err(Failure::input(format!("{what}; give each a letter (`with_suffix`)")));
         }
         let experiments = self.needs.iter().map(|need| need.name()).collect();
@@ -211,6 +210,6 @@ mod tests {
         };
         let paper = Paper::new("toy", toy()).figure("twins", &[], draw);
         let error = paper.figures[0].figure(&Results::made_up(Vec::new())).unwrap_err().message;
-        assert!(error.contains("panels have one name twins.csv for their data"), "{error}");
+        assert!(error.contains("two panels name their data twins.csv"), "{error}");
     }
 }

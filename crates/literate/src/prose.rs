@@ -7,7 +7,7 @@ use std::path::Path;
 /// Endings of the files that are templates or data for them (fonts live there too).
 const TEXT: [&str; 8] = [".md", ".tex", ".bib", ".toml", ".html", ".css", ".js", ".json"];
 
-/// Frames of the documents, and empty files, for a folder that has none of these names.
+/// Default frames of the documents, and empty files, for a folder that lacks them.
 const SKIN: [(&str, &str); 8] = [
     ("data.html", include_str!("../skin/data.html")),
     ("literals.toml", ""),
@@ -23,14 +23,14 @@ const SKIN: [(&str, &str); 8] = [
 pub enum Error {
     #[error("{path}: {source}; {}", remedy(source, "check --templates"))]
     Read { path: String, source: std::io::Error },
-    #[error("{0}: no such file in the templates; give the folder of all of them")]
+    #[error("{0}: no such file in the templates; give the folder that has all of them")]
     Missing(String),
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Templates {
     files: BTreeMap<String, String>,
-    /// Where they lie, as messages show it: `prose/`.
+    /// Their folder, as messages show it: `prose/`.
     folder: String,
 }
 
@@ -53,7 +53,7 @@ impl Templates {
         let fail = |path: &Path, source| Error::Read { path: path.display().to_string(), source };
         for entry in std::fs::read_dir(folder).map_err(|e| fail(folder, e))? {
             let path = entry.map_err(|e| fail(folder, e))?.path();
-            // Hidden files are locks and copies of editors.
+            // Hidden files are locks and backups of editors.
             let name = path.file_name().and_then(|name| name.to_str());
             let Some(name) = name.filter(|name| !name.starts_with('.')) else { continue };
             if path.is_dir() && !path.is_symlink() {

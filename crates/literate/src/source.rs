@@ -36,13 +36,13 @@ impl Sources {
         Ok(lines.collect::<Vec<_>>().join("\n"))
     }
 
-    /// Finds the file of an item, and the line that defines it; none of a module that is a file.
+    /// Finds the file of an item, and the line that defines it; no line for a module that is a file.
     pub fn place(&self, item: &str) -> Option<(&'static str, Option<usize>)> {
         const KINDS: [&str; 7] = ["fn", "struct", "enum", "trait", "type", "const", "mod"];
         let file = self.file(item)?;
         let (_, text) = self.files.iter().find(|(path, _)| *path == file)?;
         let has = |line: &str, before: &[&str], name: &str| {
-            // A search is fast, words are not.
+            // A search is much faster than splitting into words.
             if !line.contains(name) {
                 return false;
             }

@@ -86,7 +86,7 @@ impl Published {
         for id in parameters.chain(published.statements.iter().map(|statement| &statement.id)) {
             if !seen.insert(id) {
                 let first = line(ids.iter().find(|(known, _)| known == id));
-                let what = format!("it stands on line {first} too; give each entry its own");
+                let what = format!("it is also on line {first}; give each entry its own");
                 return Err(PublishedError::at(last_line(id), id, &what));
             }
         }
@@ -247,7 +247,7 @@ mod tests {
         }
         let twice = entry("printed = \"x\"") + &entry("printed = \"y\"");
         let error = Published::parse(&twice).unwrap_err().to_string();
-        assert!(error.contains("toml:7: the id \"a\": it stands on line 2 too"), "{error}");
+        assert!(error.contains("toml:7: the id \"a\": it is also on line 2"), "{error}");
         let error = parse("printed = \"about 2.094\"").unwrap().number().unwrap_err().to_string();
         assert!(error.contains("\"about 2.094\"; write it as `value`, with `decimals`"), "{error}");
     }

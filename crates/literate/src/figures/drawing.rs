@@ -231,7 +231,7 @@ impl DrawingBackend for Drawing {
             upwards: match style.transform() {
                 FontTransform::None => false,
                 FontTransform::Rotate270 => true,
-                _ => return Err(Error::Drawing(format!("{words:?} would stand head down")).into()),
+                _ => return Err(Error::Drawing(format!("{words:?} would be upside down")).into()),
             },
             rim: is_rimmed(style),
             glyphs,

@@ -34,7 +34,7 @@ impl Library {
         self.0.iter().map(|reference| reference.key.as_str())
     }
 
-    /// Returns the list of these entries; those of one year have a letter behind it: 1954a.
+    /// Returns the list of these entries; like labels get a letter after the year: 1954a.
     pub fn list(&self, keys: &BTreeSet<String>) -> Vec<Reference> {
         let cited = self.0.iter().filter(|reference| keys.contains(&reference.key));
         let mut list: Vec<Reference> = cited.cloned().collect();
@@ -122,7 +122,7 @@ fn between(before: &str, inner: Vec<Inline>, after: &str) -> Vec<Inline> {
     all
 }
 
-/// Reads a field into words and formulas, none if it is absent; macros but accents are refused.
+/// Reads a field into words and formulas, none if absent; macros other than accents are refused.
 fn field(entry: &Entry, name: &str) -> Result<Vec<Inline>, String> {
     let text = entry.get(name).unwrap_or_default().format_verbatim();
     let mut shown = words_and_maths(text.trim());
@@ -228,7 +228,7 @@ mod tests {
     }
 
     /// Entries, and what the list shows of them, with a bar between, or the fault; `·` is a blank
-    /// that does not break. Who stands alone comes first, and accents are sorted as letters.
+    /// that does not break. A single author comes first, and accents are sorted as letters.
     const ENTRIES: &str = r"
 @article{a, author={Šidák, Zbyněk}, title={T}, journal={J. {S}tat.}, year={1967}, volume={62}, number={3--4}, pages={6--7}, doi={10.1/x(2)}} @book{c, author={Ti, S.O. and A, Jean-Marc and others}, title={W}, year={1955}, publisher={P}} @software{e, author={{A Group}}, title={Code}, date={2025-03-01}, url={https://x.org/}} => A Group, 2025: A Group. (2025). *Code* [Computer software]. [https://x.org/](https://x.org/) | Šidák, 1967: Šidák, Z. (1967). T. *J. Stat.*, *62*(3–4), 6–7. [https://doi.org/10.1/x(2)](https://doi.org/10.1/x(2)) | Ti et al., 1955: Ti, S. O., A, J.-M., et al. (1955). *W*. P.
 @book{b, author={Rice, Stephen O. and {di Bernardo}, Mario}, title={Noise \& $x_1$}, edition={2}, publisher={Dover}, year=1954} @phdthesis{d, author={Rice, Stephen O. and {di Bernardo}, Mario}, title={T}, school={U of B}, year=1954} @book{f, author={Rice, Stephen O.}, title={U}, year=1960} => Rice, 1960: Rice, S. O. (1960). *U*. | Rice & di Bernardo, 1954a: Rice, S. O., & di Bernardo, M. (1954a). Noise & $x_1$ (2nd ed.). Dover. | Rice & di Bernardo, 1954b: Rice, S. O., & di Bernardo, M. (1954b). *T* [Doctoral dissertation]. U of B.

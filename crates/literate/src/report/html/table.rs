@@ -10,7 +10,7 @@ const TEXT: usize = 100;
 /// Columns whose cells have more characters than this get a minimum width.
 const WIDTHS: [(usize, &str); 3] = [(300, "long"), (TEXT, "text"), (40, "words")];
 
-/// So many columns do not fit side by side on a narrow screen, nor more than few if one is text.
+/// This many columns do not fit on a narrow screen, nor do more than `FEW` if one of them is text.
 const MANY: usize = 6;
 const FEW: usize = 3;
 
@@ -65,7 +65,7 @@ impl Page<'_> {
         let mut out = format!("<table{table}>\n<thead><tr{line}>");
         for (i, cell) in head.iter().enumerate() {
             let mut words = self.inlines(cell);
-            // Some readers of screens see no words in mathematics.
+            // Some screen readers find no words in mathematics.
             if matches!(cell.as_slice(), [Inline::Maths(_)]) {
                 let spelt = text(&spelt(cell));
                 words = format!(

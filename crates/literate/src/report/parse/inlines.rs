@@ -283,7 +283,7 @@ const CUT: &str = "an unclosed formula: Markdown ends it at an empty line, and a
 const LEFT: [(&str, &str); 6] = [
     ("|", "a table needs a line of dashes below its head with as many columns"),
     ("[^", "footnotes are not supported by every format; write the note into the sentence"),
-    ("{#", "an id stands right behind a heading, caption, picture or equation; move or remove it"),
+    ("{#", "an id belongs right after a heading, caption, picture or equation; move or remove it"),
     ("{", "braces hold an id and nothing else, such as a width; remove them, or write \\{"),
     ("$", "a dollar sign alone; close the formula before the end of the paragraph, or write \\$"),
     ("@", "a citation is @key, after a space or a bracket; write \\@ for the sign"),
