@@ -36,7 +36,7 @@ impl Sources {
         Ok(lines.collect::<Vec<_>>().join("\n"))
     }
 
-    /// Finds the file of an item, and the line that defines it; no line for a module that is a file.
+    /// Finds the file of an item, and the line that defines it; no line if it is a whole file.
     pub fn place(&self, item: &str) -> Option<(&'static str, Option<usize>)> {
         const KINDS: [&str; 7] = ["fn", "struct", "enum", "trait", "type", "const", "mod"];
         let file = self.file(item)?;

@@ -70,7 +70,7 @@ a *word => 14:3 => unclosed markup
 a «v.half_height»» b => 14:18 => unclosed markup
 - item⏎⏎  - a *b => 16:7 => unclosed markup
 See [it] (data) now => 14:5 => unclosed markup
-words {#sec:b} => 14:7 => an id stands right behind
+words {#sec:b} => 14:7 => an id belongs right after
 ![The rise.](figures/fig03.svg){width=50%} => 14:32 => such as a width
 at $5, with => 14:4 => a dollar sign alone
 a @ b => 14:3 => a citation is @key
