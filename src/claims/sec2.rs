@@ -254,9 +254,9 @@ fn mode_rise(e: &Evidence<'_>) -> Judged {
     let all = ranges.clone().count();
     let within = ranges.clone().filter(|[low, high]| from <= *low && *high <= to).count();
     let apart = ranges.filter(|[low, high]| to < *low || *high < from).count();
-    let note = "The mode is known to the range of σ in which its bootstrap interval reaches over half of all gaps; of \
+    let note = "The place is known to within the range of σ in which the bootstrap interval of the mode contains half of all gaps; of \
          the {} windows from rest with T ≥ {} and such a range, {} have it within the printed digits and {} apart \
-         from them. It follows the mean.";
+         from them. The mode follows the mean.";
     let tolerance = text!("± {:1}", e.statement.half_unit());
     let check = by_runs(e, found, [within, apart, all], tolerance, HALF_UNIT);
     Ok(check.note(text!(note, all, RELEASED, within, apart)))

@@ -40,7 +40,7 @@ fn rise(e: &Evidence<'_>) -> Judged {
 fn step(e: &Evidence<'_>) -> Judged {
     let [largest, second] = e.numbers("theory.mean", ["largest_step", "other_steps"])?;
     let found = text!("one step of height {}, all others {}", largest, second);
-    let reason = "ours: “large” as at least a tenth of N; a step function of integers has ones";
+    let reason = "ours: “large” as at least a tenth of N; steps of integers are at least one";
     Ok(e.found(found, largest * 10.0 >= VERTICES as f64 && second == 1.0)
         .within("one step of ten or more, all others of one", reason))
 }

@@ -38,7 +38,7 @@ pub fn rules() -> Vec<Rule> {
 
 const LOOPS: &str = "Circuits through one vertex twice, by the lengths of their loops, on graphs of one to six \
          vertices.";
-const SUMS: &str = "Every n up to ten, one sum at a time.";
+const SUMS: &str = "Every n up to ten; the sums are counted one by one.";
 const INTEGER: &str = "integers are exact";
 
 fn fig6_repeats(e: &Evidence<'_>) -> Judged {
@@ -91,7 +91,7 @@ fn eq38(e: &Evidence<'_>) -> Judged {
     let row = "theory.cases[statement=sec9_eq38_in_range]";
     let [in_range, failed] = e.numbers(row, ["compared", "failed"])?.map(|count| count as usize);
     let why = "Each of {} cases from k = 3 on agrees. No smallest k is printed, and the distribution needs k = 1 and \
-         2 as well; there the sum takes Eqs. (35) to (37) below the ranges that are printed with them.";
+         2 as well; there the sum uses Eqs. (35) to (37) below their printed ranges.";
     Ok(e.all_cases(all, wrong).explained(text!(why, in_range), failed == 0 && in_range > 0))
 }
 
@@ -162,7 +162,7 @@ fn shape(e: &Evidence<'_>) -> Judged {
     let reason = "ours: the least that can be seen in a figure, as in the statement before";
     Ok(e.found(found, b < a && b <= VISIBLE)
         .within(text!("falling, and at most {:1} in panel (b)", VISIBLE), reason)
-        .note("The least for moves by up to ten."))
+        .note("The least distance over shifts by up to ten."))
 }
 
 fn mean_large_p(e: &Evidence<'_>) -> Judged {

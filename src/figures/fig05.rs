@@ -44,7 +44,7 @@ pub fn draw_circuit(
     Ok(sheet.finish(title, description))
 }
 
-/// Walls, equilibria, paths and impacts; these have the number of the edge that leaves them in (a).
+/// Walls, equilibria, paths and impacts; each impact has the number of the edge that leaves it.
 fn motion(panel: &Panel, segment: &Segment, length: usize) -> Drawn {
     let (from, d) = (segment.from, segment.spacing);
     let walls = (segment.masses + 1) as f64;

@@ -13,7 +13,7 @@ pub const INTERRUPTED: u8 = 130;
 
 const LONGEST: usize = 4000;
 
-/// Why something ended without success. Any error becomes one by `?`.
+/// Why something ended without success. `?` makes one of any error.
 #[derive(Debug)]
 pub struct Failure {
     /// The exit code: 1 where something fails or is stale, 2 for wrong input, 130 after Ctrl-C.
@@ -23,12 +23,12 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// Makes a failure by wrong usage or input: exit code 2.
+    /// Makes a failure due to wrong usage or input: exit code 2.
     pub fn input(message: impl Into<String>) -> Self {
         Failure { code: 2, message: one_line(&message.into(), LONGEST) }
     }
 
-    /// Makes a failure by what does not hold, is stale, or failed: exit code 1.
+    /// Makes a failure due to what does not hold, is stale, or failed: exit code 1.
     pub fn check(message: impl Into<String>) -> Self {
         Failure { code: 1, message: one_line(&message.into(), LONGEST) }
     }

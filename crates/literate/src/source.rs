@@ -18,7 +18,7 @@ impl Sources {
     }
 
     /// Returns the listing of an item: the lines of its file between `// listing: NAME`, with the
-    /// last name of its path, and `// end`, moved to the left edge.
+    /// last name of its path, and `// end`, without indentation.
     pub fn listing(&self, item: &str) -> Result<String, String> {
         let file = self.file(item);
         let text = self.files.iter().find(|(path, _)| Some(*path) == file);

@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
-    /// Explain these; without any, list all.
+    /// Explain these; if none is given, list all.
     #[arg(value_name = "ID")]
     ids: Vec<String>,
     /// Read the report in this folder [default: paper in the project].
@@ -47,7 +47,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
             }
             let asked = one_line(asked, 60);
             let what = format!("there is no {asked:?}, and no id contains it");
-            return Err(Failure::input(format!("explain: {what}; without it all are listed")));
+            return Err(Failure::input(format!("explain: {what}; give no id to list all")));
         }
         found.extend(ids);
     }

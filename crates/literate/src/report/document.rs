@@ -12,7 +12,7 @@ use pulldown_cmark::Alignment;
 /// A block, with ids such as `sec:protocol`, and numbers as "2.1", which labels give.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
-    /// A heading; level 1 is the title, which has no number, as have unnumbered sections.
+    /// A heading; level 1 is the title. It has no number, nor have unnumbered sections.
     Heading {
         level: u8,
         number: Option<String>,
@@ -21,8 +21,8 @@ pub enum Block {
     },
     /// A paragraph; displayed equations stand inside it.
     Paragraph(Vec<Inline>),
-    /// A figure, with the names of its files for pages and for LaTeX, until it is found the path
-    /// in the prose; the origin says where its data and code are.
+    /// A figure, with the names of its files for pages and for LaTeX (the path in the prose until
+    /// the figure is found); the origin says where its data and code are.
     Figure {
         id: String,
         number: String,
@@ -167,7 +167,7 @@ impl From<&str> for Formula {
     }
 }
 
-/// Returns a printed value as text, with its formulas, or as one where it has a power of ten.
+/// Returns a printed value as text, with its formulas, or as a formula where it has a power of ten.
 pub fn printed(shown: &Shown) -> Vec<Inline> {
     let numeral = match shown {
         Shown::Words(words) => return words_and_maths(&in_one_line(words)),
