@@ -68,6 +68,6 @@ fn things_are_found_by_part_by_number_and_as_people_write_them() {
     let lines: Vec<&str> = column.lines().collect();
     assert!(lines.len() == 3 && lines[0].ends_with(": in data/race-finest.csv"), "{column}");
     assert!(lines[1].contains(",units (1),") && lines[2].starts_with("  sampled,"), "{column}");
-    let says = ["there is no \"nope\"", "all are listed"];
+    let says = ["there is no \"nope\"", "give no id to list all"];
     refused(folder.path(), "explain --paper r nope", &says);
 }
