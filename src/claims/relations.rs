@@ -24,9 +24,9 @@ pub fn rules() -> Vec<Rule> {
     relations! {
         printed_threshold: "with our protocol the mean of the realisations with an impact passes half of all gaps at the printed σ";
         two_seeds: "two seeds of the main sweep have the same half height, and the same mean at each σ";
-        laws_of_chance: "the number of impacts near in time is proportional to the time between them, that of slow ones to the square of their speed";
+        laws_of_chance: "the number of impacts within a time of one next to them is proportional to that time, that of impacts below a speed to the square of that speed";
         map_meets_sweep: "the map of protocols and the main sweep, which drew other forces, have the same rise";
-        no_rise_before_seeds: "from rest, the share of chains with impacts never exceeds that of chains with a gap that closes by itself";
+        no_rise_before_seeds: "from rest, the mean count and the share of chains with impacts reach a half, and the mean a twentieth, only where as many chains have a gap that closes by itself";
         above_stays_above: "chains from above have at least as many gaps with an impact as chains from rest under the same forces";
         branches_approach: "with time the half heights from rest and from above do not part";
         seeds_before_circuits: "mean counts by nucleation and growth are nearer to the simulation than those by circuits after every transient";
