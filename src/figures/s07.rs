@@ -29,7 +29,7 @@ const BY_ERROR: [Place; 4] = [
     (Certified, FINEST, (-2, 0)),
     (Sampled, 0, (-2, 0)),
     (Advancement, 2, (0, 3)),
-    (RungeKutta, 1, (-2, 0)),
+    (RungeKutta, 0, (-2, 0)),
 ];
 
 /// Returns the time in which an error ε grows to [`DISPLACED`], ln([`DISPLACED`]/ε)/λ, and its

@@ -110,9 +110,10 @@ fn rows_of(
         if value.abs() < RANGE {
             let mark = (symbol, MEDIUM, Stroke::solid(INK, THIN));
             panel.unrecorded().markers("difference", &[(value, row)], mark)?;
-        } else {
-            let (from, to) = (0.8 * RANGE * value.signum(), RANGE * value.signum());
-            panel.area.draw(&arrow(vec![(from, row), (to, row)], stroke))?;
+        }
+        for end in interval.into_iter().filter(|end| end.abs() > RANGE) {
+            let ends = [0.85, 1.0].map(|share| (share * RANGE * end.signum(), row));
+            panel.area.draw(&arrow(ends.to_vec(), stroke))?;
         }
         let half = interval[1] - value;
         write("", value, decimals(half), 6300, row)?;

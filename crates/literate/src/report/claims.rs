@@ -68,6 +68,7 @@ fn symbol(word: &[char]) -> Option<String> {
             (!WORDS.contains(*letter)).then(|| format!("${tex}${rest}"))
         }
         ['*'] => Some(format!("${tex}^*$")),
+        ['½'] => Some(format!("${tex}_{{1/2}}$")),
         ['_', index] if index.is_alphanumeric() => Some(format!("${tex}_{index}$")),
         ['_', _, ..] if rest[1..].iter().all(|c| c.is_alphanumeric()) => {
             let index: String = rest[1..].iter().collect();
