@@ -58,7 +58,10 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let x = Axis::linear(first, last, step, 2, "*k*");
         let panel = sheet.panel(frame, x, y.column("P(X = k)"))?.outside(Outside::Cut);
         panel.heading(LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
-        series(&panel, p)?;
+        panel.curve("all five classes", &over_k(&five(p)), SUM)?;
+        for (class, (name, _, colour, dash)) in classes.iter().zip(CLASSES) {
+            panel.curve(name, &over_k(class), Stroke::dashed(colour, LINE, dash))?;
+        }
         for &(class, k, right, down) in names {
             let first = names.iter().find(|name| name.1 == k).map_or(class, |name| name.0);
             let (_, symbol, colour, _) = CLASSES[class];
@@ -90,12 +93,4 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         short(large, 3),
     );
     Ok(sheet.finish("Distributions with higher-order circuits", description))
-}
-
-fn series(panel: &Panel, p: f64) -> Drawn {
-    panel.curve("all five classes", &over_k(&five(p)), SUM)?;
-    for (class, (name, _, colour, dash)) in contributions(p).iter().zip(CLASSES) {
-        panel.curve(name, &over_k(class), Stroke::dashed(colour, LINE, dash))?;
-    }
-    Ok(())
 }

@@ -25,12 +25,8 @@ const PROGRAMS: [(&str, &str, usize, (i32, i32)); 6] = [
 ];
 
 /// The same for (c).
-const BY_ERROR: [Place; 4] = [
-    (Certified, FINEST, (-2, 0)),
-    (Sampled, 0, (-2, 0)),
-    (Advancement, 2, (0, 3)),
-    (RungeKutta, 0, (-2, 0)),
-];
+const BY_ERROR: [Place; 3] =
+    [(Certified, FINEST, (-2, 0)), (Sampled, 0, (-2, 0)), (Advancement, 2, (0, 3))];
 
 /// Returns the time in which an error ε grows to [`DISPLACED`], ln([`DISPLACED`]/ε)/λ, and its
 /// interval: [low, value, high].

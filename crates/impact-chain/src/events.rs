@@ -23,7 +23,7 @@ use crate::search::stepping::{SHALLOW, hidden_dip};
 
 /// The largest mean number of events per gap within one unit of time 1/ω; beyond it a run is given
 /// up. A hot chain has about one impact per gap; a chatter with r = 0.99 takes some 2500.
-const EVENTS_PER_GAP: u64 = 100_000;
+pub(crate) const EVENTS_PER_GAP: u64 = 100_000;
 
 /// Overlap, as a fraction of `Frame::size`, beyond which a gap cannot be explained by rounding.
 const OVERLAP: f64 = 1e-12;

@@ -43,13 +43,12 @@ impl Sources {
         let (_, text) = self.files.iter().find(|(path, _)| *path == file)?;
         let has = |line: &str, before: &[&str], name: &str| {
             // A search is much faster than splitting into words.
-            if !line.contains(name) {
+            if !line.contains(name) || line.trim_start().starts_with("//") {
                 return false;
             }
             let words = line.split(|c: char| c != '_' && !c.is_alphanumeric());
             let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
-            let code = !line.trim_start().starts_with("//");
-            code && words.windows(2).any(|two| before.contains(&two[0]) && two[1] == name)
+            words.windows(2).any(|two| before.contains(&two[0]) && two[1] == name)
         };
         let mut names = item.rsplit("::");
         let (name, owner) = (names.next()?, names.next().unwrap_or_default());

@@ -75,12 +75,15 @@ impl Question {
         self.answers.iter().find(|answer| answer.setting.method == Certified)
     }
 
-    /// Names the method of the least time, or says that it and the engine tie.
+    /// Names the method of the least time, or says that it and the engine tie, or that a rival of
+    /// about the engine's time may be enough or not.
     fn take(&self) -> String {
-        let both = self.rival().zip(self.engine().filter(|engine| engine.is_enough()));
-        let ratio = both.map(|(rival, engine)| rival.seconds / engine.seconds);
-        match ratio {
-            Some(ratio) if ratio < TIE && ratio * TIE > 1.0 => "tie".into(),
+        let engine = self.engine().filter(|engine| engine.is_enough());
+        let is_near = |answer: &Answer| engine.is_some_and(|of| answer.seconds < TIE * of.seconds);
+        let is_open = |answer: &Answer| !answer.is_enough() && answer.margin > -answer.half;
+        match self.rival().zip(engine) {
+            Some((rival, of)) if is_near(rival) && of.seconds < TIE * rival.seconds => "tie".into(),
+            None if self.answers.iter().any(|of| is_open(of) && is_near(of)) => "undecided".into(),
             _ => named(cheapest(&self.answers)),
         }
     }
@@ -116,13 +119,15 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
         .chosen("share", "1", "share of chains in which an orbit must be right", |()| Some(MOST))
         .chosen("tie", "1", "times that differ by less than this factor tie", |()| Some(TIE))
         .computed_by(origin(at_rest))
-        .words("methods", "methods that are right wherever masses come to rest", |()| {
-            rest.join("; ")
-        })
+        .words(
+            "methods",
+            "methods that are, with one of their settings, right wherever masses come to rest",
+            |()| rest.join(", "),
+        )
         .real("cradle", "d", 1, "gap between balls of the cradle as the first comes", |()| {
             cradle(trials)
         })
-        .words("rest", "programs that are, with one of their settings", |()| names(programs, rests))
+        .words("rest", "programs that are", |()| names(programs, rests))
         .words("grazes", "programs that see the most grazes", |()| {
             let most = programs.iter().flat_map(|of| &of.settings).map(grazes).max();
             names(programs, |run| Some(grazes(run)) == most)
@@ -246,9 +251,10 @@ fn at_rest(trials: &Trials) -> (Vec<String>, usize) {
     let is_right =
         |i: usize| rest.iter().all(|(scene, found)| right(&found[i]) == scene.cases.len());
     let settings = trials.parameters.settings.iter().enumerate();
-    let methods =
-        settings.filter(|(i, _)| is_right(*i)).map(|(_, setting)| in_formulas(&setting.name()));
-    (methods.collect(), rest.iter().map(|(scene, _)| scene.cases.len()).sum())
+    let right = settings.filter(|(i, _)| is_right(*i));
+    let mut methods: Vec<String> = right.map(|(_, of)| of.method.title().into()).collect();
+    methods.dedup();
+    (methods, rest.iter().map(|(scene, _)| scene.cases.len()).sum())
 }
 
 /// Returns the gap between two balls of the cradle when the first comes, in units of d.

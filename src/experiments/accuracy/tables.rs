@@ -17,8 +17,7 @@ pub fn in_formulas(name: &str) -> String {
 
 /// Writes the number at the end as a power where it has an exponent: `h = 10^{-4}` for `h = 1e-4`.
 fn power(text: &str) -> String {
-    let written = text.split_once("1e").map(|(before, e)| format!("{before}10^{{{e}}}"));
-    written.unwrap_or_else(|| text.into())
+    text.split_once("1e").map_or(text.into(), |(before, e)| format!("{before}10^{{{e}}}"))
 }
 
 /// Returns a method with its steps or tolerances: `sampling, $h = 0.1$; $0.01$`, and its least

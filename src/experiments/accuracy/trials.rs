@@ -44,8 +44,8 @@ pub type Trial = Vec<Outcome>;
 /// A run that takes more steps than this is not begun, and counts as given up.
 const MOST_STEPS: f64 = 2e7;
 
-/// A setting that gives up in a case, or misses an impact in one that is shorter by more than this
-/// factor than the next, is not run in the next, and counts as failing alike there.
+/// A setting that gives up without a least rebound speed, or misses an impact in a case that is this
+/// factor shorter than the next, is not run in the next case, and counts as failing alike.
 const LONGER: f64 = 5.0;
 
 pub fn right(trial: &Trial) -> usize {
@@ -84,7 +84,7 @@ fn trials(settings: &[Setting], scene: &Scene, progress: &Progress) -> Result<Ve
         for (setting, trial) in settings.iter().zip(&mut trials) {
             progress.check()?;
             let found = match trial.last() {
-                Some(Outcome::GaveUp) => (Outcome::GaveUp, 0.0),
+                Some(Outcome::GaveUp) if setting.stop == 0.0 => (Outcome::GaveUp, 0.0),
                 Some(Outcome::Missed) if longer => (Outcome::Missed, 0.0),
                 // A run in which every gap opened faster is the same with a least rebound speed.
                 _ if bouncing.0 != Outcome::GaveUp && bouncing.1 >= setting.stop => bouncing,

@@ -114,8 +114,7 @@ fn expected(
     };
     let (wall, inner) = (sends(wall), sends(inner));
     // To one side of a gap: no impact from so many gaps in a row, of which the last is at a wall.
-    let mut side = vec![1.0];
-    let mut all_inner = 1.0;
+    let (mut side, mut all_inner) = (vec![1.0], 1.0);
     for (wall, inner) in wall.iter().zip(&inner).skip(1) {
         side.push(all_inner * (1.0 - wall));
         all_inner *= 1.0 - inner;

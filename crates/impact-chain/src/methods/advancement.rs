@@ -43,7 +43,10 @@ impl Rival for Advancement {
             queue.set(k, [Instant::at(start.time)]);
         }
         let mut gaps = Gaps { flights, queue, reached: self.tolerance * scenario.spacing };
-        Ok(Box::new(move |tally| gaps.advance(Instant::at(until), tally)))
+        Ok(Box::new(move |tally| {
+            tally.stopping_at(gaps.flights.stop);
+            gaps.advance(Instant::at(until), tally)
+        }))
     }
 }
 

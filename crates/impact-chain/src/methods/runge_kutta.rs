@@ -46,7 +46,10 @@ impl Rival for RungeKutta {
         let stages = Stages::new(&row, now);
         let mut steps = Steps { stages, row, now, tolerance: self.tolerance };
         let first = FIRST / scenario.fastest();
-        Ok(Box::new(move |tally| steps.integrate(Instant::at(until), first, tally)))
+        Ok(Box::new(move |tally| {
+            tally.stopping_at(steps.row.stop);
+            steps.integrate(Instant::at(until), first, tally)
+        }))
     }
 }
 

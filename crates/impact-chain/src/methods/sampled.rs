@@ -38,8 +38,9 @@ impl Rival for Sampled {
         let gaps = flights.topology.gaps();
         let begin = (0..gaps).map(|k| flights.gap_at(k, 0.0, &phases)).collect();
         let samples = Samples { flights, begin, end: Vec::new(), roots: vec![None; gaps] };
-        let run = run_steps(task, self.step, samples)?;
+        let (stop, run) = (self.stop, run_steps(task, self.step, samples)?);
         Ok(Box::new(move |tally| {
+            tally.stopping_at(stop);
             tally.cost.evaluations += gaps as u64;
             run(tally)
         }))

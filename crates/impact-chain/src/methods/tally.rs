@@ -2,11 +2,9 @@
 
 use super::method::Cost;
 use super::steps::{MAX_STEPS, too_many};
+use crate::events::EVENTS_PER_GAP;
 use crate::topology::Topology;
 use crate::{Error, Impact, Scenario, Sink};
-
-/// The largest mean number of events per gap within 1/ω; some rivals cannot rest in contact.
-const EVENTS_PER_GAP: u64 = 10_000;
 
 /// Why a run ends early: an error, or none if the receiver of the impacts stopped it.
 pub type Stop = Option<Error>;
@@ -35,6 +33,13 @@ impl<'a> Tally<'a> {
             bound,
             end: f64::NEG_INFINITY,
             left: bound,
+        }
+    }
+
+    /// Lowers the bound of a method without a least rebound speed, whose chatters have no end.
+    pub fn stopping_at(&mut self, speed: f64) {
+        if speed == 0.0 {
+            self.bound /= 10;
         }
     }
 
