@@ -44,8 +44,8 @@ pub type Trial = Vec<Outcome>;
 /// A run that takes more steps than this is not begun, and counts as given up.
 const MOST_STEPS: f64 = 2e7;
 
-/// A setting that gives up without a least rebound speed, or misses an impact in a case that is this
-/// factor shorter than the next, is not run in the next case, and counts as failing alike.
+/// A setting that gives up without a least rebound speed, or misses an impact in a case this factor
+/// shorter than the next, is not run in the next case, and counts as failing alike.
 const LONGER: f64 = 5.0;
 
 pub fn right(trial: &Trial) -> usize {
