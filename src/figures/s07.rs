@@ -51,10 +51,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
     chaos(&by_error, race)?;
     if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|t| t[1] < top) {
-        let line = Stroke::dashed(GREY, LINE, SHORT);
-        by_time.level("what chaos allows in double precision", ceiling, line)?;
-        let end = (by_time.x.hi, ceiling);
-        by_time.label("what chaos allows in double precision", end, (-1, -1), GREY)?;
+        let name = "what chaos allows in double precision";
+        by_time.level(name, ceiling, Stroke::dashed(GREY, LINE, SHORT))?;
+        by_time.label(name, (by_time.x.hi, ceiling), (-1, -1), GREY)?;
     }
     let run = &race.parameters.growth;
     let time = |e: &Entry| over_engine(race, measured, e.setting);
@@ -73,16 +72,17 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             others.label_nearby(place.1, (at.0, at.1.min(top)), place.3, colour)?;
         }
     }
-    // The coarsest and the finest setting of each method; fixed steps are the same in all.
+    // The coarsest and the finest setting; the first of Runge–Kutta lies on the fixed steps.
     for (method, points) in &timed {
         let offsets = match method {
             Advancement => [(1, -1), (2, 0)],
-            RungeKutta => [(1, -1), (1, 0)],
+            RungeKutta => [(1, 0); 2],
             Sampled => [(-1, -1), (1, 1)],
             Verlet => [(0, -1), (0, -1)],
             _ => continue,
         };
-        let ends = points.first().into_iter().chain(points.iter().skip(1).last());
+        let first = points.first().filter(|_| *method != RungeKutta);
+        let ends = first.into_iter().chain(points.iter().skip(1).last());
         for ((setting, (x, t, _)), offset) in ends.zip(offsets) {
             by_time.label_nearby(&in_powers(setting.value), (*x, t.min(top)), offset, GREY)?;
         }
