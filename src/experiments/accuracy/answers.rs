@@ -75,8 +75,7 @@ impl Question {
         self.answers.iter().find(|answer| answer.setting.method == Certified)
     }
 
-    /// Names the method of the least time, or says that it and the engine tie, or that a rival of
-    /// about the engine's time may be enough or not.
+    /// Names the method of the least time, or says that it ties, or that the chains do not decide.
     fn take(&self) -> String {
         let engine = self.engine().filter(|engine| engine.is_enough());
         let is_near = |answer: &Answer| engine.is_some_and(|of| answer.seconds < TIE * of.seconds);

@@ -32,8 +32,9 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
         let seen = ByDistance::sum(groups, None);
         rows.push(RunsAtSigma { sigma, runs, seen, groups, fronts });
     }
-    let sums = sums(&groups);
-    let [predicted, clumped] = [false, true].map(|only| predictions(parameters, &sums, only));
+    let sums = &sums(&groups);
+    let predictions = |only| move || predictions(parameters, sums, only);
+    let (predicted, clumped) = rayon::join(predictions(false), predictions(true));
     vec![
         course(parameters, &rows),
         advance(parameters, &rows),
