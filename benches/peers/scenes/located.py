@@ -7,7 +7,7 @@ force between them would pull.
 
 import numpy as np
 
-OPEN = 1e-15  # width of a gap right after its impact: no program sees one of zero or below
+OPEN = 1e-15  # width of a gap right after its impact, for all as heyoka needs it
 SHUT = 1e-12  # a gap as narrow as this is shut
 
 
