@@ -118,15 +118,13 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
         .chosen("share", "1", "share of chains in which an orbit must be right", |()| Some(MOST))
         .chosen("tie", "1", "times that differ by less than this factor tie", |()| Some(TIE))
         .computed_by(origin(at_rest))
-        .words(
-            "methods",
-            "methods that are, with one of their settings, right wherever masses come to rest",
-            |()| rest.join(", "),
-        )
+        .words("methods", "methods with a setting right wherever masses rest", |()| rest.join(", "))
         .real("cradle", "d", 1, "gap between balls of the cradle as the first comes", |()| {
             cradle(trials)
         })
-        .words("rest", "programs that are", |()| names(programs, rests))
+        .words("rest", "programs with a setting right wherever masses rest", |()| {
+            names(programs, rests)
+        })
         .words("grazes", "programs that see the most grazes", |()| {
             let most = programs.iter().flat_map(|of| &of.settings).map(grazes).max();
             names(programs, |run| Some(grazes(run)) == most)
