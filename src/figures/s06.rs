@@ -45,7 +45,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     }
     let misses = Frame::new(1300, 4950, 8250, 7250);
     let misses = sheet.lettered("(b)", misses, rivals::time_axis(), axis)?.outside(Outside::Edge);
-
+    misses.level("a break", 7.0 * misses.y.lo, Stroke::dashed(GREY, HAIR, SHORT))?;
     let time = |e: &Entry| over_engine(race, measured, e.setting);
     let median = |e: &Entry| Some((e.setting, (time(e)?, e.errors?[0], e.errors)));
     let share = |e: &Entry| e.misses as f64 / e.tried.max(1) as f64;

@@ -8,7 +8,7 @@ use crate::params::{Means, MethodName::Certified, Setting};
 use impact_numerics::statistics::Estimate;
 
 /// The differences in the panels, in per cent.
-const RANGE: f64 = 50.0;
+const RANGE: f64 = 60.0;
 
 /// From one row to the next.
 const ROW: i32 = 275;
@@ -66,7 +66,7 @@ fn rows_of(
     engine: Option<f64>,
     is_last: bool,
 ) -> Result<Panel, Error> {
-    let x = Axis::linear(-RANGE, RANGE, 25.0, 5, "difference from the engine’s mean (%)");
+    let x = Axis::linear(-RANGE, RANGE, 20.0, 2, "difference from the engine’s mean (%)");
     let x = x.column("time of one core for a thousand chains (s)");
     let x = if is_last { x } else { x.without_numbers() };
     let y = Axis::linear(-0.6 - found.len() as f64, 0.6, 1.0, 1, "");
