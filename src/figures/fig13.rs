@@ -31,7 +31,7 @@ type Shown = (f64, [f64; 3], Option<f64>, &'static [Name]);
 
 /// The names in (e) and (f).
 const E: [Name; 5] = [(0, 6, 1, -2), (1, 3, -3, 0), (2, 4, 0, 2), (3, 5, 0, 2), (4, 2, -1, 1)];
-const F: [Name; 5] = [(0, 81, 0, 2), (1, 80, -3, 3), (2, 80, 0, 3), (3, 80, 3, 3), (4, 72, -2, -1)];
+const F: [Name; 5] = [(0, 81, 0, 2), (1, 79, -3, 3), (2, 79, 0, 3), (3, 79, 3, 3), (4, 72, -2, -1)];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(11_200);
