@@ -97,7 +97,8 @@ pub fn make_report(
         progress.check()?;
         figure.figure(&results)
     };
-    let figures = paper.figures.par_iter().map(figure).collect::<Result<Vec<Figure>, _>>()?;
+    let figures =
+        paper.figures.par_iter().with_max_len(1).map(figure).collect::<Result<Vec<Figure>, _>>()?;
     let checks = paper.checks(&results, &published)?;
     let statements: Vec<Check> =
         checks.iter().filter(|check| check.kind.is_printed()).cloned().collect();

@@ -22,7 +22,9 @@ impl Decimal {
     }
 
     pub fn exact(x: f64) -> Decimal {
-        Decimal::read(&format!("{:.MAX_DIGITS$e}", x.abs()))
+        // No double has more decimals than bits behind its point.
+        let decimals = 1075 - (x.to_bits() >> 52 & 0x7ff).clamp(1, 1075) as usize;
+        Decimal::read(&format!("{:.decimals$}", x.abs()))
     }
 
     /// Returns the shortest decimal that reads back to the same double as |x|.

@@ -32,7 +32,8 @@ pub fn regular_text(path: &Path) -> Result<String, Error> {
 fn text(bytes: Vec<u8>) -> Result<String, Error> {
     let wrong = |_| Error::new(ErrorKind::InvalidData, "not valid UTF-8");
     let text = String::from_utf8(bytes).map_err(wrong)?;
-    Ok(text.trim_start_matches('\u{feff}').replace("\r\n", "\n"))
+    let text = text.trim_start_matches('\u{feff}');
+    Ok(if text.contains('\r') { text.replace("\r\n", "\n") } else { text.into() })
 }
 
 fn bounded(file: impl Read) -> Result<Vec<u8>, Error> {
@@ -165,24 +166,19 @@ const PLAIN: [(&str, &str); 11] = [
 ];
 
 pub fn plain(message: &str) -> String {
-    PLAIN
-        .iter()
-        .fold(message.into(), |line: String, (technical, plain)| line.replace(technical, plain))
+    let put = |line: String, (theirs, ours): &(&str, &str)| line.replace(theirs, ours);
+    PLAIN.iter().fold(message.into(), put)
 }
 
 /// Returns whether a terminal or an editor treats a character as a command, or hides it.
 pub fn is_control(c: char) -> bool {
-    let invisible = [
-        '\u{200b}'..='\u{200f}',
-        '\u{2028}'..='\u{202e}',
-        '\u{2060}'..='\u{206f}',
-        '\u{fff9}'..='\u{fffb}',
-        '\u{1d173}'..='\u{1d17a}',
-        '\u{e0000}'..='\u{e007f}',
-    ];
-    c.is_control()
-        || matches!(c, '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{feff}')
-        || invisible.iter().any(|range| range.contains(&c))
+    match c {
+        ' '..='~' => false,
+        '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{feff}' => true,
+        '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' => true,
+        '\u{fff9}'..='\u{fffb}' | '\u{1d173}'..='\u{1d17a}' | '\u{e0000}'..='\u{e007f}' => true,
+        c => c.is_control(),
+    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 mod feigenbaum;
 
 use literate::cli::terminal::is_ignored;
-use literate::experiments::{Profile, Progress, Store};
+use literate::experiments::{AnyExperiment, Profile, Progress, Store};
 use literate::input::sha256;
 use literate::{INTERRUPTED, make_report};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -49,8 +49,8 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
     assert!(report.contains_key("report.html"));
 
     // To the digits that the literature has: 4.669 201 609 102… and 2.502 907 875 095….
-    let cascade = feigenbaum::CASCADE.get(&session).unwrap();
-    let tables = (feigenbaum::CASCADE.tables)(&cascade);
+    let cascade = feigenbaum::CASCADE.found(&session).unwrap();
+    let tables = AnyExperiment::tables(&feigenbaum::CASCADE, &cascade);
     let limit = |column: &str| tables[1].distinct(column).unwrap()[0];
     assert!((limit("delta") - 4.669_201_609_102_99).abs() < 1e-10, "{}", limit("delta"));
     assert!((limit("alpha") - 2.502_907_875_095_892).abs() < 1e-10, "{}", limit("alpha"));

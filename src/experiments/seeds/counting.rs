@@ -27,9 +27,8 @@ pub(super) fn bits(from: usize, count: usize) -> u64 {
 impl ByDistance {
     pub(super) fn count(parameters: &SeedsParams, traces: &[Option<Trace>]) -> Self {
         let (gaps, bins, window) = (parameters.chain.gaps(), parameters.bins, parameters.window);
-        let starts = bins.saturating_sub(window) + 1;
         let mut places = vec![0; gaps];
-        let [mut reached, mut active] = [bins + 1, starts].map(|rows| vec![vec![0; gaps]; rows]);
+        let [mut reached, mut active] = [bins + 1, bins].map(|rows| vec![vec![0; gaps]; rows]);
         for (seed, trace) in ran(traces) {
             for (gap, &bits) in trace.hits.iter().enumerate() {
                 let distance = gap.abs_diff(seed);
@@ -38,31 +37,38 @@ impl ByDistance {
                     continue;
                 }
                 reached[bits.trailing_zeros() as usize + 1][distance] += 1;
-                let windows = (0..window).fold(0, |windows, bin| windows | bits >> bin);
-                for (start, active) in active.iter_mut().enumerate() {
-                    active[distance] += windows >> start & 1;
+                let mut windows = (0..window).fold(0, |all, bin| all | bits >> bin);
+                while windows != 0 {
+                    active[windows.trailing_zeros() as usize][distance] += 1;
+                    windows &= windows - 1;
                 }
             }
         }
         for bin in 1..=bins {
-            let (before, now) = reached.split_at_mut(bin);
-            add(&mut now[0], &before[bin - 1]);
+            let before = reached[bin - 1].clone();
+            reached[bin].iter_mut().zip(before).for_each(|(now, before)| *now += before);
         }
+        active.truncate(bins.saturating_sub(window) + 1);
         ByDistance { places, reached, active }
     }
 
-    /// Returns the sum over groups of runs, perhaps without one of them.
-    pub(super) fn sum(groups: &[ByDistance], left_out: Option<usize>) -> Self {
-        let used = groups.iter().enumerate().filter(|(group, _)| Some(*group) != left_out);
-        let mut used = used.map(|(_, group)| group);
-        let mut all = used.next().expect("there are several groups").clone();
-        for group in used {
-            add(&mut all.places, &group.places);
-            let sums = all.reached.iter_mut().chain(&mut all.active);
-            let more = group.reached.iter().chain(&group.active);
-            sums.zip(more).for_each(|(sums, more)| add(sums, more));
+    /// Returns the sums over groups of runs without each in turn, and last over all of them.
+    pub(super) fn sums(groups: &[ByDistance]) -> Vec<Self> {
+        let first = groups.first().expect("there are several groups").clone();
+        let all = groups[1..].iter().fold(first, |all, group| all.with(group, |a, b| a + b));
+        let mut sums: Vec<Self> =
+            groups.iter().map(|group| all.clone().with(group, |all, one| all - one)).collect();
+        sums.push(all);
+        sums
+    }
+
+    fn with(mut self, other: &ByDistance, new: fn(u64, u64) -> u64) -> Self {
+        let rows = self.reached.iter_mut().chain(&mut self.active).chain([&mut self.places]);
+        let others = other.reached.iter().chain(&other.active).chain([&other.places]);
+        for (row, more) in rows.zip(others) {
+            row.iter_mut().zip(more).for_each(|(count, more)| *count = new(*count, *more));
         }
-        all
+        self
     }
 
     /// Returns the share of the gaps at each distance; 0 where no gap has that distance.
@@ -85,10 +91,6 @@ impl ByDistance {
         let points: Option<Vec<(f64, f64)>> = ((last / 4).max(1)..=last).map(point).collect();
         slope(&points?)
     }
-}
-
-fn add(sums: &mut [u64], more: &[u64]) {
-    sums.iter_mut().zip(more).for_each(|(sum, count)| *sum += count);
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ use crate::params::SeedsParams;
 use impact_circuits::nucleation::{ANGLES, COARSE, Chances, Reach};
 use impact_numerics::estimates::jackknife;
 use impact_numerics::statistics::{Estimate, last_rise};
+use rayon::prelude::*;
 
 /// Groups of runs, each of which is left out in turn for the error of their sum.
 pub(super) const GROUPS: usize = 8;
@@ -22,27 +23,28 @@ pub(super) const GROUPS: usize = 8;
 /// Mean counts after one transient.
 pub(super) struct Prediction {
     pub transient: usize,
-    /// Without each group in turn, and last with all of them, for each σ.
-    means: Vec<Vec<f64>>,
+    /// Without each group in turn, and last with all of them, for each σ: if all gaps that close by
+    /// themselves are seeds, and if only the first of each clump is.
+    means: Vec<Vec<[f64; 2]>>,
 }
 
 impl Prediction {
     pub fn mean(&self, sigma: usize) -> Option<Estimate> {
-        jackknife(GROUPS, |out| Some(self.means[out.unwrap_or(GROUPS)][sigma]))
+        jackknife(GROUPS, |out| Some(self.means[out.unwrap_or(GROUPS)][sigma][0]))
     }
 
-    /// Returns the σ at which it passes half of all gaps, if it does.
-    pub fn half_height(&self, parameters: &SeedsParams) -> Option<Estimate> {
+    /// Returns the σ at which the one or the other passes half of all gaps, if it does.
+    pub fn half_height(&self, parameters: &SeedsParams, which: usize) -> Option<Estimate> {
         let half = 0.5 * parameters.chain.gaps() as f64;
         jackknife(GROUPS, |out| {
-            let means = self.means[out.unwrap_or(GROUPS)].iter().copied().map(Some);
+            let means = self.means[out.unwrap_or(GROUPS)].iter().map(|means| Some(means[which]));
             last_rise(&parameters.sigmas, &means.collect::<Vec<_>>(), half)
         })
     }
 }
 
-/// Returns by σ the chances that gaps, or clumps only, begin in each bin: at a wall, elsewhere.
-fn closing(parameters: &SeedsParams, only_first: bool) -> Vec<[Vec<f64>; 2]> {
+/// Returns by σ the chances that gaps begin in each bin: at a wall, elsewhere, and first there.
+fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 3]> {
     let chain = &parameters.chain;
     let edges: Vec<f64> = (1..=parameters.bins).map(|bin| bin as f64 * parameters.bin).collect();
     let reaches = Reach::within(chain, &edges, ANGLES);
@@ -55,75 +57,66 @@ fn closing(parameters: &SeedsParams, only_first: bool) -> Vec<[Vec<f64>; 2]> {
     let of = |sigma: &f64| {
         let chances = Chances::new(chain, &ever, *sigma);
         // The share of closing gaps whose left neighbour stays open.
-        let share = if only_first { 1.0 - chances.pair / chances.p } else { 1.0 };
+        let share = 1.0 - chances.pair / chances.p;
         let variance = sigma * sigma;
-        [in_each_bin(variance, 1.0), in_each_bin(2.0 * variance, share)]
+        [(1.0, 1.0), (2.0, 1.0), (2.0, share)].map(|(of, share)| in_each_bin(of * variance, share))
     };
-    parameters.sigmas.iter().map(of).collect()
+    parameters.sigmas.par_iter().map(of).collect()
 }
 
-/// Returns the sums without each group of runs in turn, and last with all of them, for each σ.
-pub(super) fn sums(seen: &[Vec<ByDistance>]) -> Vec<Vec<ByDistance>> {
-    let left_out = (0..GROUPS).map(Some).chain([None]);
-    let sums = left_out.map(|out| seen.iter().map(move |groups| ByDistance::sum(groups, out)));
-    sums.map(Iterator::collect).collect()
-}
-
-/// Returns the predictions of all transients, from the sums of groups of runs.
-pub(super) fn predictions(
-    parameters: &SeedsParams,
-    sums: &[Vec<ByDistance>],
-    only_first: bool,
-) -> Vec<Prediction> {
-    let closing = closing(parameters, only_first);
+/// Returns the predictions of all transients, from the sums of groups of runs at each σ.
+pub(super) fn predictions(parameters: &SeedsParams, sums: &[Vec<ByDistance>]) -> Vec<Prediction> {
+    let closing = closing(parameters);
     let prediction = |&transient: &usize| {
-        let mean = |(chances, seen)| expected(parameters, chances, seen, transient);
-        let means = sums.iter().map(|sums| closing.iter().zip(sums).map(mean).collect());
-        Prediction { transient, means: means.collect() }
+        let means = |out: usize| {
+            let both = closing.iter().zip(sums);
+            both.map(|(closing, seen)| expected(parameters, closing, &seen[out], transient))
+                .collect()
+        };
+        Prediction { transient, means: (0..=GROUPS).into_par_iter().map(means).collect() }
     };
     parameters.transients.iter().map(prediction).collect()
 }
 
-/// Returns the expected number of gaps with an impact in the window.
+/// Returns the expected number of gaps with an impact in the window, for all gaps and for first
+/// ones as seeds, from their chances to begin in each bin: at a wall, elsewhere, and first there.
 fn expected(
     parameters: &SeedsParams,
-    [wall, inner]: &[Vec<f64>; 2],
+    closing: &[Vec<f64>; 3],
     seen: &ByDistance,
     transient: usize,
-) -> f64 {
+) -> [f64; 2] {
     let (gaps, window) = (parameters.chain.gaps(), parameters.window);
-    // The chance that a gap y sends an impact over a distance into the window.
-    let sends = |closing: &[f64]| -> Vec<f64> {
-        let mut all = vec![0.0; gaps];
-        let mut add = |chance: f64, hit: &[u64]| {
-            for (sum, share) in all.iter_mut().zip(seen.shares(hit)) {
-                *sum += 0.5 * chance * share;
-            }
-        };
-        for (bin, chance) in closing.iter().enumerate().take(transient + window) {
-            // Somewhere in the bin: half at its beginning, half at its end.
-            for since in [bin, bin + 1] {
-                if since <= transient {
-                    add(*chance, &seen.active[transient - since]);
-                } else {
-                    add(*chance, &seen.reached[transient + window - since]);
-                }
+    // The chance that such a gap y sends an impact over a distance into the window.
+    let mut sends = vec![[0.0; 3]; gaps];
+    for bin in 0..parameters.bins.min(transient + window) {
+        // Somewhere in the bin: half at its beginning, half at its end.
+        let half = closing.each_ref().map(|chances| 0.5 * chances[bin]);
+        for since in [bin, bin + 1] {
+            let hit = match transient.checked_sub(since) {
+                Some(start) => &seen.active[start],
+                None => &seen.reached[transient + window - since],
+            };
+            for ([wall, inner, first], share) in sends.iter_mut().zip(seen.shares(hit)) {
+                *wall += half[0] * share;
+                *inner += half[1] * share;
+                *first += half[2] * share;
             }
         }
-        all
-    };
-    let (wall, inner) = (sends(wall), sends(inner));
-    // To one side of a gap: no impact from so many gaps in a row, of which the last is at a wall.
-    let (mut side, mut all_inner) = (vec![1.0], 1.0);
-    for (wall, inner) in wall.iter().zip(&inner).skip(1) {
-        side.push(all_inner * (1.0 - wall));
-        all_inner *= 1.0 - inner;
     }
-    let silent = |x: usize| {
-        let own = if x == 0 || x + 1 == gaps { wall[0] } else { inner[0] };
-        side[x] * (1.0 - own) * side[gaps - 1 - x]
-    };
-    (0..gaps).fold(0.0, |mean, x| mean + (1.0 - silent(x)))
+    [1, 2].map(|inner| {
+        // To one side of a gap: no impact from so many gaps in a row, the last of them at a wall.
+        let (mut side, mut all_inner) = (vec![1.0], 1.0);
+        for sends in &sends[1..] {
+            side.push(all_inner * (1.0 - sends[0]));
+            all_inner *= 1.0 - sends[inner];
+        }
+        let silent = |x: usize| {
+            let own = sends[0][if x == 0 || x + 1 == gaps { 0 } else { inner }];
+            side[x] * (1.0 - own) * side[gaps - 1 - x]
+        };
+        (0..gaps).fold(0.0, |mean, x| mean + (1.0 - silent(x)))
+    })
 }
 
 #[cfg(test)]
@@ -144,7 +137,8 @@ mod tests {
             reached: [0, 10, 9, 8, 9].map(fall).into(),
             active: [7, 6, 5].map(fall).into(),
         };
-        let closing = [vec![0.02, 0.01, 0.0, 0.01], vec![0.05, 0.02, 0.01, 0.03]];
+        let [wall, inner] = [vec![0.02, 0.01, 0.0, 0.01], vec![0.05, 0.02, 0.01, 0.03]];
+        let closing = [wall, inner.clone(), inner];
         let (transient, window) = (1, 2);
         let logs = closing.each_ref().map(|closing| -> Vec<f64> {
             let sends = |l: usize| {
@@ -167,7 +161,8 @@ mod tests {
             pxfm::f_exp(all + wall(x) + wall(gaps - 1 - x))
         };
         let mean = gaps as f64 - (0..gaps).map(silent).sum::<f64>();
-        let found = expected(&parameters, &closing, &seen, transient);
-        assert!((found - mean).abs() < 1e-12 && mean > 0.5, "{found} {mean}");
+        for found in expected(&parameters, &closing, &seen, transient) {
+            assert!((found - mean).abs() < 1e-12 && mean > 0.5, "{found} {mean}");
+        }
     }
 }

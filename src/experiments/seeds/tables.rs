@@ -2,7 +2,7 @@
 
 use super::counting::{bits, ran};
 use super::fronts::{Fronts, beat, over};
-use super::growth::{GROUPS, Prediction, predictions, sums};
+use super::growth::{GROUPS, Prediction, predictions};
 use super::{ByDistance, Part, Seeds, Trace};
 use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
@@ -12,35 +12,32 @@ use rayon::prelude::*;
 struct RunsAtSigma<'a> {
     sigma: f64,
     runs: Vec<(usize, &'a Trace)>,
-    seen: ByDistance,
-    groups: &'a [ByDistance],
+    /// Counts without each group of runs in turn, and last of all of them.
+    sums: &'a [ByDistance],
     fronts: Vec<Fronts>,
 }
 
 pub fn tables(seeds: &Seeds) -> Vec<Table> {
     let parameters = &seeds.parameters;
-    let grouped = |part: &Part| -> Vec<ByDistance> {
+    let grouped = |part: &Part| {
         let at = |group: usize| group * part.len() / GROUPS;
         let group = |group| ByDistance::count(parameters, &part[at(group)..at(group + 1)]);
-        (0..GROUPS).map(group).collect()
+        ByDistance::sums(&(0..GROUPS).map(group).collect::<Vec<_>>())
     };
-    let groups: Vec<Vec<ByDistance>> = seeds.rows.par_iter().map(grouped).collect();
+    let sums: Vec<Vec<ByDistance>> = seeds.rows.par_iter().map(grouped).collect();
     let mut rows = Vec::new();
-    for ((part, groups), &sigma) in seeds.rows.iter().zip(&groups).zip(&parameters.sigmas) {
+    for ((part, sums), &sigma) in seeds.rows.iter().zip(&sums).zip(&parameters.sigmas) {
         let runs: Vec<(usize, &Trace)> = ran(part).collect();
         let fronts = runs.iter().map(|run| Fronts::of(parameters, *run)).collect();
-        let seen = ByDistance::sum(groups, None);
-        rows.push(RunsAtSigma { sigma, runs, seen, groups, fronts });
+        rows.push(RunsAtSigma { sigma, runs, sums, fronts });
     }
-    let sums = &sums(&groups);
-    let predictions = |only| move || predictions(parameters, sums, only);
-    let (predicted, clumped) = rayon::join(predictions(false), predictions(true));
+    let predicted = predictions(parameters, &sums);
     vec![
         course(parameters, &rows),
         advance(parameters, &rows),
         fronts(beat(&parameters.chain), &rows),
         means(parameters, &predicted),
-        rise(parameters, &predicted, &clumped),
+        rise(parameters, &predicted),
         all(parameters),
     ]
 }
@@ -64,7 +61,9 @@ fn advance(parameters: &SeedsParams, rows: &[RunsAtSigma<'_>]) -> Table {
     Table::of("seeds.advance", &rows, |(row, _)| row.runs.len())
         .key("sigma", SIGMA, |(row, _)| row.sigma)
         .key("time", TIME, |(_, bin)| *bin as f64 * parameters.bin)
-        .real("advance", "1", 3, "gaps passed by a front", |(row, bin)| row.seen.advance(*bin))
+        .real("advance", "1", 3, "gaps passed by a front", |(row, bin)| {
+            row.sums[GROUPS].advance(*bin)
+        })
         .done()
 }
 
@@ -74,7 +73,7 @@ fn fronts(beat: f64, rows: &[RunsAtSigma<'_>]) -> Table {
     Table::of("seeds.fronts", rows, |row| row.runs.len())
         .key("sigma", SIGMA, |row| row.sigma)
         .estimate("exponent", "1", "d ln(advance)/d ln t over the last three quarters", |row| {
-            jackknife(GROUPS, |left_out| ByDistance::sum(row.groups, left_out).exponent())
+            jackknife(GROUPS, |out| row.sums[out.unwrap_or(GROUPS)].exponent())
         })
         .estimate("bursts", "1", "share of steps within a beat", |row| {
             share(row, |sums| [sums.short, sums.steps])
@@ -98,13 +97,12 @@ fn means(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
 }
 
 /// Makes the table of half heights, if all gaps of a clump are seeds, or only the first.
-fn rise(parameters: &SeedsParams, gaps: &[Prediction], clumps: &[Prediction]) -> Table {
-    let rows: Vec<_> = gaps.iter().zip(clumps).collect();
-    let half = |given: &Prediction| given.half_height(parameters);
-    Table::of("seeds.rise", &rows, |_| parameters.realisations)
-        .key("transient", TIME, |(given, _)| given.transient as f64 * parameters.bin)
-        .estimate("half_height", SIGMA, "σ where that is half of all gaps", |row| half(row.0))
-        .estimate("of_clumps", SIGMA, "the same if only clumps are seeds", |row| half(row.1))
+fn rise(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
+    let half = |which| move |given: &Prediction| given.half_height(parameters, which);
+    Table::of("seeds.rise", predicted, |_| parameters.realisations)
+        .key("transient", TIME, |given| given.transient as f64 * parameters.bin)
+        .estimate("half_height", SIGMA, "σ where that is half of all gaps", half(0))
+        .estimate("of_clumps", SIGMA, "the same if only clumps are seeds", half(1))
         .done()
 }
 

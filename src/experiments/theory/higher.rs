@@ -10,6 +10,7 @@ use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::higher_order::{CLASSES, SHARED, doubled_as_printed, multiplicity};
 use impact_circuits::jump;
 use impact_numerics::double_double::DoubleDouble;
+use rayon::prelude::*;
 
 /// Returns P(X = k) of five classes, k = 1..=N.
 pub fn five(p: f64) -> Vec<f64> {
@@ -108,11 +109,12 @@ fn simple_by_different(p: f64) -> f64 {
 /// Returns the largest step of k* in the same, on a grid of p in steps of 1/100 000 up to 0.04.
 fn largest_step() -> u64 {
     let more = multiplicities();
-    let top = |p: f64| {
-        let weights = (1..).zip(by_different(p, &more));
-        weights.fold((1, 0.0), |most, one| if one.1 > most.1 { one } else { most }).0
+    let top = |i: u32| {
+        let simple = law(Simple, f64::from(i) / 1e5);
+        let weights = simple.all_weights().zip(&more).map(|(simple, more)| simple.to_f64() * more);
+        (1..).zip(weights).fold((1, 0.0), |most, one| if one.1 > most.1 { one } else { most }).0
     };
-    let ks: Vec<u64> = (0..=4000).map(|i| top(f64::from(i) / 1e5)).collect();
+    let ks: Vec<u64> = (0..=4000).into_par_iter().map(top).collect();
     ks.windows(2).map(|w| w[1].abs_diff(w[0])).max().unwrap_or(0)
 }
 

@@ -193,9 +193,14 @@ impl AnyExperiment for Command {
         self.line.into()
     }
 
+    fn saved(&self, session: &Session<'_>) -> Result<Found, String> {
+        Ok(Arc::new(session.store.look::<Output>(&self.identity(session))?))
+    }
+
     fn found(&self, session: &Session<'_>) -> Result<Found, Error> {
-        let run = || self.run(&session.project.folder(), session);
-        Ok(Arc::new(session.result(&self.identity(session), run)?))
+        let output = self.run(&session.project.folder(), session)?;
+        session.store.put(&self.identity(session), &output)?;
+        Ok(Arc::new(output))
     }
 
     fn tables(&self, found: &Found) -> Vec<Table> {

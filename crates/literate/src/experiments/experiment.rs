@@ -51,21 +51,6 @@ impl<P, T> Experiment<P, T> {
 pub type Found = Arc<dyn Any + Send + Sync>;
 
 impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
-    /// Returns the saved result if it is fresh, else that of a run, which is then saved.
-    pub fn get(&self, session: &Session<'_>) -> Result<T, Error> {
-        let (identity, progress) = (self.identity(session), &session.progress);
-        let parameters = self.finite_parameters(session.profile)?;
-        match &self.how {
-            How::Read(read) => read(session),
-            How::Whole(run, _) => session.result(&identity, || run(&parameters, progress)),
-            How::Cut(_, cutting) => session.result(&identity, || {
-                let units = cutting.units(&parameters);
-                let (parts, _) = self.parts(&units, &parameters, &identity, session)?;
-                cutting.joined(&parameters, &units, parts, progress)
-            }),
-        }
-    }
-
     /// Returns its parameters. JSON, by which a saved result is known, has null for a number that
     /// is not finite; the values of TOML have the number.
     fn finite_parameters(&self, profile: Profile) -> Result<P, Error> {
@@ -172,8 +157,7 @@ pub trait AnyExperiment: Sync {
 
     /// Runs and saves those of the units that are not in the store; returns how many were run.
     fn run_units(&self, _: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
-        let is_stale = self.stale(session).is_some();
-        self.found(session).map(|_| usize::from(is_stale))
+        if self.saved(session).is_ok() { Ok(0) } else { self.found(session).map(|_| 1) }
     }
 
     /// Returns what would be run, and why; none if the saved result is fresh.
@@ -190,6 +174,10 @@ pub trait AnyExperiment: Sync {
         Some(format!("{why}; {there} of {all} there"))
     }
 
+    /// Returns the saved result, or why it must be run.
+    fn saved(&self, session: &Session<'_>) -> Result<Found, String>;
+
+    /// Returns what is read, or the result of a run, which is then saved.
     fn found(&self, session: &Session<'_>) -> Result<Found, Error>;
 
     fn tables(&self, found: &Found) -> Vec<Table>;
@@ -238,13 +226,32 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
         if session.store.fresh(&identity).is_ok() {
             return Ok(0);
         }
-        let How::Cut(..) = self.how else { return self.get(session).map(|_| units.len()) };
+        let How::Cut(..) = self.how else { return self.found(session).map(|_| units.len()) };
         let parameters = self.finite_parameters(session.profile)?;
         Ok(self.parts(units, &parameters, &identity, session)?.1)
     }
 
+    fn saved(&self, session: &Session<'_>) -> Result<Found, String> {
+        self.finite_parameters(session.profile).map_err(|error| error.to_string())?;
+        Ok(Arc::new(session.store.look::<T>(&self.identity(session))?))
+    }
+
     fn found(&self, session: &Session<'_>) -> Result<Found, Error> {
-        Ok(Arc::new(self.get(session)?))
+        let (identity, progress) = (self.identity(session), &session.progress);
+        let parameters = self.finite_parameters(session.profile)?;
+        let result = match &self.how {
+            How::Read(read) => return Ok(Arc::new(read(session)?)),
+            How::Whole(run, _) => run(&parameters, progress)?,
+            How::Cut(_, cutting) => {
+                let units = cutting.units(&parameters);
+                let (parts, _) = self.parts(&units, &parameters, &identity, session)?;
+                cutting.joined(&parameters, &units, parts, progress)?
+            }
+        };
+        session.store.put(&identity, &result)?;
+        // Units that stay do no harm: the joined result is looked for first.
+        let _ = session.store.remove(&identity, false);
+        Ok(Arc::new(result))
     }
 
     fn tables(&self, found: &Found) -> Vec<Table> {

@@ -40,15 +40,11 @@ impl Results {
 
     /// Returns the tables of all results, by name. Fails if two have one name or one has a fault.
     pub fn tables(&self) -> Result<&Tables, Error> {
-        // Made before the lock is taken: a thread that waits in it may begin what looks here.
-        let tables = match self.tables.get() {
-            Some(tables) => tables,
-            None => {
-                let made = self.made();
-                self.tables.get_or_init(|| made)
-            }
+        let again = || {
+            let found = self.found.iter();
+            self.joined(found.flat_map(|(experiment, found)| experiment.tables(found)).collect())
         };
-        tables.as_ref().map_err(|fault| Error::Table(fault.clone()))
+        self.tables.get_or_init(again).as_ref().map_err(|fault| Error::Table(fault.clone()))
     }
 
     #[cfg(test)]
@@ -59,11 +55,8 @@ impl Results {
         Results { profile: Profile::Full, found, derived, tables: OnceLock::from(Ok(tables)) }
     }
 
-    fn made(&self) -> Result<Tables, String> {
-        let found = self.found.par_iter().with_max_len(1);
-        let tables =
-            found.map(|(experiment, found)| naming(experiment.name(), || experiment.tables(found)));
-        let mut all = tables.collect::<Vec<_>>().concat();
+    /// Returns these tables and those that need several experiments, by name.
+    fn joined(&self, mut all: Vec<Table>) -> Result<Tables, String> {
         for tables in &self.derived {
             all.extend(tables(self, &all).into_iter().flatten());
         }
@@ -105,27 +98,45 @@ impl Results {
         derived: &[DerivedTables],
         session: &Session<'_>,
     ) -> Result<Self, Error> {
+        let saved = |one: &&'static dyn AnyExperiment| {
+            let read = || one.found(session).map_err(|error| error.to_string());
+            made(*one, || if one.is_saved() { one.saved(session) } else { read() })
+        };
+        let saved: Vec<_> = experiments.par_iter().with_max_len(1).map(saved).collect();
         let (mut stale, mut missing) = (0, Vec::new());
-        for experiment in experiments {
+        for (experiment, _) in experiments.iter().zip(&saved).filter(|(_, saved)| saved.is_err()) {
             let units = experiment.missing(experiment.units(session.profile), session);
             stale += usize::from(!units.is_empty());
             missing.extend(units);
         }
         session.announce(&count(stale, "experiment"), &missing)?;
-        let mut found = Vec::new();
-        for experiment in experiments {
-            found.push((*experiment, naming(experiment.name(), || experiment.found(session))?));
+        let (mut found, mut all) = (Vec::new(), Vec::new());
+        for (experiment, saved) in experiments.iter().zip(saved) {
+            if experiment.is_saved() {
+                let why = saved.as_ref().err().map_or("fresh", String::as_str);
+                session.progress.say(&format!("{}: {why}", experiment.name()));
+            }
+            let run = |_| made(*experiment, || experiment.found(session));
+            let (result, tables) = saved.or_else(run)?;
+            found.push((*experiment, result));
+            all.extend(tables);
         }
         session.progress.check()?;
         let (profile, derived) = (session.profile, derived.to_vec());
-        Ok(Results { profile, found, derived, tables: OnceLock::new() })
+        let results = Results { profile, found, derived, tables: OnceLock::new() };
+        let tables = OnceLock::from(results.joined(all));
+        Ok(Results { tables, ..results })
     }
 }
 
-/// Does a part of the work of an experiment; if it panics, says which experiment it was.
-fn naming<T>(experiment: &str, work: impl FnOnce() -> T) -> T {
+/// Gets the result of an experiment, and makes its tables; a panic says which experiment it was.
+fn made<E>(
+    experiment: &'static dyn AnyExperiment,
+    get: impl FnOnce() -> Result<Found, E>,
+) -> Result<(Found, Vec<Table>), E> {
+    let work = || get().map(|found| (found.clone(), experiment.tables(&found)));
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
-        let words = format!("the internal error was in the experiment {experiment}");
+        let words = format!("the internal error was in the experiment {}", experiment.name());
         say(&words);
         resume_unwind(Box::new(words))
     })

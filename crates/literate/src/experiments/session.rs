@@ -4,7 +4,7 @@ use super::cutting::{SECOND, Unit};
 use super::error::Error;
 use super::profile::Profile;
 use super::progress::Progress;
-use super::store::{Identity, Json, Store};
+use super::store::Store;
 use crate::input::count;
 use crate::project::Project;
 use crate::prose::Templates;
@@ -19,25 +19,6 @@ pub struct Session<'a> {
 }
 
 impl Session<'_> {
-    /// Returns the saved result if it is fresh, else that of a run, which is then saved.
-    pub(super) fn result<T: Json>(
-        &self,
-        identity: &Identity,
-        run: impl FnOnce() -> Result<T, Error>,
-    ) -> Result<T, Error> {
-        let found = self.store.look(identity);
-        let why = found.as_ref().err().map_or("fresh", String::as_str);
-        self.progress.say(&format!("{}: {why}", identity.experiment));
-        if let Ok(found) = found {
-            return Ok(found);
-        }
-        let result = run()?;
-        self.store.put(identity, &result)?;
-        // Units that stay do no harm: the joined result is looked for first.
-        let _ = self.store.remove(identity, false);
-        Ok(result)
-    }
-
     /// Prints one line if some units are to be run: of what, and about how long they take.
     pub(crate) fn announce(&self, what: &str, units: &[Unit]) -> Result<(), Error> {
         if units.is_empty() {

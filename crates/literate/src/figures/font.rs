@@ -4,6 +4,7 @@ use super::error::Error;
 use super::markup::{self, Face, Level};
 use super::path::Step;
 use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
+use std::sync::LazyLock;
 
 /// Units of an em in both faces; the outlines and the layout below are in these units.
 pub const EM: i32 = 1000;
@@ -40,13 +41,14 @@ pub struct Placed {
     pub scale: i32,
 }
 
-fn font(face: Face) -> Result<FontRef<'static>, Error> {
-    let file: &[u8] = match face {
-        Face::Regular => include_bytes!("../../fonts/LibertinusSerif-Regular.otf"),
-        Face::Italic => include_bytes!("../../fonts/LibertinusSerif-Italic.otf"),
-    };
-    let unreadable = |_| Error::Drawing("a shipped font file cannot be read".into());
-    FontRef::try_from_slice(file).map_err(unreadable)
+fn font(face: Face) -> Result<&'static FontRef<'static>, Error> {
+    static FACES: LazyLock<[Option<FontRef<'_>>; 2]> = LazyLock::new(|| {
+        let regular: &[u8] = include_bytes!("../../fonts/LibertinusSerif-Regular.otf");
+        let italic: &[u8] = include_bytes!("../../fonts/LibertinusSerif-Italic.otf");
+        [regular, italic].map(|file| FontRef::try_from_slice(file).ok())
+    });
+    let unreadable = || Error::Drawing("a shipped font file cannot be read".into());
+    FACES[face as usize].as_ref().ok_or_else(unreadable)
 }
 
 /// Sets a label in type whose em is `size`: returns its glyphs, in reading order and without

@@ -37,7 +37,7 @@ impl DataPoint {
     /// Merges a row of the same x unless a number that both know differs; returns whether it did.
     fn merge(&mut self, new: &DataPoint) -> bool {
         let mut pairs = self.known.iter().zip(&new.known);
-        let agree = pairs.all(|(a, b)| a.is_none() || b.is_none() || a == b) && self.x == new.x;
+        let agree = self.x == new.x && pairs.all(|(a, b)| a.is_none() || b.is_none() || a == b);
         if agree {
             self.known = std::array::from_fn(|i| self.known[i].or(new.known[i]));
         }

@@ -19,7 +19,7 @@ use super::values::Registry;
 use super::{html, latex, ledger, lint, markdown, parse, search};
 use crate::figures::Figure;
 use crate::input::one_line;
-use crate::table::DataFile;
+use crate::table::{DataFile, Table};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -38,18 +38,28 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     values.shorten(&input.project.sources);
 
     let declared = filler.declared.clone();
-    let (parts, labels) = parts(input, &filled, &values, &declared)?;
+    let read = || parts(input, &filled, &values, &declared);
+    let tables: Vec<&Table> = values.tables().collect();
+    let tables = tables.par_iter().map(|table| data(&DataFile::of(table)));
+    let figure = |figure: &Figure| files_of(figure, input.edition.license);
+    let figures = input.figures.par_iter().flat_map_iter(figure);
+    let (read, mut files): (_, Files) = rayon::join(read, || tables.chain(figures).collect());
+    let (parts, labels) = read?;
     let ledger = ledger_of(input, &parts);
-    let mut files = data_files(input, &values, &ledger)?;
+    let jsons = [serde_json::to_string_pretty(&values), serde_json::to_string_pretty(&ledger)];
+    for (name, json) in ["values.json", "ledger.json"].into_iter().zip(jsons) {
+        let json = json.map_err(|error| Error::Template(format!("{name}: {error}")))? + "\n";
+        files.insert(name.into(), json.into_bytes());
+    }
     let mut errors = Vec::new();
     let shown = write_documents(input, &parts, &mut filler, &mut files, &mut errors)?;
     for part in &parts {
         errors.extend(check_links(part, &labels, &files, input));
     }
     all_in_order(errors)?;
-    let Input { edition, project, experiments, .. } = *input;
-    let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
-    files.extend(html::shared::files(&shown, cards, input, &labels)?);
+    let (Input { edition, project, experiments, .. }, shared) = (*input, Default::default());
+    let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments, shared };
+    files.extend(html::shared::files(&shown, &cards, input, &labels)?);
     folder::add_lists(&mut files);
     Ok(files)
 }
@@ -173,21 +183,6 @@ fn ledger_of(input: &Input<'_>, parts: &[Part<'_>]) -> Ledger {
     Ledger { claims: input.claims.to_vec(), figures, equations }
 }
 
-fn data_files(input: &Input<'_>, values: &Registry, ledger: &Ledger) -> Result<Files, Error> {
-    let jsons = [
-        ("values.json", serde_json::to_string_pretty(values)),
-        ("ledger.json", serde_json::to_string_pretty(ledger)),
-    ];
-    let mut files: Files = values.tables().map(|table| data(&DataFile::of(table))).collect();
-    for (name, json) in jsons {
-        let json = json.map_err(|error| Error::Template(format!("{name}: {error}")))? + "\n";
-        files.insert(name.into(), json.into_bytes());
-    }
-    let file = |figure: &Figure| files_of(figure, input.edition.license);
-    files.extend(input.figures.par_iter().flat_map_iter(file).collect::<Vec<_>>());
-    Ok(files)
-}
-
 /// Adds each document in its formats; returns the ids of all things of which a page opens the card.
 fn write_documents(
     input: &Input<'_>,
@@ -198,20 +193,21 @@ fn write_documents(
 ) -> Result<BTreeSet<String>, Error> {
     let edition = input.edition;
     let write = |Part { document, blocks, .. }: &Part<'_>| {
-        (latex::write(blocks, *document, edition), html::write(blocks, *document, input))
+        let print = latex::write(blocks, *document, edition);
+        let passages = search::passages(blocks, document.name);
+        (print, html::write(blocks, *document, input), markdown::write(blocks), passages)
     };
     let written: Vec<_> = parts.par_iter().with_max_len(1).map(write).collect();
     let (mut shown, mut texts) = (BTreeSet::new(), Vec::new());
-    for (Part { document, blocks, places }, written) in parts.iter().zip(written) {
-        let (print, (page, values)) = match written {
-            (Ok(print), Ok(page)) => (print, page),
-            (print, page) => {
+    for (Part { document, places, .. }, written) in parts.iter().zip(written) {
+        let (print, (page, values), mut text, passages) = match written {
+            (Ok(print), Ok(page), text, passages) => (print, page, text, passages),
+            (print, page, ..) => {
                 let found = print.err().into_iter().chain(page.err());
                 errors.extend(found.map(|error| places.locate(error)));
                 continue;
             }
         };
-        let mut text = markdown::write(blocks);
         let byline = edition.byline(*document);
         if !byline.is_empty() {
             let byline = format!("\n\n*{}*\n\n", markdown::escaped(&byline));
@@ -226,7 +222,6 @@ fn write_documents(
         filler.insert("page", &page);
         files.insert(document.page.into(), filler.fill("report.html")?.into_bytes());
         shown.extend(values);
-        let passages = search::passages(blocks, document.name);
         texts.push(serde_json::json!([document.page, document.name, passages]));
     }
     filler.insert("page", &html::shared::data_index(files, edition));

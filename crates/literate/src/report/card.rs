@@ -10,6 +10,8 @@ use crate::print::{Style, print};
 use crate::project::Project;
 use crate::table::{DataFile, table_of};
 use serde_json::Value as Json;
+use std::collections::BTreeMap;
+use std::sync::Mutex;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Card {
@@ -46,16 +48,20 @@ impl Card {
     fn experiment(&mut self, name: &str, cards: &Cards<'_>) {
         let mut all = cards.experiments.iter();
         let Some(experiment) = all.find(|experiment| experiment.name() == name) else { return };
-        self.item("experiment", &experiment.item(), cards.project);
-        let profile = cards.values.profile().unwrap_or(Profile::Full);
-        let settings = settings(&experiment.parameters(profile));
-        for (i, setting) in settings.iter().enumerate() {
-            self.words(if i == 0 { "its parameters" } else { "" }, setting);
-        }
+        let mut shared = cards.shared.lock().expect("no card panics");
+        let about = shared.entry(experiment.name()).or_insert_with(|| {
+            let mut card = Card::of(String::new(), Vec::new());
+            card.item("experiment", &experiment.item(), cards.project);
+            let profile = cards.values.profile().unwrap_or(Profile::Full);
+            for (i, setting) in settings(&experiment.parameters(profile)).iter().enumerate() {
+                card.words(if i == 0 { "its parameters" } else { "" }, setting);
+            }
+            card
+        });
+        self.rows.extend_from_slice(&about.rows);
     }
 }
 
-#[derive(Clone, Copy)]
 pub struct Cards<'a> {
     pub values: &'a Registry,
     pub ledger: &'a Ledger,
@@ -63,6 +69,8 @@ pub struct Cards<'a> {
     pub project: &'a Project,
     /// Experiments, for the parameters that cards of their results show.
     pub experiments: &'a [&'static dyn AnyExperiment],
+    /// What is shown of each experiment, by its name, once it was.
+    pub shared: Mutex<BTreeMap<&'static str, Card>>,
 }
 
 impl Cards<'_> {

@@ -188,6 +188,7 @@ pub fn write(folder: &Path, files: &Files, force: bool) -> Result<(), Error> {
         all.insert(SUMS.into(), lines(&listed).into_bytes());
     }
     let mut all: Vec<(&String, &Vec<u8>)> = all.iter().collect();
+    all.retain(|(path, bytes)| input::regular(&folder.join(path)).ok().as_ref() != Some(bytes));
     all.sort_by_key(|(path, _)| [BUILT, SUMS].iter().position(|list| list == path));
     for (path, bytes) in &all {
         put(staged.path(), path, &|place| std::fs::write(place, bytes))?;

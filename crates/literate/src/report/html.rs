@@ -267,13 +267,8 @@ impl<'a> Page<'a> {
                     Some(id) => {
                         let mut card = String::new();
                         // An equation of the ledger opens its card, which has the line of its code.
-                        if self
-                            .input
-                            .edition
-                            .equations
-                            .iter()
-                            .any(|of| id == format!("eq-{}", of.number))
-                        {
+                        let mut equations = self.input.edition.equations.iter();
+                        if equations.any(|of| id == format!("eq-{}", of.number)) {
                             card = format!(" data-card=\"eq:{number}\"");
                             self.values.borrow_mut().insert(format!("eq:{number}"));
                         }

@@ -5,7 +5,9 @@ use super::mark::{CLOSE, OPEN};
 use super::tex;
 use crate::input::toml_fault;
 use serde::Deserialize;
+use std::collections::BTreeSet;
 use std::ops::Range;
+use std::sync::LazyLock;
 
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -53,11 +55,13 @@ const WORDS: &str = "two three four five six seven eight nine ten eleven twelve 
     fifteen sixteen seventeen eighteen nineteen twenty thirty forty fifty sixty seventy eighty ninety \
     hundred thousand million billion dozen hundreds thousands millions dozens tens twice thrice";
 
+static LISTS: LazyLock<[BTreeSet<&str>; 3]> =
+    LazyLock::new(|| [WORDS, BETWEEN, AROUND].map(|list| list.split_whitespace().collect()));
+
 fn is_number_word(word: &str) -> bool {
     let word = word.to_lowercase();
     let word = word.strip_suffix("fold").unwrap_or(&word);
-    // Most words are settled by a search, which is faster than splitting the list.
-    WORDS.contains(word) && WORDS.split_whitespace().any(|number| number == word)
+    LISTS[0].contains(word)
 }
 
 /// Finds hard-coded numbers in a part of a text, with their offsets; marks are skipped.
@@ -137,7 +141,7 @@ const DIGITS: &str = "0123456789 .,+-−^{}%\\()";
 
 /// Returns the sides of the relations in a formula, without what may surround a number.
 fn sides(tex: &str) -> Vec<String> {
-    let among = |list: &str, sign: &str| list.split_whitespace().any(|listed| listed == sign);
+    let [_, between, around] = &*LISTS;
     let mut tex = tex.replace(r"\begin{aligned}", "").replace(r"\end{aligned}", "");
     // A number with a unit or another word is still a number alone.
     for open in [r"\text{", r"\textrm{", r"\mathrm{"] {
@@ -151,8 +155,8 @@ fn sides(tex: &str) -> Vec<String> {
     for sign in tex::signs(&tex) {
         depth += i32::from("{([".contains(sign)) - i32::from("})]".contains(sign));
         match sides.last_mut() {
-            Some(side) if depth > 0 || !among(BETWEEN, sign) => {
-                side.push_str(if among(AROUND, sign) { "" } else { sign });
+            Some(side) if depth > 0 || !between.contains(sign) => {
+                side.push_str(if around.contains(sign) { "" } else { sign });
             }
             _ => sides.push(String::new()),
         }

@@ -4,17 +4,17 @@ use super::rows::{Column, Table};
 use crate::value::{Number, Provenance};
 use std::borrow::Cow;
 
-impl Table {
-    /// Returns names of columns with units, and the cells as data files write them: every bit of
-    /// each number, and a further column for each standard error.
-    pub fn data(&self) -> (Vec<String>, Vec<Vec<String>>) {
-        let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); self.rows.len()]);
-        for (at, Column { name, unit }) in self.columns.iter().enumerate() {
-            let mut cells = self.rows.iter().map(|(_, cells)| &cells[at]);
+impl DataFile {
+    /// Makes the file of a table: names of columns with units, and cells with every bit of each
+    /// number, and a further column for each standard error.
+    pub fn of(table: &Table) -> Self {
+        let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); table.rows.len()]);
+        for (at, Column { name, unit }) in table.columns.iter().enumerate() {
+            let mut cells = table.rows.iter().map(|(_, cells)| &cells[at]);
             let error = cells.any(|cell| matches!(cell.kind, Provenance::Ensemble { .. }));
             header.push(format!("{name} ({unit})"));
             header.extend(error.then(|| format!("{name}_error ({unit})")));
-            for (row, (_, cells)) in rows.iter_mut().zip(&self.rows) {
+            for (row, (_, cells)) in rows.iter_mut().zip(&table.rows) {
                 row.push(written(&cells[at].number));
                 row.extend(error.then(|| match cells[at].kind {
                     Provenance::Ensemble { standard_error, .. } => format!("{standard_error:?}"),
@@ -22,7 +22,20 @@ impl Table {
                 }));
             }
         }
-        (header, rows)
+        DataFile { name: Self::name_of(table.name()), header, rows }
+    }
+
+    pub fn name_of(table: &str) -> String {
+        format!("{}.csv", table.replace('.', "-"))
+    }
+
+    /// Writes the file: comma separated, one line a row, each ended by a line feed.
+    pub fn csv(&self) -> String {
+        let mut out = String::new();
+        for line in std::iter::once(&self.header).chain(&self.rows) {
+            out += &(line.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n");
+        }
+        out
     }
 }
 
@@ -44,28 +57,8 @@ pub struct DataFile {
     pub rows: Vec<Vec<String>>,
 }
 
-impl DataFile {
-    pub fn of(table: &Table) -> Self {
-        let (header, rows) = table.data();
-        DataFile { name: Self::name_of(table.name()), header, rows }
-    }
-
-    pub fn name_of(table: &str) -> String {
-        format!("{}.csv", table.replace('.', "-"))
-    }
-
-    /// Writes the file: comma separated, one line a row, each ended by a line feed.
-    pub fn csv(&self) -> String {
-        let mut out = String::new();
-        for line in std::iter::once(&self.header).chain(&self.rows) {
-            out += &(line.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n");
-        }
-        out
-    }
-}
-
 fn quoted(cell: &str) -> Cow<'_, str> {
-    if cell.contains([',', '"', '\n']) {
+    if cell.bytes().any(|byte| b",\"\n".contains(&byte)) {
         format!("\"{}\"", cell.replace('"', "\"\"")).into()
     } else {
         cell.into()
@@ -75,5 +68,5 @@ fn quoted(cell: &str) -> Cow<'_, str> {
 /// Formats a number for files: the shortest decimal that reads back to the same double.
 pub fn shortest(value: f64) -> String {
     let shown = format!("{value:?}");
-    shown.strip_suffix(".0").map_or(shown.clone(), String::from)
+    shown.strip_suffix(".0").map(String::from).unwrap_or(shown)
 }

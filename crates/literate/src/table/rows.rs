@@ -222,7 +222,7 @@ pub fn number(cell: &Value) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Tables, cell, table_of};
+    use super::super::{DataFile, Tables, cell, table_of};
     use super::*;
     use crate::value::Provenance;
     use std::sync::Arc;
@@ -321,7 +321,7 @@ mod tests {
         assert_eq!(table.fault, None);
         let odd = table.at("test.seeds[seed=9007199254740993].same").unwrap();
         assert_eq!(odd.plain(), "9007199254740993");
-        assert_eq!(table.data().1[2], ["18446744073709551615"; 2]);
+        assert_eq!(DataFile::of(&table).rows[2], ["18446744073709551615"; 2]);
         let even = table.select(&[("seed", 9_007_199_254_740_992.0)]).unwrap();
         assert_eq!((even.len(), called(&even[0][0].number)), (1, "9007199254740992".into()));
     }

@@ -1,6 +1,6 @@
 //! Makes the files that all pages share: fonts, the cards of their numbers, and the index of data.
 
-use super::super::card::Cards;
+use super::super::card::{Card, Cards};
 use super::super::document::{self, Inline};
 use super::super::edition::Edition;
 use super::super::error::Error;
@@ -9,6 +9,7 @@ use super::super::input::Input;
 use super::super::labels::Labels;
 use super::Page;
 use crate::figures::escape as text;
+use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -22,15 +23,16 @@ const FONTS: [(&str, &[u8]); 4] = [
 /// Returns fonts, and cards as a script, since a page on a disk can load nothing else.
 pub fn files(
     values: &BTreeSet<String>,
-    cards: Cards<'_>,
+    cards: &Cards<'_>,
     input: &Input<'_>,
     labels: &Labels,
 ) -> Result<Files, Error> {
     let page = Page::new(input);
     let (mut rows, mut places, mut all) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
-    for id in values {
+    let found: Vec<Option<Card>> = values.par_iter().map(|id| cards.get(id)).collect();
+    for (id, card) in values.iter().zip(found) {
         let unknown = || Error::Template(format!("there is no value {id}"));
-        let card = cards.get(id).ok_or_else(unknown)?;
+        let card = card.ok_or_else(unknown)?;
         let mut numbers = Vec::new();
         for (name, text) in &card.rows {
             let place = |inline: &Inline| match inline.clone() {
