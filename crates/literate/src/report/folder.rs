@@ -149,7 +149,7 @@ fn refuse_alone(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> 
     let paths = ours.keys().filter(|_| whole).chain(files.keys());
     let paths = paths.filter(|path| ![SUMS, BUILT].contains(&path.as_str()));
     let is_edited = |path: &&String| match input::regular(&folder.join(path)) {
-        Ok(bytes) => ours.get(*path) != Some(&sha256(&bytes)) && files.get(*path) != Some(&bytes),
+        Ok(bytes) => files.get(*path) != Some(&bytes) && ours.get(*path) != Some(&sha256(&bytes)),
         Err(error) => !is_absent(&error),
     };
     let edited: BTreeSet<&String> = paths.filter(is_edited).collect();
