@@ -13,7 +13,7 @@ import time
 CLOSE = 1e-3  # a time that is further off than this is wrong
 SEGMENT = 30.0  # no segment of the scenarios lasts longer
 ENOUGH = 3.0  # seconds of repetitions
-OPEN = 1e-14  # width of a gap right after its impact: no peer sees one of zero or below
+OPEN = 2.0**-52  # width of a gap right after its impact, one rounding: heyoka must see one above zero
 
 
 def apart(u, gap, d):

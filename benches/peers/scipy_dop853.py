@@ -32,7 +32,7 @@ def prepare(scenario, setting):
         while t < until:
             result = solve_ivp(
                 motion, (t, until), y, "DOP853", events=narrowest,
-                rtol=setting["tol"], atol=setting["tol"],
+                rtol=setting["tol"], atol=setting["tol"] / 1e3,
             )  # fmt: skip
             if result.status != 1:
                 break

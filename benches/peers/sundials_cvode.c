@@ -74,7 +74,7 @@ double *setup(int n, double d, double w, double big_w, const double *forcing, do
     chain.vector = N_VMake_Serial(2 * n, chain.y, context);
     Handle own = chain.solver = CVodeCreate(ADAMS, context);
     int bad = CVodeInit(own, motion, 0.0, chain.vector);
-    bad |= CVodeSStolerances(own, tolerance, tolerance);
+    bad |= CVodeSStolerances(own, tolerance, tolerance * 1e-3);
     bad |= CVodeSetNonlinearSolver(own, SUNNonlinSol_FixedPoint(chain.vector, 0, context));
     bad |= CVodeSetMaxNumSteps(own, 1000000);
     bad |= CVodeRootInit(own, n + 1, widths);

@@ -2,12 +2,11 @@
 
 Without contact every impact bounces. With a stopping speed, as their users write it, gaps that are
 shut and slower than that stay shut: masses in contact move with their mean acceleration, until the
-force between them would pull.
+force between them would pull. An impact that is slower is reported, and its gap then stays shut.
 """
 
 import numpy as np
 
-OPEN = 1e-15  # width of a gap right after its impact, for all as heyoka needs it
 SHUT = 1e-12  # a gap as narrow as this is shut
 
 
@@ -63,23 +62,30 @@ def pressed(case, t, x, held):
         held[gap] = False
 
 
-def open_gaps(case, x):
-    """Moves masses such that each gap is open by a hair."""
+def open_gaps(case, x, width):
+    """Moves masses such that no gap is negative, and each is open by `width` or the next double."""
     n = case.n
+
+    def wide(at):
+        return max(width, np.spacing(abs(at))) if width else 0.0
+
     for j in range(n):
-        x[j] = max(x[j], (x[j - 1] if j else 0.0) + OPEN)
+        left = x[j - 1] if j else 0.0
+        x[j] = max(x[j], left + wide(left))
     for j in reversed(range(n)):
-        x[j] = min(x[j], (x[j + 1] if j + 1 < n else case.d * (n + 1)) - OPEN)
+        right = x[j + 1] if j + 1 < n else case.d * (n + 1)
+        x[j] = min(x[j], right - wide(right))
 
 
-def simulate(case, stop, advance, hit):
+def simulate(case, stop, advance, hit, width=0.0):
     """Runs a case. `advance(t, x, v, contact)` integrates to the end or to the first event: the width
     of an open gap, or the force that presses on a shut one, falls below zero. It returns the time,
-    positions, velocities, and the gap of the event, or none at the end."""
+    positions, velocities, and the gap of the event, or none at the end. Before it starts again, gaps
+    are `width` wide at least."""
     t, x, v = case.time, case.x.copy(), case.v.copy()
     contact = settle(case, t, x, v, stop, hit)
     while t < case.until:
-        open_gaps(case, x)
+        open_gaps(case, x, width)
         t, x, v, gap = advance(t, x, v, contact)
         if gap is None:
             break
@@ -94,4 +100,7 @@ def simulate(case, stop, advance, hit):
                 x[min(gap, case.n - 1)] = 0.0 if gap == 0 else case.d * (case.n + 1)
             else:
                 x[gap - 1 : gap + 1] = middle
+            closing = -case.opening(v)[gap]
+            if 0.0 < closing <= stop:
+                hit(t, gap, closing)
             contact = settle(case, t, x, v, stop, hit)

@@ -10,16 +10,18 @@ import common
 import located
 import numpy as np
 
+TOL = 1e-12
 SETTINGS = [
-    ("ERKStep, order 8, tol=1e-12", (1e-12, 0.0)),
-    ("ERKStep, order 8, tol=1e-12, stop=5e-7", (1e-12, 5e-7)),
+    ("ERKStep, order 8, tol=1e-12", (0.0, False)),
+    ("ERKStep, order 8, tol=1e-12, stop=1e-12", (1e-12, False)),
+    ("ERKStep, order 8, tol=1e-12, stop=1e-12, rates", (1e-12, True)),
 ]
 NUMBERS = ctypes.POINTER(ctypes.c_double)
 INTS = ctypes.POINTER(ctypes.c_int)
 
 
 class Chain(ctypes.Structure):
-    _fields_ = [("n", ctypes.c_int), ("frequencies", ctypes.c_int)]
+    _fields_ = [(name, ctypes.c_int) for name in ["n", "frequencies", "rates"]]
     _fields_ += [(name, ctypes.c_double) for name in ["d", "w2", "rtol"]]
     _fields_ += [(name, NUMBERS) for name in ["frequency", "alpha", "beta", "P", "L"]]
     _fields_ += [("shut", INTS)]
@@ -46,14 +48,14 @@ VERSION = version()
 
 
 def simulate(case, value, hit):
-    tol, stop = value
+    stop, rates = value
 
     def advance(t, x, v, contact):
         arrays = [np.ascontiguousarray(a, dtype=float) for a in
                   [case.frequencies, case.alpha, case.beta, contact.P, contact.L]]  # fmt: skip
         shut = np.ascontiguousarray(contact.shut, dtype=np.intc)
         pointers = [a.ctypes.data_as(NUMBERS) for a in arrays]
-        sizes = case.n, len(case.frequencies), case.d, case.w2, tol
+        sizes = case.n, len(case.frequencies), rates, case.d, case.w2, TOL
         chain = Chain(*sizes, *pointers, shut.ctypes.data_as(INTS))
         y, time = np.concatenate((x, v)), ctypes.c_double(t)
         until = ctypes.c_double(case.until)

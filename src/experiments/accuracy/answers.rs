@@ -3,7 +3,7 @@
 use super::bias::{Biases, GapCount};
 use super::case::Expected;
 use super::race::Entry;
-use super::tables::in_formulas;
+use super::tables::{in_formulas, pairs};
 use super::trials::{Trials, right};
 use crate::experiments::prelude::*;
 use crate::experiments::programs::{Program, Run};
@@ -166,13 +166,6 @@ fn table<'a>(
         .real("engine", "s", 2, "the engine's seconds", |of| seconds(of.engine()))
 }
 
-/// Returns what a method and the engine count in the chains that both ran to the end, by chain.
-fn pairs(of: &Means, runs: &[Vec<GapCount>], setting: Setting) -> Vec<[f64; 2]> {
-    let run = of.settings.iter().position(|(other, _)| *other == setting).map(|i| &runs[i]);
-    let both = run.into_iter().flatten().zip(&runs[0]);
-    both.filter_map(|(theirs, ours)| Some([f64::from((*theirs)?), f64::from((*ours)?)])).collect()
-}
-
 /// Asks how far a mean over chains is off; `values` turns a method's pairs at each σ into errors.
 fn question(
     (biases, measured): (&Biases, &Measured),
@@ -187,7 +180,9 @@ fn question(
     };
     let all = sigmas.iter().map(at).collect::<Option<Vec<_>>>()?;
     let answer = |&(setting, _): &(Setting, usize)| {
-        let pairs: Vec<_> = all.iter().map(|(of, runs)| pairs(of, runs, setting)).collect();
+        let run = |of: &Means| of.settings.iter().position(|(other, _)| *other == setting);
+        let pairs = |(of, runs): &(&Means, &Vec<Vec<GapCount>>)| Some(pairs(&runs[run(of)?], runs));
+        let pairs = all.iter().map(pairs).collect::<Option<Vec<_>>>()?;
         let values = values(&pairs);
         let found = match setting.method {
             Certified => with_error(0.0, 0.0),
@@ -217,8 +212,10 @@ fn questions(biases: &Biases, measured: &Measured) -> Vec<Question> {
         let words = format!("a mean to {percent} %, $σ = {sigma}$, $T = {transient}$");
         let named = [format!("mean-{sigma}"), words];
         all.extend(question(both, &[sigma], tolerance, named, |pairs| {
-            let ours = ours(&pairs[0]).unwrap_or(f64::NAN);
-            pairs[0].iter().map(|pair| (pair[0] - pair[1]) / ours).collect()
+            let [theirs, ours] = [0, 1].map(|i| pairs[0].iter().map(|pair| pair[i]).sum::<f64>());
+            let (ratio, mean) = (theirs / ours, ours / pairs[0].len() as f64);
+            let residual = |pair: &[f64; 2]| (pair[0] - ratio * pair[1]) / mean + ratio - 1.0;
+            pairs[0].iter().map(residual).collect()
         }));
     }
     let (low, high, percent) = (MEANS[0].0, MEANS[1].0, 100.0 * ALIKE);

@@ -1,12 +1,12 @@
 //! Makes the tables of the comparison of methods.
 
-use super::bias::{self, Biases};
+use super::bias::{self, Biases, GapCount};
 use super::race::{self, DISPLACED, Entry, Race};
 use super::scale::{self, Scale};
 use crate::experiments::prelude::*;
 use crate::params::Setting;
-use impact_numerics::estimates::LEVEL;
-use impact_numerics::statistics::{mean, standard_error, student_quantile};
+use impact_numerics::estimates::{LEVEL, ratio};
+use impact_numerics::statistics::{mean, student_quantile};
 
 /// Writes the name of a setting with its formula: `Verlet, $h = 0.1$`.
 pub fn in_formulas(name: &str) -> String {
@@ -78,7 +78,7 @@ pub struct Compared {
     pub sigma: f64,
     /// Chains that both ran to the end.
     pub pairs: usize,
-    /// Mean difference of their counts over the engine's mean, and its 95 % interval.
+    /// Ratio of their mean counts less one, with its 95 % interval by the jackknife.
     pub share: Option<Estimate>,
 }
 
@@ -92,30 +92,27 @@ impl Compared {
     }
 }
 
+/// Returns what a method and the engine count in the chains that both ran to the end, by chain.
+pub fn pairs(run: &[GapCount], runs: &[Vec<GapCount>]) -> Vec<[f64; 2]> {
+    let both = run.iter().zip(&runs[0]);
+    both.filter_map(|(theirs, ours)| Some([f64::from((*theirs)?), f64::from((*ours)?)])).collect()
+}
+
 /// Returns the comparisons of all rivals, σ outer.
 pub fn compared(biases: &Biases) -> Vec<Compared> {
     let mut rows = Vec::new();
     for (of, runs) in biases.parameters.means.iter().zip(&biases.runs) {
         for (&(setting, _), run) in of.settings.iter().zip(runs).skip(1) {
-            let both = run.iter().zip(&runs[0]).filter_map(|(theirs, ours)| theirs.zip(*ours));
-            let [theirs, ours]: [Vec<f64>; 2] =
-                both.map(|(a, b)| (f64::from(a), f64::from(b))).unzip().into();
-            let differences: Vec<f64> = theirs.iter().zip(&ours).map(|(a, b)| a - b).collect();
+            let pairs = pairs(run, runs);
             let share = || {
-                let mean_count = mean(&ours).filter(|mean| *mean > 0.0)?;
-                // With few chains all differences may be equal.
-                let error = standard_error(&differences).filter(|error| *error > 0.0)?;
-                let half = student_quantile(LEVEL, ours.len() - 1)? * error / mean_count;
-                let value = mean(&differences)? / mean_count;
-                let interval = [value - half, value + half];
-                Some(Estimate { value, error: error / mean_count, interval })
+                // With few chains all ratios may be equal.
+                let Estimate { value, error, .. } = ratio(&pairs).filter(|of| of.error > 0.0)?;
+                let (value, half) =
+                    (value - 1.0, student_quantile(LEVEL, pairs.len() - 1)? * error);
+                Some(Estimate { value, error, interval: [value - half, value + half] })
             };
-            rows.push(Compared {
-                setting,
-                sigma: of.chains.sigma,
-                pairs: ours.len(),
-                share: share(),
-            });
+            let (sigma, share) = (of.chains.sigma, share());
+            rows.push(Compared { setting, sigma, pairs: pairs.len(), share });
         }
     }
     rows

@@ -12,7 +12,7 @@ type Failure = Box<dyn std::error::Error>;
 const CLOSE: f64 = 1e-3;
 const SEGMENT: f64 = 30.0;
 const ENOUGH: f64 = 3.0;
-const OPEN: f64 = 1e-14;
+const OPEN: f64 = f64::EPSILON;
 
 struct Scenario {
     spacing: f64,
@@ -62,7 +62,7 @@ fn run(
     let problem = OdeBuilder::<NalgebraMat<f64>>::new()
         .t0(t)
         .rtol(tolerance)
-        .atol([tolerance])
+        .atol([tolerance * 1e-3])
         .rhs(|y: &[f64], _: &[f64], t: f64, rate: &mut [f64]| {
             let (sin, cos) = (big_w * t).sin_cos();
             let (u, v) = y.split_at(n);
