@@ -8,6 +8,9 @@ use crate::impact::jumps;
 use crate::search::clock::Instant;
 use crate::topology::Topology;
 
+/// Gaps that are tested together, where any is shut.
+const BLOCK: usize = 16;
+
 /// The bodies of a chain with state and forces, from the left wall (0) to the right one (n + 1).
 pub struct Bodies {
     pub topology: Topology,
@@ -123,16 +126,30 @@ impl Bodies {
         (self.phases, self.last) = (self.phases_at(step.to), step.h);
     }
 
-    /// Whether any gap is shut at displacements `u`. The test is cheap, as it mostly fails.
-    pub fn any_shut(&self, u: &[f64]) -> bool {
+    /// Lists the gaps that are shut at displacements `u`, in their order.
+    pub fn shut(&self, u: &[f64], found: &mut Vec<usize>) {
+        found.clear();
         // Neighbours in the array are neighbours in the row; a ring has one gap more.
-        let is_ring = self.topology.gaps() + 2 == u.len();
-        let (first, last) = if is_ring { (1, u.len() - 2) } else { (0, u.len() - 1) };
-        let mut any = is_ring && self.spacing + (u[first] - u[last]) <= 0.0;
-        for (left, right) in u[first..last].iter().zip(&u[first + 1..=last]) {
-            any |= self.spacing + (right - left) <= 0.0;
+        let first = self.topology.sides(0)[0];
+        let bodies = &u[first..u.len() - first];
+        let gaps = bodies.len() - 1;
+        let is_shut = |left: &f64, right: &f64| self.spacing + (right - left) <= 0.0;
+        // Mostly none is, which vectors tell fast.
+        let any = |from: usize, to: usize| {
+            let pairs = bodies[from..to].iter().zip(&bodies[from + 1..=to]);
+            pairs.fold(false, |any, (left, right)| any | is_shut(left, right))
+        };
+        if any(0, gaps) {
+            for from in (0..gaps).step_by(BLOCK) {
+                let to = gaps.min(from + BLOCK);
+                if any(from, to) {
+                    found.extend((from..to).filter(|&k| is_shut(&bodies[k], &bodies[k + 1])));
+                }
+            }
         }
-        any
+        if gaps < self.topology.gaps() && self.width_at(gaps, u) <= 0.0 {
+            found.push(gaps);
+        }
     }
 
     pub fn masses(&self) -> u64 {
@@ -148,6 +165,7 @@ fn add_forces(component: &Component, [c, s]: [f64; 2], out: &mut [f64]) {
 }
 
 /// One step of flight under one component, in a loop that the compiler turns into vectors.
+#[inline(always)]
 fn step(
     u: &mut [f64],
     v: &mut [f64],
@@ -158,8 +176,10 @@ fn step(
 ) {
     let amplitudes = component.cos.iter().zip(&component.sin);
     for ((u, v), (cos, sin)) in u.iter_mut().zip(v).zip(amplitudes) {
-        let new = (keep * *v + pull * *u) + (c * cos + s * sin);
-        *u += before * *v + after * new;
+        // Verlet keeps v and leaves the first drift out; no sum has a use for its products.
+        let kept = if keep == 1.0 { *v } else { keep * *v };
+        let new = (kept + pull * *u) + (c * cos + s * sin);
+        *u += if before == 0.0 { after * new } else { before * *v + after * new };
         *v = new;
     }
 }

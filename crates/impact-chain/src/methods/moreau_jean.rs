@@ -40,8 +40,9 @@ impl Rival for MoreauJean {
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
         let row = Bodies::new(task)?;
-        let (forecast, active, touching) = (row.u.clone(), Vec::new(), Vec::new());
-        run_steps(task, self.step, Impulses { row, forecast, active, touching })
+        let (forecast, shut, active, touching) =
+            (row.u.clone(), Vec::new(), Vec::new(), Vec::new());
+        run_steps(task, self.step, Impulses { row, forecast, shut, active, touching })
     }
 }
 
@@ -57,6 +58,7 @@ struct Impulses {
     row: Bodies,
     /// Displacements that the velocities at the beginning of a step give for its middle.
     forecast: Vec<f64>,
+    shut: Vec<usize>,
     active: Vec<Active>,
     /// The gaps that had an impulse in the last step.
     touching: Vec<usize>,
@@ -66,16 +68,14 @@ impl Stepper for Impulses {
     fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
         let row = &mut self.row;
         let half = 0.5 * step.h;
-        let gaps = row.topology.gaps();
         for (forecast, (u, v)) in self.forecast.iter_mut().zip(row.u.iter().zip(&row.v)) {
             *forecast = u + half * v;
         }
         self.active.clear();
-        if row.any_shut(&self.forecast) {
-            let shut = (0..gaps).filter(|&k| row.width_at(k, &self.forecast) <= 0.0);
-            self.active.extend(shut.map(|k| Active { k, rate: row.rate(k), impulse: 0.0 }));
-        }
-        tally.cost.evaluations += row.masses() + gaps as u64;
+        row.shut(&self.forecast, &mut self.shut);
+        let active = |&k: &usize| Active { k, rate: row.rate(k), impulse: 0.0 };
+        self.active.extend(self.shut.iter().map(active));
+        tally.cost.evaluations += row.masses() + row.topology.gaps() as u64;
         let bend = half * half * row.stiffness;
         let lightness = 1.0 / (1.0 + bend);
         let (phases, later) = (row.phases, row.phases_at(step.to));

@@ -50,7 +50,7 @@ impl Rival for Penalty {
         let springs = Springs {
             stiffness: contact * contact,
             damping: 2.0 * damping_ratio(row.restitution) * contact,
-            touching: vec![false; row.topology.gaps()],
+            shut: Vec::new(),
             contacts: Vec::new(),
             row,
         };
@@ -72,8 +72,8 @@ struct Springs {
     /// ω_c²: force per overlap and reduced mass.
     stiffness: f64,
     damping: f64,
-    touching: Vec<bool>,
-    /// Such gaps, with what opens them.
+    shut: Vec<usize>,
+    /// Gaps in contact, with what opens them.
     contacts: Vec<(usize, f64)>,
 }
 
@@ -87,23 +87,20 @@ impl Stepper for Springs {
             let [left, right] = row.topology.inverse_masses(*k);
             *impulse = kick * apart / (left + right);
         }
-        for (k, impulse) in self.contacts.drain(..) {
-            push(&row.topology, k, impulse, &mut row.v);
+        let before = std::mem::take(&mut self.contacts);
+        for (k, impulse) in &before {
+            push(&row.topology, *k, *impulse, &mut row.v);
         }
         row.leap(step);
-        tally.cost.evaluations += row.masses() + self.touching.len() as u64;
-        if !row.any_shut(&row.u) {
-            self.touching.fill(false);
-            return Ok(());
-        }
-        for k in 0..self.touching.len() {
-            let (width, speed) = (row.width(k), -row.rate(k));
-            let begins = !self.touching[k] && width < 0.0 && speed > 0.0;
-            if begins {
+        tally.cost.evaluations += row.masses() + row.topology.gaps() as u64;
+        row.shut(&row.u, &mut self.shut);
+        for &k in self.shut.iter().filter(|k| row.width(**k) < 0.0) {
+            let speed = -row.rate(k);
+            let touches = before.iter().any(|of| of.0 == k);
+            if !touches && speed > 0.0 {
                 tally.impact(k, step.to.time(), speed)?;
             }
-            self.touching[k] = begins || self.touching[k] && width < 0.0;
-            if self.touching[k] {
+            if touches || speed > 0.0 {
                 self.contacts.push((k, 0.0));
             }
         }

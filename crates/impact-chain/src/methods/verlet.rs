@@ -29,25 +29,23 @@ impl Rival for Verlet {
     const NAME: &'static str = "verlet";
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
-        run_steps(task, self.step, Flip(Bodies::new(task)?))
+        run_steps(task, self.step, Flip { row: Bodies::new(task)?, shut: Vec::new() })
     }
 }
 
-struct Flip(Bodies);
+struct Flip {
+    row: Bodies,
+    shut: Vec<usize>,
+}
 
 impl Stepper for Flip {
     fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
-        let Flip(row) = self;
+        let Flip { row, shut } = self;
         row.leap(step);
-        let gaps = row.topology.gaps();
-        tally.cost.evaluations += row.masses() + gaps as u64;
-        if !row.any_shut(&row.u) {
-            return Ok(());
-        }
-        for k in 0..gaps {
-            if row.width(k) >= 0.0 {
-                continue;
-            }
+        tally.cost.evaluations += row.masses() + row.topology.gaps() as u64;
+        row.shut(&row.u, shut);
+        shut.retain(|k| row.width(*k) < 0.0);
+        for &k in shut.iter() {
             let [left, right] = row.topology.sides(k).map(|m| row.acceleration(m));
             let speed = -(row.rate(k) + 0.5 * step.h * (right - left));
             if speed > 0.0 {
