@@ -36,8 +36,7 @@ fn orbit(e: &Evidence<'_>, figure: usize) -> Judged {
         && found == asked
         && drawn.names() == asked
         && found.len() as f64 == e.statement.number()?;
-    let text = "{}; after a period of {:4} again, to {:1}";
-    let text = text!(text, found.join(", "), period, apart);
+    let text = text!("{}; after a period of {:4} again, to {:1}", found.join(", "), period, apart);
     let note = "A solution of the equations of motion with the period of the forces, which were chosen for it; the \
          figure draws another, which is not periodic. Nothing is said of how likely such forces are.";
     Ok(e.found(text, agrees)
@@ -85,8 +84,7 @@ fn eq8(e: &Evidence<'_>) -> Judged {
 }
 
 fn eq8_next(e: &Evidence<'_>) -> Judged {
-    let columns = ["before_last", "exceptions"];
-    let [ratio, exceptions] = e.numbers("theory.lengths", columns)?;
+    let [ratio, exceptions] = e.numbers("theory.lengths", ["before_last", "exceptions"])?;
     let n = VERTICES as f64;
     let reason = "ours: “far below one” as at most a tenth";
     let why = "The ratio at k = N − 1 is N/(N − 1), above one. The ratio exceeds a tenth for the {} lengths next to N, where \

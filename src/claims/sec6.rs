@@ -17,8 +17,7 @@ pub fn rules() -> Vec<Rule> {
 
 fn few(e: &Evidence<'_>) -> Judged {
     let p = DISTRIBUTION_P[0];
-    let row = format!("theory.distribution[p={p}]");
-    let [mean, k_star] = e.numbers(&row, ["mean", "k_star"])?;
+    let [mean, k_star] = e.numbers(&format!("theory.distribution[p={p}]"), ["mean", "k_star"])?;
     let limit = VERTICES as f64 / sec2::VERY_FEW;
     let found = text!("μ = {:4}, k* = {} at p = {}", mean, k_star, p);
     Ok(e.found(found, mean <= limit && k_star == 1.0)

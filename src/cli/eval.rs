@@ -141,8 +141,7 @@ impl Inputs {
         }
         let missing = |need: &&str| !["N", "oscillator"].contains(need) && given[*need].is_null();
         if let Some(need) = needed.split(' ').find(missing) {
-            let what = format!("--{need}: {name} needs it; see `eval --help`");
-            return Err(Failure::input(what));
+            return Err(Failure::input(format!("--{need}: {name} needs it; see `eval --help`")));
         }
         if needs("N") {
             let more = self.masses.map(|masses| masses.saturating_add(1));

@@ -113,12 +113,11 @@ fn help() -> String {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    let default = Chain::default();
     let chain = Chain {
         masses: args.masses,
         spacing: args.spacing,
         natural_frequency: args.natural_frequency,
-        forcing_frequency: args.forcing_frequency.unwrap_or(default.forcing_frequency),
+        forcing_frequency: args.forcing_frequency.unwrap_or(Chain::default().forcing_frequency),
         restitution: args.restitution,
         boundary: args.boundary,
         start: args.initial,
@@ -150,12 +149,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
     };
     // Each thread has a chain, 300 bytes a mass and some for its gaps; realisations leave counts.
     let threads = args.threads.number() as u128;
-    let needed = threads * 360 * args.masses as u128 + (1 << 10) * realisations as u128;
-    fits(needed)?;
+    fits(threads * 360 * args.masses as u128 + (1 << 10) * realisations as u128)?;
     if end > LATEST {
-        return Err(Failure::input(
-            "--transient, --window: they end after t = 1e12; give shorter ones",
-        ));
+        let what = "--transient, --window: they end after t = 1e12; give shorter ones";
+        return Err(Failure::input(what));
     }
     let progress = Progress::on_stderr();
     let rows = args.threads.run(|| rows(ensemble, &progress))?;
@@ -185,30 +182,27 @@ fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Vec<String>>, Fai
 
 /// Names what makes the rows of a σ doubtful.
 fn warn_of_doubts(ensemble: &Ensemble, sigma: f64, counts: &Counts) {
-    let (all, rejected) = (ensemble.realisations, counts.rejected);
-    if counts.failed > 0 {
-        let failed = counts.failed;
-        warn(&format!(
-            "sigma {sigma:?}: {failed} of {all} realisations ended early and are in no mean"
-        ));
+    let doubt = |what: String| warn(&format!("sigma {sigma:?}: {what}"));
+    let (all, rejected, failed) = (ensemble.realisations, counts.rejected, counts.failed);
+    if failed > 0 {
+        doubt(format!("{failed} of {all} realisations ended early and are in no mean"));
     }
     if !ensemble.compares(sigma, rejected) {
-        warn(&format!(
-            "sigma {sigma:?}: {rejected} of {all} starts overlapped and were rejected; the row is not \
-             comparable with others"
+        doubt(format!(
+            "{rejected} of {all} starts overlapped and were rejected; the row is not comparable with others"
         ));
     }
     let total = &counts.total;
     if total.simultaneous > total.impacts / 100 {
-        warn(&format!(
-            "sigma {sigma:?}: {} of {} impacts came at exactly the same instant as one in a neighbouring gap; \
+        doubt(format!(
+            "{} of {} impacts came at exactly the same instant as one in a neighbouring gap; \
              they were taken fastest first, a choice that may matter where r > 0",
             total.simultaneous, total.impacts
         ));
     }
     if let Some((realisation, Graze { time, gap })) = total.first_graze {
-        warn(&format!(
-            "sigma {sigma:?}: rounding could not decide {} grazes, the first in realisation {realisation}, of \
+        doubt(format!(
+            "rounding could not decide {} grazes, the first in realisation {realisation}, of \
              gap {gap} at t = {time:?}; each was taken for a miss",
             total.undecided
         ));

@@ -107,8 +107,7 @@ const fn tolerance(usual: f64) -> Option<(&'static str, f64)> {
 /// Returns a parser of the names of methods, which lists them with their lines in the help.
 fn method_names() -> impl TypedValueParser<Value = MethodName> {
     let name = |(method, option, line): &MethodLine| {
-        let option =
-            option.map_or_else(String::new, |(option, usual)| format!("{option} [{usual:?}]"));
+        let option = option.map_or(String::new(), |(name, usual)| format!("{name} [{usual:?}]"));
         PossibleValue::new(method.id()).help(line.replace("{}", &option))
     };
     let names: Vec<PossibleValue> = METHODS.iter().map(name).collect();
@@ -323,9 +322,8 @@ fn setting(args: &Args) -> Result<f64, Failure> {
     for (option, value) in [("--step", args.step), ("--tolerance", args.tolerance)] {
         if value.is_some() && option != takes {
             let name = args.method.id();
-            return Err(Failure::input(format!(
-                "{option}: the method {name} takes {takes}; leave it out"
-            )));
+            let what = format!("{option}: the method {name} takes {takes}; leave it out");
+            return Err(Failure::input(what));
         }
     }
     Ok(args.step.or(args.tolerance).unwrap_or(usual))

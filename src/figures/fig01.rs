@@ -29,7 +29,12 @@ pub fn draw() -> Result<Figure, Error> {
         let dot = (Symbol::Disc, 26, Stroke::solid(INK, 4));
         sheet.area.draw(&markers(vec![(middle + dx, HEIGHT)], dot))?;
     }
-    floor_labels(&sheet.area, right)?;
+    let places = MASSES.map(|(slot, _, place, _)| (LEFT + slot * SPACING, place));
+    for (x, place) in [(LEFT, "0"), (right, "(*n*+1)*d*")].into_iter().chain(places) {
+        draw_line(&sheet.area, [(x, FLOOR), (x, FLOOR + 130)], HAIR)?;
+        let style = words(TEXT, INK, HPos::Center, VPos::Top);
+        sheet.area.draw_text(place, &style, (x, FLOOR + 240))?;
+    }
     distances(&sheet.area)?;
 
     let description = describe!(
@@ -57,8 +62,7 @@ fn draw_line<const N: usize>(sheet: &SheetArea, points: [(i32, i32); N], width: 
 }
 
 fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Drawn {
-    let rest = Stroke::dashed(GREY, HAIR, SHORT);
-    sheet.draw(&line(vec![(root, 740), (root, FLOOR)], rest))?;
+    sheet.draw(&line(vec![(root, 740), (root, FLOOR)], Stroke::dashed(GREY, HAIR, SHORT)))?;
     // A clamped stem with a load at its end: s²(3 − s)/2.
     let stem: [(i32, i32); 41] = std::array::from_fn(|i| {
         let s = i as f64 / 40.0;
@@ -69,16 +73,6 @@ fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Drawn {
     let centre = (root + bend, HEIGHT);
     sheet.draw(&markers(vec![centre], (Symbol::Ring, RADIUS, Stroke::solid(INK, 36))))?;
     Ok(sheet.draw_text(name, &words(SMALL, INK, HPos::Center, VPos::Center), centre)?)
-}
-
-fn floor_labels(sheet: &SheetArea, right: i32) -> Drawn {
-    let y = FLOOR + 240;
-    let places = MASSES.map(|(slot, _, place, _)| (LEFT + slot * SPACING, place));
-    for (x, place) in [(LEFT, "0"), (right, "(*n*+1)*d*")].into_iter().chain(places) {
-        draw_line(sheet, [(x, FLOOR), (x, FLOOR + 130)], HAIR)?;
-        sheet.draw_text(place, &words(TEXT, INK, HPos::Center, VPos::Top), (x, y))?;
-    }
-    Ok(())
 }
 
 fn double_arrow(sheet: &SheetArea, a: (i32, i32), b: (i32, i32)) -> Drawn {
@@ -108,9 +102,7 @@ fn distances(sheet: &SheetArea) -> Drawn {
     sheet.draw_text("Δ_{1}(*t*)", &style, ((x1 + x2) / 2, y - 140))?;
     // The force on mass 2.
     let start = x2 + RADIUS + 25;
-    let force = vec![(start + 480, HEIGHT), (start, HEIGHT)];
-    sheet.draw(&arrow(force, Stroke::solid(BLUE, 40)))?;
-    let at = (start + 330, HEIGHT - 150);
+    sheet.draw(&arrow(vec![(start + 480, HEIGHT), (start, HEIGHT)], Stroke::solid(BLUE, 40)))?;
     let style = words(TEXT, BLUE, HPos::Center, VPos::Bottom);
-    Ok(sheet.draw_text("*F*_{2}(*t*)", &style, at)?)
+    Ok(sheet.draw_text("*F*_{2}(*t*)", &style, (start + 330, HEIGHT - 150))?)
 }

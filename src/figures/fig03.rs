@@ -22,11 +22,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let intervals: Vec<_> = intervals.collect();
     panel.bars("mean of those with an impact", &intervals, 0, INTERVAL)?;
     printed(&panel, comparison::at(&means, printed_threshold()).unwrap_or(0.0))?;
-    let broken = Stroke::dashed(GREY, LINE, SHORT);
-    panel.curve("mean of all", &all, broken)?;
+    panel.curve("mean of all", &all, Stroke::dashed(GREY, LINE, SHORT))?;
     panel.markers("mean of those with an impact", &means, CROSSES)?;
-    let end = (panel.x.hi, n as f64);
-    panel.label("mean of those with an impact", end, (-1, 3), RED)?;
+    panel.label("mean of those with an impact", (panel.x.hi, n as f64), (-1, 3), RED)?;
     panel.label("mean of all", reaches(&all, 7.0), (3, 0), GREY)?;
     if let Some(half) = half_height {
         let level = n as f64 / 2.0;
@@ -40,9 +38,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let share = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 6650), x, y)?;
     let share = share.outside(Outside::Cut);
     let fraction = swept("kept")?;
-    let line = Stroke::solid(RED, THIN);
     let dot = (Symbol::Disc, 38, Stroke::solid(RED, HAIR));
-    share.marked_curve("share with an impact", &fraction, line, dot)?;
+    share.marked_curve("share with an impact", &fraction, Stroke::solid(RED, THIN), dot)?;
     let at = reaches(&fraction, 0.5);
     share.label("share of the realisations with an impact", at, (5, 0), RED)?;
 

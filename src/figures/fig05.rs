@@ -60,16 +60,14 @@ fn motion(panel: &Panel, segment: &Segment, length: usize) -> Drawn {
         .collect();
     for (j, points) in paths.iter().enumerate() {
         let (colour, dash) = MASSES[j % MASSES.len()];
-        let name = format!("mass {}", j + 1);
-        panel.curve(&name, points, Stroke::dashed(colour, LINE, dash))?;
+        panel.curve(&format!("mass {}", j + 1), points, Stroke::dashed(colour, LINE, dash))?;
     }
     let ends = (1..).zip(&paths).zip(MASSES);
     let ends = ends.map(|((j, path), look)| (format!("*x*_{{{j}}}"), path, look.0));
     panel.label_ends(&ends.collect::<Vec<_>>())?;
     let hits: Vec<_> =
         segment.impacts.iter().map(|hit| (hit.time - from, hit.position / d)).collect();
-    let ring = (Symbol::Ring, 70, Stroke::solid(RED, 24));
-    panel.unrecorded().markers("impacts", &hits, ring)?;
+    panel.unrecorded().markers("impacts", &hits, (Symbol::Ring, 70, Stroke::solid(RED, 24)))?;
     for (i, (hit, at)) in segment.impacts.iter().zip(&hits).enumerate() {
         panel.record(&format!("impact {}", name(hit.gap)), [*at]);
         panel.label_nearby(&(i % length + 1).to_string(), *at, (0, -1), RED)?;

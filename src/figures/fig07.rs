@@ -21,8 +21,7 @@ pub fn draw() -> Result<Figure, Error> {
     let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "length *k*");
     let frame = Frame::new(5250, 480, 8200, 3380);
     let curve = sheet.lettered("(b)", frame, x, Axis::decades(lowest, 0, 40, ""))?.unrecorded();
-    let line = Stroke::solid(GREEN, LINE);
-    curve.curve("share of circuits", &over_k(&share), line)?;
+    curve.curve("share of circuits", &over_k(&share), Stroke::solid(GREEN, LINE))?;
     let first = format!("10^{{−{}}}", -logs[0].round());
     curve.label(&format!("*k* = 1: {first}"), (8.0, share[0]), (1, -1), INK)?;
 

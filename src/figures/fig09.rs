@@ -23,8 +23,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     most_likely([p_jump, jump], &mode)?;
     let text = format!("from 1 to {jump} at *p* = {}", short(p_jump, 4));
     mode.label(&text, (p_jump, jump / 2.0), (2, 0), INK)?;
-    let mean = means();
-    expected.curve("mean", &mean, CURVE)?;
+    expected.curve("mean", &means(), CURVE)?;
     expected.label("*μ* → 1 as *p* → 0", (expected.x.lo, 1.0), (3, -2), INK)?;
 
     let description = describe!(
@@ -46,8 +45,7 @@ fn most_likely([p_jump, jump]: [f64; 2], panel: &Panel) -> Drawn {
     stairs.extend(stairs.last().map(|last| (1.0, last.1)));
     panel.curve("most likely number, 1", &[(panel.x.lo, 1.0), (p_jump, 1.0)], CURVE)?;
     panel.curve("most likely number", &stairs, CURVE)?;
-    let dotted = Stroke::dashed(GREEN, THIN, DOTTED);
-    panel.guide("jump", &[(p_jump, 1.0), (p_jump, jump)], dotted)?;
+    panel.guide("jump", &[(p_jump, 1.0), (p_jump, jump)], Stroke::dashed(GREEN, THIN, DOTTED))?;
     let look = |mark| (mark, 50, Stroke::solid(GREEN, THIN));
     panel.markers("before the jump", &[(p_jump, 1.0)], look(Symbol::Disc))?;
     panel.markers("after the jump", &[(p_jump, jump)], look(Symbol::Ring))

@@ -13,10 +13,9 @@ pub fn draw() -> Result<Figure, Error> {
     let shown = ((1.8 * last_zero / 10.0).ceil() * 10.0).min(N as f64);
     for (i, at) in rows.into_iter().enumerate() {
         let edge = 550 + 2350 * i as i32;
-        let last = i + 1 == rows.len();
         let k = || {
             let axis = Axis::linear(0.0, shown, 10.0, 2, "*k*");
-            if last { axis } else { axis.without_numbers() }
+            if i + 1 == rows.len() { axis } else { axis.without_numbers() }
         };
         let letter = LETTERS[i];
         let left = sheet.panel(Frame::new(1000, edge, 4000, edge + 1700), k(), signs(at))?;
@@ -84,8 +83,7 @@ fn weight(panel: &Panel, highest: &[usize], shown: &[f64]) -> Drawn {
     panel.guide("height at k = 1", &[(0.5, first), (panel.x.hi, first)], level)?;
     for &k in highest {
         let at = (k as f64, shown[k - 1]);
-        let disc = (Symbol::Disc, 75, Stroke::solid(RED, HAIR));
-        panel.markers("most likely", &[at], disc)?;
+        panel.markers("most likely", &[at], (Symbol::Disc, 75, Stroke::solid(RED, HAIR)))?;
         // Next to the first column, under the broken line; above the other columns.
         match (k, highest.len()) {
             (1, 1) => panel.label("*k*^{∗} = 1", at, (2, 1), RED)?,

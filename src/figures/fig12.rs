@@ -18,9 +18,14 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     panel.markers("simulation", &simulated, CROSSES)?;
     panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
     panel.label("graph theory", reaches(&simple, 0.7 * n as f64), (2, 0), GREEN)?;
-    if let Ok(half) = results.number("sweep.rise.half_height") {
-        let theory = results.number("theory.relation.sigma_half")?;
-        lag(&panel, [half, theory], n as f64 / 2.0)?;
+    if let Ok(from) = results.number("sweep.rise.half_height") {
+        // Where both come to half of all gaps, an arrow as long as the theory is late in σ.
+        let (to, level) = (results.number("theory.relation.sigma_half")?, n as f64 / 2.0);
+        panel.area.draw(&arrow(vec![(from, level), (to, level)], Stroke::solid(INK, THIN)))?;
+        let middle = (threshold + to) / 2.0;
+        panel.label(&format!("+{}", short(to - from, 2)), (middle, level), (0, -1), INK)?;
+        panel.label(&short(from, 4), (from, level), (-2, 0), INK)?;
+        panel.label(&short(to, 4), (to, level), (1, 0), INK)?;
     }
 
     let description = describe!(
@@ -31,13 +36,4 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         at(&simple, threshold),
     );
     Ok(sheet.finish("Simulation against graph theory", description))
-}
-
-/// Marks where both come to half of all gaps, with an arrow as long as the theory is late in σ.
-fn lag(panel: &Panel, [from, to]: [f64; 2], level: f64) -> Drawn {
-    panel.area.draw(&arrow(vec![(from, level), (to, level)], Stroke::solid(INK, THIN)))?;
-    let middle = (printed_threshold() + to) / 2.0;
-    panel.label(&format!("+{}", short(to - from, 2)), (middle, level), (0, -1), INK)?;
-    panel.label(&short(from, 4), (from, level), (-2, 0), INK)?;
-    panel.label(&short(to, 4), (to, level), (1, 0), INK)
 }

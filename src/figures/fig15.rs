@@ -31,8 +31,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let added = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 7000), sigma_axis(), y)?;
     let added = added.outside(Outside::Cut);
     added.curve("difference of the theories", &change, Stroke::solid(BLUE, LINE))?;
-    let peak = (reaches(&change, most).0, 0.7 * most);
-    added.label("by the higher orders", peak, (5, 0), BLUE)?;
+    added.label("by the higher orders", (reaches(&change, most).0, 0.7 * most), (5, 0), BLUE)?;
 
     let description = describe!(
         "(a) Expected number of impacts against σ: crosses for the simulation, {} at σ = {threshold}; lines for the theory with simple \

@@ -34,8 +34,7 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let to = from + DETAIL;
     let near = Frame::new(1200, 5600, 8150, 8900);
     let near = sheet.lettered("(b)", near, time(from, to, DETAIL / 4.0), gaps())?.unrecorded();
-    let first = ticks(points(run, from, to), 14, Stroke::solid(INK, 30));
-    near.draw_series("first impacts", [first])?;
+    near.draw_series("first impacts", [ticks(points(run, from, to), 14, Stroke::solid(INK, 30))])?;
     starts(&near, run, to)?;
     if let Some((time, gap)) = run.times.first().zip(run.gaps.first()) {
         near.label("closes by itself", (*time, f64::from(*gap)), (2, 4), RED)?;
@@ -103,8 +102,7 @@ fn starts(panel: &Panel, run: &SpaceTime, until: f64) -> Drawn {
     let firsts = run.firsts();
     let starts = run.starts().into_iter().filter_map(|gap| Some((firsts[gap]?, gap as f64)));
     let starts: Vec<_> = starts.filter(|(time, _)| *time <= until).collect();
-    let disc = (Symbol::Disc, 62, Stroke::solid(RED, HAIR));
-    panel.unrecorded().markers("starts", &starts, disc)?;
+    panel.unrecorded().markers("starts", &starts, (Symbol::Disc, 62, Stroke::solid(RED, HAIR)))?;
     panel.record("starts", starts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     Ok(())
 }

@@ -48,8 +48,7 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn 
         let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-3, 0)) };
         panel.label(&name, (at(&rising, height).unwrap_or(SIGMAS.0), height), side, colour)?;
     }
-    let last = kept.iter().rfind(|(_, share)| *share < 0.9);
-    let Some((sigma, share)) = last else { return Ok(()) };
+    let Some((sigma, share)) = kept.iter().rfind(|(_, share)| *share < 0.9) else { return Ok(()) };
     let leader = [(sigma + 0.001, share - 0.03), (sigma + 0.004, share - 0.1)];
     panel.guide("leader", &leader, Stroke::solid(INK, HAIR))?;
     panel.label("main sweep, *n* = 100", leader[1], (1, 1), INK)

@@ -39,9 +39,8 @@ fn shares(sheet: &Sheet) -> Drawn {
         panel.guide("jump", &jump, Stroke::dashed(colour, THIN, DOTTED))?;
         let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
         panel.unrecorded().markers(&name, &jump[1..], disc)?;
-        let start = (RANGE.0, 1.0 / vertices as f64);
         let name = format!("*N* = {}", power_of_ten(vertices.ilog10() as i32));
-        panel.label(&name, start, (1, -1), colour)?;
+        panel.label(&name, (RANGE.0, 1.0 / vertices as f64), (1, -1), colour)?;
     }
     // On top, so that it is seen on the curves that lie on it.
     panel.curve("limit", &large::limit(), Stroke::dashed(ORANGE, LINE, LONG))?;
@@ -54,11 +53,9 @@ fn jumps(sheet: &Sheet, table: &Table) -> Drawn {
     let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 7550), x, y)?;
     let rule = table.curve(&[], "n", "rule")?;
     let rule: Vec<_> = rule.into_iter().map(|(n, k)| (n, k / n)).collect();
-    let line = Stroke::solid(INK, THIN);
-    panel.curve("rule", &rule, line)?;
+    panel.curve("rule", &rule, Stroke::solid(INK, THIN))?;
     let exact = table.curve(&[], "n", "share")?;
-    let disc = (Symbol::Disc, 55, Stroke::solid(RED, THIN));
-    panel.markers("exact", &exact, disc)?;
+    panel.markers("exact", &exact, (Symbol::Disc, 55, Stroke::solid(RED, THIN)))?;
     if let Some(place) = exact.get(4) {
         panel.label("exact", *place, (2, -1), RED)?;
     }

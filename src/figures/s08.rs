@@ -36,10 +36,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let frame = Frame::new(2450, top, 5350, top + height(of));
         top += height(of) + 480;
         let engine = Setting { method: Certified, value: 0.0, stop: 0.0 };
-        let is_last = i + 1 == means.len();
-        let panel = rows_of(&sheet, frame, &found, time(engine), is_last)?;
-        let heading = format!("*σ* = {}, *T* = {}", chains.sigma, of.transient);
-        panel.heading(LETTERS[i], &heading)?;
+        let panel = rows_of(&sheet, frame, &found, time(engine), i + 1 == means.len())?;
+        panel.heading(LETTERS[i], &format!("*σ* = {}, *T* = {}", chains.sigma, of.transient))?;
     }
     let style = words(SMALL, INK, HPos::Right, VPos::Bottom);
     let heads =
