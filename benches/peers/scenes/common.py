@@ -2,7 +2,8 @@
 `scenes/README.md`, the impact law, and the bound on work.
 
 A program has a file here with `NAME`, `VERSION`, `SETTINGS` (pairs of words and a value) and
-`simulate(case, value, hit)`, which reports each impact by `hit(time, gap, closing speed)`.
+`simulate(case, value, hit)`, which reports each impact by `hit(time, gap, closing speed)`; and, if the
+program goes on after it has printed that it may not see an event, `DOUBT`, a part of that message.
 """
 
 import json
@@ -10,6 +11,7 @@ import os
 import resource
 import signal
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -176,20 +178,25 @@ def main(program):
             for number, case in enumerate(scene["cases"]):
                 if hasattr(program, "prepare"):
                     program.prepare(Case(case))
-                found = alone(lambda case=case, value=value: outcome(program, Case(case), value))
+                found, said = alone(lambda case=case, value=value: outcome(program, Case(case), value))
+                if found not in ["right", "gave_up"] and getattr(program, "DOUBT", "\0") in said:
+                    found = "warned"
                 row = {"what": "scene", "name": program.NAME, "version": program.VERSION, "settings": words,
                        "scene": scene["id"], "case": number, "outcome": found}  # fmt: skip
                 print(json.dumps(row), flush=True)
 
 
 def alone(run):
-    """The result of a function in a child, or `gave_up` after SECONDS of processor time."""
+    """The result of a function in a child, or `gave_up` after SECONDS of processor time; and what it
+    printed."""
     read, write = os.pipe()
+    printed = tempfile.TemporaryFile(mode="w+", errors="replace")
     child = os.fork()
     if child == 0:
         try:
             os.close(read)
-            os.dup2(2, 1)
+            os.dup2(printed.fileno(), 1)
+            os.dup2(printed.fileno(), 2)
             soft = int(resource.getrusage(resource.RUSAGE_SELF).ru_utime) + SECONDS
             resource.setrlimit(resource.RLIMIT_CPU, (soft, soft + 1))
             os.write(write, run().encode())
@@ -201,7 +208,10 @@ def alone(run):
     with os.fdopen(read) as pipe:
         found = pipe.read()
     _, status = os.waitpid(child, 0)
+    printed.seek(0)
+    said = printed.read()
+    sys.stderr.write(said)
     if found:
-        return found
+        return found, said
     late = os.WIFSIGNALED(status) and os.WTERMSIG(status) in (signal.SIGXCPU, signal.SIGKILL)
-    return "gave_up" if late else "warned"
+    return "gave_up" if late else "warned", said

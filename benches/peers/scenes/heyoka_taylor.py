@@ -10,6 +10,7 @@ import numpy as np
 
 EPS = float(np.finfo(float).eps)
 NAME, VERSION = "heyoka", hy.__version__
+DOUBT = "polynomial root finding during event detection failed"
 SETTINGS = [("tol=2.2e-16", 0.0), ("tol=2.2e-16, stop=1e-12", 1e-12)]
 
 
@@ -71,7 +72,7 @@ def simulate(case, stop, hit):
             raise common.Warned(str(result))
         return t, x, v, gap
 
-    # Events at a zero of the first term are not isolated: gaps open by a rounding, at the wall by less.
+    # A root at the very start is not isolated: gaps open by a rounding, at the wall by less.
     located.simulate(case, stop, advance, hit, width=1e-100)
 
 

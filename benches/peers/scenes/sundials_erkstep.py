@@ -43,6 +43,7 @@ def version():
 
 
 NAME = "SUNDIALS"
+DOUBT = "root functions identically 0"
 LIBRARY = library()
 VERSION = version()
 

@@ -4,7 +4,7 @@ use super::bias::{Biases, GapCount};
 use super::case::Expected;
 use super::race::Entry;
 use super::tables::{in_formulas, pairs};
-use super::trials::{Trials, right};
+use super::trials::{Trial, Trials, right};
 use crate::experiments::prelude::*;
 use crate::experiments::programs::{Program, Run};
 use crate::experiments::{BIAS, MEASURED, Measured, PROGRAMS, RACE, TRIALS};
@@ -26,9 +26,8 @@ const MOST: f64 = 0.5;
 /// Times that differ by less than this factor may change their order from run to run.
 const TIE: f64 = 1.3;
 
-/// The scenes in which masses come to rest, and those of dips that just reach zero.
+/// The scenes in which masses come to rest.
 const REST: [&str; 4] = ["ball", "table", "held", "squeezed"];
-const GRAZES: [&str; 2] = ["grazing-hits", "square-root"];
 
 struct Answer {
     setting: Setting,
@@ -81,8 +80,9 @@ impl Question {
         let is_near = |answer: &Answer| engine.is_some_and(|of| answer.seconds < TIE * of.seconds);
         let is_open = |answer: &Answer| !answer.is_enough() && answer.margin > -answer.half;
         match self.rival().zip(engine) {
-            Some((rival, of)) if is_near(rival) && of.seconds < TIE * rival.seconds => "tie".into(),
-            None if self.answers.iter().any(|of| is_open(of) && is_near(of)) => "undecided".into(),
+            Some((rival, of)) if TIE * rival.seconds <= of.seconds => named(Some(rival)),
+            _ if self.answers.iter().any(|of| is_open(of) && is_near(of)) => "undecided".into(),
+            Some((rival, _)) if is_near(rival) => "tie".into(),
             _ => named(cheapest(&self.answers)),
         }
     }
@@ -123,11 +123,10 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
             cradle(trials)
         })
         .words("rest", "programs with a setting right wherever masses rest", |()| {
-            names(programs, rests)
+            names(programs, &REST)
         })
-        .words("grazes", "programs that see the most grazes", |()| {
-            let most = programs.iter().flat_map(|of| &of.settings).map(grazes).max();
-            names(programs, |run| Some(grazes(run)) == most)
+        .words("grazes", "programs with a setting that sees every graze", |()| {
+            names(programs, &["grazing-hits"])
         })
         .done();
     let means = table("answers.means", "1", &questions(biases, measured)).done();
@@ -260,16 +259,11 @@ fn cradle(trials: &Trials) -> Option<f64> {
     Some(1.0 - pxfm::f_cos(frequency * impacts.first()?.0))
 }
 
-fn rests(run: &Run) -> bool {
-    REST.iter().all(|scene| right(&run.outcomes[*scene]) == run.outcomes[*scene].len())
-}
-
-fn grazes(run: &Run) -> usize {
-    GRAZES.iter().map(|scene| right(&run.outcomes[*scene])).sum()
-}
-
-fn names(programs: &[Program], chosen: impl Fn(&Run) -> bool) -> String {
-    let of = programs.iter().filter_map(|of| of.settings.iter().find(|run| chosen(run)));
+/// Names the programs with a setting that is right in all cases of some scenes.
+fn names(programs: &[Program], scenes: &[&str]) -> String {
+    let is_right = |trial: &Trial| right(trial) == trial.len();
+    let chosen = |run: &&Run| scenes.iter().all(|scene| is_right(&run.outcomes[*scene]));
+    let of = programs.iter().filter_map(|of| of.settings.iter().find(chosen));
     of.map(|run| &*run.name).collect::<Vec<_>>().join(", ")
 }
 
