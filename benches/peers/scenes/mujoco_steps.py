@@ -77,7 +77,8 @@ def simulate(case, value, hit):
             inside[gap], before[gap] = width <= 0.0, v[gap + 1] - v[gap]
         if data.time >= case.until:
             return
-        data.qfrc_applied[:] = case.force(data.time, case.places)
+        # The drive is constant within a step: that of its middle.
+        data.qfrc_applied[:] = case.force(data.time + 0.5 * value[0], case.places)
         mujoco.mj_step(chain, data)
         if data.warning.number.any():
             raise common.Warned

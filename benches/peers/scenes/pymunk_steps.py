@@ -1,4 +1,8 @@
-"""pymunk (Chipmunk): fixed steps, and impulses at contacts of its own discs."""
+"""pymunk (Chipmunk): fixed steps, and impulses at contacts of its own discs.
+
+A step moves the bodies, then changes their velocities by `velocity_func`, then solves for impulses:
+forces that depend on places act there, at the end of the step.
+"""
 
 import sys
 
@@ -17,6 +21,16 @@ def simulate(case, h, hit):
     space = pymunk.Space()
     space.collision_slop = 0.0
     bodies = []
+
+    def driven(j):
+        rest = case.places[j - 1] + 2.0 * RADIUS * j
+
+        def change(body, gravity, damping, dt):
+            pull = drive[j - 1] - case.w2 * (body.position.x - rest)
+            body.velocity = body.velocity.x + dt * pull, 0.0
+
+        return change
+
     for j in range(case.n + 2):
         wall = j in (0, case.n + 1)
         body = space.static_body if wall else pymunk.Body(1.0, float("inf"))
@@ -26,24 +40,23 @@ def simulate(case, h, hit):
         if not wall:
             body.position = case.x[j - 1] + 2.0 * RADIUS * j, 0.0
             body.velocity = case.v[j - 1], 0.0
+            body.velocity_func = driven(j)
             space.add(body)
             bodies.append(body)
         space.add(disc)
     before, touched = case.v, []
+    t, steps, drive = case.time, 0, ()
 
     def begin(arbiter, space, data):
         if arbiter.is_first_contact:
             touched.append(min(shape.number for shape in arbiter.shapes))
 
     space.on_collision(1, 1, post_solve=begin)
-    t, steps = case.time, 0
     while t < case.until:
-        x = [body.position.x - 2.0 * RADIUS * j for j, body in enumerate(bodies, 1)]
-        for body, force in zip(bodies, case.force(t, x), strict=True):
-            body.apply_force_at_local_point((force, 0.0))
-        space.step(h)
         steps += 1
         t = case.time + steps * h
+        drive = case.force(t, case.places)
+        space.step(h)
         opening = case.opening(before)
         for gap in sorted(touched):
             hit(t, gap, -opening[gap])

@@ -89,7 +89,8 @@ def simulate(case, h, hit):
     while simulation.hasNextEvent():
         before = masses.velocity().copy()
         simulation.computeOneStep()
-        report(case, simulation.nextTime(), before, gaps, hit)
+        # Contacts are those that the velocities before it shut by the middle of the step.
+        report(case, simulation.nextTime() - 0.5 * h, before, gaps, hit)
         simulation.nextStep()
 
 

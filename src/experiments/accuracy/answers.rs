@@ -170,7 +170,7 @@ fn question(
     (biases, measured): (&Biases, &Measured),
     sigmas: &[f64],
     tolerance: f64,
-    [id, words]: [String; 2],
+    ([id, words], is_share): ([String; 2], bool),
     values: impl Fn(&[Vec<[f64; 2]>]) -> Vec<f64>,
 ) -> Option<Question> {
     let at = |sigma: &f64| {
@@ -185,14 +185,20 @@ fn question(
         let values = values(&pairs);
         let found = match setting.method {
             Certified => with_error(0.0, 0.0),
-            // Where all chains agree, nothing tells how often they would not.
-            _ => average(&values).filter(|found| found.error > 0.0)?,
+            // Where all chains agree, only of a share one knows how often they would not.
+            _ => average(&values).filter(|found| is_share || found.error > 0.0)?,
         };
         let masses = all[0].0.chains.chain.masses;
         let time = |sigma: &f64| measured.thousand(measured.method(setting, masses, *sigma)?);
         let seconds = sigmas.iter().map(time).sum::<Option<f64>>()?;
-        let (chains, margin) = (values.len(), tolerance - found.value.abs());
-        let half = half(chains, found.error);
+        let (chains, off) = (values.len(), found.value.abs());
+        let margin = tolerance - off;
+        let half = if is_share && setting.method != Certified {
+            let [low, high] = wilson((off * chains as f64).round() as u64, chains as u64, LEVEL)?;
+            if margin > 0.0 { high - off } else { off - low }
+        } else {
+            half(chains, found.error)
+        };
         Some(Answer { setting, seconds, chains, found, margin, half })
     };
     let answers = all[0].0.settings.iter().filter_map(answer).collect();
@@ -210,7 +216,7 @@ fn questions(biases: &Biases, measured: &Measured) -> Vec<Question> {
         let percent = 100.0 * tolerance;
         let words = format!("a mean to {percent} %, $σ = {sigma}$, $T = {transient}$");
         let named = [format!("mean-{sigma}"), words];
-        all.extend(question(both, &[sigma], tolerance, named, |pairs| {
+        all.extend(question(both, &[sigma], tolerance, (named, false), |pairs| {
             let [theirs, ours] = [0, 1].map(|i| pairs[0].iter().map(|pair| pair[i]).sum::<f64>());
             let (ratio, mean) = (theirs / ours, ours / pairs[0].len() as f64);
             let residual = |pair: &[f64; 2]| (pair[0] - ratio * pair[1]) / mean + ratio - 1.0;
@@ -220,12 +226,12 @@ fn questions(biases: &Biases, measured: &Measured) -> Vec<Question> {
     let (low, high, percent) = (MEANS[0].0, MEANS[1].0, 100.0 * ALIKE);
     let words =
         format!("the share of chains with an impact to {percent} percentage point, $σ = {low}$");
-    all.extend(question(both, &[low], ALIKE, ["share".into(), words], |pairs| {
+    all.extend(question(both, &[low], ALIKE, (["share".into(), words], true), |pairs| {
         let any = |count: f64| f64::from(u8::from(count > 0.0));
         pairs[0].iter().map(|pair| any(pair[0]) - any(pair[1])).collect()
     }));
     let words = format!("the half height of the rise to {percent} %");
-    all.extend(question(both, &[low, high], ALIKE, ["rise".into(), words], |pairs| {
+    all.extend(question(both, &[low, high], ALIKE, (["rise".into(), words], false), |pairs| {
         let half = 0.5 * (1 + biases.parameters.means[0].chains.chain.masses) as f64;
         let [below, above] = [0, 1].map(|i| ours(&pairs[i]).unwrap_or(f64::NAN));
         let slope = (above - below) / (high - low);

@@ -13,7 +13,7 @@ use crate::Error;
 /// their rates before and after.
 ///
 /// The matrix of that problem is tridiagonal for a row of masses; projected Gauss–Seidel solves
-/// it, lowest gap first. An impact is an episode of steps with P > 0, counted at the end of its
+/// it, lowest gap first. An impact is an episode of steps with P > 0, counted in the middle of its
 /// first.
 ///
 /// - Source: Moreau (1988), CISM Courses 302, 1; Jean (1999), Comput. Methods Appl. Mech. Eng. 177,
@@ -100,7 +100,7 @@ impl Stepper for Impulses {
         let before = std::mem::take(&mut self.touching);
         self.touching = pressed().map(|gap| gap.k).collect();
         for gap in pressed().filter(|gap| !before.contains(&gap.k)) {
-            tally.impact(gap.k, step.to.time(), (-gap.rate).max(0.0))?;
+            tally.impact(gap.k, step.from.after(half).time(), (-gap.rate).max(0.0))?;
         }
         Ok(())
     }
