@@ -118,13 +118,13 @@ fn scene(what: &str, trials: &[Trial], sizes: &[usize]) -> Json {
     let mut all = trials.iter().flatten();
     let said =
         |outcome: &Outcome| matches!(outcome, Outcome::GaveUp | Outcome::Refused | Outcome::Warned);
-    let refused = all.clone().any(said);
+    let announced = all.clone().any(said);
     let silent = all.any(|outcome| *outcome != Outcome::Right && !said(outcome));
-    let failure = match (refused, silent) {
+    let failure = match (announced, silent) {
         (false, false) => "–",
-        (true, false) => "refused",
+        (true, false) => "announced",
         (false, true) => "silent",
-        (true, true) => "silent or refused",
+        (true, true) => "silent or announced",
     };
     json!({"name": what, "cases": trials[0].len(), "cells": cells, "failure": failure})
 }

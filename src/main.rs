@@ -22,7 +22,7 @@ pub fn paper() -> Paper {
     Paper {
         edition: Edition {
             authors: vec![("The impact-paper authors", "")],
-            date: "2026-11-27",
+            date: "2026-11-28",
             license: "text and figures CC BY 4.0, code MIT OR Apache-2.0",
             documents: DOCUMENTS.to_vec(),
             equations: equations::equations(),

@@ -55,12 +55,12 @@ def prepare(case):
 def simulate(case, stop, hit):
     n = case.n
     chain = integrator(n, len(case.frequencies))
-    chain.reset_cooldowns()
     fixed = [[case.w2], [case.d], case.frequencies, case.alpha.ravel(), case.beta.ravel()]
 
     def advance(t, x, v, contact):
         matrices = [contact.P.ravel(), contact.L.ravel(), contact.shut.astype(float)]
         chain.pars[:] = np.concatenate([*fixed, *matrices])
+        chain.reset_cooldowns()  # of events before the state was changed
         chain.time = t
         chain.state[:n], chain.state[n:] = x, v
         result = chain.propagate_until(case.until)[0]

@@ -59,7 +59,11 @@ static int events(double t, N_Vector y, double *g, void *user)
     int n = chain->n;
     const double *x = N_VGetArrayPointer(y);
     double f[MOST];
-    forces(chain, t, x, f);
+    int any = 0;
+    for (int k = 0; k <= n; k++)
+        any |= chain->shut[k];
+    if (any)
+        forces(chain, t, x, f);
     for (int k = 0; k <= n; k++) {
         double left = k ? x[k - 1] : 0, right = k < n ? x[k] : chain->d * (n + 1);
         g[k] = chain->shut[k] ? product(chain->L + k * n, f, n) : right - left;
@@ -105,6 +109,7 @@ int advance(const struct chain *chain, double *t, double until, double *y)
     if (SUNContext_Create(NULL, &context))
         return -2;
     N_Vector state = N_VMake_Serial(2 * n, y, context);
+    N_VEnableFusedOps_Serial(state, 1);
     void *solver = ERKStepCreate(motion, *t, state, context);
     for (int k = 0; k <= n; k++)
         sign[k] = -1, sign[n + 1 + k] = 1;

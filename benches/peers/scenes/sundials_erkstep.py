@@ -30,7 +30,7 @@ class Chain(ctypes.Structure):
 def library():
     with tempfile.TemporaryDirectory() as folder:
         shared = Path(folder) / "erkstep.so"
-        command = ["cc", "-O2", "-shared", "-fPIC", "-o", shared, Path(__file__).with_suffix(".c")]
+        command = ["cc", "-O3", "-shared", "-fPIC", "-o", shared, Path(__file__).with_suffix(".c")]
         libraries = ["-lsundials_arkode", "-lsundials_nvecserial", "-lm"]
         subprocess.run([*command, *libraries], check=True, stdout=sys.stderr)
         return ctypes.CDLL(str(shared))

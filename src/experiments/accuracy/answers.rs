@@ -125,8 +125,8 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
         .words("rest", "programs with a setting right wherever masses rest", |()| {
             names(programs, &REST)
         })
-        .words("grazes", "programs with a setting that sees every graze", |()| {
-            names(programs, &["grazing-hits"])
+        .words("grazes", "programs with a setting that sees every graze and nothing else", |()| {
+            names(programs, &["grazing-hits", "grazing-misses"])
         })
         .done();
     let means = table("answers.means", "1", &questions(biases, measured)).done();
