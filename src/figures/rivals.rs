@@ -34,7 +34,7 @@ pub type Place = (MethodName, usize, (i32, i32));
 /// Returns the axis of times that S6 and S7 share.
 pub fn time_axis() -> Axis {
     Axis::decades(0, 4, 1, "measured time of an impact over the engine’s")
-        .between(0.2, 4e3)
+        .between(0.2, 1.3e4)
         .column("measured time over the engine's (1)")
 }
 

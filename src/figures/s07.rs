@@ -12,7 +12,7 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 
 /// Where names stand in (a).
 const NAMES: [Place; 3] =
-    [(Certified, FINEST, (2, 0)), (Advancement, 1, (-2, 0)), (RungeKutta, 3, (2, 0))];
+    [(Certified, FINEST, (0, 2)), (Advancement, 1, (-2, 0)), (RungeKutta, 3, (2, 0))];
 
 /// The same in (b), for other programs: name of the row, name here.
 const PROGRAMS: [(&str, &str, usize, (i32, i32)); 6] = [
@@ -20,7 +20,7 @@ const PROGRAMS: [(&str, &str, usize, (i32, i32)); 6] = [
     ("heyoka", "heyoka", FINEST, (0, -2)),
     ("SUNDIALS CVODE", "CVODE", FINEST, (2, 0)),
     ("SciPy DOP853", "SciPy", FINEST, (-2, 0)),
-    ("pymunk", "pymunk", FINEST, (-2, -1)),
+    ("pymunk", "pymunk", FINEST, (0, -2)),
     ("diffsol tsit45", "diffsol", 0, (-2, 0)),
 ];
 
@@ -88,7 +88,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         }
     }
     by_time.label_nearby("sampling", (13.5, 0.6 * top), (1, 0), INK)?;
-    rivals::key(&by_time, 330.0, [0.48, 0.37, 0.26].map(|share| share * top))?;
+    rivals::key(&by_time, 700.0, [0.48, 0.37, 0.26].map(|share| share * top))?;
     rivals::better(&by_time, (0.5, 0.5 * top), (0.28, 0.7 * top))?;
     rivals::better(&others, (0.5, 0.5 * top), (0.28, 0.7 * top))?;
     by_error.label_nearby("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
