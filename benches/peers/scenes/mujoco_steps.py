@@ -23,19 +23,21 @@ RADIUS = 0.1
 
 @functools.cache
 def damping(restitution, stiffness):
-    """The damping with which a unit mass leaves a contact at that part of its speed."""
+    """The damping with which a unit mass leaves a contact at that part of its speed, at least 0.02."""
     if restitution == 1.0:
         return 0.0
 
     def left(ratio):
         # x'' = -2 ratio x' - x from x = 0, x' = -1 until the contact would pull: speed at its end.
-        if ratio >= 1.0:
-            return 0.0
+        if ratio > 1.0:
+            return math.exp(-2.0 * ratio * math.acosh(ratio) / math.sqrt(ratio * ratio - 1.0))
+        if ratio == 1.0:
+            return math.exp(-2.0)
         w = math.sqrt(1.0 - ratio * ratio)
         end = math.atan2(2.0 * ratio * w, 2.0 * ratio * ratio - 1.0) / w
         return math.exp(-ratio * end)
 
-    low, high = 0.0, 1.0
+    low, high = 0.0, 3.0  # of more the steps are too long
     for _ in range(60):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if left(middle) > restitution else (low, middle)
