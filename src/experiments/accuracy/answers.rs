@@ -302,4 +302,18 @@ mod tests {
         assert_eq!(cheapest(&answers).unwrap().seconds, 0.3);
         assert!(cheapest(&answers[..2]).is_none());
     }
+
+    #[test]
+    fn a_tie_is_undecided_where_a_faster_setting_is_open() {
+        let take = |faster: Option<Answer>| {
+            let setting = Setting { method: Certified, value: 0.0, stop: 0.0 };
+            let engine = Answer { setting, ..answer(1.0, 0.05, 0.0) };
+            let answers = [engine, answer(0.9, 0.04, 0.01)].into_iter().chain(faster).collect();
+            Question { id: String::new(), words: String::new(), answers }.take()
+        };
+        assert_eq!(take(None), "tie");
+        assert_eq!(take(Some(answer(0.5, 0.01, 0.02))), "undecided");
+        assert_eq!(take(Some(answer(0.5, -0.05, 0.01))), "tie");
+        assert_eq!(take(Some(answer(0.5, 0.04, 0.01))), "Verlet, $h = 0.5$");
+    }
 }

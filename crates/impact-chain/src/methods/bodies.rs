@@ -176,7 +176,7 @@ fn step(
 ) {
     let amplitudes = component.cos.iter().zip(&component.sin);
     for ((u, v), (cos, sin)) in u.iter_mut().zip(v).zip(amplitudes) {
-        // Verlet keeps v and leaves the first drift out; no sum has a use for its products.
+        // In Verlet keep is 1 and before is 0; their products take time.
         let kept = if keep == 1.0 { *v } else { keep * *v };
         let new = (kept + pull * *u) + (c * cos + s * sin);
         *u += if before == 0.0 { after * new } else { before * *v + after * new };
