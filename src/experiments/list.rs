@@ -1,7 +1,7 @@
 //! Lists the experiments in the order in which they run, and the tables that need several.
 
 use super::{
-    BIAS, BRANCHES, HORIZON, LENGTHS, MEASURED, NUCLEATION, PROGRAMS, PROTOCOL, RACE, REPLAY,
+    BIAS, BRANCHES, HORIZON, JUMP, LENGTHS, MEASURED, NUCLEATION, PROGRAMS, PROTOCOL, RACE, REPLAY,
     RESTITUTION, SCALE, SECOND_SEED, SEEDS, SEGMENTS, SPACE_TIME, STARTS, SWEEP, TRIALS,
     TWO_MASSES, identities, seeds, starts, theory,
 };
@@ -16,6 +16,7 @@ pub const ALL: &[&dyn AnyExperiment] = &[
     &MEASURED,
     &SWEEP,
     &SECOND_SEED,
+    &JUMP,
     &PROTOCOL,
     &STARTS,
     &HORIZON,

@@ -9,6 +9,7 @@ pub mod branches;
 pub mod ensembles;
 pub mod horizon;
 pub mod identities;
+pub mod jump;
 pub mod lengths;
 mod list;
 pub mod measured;
@@ -30,6 +31,7 @@ pub use accuracy::{BIAS, RACE, SCALE, TRIALS};
 pub use branches::BRANCHES;
 pub use horizon::HORIZON;
 pub use impact_chain::rise;
+pub use jump::JUMP;
 pub use lengths::LENGTHS;
 pub use list::{ALL, THEORY, bare};
 pub use literate::experiments::{

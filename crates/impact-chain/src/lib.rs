@@ -36,6 +36,8 @@ mod impact;
 #[cfg(feature = "ensembles")]
 pub mod methods;
 #[cfg(feature = "ensembles")]
+pub mod mode_jump;
+#[cfg(feature = "ensembles")]
 mod resampling;
 #[cfg(feature = "ensembles")]
 pub mod rise;

@@ -1,0 +1,95 @@
+//! Counts independent chains at each σ, and finds the jump of the mode in each window.
+
+use super::tables;
+use crate::experiments::ensembles::{joined, part, rows};
+use crate::experiments::prelude::*;
+use crate::params::{self, Ensemble, Protocol};
+use impact_chain::Counts;
+use impact_chain::mode_jump::{ModeJump, Sample, mode_jump};
+use literate::experiments::cutting::Cutting;
+use literate::experiments::experiment::How::Cut;
+use rayon::prelude::*;
+
+pub const JUMP: Experiment<Vec<Ensemble>, Jumps, Counts> = Experiment {
+    name: "jump",
+    code: &["src/experiments/jump", "src/experiments/ensembles.rs"],
+    parameters: params::jump,
+    how: Cut("jump of the mode", Cutting { rows, part, join }),
+    tables: tables::tables,
+};
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Jumps {
+    pub ensembles: Vec<Ensemble>,
+    pub windows: Vec<WindowJump>,
+    /// The place with our protocol when the bulk is smoothed over so many numbers on both sides.
+    pub widths: Vec<(usize, Option<Estimate>)>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WindowJump {
+    pub protocol: Protocol,
+    pub jump: ModeJump,
+    /// Numbers of chains by their count k = 0..=N, at each σ.
+    pub histograms: Vec<Vec<u32>>,
+}
+
+/// Numbers on both sides over which the bulk is smoothed, and others that must give the same.
+const HALF_WIDTH: usize = 6;
+const HALF_WIDTHS: [usize; 4] = [3, 6, 9, 12];
+
+impl Jumps {
+    pub fn gaps(&self) -> usize {
+        self.ensembles.first().map_or(0, |ensemble| ensemble.chain.gaps())
+    }
+
+    /// Returns what was found in a window, or `None` if there is no such window.
+    pub fn window(&self, protocol: Protocol) -> Option<&WindowJump> {
+        self.windows.iter().find(|window| window.protocol == protocol)
+    }
+}
+
+fn join(
+    ensembles: &Vec<Ensemble>,
+    parts: Vec<Vec<Counts>>,
+    progress: &Progress,
+) -> Result<Jumps, Error> {
+    let counted: Vec<(Ensemble, Vec<Counts>)> = joined(ensembles, parts).collect();
+    let protocols = ensembles.first().map_or(&[][..], |ensemble| &ensemble.protocols);
+    let samples = |window: usize| samples(&counted, window);
+    let gaps = ensembles.first().map_or(0, |ensemble| ensemble.chain.gaps());
+    let histogram = |sample: &Sample<'_>| {
+        let mut histogram = vec![0; gaps + 1];
+        sample.counts.iter().flatten().for_each(|&k| histogram[k as usize] += 1);
+        histogram
+    };
+    let window = |(window, &protocol): (usize, &Protocol)| {
+        progress.check()?;
+        let samples = samples(window);
+        let jump = mode_jump(&samples, gaps, HALF_WIDTH);
+        let histograms = samples.iter().map(histogram).collect();
+        Ok(WindowJump { protocol, jump, histograms })
+    };
+    let windows = protocols.par_iter().enumerate().with_max_len(1).map(window);
+    let windows = windows.collect::<Result<Vec<_>, Error>>()?;
+    let ours = protocols.iter().position(|protocol| *protocol == Protocol::default());
+    let place = |width: usize| {
+        let jump = ours.map(|window| mode_jump(&samples(window), gaps, width));
+        (width, jump.and_then(|jump| jump.all_gaps.sigma))
+    };
+    let widths = HALF_WIDTHS.into_par_iter().map(place).collect();
+    Ok(Jumps { ensembles: ensembles.clone(), windows, widths })
+}
+
+/// Returns the counts of a window at each σ.
+fn samples(counted: &[(Ensemble, Vec<Counts>)], window: usize) -> Vec<Sample<'_>> {
+    let mut samples = Vec::new();
+    for (ensemble, counts) in counted {
+        samples.push(Sample {
+            sigma: ensemble.sigmas[0],
+            counts: &counts[0].distinct[window],
+            seed: ensemble.seed + ensemble.first,
+        });
+    }
+    samples
+}
