@@ -4,8 +4,9 @@ use super::shared::*;
 use crate::experiments::rise::{Curve, Rise, RisePoint};
 use crate::experiments::sweep::{self, mode_half};
 use crate::experiments::theory::comparison::LARGE_SIGMA;
-use crate::experiments::{LENGTHS, TWO_MASSES};
-use crate::params::{NEAR_SIMULTANEOUS, SLOW};
+use crate::experiments::{JUMP, LENGTHS, TWO_MASSES};
+use crate::params::{NEAR_SIMULTANEOUS, Protocol, SLOW};
+use impact_chain::mode_jump::Passing;
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::{Estimate, wilson};
 
@@ -116,38 +117,65 @@ fn none_below(e: &Evidence<'_>) -> Judged {
 fn jump(e: &Evidence<'_>) -> Judged {
     let columns = ["step", "largest_increase", "increase_of_two", "increase_of_all"];
     let [step, one, two, all] = e.numbers("sweep.against_theory", columns)?;
-    let half = e.number("sweep.run.gaps")? / 2.0;
+    let tenth = e.number("sweep.run.gaps")? / 10.0;
     let found =
         text!("largest step of the mean, between σ that are {} apart: {:2} gaps", step, one);
     let why = "From rest. The rise is steep but gradual: over two steps of the grid the mean of the realisations with an impact \
          increases {:2} times as much as over one (a slope gives 2, a jump 1); the largest step of the mean of all \
          is {:2}.";
-    Ok(e.found(found, one >= half)
-        .within(text!("a step of at least {:3}", half), A_JUMP)
+    Ok(e.found(found, one >= tenth)
+        .within(text!("a step of at least {:3}", tenth), A_JUMP)
         .explained(text!(why, two / one, all), two / one > 1.5))
 }
 
-pub(super) const A_JUMP: &str = "ours: a jump is a step of half the height or more";
+pub(super) const A_JUMP: &str =
+    "ours: a jump is a step of a tenth of all gaps or more, as in Section 6";
 
-/// By the least and the largest step that bootstrap intervals of the mode allow at neighbouring σ.
+/// Returns where the mode passes to all gaps in each window that begins late enough.
+fn passings<'a>(e: &Evidence<'a>) -> Result<Vec<(Protocol, &'a Passing)>, Error> {
+    let windows = e.results.of(&JUMP)?.windows.iter();
+    let passing = windows.map(|window| (window.protocol, &window.jump.all_gaps));
+    Ok(passing.filter(|(protocol, _)| protocol.transient >= RELEASED).collect())
+}
+
+/// In each window whose half height has the printed digits, by the criterion of
+/// [`impact_chain::mode_jump`].
 fn mode_jump(e: &Evidence<'_>) -> Judged {
-    let rows = &sweep::main(e.results)?.first().rows;
-    let intervals: Vec<[usize; 2]> = rows.iter().filter_map(|row| row.mode_interval).collect();
-    let steps = |from: usize, to: usize| {
-        let steps = intervals.windows(2).map(|w| w[1][to] as f64 - w[0][from] as f64);
-        steps.reduce(f64::max).map(|step| step.max(0.0)).ok_or(Undecided)
+    let [transient, window] = e.numbers("sweep.run", ["transient", "window"])?;
+    let row = format!("jump.windows[transient={transient},window={window}]");
+    let [place, below] = ["place", "below"].map(|name| e.estimate(&format!("{row}.{name}")));
+    let gaps = e.number("sweep.run.gaps")?;
+    let found = text!("a step from {} gaps to {} at σ = {}", below?, gaps, place?);
+    let found = with_protocol(e, found)?;
+    let half_heights = late(e, "protocol")?;
+    let [from, to] = e.published.statement("sec2_half_height")?.interval()?;
+    let has_printed_digits = |protocol: Protocol| {
+        let mut halves = half_heights.iter().filter(|curve| curve.protocol == protocol);
+        let half = halves.find_map(|curve| curve.rise.half_height);
+        half.is_some_and(|half| (from..to).contains(&half.value))
     };
-    let (least, most) = (steps(1, 0)?, steps(0, 1)?);
-    let half = e.number("sweep.run.gaps")? / 2.0;
-    let found = text!("a largest step between {} and {} gaps", least, most);
-    let check = if least < half && most >= half {
-        e.open(found)
-    } else {
-        e.found(found, least >= half).within(text!("a step of at least {:3}", half), A_JUMP)
-    };
-    let note = "From rest, between neighbouring σ, by the bootstrap intervals of the mode, each from {} realisations at \
-         most; a jump would be a step of {:3} or more.";
-    Ok(check.note(text!(note, e.number("sweep.run.realisations")?, half)))
+    let passings = passings(e)?.into_iter().filter(|(protocol, _)| has_printed_digits(*protocol));
+    let outcomes: Vec<_> = passings.map(|(_, passing)| passing.is_jump()).collect();
+    let [jumps, climbs] =
+        [true, false].map(|sure| outcomes.iter().filter(|jump| **jump == Some(sure)).count());
+    let all = outcomes.len();
+    let check = by_runs(
+        e,
+        found,
+        [jumps, climbs, all],
+        text!("a step of at least {:3}", gaps / 10.0),
+        A_JUMP,
+    );
+    let run = e.results.of(&JUMP)?;
+    let single = run.windows.iter().filter(|w| w.jump.single_gap.is_jump() == Some(true)).count();
+    let [windows, sure, no] = e.numbers("jump.run", ["windows", "jumps", "climbs"])?;
+    let note = "All gaps become the most likely number where their peak overtakes that of the bulk; it is a jump if no \
+         number between is as likely there, with 95 % confidence, and else chance may move the mode. The bulk's place is \
+         from one half of the chains, its height from the other. Of the {} windows with T ≥ {} whose half height has the \
+         printed digits the mode surely jumps in {} and surely climbs through the numbers between in {}; in the others \
+         the sample does not tell. Of all {} windows it surely jumps in {}, the long ones, and surely climbs in {}. At \
+         small σ, where a single gap may be the most likely number, a jump is sure in {} of them.";
+    Ok(check.note(text!(note, all, RELEASED, jumps, climbs, windows, sure, no, single)))
 }
 
 /// Against a chain in which each gap closes by itself: its rise from a quarter to three quarters,
@@ -163,7 +191,7 @@ fn rise_exists(e: &Evidence<'_>) -> Judged {
     let error = share * (a + b).sqrt();
     let found =
         text!("a quarter to three quarters of all gaps within {} of σ½", with_error(share, error));
-    let reason = "ours: half of what the same rise takes where impacts do not spread and each gap closes by itself; \
+    let reason = "ours: at most half the relative width that the rise would have if each gap closed only by itself; \
          and the statistical error";
     let windows = late(e, "protocol")?;
     let share_in =
@@ -243,23 +271,36 @@ fn by_protocol(
 
 const HALF_UNIT: &str = "half a unit of the last printed digit, with any protocol";
 
-/// The mode passes half of all gaps within a range of σ; it agrees if this lies within the printed
-/// digits, and does not if it lies apart from them.
+/// Judges the place of the jump by the windows in which the mode surely jumps. Longer ones are in
+/// the map of protocols, whose samples give a range of σ only.
 fn mode_rise(e: &Evidence<'_>) -> Judged {
-    let [low, high] = e.numbers("sweep.mode", ["half_from", "half_to"])?;
+    let [transient, window] = e.numbers("sweep.run", ["transient", "window"])?;
+    let row = format!("jump.windows[transient={transient},window={window}]");
+    let found = with_protocol(e, text!("σ = {}", e.estimate(&format!("{row}.place"))?))?;
     let [from, to] = e.statement.interval()?;
-    let found = with_protocol(e, text!("between σ = {} and {}", low, high))?;
-    let (windows, gaps) = (late(e, "protocol")?, e.number("sweep.run.gaps")? as usize);
-    let ranges = windows.iter().filter_map(|curve| mode_half(curve, gaps));
-    let all = ranges.clone().count();
-    let within = ranges.clone().filter(|[low, high]| from <= *low && *high <= to).count();
-    let apart = ranges.filter(|[low, high]| to < *low || *high < from).count();
-    let note = "The place is known to within the range of σ in which the bootstrap interval of the mode contains half of all gaps; of \
-         the {} windows from rest with T ≥ {} and such a range, {} have it within the printed digits and {} apart \
-         from them. The mode follows the mean.";
+    let passings = passings(e)?.into_iter().filter(|(_, passing)| passing.is_jump() == Some(true));
+    let mut places: Vec<Estimate> = passings.filter_map(|(_, passing)| passing.sigma).collect();
+    places.sort_by(|a, b| a.value.total_cmp(&b.value));
+    let [least, .., most] = places[..] else { return Err(Undecided) };
+    let printed = places.iter().filter(|place| (from..to).contains(&place.value)).count();
+    let all = places.len();
+    let longest = passings_end(e)?;
+    let gaps = e.number("sweep.run.gaps")? as usize;
+    let beyond = late(e, "protocol")?.into_iter().filter(|curve| curve.protocol.end() > longest);
+    let ranges: Vec<[f64; 2]> = beyond.filter_map(|curve| mode_half(curve, gaps)).collect();
+    let apart = ranges.iter().filter(|[low, high]| to < *low || *high < from).count();
+    let note = "In the {} windows with T ≥ {} in which the mode surely jumps, the place lies from {} to {}, and has the \
+         printed digits in {}. Of {} windows that end later, from fewer chains, the range of σ in which the mode passes \
+         half of all gaps lies apart from the printed digits in {}.";
     let tolerance = text!("± {:1}", e.statement.half_unit());
-    let check = by_runs(e, found, [within, apart, all], tolerance, HALF_UNIT);
-    Ok(check.note(text!(note, all, RELEASED, within, apart)))
+    let check = by_runs(e, found, [printed, all - printed, all], tolerance, HALF_UNIT);
+    Ok(check.note(text!(note, all, RELEASED, least, most, printed, ranges.len(), apart)))
+}
+
+/// Returns the end of the latest window in which the jump was measured.
+fn passings_end(e: &Evidence<'_>) -> Result<f64, Error> {
+    let windows = passings(e)?;
+    windows.iter().map(|(protocol, _)| protocol.end()).reduce(f64::max).ok_or(Undecided)
 }
 
 /// Share of impacts that may be called negligible (ours).
@@ -278,8 +319,8 @@ fn three_way(e: &Evidence<'_>) -> Judged {
     let by_chance = (-room..=room + phases).contains(&excess);
     let found =
         text!("{} of {:2} impacts within {:1} of one next to it", seen, impacts, NEAR_SIMULTANEOUS);
-    let reason = "ours: one in a thousand; and the count must be what one expects by chance, but for hits that \
-         masses in contact pass on to one another at once, one for each contact phase";
+    let reason = "ours: one in a thousand; and the count agrees with chance, apart from one coincidence for each \
+         contact phase";
     let note = "The share within δ falls in proportion to δ, and would reach the tolerance at δ = {:1}; by chance \
          one expects {:2} such impacts, and none at δ = 0.";
     Ok(e.found(found, share <= NEGLIGIBLE && by_chance)

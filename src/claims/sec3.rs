@@ -11,6 +11,7 @@ pub fn rules() -> Vec<Rule> {
         Rule::new("sec3_vertices", |e| size(e, e.number("theory.graph.vertices")?)),
         Rule::new("sec3_edges", |e| size(e, e.number("theory.graph.edges")?)),
         Rule::new("sec3_different_orbits", different_orbits),
+        Rule::new("sec3_every_orbit", every_orbit).on(FiniteCases),
         Rule::new("sec3_realised", realised).on(OurMeasure),
         Rule::new("sec4_few_and_many", few_and_many).on(OurMeasure),
     ]
@@ -27,6 +28,23 @@ fn different_orbits(e: &Evidence<'_>) -> Judged {
     let text = "{} different orders of impacts for the {} simple circuits of {} gaps";
     let found = text!(text, orders, circuits, gaps);
     Ok(e.found(found, orders == circuits).within("none", "integers are exact"))
+}
+
+/// An orbit without an impact has no vertex, and one of two impacts at one instant has no order.
+fn every_orbit(e: &Evidence<'_>) -> Judged {
+    let cells = ["impacts", "instants", "apart"];
+    let [silent, _, drift] = e.numbers("segments.no_circuit[orbit=no impact]", cells)?;
+    let row = "segments.no_circuit[orbit=impacts at once]";
+    let [impacts, instants, apart] = e.numbers(row, cells)?;
+    let found =
+        text!("orbits with {} impacts, and with {} at {} instants", silent, impacts, instants);
+    let why = "Two masses that only follow weak forces never hit, and have no vertex; two masses that are driven against \
+         each other hit both walls at one instant, so that no edge leads from one impact to the other. Two periods of \
+         these orbits differ by at most {:1}. Orbits whose impacts have an order are circuits by definition.";
+    let is_exception = silent == 0.0 && instants < impacts && drift.max(apart) < 1e-9;
+    Ok(e.found(found, silent > 0.0 && instants == impacts)
+        .within("none", "a single exception is enough")
+        .explained(text!(why, drift.max(apart)), is_exception))
 }
 
 fn realised(e: &Evidence<'_>) -> Judged {

@@ -1,6 +1,7 @@
 //! Replays the motions of Figs. 5(b) and 6(b), and a periodic orbit for each of their circuits.
 
 use crate::experiments::prelude::*;
+use crate::params::Start;
 use impact_circuits::graph::Graph;
 use literate::input::one_line;
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,6 +23,9 @@ pub struct Segments {
     pub fig06: Segment,
     /// Periodic orbits with the impacts of Fig. 5 and of Fig. 6, each over two periods.
     pub periodic: [Segment; 2],
+    /// Periodic orbits that are no circuit, likewise: one without an impact, and one in which two
+    /// masses, driven against each other, hit both walls at one instant.
+    pub no_circuit: [Segment; 2],
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,6 +50,9 @@ pub struct SegmentImpact {
     /// Where the two bodies touch.
     pub position: f64,
 }
+
+/// Periods after which masses that hit one another have come to a periodic orbit.
+const TRANSIENT: f64 = 1000.0;
 
 /// Points of the grid between two impacts, at least.
 const POINTS: usize = 200;
@@ -104,6 +111,11 @@ impl Segment {
         masses.collect::<BTreeSet<_>>().len()
     }
 
+    /// Returns the number of different instants at which it has impacts.
+    fn instants(&self) -> usize {
+        self.impacts.chunk_by(|a, b| a.time == b.time).count()
+    }
+
     fn gaps(&self) -> BTreeSet<usize> {
         self.impacts.iter().map(|impact| impact.gap).collect()
     }
@@ -129,7 +141,20 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
         .computed_by(origin(Segment::apart))
         .real("apart", "1", 1, "largest distance of two periods in d and 1/ω", |row| row.1.apart())
         .done();
-    vec![table, orbits]
+    const INSTANTS: &str = "different times at which it has impacts";
+    let exceptions = ["no impact", "impacts at once"].into_iter().zip(&segments.no_circuit);
+    let exceptions: Vec<_> =
+        exceptions.map(|(name, two)| (name, two, two.first_period())).collect();
+    let exceptions = Table::of("segments.no_circuit", &exceptions, |_| 1)
+        .text_key("orbit", |(name, ..)| name.to_string())
+        .computed_by(origin(record))
+        .count("impacts", "in a period", |(_, _, one)| one.impacts.len() as u64)
+        .computed_by(origin(Segment::instants))
+        .count("instants", INSTANTS, |(_, _, one)| one.instants() as u64)
+        .computed_by(origin(Segment::apart))
+        .real("apart", "1", 1, "largest distance of two periods in d and 1/ω", |row| row.1.apart())
+        .done();
+    vec![table, orbits, exceptions]
 }
 
 /// The files of the saved scenarios, below the templates directory.
@@ -156,7 +181,18 @@ pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
         })
     };
     let [fig05, fig06, first, second] = FILES.map(one);
-    Ok(Segments { fig05: fig05?, fig06: fig06?, periodic: [first?, second?] })
+    let failed = |source| Error::failed("a periodic orbit", source);
+    let [silent, at_once] = [(Start::Zero, [0.0, 0.5], 0.0), (Start::Rest, [1.0, -1.0], TRANSIENT)]
+        .map(|(start, forces, from)| {
+            let chain = Chain { masses: 2, start, ..Chain::default() };
+            let period = std::f64::consts::TAU / chain.forcing_frequency;
+            let forcing = forces.map(|force| [force, 0.0]).to_vec();
+            Scenario::given(&chain, forcing)
+                .and_then(|pair| record(&pair, from * period, (from + 2.0) * period))
+                .map_err(failed)
+        });
+    let (periodic, no_circuit) = ([first?, second?], [silent?, at_once?]);
+    Ok(Segments { fig05: fig05?, fig06: fig06?, periodic, no_circuit })
 }
 
 fn replay(text: &str) -> Result<Segment, String> {

@@ -2,6 +2,7 @@
 
 use super::basics::{known, one, sum};
 use super::census::{census, counted};
+use super::comparison;
 use super::law::{law, means, simple};
 use crate::experiments::prelude::*;
 use crate::params::{HIGHER_P, REMARK_P, VERTICES};
@@ -26,12 +27,21 @@ fn total_variation(a: &[f64], b: &[f64]) -> f64 {
     0.5 * sum(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
 }
 
-/// Returns the least of these distances if the first distribution is moved down by up to ten k.
+/// Returns the least of these distances if the first distribution is moved down by up to ten k, in
+/// steps of a hundredth, its values between whole k on straight lines.
 fn apart_in_shape(a: &[f64], b: &[f64]) -> f64 {
-    let alone = |part: &[f64]| 0.5 * sum(part.iter().copied());
-    let moved =
-        |by: usize| alone(&a[..by]) + total_variation(&a[by..], b) + alone(&b[b.len() - by..]);
-    (0..=10).map(moved).fold(f64::INFINITY, f64::min)
+    let value = |at: usize| a.get(at).copied().unwrap_or(0.0);
+    let moved = |hundredths: usize| {
+        let (by, share) = (hundredths / 100, (hundredths % 100) as f64 / 100.0);
+        // Before the first and beyond the last k as well.
+        let lost = (0..=by).map(|k| if k < by { value(k) } else { share * value(k) });
+        let kept = b
+            .iter()
+            .enumerate()
+            .map(|(k, b)| ((1.0 - share) * value(k + by) + share * value(k + by + 1) - b).abs());
+        0.5 * (sum(lost) + sum(kept))
+    };
+    (0..=1000).map(moved).fold(f64::INFINITY, f64::min)
 }
 
 /// Returns the weight of circuits with one doubled vertex over simple ones, to first order.
@@ -137,6 +147,11 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     let ([at, mean, more], [change, change_at]) = (means_apart(), largest_change(curve));
     let sigma_of = |column| relation.number(&[], column).unwrap_or(f64::NAN);
     let half_shift = sigma_of("sigma_half") - sigma_of("sigma_half_higher");
+    // Where simple circuits have the μ that higher orders have at the σ of the largest change.
+    let curve = |name| curve.curve(&[], "sigma", name).unwrap_or_default();
+    let inverse: Vec<_> = curve("simple").into_iter().map(|(sigma, mean)| (mean, sigma)).collect();
+    let shifted_to = || comparison::at(&inverse, comparison::at(&curve("higher"), change_at)?);
+    let shift_there = || Some((shifted_to()? - change_at).abs());
     let shift = |column| (sigma_of(column) - sigma_of("sigma_jump")).abs();
     let over = shift("sigma_jump_rest") / shift("sigma_jump_higher");
     one("theory.higher", origin(doubled_as_printed))
@@ -163,6 +178,7 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
         .real("change", "1", 2, "largest change of μ over σ", |()| change)
         .chosen("change_at", SIGMA, "σ of it", |()| Some(change_at))
         .real("half_shift", SIGMA, 1, "shift of σ at which μ is (N + 1)/2", |()| half_shift)
+        .real("shift_there", SIGMA, 2, "shift of the curve there", |()| shift_there())
         .real("relation_over", "1", 2, "shift of the jump from rest over that by orders", |()| over)
         .done()
 }
