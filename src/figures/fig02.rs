@@ -54,7 +54,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let shares = table.curve(&[("sigma", *sigma)], "gaps", "share")?;
         let columns: Vec<f64> = shares.iter().map(|(_, share)| *share).collect();
         let left = 1200 + 2400 * i as i32;
-        let x = Axis::linear(0.0, n as f64 + 3.0, 50.0, 5, "gaps with an impact");
+        let x = Axis::linear(0.0, n as f64 + 3.0, 50.0, 5, "gaps");
         let label = if i == 0 { "share of chains" } else { "" };
         let y = Axis::up_to(top, label);
         let y = if i == 0 { y } else { y.without_numbers() };
