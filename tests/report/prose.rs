@@ -60,6 +60,15 @@ fn no_verdict_survives_another_first_digit_in_the_printed_number() {
     assert_eq!(blind, ["sec6_normalised"]);
 }
 
+#[test]
+fn every_verdict_moves_with_the_evidence() {
+    let published = Published::parse(QUICK.templates.text("published.toml").unwrap()).unwrap();
+    let start = std::time::Instant::now();
+    let still = claims::never_moved(&published, &claims::rules(), &QUICK.results).unwrap();
+    eprintln!("{:?}", start.elapsed());
+    assert_eq!(still, [""]);
+}
+
 /// Judges results, and compares the verdicts of some statements or relations.
 fn judged(results: &Results, expected: &[(&str, Verdict)]) {
     let published = Published::parse(QUICK.templates.text("published.toml").unwrap()).unwrap();

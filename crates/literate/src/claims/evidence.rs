@@ -64,8 +64,7 @@ impl Evidence<'_> {
     /// Returns the number with an address; without one the statement is undecided.
     #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
-        let cell = table::cell(self.results.tables()?, address)?;
-        table::number(cell).ok_or(Error::Undecided)
+        table::number(self.results.cell(address)?).ok_or(Error::Undecided)
     }
 
     /// Returns several numbers of one row of a table, `theory.jump` or `theory.gap[sigma=0.2]`.
@@ -82,7 +81,7 @@ impl Evidence<'_> {
     #[track_caller]
     pub fn estimate(&self, address: &str) -> Result<Estimate, Error> {
         let value = self.number(address)?;
-        let error = table::cell(self.results.tables()?, address)?.standard_error();
+        let error = self.results.cell(address)?.standard_error();
         Ok(Estimate { value, error, interval: [value - error, value + error] })
     }
 
@@ -130,7 +129,7 @@ impl Evidence<'_> {
     #[track_caller]
     fn compared(&self, address: &str, room: f64) -> Judged {
         let (found, printed) = (self.estimate(address)?, self.statement.number()?);
-        let found_number = match table::cell(self.results.tables()?, address)?.number {
+        let found_number = match self.results.cell(address)?.number {
             Number::Real { value, .. } if found.error == 0.0 => {
                 let places = self.statement.decimals.unwrap_or(0) + 2;
                 Number::Real { value, digits: Digits::Decimals(places.max(0) as usize) }

@@ -57,7 +57,15 @@ impl Rule {
         self.relation.is_none()
     }
 
-    fn check(&self, evidence: Evidence<'_>) -> Judged {
+    /// Returns the statement that it judges, or one that is made of its relation.
+    pub(super) fn statement(&self, published: &Published) -> Result<Statement, Error> {
+        match self.relation {
+            Some(relation) => Ok(Statement::new(Kind::Relation, self.id, relation)),
+            None => Ok(published.statement(self.id)?.clone()),
+        }
+    }
+
+    pub(super) fn check(&self, evidence: Evidence<'_>) -> Judged {
         let level = evidence.level.filter(|_| self.statistical || !self.is_of_statement());
         let judged = self.judged(&Evidence { level, ..evidence });
         judged.map_err(|error| Error::Check { id: self.id.into(), error: Box::new(error) })
@@ -113,8 +121,8 @@ pub fn judge_all(
         checks.push(rule.map_or(Ok(evidence.open("–")), |rule| rule.check(evidence))?);
     }
     for rule in rules {
-        if let Some(relation) = rule.relation {
-            let statement = &Statement::new(Kind::Relation, rule.id, relation);
+        if !rule.is_of_statement() {
+            let statement = &rule.statement(published)?;
             checks.push(rule.check(Evidence { statement, results, published, level })?);
         }
     }

@@ -181,6 +181,15 @@ pub trait AnyExperiment: Sync {
     fn found(&self, session: &Session<'_>) -> Result<Found, Error>;
 
     fn tables(&self, found: &Found) -> Vec<Table>;
+
+    /// Returns its result as JSON, and makes a result of it again; none of a command.
+    fn json(&self, _: &Found) -> Option<serde_json::Value> {
+        None
+    }
+
+    fn of_json(&self, _: serde_json::Value) -> Option<Found> {
+        None
+    }
 }
 
 impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
@@ -256,6 +265,14 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
 
     fn tables(&self, found: &Found) -> Vec<Table> {
         found.downcast_ref().map_or_else(Vec::new, self.tables)
+    }
+
+    fn json(&self, found: &Found) -> Option<serde_json::Value> {
+        serde_json::to_value(found.downcast_ref::<T>()?).ok()
+    }
+
+    fn of_json(&self, result: serde_json::Value) -> Option<Found> {
+        Some(Arc::new(serde_json::from_value::<T>(result).ok()?))
     }
 }
 

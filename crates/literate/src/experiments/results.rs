@@ -4,10 +4,12 @@ use super::progress::say;
 use super::store::Json;
 use super::{AnyExperiment, Command, Error, Experiment, Found, Profile, Session};
 use crate::input::count;
-use crate::table::{Table, Tables, number_at, table};
+use crate::table::{Table, Tables, cell, number_at, table, table_of};
+use crate::value::Value;
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Makes tables of the results and tables of several experiments; none if one of these was not run.
 pub type DerivedTables = fn(&Results, &[Table]) -> Option<Vec<Table>>;
@@ -19,11 +21,54 @@ pub struct Results {
     derived: Vec<DerivedTables>,
     /// Or why they are refused.
     tables: OnceLock<Result<Tables, String>>,
+    /// The names of the tables, and of the experiments, that were asked for.
+    read: Mutex<BTreeSet<String>>,
 }
 
 impl Results {
     pub fn of<P, T: Json, U>(&self, experiment: &Experiment<P, T, U>) -> Result<&T, Error> {
+        self.note(experiment.name);
         self.found(experiment.name)?.downcast_ref().ok_or(Error::NotRun(experiment.name))
+    }
+
+    fn note(&self, name: &str) {
+        self.read.lock().unwrap_or_else(PoisonError::into_inner).insert(name.into());
+    }
+
+    /// Returns the names of all tables and experiments that were read.
+    pub(crate) fn read(&self) -> BTreeSet<String> {
+        self.read.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Returns the same results, of which nothing was read.
+    pub(crate) fn copy(&self) -> Results {
+        let Results { profile, found, derived, tables, .. } = self;
+        let (found, derived, tables) = (found.clone(), derived.clone(), tables.clone());
+        Results { profile: *profile, found, derived, tables, read: Mutex::default() }
+    }
+
+    /// Returns these results with another table in the place of the one with its name.
+    pub(crate) fn with_table(&self, table: Table) -> Results {
+        let mut copy = self.copy();
+        if let Some(Ok(tables)) = copy.tables.get_mut() {
+            tables.insert(table.name(), Arc::new(table));
+        }
+        copy
+    }
+
+    /// Returns the result of an experiment as JSON; none if it was not run.
+    pub(crate) fn json(&self, name: &str) -> Option<serde_json::Value> {
+        let (experiment, found) = self.found.iter().find(|(one, _)| one.name() == name)?;
+        experiment.json(found)
+    }
+
+    /// Returns these results and their tables, but with another result of an experiment; none if
+    /// the experiment cannot have this one.
+    pub(crate) fn with_json(&self, name: &str, result: serde_json::Value) -> Option<Results> {
+        let mut copy = self.copy();
+        let (experiment, found) = copy.found.iter_mut().find(|(one, _)| one.name() == name)?;
+        *found = experiment.of_json(result)?;
+        Some(copy)
     }
 
     fn found(&self, name: &'static str) -> Result<&Found, Error> {
@@ -52,7 +97,8 @@ impl Results {
         let tables: Tables =
             tables.into_iter().map(|table| (table.name(), Arc::new(table))).collect();
         let (found, derived) = Default::default();
-        Results { profile: Profile::Full, found, derived, tables: OnceLock::from(Ok(tables)) }
+        let (tables, read) = (OnceLock::from(Ok(tables)), Mutex::default());
+        Results { profile: Profile::Full, found, derived, tables, read }
     }
 
     /// Returns these tables and those that need several experiments, by name.
@@ -76,6 +122,7 @@ impl Results {
 
     #[track_caller]
     pub fn table(&self, name: &str) -> Result<&Table, Error> {
+        self.note(name);
         Ok(table(self.tables()?, name)?)
     }
 
@@ -86,9 +133,17 @@ impl Results {
         command.file(found, path).ok_or(missing)
     }
 
-    /// Returns the number with this address: `theory.jump.p_jump`.
+    /// Returns the cell with this address: `theory.jump.p_jump`.
+    #[track_caller]
+    pub fn cell(&self, address: &str) -> Result<&Value, Error> {
+        self.note(table_of(address).unwrap_or(address));
+        Ok(cell(self.tables()?, address)?)
+    }
+
+    /// Returns the number with this address.
     #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
+        self.note(table_of(address).unwrap_or(address));
         Ok(number_at(self.tables()?, address)?)
     }
 
@@ -123,7 +178,8 @@ impl Results {
         }
         session.progress.check()?;
         let (profile, derived) = (session.profile, derived.to_vec());
-        let results = Results { profile, found, derived, tables: OnceLock::new() };
+        let (tables, read) = (OnceLock::new(), Mutex::default());
+        let results = Results { profile, found, derived, tables, read };
         let tables = OnceLock::from(results.joined(all));
         Ok(Results { tables, ..results })
     }

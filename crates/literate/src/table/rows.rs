@@ -147,6 +147,32 @@ impl Table {
         self.rows.iter().flat_map(|(_, cells)| cells)
     }
 
+    /// Returns it with other numbers in one column, made of each number and its standard error;
+    /// none for a key, or if no cell would be another.
+    pub(crate) fn changed(
+        &self,
+        column: usize,
+        change: impl Fn(f64, f64) -> Option<f64>,
+    ) -> Option<Table> {
+        let mut table = self.clone();
+        for (_, cells) in &mut table.rows {
+            let cell = &mut cells[column];
+            let Some(value) = number(cell) else { continue };
+            cell.number = match (change(value, cell.standard_error()), &cell.number) {
+                (None, _) => Number::None,
+                (Some(value), Number::Real { digits, .. }) => {
+                    Number::Real { value, digits: *digits }
+                }
+                (Some(value), _) => Number::Integer(value as i128),
+            };
+        }
+        (column >= self.keys && table != *self).then_some(table)
+    }
+
+    pub(crate) fn width(&self) -> usize {
+        self.columns.len()
+    }
+
     fn names(&self) -> impl Iterator<Item = &'static str> {
         self.columns.iter().map(|column| column.name)
     }

@@ -1,0 +1,144 @@
+//! Judges by wrong evidence: a verdict that no wrong result moves says nothing.
+
+use super::check::{Kind, Verdict};
+use super::evidence::{Error, Evidence};
+use super::level::CheckLevel;
+use super::numeral::with_other_digit;
+use super::published::{Published, Statement};
+use super::rule::{Rule, level_of};
+use crate::experiments::Results;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// A wrong number in the place of a number, made of it and its standard error.
+type Change = fn(f64, f64) -> Option<f64>;
+
+/// Small changes first: another first digit, ten standard errors, another sign, another size, none.
+const CHANGES: [Change; 7] = [
+    |value, _| with_other_digit(&value.to_string()).parse().ok(),
+    |value, error| Some(value + 10.0 * error),
+    |value, error| Some(value - 10.0 * error),
+    |value, _| Some(-value),
+    |value, _| Some(1e6 * (value + 1.0)),
+    |value, _| Some(1e-6 * value),
+    |_, _| None,
+];
+
+/// The way to numbers of a result: names of fields, and none for all elements of a list.
+type Way = Vec<Option<String>>;
+
+/// A rule whose verdict no wrong result has moved so far, and what it reads.
+struct Unmoved<'a> {
+    rule: &'a Rule,
+    statement: Statement,
+    verdict: Verdict,
+    read: BTreeSet<String>,
+}
+
+/// Changes the numbers that each rule reads, a column of a table or a field of a result at a time,
+/// and judges again. Returns the ids of those that are reproduced or explained whatever changes, or
+/// open: no change makes them differ, or decides them. Definitions are left out.
+pub fn never_moved(
+    published: &Published,
+    rules: &[Rule],
+    results: &Results,
+) -> Result<Vec<&'static str>, Error> {
+    let (level, mut left) = (Some(level_of(rules)), Vec::new());
+    for rule in rules {
+        let statement = rule.statement(published)?;
+        let copy = results.copy();
+        let evidence = Evidence { statement: &statement, results: &copy, published, level };
+        let verdict = rule.check(evidence)?.verdict;
+        if statement.kind != Kind::Definition {
+            left.push(Unmoved { rule, statement, verdict, read: copy.read() });
+        }
+    }
+    let names: BTreeSet<String> = left.iter().flat_map(|unmoved| unmoved.read.clone()).collect();
+    let mut judge = |name: &str, wrong: Option<Results>| {
+        let Some(wrong) = &wrong else { return };
+        left.retain(|one| !one.read.contains(name) || !one.is_moved(published, level, wrong));
+    };
+    for name in names {
+        if let Ok(table) = results.table(&name) {
+            for column in 0..table.width() {
+                for change in CHANGES {
+                    let table = table.changed(column, change);
+                    judge(&name, table.map(|table| results.with_table(table)));
+                }
+            }
+        } else if let Some(result) = results.json(&name) {
+            let mut ways = BTreeSet::new();
+            find_numbers(&result, &mut Vec::new(), &mut ways);
+            for way in ways {
+                for change in CHANGES {
+                    let mut wrong = result.clone();
+                    change_numbers(&mut wrong, &way, 0.0, change);
+                    if wrong != result {
+                        judge(&name, results.with_json(&name, wrong));
+                    }
+                }
+            }
+        }
+    }
+    Ok(left.iter().map(|unmoved| unmoved.rule.id).collect())
+}
+
+impl Unmoved<'_> {
+    /// Returns whether the verdict by wrong results is one of those that the right one excludes.
+    /// A rule that fails, or panics, has none.
+    fn is_moved(
+        &self,
+        published: &Published,
+        level: Option<CheckLevel>,
+        results: &Results,
+    ) -> bool {
+        let evidence = Evidence { statement: &self.statement, results, published, level };
+        let judge = || self.rule.check(evidence);
+        let Ok(Ok(check)) = catch_unwind(AssertUnwindSafe(judge)) else { return false };
+        use Verdict::{Differs, DiffersAndExplained, Reproduced};
+        match self.verdict {
+            Reproduced => matches!(check.verdict, Differs | DiffersAndExplained),
+            DiffersAndExplained => check.verdict == Differs,
+            before => check.verdict != before,
+        }
+    }
+}
+
+fn find_numbers(value: &Value, way: &mut Way, found: &mut BTreeSet<Way>) {
+    let mut below = |step, value: &Value| {
+        way.push(step);
+        find_numbers(value, way, found);
+        way.pop();
+    };
+    match value {
+        Value::Array(values) => values.iter().for_each(|value| below(None, value)),
+        Value::Object(fields) => {
+            fields.iter().for_each(|(name, value)| below(Some(name.clone()), value));
+        }
+        Value::Number(_) if !found.contains(way) => drop(found.insert(way.clone())),
+        _ => (),
+    }
+}
+
+/// Changes all numbers on a way; the field `error` beside a number is its standard error.
+fn change_numbers(value: &mut Value, way: &[Option<String>], error: f64, change: Change) {
+    match (value, way) {
+        (Value::Array(values), [None, way @ ..]) => {
+            values.iter_mut().for_each(|value| change_numbers(value, way, error, change));
+        }
+        (Value::Object(fields), [Some(name), way @ ..]) => {
+            let error = fields.get("error").and_then(Value::as_f64).unwrap_or(0.0);
+            fields.get_mut(name).map(|value| change_numbers(value, way, error, change));
+        }
+        (value @ Value::Number(_), []) => {
+            let changed = change(value.as_f64().unwrap_or(f64::NAN), error);
+            *value = match changed {
+                // A whole number stays one.
+                Some(changed) if !value.is_f64() => (changed as i64).into(),
+                changed => changed.into(),
+            };
+        }
+        _ => (),
+    }
+}
