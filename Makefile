@@ -27,6 +27,9 @@ test-long: ## the long test only (a job array on Slurm, which root installs when
 test-checked: ## the same tests with checks of overflow and debug assertions (compiles everything again)
 	CARGO_TARGET_DIR=target/checked CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS=true CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS=true $(MAKE) test
 
+mutants: ## small wrong changes of what computes, each against the tests of its crate: SHARD=K/N (installs cargo-mutants)
+	.ci/mutants $(or $(SHARD),1/100)
+
 lint: ## formatting, clippy, documentation, width of comments and spelling; warnings denied
 	cargo fmt --check && cargo clippy --release --locked --workspace --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --no-deps --document-private-items && .ci/columns && .ci/spell
 

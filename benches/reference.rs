@@ -7,7 +7,7 @@
 //! masses, rounded to doubles, and the impact that follows. There are at most a thousand, evenly
 //! spaced.
 
-#[path = "../tests/physics/reference/mod.rs"]
+#[path = "../crates/impact-chain/tests/physics/reference/mod.rs"]
 mod reference;
 
 use impact_chain::Scenario;

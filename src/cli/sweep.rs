@@ -134,6 +134,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
         }
     }
     let end = protocols.iter().map(Protocol::end).fold(0.0, f64::max);
+    if end > LATEST {
+        let what = format!("--transient, --window: they end after {LATEST:?}; give shorter ones");
+        return Err(Failure::input(what));
+    }
     let number = usize::try_from(args.realisations.end - args.realisations.start);
     let realisations = number.unwrap_or(usize::MAX);
     let ensemble = Ensemble {

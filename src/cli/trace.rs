@@ -121,8 +121,9 @@ const SCENARIO_HELP: &str = r#"The scenario, with the defaults of everything but
 Several components of the forcing, 8 at most:
    "forcing_frequencies": [W_1, W_2, ...], "forcing": [[[alpha_1, beta_1], ...], [[...], ...], ...]
 boundary: "walls" or "ring".
-places:   [p_1, ..., p_n] instead of j d, and "walls": [left, right] instead of [0, (n + 1) d]:
-          for gaps of any width, a wall far away, constant forces F (they shift a place by F/w^2).
+places:   [p_1, ..., p_n] instead of j d, and "walls": [left, right] instead of [0, (n + 1) d]
+          (not on a ring): for gaps of any width, a wall far away, constant forces F (they shift a
+          place by F/w^2).
 initial:  "rest" (at equilibrium), "zero" (no free part),
           {"free": [[a_1, b_1], ...]} (x_j = j d + a_j cos wt + b_j sin wt + forced response),
           {"at": {"positions": [x_1, ...], "velocities": [v_1, ...]}} (from the left wall),

@@ -34,15 +34,15 @@ mod simulated;
 pub use literate::figures::*;
 
 use crate::experiments::{
-    BIAS, BRANCHES, MEASURED, NUCLEATION, PROTOCOL, RACE, SCALE, SEEDS, SEGMENTS, SPACE_TIME,
-    SWEEP, THEORY, sweep,
+    BIAS, BRANCHES, JUMP, MEASURED, NUCLEATION, PROTOCOL, RACE, SCALE, SEEDS, SEGMENTS, SPACE_TIME,
+    SWEEP, THEORY,
 };
 use literate::FigureSpec;
 
 /// All figures: first the paper's, then those of this edition.
 pub const ALL: [FigureSpec; 24] = [
     FigureSpec::new("fig01", &[], |_| fig01::draw()),
-    FigureSpec::new("fig02", &[&SWEEP], |results| fig02::draw(sweep::main(results)?)),
+    FigureSpec::new("fig02", &[&JUMP], fig02::draw),
     FigureSpec::new("fig03", &[&SWEEP], fig03::draw),
     FigureSpec::new("fig04", &[], |_| fig04::draw()),
     FigureSpec::new("fig05", &[&SEGMENTS], |results| fig05::draw(results.of(&SEGMENTS)?)),

@@ -108,8 +108,8 @@ impl Ensemble {
         let engine = self.started(sigma, index, &stopped);
         let mut counts = watch.run(engine, index, self.until(sigma), &stopped)?;
         for (distinct, window) in counts.distinct.iter_mut().zip(&self.protocols) {
-            *distinct = match distinct[0] {
-                Some(_) => self.cut(&watch.hit(window)),
+            *distinct = match watch.hit(window).filter(|_| distinct[0].is_some()) {
+                Some(hit) => self.cut(&hit),
                 None => vec![None; self.pieces],
             };
         }

@@ -4,7 +4,7 @@
 
 use crate::search::outcome::Graze;
 use crate::topology::Topology;
-use crate::{Chain, Engine, Error, Impact};
+use crate::{Chain, Engine, Error, Impact, LATEST, within};
 use serde::{Deserialize, Serialize};
 
 /// The δ below which impacts of adjacent gaps are counted as close, whatever ω is.
@@ -145,6 +145,14 @@ impl Watch {
         }
     }
 
+    /// Forgets what an earlier run has left.
+    fn clear(&mut self) {
+        self.total = Total::default();
+        self.last.fill(f64::NEG_INFINITY);
+        self.known.fill(0);
+        self.firsts.iter_mut().for_each(|firsts| firsts.fill(f64::INFINITY));
+    }
+
     #[inline]
     fn count(&mut self, impact: Impact) {
         let gaps = self.last.len();
@@ -170,9 +178,12 @@ impl Watch {
         self.total.impacts += 1;
     }
 
-    /// Runs an engine through all windows that end by `until`, and returns the counts of this run,
-    /// realisation `index` of many; ends early, with incomplete counts, when `stopped` returns
-    /// true. A start that overlaps, and a run that the engine ended early, are counted as such.
+    /// Runs an engine through all windows that end by `until`, and returns the counts of this run
+    /// alone, realisation `index` of many; ends early, with incomplete counts, when `stopped`
+    /// returns true. A start that overlaps, and a run that the engine ended early, are counted.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for an engine of another chain, and for windows that end after [`LATEST`].
     pub fn run(
         &mut self,
         engine: Result<Engine, Error>,
@@ -180,6 +191,11 @@ impl Watch {
         until: f64,
         stopped: &dyn Fn() -> bool,
     ) -> Result<Counts, Error> {
+        within("until", until, f64::NEG_INFINITY, f64::INFINITY)?;
+        // Times at which windows begin or end, and the impacts until then.
+        let ends = self.windows.iter().map(Protocol::end);
+        let edges = rising(self.transients.iter().copied().chain(ends));
+        edges.iter().try_for_each(|&edge| within("windows", edge, -LATEST, LATEST))?;
         let windows = self.windows.len();
         let mut counts = Counts {
             distinct: vec![vec![None]; windows],
@@ -187,15 +203,17 @@ impl Watch {
             masses: vec![vec![0]; windows],
             ..Counts::default()
         };
+        self.clear();
         let mut engine = match engine {
             Ok(engine) => engine,
             Err(Error::Overlap { .. }) => return Ok(Counts { rejected: 1, ..counts }),
             Err(Error::Work { .. }) => return Ok(Counts { failed: 1, ..counts }),
             Err(error) => return Err(error),
         };
-        // Times at which windows begin or end, and the impacts until then.
-        let ends = self.windows.iter().map(Protocol::end);
-        let edges = rising(self.transients.iter().copied().chain(ends));
+        if engine.topology() != self.topology {
+            let problem = "its masses or ends are not those of the chain of the counts";
+            return Err(Error::input("engine", problem, "create a Watch of its own chain"));
+        }
         let mut impacts = Vec::with_capacity(edges.len());
         let mut ended = Ok(());
         for &edge in edges.iter().take_while(|edge| **edge <= until) {
@@ -224,7 +242,7 @@ impl Watch {
             let Some((begin, end)) = edge(window.transient).zip(edge(window.end())) else {
                 continue;
             };
-            let hit = self.hit(window);
+            let hit = self.hit(window).unwrap_or_default();
             counts.distinct[place] = vec![Some(hit.iter().map(|&hit| u32::from(hit)).sum())];
             counts.impacts[place] = vec![end - begin];
             counts.masses[place] = vec![masses_hit(&self.topology, &hit)];
@@ -232,10 +250,11 @@ impl Watch {
         Ok(counts)
     }
 
-    /// Finds which gaps have an impact in one of the windows.
-    pub fn hit(&self, window: &Protocol) -> Vec<bool> {
+    /// Returns which gaps had an impact in one of the windows, or `None` for another window.
+    pub fn hit(&self, window: &Protocol) -> Option<Vec<bool>> {
+        self.windows.iter().find(|one| *one == window)?;
         let transient = self.transients.partition_point(|at| *at < window.transient);
-        self.firsts[transient].iter().map(|&time| time <= window.end()).collect()
+        Some(self.firsts[transient].iter().map(|&time| time <= window.end()).collect())
     }
 }
 
@@ -248,7 +267,7 @@ fn masses_hit(topology: &Topology, hit: &[bool]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Boundary;
+    use crate::{Boundary, NormalPairs, Scenario};
 
     /// Gaps 0 and 4 of four masses are at walls; on a ring of five, gap 0 joins the last and first.
     #[test]
@@ -263,6 +282,34 @@ mod tests {
         ] {
             let found = [Topology::new(4, Boundary::Walls), Topology::new(5, Boundary::Ring)];
             assert_eq!(found.map(|topology| masses_hit(&topology, &hit)), [row, ring], "{hit:?}");
+        }
+    }
+
+    /// A second run counts as a new watch does; another chain, or no time as an end, is refused.
+    #[test]
+    fn a_run_is_counted_alone_and_for_its_own_chain() {
+        let chain = Chain { masses: 3, ..Chain::default() };
+        let of = |chain: &Chain, index| {
+            Engine::new(&Scenario::draw(chain, 0.4, &mut NormalPairs::new("watch", 1, index)))
+        };
+        let [window, other] = [5.0, 6.0].map(|transient| Protocol { transient, window: 20.0 });
+        let windows = [window, Protocol { transient: 9.0, window: 1.0 }];
+        let mut watch = Watch::new(&chain, &windows);
+        let mut counted = |index| watch.run(of(&chain, index), index, 50.0, &|| false).unwrap();
+        let (first, second) = (counted(0), counted(1));
+        let alone = Watch::new(&chain, &windows).run(of(&chain, 1), 1, 50.0, &|| false).unwrap();
+        assert!(second == alone && first.impacts != second.impacts, "{second:?}, {alone:?}");
+        assert!(watch.hit(&window).is_some() && watch.hit(&other).is_none());
+        let ring = Chain { boundary: Boundary::Ring, masses: 4, ..chain.clone() };
+        for another in [Chain { masses: 2, ..chain.clone() }, ring] {
+            let refused = watch.run(of(&another, 0), 0, 50.0, &|| false).unwrap_err();
+            assert!(refused.to_string().starts_with("engine: "), "{refused}");
+        }
+        assert!(watch.run(of(&chain, 0), 0, f64::NAN, &|| false).is_err());
+        for length in [f64::NAN, f64::INFINITY, LATEST] {
+            let late = [Protocol { transient: 1.0, window: length }];
+            let ran = Watch::new(&chain, &late).run(of(&chain, 0), 0, 50.0, &|| false);
+            assert!(ran.unwrap_err().to_string().starts_with("windows: "), "{length}");
         }
     }
 

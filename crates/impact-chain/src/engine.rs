@@ -3,14 +3,17 @@
 use super::impact::{Impact, Sink, collect};
 use super::scenario::COMPONENTS;
 use super::simulation::Simulation;
+#[cfg(feature = "ensembles")]
+use super::topology::Topology;
 use super::{Error, Scenario, State};
 use crate::search::outcome::{Counters, Graze};
 
 /// The simulation of one scenario.
 ///
 /// # Errors
-/// [`Error::Work`] ends a run that exceeds the bound on work; [`Error::Input`] refuses a time that
-/// is not between the last event and the next.
+/// [`Error::Work`] ends a run that exceeds the bound on work; [`Error::Input`] refuses an end that
+/// is no time up to [`LATEST`](crate::LATEST), and a state that is not between the last event and
+/// the next.
 #[derive(Clone, Debug)]
 pub struct Engine(Components);
 
@@ -44,8 +47,9 @@ impl Engine {
         }))
     }
 
-    /// Runs until time `until`, and hands each impact to `sink` in order; stops early, right
-    /// after that impact, when `sink` returns false. May be called again with a later time.
+    /// Runs until time `until`, at most [`LATEST`](crate::LATEST), and hands each impact to `sink`
+    /// in order; stops early, right after that impact, when `sink` returns false. May be called
+    /// again with a later time. An impact whose [`time`](Impact::time) is `until` is among them.
     pub fn run(&mut self, until: f64, mut sink: impl FnMut(Impact) -> bool) -> Result<(), Error> {
         self.run_to(until, &mut sink)
     }
@@ -60,13 +64,19 @@ impl Engine {
         collect(usize::MAX, |sink| self.run_to(until, sink))
     }
 
+    #[cfg(feature = "ensembles")]
+    pub(crate) fn topology(&self) -> Topology {
+        call!(&self.0, simulation => simulation.topology)
+    }
+
     /// Generic code would be compiled with the caller's crate, which may be unoptimised.
     fn run_to(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
         call!(&mut self.0, simulation => simulation.run(until, sink))
     }
 
     /// Returns positions and velocities at a time from the last event to the next, as that to which
-    /// [`run`](Engine::run) ran. [`State::as_scenario`] goes on from there.
+    /// [`run`](Engine::run) ran. At the time of the impact that ended a run it is the state after
+    /// it. [`State::as_scenario`] goes on from there.
     pub fn state(&self, time: f64) -> Result<State, Error> {
         call!(&self.0, simulation => simulation.state(time))
     }
@@ -91,7 +101,7 @@ impl Engine {
         call!(&self.0, simulation => simulation.contacts(time))
     }
 
-    /// Returns the time of the last event.
+    /// Returns the time of the last event: of an impact, a contact, or a search that went on.
     pub fn time(&self) -> f64 {
         call!(&self.0, simulation => simulation.now.time())
     }
@@ -103,5 +113,75 @@ impl Engine {
     /// Returns the first dip of which rounding could not tell whether it is an impact, if any.
     pub fn first_graze(&self) -> Option<Graze> {
         call!(&self.0, simulation => simulation.first_graze)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Chain, Initial, LATEST, NormalPairs};
+
+    /// An unforced elastic chain that starts with these free parts.
+    fn free(parts: &[[f64; 2]]) -> Scenario {
+        let chain = Chain { masses: parts.len(), forcing_frequency: 0.5, ..Chain::default() };
+        let initial = Initial::Free(parts.to_vec());
+        let scenario = Scenario::given(&chain, vec![[0.0; 2]; parts.len()]).unwrap();
+        Scenario { initial, restitution: 1.0, ..scenario }
+    }
+
+    /// The end of a run is a time of the clock, also where no gap can ever close.
+    #[test]
+    fn an_end_that_is_no_time_is_refused() {
+        let mut engine = Engine::new(&free(&[[0.1, 0.0]])).unwrap();
+        for until in [f64::INFINITY, f64::NAN, 1e15, LATEST.next_up(), f64::NEG_INFINITY] {
+            let refused = engine.next_impact(until).unwrap_err().to_string();
+            assert!(refused.starts_with("until: "), "{refused}");
+        }
+        assert!(engine.state(LATEST).is_ok() && engine.state(LATEST.next_up()).is_err());
+        assert_eq!(engine.impacts(LATEST), Ok(vec![]));
+    }
+
+    #[test]
+    fn an_impact_is_within_a_run_until_its_time() {
+        let scenario = Scenario::draw(&Chain::default(), 0.3, &mut NormalPairs::new("end", 1, 0));
+        let mut engine = Engine::new(&scenario).unwrap();
+        for number in 0..200 {
+            let before = engine.clone();
+            let hit = engine.next_impact(50.0).unwrap().unwrap();
+            assert_eq!(before.clone().next_impact(hit.time), Ok(Some(hit)), "{number}");
+            assert_eq!(before.clone().next_impact(hit.time.next_down()), Ok(None), "{number}");
+        }
+    }
+
+    /// A mass that starts on the wall and hits it is alone, also where its other gap waits long or
+    /// is shut at rest. Two gaps that close at the start are simultaneous, and both are counted.
+    #[test]
+    fn impacts_at_the_start_are_simultaneous_with_impacts_alone() {
+        let starts: [(&[[f64; 2]], u64, u64); 4] = [
+            (&[[1.0, 1.5]], 1, 0),
+            (&[[-1.0, 0.0], [-2.0, -0.5]], 3, 2),
+            (&[[-1.0, -0.5], [-2.0, -1.5]], 4, 4),
+            (&[[-1.0, -0.5], [1.0, 0.5]], 2, 0),
+        ];
+        for (parts, impacts, ties) in starts {
+            let mut engine = Engine::new(&free(parts)).unwrap();
+            engine.run(0.0, |_| true).unwrap();
+            let counters = engine.counters();
+            assert_eq!((counters.impacts, counters.simultaneous), (impacts, ties), "{parts:?}");
+        }
+    }
+
+    /// Mass 1 turns 1e-10 before the wall, a gap that waits without a search, when mass 2 hits it:
+    /// it goes on to the wall from where it was, not from a past frame.
+    #[test]
+    fn a_gap_that_waits_long_is_where_its_masses_are() {
+        let (amplitude, phase) = (1.0 - 1e-10, 1.0_f64);
+        let parts = [amplitude, 2.0].map(|r| [-r * phase.cos(), -r * phase.sin()]);
+        let hits = Engine::new(&free(&parts)).unwrap().impacts(1.1).unwrap();
+        let [first, second] = [hits[0], hits[1]];
+        assert_eq!([first.gap, second.gap], [1, 0], "{hits:?}");
+        // At 2e-10 it takes the speed of mass 2, v² = 8e-10, and loses 2 · 2e-10 to the spring.
+        assert!((second.closing_speed - 2e-5).abs() < 1e-9, "{hits:?}");
+        assert!((second.time - first.time - (8.0f64.sqrt() - 2.0) * 1e-5).abs() < 1e-9);
     }
 }

@@ -13,8 +13,8 @@ use super::impact::{Impact, Sink};
 use super::simulation::{Awaits, Gap, Simulation, clamp_width};
 use super::state::AT_REST;
 use super::topology::Topology;
-use super::{Error, Scenario};
-use crate::search::clock::Instant;
+use super::{Error, Scenario, within};
+use crate::search::clock::{Instant, LATEST};
 use crate::search::earliest::Earliest;
 use crate::search::first_root::Search;
 use crate::search::local_frame::{Frame, Frequencies};
@@ -58,6 +58,7 @@ impl<const M: usize> Simulation<M> {
             origin: Instant::ZERO,
             awaits: Awaits::Nothing,
             in_contact: false,
+            hit_at_start: false,
         };
         let gaps = topology.gaps();
         let mut simulation = Simulation {
@@ -93,6 +94,7 @@ impl<const M: usize> Simulation<M> {
             if frame.f0 < -OVERLAP * frame.size {
                 return Err(Error::Overlap { gap: self.topology.label(k), depth: -frame.f0 });
             }
+            self.gaps[k].frame = frame;
             let [width, rate] = self.rounding_at_start(k, &phases);
             let f0 = if frame.f0 <= width { 0.0 } else { frame.f0 };
             let at_rest = f0 == 0.0 && frame.g0.abs() <= rate;
@@ -128,7 +130,8 @@ impl<const M: usize> Simulation<M> {
     }
 
     pub fn run(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
-        let end = Instant::at(until);
+        within("until", until, -LATEST, LATEST)?;
+        let end = Instant::last_at(until);
         while let Some((k, is_close)) = self.next_event(end) {
             let impact = self.step(k, is_close)?;
             if self.work.undecided > 0 {
@@ -255,12 +258,15 @@ impl<const M: usize> Simulation<M> {
     /// Counts the impact of gap k if one of a neighbouring gap is or was due at this instant.
     #[cold]
     fn count_tie(&mut self, k: usize) {
+        let at_start = self.now == Instant::ZERO;
         let renewed = self.gaps[k].origin == self.now;
+        self.gaps[k].hit_at_start |= at_start;
         for near in self.topology.adjacent(k).into_iter().flatten() {
             let gap = &self.gaps[near];
             let is_due =
                 matches!(gap.awaits, Awaits::Impact(_)) && self.queue.key(near) == self.now;
-            if is_due || renewed && gap.origin == self.now && gap.frame.f0 == 0.0 {
+            let was_hit = gap.origin == self.now && gap.frame.f0 == 0.0;
+            if is_due || renewed && was_hit && (gap.hit_at_start || !at_start) {
                 self.work.simultaneous += 1;
                 return;
             }

@@ -158,3 +158,30 @@ impl<const M: usize> Parts<M> {
         sum
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::truth::derivative;
+    use impact_numerics::random::NormalPairs;
+
+    /// In the first case both parts are at their highest, and f'''' reaches its bound.
+    #[test]
+    fn bounds_of_a_frame_are_those_of_its_function() {
+        let frequencies = Frequencies::new(1.0, [1.5]);
+        for i in 0..200 {
+            let mut normals = NormalPairs::new("bounds", 1, i);
+            let ([a, b], [c, s]) = (normals.pair(), normals.pair());
+            let (a, b, forced) = if i == 0 { (1.0, 0.0, [1.0, 0.0]) } else { (a, b, [c, s]) };
+            let motion = Motion { a, b, forced: [forced], offset: 0.0 };
+            let phases = Phases::at(&frequencies, Instant::at(i as f64));
+            let frame = motion.frame(1.0, &phases, &frequencies);
+            for k in 0..40 {
+                let fourth = derivative(&frame, &frequencies, 4, 0.1 * f64::from(k));
+                assert!(fourth.abs() <= frame.bound, "{i}: {fourth} > {}", frame.bound);
+            }
+            let terms = 1.0 + a.hypot(b) + 4.0 * forced[0].hypot(forced[1]);
+            assert!(frame.size >= terms * (1.0 - 1e-12), "{i}: {} < {terms}", frame.size);
+        }
+    }
+}

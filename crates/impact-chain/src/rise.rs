@@ -150,3 +150,33 @@ impl RisePoint {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(distinct: Option<u32>, impacts: u64, masses: u32) -> Counts {
+        Counts {
+            distinct: vec![vec![distinct]],
+            impacts: vec![vec![impacts]],
+            masses: vec![vec![masses]],
+            ..Counts::default()
+        }
+    }
+
+    #[test]
+    fn a_row_by_hand() {
+        let all = [(Some(0), 0, 0), (Some(4), 40, 3), (Some(10), 120, 9), (Some(4), 80, 3)];
+        let all = all.map(|(k, impacts, masses)| one(k, impacts, masses));
+        let rejected = Counts { rejected: 1, ..one(None, 0, 0) };
+        let counts: Counts = all.into_iter().chain([rejected]).collect();
+        let row = RisePoint::new(0.1, &counts, 0, 10, [None; 2]);
+        assert_eq!((row.ran, row.kept, row.mode), (4, 3, Some(4)));
+        let mean = |mean: Option<Mean>| mean.map(|mean| (mean.value, mean.error.unwrap()));
+        assert_eq!(mean(row.mean), Some((6.0, 2.0))); // s = √12, over √3
+        assert_eq!(row.mean_all.unwrap().value, 4.5);
+        assert_eq!(mean(row.masses), Some((5.0, 2.0)));
+        assert_eq!(row.impacts.unwrap().value, 80.0);
+        assert_eq!(row.counts, [1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 1]);
+    }
+}

@@ -86,7 +86,7 @@ impl Scenario {
     /// `{"at": {"positions": [x₁, …], "velocities": [v₁, …]}}` or
     /// `{"random": {"sigma": σ, "seed": k}}`. Several components are
     /// `"forcing_frequencies": [Ω₁, …]` with a list of pairs for each. `"places": [p₁, …]` and
-    /// `"walls": [p₀, pₙ₊₁]` are places of equilibrium other than j d.
+    /// `"walls": [p₀, pₙ₊₁]` are places of equilibrium other than j d; a ring has no walls.
     ///
     /// # Errors
     /// As [`Engine::new`]; [`Error::Input`] names the field and the remedy.
@@ -101,13 +101,18 @@ impl Scenario {
         parse(text)?.into_scenario()
     }
 
-    /// Writes the scenario as JSON in one line, from which [`Scenario::from_json`] reads the same.
+    /// Writes the scenario as JSON in one line, from which [`Scenario::from_json`] reads the same,
+    /// without the places of the walls on a ring. One that [`Scenario::validate`] refuses is not
+    /// read again, or as another.
     pub fn to_json(&self) -> String {
         let several = !self.overtones.is_empty();
         let (frequencies, lists) =
             self.components().map(|(frequency, pairs)| (frequency, pairs.to_vec())).unzip();
         let (masses, walls) = match self.places.as_deref() {
-            Some([left, masses @ .., right]) => (Some(masses.to_vec()), Some([*left, *right])),
+            Some([left, masses @ .., right]) => {
+                let walls = (self.boundary == Boundary::Walls).then_some([*left, *right]);
+                (Some(masses.to_vec()), walls)
+            }
             _ => (None, None),
         };
         let file = ScenarioFile {
@@ -175,6 +180,9 @@ impl ScenarioFile {
         let (forcing_frequency, forcing) = components.next().unwrap_or_default();
         let masses = forcing.len();
         let zero = Initial::Free(vec![[0.0; 2]; masses]);
+        if self.boundary == Boundary::Ring && self.walls.is_some() {
+            return Err(Error::input("walls", "a ring has none", "leave it out"));
+        }
         let mut state = None;
         let initial = match self.initial {
             Start::Rest => Initial::Rest,
@@ -230,6 +238,9 @@ fn places(
         let problem = format!("it has {} places for {masses} masses", places.len());
         return Err(Error::input("places", problem, "give one for each mass"));
     }
+    for wall in walls.into_iter().flatten() {
+        within("walls", wall, -1e9, 1e9)?;
+    }
     let [left, right] = walls.unwrap_or([0.0, (masses + 1) as f64 * spacing]);
     Ok(Some([vec![left], places, vec![right]].concat()))
 }
@@ -256,5 +267,26 @@ fn components(
                 "give one list of pairs, or 1 to {COMPONENTS} forcing_frequencies and a list for each"
             ),
         )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ring without walls is written so that it can be read; one with walls is refused.
+    #[test]
+    fn a_ring_has_no_walls() {
+        let ring = |more: &str| {
+            Scenario::from_json(&format!(
+                r#"{{"boundary":"ring",{more},"forcing":[[0.9,0.1],[-0.8,0.3]]}}"#
+            ))
+        };
+        let placed = ring(r#""places":[1.1,2.0]"#).unwrap();
+        assert_eq!(Scenario::from_json(&placed.to_json()), Ok(placed));
+        let refused = ring(r#""walls":[3,0]"#).unwrap_err().to_string();
+        assert_eq!(refused, "walls: a ring has none; leave it out");
+        let far = Scenario::from_json(r#"{"walls":[0,1e300],"forcing":[[0,0]]}"#).unwrap_err();
+        assert!(far.to_string().starts_with("walls: "), "{far}");
     }
 }

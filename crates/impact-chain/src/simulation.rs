@@ -6,7 +6,7 @@ use super::force::Force;
 use super::impact::jumps;
 use super::state::State;
 use super::topology::Topology;
-use crate::search::clock::Instant;
+use crate::search::clock::{Instant, LATEST};
 use crate::search::earliest::Earliest;
 use crate::search::first_root::Search;
 use crate::search::local_frame::{Frame, NEARLY_SHUT};
@@ -32,6 +32,8 @@ pub(super) struct Gap<const M: usize> {
     pub origin: Instant,
     pub awaits: Awaits,
     pub in_contact: bool,
+    /// Whether it had an impact at t = 0, where a gap may also be shut by the start.
+    pub hit_at_start: bool,
 }
 
 /// The simulation of one scenario with `M` components of the forcing.
@@ -196,8 +198,8 @@ impl<const M: usize> Simulation<M> {
             }
             Some(_) => return false,
         };
+        // The frame and its origin stay: until a neighbour is hit they describe the gap.
         self.gaps[k].awaits = awaits;
-        self.gaps[k].origin = self.now;
         self.queue.set(k, [key]);
         true
     }
@@ -205,7 +207,7 @@ impl<const M: usize> Simulation<M> {
     /// Returns the phases at a time from the last event to the next.
     fn phases_in_flight(&self, time: f64) -> Result<Phases<M>, Error> {
         let (_, next) = self.queue.first_in_full(|_| 0.0);
-        let (from, to) = (self.now.time(), next.time());
+        let (from, to) = (self.now.time(), next.time().min(LATEST));
         if (from..=to).contains(&time) {
             return Ok(Phases::at(&self.search.frequencies, Instant::at(time)));
         }

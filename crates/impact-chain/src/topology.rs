@@ -3,7 +3,7 @@
 use crate::Boundary;
 
 /// Neighbours of masses 1..=n and gaps 0..N inside the engine; bodies 0 and n + 1 are the walls.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Topology {
     masses: usize,
     boundary: Boundary,

@@ -80,9 +80,57 @@ mod tests {
     }
 
     #[test]
+    fn an_interval_has_its_tails_outside() {
+        // 0 to 1000 have the variance n (n + 1)/12, n = 1001.
+        let resampled: Vec<Option<f64>> = (0..=1000).rev().map(|i| Some(f64::from(i))).collect();
+        let found = estimate(Some(7.0), &resampled, 0.95).unwrap();
+        assert_eq!(found.value, 7.0);
+        assert!((found.error - (1001.0 * 1002.0 / 12.0_f64).sqrt()).abs() < 1e-9);
+        assert!((found.interval[0] - 25.0).abs() < 1e-9, "{found:?}");
+        assert!((found.interval[1] - 975.0).abs() < 1e-9, "{found:?}");
+    }
+
+    /// The mean of 40 normals lies beyond either end in 2.5 % of samples, a little more as the
+    /// percentile interval is narrower by 1/√(1 − 1/40): 29 of 1000 expected, five at one deviation.
+    #[test]
+    fn intervals_cover_as_promised() {
+        let [mut below, mut above] = [0; 2];
+        for index in 0..1000 {
+            let mut normals = NormalPairs::new("coverage", 1, index);
+            let sample: Vec<f64> = (0..20).flat_map(|_| normals.pair()).collect();
+            let resample = |number| {
+                let weights = weights(index, number, 40);
+                Some(weights.iter().zip(&sample).map(|(&w, x)| f64::from(w) * x).sum())
+            };
+            let resampled: Vec<Option<f64>> = (0..400).map(resample).collect();
+            let [low, high] = estimate(Some(0.0), &resampled, 0.95).unwrap().interval;
+            below += usize::from(high < 0.0);
+            above += usize::from(low > 0.0);
+        }
+        assert!((15..44).contains(&below) && (15..44).contains(&above), "{below} {above}");
+    }
+
+    #[test]
+    fn members_and_counts_by_hand() {
+        let mut counts = [9; 4];
+        histogram(&[Some(3), None, Some(1), Some(3)], &[2, 5, 1, 4], &mut counts);
+        assert_eq!((counts, total(&counts)), ([0, 1, 0, 6], [7, 19]));
+        let all: Vec<Vec<u32>> = (0..1000).map(|index| weights(1, index, 8)).collect();
+        assert!(all.iter().all(|weights| weights.iter().sum::<u32>() == 8));
+        // Each member is drawn once on average: a deviation of 30 in 1000.
+        for member in 0..8 {
+            let drawn: u32 = all.iter().map(|weights| weights[member]).sum();
+            assert!(drawn.abs_diff(1000) < 120, "{member}: {drawn}");
+        }
+        assert!(all[0] != all[1] && all[0] != weights(2, 0, 8));
+    }
+
+    #[test]
     fn no_interval_where_resamples_fail() {
-        let mut resampled = vec![Some(1.0); 98];
-        resampled.extend([None, None]);
+        let mut resampled = vec![Some(1.0); 99];
+        resampled.push(None);
+        assert!(estimate(Some(1.0), &resampled, 0.95).is_some());
+        resampled[0] = None;
         assert_eq!(estimate(Some(1.0), &resampled, 0.95), None);
         assert_eq!(estimate(None, &[Some(1.0); 9], 0.95), None);
         assert!(estimate(Some(1.0), &[Some(1.0); 9], 0.95).is_some());

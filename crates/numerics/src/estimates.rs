@@ -49,6 +49,44 @@ pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::NormalPairs;
+
+    /// Whether the numbers are those to nine digits.
+    fn near(found: Estimate, [value, error]: [f64; 2]) -> bool {
+        let half = 1.959_963_985 * error;
+        let [low, high] = found.interval;
+        [found.value - value, found.error - error, low - value + half, high - value - half]
+            .iter()
+            .all(|off| off.abs() < 1e-9)
+    }
+
+    #[test]
+    fn errors_by_hand() {
+        assert!(near(with_error(10.0, 2.0), [10.0, 2.0]));
+        // The sum of the squares of the deviations is 32.
+        let sample = [2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0];
+        assert!(near(average(&sample).unwrap(), [5.0, (32.0_f64 / 56.0).sqrt()]));
+        assert!(near(share(3, 12).unwrap(), [0.25, 0.125]));
+        assert_eq!(share(0, 0), None);
+        assert!(near(difference(with_error(9.0, 3.0), with_error(2.0, 4.0)), [7.0, 5.0]));
+        // Without each: 5/3, 1 and 2, whose deviations from 14/9 are 1, −5 and 4 ninths.
+        let found = ratio(&[[1.0, 1.0], [3.0, 1.0], [2.0, 2.0]]).unwrap();
+        assert!(near(found, [1.5, 28.0_f64.sqrt() / 9.0]), "{found:?}");
+    }
+
+    /// Student's t with 49 degrees of freedom is within 1.96 with a probability of 0.944: 944 of
+    /// 1000 expected, seven at one deviation.
+    #[test]
+    fn intervals_of_means_cover_as_promised() {
+        let covers = |index: &u64| {
+            let mut normals = NormalPairs::new("coverage", 2, *index);
+            let sample: Vec<f64> = (0..25).flat_map(|_| normals.pair()).collect();
+            let [low, high] = average(&sample).unwrap().interval;
+            low < 0.0 && high > 0.0
+        };
+        let covered = (0..1000).filter(covers).count();
+        assert!((920..968).contains(&covered), "{covered}");
+    }
 
     #[test]
     fn of_a_mean_it_is_the_standard_error() {

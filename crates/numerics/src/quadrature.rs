@@ -50,3 +50,27 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     let slope = n as f64 * (x * value - previous) / (x * x - 1.0);
     (value, slope)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rules_of_the_tables() {
+        // P_3(1/2) = −7/16 and its slope 3/8.
+        assert_eq!(legendre(3, 0.5), (-0.4375, 0.375));
+        let rule = GaussLegendre::new(3);
+        for (i, [node, weight]) in
+            [[-0.6_f64.sqrt(), 5.0 / 9.0], [0.0, 8.0 / 9.0], [0.6_f64.sqrt(), 5.0 / 9.0]]
+                .iter()
+                .enumerate()
+        {
+            assert!((rule.nodes[i] - node).abs().max((rule.weights[i] - weight).abs()) < 1e-15);
+        }
+        // x⁵ over [1, 3] is exact, and x⁴ in four panels of the rule of one point by hand.
+        assert!((rule.integrate(1.0, 3.0, |x| x.powi(5)) - 728.0 / 6.0).abs() < 1e-12);
+        let middles = [1.25, 1.75, 2.25, 2.75_f64].map(|x| 0.5 * x.powi(4)).iter().sum::<f64>();
+        let found = GaussLegendre::new(1).integrate_panels(1.0, 3.0, 4, |x| x.powi(4));
+        assert!((found - middles).abs() < 1e-13, "{found} {middles}");
+    }
+}

@@ -38,3 +38,33 @@ impl NormalPairs {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Moments of 100 000 pairs within four of their standard deviations, and other streams for
+    /// other keys.
+    #[test]
+    fn pairs_are_independent_standard_normals() {
+        let mut normals = NormalPairs::new("moments", 1, 0);
+        let mut sums = [0.0; 4];
+        for _ in 0..100_000 {
+            let [x, y] = normals.pair();
+            for (sum, term) in sums.iter_mut().zip([x + y, x * x, y * y * y * y, x * y]) {
+                *sum += term / 1e5;
+            }
+        }
+        // Variances of the terms: 2, 2, 105 − 9 and 1.
+        for (sum, (wanted, variance)) in
+            sums.iter().zip([(0.0, 2.0_f64), (1.0, 2.0), (3.0, 96.0), (0.0, 1.0)])
+        {
+            assert!((sum - wanted).abs() < 4.0 * (variance / 1e5).sqrt(), "{sums:?}");
+        }
+        let keys = [("a", 1, 0), ("a", 2, 0), ("a", 1, 1), ("b", 1, 0)];
+        let firsts = keys.map(|(name, seed, index)| NormalPairs::new(name, seed, index).pair());
+        for i in 1..4 {
+            assert!(firsts[..i].iter().all(|first| *first != firsts[i]), "{firsts:?}");
+        }
+    }
+}

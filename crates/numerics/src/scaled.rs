@@ -110,6 +110,24 @@ mod tests {
     }
 
     #[test]
+    fn exponents_and_logarithms_of_any_size() {
+        let power = |e| Scaled::from(power_of_two(e));
+        for [large, small] in [[200, 100], [100, 10], [-900, -1000], [130, 126]] {
+            let parts = DoubleDouble { hi: power_of_two(large), lo: power_of_two(small) };
+            let sum = if large - small < 53 { parts.to_f64().into() } else { parts };
+            assert_eq!(power(large) + power(small), Scaled::from(sum));
+            assert_eq!(power(small) + power(large), Scaled::from(sum));
+            assert_eq!((power(large) / power(small)).to_f64(), power_of_two(large - small));
+        }
+        for x in [1.0, 0.74, 0.75, 0.76, 1.4, 1.5, 1.6, 2.0, 3.1, 1e-300, 5e-324, 1e300] {
+            let (found, exact) = (Scaled::from(x).ln(), pxfm::f_log(x));
+            assert!((found - exact).abs() <= 4e-16 * exact.abs(), "{x}: {found} {exact}");
+        }
+        let barely = DoubleDouble { hi: 1.0, lo: power_of_two(-60) };
+        assert!((Scaled::from(barely).ln() / power_of_two(-60) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
     fn factorials_beyond_the_range_of_doubles() {
         // 171!/170! and 3000!/2999! by definition.
         assert_eq!((factorial(171) / factorial(170)).to_f64(), 171.0);

@@ -118,6 +118,19 @@ mod tests {
     }
 
     #[test]
+    fn spread_mode_and_slope_by_hand() {
+        let sample = [2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0];
+        assert!((standard_deviation(&sample).unwrap() - (32.0_f64 / 7.0).sqrt()).abs() < 1e-15);
+        assert!((standard_error(&sample).unwrap() - (4.0_f64 / 7.0).sqrt()).abs() < 1e-15);
+        assert_eq!((mean(&sample), mean(&[]), standard_deviation(&[1.0])), (Some(5.0), None, None));
+        assert_eq!([mode(&[1, 3, 0, 3]), mode(&[0, 0]), mode(&[])], [Some(1), None, None]);
+        // 39/9 over 42/9.
+        let slope_found = slope(&[(1.0, 2.0), (2.0, 4.0), (4.0, 5.0)]).unwrap();
+        assert!((slope_found - 13.0 / 14.0).abs() < 1e-15, "{slope_found}");
+        assert_eq!([slope(&[(1.0, 2.0)]), slope(&[(1.0, 2.0), (1.0, 3.0)])], [None; 2]);
+    }
+
+    #[test]
     fn wilson_against_printed_values() {
         // Both ends of Wilson's interval must solve |s − n p| = z √(n p (1 − p)), the second route.
         let z = normal_quantile(0.95);

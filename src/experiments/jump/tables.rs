@@ -8,7 +8,12 @@ use impact_chain::mode_jump::{Passing, mode_jump};
 pub fn tables(jumps: &Jumps) -> Vec<Table> {
     vec![run(jumps), windows(jumps), widths(jumps)]
         .into_iter()
-        .chain(jumps.window(Protocol::default()).map(rows))
+        .chain(
+            jumps
+                .window(Protocol::default())
+                .into_iter()
+                .flat_map(|ours| [rows(ours), distributions(ours)]),
+        )
         .collect()
 }
 
@@ -78,5 +83,34 @@ fn rows(window: &WindowJump) -> Table {
         })
         .real("bulk", "1", 3, "share at the peak of the bulk", |(row, _)| row.bulk)
         .estimate("peak", "1", "number of gaps at that peak", |(_, peak)| **peak)
+        .done()
+}
+
+/// How far from the jump the first and the last distribution of Fig. 2 are, in σ.
+const BEFORE_AND_AFTER: f64 = 0.00625;
+
+/// Makes the table of the distributions at the σ that are nearest to the jump with our protocol, and
+/// to places before and after it.
+fn distributions(window: &WindowJump) -> Table {
+    let both: Vec<_> = window.jump.rows.iter().zip(&window.histograms).collect();
+    let nearest = |sigma: f64| {
+        let off = |at: &usize| (both[*at].0.sigma - sigma).abs();
+        (0..both.len()).min_by(|a, b| off(a).total_cmp(&off(b)))
+    };
+    let places = window.jump.all_gaps.sigma.into_iter().flat_map(|jump| {
+        [-BEFORE_AND_AFTER, 0.0, BEFORE_AND_AFTER].map(|distance| jump.value + distance)
+    });
+    let mut chosen: Vec<usize> = places.filter_map(nearest).collect();
+    chosen.dedup();
+    let mut rows = Vec::new();
+    for (row, histogram) in chosen.into_iter().map(|at| both[at]) {
+        let shares = histogram.iter().enumerate().skip(1);
+        rows.extend(shares.map(|(k, count)| (row, k, f64::from(*count) / row.chains)));
+    }
+    Table::of("jump.distributions", &rows, |(row, ..)| row.chains as usize)
+        .key("sigma", SIGMA, |(row, ..)| row.sigma)
+        .key("gaps", "1", |(_, k, _)| *k as f64)
+        .computed_by(origin(distributions))
+        .real("share", "1", 3, "share of chains, of those with an impact", |(.., share)| *share)
         .done()
 }

@@ -2,7 +2,7 @@
 
 use super::method::{Cost, Method, Task};
 use super::steps::check_end;
-use crate::{Engine, Error, Graze, Impact, Sink, State};
+use crate::{Engine, Error, Graze, Impact, LATEST, Sink, State};
 
 /// The exact event-driven engine: flight in closed form, the first root of each gap certified.
 ///
@@ -20,12 +20,15 @@ impl Method for Certified {
 
     fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
         check_end(until)?;
+        scenario.validate()?;
         let same = *start == State::of(scenario);
         let moved = if same { None } else { Some(start.as_scenario(scenario)?) };
         let mut engine = Engine::new(moved.as_ref().unwrap_or(scenario))?;
         let later = |time: f64| start.time + time;
         engine
-            .run(until - start.time, |hit| sink(Impact { time: later(hit.time), ..hit }))
+            .run((until - start.time).max(-LATEST), |hit| {
+                sink(Impact { time: later(hit.time), ..hit })
+            })
             .map_err(|error| match error {
                 Error::Work { gap, time, bound } => Error::Work { gap, time: later(time), bound },
                 other => other,

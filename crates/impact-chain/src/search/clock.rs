@@ -27,6 +27,13 @@ impl Instant {
         Instant((t * TICKS) as i128)
     }
 
+    /// Returns the last instant whose time is `t` when rounded: what happens then is printed as `t`.
+    pub fn last_at(t: f64) -> Instant {
+        let half_unit = (0.5 * TICKS * (t.next_up() - t)) as i128;
+        let last = Instant(Instant::at(t).0 + half_unit);
+        Instant(last.0 - i128::from(last.time() > t))
+    }
+
     /// Returns the instant `s` units of time later, truncated to a tick.
     #[inline(always)]
     pub fn after(self, s: f64) -> Instant {

@@ -117,3 +117,71 @@ impl<const M: usize> Search<M> {
         first_root_by_steps(frame, clear, reach, &self.frequencies, work)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::truth::{derivative, frame};
+    use impact_numerics::random::NormalPairs;
+
+    /// A function that is lowest at s, little more or much above, by a depth: above the band it has
+    /// no root there, below it its first, and within it either, and a miss is counted. The band is
+    /// up to three times as wide where the curvature changes within it.
+    #[test]
+    fn dips_that_touch_zero_are_roots_below_the_band_alone() {
+        let search = Search::new(Frequencies::new(1.0, [1.5]));
+        let frequencies = &search.frequencies;
+        let mut tried = [0; 3];
+        for i in 0..4000 {
+            let mut normals = NormalPairs::new("dips", 1, i);
+            let ([q, v], [x, y]) = (normals.pair(), normals.pair());
+            let s = 0.05 + 0.9 * frequencies.reach * (0.5 + y.atan2(x) / std::f64::consts::TAU);
+            // At s the slope is zero, and the curvature 1e-4 to 1.
+            let bend = 10f64.powi(-(i as i32 % 5));
+            let back = |[value, quadrature]: [f64; 2], angle: f64| {
+                let (sin, cos) = angle.sin_cos();
+                [value * cos - quadrature * sin, quadrature * cos + value * sin]
+            };
+            let parts = [back([-bend - 2.25 * v, -1.5 * q], s), back([v, q], 1.5 * s)];
+            let level = frame(bend + 1.25 * v, parts, frequencies);
+            let margin = level.at(s, frequencies).margin.max(2.0 * f64::EPSILON * level.size);
+            if (0..500).any(|k| level.at(s * f64::from(k) / 500.0, frequencies).f <= 0.0) {
+                continue;
+            }
+            for depth in [1.5 * margin, 4.0 * margin, 1e-13, 1e-10, 1e-7, 1e-5, 1e-4, 1e-3] {
+                for f0 in [level.f0 - depth, level.f0 + depth].into_iter().filter(|f0| *f0 > 0.0) {
+                    let dip = Frame { f0, ..level };
+                    let lowest = derivative(&dip, frequencies, 0, s) / margin;
+                    let mut work = Counters::default();
+                    let next = search.first_root(&dip, &mut work);
+                    let (Next::Root { s: end, .. } | Next::Clear { s: end }) = next;
+                    let is_root = matches!(next, Next::Root { .. });
+                    let case = if lowest < -2.5 { 0 } else { 1 + usize::from(lowest < 2.5) };
+                    tried[case] += 1;
+                    let is_right = match case {
+                        0 => is_root && end < s || lowest > -6.0 && work.undecided > 0,
+                        1 => end > s,
+                        _ => work.undecided > 0 || (end < s) == (lowest < 0.0),
+                    };
+                    let f = derivative(&dip, frequencies, 0, end).abs() / margin;
+                    assert!(
+                        is_right && (!is_root || f < 2.0),
+                        "{i}: {lowest:e} at {s}: {next:?}, {f}"
+                    );
+                }
+            }
+        }
+        assert!(tried.iter().all(|number| *number > 1000), "{tried:?}");
+    }
+
+    /// M₂ is that of the slowest part, and a speed counts from v² = 4 M₂ (f − q) on.
+    #[test]
+    fn a_root_is_the_first_beyond_the_doubt_of_the_screen() {
+        let search = Search::new(Frequencies::new(1.5, [1.0]));
+        let frame = frame(1.0, [[0.0; 2], [1.0, 0.0]], &search.frequencies);
+        let bend = derivative(&frame, &search.frequencies, 2, 0.0).abs();
+        let square = 4.0 * bend * search.pieces[0].largest_difference(&frame);
+        assert!(search.is_first(&frame, (1.001 * square).sqrt()));
+        assert!(!search.is_first(&frame, (0.999 * square).sqrt()));
+    }
+}

@@ -18,4 +18,6 @@ mod pair;
 pub mod screen;
 pub mod stepping;
 pub mod trig;
+#[cfg(test)]
+pub mod truth;
 pub mod window;

@@ -113,3 +113,28 @@ impl Taylor {
         [sum(value), sum(slope), sum(bend), sum(twist)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::truth::{derivative, frame};
+    use impact_numerics::random::NormalPairs;
+
+    #[test]
+    fn roots_are_right_to_rounding_from_far_guesses() {
+        let frequencies = Frequencies::new(1.0, [1.5]);
+        let (nodes, mut roots) = (Nodes::new(&frequencies), 0);
+        for i in 0..3000 {
+            let mut normals = NormalPairs::new("nodes", 1, i);
+            let frame = frame(0.5, [normals.pair(), normals.pair()], &frequencies);
+            let guess = frequencies.reach * (i as f64 / 3000.0);
+            if let Some((s, speed)) = nodes.root(&frame, guess, &mut Counters::default()) {
+                let [f, slope] = [0, 1].map(|order| derivative(&frame, &frequencies, order, s));
+                let off = [f, slope + speed].map(|off| off.abs() / (f64::EPSILON * frame.size));
+                assert!(off[0] < 3.0 && off[1] < 30.0, "{i}: {off:?} units at {s}");
+                roots += 1;
+            }
+        }
+        assert!(roots > 1000, "{roots}");
+    }
+}

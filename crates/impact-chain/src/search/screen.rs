@@ -196,3 +196,81 @@ impl Coefficients {
         [a, b, c, d, e, f, g, h]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::truth::{derivative, frame};
+    use impact_numerics::random::NormalPairs;
+
+    /// A sinusoid of the highest frequency about the middle of a piece has |f⁽⁸⁾| = M₈ there: q is
+    /// never above it, and touches it within a tenth of the remainder where f⁽⁸⁾ < 0.
+    #[test]
+    fn the_polynomial_below_a_function_touches_it() {
+        let frequencies = Frequencies::new(1.0, [1.5]);
+        for (k, sign) in (0..7).flat_map(|k| [(k, -1.0), (k, 1.0)]) {
+            let parts = 1u32 << (k + 1u32).ilog2();
+            let width = frequencies.reach / f64::from(parts);
+            let piece = Piece::new(f64::from(k + 1 - parts) * width, width, &frequencies);
+            let (sin, cos) = (1.5 * (piece.start + 0.5 * width)).sin_cos();
+            let frame = frame(0.0, [[0.0; 2], [sign * cos, sign * sin]], &frequencies);
+            let at = |u: f64| derivative(&frame, &frequencies, 0, piece.start + u * width);
+            let above = |u: f64| {
+                let mut b = [&[at(0.0)], &piece.coefficients(&frame).all()[..]].concat();
+                while b.len() > 1 {
+                    b = b.windows(2).map(|two| two[0] + u * (two[1] - two[0])).collect();
+                }
+                at(u) - b[0]
+            };
+            for u in (0..=32).map(|i| f64::from(i) / 32.0) {
+                let within = -2e-15..piece.largest_difference(&frame);
+                assert!(within.contains(&above(u)), "{k}, {sign}, {u}: {:e}", above(u));
+            }
+            let remainder = (0.75 * width).powi(8) / 40_320.0;
+            assert!(parts < 4 || above(0.5) < (1.1 + sign) * remainder, "{k}: {}", above(0.5));
+        }
+    }
+
+    #[test]
+    fn roundings_are_below_half_the_slack() {
+        let frequencies = Frequencies::new(1.0, [1.5]);
+        let mut normals = NormalPairs::new("slack", 1, 0);
+        for _ in 0..300 {
+            let frame = frame(1.0, [normals.pair(), normals.pair()], &frequencies);
+            let c = Piece::new(0.5, 0.7, &frequencies).coefficients(&frame);
+            let exact = |order, s| derivative(&frame, &frequencies, order, s);
+            let off = c.all()[0] - (exact(0, 0.5) + 0.7 * exact(1, 0.5) / 8.0);
+            for off in [off, c.last() - exact(0, 0.5 + 0.7)] {
+                assert!(2.0 * off.abs() <= c.slack, "{off:e}, {:e}", c.slack);
+            }
+        }
+    }
+
+    /// All patterns of coefficients below, within and above the slack.
+    #[test]
+    fn signs_are_read_beyond_the_slack() {
+        for pattern in 0..3usize.pow(8) {
+            let signs: [usize; 8] = std::array::from_fn(|i| pattern / 3usize.pow(i as u32) % 3);
+            let c = Coefficients { row: row(signs.map(|sign| [-0.6, 0.5, 0.6][sign])), slack: 0.5 };
+            let plus = signs.iter().take_while(|sign| **sign == 2).count();
+            assert_eq!(c.are_positive(), plus == 8, "{signs:?}");
+            let once = signs[plus..].iter().all(|sign| *sign == 0);
+            assert_eq!(c.change_sign_once(), once, "{signs:?}");
+        }
+    }
+
+    /// f falls where each coefficient is below the one before by M₈ w⁸/(64 · 8!). No function is
+    /// known that needs more than an eighth of this.
+    #[test]
+    fn a_function_that_may_rise_has_no_only_root() {
+        let piece = Piece::new(0.0, 0.7, &Frequencies::new(1.0, [1.5]));
+        let least = 1.5_f64.powi(4) * 0.7_f64.powi(8) / 40_320.0 / 64.0;
+        for (i, fall, expected) in (0..8).flat_map(|i| [(i, 0.499, true), (i, 0.501, false)]) {
+            let mut b: [f64; 8] = std::array::from_fn(|i| 3.5 - i as f64);
+            b[i] += 0.5;
+            let c = Coefficients { row: row(b), slack: 0.0 };
+            let frame = Frame { bound: fall / least, ..Frame::ZERO };
+            assert_eq!(piece.only_root(&frame, 4.5, &c).is_some(), expected, "{i}, {fall}");
+        }
+    }
+}

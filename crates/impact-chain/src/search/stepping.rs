@@ -3,6 +3,9 @@
 use super::local_frame::{Frame, Frequencies, NEARLY_SHUT, Point, ROUNDING};
 use super::outcome::{Counters, Next};
 
+#[cfg(test)]
+mod tests;
+
 /// Returns the first root h > 0 of f + g h − ½ K h², f ≥ 0; `far` if there is none before it.
 #[inline]
 fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {

@@ -137,6 +137,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn rough_angles_are_within_their_bound() {
+        for i in -9999..=9999 {
+            let x = f64::from(i) * std::f64::consts::PI / 1e4;
+            let [angle, _] = rough_angles(splat(3.0 * x.sin()), splat(3.0 * x.cos())).to_array();
+            assert!((angle - x).abs() < 2e-9, "{x}: {angle}");
+        }
+    }
+
+    #[test]
     fn a_turn_is_reduced_exactly() {
         for i in 0..100_000u64 {
             let turn = i.wrapping_mul(0x9e37_79b9_7f4a_7c15);

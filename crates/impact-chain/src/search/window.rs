@@ -83,3 +83,36 @@ impl Part {
         (middle - self.half_width - behind) / self.frequency
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use impact_numerics::random::NormalPairs;
+    use std::f64::consts::{PI, SQRT_2};
+
+    /// At s one part is lowest and the other enters its window, so the sum is zero at last.
+    #[test]
+    fn a_window_opens_just_before_the_sum_can_be_zero() {
+        let frequencies = Frequencies::new(1.0, [SQRT_2]);
+        for i in 0..4000 {
+            let [x, y] = NormalPairs::new("window", 1, i).pair();
+            let (s, cosine) = ([0.1, 300.0][i as usize / 2 % 2] * y.abs(), x / (1.0 + x.abs()));
+            let (edge, lowest, entry) = (1.0 + x * x, 1.0 + y * y, PI - cosine.acos());
+            let [angles, amplitudes] = match i % 2 {
+                0 => [[entry, PI], [edge, lowest]],
+                _ => [[PI, entry], [lowest, edge]],
+            };
+            let part = |k: usize| {
+                let (sin, cos) = (angles[k] - [1.0, SQRT_2][k] * s).sin_cos();
+                [amplitudes[k] * cos, -amplitudes[k] * sin]
+            };
+            let next = |mean: f64| next_window(mean, part(0), &[part(1)], &frequencies);
+            let opens = next(lowest + cosine * edge).unwrap();
+            assert!(opens <= s, "{i}: {opens} > {s}");
+            let alone = s < 0.3 && cosine.abs() < 0.8;
+            assert!(!alone || s - opens < 1e-6, "{i}: {opens} long before {s}");
+            let total = edge + lowest;
+            assert!(next(total * (1.0 + 1e-11)).is_none() && next(total).is_some());
+        }
+    }
+}

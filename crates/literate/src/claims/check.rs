@@ -90,6 +90,9 @@ pub struct Check {
     /// The author's word for a difference that is explained, such as `misprint`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub why: String,
+    /// The sentence of which it is one reading of several; empty if it is the only one.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub sentence: String,
     pub id: String,
     /// Where it was printed; empty for a relation.
     pub place: String,

@@ -143,9 +143,10 @@ impl Evidence<'_> {
 
     /// Starts a check that the results do not decide; without a note it [fails](Check::fails).
     pub fn open(&self, found: impl Into<Text>) -> Check {
-        let Statement { kind, why, id, place, statement, printed, .. } = self.statement;
+        let Statement { kind, why, sentence, id, place, statement, printed, .. } = self.statement;
         Check {
             why: why.clone(),
+            sentence: sentence.clone(),
             place: place.clone(),
             expected: printed.clone(),
             ..Check::new(*kind, id, statement, found)

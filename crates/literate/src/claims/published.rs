@@ -36,6 +36,9 @@ pub struct Statement {
     #[serde(default)]
     pub why: String,
     pub place: String,
+    /// The id of the sentence of which it is one reading of several; empty if it is the only one.
+    #[serde(default)]
+    pub sentence: String,
     pub statement: String,
     /// What can be read there, in its shortest form.
     pub printed: String,

@@ -93,7 +93,8 @@ pub fn printed(published: &Published) -> Vec<Value> {
 }
 
 /// Counts the statements as values: all, by verdict, by basis (those reproduced, and of how many),
-/// by word for a difference; and the definitions.
+/// by word for a difference; sentences of the paper, those of which every reading is reproduced, and
+/// those of which only some are; and the definitions.
 pub fn scorecard(claims: &[Check]) -> Vec<Value> {
     let value = |name: String, count: usize| {
         let id = format!("score.{}", name.replace(' ', "_"));
@@ -114,7 +115,23 @@ pub fn scorecard(claims: &[Check]) -> Vec<Value> {
         *words.entry(claim.why.as_str()).or_insert(0) += usize::from(claim.difference().is_some());
     }
     let words = words.into_iter().map(|(word, count)| value(word.into(), count));
-    let all = [value("total".into(), judged.len()), value("definitions".into(), definitions.len())];
+    let mut sentences: BTreeMap<&str, Vec<bool>> = BTreeMap::new();
+    for claim in statements() {
+        let sentence = if claim.sentence.is_empty() { &claim.id } else { &claim.sentence };
+        let is_reproduced = claim.verdict == Verdict::Reproduced;
+        sentences.entry(sentence).or_default().push(is_reproduced);
+    }
+    let with =
+        |readings: fn(&Vec<bool>) -> bool| sentences.values().filter(|s| readings(s)).count();
+    let whole = with(|readings| !readings.contains(&false));
+    let split = with(|readings| readings.contains(&true) && readings.contains(&false));
+    let all = [
+        value("total".into(), judged.len()),
+        value("sentences".into(), sentences.len()),
+        value("sentences_reproduced".into(), whole),
+        value("sentences_split".into(), split),
+        value("definitions".into(), definitions.len()),
+    ];
     verdicts.chain(all).chain(bases).chain(words).collect()
 }
 
@@ -149,6 +166,19 @@ mod tests {
         assert_eq!(row(&checks[2])["kind"], "definition");
         let score = scorecard(&checks);
         let count = |id: &str| score.iter().find(|value| value.id == id).unwrap().number.clone();
+        let mut readings = vec![checks[0].clone(), checks[1].clone()];
+        readings.iter_mut().for_each(|check| check.sentence = "s".into());
+        readings[0].verdict = Verdict::Reproduced;
+        readings.push(readings[0].clone());
+        readings[2].sentence.clear();
+        let by_sentence = scorecard(&readings);
+        for (name, expected) in
+            [("sentences", 2), ("sentences_reproduced", 1), ("sentences_split", 1)]
+        {
+            let id = format!("score.{name}");
+            let value = by_sentence.iter().find(|value| value.id == id).unwrap();
+            assert_eq!(value.number, Number::Integer(expected), "{name}");
+        }
         let expected =
             [("total", 2), ("differs", 1), ("definitions", 1), ("misprint", 1), ("exact_of", 2)];
         for (name, expected) in expected {

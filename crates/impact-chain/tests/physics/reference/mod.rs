@@ -4,7 +4,7 @@
 //! time with the plain amplitudes of Eq. (19), and searches by certified subdivision of intervals
 //! instead of forward stretches, with numbers of 106 bits.
 
-// benches/reference.rs uses a part of this module.
+// benches/reference.rs and tests/experiments use a part of this module.
 #![allow(dead_code, unused_imports)]
 
 mod chain;

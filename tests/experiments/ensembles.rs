@@ -1,11 +1,10 @@
-//! Compares counts of ensembles with lists of impacts, and what follows with sums by hand.
+//! Compares counts of ensembles with lists of impacts, and the rise with one that was measured elsewhere.
 
 use crate::trace;
-use impact_chain::rise::{Mean, RisePoint};
-use impact_chain::{Counts, Scenario};
+use impact_chain::{Counts, Engine, Scenario, State};
 use impact_numerics::random::NormalPairs;
 use impact_paper::experiments::{Progress, ensembles::CUTTING};
-use impact_paper::params::{Beyond, Chain, Ensemble, Protocol, Start};
+use impact_paper::params::{Beyond, Chain, Ensemble, Protocol, Start, lowered};
 
 fn small() -> Ensemble {
     let times = [(20.0, 20.0), (20.0, 50.0), (50.0, 20.0), (100.0, 50.0)];
@@ -68,22 +67,6 @@ fn one(distinct: Option<u32>, impacts: u64, masses: u32) -> Counts {
 }
 
 #[test]
-fn a_row_by_hand() {
-    let all = [(Some(0), 0, 0), (Some(4), 40, 3), (Some(10), 120, 9), (Some(4), 80, 3)];
-    let all = all.map(|(k, impacts, masses)| one(k, impacts, masses));
-    let rejected = Counts { rejected: 1, ..one(None, 0, 0) };
-    let counts: Counts = all.into_iter().chain([rejected]).collect();
-    let row = RisePoint::new(0.1, &counts, 0, 10, [None; 2]);
-    assert_eq!((row.ran, row.kept, row.mode), (4, 3, Some(4)));
-    let mean = |mean: Option<Mean>| mean.map(|mean| (mean.value, mean.error.unwrap()));
-    assert_eq!(mean(row.mean), Some((6.0, 2.0))); // s = √12, over √3
-    assert_eq!(row.mean_all.unwrap().value, 4.5);
-    assert_eq!(mean(row.masses), Some((5.0, 2.0)));
-    assert_eq!(row.impacts.unwrap().value, 80.0);
-    assert_eq!(row.counts, [1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 1]);
-}
-
-#[test]
 fn where_many_starts_overlap_there_is_no_place_of_the_rise() {
     let overlapping = |k| -> Counts {
         let rejected = Counts { rejected: 1, ..one(None, 0, 0) };
@@ -120,4 +103,18 @@ fn the_rise_lies_where_it_was_measured_elsewhere() {
     assert!((half.value - 0.1165).abs() < 4.0 * error, "{half:?}");
     let onset = rise.kept_half.unwrap().value;
     assert!(onset < half.value, "half of the chains impact long before half of the gaps: {onset}");
+}
+
+/// From rest until the force is lowered there is no impact.
+#[test]
+fn positions_and_velocities_are_continuous_when_the_force_is_lowered() {
+    let chain = Chain { masses: 5, ..Chain::default() };
+    let scenario = Scenario::draw(&chain, 0.05, &mut NormalPairs::new("history", 1, 1));
+    let (mut engine, time) = (Engine::new(&scenario).unwrap(), 7.3);
+    assert_eq!(engine.impacts(time).unwrap(), []);
+    let before = engine.state(time).unwrap();
+    let after = State::of(&lowered(&scenario, &engine.free_parts(), time, 0.4));
+    let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-14);
+    assert!(near(&before.positions, &after.positions), "{before:?} {after:?}");
+    assert!(near(&before.velocities, &after.velocities), "{before:?} {after:?}");
 }

@@ -4,8 +4,7 @@ use crate::{drawn, given, run};
 use impact_chain::methods::{
     Advancement, Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, Verlet,
 };
-use impact_chain::{Engine, Error, Impact, Scenario, State};
-use impact_paper::params::{Boundary, Chain};
+use impact_chain::{Boundary, Chain, Engine, Error, Impact, Scenario, State};
 
 fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario {
     drawn(&Chain { masses, boundary, ..Chain::default() }, sigma, "methods", index)

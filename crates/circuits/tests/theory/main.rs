@@ -3,12 +3,10 @@
 mod distribution;
 mod jump;
 mod relation;
-mod tables;
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use dashu_int::IBig;
-use impact_numerics::double_double::{DoubleDouble, sin_cos};
 
 /// A float of [`BITS`] bits.
 pub type Big = FBig<HalfEven, 2>;
@@ -93,27 +91,4 @@ fn legendre(n: usize, x: &Big) -> (Big, Big) {
     }
     let slope = int(n) * (x.clone() * &value - previous) / (x.clone() * x - int(1));
     (value, slope)
-}
-
-/// The numbers in which the second simulator and the truth compute, on both sides of each multiple
-/// of a quarter turn and far from zero.
-#[test]
-fn double_doubles_have_their_106_bits() {
-    let exact = |x: DoubleDouble| big(x.hi) + big(x.lo);
-    let off = |ours: DoubleDouble, exact: Big| near(&(big(ours.hi) - exact + big(ours.lo))).abs();
-    let shift = DoubleDouble::from(1.0) / DoubleDouble::from(3.0);
-    let shifted = exact(shift);
-    for step in 1..400 {
-        for size in [0.1, 1e3, 1e12] {
-            let x = DoubleDouble::from(f64::from(step) * size) / DoubleDouble::from(7.0);
-            let large = exact(x);
-            let error = 1e-31 * x.hi.max(1.0);
-            assert!(off(x + shift, large.clone() + &shifted) < error, "{x:?}");
-            assert!(off(x - shift, large.clone() - &shifted) < error, "{x:?}");
-            assert!(off(x * shift, large.clone() * &shifted) < error, "{x:?}");
-            assert!(off(x / shift, large.clone() / &shifted) < 10.0 * error, "{x:?}");
-            let ([s, c], (sin, cos)) = (sin_cos(x), large.sin_cos());
-            assert!(off(s, sin).max(off(c, cos)) < error, "{x:?}");
-        }
-    }
 }

@@ -4,8 +4,7 @@
 //! images.
 
 use crate::{drawn, given, run};
-use impact_chain::{Engine, Impact, Initial, Scenario};
-use impact_paper::params::Chain;
+use impact_chain::{Chain, Engine, Impact, Initial, Scenario};
 
 fn scene(masses: &[(f64, f64)], forces: &[f64], restitution: f64) -> Scenario {
     let free = masses

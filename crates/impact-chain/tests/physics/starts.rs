@@ -1,8 +1,7 @@
-//! Starts runs from a state, from places and velocities in a file, and when the force is lowered.
+//! Starts runs from a state, and from places and velocities in a file.
 
 use crate::drawn;
-use impact_chain::{Engine, Scenario, State};
-use impact_paper::params::{Chain, Start, lowered};
+use impact_chain::{Chain, Engine, Scenario, Start, State};
 
 #[test]
 fn the_state_at_the_start_is_that_of_the_engine() {
@@ -82,17 +81,4 @@ fn places_are_constant_loads_and_gaps_of_any_width() {
     for (a, b) in crate::trace(&moved, 20.0).iter().zip(crate::trace(&plain, 20.0)) {
         assert!(a.gap == b.gap && (a.time - b.time).abs() < 1e-9, "{a:?} {b:?}");
     }
-}
-
-/// From rest until the force is lowered there is no impact.
-#[test]
-fn positions_and_velocities_are_continuous_when_the_force_is_lowered() {
-    let scenario = drawn(&Chain { masses: 5, ..Chain::default() }, 0.05, "history", 1);
-    let (mut engine, time) = (Engine::new(&scenario).unwrap(), 7.3);
-    assert_eq!(engine.impacts(time).unwrap(), []);
-    let before = engine.state(time).unwrap();
-    let after = State::of(&lowered(&scenario, &engine.free_parts(), time, 0.4));
-    let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-14);
-    assert!(near(&before.positions, &after.positions), "{before:?} {after:?}");
-    assert!(near(&before.velocities, &after.velocities), "{before:?} {after:?}");
 }

@@ -3,8 +3,7 @@
 use crate::reference::{Dd, Reference, sin_cos};
 use crate::traces::{EIGHT, several};
 use crate::{drawn, given, trace};
-use impact_chain::{Engine, Impact, Initial, Scenario};
-use impact_paper::params::Chain;
+use impact_chain::{Chain, Engine, Impact, Initial, Scenario};
 
 fn draw(masses: usize, sigma: f64, index: u64) -> Scenario {
     drawn(&Chain { masses, ..Chain::default() }, sigma, "physics", index)

@@ -2,8 +2,7 @@
 
 use super::gap::Gap;
 use super::{Dd, sin_cos};
-use impact_chain::{Initial, Scenario, State};
-use impact_paper::params::Boundary;
+use impact_chain::{Boundary, Initial, Scenario, State};
 
 #[derive(Clone, Debug)]
 pub struct Hit {

@@ -7,9 +7,8 @@
 use crate::reference::{Dd, Reference};
 use crate::{first, given};
 use impact_chain::rounding::TIME;
-use impact_chain::{Engine, Initial, Overtone, Scenario};
+use impact_chain::{Boundary, Chain, Engine, Initial, Overtone, Scenario};
 use impact_numerics::random::NormalPairs;
-use impact_paper::params::{Boundary, Chain};
 
 /// The closing speed is off by at most ε S (C′ max(ω, Ω) + C M₂/v), where M₂ = ω² R₁ +
 /// Ω² R₂ bounds Δ'' and its term is due to the error of the time. This is C′.

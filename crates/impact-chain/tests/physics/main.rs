@@ -1,19 +1,16 @@
 //! Tests the engine: against a second simulator of higher precision, by laws that hold for any
-//! arithmetic, and in scenes whose outcome is known beforehand.
+//! arithmetic, and in scenes of contact that are known by mechanics.
 
 mod certified;
 mod contact;
-mod ensembles;
 mod invariants;
 mod methods;
 mod reference;
-mod scenes;
 mod starts;
 mod traces;
 
-use impact_chain::{Engine, Impact, Initial, Scenario};
+use impact_chain::{Chain, Engine, Impact, Initial, Scenario};
 use impact_numerics::random::NormalPairs;
-use impact_paper::params::Chain;
 
 fn drawn(chain: &Chain, sigma: f64, stream: &str, index: u64) -> Scenario {
     Scenario::draw(chain, sigma, &mut NormalPairs::new(stream, 1, index))

@@ -1,0 +1,76 @@
+//! Functions that touch the bounds of certified steps from the wrong side.
+
+use super::*;
+
+fn frequencies() -> Frequencies<1> {
+    Frequencies::new(1.0, [2.0])
+}
+
+/// Returns a point with this value and these three derivatives.
+fn point([f0, g0, d2, d3]: [f64; 4]) -> Point<1> {
+    let forced = [[0.0, -(g0 + d3) / 6.0]];
+    Frame { f0, g0, alpha: -d2, forced, ..Frame::ZERO }.start(&frequencies())
+}
+
+/// Of all functions with the same start and |f''''| ≤ M₄ the lowest has f'''' = −M₄.
+#[test]
+fn the_lowest_function_is_above_zero_on_a_stretch() {
+    for i in 0..256 {
+        let pick = |place: u32| [-1.0, 0.0, 1e-3, 1.0][i >> (2 * place) & 3];
+        let (f, d1, d2, d3) = ([1e-6, 1.0][i >> 6 & 1], pick(0), pick(1), pick(2));
+        let bound = [0.1, 10.0][i >> 7];
+        let h = stretch(f, &point([f, d1, d2, d3]), bound, 10.0);
+        for t in (1..64).map(|i| h * f64::from(i) / 64.0) {
+            let lowest = f + t * (d1 + t * (d2 / 2.0 + t * (d3 / 6.0 - t * bound / 24.0)));
+            assert!(lowest > 0.0, "{f}, {d1}, {d2}, {d3}, {bound}: {lowest:e} at {t} of {h}");
+        }
+    }
+    // f ≥ 1 − ½ K h²: K = ½ M₄ L² is 2 for L = 2, and 9/8 for L = 3/2, which allows more.
+    assert!((stretch(1.0, &point([1.0, 0.0, 0.0, 0.0]), 1.0, 2.0) - 4.0 / 3.0).abs() < 1e-15);
+}
+
+/// Functions of degree six equal the quintic less its remainder: an interval is open if each of
+/// their inner Bernstein coefficients is, one of which is just above or below what is asked.
+#[test]
+fn a_leap_is_open_as_far_as_its_remainder_allows() {
+    const H: f64 = 0.5;
+    for (i, sign) in (1..6).flat_map(|i| [(i, 1.0), (i, -1.0)]) {
+        let slack = 0.01;
+        let mut b = [1.0, 1.0, 1.0, 0.2, 1.0, 1.0, 1.0];
+        b[i] = slack + sign * 1e-9;
+        let end = |[b, c, d]: [f64; 3], h: f64| {
+            point([b, 6.0 * (c - b) / h, 30.0 * (d - 2.0 * c + b) / (h * h), 0.0])
+        };
+        let sixth = b[0] - 6.0 * b[1] + 15.0 * b[2] - 20.0 * b[3] + 15.0 * b[4] - 6.0 * b[5] + b[6];
+        let (left, right) = (end([b[0], b[1], b[2]], H), end([b[6], b[5], b[4]], -H));
+        let open = stays_open(&left, &right, H, 720.0 * sixth / H.powi(6), slack);
+        assert_eq!(open, sign > 0.0, "coefficient {i}, {sign}");
+    }
+}
+
+/// The lowest functions again: those that f''' or f'''' alone lifts are as high as promised.
+#[test]
+fn a_lift_ends_above_zero() {
+    let frame = Frame { bound: 3.0, size: 1.0, ..Frame::ZERO };
+    let h = lift(&point([0.0, 0.0, 0.0, 6.0]), &frame, &frequencies());
+    let lowest = 6.0 * h.powi(3) / 6.0 - 3.0 * h.powi(4) / 24.0;
+    assert!(h == 4.0 && lowest >= 6.0 * h.powi(3) / 12.0, "{h}, {lowest}");
+    let fourth = Frame { alpha: -4.0, forced: [[1.0, 0.0]], ..frame };
+    let h = lift(&fourth.start(&frequencies()), &fourth, &frequencies());
+    let lowest = 12.0 * h.powi(4) / 24.0 - 6.0 * h.powi(5) / 120.0;
+    assert!(h == 4.0 && lowest >= 12.0 * h.powi(4) / 40.0, "{h}, {lowest}");
+    for start in [[0.0, 0.0, 0.0, -6.0], [0.0, -1e-9, 0.0, 6.0]] {
+        assert_eq!(lift(&point(start), &frame, &frequencies()), 0.0);
+    }
+}
+
+/// From the lowest dip that counts as a miss, two margins below zero, to two above.
+#[test]
+fn a_climb_ends_above_the_band() {
+    for [d1, d2] in [[0.0, 1.0], [-1e-3, 0.5], [1e-3, 2.0]] {
+        let (margin, f) = (1e-8, 0.5 * d1 * d1 / d2 - 2e-8);
+        let h = climb(&point([f, d1, d2, 0.0]), margin);
+        let above = f + h * (d1 + 0.5 * d2 * h);
+        assert!(h > 0.0 && above > 2.0 * margin * (1.0 - 1e-6), "{d1}, {d2}: {above:e}");
+    }
+}
