@@ -154,3 +154,17 @@ pub fn mode_half(curve: &Curve, gaps: usize) -> Option<[f64; 2]> {
     let below = intervals.iter().rposition(|(_, [bottom, _])| (*bottom as f64) < half)?;
     Some([low.0, intervals.get(below + 1)?.0])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// From δ = 1e−2 to 1e−9 a factor of 1e7, from v = 0.1 to 1e−8 the square of one.
+    #[test]
+    fn rare_impacts_follow_their_laws() {
+        let mut total = Total::default();
+        (total.near[1], total.slow[0]) = (10_000_000, 100_000_000_000_000);
+        let [near, slow] = expected(&total);
+        assert!((near - 1.0).abs() < 1e-12 && (slow - 1.0).abs() < 1e-12, "{near} {slow}");
+    }
+}

@@ -15,4 +15,5 @@ pub use level::{CheckLevel, FAMILY_LEVEL};
 pub use published::{Parameter, Published, PublishedError, Statement};
 pub use rule::{Rule, blind_to_their_number, judge_all, level_of};
 pub use text::Text;
+pub(crate) use wrong::is_trying;
 pub use wrong::never_moved;

@@ -153,6 +153,7 @@ pub fn blind_to_their_number(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::claims::never_moved;
     use crate::table::Table;
     use crate::text;
     use impact_numerics::statistics::Estimate;
@@ -209,6 +210,40 @@ mod tests {
         assert_eq!(verdicts, [No, No, Open, Open]);
         assert!(checks.iter().all(Check::fails), "a statement without a rule fails too");
         assert!(!checks[3].clone().note("It is a likeness in words.").fails());
+    }
+
+    /// Printed is 0.10: 0.0152 away, where half a unit and 2.58 errors are 0.0102, and twice as many
+    /// errors 0.0153.
+    #[test]
+    fn a_cell_has_room_for_its_errors_once() {
+        let published = Published::parse(&PUBLISHED.replace("0.11", "0.10")).unwrap();
+        let rule = Rule::new("mean", |e| e.cell("toy.all.mean")).statistical();
+        let checks = judge_all(&published, &[rule], &results()).unwrap();
+        assert_eq!(checks[1].verdict, Verdict::Differs);
+    }
+
+    /// One rule can fail; one does so only if its number has another sign, which is no small change
+    /// of an explanation; one stays open, one is decided by other results, and one panics.
+    #[test]
+    fn a_verdict_that_nothing_moves_is_named() {
+        let rise = |e: &Evidence<'_>| e.number("toy.all.rise");
+        let rules = [
+            Rule::new("rise", |e| e.cell("toy.all.rise")),
+            Rule::new("mean", move |e| Ok(e.found("", false).explained("why", rise(e)? > 0.0))),
+            Rule::new("words", move |e| Ok(e.open(text!("{}", rise(e)?)))),
+            Rule::new("without", move |e| {
+                Ok(if rise(e)? > 0.2 { e.found("", true) } else { e.open("") })
+            }),
+            Rule::new("panics", move |e| {
+                assert!(rise(e)? == 0.1152, "a rule that takes no other number");
+                Ok(e.found("", true))
+            })
+            .relation("It never fails."),
+        ];
+        let published = Published::parse(PUBLISHED).unwrap();
+        let named = |open| never_moved(&published, &rules, &results(), open).unwrap();
+        assert_eq!(named(false), ["mean", "panics"]);
+        assert_eq!(named(true), ["mean", "words", "panics"]);
     }
 
     #[test]

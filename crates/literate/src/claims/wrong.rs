@@ -2,12 +2,12 @@
 
 use super::check::{Kind, Verdict};
 use super::evidence::{Error, Evidence};
-use super::level::CheckLevel;
 use super::numeral::with_other_digit;
 use super::published::{Published, Statement};
 use super::rule::{Rule, level_of};
 use crate::experiments::Results;
 use serde_json::Value;
+use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -25,6 +25,9 @@ const CHANGES: [Change; 7] = [
     |_, _| None,
 ];
 
+/// How many of them are small.
+const SMALL: usize = 3;
+
 /// The way to numbers of a result: names of fields, and none for all elements of a list.
 type Way = Vec<Option<String>>;
 
@@ -36,70 +39,83 @@ struct Unmoved<'a> {
     read: BTreeSet<String>,
 }
 
+thread_local! {
+    /// Whether a rule is being tried on this thread: a panic of it is no fault of the program.
+    static TRYING: Cell<bool> = const { Cell::new(false) };
+}
+
+pub(crate) fn is_trying() -> bool {
+    TRYING.get()
+}
+
 /// Changes the numbers that each rule reads, a column of a table or a field of a result at a time,
-/// and judges again. Returns the ids of those that are reproduced or explained whatever changes, or
-/// open: no change makes them differ, or decides them. Definitions are left out.
+/// and judges again. Returns the ids of statements that are reproduced whatever changes, and of
+/// those that are explained whatever changes a little: their verdicts cannot fail. With `open` also
+/// those that no change decides, which takes longer. Definitions are left out.
 pub fn never_moved(
     published: &Published,
     rules: &[Rule],
     results: &Results,
+    open: bool,
 ) -> Result<Vec<&'static str>, Error> {
     let (level, mut left) = (Some(level_of(rules)), Vec::new());
     for rule in rules {
-        let statement = rule.statement(published)?;
-        let copy = results.copy();
+        let (statement, copy) = (rule.statement(published)?, results.copy());
         let evidence = Evidence { statement: &statement, results: &copy, published, level };
         let verdict = rule.check(evidence)?.verdict;
-        if statement.kind != Kind::Definition {
+        if statement.kind != Kind::Definition && (open || verdict != Verdict::CannotBeJudged) {
             left.push(Unmoved { rule, statement, verdict, read: copy.read() });
         }
     }
     let names: BTreeSet<String> = left.iter().flat_map(|unmoved| unmoved.read.clone()).collect();
-    let mut judge = |name: &str, wrong: Option<Results>| {
-        let Some(wrong) = &wrong else { return };
-        left.retain(|one| !one.read.contains(name) || !one.is_moved(published, level, wrong));
-    };
-    for name in names {
-        if let Ok(table) = results.table(&name) {
-            for column in 0..table.width() {
-                for change in CHANGES {
-                    let table = table.changed(column, change);
-                    judge(&name, table.map(|table| results.with_table(table)));
+    TRYING.set(true);
+    for name in &names {
+        let mut try_all = |wrong: &dyn Fn(Change) -> Option<Results>| {
+            for (number, change) in CHANGES.into_iter().enumerate() {
+                if !left.iter().any(|one| one.read.contains(name)) {
+                    return;
                 }
+                let Some(wrong) = &wrong(change) else { continue };
+                let moves = |one: &Unmoved<'_>| {
+                    let evidence =
+                        Evidence { statement: &one.statement, results: wrong, published, level };
+                    one.read.contains(name) && one.is_moved(evidence, number < SMALL)
+                };
+                left.retain(|one| !moves(one));
             }
-        } else if let Some(result) = results.json(&name) {
+        };
+        if let Ok(table) = results.table(name) {
+            for column in 0..table.width() {
+                let changed = |change| table.changed(column, change);
+                try_all(&|change| Some(results.with_table(changed(change)?)));
+            }
+        } else if let Some(result) = results.json(name) {
             let mut ways = BTreeSet::new();
             find_numbers(&result, &mut Vec::new(), &mut ways);
             for way in ways {
-                for change in CHANGES {
+                try_all(&|change| {
                     let mut wrong = result.clone();
                     change_numbers(&mut wrong, &way, 0.0, change);
-                    if wrong != result {
-                        judge(&name, results.with_json(&name, wrong));
-                    }
-                }
+                    results.with_json(name, wrong)
+                });
             }
         }
     }
+    TRYING.set(false);
     Ok(left.iter().map(|unmoved| unmoved.rule.id).collect())
 }
 
 impl Unmoved<'_> {
-    /// Returns whether the verdict by wrong results is one of those that the right one excludes.
-    /// A rule that fails, or panics, has none.
-    fn is_moved(
-        &self,
-        published: &Published,
-        level: Option<CheckLevel>,
-        results: &Results,
-    ) -> bool {
-        let evidence = Evidence { statement: &self.statement, results, published, level };
-        let judge = || self.rule.check(evidence);
-        let Ok(Ok(check)) = catch_unwind(AssertUnwindSafe(judge)) else { return false };
-        use Verdict::{Differs, DiffersAndExplained, Reproduced};
+    /// Returns whether the verdict by wrong evidence is one that the right one excludes. A rule
+    /// that fails or panics has none. A small change has to break an explanation.
+    fn is_moved(&self, evidence: Evidence<'_>, is_small: bool) -> bool {
+        let judge = AssertUnwindSafe(|| self.rule.check(evidence));
+        let Ok(Ok(check)) = catch_unwind(judge) else { return false };
         match self.verdict {
-            Reproduced => matches!(check.verdict, Differs | DiffersAndExplained),
-            DiffersAndExplained => check.verdict == Differs,
+            Verdict::Reproduced => {
+                [Verdict::Differs, Verdict::DiffersAndExplained].contains(&check.verdict)
+            }
+            Verdict::DiffersAndExplained => is_small && check.verdict == Verdict::Differs,
             before => check.verdict != before,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::common::{RunOptions, scores, verdict};
 use super::terminal::print;
-use crate::claims::{Check, Verdict, blind_to_their_number};
+use crate::claims::{Check, Verdict, blind_to_their_number, never_moved};
 use crate::failure::Failure;
 use crate::input::one_line;
 use crate::paper::Paper;
@@ -19,7 +19,9 @@ use std::collections::BTreeMap;
 /// Saved results are used where they are fresh; what is missing is run. Exit code 1 says that a
 /// statement differs without an explanation that holds, or that a relation between numbers does not
 /// hold. Each statement with a printed number is judged once more with another first digit in it;
-/// those that are still reproduced or explained are named.
+/// those that are still reproduced or explained are named. Each is judged by wrong results too:
+/// the numbers that its rule reads are changed one after the other, and a verdict that stays the
+/// same is named. With -v this is also done, in some seconds, where the verdict is open.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
@@ -44,11 +46,14 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
             return Err(Failure::input(format!("{what}; `check -v` lists all")));
         }
     }
-    let (mut checks, mut blind) = args.options.threads.run(|| -> Result<_, Failure> {
-        let results = paper.results(&paper.experiments, &session)?;
-        let blind = blind_to_their_number(&published, &paper.rules, &results);
-        Ok((paper.checks(&results, &published)?, blind))
-    })?;
+    let (mut checks, mut blind, mut unmoved) =
+        args.options.threads.run(|| -> Result<_, Failure> {
+            let results = paper.results(&paper.experiments, &session)?;
+            let blind = blind_to_their_number(&published, &paper.rules, &results);
+            let checks = paper.checks(&results, &published)?;
+            let unmoved = never_moved(&published, &paper.rules, &results, args.verbose);
+            Ok((checks, blind, unmoved?))
+        })?;
     let printed = checks.iter().filter(|check| check.kind.is_printed());
     let numbers: BTreeMap<String, String> =
         printed.zip(1..).map(|(check, number)| (check.id.clone(), number.to_string())).collect();
@@ -57,8 +62,10 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
             args.ids.contains(id) || numbers.get(id).is_some_and(|number| args.ids.contains(number))
         });
     }
-    blind.retain(|id| checks.iter().any(|check| check.id == *id));
-    print(&text(&checks, &blind, &args, &numbers))?;
+    for ids in [&mut blind, &mut unmoved] {
+        ids.retain(|id| checks.iter().any(|check| check.id == *id));
+    }
+    print(&text(&checks, [&blind, &unmoved], &args, &numbers))?;
     verdict(&checks)
 }
 
@@ -66,7 +73,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
 /// or if some were asked for, all that is known of each.
 fn text(
     checks: &[Check],
-    blind: &[&str],
+    unfailing: [&[&str]; 2],
     args: &Args,
     numbers: &BTreeMap<String, String>,
 ) -> String {
@@ -108,9 +115,12 @@ fn text(
     for line in scores(checks) {
         out += &format!("{line}\n");
     }
-    if !blind.is_empty() {
-        let what = "reproduced or explained also with another first digit in the printed number";
-        out += &format!("{what}: {}\n", blind.join(", "));
+    let what = [
+        "reproduced or explained also with another first digit in the printed number",
+        "the same verdict with every wrong result that was tried",
+    ];
+    for (what, ids) in what.into_iter().zip(unfailing).filter(|(_, ids)| !ids.is_empty()) {
+        out += &format!("{what}: {}\n", ids.join(", "));
     }
     if !all {
         out += "`check -v` prints all, `check ID` all of one\n";

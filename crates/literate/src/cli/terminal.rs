@@ -1,5 +1,6 @@
 //! Writes to the terminal, ends on signals, and starts threads; verbs that a paper adds use it too.
 
+use crate::claims::is_trying;
 use crate::experiments::{end_all, say, stop};
 use crate::failure::{Failure, INTERRUPTED};
 use crate::input::one_line;
@@ -18,6 +19,9 @@ pub fn warn(line: &str) {
 
 /// Reports an internal error in one line: what failed, and where.
 pub(super) fn report_panic(fault: &std::panic::PanicHookInfo<'_>) {
+    if is_trying() {
+        return;
+    }
     let words = fault.payload_as_str().unwrap_or("no words");
     let place = fault.location().map_or_else(String::new, |at| format!(" at {at}"));
     let line = format!(
