@@ -134,31 +134,33 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
     const REST: Option<Heating> = None;
     const ABOVE: Option<Heating> = Some(Heating { sigma: 0.2, time: 300.0 });
     const ALL: &[f64] = &[500.0, 5e3, 2e4, 5e4, 1e5];
-    // Masses, start, σ in thousandths (first, last, step), transients.
+    // Masses, start, σ in ten-thousandths (first, last, step), transients.
     type Sizes = (&'static [usize], Option<Heating>, [u32; 3], &'static [f64]);
     let (chains, sizes): (_, &[Sizes]) = match profile {
+        // Steps of 0.0025 where half heights lie in the long chains, and from above in the short.
         Profile::Full => (
             12,
             &[
-                (&[1000], REST, [90, 90, 5], ALL),
-                (&[300, 1000], REST, [95, 100, 5], ALL),
+                (&[1000], REST, [900, 900, 25], ALL),
+                (&[1000], REST, [950, 975, 25], ALL),
+                (&[1000], REST, [1000, 1000, 25], &ALL[..4]),
                 // Short chains rise later.
-                (&[300], REST, [105, 105, 5], ALL),
-                (&[1000], REST, [105, 105, 5], &ALL[..2]),
-                (&[300], REST, [110, 110, 5], &ALL[..2]),
-                (&[1000], REST, [110, 110, 5], &ALL[..1]),
-                (&[300, 1000], REST, [115, 125, 5], &ALL[..1]),
-                (&[300, 1000], ABOVE, [60, 75, 5], &ALL[..1]),
-                (&[300], ABOVE, [80, 80, 5], &ALL[..1]),
-                (&[1000], ABOVE, [80, 80, 5], &ALL[..2]),
-                (&[300, 1000], ABOVE, [85, 90, 5], ALL),
+                (&[300], REST, [950, 1050, 50], ALL),
+                (&[1000], REST, [1025, 1050, 25], &ALL[..2]),
+                (&[300], REST, [1100, 1100, 25], &ALL[..2]),
+                (&[1000], REST, [1100, 1100, 25], &ALL[..1]),
+                (&[300, 1000], REST, [1150, 1250, 25], &ALL[..1]),
+                (&[300, 1000], ABOVE, [650, 750, 25], &ALL[..1]),
+                (&[300], ABOVE, [800, 825, 25], &ALL[..1]),
+                (&[1000], ABOVE, [800, 825, 25], &ALL[..2]),
+                (&[300, 1000], ABOVE, [850, 900, 25], ALL),
             ],
         ),
         Profile::Quick => (
             3,
             &[
-                (&[60, 200], REST, [100, 160, 20], &[50.0, 200.0, 500.0]),
-                (&[60, 200], ABOVE, [20, 100, 20], &[50.0, 200.0, 500.0]),
+                (&[60, 200], REST, [900, 1700, 200], &[50.0, 200.0, 500.0]),
+                (&[60, 200], ABOVE, [100, 900, 200], &[50.0, 200.0, 500.0]),
             ],
         ),
     };
@@ -166,8 +168,8 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
     for &(lengths, heating, [from, to, step], transients) in sizes {
         for &masses in lengths {
             let start = if heating.is_some() { "above" } else { "rest" };
-            let name = format!("{start}, n = {masses}, σ from {}", f64::from(from) / 1000.0);
-            let sigmas = Grid::default().and(from, to, step as usize, 1000);
+            let name = format!("{start}, n = {masses}, σ from {}", f64::from(from) / 1e4);
+            let sigmas = Grid::default().and(from, to, step as usize, 10_000);
             all.push(Ensemble {
                 chain: Chain { masses, ..Chain::default() },
                 heating,

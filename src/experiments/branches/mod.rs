@@ -1,5 +1,6 @@
 //! Compares chains from rest with chains from above under the same forces.
 
+mod fits;
 mod pairs;
 pub mod run;
 pub mod tables;

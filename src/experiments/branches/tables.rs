@@ -1,6 +1,7 @@
 //! Makes the tables of half heights and shares on both branches.
 
-use super::pairs::{Branch, FROM_ABOVE, FROM_REST, Pair, Quantity, distance, exponent, interval};
+use super::fits::{LAWS, Law};
+use super::pairs::{Branch, FROM_ABOVE, FROM_REST, Pair, distance};
 use super::run::Chains;
 use crate::experiments::prelude::*;
 
@@ -9,58 +10,67 @@ pub fn tables(found: &Vec<Chains>) -> Vec<Table> {
     let lengths: Vec<&[Pair]> = pairs.chunk_by(|a, b| a.masses == b.masses).collect();
     vec![
         half_heights(&lengths),
-        laws(&lengths),
+        fits(&lengths),
         compared_lengths(&lengths),
-        late(&lengths),
-        fixed(&lengths),
         shares(&pairs),
         all(found, &pairs),
     ]
 }
 
-/// Makes the table of half heights after each transient, and the change since the one before it.
+/// Makes the table of half heights after each transient, with changes since the one before it and
+/// until the last.
 fn half_heights(lengths: &[&[Pair]]) -> Table {
     const DISTANCE: &str = "half height from rest less that from above";
     const LATER: &str = "the same less that after the transient before";
-    let mut rows: Vec<(&Pair, Option<&Pair>)> = Vec::new();
+    const LAST: &str = "half height after the last transient less this one";
+    const LOW: &str = "largest σ below the half height";
+    const HIGH: &str = "smallest σ above the half height";
+    const COARSER: &str = "change of the half height if the σ nearest to it is left out";
+    let mut rows: Vec<(&Pair, Option<&Pair>, &Pair)> = Vec::new();
     for pairs in lengths {
-        rows.extend(pairs.iter().zip([None].into_iter().chain(pairs.iter().map(Some))));
+        let before = [None].into_iter().chain(pairs.iter().map(Some));
+        rows.extend(pairs.iter().zip(before).map(|(pair, at)| (pair, at, &pairs[pairs.len() - 1])));
     }
-    Table::of("branches.half_heights", &rows, |(pair, _)| pair.chains())
-        .key("masses", "1", |(pair, _)| pair.masses as f64)
-        .key("transient", TIME, |(pair, _)| pair.transient)
+    Table::of("branches.half_heights", &rows, |row| row.0.chains())
+        .key("masses", "1", |row| row.0.masses as f64)
+        .key("transient", TIME, |row| row.0.transient)
         .computed_by(origin(Branch::half_height))
-        .estimate("from_rest", SIGMA, HALF_HEIGHT, |(pair, _)| pair.estimate(FROM_REST))
-        .estimate("from_above", SIGMA, HALF_HEIGHT, |(pair, _)| pair.estimate(FROM_ABOVE))
+        .estimate("from_rest", SIGMA, HALF_HEIGHT, |row| row.0.estimate(FROM_REST))
+        .estimate("from_above", SIGMA, HALF_HEIGHT, |row| row.0.estimate(FROM_ABOVE))
+        .estimate("rest_until_last", SIGMA, LAST, |row| row.2.estimate_less(row.0, FROM_REST))
+        .estimate("above_until_last", SIGMA, LAST, |row| row.2.estimate_less(row.0, FROM_ABOVE))
+        .chosen("rest_low", SIGMA, LOW, |row| Some(row.0.rest.neighbours()?[0]))
+        .chosen("rest_high", SIGMA, HIGH, |row| Some(row.0.rest.neighbours()?[1]))
+        .chosen("above_low", SIGMA, LOW, |row| Some(row.0.above.neighbours()?[0]))
+        .chosen("above_high", SIGMA, HIGH, |row| Some(row.0.above.neighbours()?[1]))
+        .computed_by(origin(Branch::coarser))
+        .estimate("rest_coarser", SIGMA, COARSER, |row| row.0.estimate(|at, i| at.rest.coarser(i)))
+        .estimate("above_coarser", SIGMA, COARSER, |row| {
+            row.0.estimate(|at, i| at.above.coarser(i))
+        })
         .computed_by(origin(distance))
-        .estimate("distance", SIGMA, DISTANCE, |(pair, _)| pair.estimate(distance))
+        .estimate("distance", SIGMA, DISTANCE, |row| row.0.estimate(distance))
         .estimate("change_of_distance", SIGMA, LATER, |row| row.0.estimate_less(row.1?, distance))
         .done()
 }
 
-fn last_three(pairs: &[Pair]) -> &[Pair] {
-    &pairs[pairs.len().saturating_sub(3)..]
-}
-
-fn laws(lengths: &[&[Pair]]) -> Table {
-    const LAW: &str = "d ln(distance)/d ln T by least squares over the last three transients";
-    const EARLY: &str = "the same over the first two transients";
-    let late = |pairs: &[Pair], without| exponent(last_three(pairs), without);
-    let early = |pairs: &[Pair], without| exponent(&pairs[..pairs.len().min(2)], without);
-    let law = |pairs: &[Pair]| pairs[0].estimate(|_, without| late(pairs, without));
-    let ends = |pairs: &[Pair]| interval(law(pairs), pairs[0].chains());
-    Table::of("branches.laws", lengths, |pairs| pairs[0].chains())
-        .key("masses", "1", |pairs| pairs[0].masses as f64)
-        .chosen("until", TIME, "the second transient", |pairs| Some(pairs.get(1)?.transient))
-        .chosen("since", TIME, "the third last one", |pairs| Some(last_three(pairs)[0].transient))
-        .computed_by(origin(exponent))
-        .estimate("exponent", "1", LAW, |pairs| law(pairs))
-        .real("exponent_from", "1", 2, "lower end of its interval", |pairs| Some(ends(pairs)?[0]))
-        .real("exponent_to", "1", 2, "upper end of its interval", |pairs| Some(ends(pairs)?[1]))
-        .estimate("early", "1", EARLY, |all| all[0].estimate(|_, without| early(all, without)))
-        .estimate("change", "1", "the exponent less the early one", |all| {
-            all[0].estimate(|_, without| Some(late(all, without)? - early(all, without)?))
+fn fits(lengths: &[&[Pair]]) -> Table {
+    const LIMIT: &str = "distance after unlimited time";
+    const AMPLITUDE: &str = "fitted distance at the first transient less the limit";
+    const MISFIT: &str = "sum of squares of distances less fitted ones, each over its error";
+    let laws = lengths.iter().flat_map(|pairs| LAWS.map(|law| (*pairs, law)));
+    let laws: Vec<(&[Pair], Law)> = laws.collect();
+    let estimate = |(pairs, law): &(&[Pair], Law), of| law.estimate(pairs, of);
+    Table::of("branches.fits", &laws, |row| row.0[0].chains())
+        .key("masses", "1", |row| row.0[0].masses as f64)
+        .text_key("law", |row| row.1.name.into())
+        .computed_by(origin(Law::fit))
+        .estimate("limit", SIGMA, LIMIT, |row| {
+            estimate(row, |fit| fit.limit).filter(|_| row.1.limited)
         })
+        .estimate("amplitude", SIGMA, AMPLITUDE, |row| estimate(row, |fit| fit.amplitude))
+        .estimate("exponent", "1", "exponent b", |row| estimate(row, |fit| fit.exponent))
+        .real("misfit", "1", 2, MISFIT, |row| Some(estimate(row, |fit| fit.misfit)?.value))
         .done()
 }
 
@@ -80,53 +90,10 @@ fn compared_lengths(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-/// Makes the table of changes of half heights from the third last transient to the last.
-fn late(lengths: &[&[Pair]]) -> Table {
-    const SINCE: &str = "half height at last less that at the earlier time";
-    let change = |pairs: &[Pair], quantity: Quantity| {
-        pairs.last()?.estimate_less(&last_three(pairs)[0], quantity)
-    };
-    Table::of("branches.late", lengths, |pairs| pairs[0].chains())
-        .key("masses", "1", |pairs| pairs[0].masses as f64)
-        .chosen("since", TIME, "the earlier time", |pairs| Some(last_three(pairs)[0].transient))
-        .computed_by(origin(Branch::half_height))
-        .estimate("from_rest", SIGMA, SINCE, |pairs| change(pairs, FROM_REST))
-        .estimate("from_above", SIGMA, SINCE, |pairs| change(pairs, FROM_ABOVE))
-        .done()
-}
-
 fn excess(pair: &Pair, sigma: f64) -> Option<Estimate> {
     pair.estimate(|pair, without| {
         Some(pair.above.share(sigma, without)? - pair.rest.share(sigma, without)?)
     })
-}
-
-/// Makes the table of shares at the largest σ that both branches have after every transient.
-fn fixed(lengths: &[&[Pair]]) -> Table {
-    const ABOVE: &str = "share from above at last less that at the first time";
-    const LATE: &str = "the same since the third last time";
-    const EXCESS: &str = "share from above less that from rest, at first";
-    let mut rows: Vec<(&[Pair], f64)> = Vec::new();
-    for pairs in lengths {
-        let everywhere = |sigma: &&f64| {
-            pairs.iter().all(|at| at.rest.sigmas.contains(sigma) && at.above.sigmas.contains(sigma))
-        };
-        let largest = pairs[0].rest.sigmas.iter().rev().find(everywhere);
-        rows.extend(largest.map(|sigma| (*pairs, *sigma)));
-    }
-    let fall = |(pairs, sigma): &(&[Pair], f64), since: &Pair| {
-        pairs.last()?.estimate_less(since, |pair, without| pair.above.share(*sigma, without))
-    };
-    Table::of("branches.fixed", &rows, |(pairs, _)| pairs[0].chains())
-        .key("masses", "1", |(pairs, _)| pairs[0].masses as f64)
-        .chosen("sigma", SIGMA, "standard deviation σ", |(_, sigma)| Some(*sigma))
-        .computed_by(origin(Branch::share))
-        .estimate("fall", "1", ABOVE, |row| fall(row, &row.0[0]))
-        .estimate("late_fall", "1", LATE, |row| fall(row, &last_three(row.0)[0]))
-        .computed_by(origin(excess))
-        .estimate("excess", "1", EXCESS, |row| excess(&row.0[0], row.1))
-        .estimate("late_excess", "1", "the same at last", |row| excess(row.0.last()?, row.1))
-        .done()
 }
 
 fn shares(pairs: &[Pair]) -> Table {

@@ -1,0 +1,120 @@
+//! Fits laws to the distance of the branches against T: a power without and with a limit, and a
+//! power of ln T, which has no limit either.
+//!
+//! A distance has the weight 1/error². Errors are by leaving out whole chains, those of what is
+//! fitted too, with the weights kept, since distances at different T are of the same chains.
+
+use super::pairs::{Pair, distance};
+use crate::experiments::prelude::*;
+
+/// The law c + a u^(−b) with u = T/T₁, or ln T/ln T₁, where T₁ is the first transient.
+#[derive(Clone, Copy)]
+pub(super) struct Law {
+    pub name: &'static str,
+    /// Whether the limit c is fitted too; otherwise it is 0.
+    pub limited: bool,
+    /// Returns ln u but for a constant.
+    scale: fn(f64) -> f64,
+}
+
+pub(super) const LAWS: [Law; 3] = [
+    Law { name: "power", limited: false, scale: pxfm::f_log },
+    Law { name: "limit", limited: true, scale: pxfm::f_log },
+    Law { name: "logarithm", limited: false, scale: |time| pxfm::f_log(pxfm::f_log(time)) },
+];
+
+pub(super) struct Fit {
+    pub limit: f64,
+    pub amplitude: f64,
+    pub exponent: f64,
+    /// The weighted sum of squares that is left.
+    pub misfit: f64,
+}
+
+impl Law {
+    /// Fits amplitude and limit for one exponent to points: ln u, distance and weight.
+    fn at(self, exponent: f64, points: &[[f64; 3]]) -> Fit {
+        let sum = |of: &dyn Fn(f64, f64) -> f64| {
+            let term = |[log, y, weight]: &[f64; 3]| weight * of(pxfm::f_exp(-exponent * log), *y);
+            points.iter().map(term).sum::<f64>()
+        };
+        let [one, x, y] = [sum(&|_, _| 1.0), sum(&|x, _| x), sum(&|_, y| y)];
+        let [xx, xy] = [sum(&|x, _| x * x), sum(&|x, y| x * y)];
+        let free = (one * xy - x * y) / (one * xx - x * x);
+        let amplitude = if self.limited { free } else { xy / xx };
+        let limit = if self.limited { (y - amplitude * x) / one } else { 0.0 };
+        let rest = |x: f64, y: f64| y - limit - amplitude * x;
+        Fit { limit, amplitude, exponent, misfit: sum(&|x, y| rest(x, y) * rest(x, y)) }
+    }
+
+    /// Fits the exponent too, from about 1/20 to 20, by ever finer steps of its logarithm.
+    pub fn fit(self, points: &[[f64; 3]]) -> Option<Fit> {
+        let at = |log: f64| self.at(pxfm::f_exp(log), points);
+        let (mut centre, mut half): (f64, f64) = (0.0, 3.0);
+        for _ in 0..9 {
+            let places = (-20..=20).map(|step| centre + half * f64::from(step) / 20.0);
+            centre = places.min_by(|a, b| at(*a).misfit.total_cmp(&at(*b).misfit))?;
+            half /= 10.0;
+        }
+        (points.len() >= 2 + usize::from(self.limited)).then(|| at(centre))
+    }
+
+    /// Estimates a number of the fit to the distances of one length; none if one has no error.
+    pub fn estimate(self, pairs: &[Pair], of: fn(&Fit) -> f64) -> Option<Estimate> {
+        let weight = |pair: &Pair| pair.estimate(distance).map(|of| 1.0 / (of.error * of.error));
+        let weights = pairs.iter().map(weight).collect::<Option<Vec<f64>>>()?;
+        pairs[0].estimate(|first, without| {
+            let log = |pair: &Pair| (self.scale)(pair.transient) - (self.scale)(first.transient);
+            let point = |(pair, weight)| Some([log(pair), distance(pair, without)?, weight]);
+            let points = pairs.iter().zip(weights.iter().copied()).map(point);
+            Some(of(&self.fit(&points.collect::<Option<Vec<_>>>()?)?)).filter(|of| of.is_finite())
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::pairs::tests::pair;
+    use super::*;
+    use impact_numerics::statistics::standard_error;
+
+    /// Chains differ in the amplitude, or in the limit if there is one.
+    #[test]
+    fn known_laws_are_found_with_the_error_of_what_differs_between_chains() {
+        let own = [0.07, 0.12, 0.08, 0.15, 0.1];
+        let (mean, error) = (0.104, standard_error(&own).unwrap());
+        for law in LAWS {
+            let at = |time: f64| {
+                let u: f64 = if law.name == "logarithm" {
+                    pxfm::f_log(time) / pxfm::f_log(4.0)
+                } else {
+                    time / 4.0
+                };
+                let [limit, factor] = [[0.0, 1.0], [1.0, 0.0]][usize::from(law.limited)];
+                let y = |own: f64| limit * own + (limit * 0.2 + factor * own) / u.sqrt();
+                pair(time, &own.map(|own| 0.3 + y(own)), &[0.3; 5])
+            };
+            let pairs = [4.0, 16.0, 64.0, 256.0].map(at);
+            let near = |of: fn(&Fit) -> f64, value: f64, error: f64| {
+                let found = law.estimate(&pairs, of).unwrap();
+                let off = (found.value - value).abs().max((found.error - error).abs());
+                assert!(off < 1e-6, "{}: {found:?}", law.name);
+            };
+            near(|fit| fit.exponent, 0.5, 0.0);
+            let known = if law.limited { [0.2, 0.0, mean, error] } else { [mean, error, 0.0, 0.0] };
+            near(|fit| fit.amplitude, known[0], known[1]);
+            near(|fit| fit.limit, known[2], known[3]);
+            assert!(law.estimate(&pairs[..1], |fit| fit.limit).is_none());
+        }
+    }
+
+    #[test]
+    fn a_distance_off_by_its_error_adds_one_to_the_misfit() {
+        // The first two times, with next to no error, fix a power; the third lies above it.
+        let own = |half: f64| [0.1 - half, 0.1 + half];
+        let at = |time, place: f64, half| pair(time, &own(half).map(|own| place + own), &[0.1; 2]);
+        let pairs = [at(1.0, 0.4, 1e-6), at(4.0, 0.2, 1e-6), at(16.0, 0.13, 0.03)];
+        let misfit = LAWS[0].estimate(&pairs, |fit| fit.misfit).unwrap().value;
+        assert!((misfit - 1.0).abs() < 1e-3, "{misfit}");
+    }
+}
