@@ -4,7 +4,7 @@
 
 use super::QUICK;
 use impact_chain::rise::Mean;
-use impact_paper::claims::{self, Published, Verdict};
+use impact_paper::claims::{self, Verdict};
 use impact_paper::experiments::accuracy::case::Outcome::Missed;
 use impact_paper::experiments::{ALL, PROTOCOL, RACE, REPLAY, Results, SCALE, SWEEP, TRIALS};
 use impact_paper::figures;
@@ -55,17 +55,15 @@ fn every_claim_is_spoken_of_once_in_the_text() {
 /// The one exception is a definition: the normalisation of Eq. (9) is used as it stands.
 #[test]
 fn no_verdict_survives_another_first_digit_in_the_printed_number() {
-    let published = Published::parse(QUICK.templates.text("published.toml").unwrap()).unwrap();
-    let blind = claims::blind_to_their_number(&published, &claims::rules(), &QUICK.results);
+    let blind = claims::blind_to_their_number(&QUICK.published, &claims::rules(), &QUICK.results);
     assert_eq!(blind, ["sec6_normalised"]);
 }
 
 /// Judges results, and compares the verdicts of some statements or relations.
 fn judged(results: &Results, expected: &[(&str, Verdict)]) {
-    let published = Published::parse(QUICK.templates.text("published.toml").unwrap()).unwrap();
     let mut rules = claims::rules();
     rules.retain(|rule| expected.iter().any(|(id, _)| *id == rule.id));
-    let checks = claims::judge_all(&published, &rules, results).unwrap();
+    let checks = claims::judge_all(&QUICK.published, &rules, results).unwrap();
     for (id, verdict) in expected {
         let found = checks.iter().find(|check| check.id == *id).unwrap().verdict;
         assert_eq!(found, *verdict, "{id}");

@@ -7,6 +7,7 @@ mod numeral;
 mod published;
 mod rule;
 mod text;
+mod words;
 
 pub use check::{Basis, Check, Kind, Verdict, score};
 pub use evidence::{Error, Evidence, Judged};
@@ -14,3 +15,4 @@ pub use level::{CheckLevel, FAMILY_LEVEL};
 pub use published::{Parameter, Published, PublishedError, Statement};
 pub use rule::{Rule, blind_to_their_number, judge_all, level_of};
 pub use text::Text;
+pub use words::{Numbers, Words};

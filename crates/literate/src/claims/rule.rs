@@ -31,7 +31,8 @@ impl Rule {
     }
 
     /// Makes it the rule of a relation between numbers that must hold. It may allow for standard
-    /// errors at the level of the statistical checks, and does not count as one of them.
+    /// errors at the level of the statistical checks, and does not count as one of them. What it says
+    /// may be empty, and then stands among the texts of the checks.
     pub fn relation(self, relation: &'static str) -> Rule {
         Rule { relation: Some(relation), ..self }
     }
@@ -114,6 +115,7 @@ pub fn judge_all(
     }
     for rule in rules {
         if let Some(relation) = rule.relation {
+            let relation = published.words.statement(rule.id).unwrap_or(relation);
             let statement = &Statement::new(Kind::Relation, rule.id, relation);
             checks.push(rule.check(Evidence { statement, results, published, level })?);
         }
