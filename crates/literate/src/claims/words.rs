@@ -83,11 +83,9 @@ impl Evidence<'_> {
     /// Makes the check of all its texts with the numbers in them; `None` leaves it open.
     pub fn check(&self, agrees: impl Into<Option<bool>>, numbers: Numbers<'_>) -> Judged {
         let [found, tolerance, reason, note] = self.texts(KEYS, numbers)?;
-        let found = found.ok_or_else(|| self.fault("has no found; write it"))?;
-        let check = self.open(found).note(note.unwrap_or_default());
-        let reason = reason.unwrap_or_default().to_string();
+        let check = self.open(found).note(note);
         Ok(match agrees.into() {
-            Some(agrees) => check.judged(agrees).within(tolerance.unwrap_or_default(), &reason),
+            Some(agrees) => check.judged(agrees).within(tolerance, &reason.to_string()),
             None => check,
         })
     }
@@ -95,23 +93,27 @@ impl Evidence<'_> {
     /// Makes one text of the check, for one that some results alone have or that has other numbers.
     pub fn text(&self, key: &str, numbers: Numbers<'_>) -> Result<Text, Error> {
         let [text] = self.texts([key], numbers)?;
-        text.ok_or_else(|| self.fault(&format!("has no {key}; write it")))
+        Ok(text)
     }
 
+    /// Fills texts of which the first may not be missing.
     fn texts<const N: usize>(
         &self,
         keys: [&str; N],
         numbers: Numbers<'_>,
-    ) -> Result<[Option<Text>; N], Error> {
+    ) -> Result<[Text; N], Error> {
         let words = self.published.words.0.get(&self.statement.id);
         let (_, sentences) = words.ok_or_else(|| self.fault("is missing; write it"))?;
+        if let Some(key) = keys.first().filter(|key| !sentences.contains_key(**key)) {
+            return Err(self.fault(&format!("has no {key}; write it")));
+        }
         let names: Vec<&str> = numbers.iter().map(|(name, _)| *name).collect();
         let mut unused: BTreeSet<&str> = names.iter().copied().collect();
-        let mut texts = [const { None }; N];
+        let mut texts = [const { Text(Vec::new()) }; N];
         for (text, key) in texts.iter_mut().zip(keys) {
             let Some(sentence) = sentences.get(key) else { continue };
             let mut pieces = sentence.split('{');
-            let mut whole = Text::from(pieces.next().unwrap_or_default());
+            *text = Text::from(pieces.next().unwrap_or_default());
             for piece in pieces {
                 let (mark, words) = piece.split_once('}').unwrap_or((piece, ""));
                 let (name, digits) = mark.split_once(':').unwrap_or((mark, ""));
@@ -123,11 +125,10 @@ impl Evidence<'_> {
                     return Err(self.fault(&format!("{what}, with a name of {names}")));
                 };
                 unused.remove(name);
-                let number = number.clone();
-                whole = whole.then(digits.map_or(number.clone(), |d| number.significant(d)));
-                whole = whole.then(words);
+                let digits = digits.map(|digits| number.clone().significant(digits));
+                let number = digits.unwrap_or_else(|| number.clone());
+                *text = std::mem::take(text).then(number).then(words);
             }
-            *text = Some(whole);
         }
         match unused.first() {
             None => Ok(texts),
