@@ -1,7 +1,8 @@
 //! Judges what the paper states, row by row, by what this edition finds: [`Check`].
 //!
 //! A statement stands in `templates/published.toml` ([`Published`]) with its place; the [`Rule`]
-//! here with the same id judges it by the results of the experiments.
+//! here with the same id judges it by the results of the experiments. The texts of its check
+//! stand in `templates/claims`.
 //!
 //! Each verdict is a function of numbers, and can fail: a number leaves its tolerance, or a
 //! difference no longer has the size that its explanation predicts. Relations compare numbers

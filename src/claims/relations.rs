@@ -13,51 +13,42 @@ use impact_numerics::estimates::difference;
 use impact_numerics::statistics::Estimate;
 use literate::claims::Basis::Statistics;
 
-/// Makes the rules of functions with their statements; the name of a function is the id.
+/// Makes the rules of functions; the name of a function is the id.
 macro_rules! relations {
-    ($($name:ident: $statement:literal;)*) => {
-        vec![$(relation(stringify!($name), $statement, $name)),*]
-    };
+    ($($name:ident),* $(,)?) => { vec![$(relation(stringify!($name), $name)),*] };
 }
 
 pub fn rules() -> Vec<Rule> {
-    relations! {
-        printed_threshold: "with our protocol the mean of the realisations with an impact passes half of all gaps at the printed σ";
-        two_seeds: "two seeds of the main sweep have the same half height, and the same mean at each σ";
-        laws_of_chance: "the number of impacts within a time of one next to them is proportional to that time, that of impacts below a speed to the square of that speed";
-        map_meets_sweep: "the map of protocols and the main sweep, which drew other forces, have the same rise";
-        no_rise_before_seeds: "from rest, the mean count and the share of chains with impacts reach a half, and the mean a twentieth, only where as many chains have a gap that closes by itself";
-        above_stays_above: "chains from above have at least as many gaps with an impact as chains from rest under the same forces";
-        branches_approach: "with time the half heights from rest and from above do not part";
-        seeds_before_circuits: "mean counts by nucleation and growth are nearer to the simulation than those by circuits after every transient";
-        first_impacts_as_expected: "as many chains have an impact as the theory of clumps expects";
-        engine_as_promised: "the engine misses no impact from exact states, is exact to rounding, does no more work in long chains, and handles each scene of failure as expected or refuses it";
-    }
+    relations![
+        printed_threshold,
+        two_seeds,
+        laws_of_chance,
+        map_meets_sweep,
+        no_rise_before_seeds,
+        above_stays_above,
+        branches_approach,
+        seeds_before_circuits,
+        first_impacts_as_expected,
+        engine_as_promised,
+    ]
 }
 
 /// Departures from a relation, each over its tolerance (chance, and the error of a formula).
 type Departures = Result<Vec<f64>, Error>;
 
 /// Makes the rule of a relation that holds if no departure is above one; without any it is open.
-fn relation(
-    id: &'static str,
-    statement: &'static str,
-    departures: fn(&Evidence<'_>) -> Departures,
-) -> Rule {
+fn relation(id: &'static str, departures: fn(&Evidence<'_>) -> Departures) -> Rule {
     let judge = move |e: &Evidence<'_>| {
         let departures = match departures(e) {
             Err(Undecided) => Vec::new(),
             found => found?,
         };
         let largest = departures.iter().copied().fold(0.0, f64::max);
-        let text = "the largest of {} departures is {:2} of what is allowed";
-        let text = text!(text, departures.len(), largest);
-        if departures.is_empty() {
-            return Ok(e.open(text));
-        }
-        Ok(e.found(text, departures.iter().all(|departure| *departure <= 1.0)))
+        let agrees = departures.iter().all(|departure| *departure <= 1.0);
+        let decided = (!departures.is_empty()).then_some(agrees);
+        e.check(decided, numbers![departures = departures.len(), largest])
     };
-    Rule::new(id, judge).relation(statement).on(Statistics)
+    Rule::new(id, judge).relation("").on(Statistics)
 }
 
 /// Returns the difference of two estimates over that which chance allows.

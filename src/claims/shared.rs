@@ -5,8 +5,8 @@ use crate::experiments::ensembles::{Counted, named};
 use crate::experiments::rise::Curve;
 pub use literate::claims::Basis::{FiniteCases, OurMeasure, PrintedDigit, Rounding};
 pub use literate::claims::Error::{self, Undecided};
-pub use literate::claims::{Check, Evidence, Judged, Kind, Rule, Text};
-pub use literate::text;
+pub use literate::claims::{Evidence, Judged, Kind, Rule};
+pub use literate::numbers;
 
 /// Finds the chains of this name among those of an experiment.
 pub fn ensemble<'a>(found: &'a [Counted], name: &str) -> Result<&'a Counted, Error> {
@@ -27,21 +27,11 @@ pub fn ends(numbers: impl Iterator<Item = f64> + Clone) -> Option<[f64; 2]> {
     Some([numbers.clone().reduce(f64::min)?, numbers.reduce(f64::max)?])
 }
 
-/// Starts a check by the protocols or values of σ that were run: how many surely agree with what
-/// was printed, how many surely do not, and how many there are. It is judged where these are all;
-/// else what was used decides, which is not printed, or the sample is too small.
-pub fn by_runs(
-    e: &Evidence<'_>,
-    found: Text,
-    [agree, differ, all]: [usize; 3],
-    tolerance: impl Into<Text>,
-    reason: &str,
-) -> Check {
-    if all > 0 && [agree, differ].contains(&all) {
-        e.found(found, agree == all).within(tolerance, reason)
-    } else {
-        e.open(found)
-    }
+/// Judges by the protocols or values of σ that were run: how many surely agree with what was
+/// printed, how many surely do not, and how many there are. It is judged where these are all; else
+/// what was used decides, which is not printed, or the sample is too small.
+pub fn by_runs([agree, differ, all]: [usize; 3]) -> Option<bool> {
+    (all > 0 && [agree, differ].contains(&all)).then_some(agree == all)
 }
 
 /// Returns half a unit of the last digit in which the paper prints the threshold.
@@ -63,22 +53,24 @@ pub fn largest_difference(e: &Evidence<'_>) -> Result<f64, Error> {
 /// Makes the rule of a definition, which this edition uses as it stands: nothing is computed.
 #[track_caller]
 pub fn defined(id: &'static str) -> Rule {
-    Rule::new(id, |e| Ok(e.found("used as it stands", e.statement.kind == Kind::Definition)))
+    Rule::new(id, |e| e.check(e.statement.kind == Kind::Definition, &[]))
 }
 
 /// Makes the rule of a statement about the theory that fails in none of the compared cases.
 #[track_caller]
-pub fn cases(id: &'static str, note: &'static str) -> Rule {
-    Rule::new(id, move |e| {
+pub fn cases(id: &'static str) -> Rule {
+    Rule::new(id, |e| {
         let [all, failed] = compared(e)?;
-        Ok(e.all_cases(all, failed).note(note))
+        Ok(e.all_cases(all, failed).note(e.text("note", &[])?))
     })
     .on(FiniteCases)
 }
 
 /// Makes the rule of a statement about the theory that is an equality of real numbers.
 #[track_caller]
-pub fn equality(id: &'static str, allowed: f64, note: &'static str) -> Rule {
-    let judge = move |e: &Evidence<'_>| Ok(e.rounding(largest_difference(e)?, allowed).note(note));
+pub fn equality(id: &'static str, allowed: f64) -> Rule {
+    let judge = move |e: &Evidence<'_>| {
+        Ok(e.rounding(largest_difference(e)?, allowed).note(e.text("note", &[])?))
+    };
     Rule::new(id, judge).on(FiniteCases)
 }

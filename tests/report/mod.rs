@@ -14,9 +14,10 @@ mod program;
 mod prose;
 mod structure;
 
+use impact_paper::claims::{self, Published};
+use impact_paper::contents;
 use impact_paper::experiments::{ALL, AnyExperiment, Progress, Results, Session, Store};
 use impact_paper::params::Profile;
-use impact_paper::{claims, contents};
 use literate::Paper;
 use literate::figures::Figure;
 use literate::prose::Templates;
@@ -28,6 +29,7 @@ use std::sync::LazyLock;
 struct Quick {
     paper: Paper,
     templates: Templates,
+    published: Published,
     figures: Vec<Figure>,
     report: Files,
     /// The same as it is written into a folder of target/.
@@ -125,5 +127,5 @@ static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     };
     let [report, below] = [Some("../"), Some("../../")].map(made);
     let templates = session.templates.clone();
-    Quick { paper: program::paper(), templates, figures, report, below, results, values }
+    Quick { paper: program::paper(), templates, published, figures, report, below, results, values }
 });

@@ -6,7 +6,7 @@ use super::QUICK;
 use impact_chain::rise::Mean;
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
-use impact_paper::claims::{self, Published, Verdict};
+use impact_paper::claims::{self, Verdict};
 use impact_paper::experiments::accuracy::case::Outcome::Missed;
 use impact_paper::experiments::{
     ALL, JUMP, LENGTHS, PROTOCOL, RACE, REPLAY, Results, SCALE, SWEEP, TRIALS,
@@ -59,16 +59,15 @@ fn every_claim_is_spoken_of_once_in_the_text() {
 /// The one exception is a definition: the normalisation of Eq. (9) is used as it stands.
 #[test]
 fn no_verdict_survives_another_first_digit_in_the_printed_number() {
-    let published = Published::parse(QUICK.templates.text("published.toml").unwrap()).unwrap();
-    let blind = claims::blind_to_their_number(&published, &claims::rules(), &QUICK.results);
+    let blind = claims::blind_to_their_number(&QUICK.published, &claims::rules(), &QUICK.results);
     assert_eq!(blind, ["sec6_normalised"]);
 }
 
 /// Those that nothing moves are listed with the reason.
 #[test]
 fn every_verdict_moves_with_the_evidence() {
-    let published = Published::parse(QUICK.templates.text("published.toml").unwrap()).unwrap();
-    let ids = claims::never_moved(&published, &claims::rules(), &QUICK.results, true).unwrap();
+    let ids =
+        claims::never_moved(&QUICK.published, &claims::rules(), &QUICK.results, true).unwrap();
     let listed = include_str!("never_moved.txt").lines();
     let listed: Vec<&str> = listed.map(|line| line.split_once(": ").unwrap().0).collect();
     assert_eq!(ids, listed);
@@ -76,10 +75,9 @@ fn every_verdict_moves_with_the_evidence() {
 
 /// Judges results, and compares the verdicts of some statements or relations.
 fn judged(results: &Results, expected: &[(&str, Verdict)]) {
-    let published = Published::parse(QUICK.templates.text("published.toml").unwrap()).unwrap();
     let mut rules = claims::rules();
     rules.retain(|rule| expected.iter().any(|(id, _)| *id == rule.id));
-    let checks = claims::judge_all(&published, &rules, results).unwrap();
+    let checks = claims::judge_all(&QUICK.published, &rules, results).unwrap();
     for (id, verdict) in expected {
         let found = checks.iter().find(|check| check.id == *id).unwrap().verdict;
         assert_eq!(found, *verdict, "{id}");

@@ -1,6 +1,6 @@
 //! Builds a report: opens a run of a paper, judges its results, and makes every file in memory.
 
-use crate::claims::{Basis, Check, Published, judge_all};
+use crate::claims::{Basis, Check, Published, Words, judge_all};
 use crate::experiments::{AnyExperiment, Error, Profile, Progress, Results, Session, Store};
 use crate::failure::Failure;
 use crate::figures::Figure;
@@ -56,10 +56,13 @@ impl Paper {
         Results::run(&experiments, &self.derived, session)
     }
 
-    /// Returns what was printed; nothing without a file `published.toml`.
+    /// Returns what was printed, with the texts of the checks; nothing without a file.
     pub fn published(&self, session: &Session<'_>) -> Result<Published, Failure> {
-        let read = Published::parse(session.templates.text("published.toml")?);
-        read.map_err(|error| Failure::input(session.templates.place(&error.to_string())))
+        let templates = &session.templates;
+        let published = Published::parse(templates.text("published.toml")?);
+        let words = Words::read(templates).and_then(|words| words.taken(&self.rules));
+        let read = published.and_then(|published| Ok(Published { words: words?, ..published }));
+        read.map_err(|error| Failure::input(templates.place(&error.to_string())))
     }
 
     /// Returns all checks: statements, first those that rest on a measure of ours, then relations.

@@ -49,7 +49,7 @@ pub mod prelude {
     pub use crate::experiments::{Command, Error, Experiment, Profile, Progress, Results};
     pub use crate::figures::prelude::{Error as FigureError, *};
     pub use crate::table::Table;
-    pub use crate::{Failure, Paper, sources};
+    pub use crate::{Failure, Paper, numbers, sources};
     pub use impact_numerics::estimates::{
         average, difference, jackknife, ratio, share, with_error,
     };

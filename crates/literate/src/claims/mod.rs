@@ -7,6 +7,7 @@ mod numeral;
 mod published;
 mod rule;
 mod text;
+mod words;
 mod wrong;
 
 pub use check::{Basis, Check, Kind, Verdict, score};
@@ -15,5 +16,6 @@ pub use level::{CheckLevel, FAMILY_LEVEL};
 pub use published::{Parameter, Published, PublishedError, Statement};
 pub use rule::{Rule, blind_to_their_number, judge_all, level_of};
 pub use text::Text;
+pub use words::{Numbers, Words};
 pub(crate) use wrong::is_trying;
 pub use wrong::never_moved;

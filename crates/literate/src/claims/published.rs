@@ -2,6 +2,7 @@
 
 use super::check::Kind;
 use super::numeral::{MAX_PLACES, number_alone, with_other_digit, written};
+use super::words::Words;
 use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -13,6 +14,9 @@ pub struct Published {
     pub parameters: Vec<Parameter>,
     #[serde(rename = "statement")]
     pub statements: Vec<Statement>,
+    /// The texts of the checks, which stand in other files.
+    #[serde(skip)]
+    pub words: Words,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -51,27 +55,27 @@ pub struct Statement {
     pub(crate) line: usize,
 }
 
-/// What is wrong with a file of published statements, after its line if it has one.
+/// What is wrong with a file of published statements or of texts, after its path.
 #[derive(Debug, thiserror::Error)]
-#[error("published.toml:{0}")]
-pub struct PublishedError(String);
+#[error("{0}")]
+pub struct PublishedError(pub(super) String);
 
 impl PublishedError {
     fn at(line: usize, id: &str, what: &str) -> PublishedError {
-        PublishedError(format!("{line}: the id {:?}: {what}", one_line(id, 80)))
+        PublishedError(format!("published.toml:{line}: the id {:?}: {what}", one_line(id, 80)))
     }
 
     fn missing(what: &str, id: &str) -> PublishedError {
         let remedy = "add it, or remove the check that asks for it";
-        PublishedError(format!(" no {what} {id:?}; {remedy}"))
+        PublishedError(format!("published.toml: no {what} {id:?}; {remedy}"))
     }
 }
 
 impl Published {
     /// Reads the file; an error has the line of what is wrong.
     pub fn parse(text: &str) -> Result<Published, PublishedError> {
-        let mut published: Published =
-            toml::from_str(text).map_err(|error| PublishedError(toml_fault(text, &error)))?;
+        let fault = |error| PublishedError(format!("published.toml:{}", toml_fault(text, &error)));
+        let mut published: Published = toml::from_str(text).map_err(fault)?;
         let ids: Vec<(&str, usize)> = text.lines().zip(1..).filter_map(id_of).collect();
         let line = |found: Option<&(&str, usize)>| found.map_or(1, |(_, line)| *line);
         let last_line = |id: &str| line(ids.iter().rfind(|(known, _)| *known == id));

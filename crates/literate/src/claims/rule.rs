@@ -31,7 +31,8 @@ impl Rule {
     }
 
     /// Makes it the rule of a relation between numbers that must hold. It may allow for standard
-    /// errors at the level of the statistical checks, and does not count as one of them.
+    /// errors at the level of the statistical checks, and does not count as one of them. What it says
+    /// may be empty, and then stands among the texts of the checks.
     pub fn relation(self, relation: &'static str) -> Rule {
         Rule { relation: Some(relation), ..self }
     }
@@ -60,7 +61,10 @@ impl Rule {
     /// Returns the statement that it judges, or one that is made of its relation.
     pub(super) fn statement(&self, published: &Published) -> Result<Statement, Error> {
         match self.relation {
-            Some(relation) => Ok(Statement::new(Kind::Relation, self.id, relation)),
+            Some(relation) => {
+                let words = published.words.statement(self.id).unwrap_or(relation);
+                Ok(Statement::new(Kind::Relation, self.id, words))
+            }
             None => Ok(published.statement(self.id)?.clone()),
         }
     }
