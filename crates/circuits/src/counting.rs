@@ -55,6 +55,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn three_to_five_vertices_by_hand() {
+        assert_eq!([phi(5, 2), phi(5, 0), phi(5, 6)], [10, 0, 0].map(Some));
+        assert!((log_phi(5, 3).unwrap() - 20.0_f64.ln()).abs() < 1e-15);
+        assert!((ratio_to_longest(5, 2) - 5.0 / 12.0).abs() < 1e-15);
+        // 3, 3 and 2 circuits.
+        assert_eq!(shares(3).unwrap().0, [0.375, 0.375, 0.25]);
+        assert!((shares(3).unwrap().1 - 8.0_f64.ln()).abs() < 1e-15);
+    }
+
+    #[test]
     fn numbers_end_where_they_do_not_fit() {
         assert_eq!(phi(100, 100), None);
         assert_eq!([log_phi(1, 1), log_phi(2, 2)], [Ok(0.0), Ok(0.0)]);

@@ -83,3 +83,20 @@ impl Circuit {
         (2..=most).map(|m| visits.values().filter(|v| **v == m).count()).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn circuits_of_two_vertices_by_hand() {
+        let graph = Graph::of_chain(1);
+        assert_eq!((graph.vertices(), [graph.label(0), graph.label(1)]), (2, ["L-1", "1-R"]));
+        let words: Vec<Vec<usize>> = graph.circuits(3).map(|one| one.word().to_vec()).collect();
+        assert_eq!(words, [vec![0], vec![0, 0, 1], vec![0, 1], vec![0, 1, 1], vec![1]]);
+        let circuit = Circuit::new(vec![2, 0, 2, 1, 0, 2]);
+        assert_eq!(circuit.word(), [0, 2, 1, 0, 2, 2]);
+        assert_eq!(circuit.repeats(), [1, 1]);
+        assert_eq!(circuit.visits(), BTreeMap::from([(0, 2), (1, 1), (2, 3)]));
+    }
+}

@@ -167,3 +167,47 @@ pub fn multiplicity(space: SampleSpace, p: DoubleDouble, k: usize) -> DoubleDoub
     // Horner's scheme in p; the excess lengths are 0, 1, 2, 3 and 2.
     real(simple) + p * (real(doubled) + p * (real(three + two) + p * real(four)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::counting::{paths, phi};
+    use crate::graph::Graph;
+
+    /// Every class on up to four vertices, by listing its circuits; the printed formulas hold from
+    /// three different vertices on.
+    #[test]
+    fn classes_by_enumeration() {
+        for big_n in 1..=4 {
+            let circuits: Vec<_> = Graph::of_chain(big_n - 1).circuits(6).collect();
+            for (class, k) in CLASSES.iter().flat_map(|class| (1..=6).map(move |k| (class, k))) {
+                let is_of = |circuit: &&crate::graph::Circuit| {
+                    circuit.length() == k && circuit.repeats() == class.repeats
+                };
+                let count = circuits.iter().filter(is_of).count();
+                let Some(d) = class.different(k).filter(|d| *d <= big_n) else {
+                    assert_eq!(count, 0, "{class:?} {big_n} {k}");
+                    continue;
+                };
+                let simple = phi(big_n, d).unwrap();
+                let shared = simple * class.per_simple_circuit(SampleSpace::FiveClasses, d);
+                assert_eq!(shared, SHARED * count as u128, "{class:?} {big_n} {k}");
+                let printed = (class.printed)(big_n, k).unwrap();
+                assert!(d < 3 || printed == count as f64, "{class:?} {big_n} {k}");
+                let shared = simple * class.per_simple_circuit(SampleSpace::FiveClassesPrinted, d);
+                assert!((printed * SHARED as f64 - shared as f64).abs() < 1e-9, "{class:?} {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn paths_and_compositions_by_hand() {
+        assert_eq!(
+            [[5, 2], [6, 3], [4, 4], [3, 4]].map(|[n, j]| compositions(n, j)),
+            [4, 10, 1, 0].map(Some)
+        );
+        assert_eq!([doubled_paths(5, 4), paths(5, 3), paths(5, 6)], [12, 12, 0].map(Some));
+        // 3/2 · 12 and 3/2 · 60.
+        assert_eq!([doubled_as_printed(5, 4), doubled(5, 4)], [18.0, 90.0].map(Some));
+    }
+}

@@ -263,3 +263,21 @@ fn half_period_mean(f: impl Fn(f64) -> f64) -> f64 {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn densities_by_hand_and_the_printed_integral() {
+        // x/(2σ²) e^{−x²/(4σ²)}; with a detuning of 2 the scale is half as large.
+        assert!((density_free(2.0, 1.0) - (-1.0_f64).exp()).abs() < 1e-15);
+        assert!((density_free(2.0, 2.0) - 0.25 * (-0.25_f64).exp()).abs() < 1e-15);
+        assert!((density_forced(1.0, 1.0, 2.0) - 2.0 * (-1.0_f64).exp()).abs() < 1e-15);
+        for [sigma, spacing, forcing] in [[0.3, 1.0, SQRT_2], [0.7, 2.0, 1.6]] {
+            let law = ImpactProbability::new(sigma, spacing, 1.0, forcing).unwrap();
+            let off = law.p_by_double_integral(3) - law.p().unwrap();
+            assert!(off.abs() < 1e-12, "{off}");
+        }
+    }
+}

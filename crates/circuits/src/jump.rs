@@ -183,6 +183,17 @@ pub fn jump_rule(big_n: usize) -> Option<f64> {
 mod tests {
     use super::*;
 
+    #[test]
+    fn parabola_and_steps_by_hand() {
+        // −3/4 k² + 2 k − 1.
+        assert_eq!([1.0, 2.0, 3.0].map(|k| f(4, 0.75, k)), [0.25, 0.0, -1.75]);
+        let [low, high] = zeros(4, 0.75).unwrap();
+        assert!((low - 2.0 / 3.0).abs() < 1e-15 && (high - 2.0).abs() < 1e-15);
+        assert_eq!([zeros(4, 0.65), zeros(4, 0.0), zeros(4, 0.2)], [None; 3]);
+        assert_eq!((step(5, 2), p_crit(3)), (0.5, Ok(1.0)));
+        assert_eq!([limit_share(4.0), limit_share(0.5)], [0.75, 0.0]);
+    }
+
     /// Second routes: the exact jump, off by about ln k; and ⌈k+⌉ of Eq. (13).
     #[test]
     fn the_rules_for_many_vertices_are_near_the_jump_and_its_share() {

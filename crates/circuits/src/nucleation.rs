@@ -258,6 +258,7 @@ pub fn half(chain: &Chain, reach: &Reach) -> f64 {
 mod tests {
     use super::*;
     use crate::impact_probability::ImpactProbability;
+    use impact_chain::NormalPairs;
 
     #[test]
     fn no_sample_of_the_curve_lies_beyond_its_reach() {
@@ -275,6 +276,61 @@ mod tests {
                 assert!((0.0..1e-6).contains(&(found - sampled + 1e-12)), "{time} {angle}");
                 assert!(found <= ever.radii[angle] + 1e-12);
             }
+        }
+    }
+
+    /// Probabilities of disjoint beginnings of clumps add up, with both walls and without.
+    #[test]
+    fn clumps_begin_at_every_gap() {
+        let chances = Chances { p: 0.1, wall: 0.02, pair: 0.03, wall_pair: 0.005 };
+        for (masses, boundary, clumps) in [
+            (4, Boundary::Walls, 0.02_f64 + 0.095 + 0.07 + 0.07 + 0.015),
+            (2, Boundary::Walls, 0.02 + 0.095 + 0.015),
+            (4, Boundary::Ring, 4.0 * 0.07),
+        ] {
+            let found = chances.at_least_one(masses, boundary);
+            assert!((found - (1.0 - (-clumps).exp())).abs() < 1e-15, "{masses}: {found}");
+        }
+    }
+
+    #[test]
+    fn reach_and_pull_by_hand() {
+        // e^−1/4, no reach, and e^−1.
+        let reach = Reach { radii: vec![2.0, 0.0, 1.0] };
+        let p = ((-0.25_f64).exp() + (-1.0_f64).exp()) / 3.0;
+        assert!((reach.probability(1.0, 0.5) - p).abs() < 1e-15);
+        let chain = Chain { forcing_frequency: 2.0, spacing: 1.5, ..Chain::default() };
+        let pulls: Vec<f64> = pulls(&chain, &[[0.0; 2], [3.0, 4.0], [2.0, 4.0]]).collect();
+        assert_eq!((pulls, closing_pull(&chain)), (vec![73.0_f64.sqrt() + 5.0, 2.0], 4.5));
+        let reach = Reach::ever(&chain, COARSE);
+        let share = Chances::new(&chain, &reach, half(&chain, &reach))
+            .at_least_one(chain.masses, chain.boundary);
+        assert!((share - 0.5).abs() < 1e-4, "{share}");
+    }
+
+    /// Neighbours that both close, counted in 200 000 draws of forces, within four deviations; the
+    /// reach differs between opposite angles, so that the sign of what the two share counts.
+    #[test]
+    fn two_neighbours_close_as_often_as_in_draws_of_their_forces() {
+        let (chain, sigma, draws) = (Chain::default(), 0.6, 200_000);
+        let radii = directions(ANGLES).map(|[cos, _]| 1.0 + 0.5 * cos).collect();
+        let found = Chances::new(&chain, &Reach { radii }, sigma);
+        let mut normals = NormalPairs::new("neighbours", 1, 0);
+        let mut counts = [0_u32; 4];
+        for _ in 0..draws {
+            let [a, b, c] = [normals.pair(), normals.pair(), normals.pair()];
+            let closes = |from: [f64; 2], to: [f64; 2]| {
+                let [x, y] = [sigma * (to[0] - from[0]), sigma * (to[1] - from[1])];
+                x.hypot(y) + 0.5 * x >= chain.spacing
+            };
+            let [wall, first, second] = [closes([0.0; 2], a), closes(a, b), closes(b, c)];
+            let all = [first, wall, first && second, wall && first];
+            counts = std::array::from_fn(|i| counts[i] + u32::from(all[i]));
+        }
+        let exact = [found.p, found.wall, found.pair, found.wall_pair];
+        for (count, p) in counts.into_iter().zip(exact) {
+            let (share, n) = (f64::from(count) / f64::from(draws), f64::from(draws));
+            assert!((share - p).abs() < 4.0 * (p * (1.0 - p) / n).sqrt(), "{counts:?} {found:?}");
         }
     }
 

@@ -112,6 +112,30 @@ impl Resampled {
 mod tests {
     use super::*;
 
+    /// Of 1000 resamples, 25 lie at 3 beside 30 below and 15 above 7: at most 2.5 % are cut off at
+    /// either end.
+    #[test]
+    fn the_interval_of_the_mode_by_hand() {
+        let modes = [(1, 30), (3, 25), (5, 900), (7, 30), (9, 15)];
+        let place = |mode| Places { mode: vec![Some(mode), None], ..Places::default() };
+        let resamples =
+            modes.iter().flat_map(|&(mode, times)| (0..times).map(move |_| place(mode)));
+        let found = Resampled { whole: place(5), resamples: resamples.collect(), largest: 9 };
+        assert_eq!([found.mode_interval(0), found.mode_interval(1)], [Some([1, 7]), None]);
+    }
+
+    /// The bootstrap error of a mean is s √((n − 1)/n)/√n, here √(8.25/10) for 1 to 10, to 2 % with
+    /// 1000 resamples.
+    #[test]
+    fn errors_of_means_are_the_known_ones() {
+        let counts: Vec<Option<u32>> = (1..=10).map(Some).collect();
+        let sample = Sample { sigmas: &[0.1], counts: vec![&counts], gaps: 9.5 };
+        let all = Resampled::new(&sample, 1);
+        let found = all.estimate(|places| places.mean_all[0]).unwrap();
+        assert_eq!((found.value, all.largest, all.resamples.len()), (5.5, 10, 1000));
+        assert!((found.error / 0.825_f64.sqrt() - 1.0).abs() < 0.08, "{found:?}");
+    }
+
     /// Four realisations on five σ, N = 10.
     #[test]
     fn places_by_hand() {

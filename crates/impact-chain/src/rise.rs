@@ -164,6 +164,32 @@ mod tests {
         }
     }
 
+    /// Ten chains at each of five σ, of which the fourth is not compared: places between the others.
+    #[test]
+    fn a_curve_by_hand() {
+        let of = |counts: [u32; 2]| (0..10).map(|i| one(Some(counts[i % 2]), 1, 1)).collect();
+        let counts: [Counts; 5] = [[0, 0], [1, 2], [4, 4], [0, 0], [10, 10]].map(of);
+        let sigmas = [0.1, 0.2, 0.3, 0.4, 0.5];
+        let protocol = Protocol { transient: 0.0, window: 1.0 };
+        let compared = [true, true, true, false, true];
+        let found = Curve::new((0, protocol), &sigmas, &counts, &compared, 10.0, 1);
+        let near =
+            |place: Option<Estimate>, value: f64| (place.unwrap().value - value).abs() < 1e-14;
+        assert!(near(found.rise.half_height, 0.3 + 0.2 / 6.0));
+        assert!(near(found.rise.half_height_all, 0.3 + 0.2 / 6.0));
+        assert!(near(found.rise.onset, 0.1 + 0.1 / 3.0) && near(found.rise.kept_half, 0.15));
+        assert!(near(found.rise.width, 0.3 + 0.2 * 5.0 / 6.0 - 0.1 - 0.1 / 1.5));
+        assert!(near(found.rise.kept_width, 0.3 + 0.2 * 3.5 / 6.0 - 0.24));
+        assert!(near(found.rise.quarters, 0.3 + 0.2 * 3.5 / 6.0 - 0.24));
+        assert_eq!((found.rows[1].mode, found.rows[1].mode_interval), (Some(1), Some([1, 2])));
+        assert_eq!((found.rows[3].ran, found.rows[3].mode_interval), (10, None));
+        // s = √(2.5/9), over √10.
+        let mean = found.rows[1].mean.unwrap();
+        let estimate = mean.estimate().unwrap();
+        assert!((estimate.error - (1.0_f64 / 36.0).sqrt()).abs() < 1e-15 && estimate.value == 1.5);
+        assert!((estimate.interval[1] - mean.interval.unwrap()[1]).abs() < 0.05, "{mean:?}");
+    }
+
     #[test]
     fn a_row_by_hand() {
         let all = [(Some(0), 0, 0), (Some(4), 40, 3), (Some(10), 120, 9), (Some(4), 80, 3)];

@@ -3,6 +3,7 @@
 use crate::{Big, big, int, near, relative_error};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
 use impact_circuits::distribution::{Law, SampleSpace};
+use impact_circuits::higher_order::CLASSES;
 
 /// The weights of k = 1..=N, term by term as Eqs. (10) and (38) have them.
 pub fn weights(space: SampleSpace, big_n: usize, p: f64) -> Vec<Big> {
@@ -62,6 +63,12 @@ fn probabilities_mean_and_mode_agree_with_direct_sums() {
                 let weights = weights(space, big_n, p);
                 let total = sum(&weights);
                 let at = format!("{space:?} N = {big_n} p = {p}");
+                if space != Simple {
+                    let parts = CLASSES.map(|class| law.contribution(&class));
+                    let sums = (0..big_n).map(|i| parts.iter().map(|part| part[i]).sum::<f64>());
+                    let near = |(sum, all): (f64, f64)| (sum - all).abs() < 4e-15;
+                    assert!(sums.zip(law.probabilities()).all(near), "{at}");
+                }
                 for (i, ours) in law.probabilities().into_iter().enumerate() {
                     let exact = weights[i].clone() / &total;
                     if near(&exact) > 1e-300 {

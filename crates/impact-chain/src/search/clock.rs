@@ -27,7 +27,7 @@ impl Instant {
         Instant((t * TICKS) as i128)
     }
 
-    /// Returns the last instant whose time is `t` when rounded: what happens then is printed as `t`.
+    /// Returns the last instant whose time is `t` when rounded, as that of an impact is.
     pub fn last_at(t: f64) -> Instant {
         let half_unit = (0.5 * TICKS * (t.next_up() - t)) as i128;
         let last = Instant(Instant::at(t).0 + half_unit);

@@ -38,7 +38,7 @@ const CANCELS: f64 = 1e4;
 /// On [0, L] the second derivative is at least f'' + min(0, f''' L) − ½ M₄ L² = −K, so f
 /// stays above the parabola f + f' h − ½ K h² there, and has no root before the smaller of L
 /// and the parabola's first root. Any L gives a certified stretch; two are tried and the longer is
-/// taken.
+/// taken. At L that is six times what M₄ can do to f, so half of its term would be right too.
 fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 {
     let certified = |trial: f64| {
         let k = (-(p.d3 * trial)).max(0.0) + 0.5 * bound * trial * trial - p.d2;
@@ -68,7 +68,8 @@ fn stretch<const M: usize>(f: f64, p: &Point<M>, bound: f64, limit: f64) -> f64 
 }
 // end
 
-/// Returns the stretches that the worst term of K allows, by the rate and by the width.
+/// Returns the stretches that the worst term of K allows, by the rate and by the width: trials
+/// alone, each of which is certified.
 #[cold]
 fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
     let (down, third) = ((-p.d2).max(0.0), p.d3.abs());
