@@ -166,6 +166,17 @@ fn the_half_height_is_that_of_realisations_with_an_impact() {
     }
 }
 
+/// All in one step of the grid is a jump, which our explanation by a slope must not survive.
+#[test]
+fn a_jump_of_the_mean_is_no_slope() {
+    let mut results = QUICK.results_again(ALL);
+    for row in &mut results.of_mut(&SWEEP).unwrap()[0].curves[0].rows {
+        let value = if row.sigma < 0.12 { 1.0 } else { 100.0 };
+        row.mean = Some(Mean { value, error: Some(0.01), interval: None });
+    }
+    judged(&results, &[("sec2_jump", Verdict::Differs)]);
+}
+
 /// Each part of the promise can fail: make one result worse and it does.
 #[test]
 fn the_promise_of_the_engine_follows_the_numbers() {

@@ -145,7 +145,9 @@ fn change_numbers(value: &mut Value, way: &[Option<String>], error: f64, change:
         }
         (Value::Object(fields), [Some(name), way @ ..]) => {
             let error = fields.get("error").and_then(Value::as_f64).unwrap_or(0.0);
-            fields.get_mut(name).map(|value| change_numbers(value, way, error, change));
+            if let Some(value) = fields.get_mut(name) {
+                change_numbers(value, way, error, change);
+            }
         }
         (value @ Value::Number(_), []) => {
             let changed = change(value.as_f64().unwrap_or(f64::NAN), error);
