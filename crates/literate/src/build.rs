@@ -59,10 +59,11 @@ impl Paper {
     /// Returns what was printed, with the texts of the checks; nothing without a file.
     pub fn published(&self, session: &Session<'_>) -> Result<Published, Failure> {
         let templates = &session.templates;
+        let fault = |what: String| Failure::input(templates.place(&what));
         let published = Published::parse(templates.text("published.toml")?);
-        let words = Words::read(templates).and_then(|words| words.taken(&self.rules));
-        let read = published.and_then(|published| Ok(Published { words: words?, ..published }));
-        read.map_err(|error| Failure::input(templates.place(&error.to_string())))
+        let ids: Vec<&str> = self.rules.iter().map(|rule| rule.id).collect();
+        let words = Words::read(templates).and_then(|words| words.taken(&ids)).map_err(fault)?;
+        Ok(Published { words, ..published.map_err(|error| fault(error.to_string()))? })
     }
 
     /// Returns all checks: statements, first those that rest on a measure of ours, then relations.

@@ -7,6 +7,7 @@ mod numeral;
 mod published;
 mod rule;
 mod text;
+mod texts;
 mod words;
 mod wrong;
 
