@@ -164,7 +164,7 @@ mod tests {
         }
     }
 
-    /// Ten chains at each of five σ, of which the fourth is not compared: places between the others.
+    /// Ten chains at each of five σ, of which the fourth is not compared.
     #[test]
     fn a_curve_by_hand() {
         let of = |counts: [u32; 2]| (0..10).map(|i| one(Some(counts[i % 2]), 1, 1)).collect();

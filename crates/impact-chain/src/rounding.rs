@@ -55,3 +55,24 @@ fn amplitude(scenario: &Scenario, j: usize) -> f64 {
 fn length([a, b]: [f64; 2]) -> f64 {
     (a * a + b * b).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Chain, Initial};
+
+    /// Ω² − ω² = 1: amplitudes of 5 forced and 0.5 free, twice at most, and the spacing.
+    #[test]
+    fn width_by_hand() {
+        let chain = Chain { masses: 1, ..Chain::default() };
+        let forced = Scenario::given(&chain, vec![[3.0, 4.0]]).unwrap();
+        let scenario = Scenario { initial: Initial::Free(vec![[0.3, 0.4]]), ..forced };
+        let bound = |size: f64| 66.3 * f64::EPSILON * size;
+        assert!((width(&scenario) / bound(12.0) - 1.0).abs() < 1e-14);
+        // A gap that is 8 wide at rest counts with that, one of 100 with both amplitudes.
+        for (wide, mean) in [(8.0, 8.0), (100.0, 11.0)] {
+            let placed = Scenario { places: Some(vec![0.0, 1.0, 1.0 + wide]), ..scenario.clone() };
+            assert!((width(&placed) / bound(mean + 11.0) - 1.0).abs() < 1e-14, "{wide}");
+        }
+    }
+}

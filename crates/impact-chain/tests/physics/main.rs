@@ -8,6 +8,7 @@ mod methods;
 mod reference;
 mod starts;
 mod traces;
+mod windows;
 
 use impact_chain::{Chain, Engine, Impact, Initial, Scenario};
 use impact_numerics::random::NormalPairs;
