@@ -67,7 +67,7 @@ fn every_statement_is_listed_and_one_that_differs_fails() {
 /// what the message has after the name of the file ($ is the last line).
 const FAULTS: &str = r##"1 front.md +About 12 of them. => :$:7: hard-coded number 12
 2 literals.toml why = "what the model is -> why = " " # => : [
-2 claims/sec7.toml {first:8} -> {frist:8} => : [sec7_extrema] has {frist:8} in found; write {name} or {name:3}, with a name of first, crit, all
+2 claims/sec7.toml {first:8} -> {initial:8} => : [sec7_extrema] has {initial:8} in found; write {name} or {name:3}, with a name of first, crit, all
 2 published.toml [[statement]] -> [[statement => :
 2 published.toml printed = "N − 1" -> printed = "N − 2" => :436: the id "sec7_limit": its check judges "N − 1", and not its printed
 2 published.toml "sec2_half_height" -> "sec2_new" => : no statement "sec2_half_height""##;

@@ -80,9 +80,9 @@ mod tests {
             ("{all}", "{al}", "claims/a.toml: [rise] has {al} in found; write {name} or {name:3}"),
             (":2", ":x", "claims/a.toml: [rise] has {share:x} in found; "),
             (" of {all}", "", "claims/a.toml: [rise] does not use {all} in found, tolerance, "),
-            ("found", "fuond", "claims/a.toml: [rise] has fuond; its texts are found, "),
+            ("found", "finding", "claims/a.toml: [rise] has finding; its texts are found, "),
             ("found", "found_more", "claims/a.toml: [rise] has no found; write it"),
-            ("[rise]", "[rsie]", "claims/a.toml: no check has the id of [rsie]; "),
+            ("[rise]", "[fall]", "claims/a.toml: no check has the id of [fall]; "),
             ("[rise]", "[rise", "claims/a.toml:3: "),
             ("[rise]\n", "", "claims: [rise] is missing; write it"),
         ] {
