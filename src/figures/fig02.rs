@@ -55,20 +55,19 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let columns: Vec<f64> = shares.iter().map(|(_, share)| *share).collect();
         let left = 1200 + 2400 * i as i32;
         let x = Axis::linear(0.0, n as f64 + 3.0, 50.0, 5, "gaps");
-        let label = if i == 0 { "share of chains" } else { "" };
-        let y = Axis::up_to(top, label);
+        let y = Axis::up_to(1.25 * top, "share of chains");
         let y = if i == 0 { y } else { y.without_numbers() };
         let frame = Frame::new(left, 5300, left + 2150, 7400);
         let panel = sheet.lettered(["(b)", "(c)", "(d)"][i], frame, x, y)?.outside(Outside::Cut);
         panel.columns("share of chains", &columns, Stroke::solid(RED, THIN))?;
-        panel.label(&format!("*σ* = {}", short(*sigma, 4)), (50.0, 0.94 * top), (0, 0), INK)?;
+        panel.label(&format!("*σ* = {}", short(*sigma, 4)), (50.0, 1.18 * top), (0, 0), INK)?;
         let all = shares.last().map_or(0.0, |last| last.1);
         heights.push(format!("{} at σ = {}", short(all, 2), short(*sigma, 4)));
     }
     let description = describe!(
-        "(a) Most likely number of different gaps that impact against σ, simulated: with its 95 % interval it climbs to \
-         about half of {n}, then jumps to all{}; a dotted mark stands at the printed σ = {}. (b) to (d) The distributions \
-         before, at and after: the column of all gaps overtakes the broad hump below: {}.",
+        "(a) Most likely number of gaps that impact against σ, simulated: with its 95 % interval it climbs to about half \
+         of {n}, then jumps to all{}; dotted: the printed σ = {}. (b) to (d) Before, at and after it the column of all gaps \
+         overtakes the broad hump: {}.",
         place.map_or(String::new(), |place| format!(" at σ = {}", short(place, 4))),
         printed_threshold(),
         heights.join(", "),

@@ -22,7 +22,7 @@ const PROGRAM: &str = env!("CARGO_BIN_EXE_impact-paper");
 const TEMPLATES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/templates");
 
 /// Number of the experiments that are saved.
-const EXPERIMENTS: usize = 17;
+const EXPERIMENTS: usize = 18;
 
 const SCENARIO: &str = r#"{"forcing":[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]}"#;
 

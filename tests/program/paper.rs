@@ -162,8 +162,8 @@ fn a_rerun_finds_what_the_list_cannot() {
         let path = here.join("r").join(name);
         fs::write(&path, change(fs::read_to_string(&path).unwrap())).unwrap();
     };
-    let before = fs::read_to_string(here.join("r/data/fig02.csv")).unwrap();
-    edit("data/fig02.csv", &|text| format!("{text}9\n"));
+    let before = fs::read_to_string(here.join("r/data/fig02a.csv")).unwrap();
+    edit("data/fig02a.csv", &|text| format!("{text}9\n"));
     edit("report.html", &|text| format!("{text} "));
     fs::write(here.join("r/data/more.csv"), "").unwrap();
     let (old, new) = (sha256(&before), sha256(format!("{before}9\n")));

@@ -5,4 +5,17 @@
 mod run;
 mod tables;
 
-pub use run::{JUMP, Jumps};
+pub use run::Jumps;
+
+use crate::params::{self, Ensemble};
+use impact_chain::Counts;
+use literate::experiments::Experiment;
+use literate::experiments::experiment::How::Cut;
+
+pub const JUMP: Experiment<Vec<Ensemble>, Jumps, Counts> = Experiment {
+    name: "jump",
+    code: &["src/experiments/jump", "src/experiments/ensembles.rs"],
+    parameters: params::jump,
+    how: Cut("jump of the mode", run::CUTTING),
+    tables: tables::tables,
+};

@@ -1,22 +1,14 @@
 //! Counts independent chains at each σ, and finds the jump of the mode in each window.
 
-use super::tables;
 use crate::experiments::ensembles::{joined, part, rows};
 use crate::experiments::prelude::*;
-use crate::params::{self, Ensemble, Protocol};
+use crate::params::{Ensemble, Protocol};
 use impact_chain::Counts;
 use impact_chain::mode_jump::{ModeJump, Sample, mode_jump};
 use literate::experiments::cutting::Cutting;
-use literate::experiments::experiment::How::Cut;
 use rayon::prelude::*;
 
-pub const JUMP: Experiment<Vec<Ensemble>, Jumps, Counts> = Experiment {
-    name: "jump",
-    code: &["src/experiments/jump", "src/experiments/ensembles.rs"],
-    parameters: params::jump,
-    how: Cut("jump of the mode", Cutting { rows, part, join }),
-    tables: tables::tables,
-};
+pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> = Cutting { rows, part, join };
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Jumps {
