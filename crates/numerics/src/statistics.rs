@@ -105,7 +105,7 @@ mod tests {
     fn quantiles_by_hand() {
         let sorted = [0.0, 10.0, 20.0, 30.0, 40.0];
         assert_eq!(quantile(&sorted, 0.5), Some(20.0));
-        assert_eq!(quantile(&sorted, 0.1), Some(4.0));
+        assert_eq!([0.1, 0.4].map(|share| quantile(&sorted, share)), [4.0, 16.0].map(Some));
         assert_eq!(quantile(&sorted, 1.0), Some(40.0));
         assert_eq!(quantile(&[], 0.5), None);
         // Two 0, one 1, one 3: sorted 0 0 1 3.
