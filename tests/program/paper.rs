@@ -183,7 +183,7 @@ fn a_rerun_finds_what_the_list_cannot() {
     let names = [
         "differs  SHA256SUMS",
         "differs  SHA256SUMS.built",
-        "differs  data/fig02.csv",
+        "differs  data/fig02a.csv",
         "differs  report.html",
         "unlisted data/more.csv",
     ];

@@ -69,7 +69,8 @@ fn every_verdict_moves_with_the_evidence() {
     let ids =
         claims::never_moved(&QUICK.published, &claims::rules(), &QUICK.results, true).unwrap();
     let listed = include_str!("never_moved.txt").lines();
-    let listed: Vec<&str> = listed.map(|line| line.split_once(": ").unwrap().0).collect();
+    let in_all = listed.filter(|line| !line.contains("in full samples"));
+    let listed: Vec<&str> = in_all.map(|line| line.split_once(": ").unwrap().0).collect();
     assert_eq!(ids, listed);
 }
 
