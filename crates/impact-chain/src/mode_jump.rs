@@ -3,10 +3,10 @@
 //!
 //! The counts 1 to N of the realisations with an impact have three parts: one number at an *end*
 //! (all N gaps, or a single one), the *bulk*, which is at least N/10 from it, and the numbers
-//! *between*. Where the share of the end passes the height of the bulk's peak, the mode *jumps* if no
-//! number between is as likely there, and *climbs* if one is more likely, each with 95 % confidence;
-//! else the sample does not tell. So a jump is a step of N/10 or more, and a move of the mode among
-//! numbers that differ by chance is none.
+//! *between*. Where the share of the end passes the height of the bulk's peak, the mode *jumps* if
+//! no number between is as likely there, and *climbs* if one is more likely, each with 95 %
+//! confidence; else the sample does not tell. So a jump is a step of N/10 or more, and a move of
+//! the mode among numbers that differ by chance is none.
 
 use impact_numerics::bootstrap;
 use impact_numerics::estimates::LEVEL;

@@ -89,8 +89,8 @@ fn rows(window: &WindowJump) -> Table {
 /// How far from the jump the first and the last distribution of Fig. 2 are, in σ.
 const BEFORE_AND_AFTER: f64 = 0.00625;
 
-/// Makes the table of the distributions at the σ that are nearest to the jump with our protocol, and
-/// to places before and after it.
+/// Makes the table of the distributions at the σ that are nearest to the jump with our protocol,
+/// and to places before and after it.
 fn distributions(window: &WindowJump) -> Table {
     let both: Vec<_> = window.jump.rows.iter().zip(&window.histograms).collect();
     let nearest = |sigma: f64| {

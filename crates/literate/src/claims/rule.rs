@@ -31,8 +31,8 @@ impl Rule {
     }
 
     /// Makes it the rule of a relation between numbers that must hold. It may allow for standard
-    /// errors at the level of the statistical checks, and does not count as one of them. What it says
-    /// may be empty, and then stands among the texts of the checks.
+    /// errors at the level of the statistical checks, and does not count as one of them. What it
+    /// says may be empty, and then stands among the texts of the checks.
     pub fn relation(self, relation: &'static str) -> Rule {
         Rule { relation: Some(relation), ..self }
     }
@@ -216,8 +216,8 @@ mod tests {
         assert!(!checks[3].clone().note("It is a likeness in words.").fails());
     }
 
-    /// Printed is 0.10: 0.0152 away, where half a unit and 2.58 errors are 0.0102, and twice as many
-    /// errors 0.0153.
+    /// Printed is 0.10: 0.0152 away, where half a unit and 2.58 errors are 0.0102, and twice as
+    /// many errors 0.0153.
     #[test]
     fn a_cell_has_room_for_its_errors_once() {
         let published = Published::parse(&PUBLISHED.replace("0.11", "0.10")).unwrap();

@@ -93,8 +93,8 @@ pub fn printed(published: &Published) -> Vec<Value> {
 }
 
 /// Counts the statements as values: all, by verdict, by basis (those reproduced, and of how many),
-/// by word for a difference; sentences of the paper, those of which every reading is reproduced, and
-/// those of which only some are; and the definitions.
+/// by word for a difference; sentences of the paper, those of which every reading is reproduced,
+/// and those of which only some are; and the definitions.
 pub fn scorecard(claims: &[Check]) -> Vec<Value> {
     let value = |name: String, count: usize| {
         let id = format!("score.{}", name.replace(' ', "_"));
