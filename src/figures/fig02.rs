@@ -65,9 +65,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         heights.push(format!("{} at σ = {}", short(all, 2), short(*sigma, 4)));
     }
     let description = describe!(
-        "(a) Most likely number of gaps that impact against σ: with its 95 % interval it climbs to about half of {n}, then \
-         jumps to all{}; dotted: the printed σ = {}. (b) to (d) Before, at and after, the column of all gaps overtakes the \
-         hump: {}.",
+        "(a) Most likely number of gaps that impact against σ: it climbs to about half of {n}, then jumps to all{}; \
+         dotted: the printed σ = {}. (b) to (d) Before, at and after, the column of all gaps overtakes the hump: {}.",
         place.map_or(String::new(), |place| format!(" at σ = {}", short(place, 4))),
         printed_threshold(),
         heights.join(", "),

@@ -190,8 +190,8 @@ fn a_rerun_finds_what_the_list_cannot() {
     assert_eq!(lines, names.map(|name| format!("rerun: {name}")));
 
     // What is lost or new is named without a rerun.
-    fs::remove_file(here.join("r/data/fig02.csv")).unwrap();
+    fs::remove_file(here.join("r/data/fig02a.csv")).unwrap();
     fs::write(here.join("r/data/strange.csv"), "").unwrap();
     let (code, out, _) = crate::run(here, "verify r");
-    assert_eq!((code, &*out), (1, "missing  data/fig02.csv\nunlisted data/strange.csv\n"));
+    assert_eq!((code, &*out), (1, "missing  data/fig02a.csv\nunlisted data/strange.csv\n"));
 }
