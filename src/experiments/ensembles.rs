@@ -1,6 +1,7 @@
 //! Makes experiments of ensembles of chains, cut by σ and realisation and joined to curves.
 
 use crate::params::{Ensemble, Profile, Protocol};
+use impact_chain::Abreast;
 use impact_chain::counts::{Counts, Total};
 use impact_chain::rise::{Curve, RisePoint};
 use literate::experiments::cutting::{Cutting, Unit, UnitRow};
@@ -70,6 +71,7 @@ pub fn rows(all: &Vec<Ensemble>) -> Vec<UnitRow> {
     let row = |(one, sigma): (&Ensemble, f64)| UnitRow {
         realisations: one.realisations_at(sigma),
         weight: one.work(sigma),
+        together: Abreast::number(&one.chain),
     };
     cases(all).map(row).collect()
 }
@@ -81,13 +83,15 @@ pub fn part(
     progress: &Progress,
 ) -> Result<Counts, Error> {
     let Some((one, sigma)) = cases(all).nth(unit.row) else { return Ok(Counts::default()) };
-    let one = |index| {
+    let at_sigma = one.at(sigma);
+    let some = |indices| {
         progress.check()?;
-        let counts = one.realisation(sigma, index, || progress.stopped());
+        let counts = at_sigma.count(indices, &|| progress.stopped());
         progress.check()?;
         counts.map_err(|source| Error::failed("an ensemble", source))
     };
-    Ok(unit.each(stage, one)?.into_iter().collect())
+    let together = Abreast::number(&one.chain);
+    Ok(unit.in_groups(together, stage, some)?.into_iter().flatten().collect())
 }
 
 /// Lists each ensemble with its counts at each σ.

@@ -1,8 +1,10 @@
 //! Defines an ensemble: random chains at several σ, and the windows in which they are counted.
 
+use impact_chain::abreast::{Abreast, Realisation};
 use impact_chain::counts::{Counts, Watch};
 use impact_chain::{Chain, Engine, Error, Initial, NormalPairs, Protocol, Scenario};
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// A stronger force before the count begins; then forces are lowered to σ without a jump.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -96,24 +98,35 @@ impl Ensemble {
         (self.chain.masses as f64 * (1.0 + impacts)) as u64
     }
 
-    /// Counts the impacts of a realisation at a σ; incomplete when `stopped` returns true.
-    pub fn realisation(
+    /// Prepares its realisations at a σ.
+    pub fn at(&self, sigma: f64) -> Realisations<'_> {
+        let heating = self.heating.map(|heating| Abreast::new(&self.chain, &[], heating.time));
+        let counting = Abreast::new(&self.chain, &self.protocols, self.until(sigma));
+        Realisations { ensemble: self, sigma, heating, counting }
+    }
+
+    /// Counts the impacts of a realisation by the engine; incomplete when `stopped` returns true.
+    fn by_engine(
         &self,
         sigma: f64,
         index: u64,
-        stopped: impl Fn() -> bool,
+        stopped: &dyn Fn() -> bool,
     ) -> Result<Counts, Error> {
-        let index = self.first + index;
         let mut watch = Watch::new(&self.chain, &self.protocols);
-        let engine = self.started(sigma, index, &stopped);
-        let mut counts = watch.run(engine, index, self.until(sigma), &stopped)?;
+        let engine = self.started(sigma, index, stopped);
+        let mut counts = watch.run(engine, index, self.until(sigma), stopped)?;
+        self.cut_all(&mut counts, |window| watch.hit(window));
+        Ok(counts)
+    }
+
+    /// Counts the gaps of each piece in each window, instead of those of the chain.
+    fn cut_all(&self, counts: &mut Counts, hit: impl Fn(&Protocol) -> Option<Vec<bool>>) {
         for (distinct, window) in counts.distinct.iter_mut().zip(&self.protocols) {
-            *distinct = match watch.hit(window).filter(|_| distinct[0].is_some()) {
+            *distinct = match hit(window).filter(|_| distinct[0].is_some()) {
                 Some(hit) => self.cut(&hit),
                 None => vec![None; self.pieces],
             };
         }
-        Ok(counts)
     }
 
     fn cut(&self, hit: &[bool]) -> Vec<Option<u32>> {
@@ -122,16 +135,73 @@ impl Ensemble {
         (0..self.pieces).map(|piece| Some(count(piece).sum())).collect()
     }
 
+    fn normals(&self, index: u64) -> NormalPairs {
+        NormalPairs::new(&self.stream, self.seed, index)
+    }
+
     /// Returns an engine at the time from which transients are measured.
     fn started(&self, sigma: f64, index: u64, stopped: &dyn Fn() -> bool) -> Result<Engine, Error> {
-        let mut normals = NormalPairs::new(&self.stream, self.seed, index);
         let Some(Heating { sigma: hot, time }) = self.heating else {
-            return Engine::new(&Scenario::draw(&self.chain, sigma, &mut normals));
+            return Engine::new(&Scenario::draw(&self.chain, sigma, &mut self.normals(index)));
         };
-        let scenario = Scenario::draw(&self.chain, hot, &mut normals);
+        let scenario = Scenario::draw(&self.chain, hot, &mut self.normals(index));
         let mut engine = Engine::new(&scenario)?;
         engine.run(time, |_| !stopped())?;
         Engine::new(&lowered(&scenario, &engine.free_parts(), time, sigma / hot))
+    }
+}
+
+/// Realisations at one σ, which are simulated side by side; the engine does those that cannot.
+pub struct Realisations<'a> {
+    ensemble: &'a Ensemble,
+    sigma: f64,
+    /// The run before the transient, if there is one.
+    heating: Option<Option<Abreast>>,
+    counting: Option<Abreast>,
+}
+
+impl Realisations<'_> {
+    /// Counts the impacts of realisations, in their order; incomplete when `stopped` returns true.
+    pub fn count(
+        &self,
+        indices: Range<u64>,
+        stopped: &dyn Fn() -> bool,
+    ) -> Result<Vec<Counts>, Error> {
+        let one = self.ensemble;
+        let indices: Vec<u64> = indices.map(|index| one.first + index).collect();
+        let mut counts = vec![None; indices.len()];
+        if let Some(counting) = &self.counting {
+            let (places, starts): (Vec<usize>, Vec<Scenario>) =
+                self.starts(&indices, stopped).into_iter().unzip();
+            for (place, run) in places.into_iter().zip(counting.run(&starts, stopped)) {
+                counts[place] = run.map(|mut run| {
+                    let mut counts = run.counts();
+                    one.cut_all(&mut counts, |window| run.hit(window));
+                    counts
+                });
+            }
+        }
+        let by_engine = |index| one.by_engine(self.sigma, index, stopped);
+        let all = indices.into_iter().zip(counts);
+        all.map(|(index, counts)| counts.map_or_else(|| by_engine(index), Ok)).collect()
+    }
+
+    /// Lists the scenarios from which transients are measured, each with its place; without those
+    /// whose way there has to be simulated by the engine.
+    fn starts(&self, indices: &[u64], stopped: &dyn Fn() -> bool) -> Vec<(usize, Scenario)> {
+        let one = self.ensemble;
+        let draw = |sigma, index: &u64| Scenario::draw(&one.chain, sigma, &mut one.normals(*index));
+        let Some((hot, heating)) = one.heating.zip(self.heating.as_ref()) else {
+            return indices.iter().map(|index| draw(self.sigma, index)).enumerate().collect();
+        };
+        let Some(heating) = heating else { return Vec::new() };
+        let scenarios: Vec<_> = indices.iter().map(|index| draw(hot.sigma, index)).collect();
+        let runs = heating.run(&scenarios, stopped).into_iter().zip(&scenarios).enumerate();
+        let start = |(place, (run, scenario)): (usize, (Option<Realisation>, &Scenario))| {
+            let free = run?.free_parts(&one.chain);
+            Some((place, lowered(scenario, &free, hot.time, self.sigma / hot.sigma)))
+        };
+        runs.filter_map(start).collect()
     }
 }
 

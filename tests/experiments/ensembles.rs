@@ -17,8 +17,7 @@ fn small() -> Ensemble {
 }
 
 fn run(ensemble: &Ensemble, sigma: f64, realisations: u64) -> Counts {
-    let one = |index| ensemble.realisation(sigma, index, || false).unwrap();
-    (0..realisations).map(one).collect()
+    ensemble.at(sigma).count(0..realisations, &|| false).unwrap().into_iter().collect()
 }
 
 #[test]

@@ -108,7 +108,7 @@ impl FromIterator<Counts> for Counts {
     }
 }
 
-/// Counts the impacts of one run of an engine.
+/// Counts the impacts of one run.
 pub struct Watch {
     topology: Topology,
     windows: Vec<Protocol>,
@@ -120,6 +120,10 @@ pub struct Watch {
     firsts: Vec<Vec<f64>>,
     /// For each gap the number of transients whose first impact is known.
     known: Vec<usize>,
+    /// Times at which windows begin or end, up to the end of the run.
+    edges: Vec<f64>,
+    /// Impacts until each edge that has passed.
+    passed: Vec<u64>,
 }
 
 fn rising(times: impl Iterator<Item = f64>) -> Vec<f64> {
@@ -142,22 +146,39 @@ impl Watch {
             firsts: vec![vec![f64::INFINITY; gaps]; transients.len()],
             known: vec![0; gaps],
             transients,
+            edges: Vec::new(),
+            passed: Vec::new(),
         }
     }
 
-    /// Forgets what an earlier run has left.
-    fn clear(&mut self) {
+    /// Forgets what an earlier run has left, and begins one that ends with the last edge of a
+    /// window up to `until`; returns that end, or `None` if there is no such edge.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for windows that end after [`LATEST`], and for an end that is no number.
+    pub(crate) fn begin(&mut self, until: f64) -> Result<Option<f64>, Error> {
+        within("until", until, f64::NEG_INFINITY, f64::INFINITY)?;
+        let ends = self.windows.iter().map(Protocol::end);
+        self.edges = rising(self.transients.iter().copied().chain(ends));
+        self.edges.iter().try_for_each(|&edge| within("windows", edge, -LATEST, LATEST))?;
+        self.edges.retain(|edge| *edge <= until);
+        self.passed.clear();
         self.total = Total::default();
         self.last.fill(f64::NEG_INFINITY);
         self.known.fill(0);
         self.firsts.iter_mut().for_each(|firsts| firsts.fill(f64::INFINITY));
+        Ok(self.edges.last().copied())
     }
 
-    #[inline]
-    fn count(&mut self, impact: Impact) {
+    /// Counts an impact that is not earlier than those before, nor later than the end of the run.
+    #[inline(always)]
+    pub(crate) fn count(&mut self, impact: Impact) {
+        while self.edges.get(self.passed.len()).is_some_and(|&edge| impact.time > edge) {
+            self.passed.push(self.total.impacts);
+        }
         let gaps = self.last.len();
         // On a ring gap n lies between masses n and 1: modulo n it is the neighbour of gap 1.
-        let gap = impact.gap % gaps;
+        let gap = if impact.gap < gaps { impact.gap } else { impact.gap - gaps };
         let known = &mut self.known[gap];
         while self.transients.get(*known).is_some_and(|&transient| impact.time > transient) {
             self.firsts[*known][gap] = impact.time;
@@ -191,54 +212,54 @@ impl Watch {
         until: f64,
         stopped: &dyn Fn() -> bool,
     ) -> Result<Counts, Error> {
-        within("until", until, f64::NEG_INFINITY, f64::INFINITY)?;
-        // Times at which windows begin or end, and the impacts until then.
-        let ends = self.windows.iter().map(Protocol::end);
-        let edges = rising(self.transients.iter().copied().chain(ends));
-        edges.iter().try_for_each(|&edge| within("windows", edge, -LATEST, LATEST))?;
-        let windows = self.windows.len();
-        let mut counts = Counts {
-            distinct: vec![vec![None]; windows],
-            impacts: vec![vec![0]; windows],
-            masses: vec![vec![0]; windows],
-            ..Counts::default()
-        };
-        self.clear();
+        let end = self.begin(until)?;
         let mut engine = match engine {
             Ok(engine) => engine,
-            Err(Error::Overlap { .. }) => return Ok(Counts { rejected: 1, ..counts }),
-            Err(Error::Work { .. }) => return Ok(Counts { failed: 1, ..counts }),
+            Err(Error::Overlap { .. }) => return Ok(Counts { rejected: 1, ..self.incomplete() }),
+            Err(Error::Work { .. }) => return Ok(Counts { failed: 1, ..self.incomplete() }),
             Err(error) => return Err(error),
         };
         if engine.topology() != self.topology {
             let problem = "its masses or ends are not those of the chain of the counts";
             return Err(Error::input("engine", problem, "create a Watch of its own chain"));
         }
-        let mut impacts = Vec::with_capacity(edges.len());
-        let mut ended = Ok(());
-        for &edge in edges.iter().take_while(|edge| **edge <= until) {
-            ended = engine.run(edge, |impact| {
+        let ended = end.map_or(Ok(()), |end| {
+            engine.run(end, |impact| {
                 self.count(impact);
                 !self.total.impacts.is_multiple_of(CHECK_EVERY) || !stopped()
-            });
-            if ended.is_err() {
-                break;
-            }
-            impacts.push(self.total.impacts);
-        }
+            })
+        });
         let counters = engine.counters();
         self.total.contact_phases = counters.contact_phases;
         self.total.simultaneous = counters.simultaneous;
         self.total.undecided = counters.undecided;
         self.total.first_graze = engine.first_graze().map(|graze| (index, graze));
-        counts.total = self.total.clone();
         match ended {
-            Ok(()) => (),
-            Err(Error::Work { .. }) => return Ok(Counts { failed: 1, ..counts }),
-            Err(error) => return Err(error),
+            Ok(()) => Ok(self.complete()),
+            Err(Error::Work { .. }) => {
+                Ok(Counts { failed: 1, total: self.total.clone(), ..self.incomplete() })
+            }
+            Err(error) => Err(error),
         }
+    }
+
+    /// Returns the counts of a realisation that has none.
+    fn incomplete(&self) -> Counts {
+        let windows = self.windows.len();
+        Counts {
+            distinct: vec![vec![None]; windows],
+            impacts: vec![vec![0]; windows],
+            masses: vec![vec![0]; windows],
+            ..Counts::default()
+        }
+    }
+
+    /// Returns the counts of a realisation whose impacts up to the end of the run are counted.
+    pub(crate) fn complete(&mut self) -> Counts {
+        self.passed.resize(self.edges.len(), self.total.impacts);
+        let mut counts = Counts { total: self.total.clone(), ..self.incomplete() };
         for (place, window) in self.windows.iter().enumerate() {
-            let edge = |time: f64| impacts.get(edges.partition_point(|at| *at < time));
+            let edge = |time: f64| self.passed.get(self.edges.partition_point(|at| *at < time));
             let Some((begin, end)) = edge(window.transient).zip(edge(window.end())) else {
                 continue;
             };
@@ -247,7 +268,7 @@ impl Watch {
             counts.impacts[place] = vec![end - begin];
             counts.masses[place] = vec![masses_hit(&self.topology, &hit)];
         }
-        Ok(counts)
+        counts
     }
 
     /// Returns which gaps had an impact in one of the windows, or `None` for another window.

@@ -64,7 +64,7 @@ impl<const M: usize> Simulation<M> {
         let mut simulation = Simulation {
             spacing: scenario.spacing,
             restitution: scenario.restitution,
-            search: Search::new(frequencies),
+            search: Search::shared(frequencies),
             topology,
             shifts,
             motions,

@@ -20,6 +20,8 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+#[cfg(feature = "ensembles")]
+pub mod abreast;
 mod chain;
 mod complementarity;
 mod contact;
@@ -51,6 +53,8 @@ mod state;
 mod topology;
 mod validation;
 
+#[cfg(feature = "ensembles")]
+pub use abreast::Abreast;
 pub use chain::{Boundary, Chain, Start};
 #[cfg(feature = "ensembles")]
 pub use counts::{Counts, Protocol, Watch};

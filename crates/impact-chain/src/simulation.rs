@@ -12,6 +12,7 @@ use crate::search::first_root::Search;
 use crate::search::local_frame::{Frame, NEARLY_SHUT};
 use crate::search::outcome::{Counters, Graze, Next};
 use crate::search::window::next_window;
+use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Awaits {
@@ -41,7 +42,7 @@ pub(super) struct Gap<const M: usize> {
 pub(super) struct Simulation<const M: usize> {
     pub(super) spacing: f64,
     pub(super) restitution: f64,
-    pub(super) search: Search<M>,
+    pub(super) search: Arc<Search<M>>,
     pub(super) topology: Topology,
     /// The distance of the place of each body from m d: 0 in the paper.
     pub(super) shifts: Vec<f64>,

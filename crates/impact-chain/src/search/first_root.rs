@@ -5,6 +5,9 @@ use super::nodes::Nodes;
 use super::outcome::{Counters, Next};
 use super::screen::{Eighths, Piece};
 use super::stepping::first_root_by_steps;
+use std::any::Any;
+use std::cell::RefCell;
+use std::sync::Arc;
 
 /// How often the reach is halved: pieces of 1, 1/2, … 2^-LEVELS of it.
 const LEVELS: usize = 2;
@@ -21,7 +24,21 @@ pub struct Search<const M: usize> {
 }
 
 impl<const M: usize> Search<M> {
-    pub fn new(frequencies: Frequencies<M>) -> Self {
+    /// Returns the search of these frequencies. Its tables are those of the last one that was asked
+    /// for on this thread, if that had the same frequencies.
+    pub fn shared(frequencies: Frequencies<M>) -> Arc<Search<M>> {
+        thread_local!(static LAST: RefCell<Option<Arc<dyn Any + Send + Sync>>> = const { RefCell::new(None) });
+        LAST.with_borrow_mut(|last| {
+            let before = last.clone().and_then(|last| last.downcast::<Search<M>>().ok());
+            before.filter(|last| last.frequencies == frequencies).unwrap_or_else(|| {
+                let search = Arc::new(Search::new(frequencies));
+                *last = Some(search.clone());
+                search
+            })
+        })
+    }
+
+    fn new(frequencies: Frequencies<M>) -> Self {
         let pieces = std::array::from_fn(|k| {
             let level = (k + 1).ilog2();
             let width = frequencies.reach / f64::from(1u32 << level);

@@ -13,7 +13,7 @@ use super::clock::Rate;
 use super::trig::{RANGE, small_sin_cos};
 
 /// The natural frequency ω, the `M` frequencies Ω of the forcing, and what follows from them.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frequencies<const M: usize> {
     pub omega: f64,
     pub big_omegas: [f64; M],

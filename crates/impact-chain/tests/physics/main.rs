@@ -1,6 +1,7 @@
 //! Tests the engine: against a second simulator of higher precision, by laws that hold for any
 //! arithmetic, and in scenes of contact that are known by mechanics.
 
+mod abreast;
 mod certified;
 mod contact;
 mod invariants;

@@ -25,6 +25,8 @@ pub struct UnitRow {
     pub realisations: usize,
     /// Work of one realisation: a core does [`SECOND`] in about a second.
     pub weight: u64,
+    /// How many realisations are best run together: no unit has fewer, if there are as many.
+    pub together: usize,
 }
 
 impl UnitRow {
@@ -52,19 +54,25 @@ impl Unit {
         Unit { number: 0, row: 0, realisations: 0..0, weight }
     }
 
-    /// Runs its realisations, in any order and on any thread, and advances the stage after each.
-    pub fn each<R: Send>(
+    /// Runs its realisations in groups of so many, in any order and on any thread, and advances the
+    /// stage after each group.
+    pub fn in_groups<R: Send>(
         &self,
+        together: usize,
         stage: &Stage,
-        run: impl Fn(u64) -> Result<R, Error> + Sync,
+        run: impl Fn(Range<u64>) -> Result<R, Error> + Sync,
     ) -> Result<Vec<R>, Error> {
+        let Range { start, end } = self.realisations;
         let weight = self.weight / self.realisations.len().max(1) as u64;
-        let one = |index| {
-            let found = run(index as u64);
-            stage.advance(weight);
+        let group = |first| {
+            let group = first as u64..end.min(first + together) as u64;
+            let number = group.end - group.start;
+            let found = run(group);
+            stage.advance(number * weight);
             found
         };
-        self.realisations.clone().into_par_iter().with_max_len(1).map(one).collect()
+        let firsts: Vec<usize> = (start..end).step_by(together.max(1)).collect();
+        firsts.into_par_iter().with_max_len(1).map(group).collect()
     }
 }
 
@@ -123,7 +131,8 @@ impl<P, U, T> Cutting<P, U, T> {
 /// Cuts a row into the fewest pieces of about equal size of which none is heavy.
 fn cut(place: usize, row: &UnitRow, heavy: u64) -> Vec<Unit> {
     let all = row.realisations;
-    let pieces = row.work().div_ceil(heavy).clamp(1, all.max(1) as u64);
+    let most = (all / row.together.max(1)).max(1) as u64;
+    let pieces = row.work().div_ceil(heavy).clamp(1, most);
     let at = |piece: u64| (all as u128 * u128::from(piece) / u128::from(pieces)) as usize;
     (0..pieces)
         .map(|piece| {
@@ -143,7 +152,7 @@ mod tests {
         for (realisations, weight) in
             [(1, 1), (1000, 19_000), (7, 400_000), (3, 5_000_000), (10, 0)]
         {
-            let row = UnitRow { realisations, weight };
+            let row = UnitRow { realisations, weight, together: 1 };
             let units = cut(4, &row, HEAVY);
             let all: Vec<usize> = units.iter().flat_map(|unit| unit.realisations.clone()).collect();
             assert_eq!(all, (0..realisations).collect::<Vec<_>>());
@@ -151,7 +160,7 @@ mod tests {
             let light = |unit: &Unit| unit.realisations.len() == 1 || unit.weight <= HEAVY + weight;
             assert!(units.iter().all(light), "{units:?}");
         }
-        let row = UnitRow { realisations: 100, weight: 1 };
+        let row = UnitRow { realisations: 100, weight: 1, together: 1 };
         assert_eq!(cut(0, &row, HEAVY).len(), 1);
     }
 
@@ -159,7 +168,8 @@ mod tests {
     fn a_billion_realisations_are_thousands_of_units() {
         let cutting: Cutting<u64, (), ()> = Cutting {
             rows: |&realisations| {
-                let row = |weight| UnitRow { realisations: realisations as usize, weight };
+                let row =
+                    |weight| UnitRow { realisations: realisations as usize, weight, together: 1 };
                 [100, 7000, 20_000].map(row).to_vec()
             },
             part: |_, _, _, _| Ok(()),

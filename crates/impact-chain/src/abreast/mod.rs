@@ -1,0 +1,274 @@
+//! Simulates many chains side by side.
+//!
+//! All chains go through the same steps of time. A gap is two sines between impacts, kept by its
+//! four amplitudes, so nothing is integrated: at the end of each step every gap is evaluated, and
+//! bounds of its derivatives prove for nearly all of them that they did not close. The first roots
+//! of all others are located together, and each chain then goes from impact to impact within the
+//! step. What these proofs do not cover is left to the engine, chain by chain and whole: slow
+//! impacts and contact, adjacent impacts whose order rounding cannot tell, dips near zero.
+//!
+
+mod grid;
+mod lanes;
+mod proof;
+mod roots;
+mod slot;
+
+use crate::flight::response;
+use crate::topology::Topology;
+use crate::{Boundary, Chain, Counts, Protocol, Scenario, Watch};
+use fearless_simd::{Level, dispatch};
+use grid::Grid;
+use lanes::Lanes;
+use proof::SLOW;
+use slot::Slot;
+
+/// Steps after which a run checks again whether to stop, and which gaps can close.
+const CHECK_EVERY: usize = 128;
+
+/// Runs of more steps than this are left to the engine, which waits at no cost.
+const MOST_STEPS: f64 = 1e7;
+
+/// Gaps at a start are this wide at least, in units of d; the engine decides about others.
+const OPEN: f64 = 1e-6;
+
+/// Masses side by side that fill the registers.
+const MASSES: usize = 1600;
+
+/// What chains side by side have in common. Lengths in units of d, times of 1/ω.
+#[derive(Clone, Debug)]
+struct Plan {
+    omega: f64,
+    /// ρ = Ω/ω.
+    ratio: f64,
+    restitution: f64,
+    /// Length h of a step, and h²/8.
+    step: f64,
+    eighth: f64,
+    /// Unit of speeds, d ω.
+    speed: f64,
+    /// Number of the first gap in results.
+    first: usize,
+    /// For each gap those that share a mass with it; `usize::MAX` if there is none.
+    neighbours: Vec<[usize; 2]>,
+    /// For each gap the parts of its jump by which the rates of the gap before it, itself and the
+    /// gap after it go back.
+    weights: Vec<[f64; 4]>,
+    ring: bool,
+}
+
+impl Plan {
+    fn new(chain: &Chain, length: f64) -> Plan {
+        let topology = Topology::new(chain.masses, chain.boundary);
+        let step = chain.natural_frequency * length;
+        let gaps = 0..topology.gaps();
+        // The masses beside the gap jump by half of its jump each, or one by all at a wall.
+        let weights = |gap| {
+            let [left, right] = topology.inverse_masses(gap);
+            [left / (left + right), -1.0, right / (left + right), 0.0]
+        };
+        let neighbours =
+            |gap| topology.adjacent(gap).map(|near: Option<usize>| near.unwrap_or(usize::MAX));
+        Plan {
+            omega: chain.natural_frequency,
+            ratio: chain.forcing_frequency / chain.natural_frequency,
+            restitution: chain.restitution,
+            step,
+            eighth: step * step / 8.0,
+            speed: chain.spacing * chain.natural_frequency,
+            first: topology.label(0),
+            neighbours: gaps.clone().map(neighbours).collect(),
+            weights: gaps.map(weights).collect(),
+            ring: chain.boundary == Boundary::Ring,
+        }
+    }
+
+    /// Returns the column of the gap of which another column is a copy, or that column.
+    #[inline(always)]
+    fn own_column(&self, column: usize) -> usize {
+        let gaps = self.weights.len();
+        match column {
+            0 if self.ring => gaps,
+            _ if self.ring && column > gaps => 1,
+            _ => column,
+        }
+    }
+}
+
+/// Simulates many realisations of a chain side by side, with the same impacts as the engine until
+/// rounding parts them: chains that impacts make unstable differ then in every method.
+///
+/// Each realisation is the same whatever else is simulated, how many there are, and whatever vectors
+/// the processor has.
+#[derive(Clone, Debug)]
+pub struct Abreast {
+    chain: Chain,
+    windows: Vec<Protocol>,
+    until: f64,
+    end: f64,
+    plan: Plan,
+    grid: Grid,
+}
+
+/// A realisation that was simulated to its end.
+pub struct Realisation(Slot);
+
+impl Abreast {
+    /// Prepares runs of a chain through the windows that end by `until`, or to `until` if there are
+    /// no windows. Returns `None` if all of them are left to the engine: with r near 0, where masses
+    /// stick, r = 1, where it keeps the energy, rings of one or two masses, and very long runs.
+    pub fn new(chain: &Chain, windows: &[Protocol], until: f64) -> Option<Abreast> {
+        let frequencies = [chain.natural_frequency, chain.forcing_frequency];
+        let mut watch = Watch::new(chain, windows);
+        let edge = watch.begin(until).ok()?;
+        let end = if windows.is_empty() { until } else { edge? };
+        let simple = frequencies.iter().all(|omega| (1e-3..=1e3).contains(omega))
+            && (SLOW..1.0).contains(&chain.restitution)
+            && (chain.masses > 2 || chain.boundary == Boundary::Walls)
+            && chain.masses > 0
+            && frequencies.iter().all(|omega| omega * end < MOST_STEPS / 8.0);
+        if !simple {
+            return None;
+        }
+        let grid = Grid::new(frequencies, end);
+        let plan = Plan::new(chain, grid.length);
+        let (chain, windows) = (chain.clone(), windows.to_vec());
+        Some(Abreast { chain, windows, until, end, plan, grid })
+    }
+
+    /// Returns how many realisations of a chain are best simulated together.
+    pub fn number(chain: &Chain) -> usize {
+        (MASSES / chain.masses.max(1)).clamp(1, 16)
+    }
+
+    /// Simulates these realisations, in their order; `None` for each that the engine has to do, and
+    /// for all when `stopped` returns true.
+    pub fn run(
+        &self,
+        scenarios: &[Scenario],
+        stopped: &dyn Fn() -> bool,
+    ) -> Vec<Option<Realisation>> {
+        self.run_at(Level::new(), scenarios, stopped)
+    }
+
+    fn run_at(
+        &self,
+        level: Level,
+        scenarios: &[Scenario],
+        stopped: &dyn Fn() -> bool,
+    ) -> Vec<Option<Realisation>> {
+        let slots = scenarios.iter().map(|scenario| self.slot(scenario)).collect();
+        let mut lanes = Lanes::new(&self.plan, slots);
+        dispatch!(level, simd => lanes.run(simd, &self.grid, self.end, stopped));
+        let stopped = stopped();
+        let done = |slot: Slot| (!slot.handed_over && !stopped).then_some(Realisation(slot));
+        lanes.slots.into_iter().map(done).collect()
+    }
+
+    /// Sets a realisation at t = 0.
+    fn slot(&self, scenario: &Scenario) -> Slot {
+        let chain = &self.chain;
+        let mut watch = Watch::new(chain, &self.windows);
+        let alike = scenario.spacing == chain.spacing
+            && scenario.natural_frequency == chain.natural_frequency
+            && scenario.forcing_frequency == chain.forcing_frequency
+            && scenario.restitution == chain.restitution
+            && scenario.boundary == chain.boundary
+            && scenario.forcing.len() == chain.masses
+            && scenario.overtones.is_empty()
+            && scenario.places.is_none();
+        let gaps = chain.gaps();
+        let ready = watch.begin(self.until).is_ok();
+        let mut slot = Slot::new(gaps, watch);
+        if !alike || !ready {
+            slot.handed_over = true;
+            return slot;
+        }
+        let topology = Topology::new(chain.masses, chain.boundary);
+        let mass = |body: usize| {
+            if topology.is_wall(body) {
+                return [0.0; 4];
+            }
+            let [a, b] = scenario.free_part(body - 1);
+            let forces = scenario.forcing[body - 1];
+            let [c, d] = response(chain.natural_frequency, chain.forcing_frequency, forces);
+            [a, b, c, d]
+        };
+        for gap in 0..gaps {
+            let [left, right] = topology.sides(gap).map(mass);
+            let amplitudes: [f64; 4] =
+                std::array::from_fn(|i| (right[i] - left[i]) / chain.spacing);
+            let width = 1.0 + amplitudes[0] + amplitudes[2];
+            slot.set(gap, amplitudes, &self.plan);
+            slot.handed_over |= width.is_nan() || width <= OPEN;
+        }
+        slot
+    }
+}
+
+impl Realisation {
+    /// Returns its counts in the windows, and those of the whole run.
+    pub fn counts(&mut self) -> Counts {
+        self.0.watch.complete()
+    }
+
+    /// Returns which gaps had an impact in one of the windows, or `None` for another window.
+    pub fn hit(&self, window: &Protocol) -> Option<Vec<bool>> {
+        self.0.watch.hit(window)
+    }
+
+    /// Returns free parts (a_j, b_j) of the masses at the end that give the same gaps; on a ring
+    /// those of the first mass are zero.
+    pub fn free_parts(&self, chain: &Chain) -> Vec<[f64; 2]> {
+        let first = usize::from(chain.boundary == Boundary::Ring);
+        let mut sum = [0.0; 2];
+        (0..chain.masses)
+            .map(|mass| {
+                if mass >= first {
+                    let [a, b, ..] = self.0.amplitudes(mass - first);
+                    sum = [sum[0] + chain.spacing * a, sum[1] + chain.spacing * b];
+                }
+                sum
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::NormalPairs;
+    use fearless_simd::Simd;
+
+    /// A realisation has the same bits with any vectors, alone or with others.
+    #[test]
+    fn bits_are_the_same_for_any_width() {
+        let best = Level::new();
+        #[allow(unused_mut)]
+        let mut levels = vec![best, Level::baseline()];
+        #[cfg(target_arch = "x86_64")]
+        levels.extend(
+            [best.as_sse2().map(Simd::level), best.as_avx2().map(Simd::level)]
+                .into_iter()
+                .flatten(),
+        );
+        let chain = Chain { masses: 30, ..Chain::default() };
+        let all: Vec<Scenario> = (0..16)
+            .map(|i| Scenario::draw(&chain, 0.3, &mut NormalPairs::new("bits", 1, i)))
+            .collect();
+        let many = Abreast::new(&chain, &[], 300.0).unwrap();
+        let bits = |run: Option<Realisation>| {
+            let parts = run.map(|run| run.free_parts(&chain)).unwrap_or_default();
+            parts.into_iter().flatten().map(f64::to_bits).collect::<Vec<u64>>()
+        };
+        let bits_at = |level, some: &[Scenario]| -> Vec<Vec<u64>> {
+            many.run_at(level, some, &|| false).into_iter().map(bits).collect()
+        };
+        let expected = bits_at(best, &all);
+        assert!(expected.iter().flatten().count() > 800);
+        for level in levels {
+            let alone = all.iter().flat_map(|one| bits_at(level, std::slice::from_ref(one)));
+            assert!(alone.eq(expected.iter().cloned()) && bits_at(level, &all) == expected);
+        }
+    }
+}

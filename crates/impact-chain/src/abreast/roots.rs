@@ -1,0 +1,194 @@
+//! Locates the first roots of many gaps together.
+
+use super::Plan;
+use super::grid::Phases;
+use super::proof::{Part, SLOW};
+use super::slot::{A, B, C, D, Root, Slot};
+use fearless_simd::{f64x8, prelude::*};
+
+/// Gaps with a sign change, of which the first roots are located together.
+#[derive(Default)]
+pub struct Candidates {
+    eights: Vec<Eight>,
+    who: Vec<Candidate>,
+}
+
+/// Amplitudes and starts of eight candidates, or of none: f = 1 has no root.
+#[derive(Clone, Copy, Default)]
+struct Eight {
+    amplitudes: [[f64; 8]; 4],
+    start: [f64; 8],
+}
+
+#[derive(Clone, Copy)]
+pub struct Candidate {
+    pub slot: usize,
+    pub gap: usize,
+    pub just_hit: bool,
+    pub tame: bool,
+}
+
+impl Candidates {
+    #[inline(always)]
+    pub fn push(&mut self, [a, b, c, d]: [f64; 4], start: f64, who: Candidate) {
+        let (eight, lane) = (self.who.len() / 8, self.who.len() % 8);
+        if lane == 0 {
+            self.eights.push(Eight::default());
+        }
+        let Eight { amplitudes, start: starts } = &mut self.eights[eight];
+        (amplitudes[A][lane], amplitudes[B][lane]) = (a, b);
+        (amplitudes[C][lane], amplitudes[D][lane]) = (c, d);
+        starts[lane] = start;
+        self.who.push(who);
+    }
+
+    /// Locates the first roots of all candidates, eight at a time.
+    ///
+    /// f(start) > 0 > f(end). One root lies between if the gap is tame, if f'' has one sign, or if
+    /// f' has.
+    #[inline(always)]
+    pub fn locate<S: Simd>(
+        &mut self,
+        simd: S,
+        plan: &Plan,
+        half: f64,
+        middle: Phases,
+        slots: &mut [Slot],
+    ) {
+        let total = self.who.len();
+        let Plan { ratio, restitution, .. } = *plan;
+        let [cos, sin, forced_cos, forced_sin] = middle;
+        let (square, last) = (ratio * ratio, f64x8::splat(simd, half));
+        let zero = f64x8::splat(simd, 0.0);
+        for (eight, at) in self.eights.iter().zip((0..).step_by(8)) {
+            let row = |row| f64x8::from_slice(simd, row);
+            let [a, b, c, d] = [A, B, C, D].map(|place| row(&eight.amplitudes[place]));
+            let start = row(&eight.start);
+            let (u, q) = (a * cos + b * sin, b * cos - a * sin);
+            let (v, z) =
+                (c * forced_cos + d * forced_sin, (d * forced_cos - c * forced_sin) * ratio);
+            let mut p = [zero; TERMS];
+            let (mut factor, mut power) = (1.0, 1.0);
+            for (i, p) in p.iter_mut().enumerate() {
+                let signed = if i & 2 != 0 { -factor } else { factor };
+                *p = if i & 1 != 0 { q + z * power } else { u + v * power } * signed;
+                factor /= (i + 1) as f64;
+                power *= if i & 1 != 0 { square } else { 1.0 };
+            }
+            p[0] += 1.0;
+            // The root of the parabola about the middle, then two corrections of third order.
+            let inside = p[1] * p[1] - p[0] * p[2] * 4.0;
+            let within = |s: f64x8<S>| s.min(last).max(start);
+            let mut s = within((p[0] * -2.0) / (p[1] - inside.max(zero).sqrt()));
+            let [f, f1, f2] = rough(&p, s);
+            s = within(s + correction(f, f1, f2));
+            let [f, f1, f2] = full(&p, s);
+            let mut step = correction(f, f1, f2);
+            s = within(s + step);
+            let mut fall = f1 + f2 * step;
+            // Rarely more. A lane that has converged stays as it is, whatever its neighbours do.
+            let mut turns = 0;
+            while turns < 5 && step.abs().simd_gt(CONVERGED).any_true() {
+                let open = step.abs().simd_gt(CONVERGED);
+                let [f, f1, f2] = full(&p, s);
+                let next = correction(f, f1, f2);
+                s = open.select(within(s + next), s);
+                fall = open.select(f1 + f2 * next, fall);
+                step = open.select(next, step);
+                turns += 1;
+            }
+            let sure = fall.simd_lt(-SLOW) & step.abs().simd_le(CONVERGED);
+            let third = (u.abs() + q.abs() + (v.abs() * ratio + z.abs()) * square) * half;
+            let second = (u.abs() + q.abs() + (v.abs() * ratio + z.abs()) * ratio) * half;
+            let definite = (p[2] * 2.0).abs().simd_gt(third) | p[1].abs().simd_gt(second);
+            let (sure, definite) = (sure.to_bitmask() as u8, definite.to_bitmask() as u8);
+            let square = s * s;
+            let co = series(square, COSINE) * square + 1.0;
+            let si = series(square, SINE) * square * s + s;
+            let jump = fall * -(1.0 + restitution);
+            let (s, speed) = (s.as_slice(), (fall * -1.0).to_array());
+            let by_sine = (jump * (co * sin + si * cos)).to_array();
+            let by_cosine = (jump * (co * cos - si * sin)).to_array();
+            for lane in 0..8.min(total - at) {
+                let Candidate { slot, gap, just_hit, tame } = self.who[at + lane];
+                let chain = &mut slots[slot];
+                if (tame || definite >> lane & 1 == 1) && sure >> lane & 1 == 1 {
+                    let start = eight.start[lane];
+                    let jump = [by_sine[lane], by_cosine[lane]];
+                    let root = Root { s: s[lane], gap, speed: speed[lane], jump };
+                    chain.add(root, start, half, restitution);
+                } else {
+                    let start = eight.start[lane];
+                    let part = Part { start, end: half, just_hit, tame };
+                    chain.decide(plan, middle, gap, part, true);
+                }
+            }
+        }
+        self.eights.clear();
+        self.who.clear();
+    }
+}
+
+/// Terms of the Taylor polynomial about the middle of a step; the next is below 1e-15 of [`LARGEST`]
+/// amplitudes at the ends.
+const TERMS: usize = 12;
+
+/// A correction of third order below this leaves less than rounding.
+const CONVERGED: f64 = 1e-6;
+
+/// Coefficients of (cos x − 1)/x² and of (sin x − x)/x³ in x².
+const COSINE: [f64; 6] =
+    [-1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0, -1.0 / 3_628_800.0, 1.0 / 479_001_600.0];
+const SINE: [f64; 6] = [
+    -1.0 / 6.0,
+    1.0 / 120.0,
+    -1.0 / 5040.0,
+    1.0 / 362_880.0,
+    -1.0 / 39_916_800.0,
+    1.0 / 6_227_020_800.0,
+];
+
+#[inline(always)]
+fn series<S: Simd>(x: f64x8<S>, k: [f64; 6]) -> f64x8<S> {
+    let square = x * x;
+    ((x * k[1] + k[0]) + (x * k[3] + k[2]) * square) + (x * k[5] + k[4]) * (square * square)
+}
+
+/// Evaluates f, f' and f'' by the first eight terms.
+#[inline(always)]
+fn rough<S: Simd>(p: &[f64x8<S>; TERMS], s: f64x8<S>) -> [f64x8<S>; 3] {
+    let s2 = s * s;
+    let s4 = s2 * s2;
+    let f = ((p[0] + p[1] * s) + (p[2] + p[3] * s) * s2)
+        + ((p[4] + p[5] * s) + (p[6] + p[7] * s) * s2) * s4;
+    let f1 = ((p[1] + p[2] * 2.0 * s) + (p[3] * 3.0 + p[4] * 4.0 * s) * s2)
+        + ((p[5] * 5.0 + p[6] * 6.0 * s) + p[7] * 7.0 * s2) * s4;
+    let f2 =
+        ((p[2] * 2.0 + p[3] * 6.0 * s) + (p[4] * 12.0 + p[5] * 20.0 * s) * s2) + p[6] * 30.0 * s4;
+    [f, f1, f2]
+}
+
+/// Evaluates f and f' by all terms, the lowest last for the least rounding, and f'' by the first
+/// eight.
+#[inline(always)]
+fn full<S: Simd>(p: &[f64x8<S>; TERMS], s: f64x8<S>) -> [f64x8<S>; 3] {
+    let s2 = s * s;
+    let s4 = s2 * s2;
+    let high = (p[8] + p[9] * s) + (p[10] + p[11] * s) * s2;
+    let middle = ((p[4] + p[5] * s) + (p[6] + p[7] * s) * s2) + high * s4;
+    let f = p[0] + (p[1] * s + ((p[2] + p[3] * s) * s2 + middle * s4));
+    let high = (p[9] * 9.0 + p[10] * 10.0 * s) + p[11] * 11.0 * s2;
+    let middle = ((p[5] * 5.0 + p[6] * 6.0 * s) + (p[7] * 7.0 + p[8] * 8.0 * s) * s2) + high * s4;
+    let f1 = p[1] + (p[2] * 2.0 * s + ((p[3] * 3.0 + p[4] * 4.0 * s) * s2 + middle * s4));
+    let f2 = ((p[2] * 2.0 + p[3] * 6.0 * s) + (p[4] * 12.0 + p[5] * 20.0 * s) * s2)
+        + (p[6] * 30.0 + p[7] * 42.0 * s) * s4;
+    [f, f1, f2]
+}
+
+/// Halley's correction of a root.
+#[inline(always)]
+fn correction<S: Simd>(f: f64x8<S>, f1: f64x8<S>, f2: f64x8<S>) -> f64x8<S> {
+    (f * f1) / (f * f2 * 0.5 - f1 * f1)
+}
+
+// Each is compiled by itself, for its registers.

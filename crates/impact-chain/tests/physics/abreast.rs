@@ -1,0 +1,196 @@
+//! Compares chains that are simulated side by side with the engine.
+
+use crate::{drawn, first, given};
+use impact_chain::abreast::{Abreast, Realisation};
+use impact_chain::{Boundary, Chain, Counts, Engine, Overtone, Protocol, Scenario, Start, Watch};
+
+const END: f64 = 30.0;
+
+fn chains() -> Vec<Chain> {
+    let default = Chain::default();
+    let twenty = Chain { masses: 20, ..default.clone() };
+    let ring = Chain { boundary: Boundary::Ring, ..twenty.clone() };
+    vec![
+        Chain { masses: 1, ..default.clone() },
+        Chain { masses: 2, ..default.clone() },
+        Chain { masses: 3, ..ring.clone() },
+        Chain { masses: 4, ..ring.clone() },
+        Chain { masses: 6, ..ring.clone() },
+        Chain { start: Start::Random, ..ring },
+        Chain { start: Start::Zero, restitution: 0.3, ..twenty.clone() },
+        Chain { forcing_frequency: 1.6, restitution: 0.95, ..twenty.clone() },
+        Chain { forcing_frequency: 0.6, ..twenty.clone() },
+        Chain { forcing_frequency: 2.9, ..twenty.clone() },
+        Chain { spacing: 3.0, natural_frequency: 1.7, forcing_frequency: 2.3, ..twenty },
+        default,
+    ]
+}
+
+/// Forces of about the strength at which some of the gaps of a chain close.
+fn strength(chain: &Chain) -> f64 {
+    let [w, big_w] = [chain.natural_frequency, chain.forcing_frequency];
+    0.2 * chain.spacing * (w * w - big_w * big_w).abs()
+}
+
+fn scenarios(chain: &Chain, factor: f64) -> Vec<Scenario> {
+    (0..16).map(|i| drawn(chain, factor * strength(chain), "abreast", i)).collect()
+}
+
+/// Windows that follow one another: they tell impacts apart by time, and gaps by their number.
+fn windows(length: f64) -> Vec<Protocol> {
+    let number = (END / length) as u32;
+    let at = |i: u32| Protocol { transient: f64::from(i) * length, window: length };
+    (0..number).map(at).collect()
+}
+
+fn run(
+    chain: &Chain,
+    windows: &[Protocol],
+    until: f64,
+    all: &[Scenario],
+) -> Vec<Option<Realisation>> {
+    Abreast::new(chain, windows, until).unwrap().run(all, &|| false)
+}
+
+fn by_engine(chain: &Chain, windows: &[Protocol], scenario: &Scenario) -> Counts {
+    Watch::new(chain, windows).run(Engine::new(scenario), 0, END, &|| false).unwrap()
+}
+
+/// Before rounding parts them, all counts are those of the engine, whatever the chain.
+#[test]
+fn impacts_are_those_of_the_engine() {
+    let (mut impacts, mut handed_over) = (0, 0);
+    for chain in chains() {
+        let windows = windows(0.5 / chain.natural_frequency);
+        for factor in [0.6, 1.0, 1.6] {
+            let all = scenarios(&chain, factor);
+            for (place, (found, scenario)) in
+                run(&chain, &windows, END, &all).into_iter().zip(&all).enumerate()
+            {
+                let expected = by_engine(&chain, &windows, scenario);
+                let Some(mut found) = found else {
+                    handed_over += 1 - expected.rejected;
+                    continue;
+                };
+                impacts += expected.total.impacts;
+                let counts = found.counts();
+                assert_eq!(counts.distinct, expected.distinct, "{chain:?} {factor} {place}");
+                assert_eq!(counts.impacts, expected.impacts, "{chain:?} {factor} {place}");
+                assert_eq!(counts.masses, expected.masses, "{chain:?} {factor} {place}");
+                assert_eq!(counts.total, expected.total, "{chain:?} {factor} {place}");
+            }
+        }
+    }
+    assert!(impacts > 40_000 && handed_over < 5, "{impacts} {handed_over}");
+}
+
+/// Returns the widths of the gaps between walls for these free parts.
+fn gaps(scenario: &Scenario, free: &[[f64; 2]], time: f64) -> Vec<f64> {
+    let (w, big_w) = (scenario.natural_frequency, scenario.forcing_frequency);
+    let position = |(j, (free, forces)): (usize, (&[f64; 2], &[f64; 2]))| {
+        let part =
+            |[a, b]: [f64; 2], omega: f64| a * (omega * time).cos() + b * (omega * time).sin();
+        let forced = part(*forces, big_w) / (w * w - big_w * big_w);
+        (j + 1) as f64 * scenario.spacing + part(*free, w) + forced
+    };
+    let masses = free.iter().zip(&scenario.forcing).enumerate().map(position);
+    let end = (free.len() + 1) as f64 * scenario.spacing;
+    let bodies: Vec<f64> = std::iter::once(0.0).chain(masses).chain([end]).collect();
+    bodies.windows(2).map(|pair| pair[1] - pair[0]).collect()
+}
+
+/// At any time no gap is below zero, and the free parts are those of the engine.
+#[test]
+fn no_gap_is_below_zero() {
+    for chain in chains().into_iter().filter(|chain| chain.boundary == Boundary::Walls) {
+        let all = scenarios(&chain, 1.0);
+        for until in [0.1, 3.37, 9.0, 14.2] {
+            for (found, scenario) in run(&chain, &[], until, &all).into_iter().zip(&all) {
+                let Some(found) = found else { continue };
+                let mut engine = Engine::new(scenario).unwrap();
+                engine.run(until, |_| true).unwrap();
+                let free = found.free_parts(&chain);
+                let theirs = engine.free_parts();
+                for (ours, theirs) in free.iter().flatten().zip(theirs.iter().flatten()) {
+                    let error = (ours - theirs).abs() / chain.spacing;
+                    assert!(error < 1e-7, "{chain:?} {until}: {error:e}");
+                }
+                for gap in gaps(scenario, &free, until) {
+                    assert!(gap > -1e-11 * chain.spacing, "{chain:?} {until}: {gap:e}");
+                }
+            }
+        }
+    }
+}
+
+/// A mass without forces reaches the wall by little, or not: f'' is as large as its bound there,
+/// so a bound that is too small by half misses impacts in the middle of a step.
+#[test]
+fn dips_to_zero_are_seen() {
+    let chain = Chain { masses: 1, ..Chain::default() };
+    let windows = [Protocol { transient: 0.0, window: 6.0 }];
+    let (mut hits, mut handed_over) = (0, 0);
+    for decade in 1..=9 {
+        let depth = 0.1_f64.powi(decade);
+        for over in [depth, -depth] {
+            let all: Vec<Scenario> = (0..200)
+                .map(|i| {
+                    // The turn is in the middle of a step at every second of these phases.
+                    let phase = 0.0625 * f64::from(i % 2) + 0.125 * f64::from(i / 2) * 0.5;
+                    let radius = 1.0 + over;
+                    given(vec![[-radius * phase.cos(), -radius * phase.sin()]], vec![[0.0; 2]])
+                })
+                .filter(|scenario| Engine::new(scenario).is_ok())
+                .collect();
+            for (found, scenario) in run(&chain, &windows, 6.0, &all).into_iter().zip(&all) {
+                let hit = first(&mut Engine::new(scenario).unwrap(), 6.0).is_some();
+                let Some(mut found) = found else {
+                    handed_over += 1;
+                    assert!(decade >= 7, "{depth:e} {scenario:?}");
+                    continue;
+                };
+                let impacts = found.counts().total.impacts;
+                assert_eq!(impacts > 0, hit, "{depth:e} {over:e} {scenario:?}");
+                hits += impacts;
+            }
+        }
+    }
+    assert!(hits > 500 && handed_over > 50, "{hits} {handed_over}");
+}
+
+/// What the proofs do not cover is left to the engine.
+#[test]
+fn chains_that_are_handed_over() {
+    let chain = Chain { masses: 3, ..Chain::default() };
+    for other in [
+        Chain { restitution: 0.0, ..chain.clone() },
+        Chain { restitution: 1.0, ..chain.clone() },
+        Chain { boundary: Boundary::Ring, masses: 2, ..chain.clone() },
+        Chain { masses: 0, ..chain.clone() },
+        Chain { natural_frequency: 1e-4, ..chain.clone() },
+    ] {
+        assert!(Abreast::new(&other, &windows(1.0), END).is_none(), "{other:?}");
+    }
+    assert!(
+        Abreast::new(&chain, &windows(1.0), 1e9)
+            .is_some_and(|all| !all.run(&[], &|| true).len() > 0)
+    );
+    let set = |free: [[f64; 2]; 3]| given(free.to_vec(), vec![[0.0; 2]; 3]);
+    let moving = set([[0.0, 1.5], [0.0; 2], [0.0; 2]]);
+    // Both outer masses hit the inner one at once; one is slow at a wall; one goes too far.
+    let mirrored = set([[0.0, 1.5], [0.0; 2], [0.0, -1.5]]);
+    let slow = set([[0.0, -1.0 - 1e-10], [0.0; 2], [0.0; 2]]);
+    let overlapping = set([[-1.5, 0.0], [0.0; 2], [0.0; 2]]);
+    let far = set([[0.0, 70.0], [0.0; 2], [0.0; 2]]);
+    let overtone = Overtone { frequency: 3.0, amplitudes: vec![[0.0; 2]; 3] };
+    let overtones = Scenario { overtones: vec![overtone], ..moving.clone() };
+    let places = Scenario { places: Some(vec![0.0, 1.1, 2.0, 3.0, 4.0]), ..moving.clone() };
+    let longer = drawn(&Chain { masses: 4, ..chain.clone() }, 0.1, "longer", 0);
+    assert!(matches!(run(&chain, &windows(1.0), END, &[moving])[..], [Some(_)]));
+    for scenario in [mirrored, slow, overlapping, far, overtones, places, longer] {
+        let runs = run(&chain, &windows(1.0), END, std::slice::from_ref(&scenario));
+        assert!(matches!(runs[..], [None]), "{scenario:?}");
+    }
+    let stopped = Abreast::new(&chain, &windows(1.0), END).unwrap();
+    assert!(matches!(stopped.run(&[drawn(&chain, 0.3, "a", 0)], &|| true)[..], [None]));
+}
