@@ -33,18 +33,21 @@ fn impacts(bencher: Bencher, masses: usize) {
     bencher.counter(ItemsCount::new(count)).bench(|| run(divan::black_box(&scenario), until));
 }
 
-/// A realisation of the main sweep at each σ, first by the bare engine, then as ensembles run and
-/// count it.
-#[divan::bench(args = [(0.16, false), (0.16, true), (0.3, false), (0.3, true)])]
-fn counted(bencher: Bencher, (sigma, counts): (f64, bool)) {
+/// Sixteen realisations of the main sweep, first by the bare engine one by one, then side by side as
+/// ensembles run and count them.
+#[divan::bench(args = [(0.11, false), (0.11, true), (0.14, false), (0.14, true), (0.3, false), (0.3, true)])]
+fn counted(bencher: Bencher, (sigma, together): (f64, bool)) {
     let ensemble = Ensemble { stream: "sweep".into(), ..Ensemble::default() };
-    let realisation = || ensemble.realisation(sigma, 0, || false).expect("the chain is allowed");
-    let mut normals = NormalPairs::new("sweep", 2007, 0);
-    let scenario = Scenario::draw(&ensemble.chain, sigma, &mut normals);
-    let bencher = bencher.counter(ItemsCount::new(realisation().total.impacts));
-    if counts {
-        bencher.bench(realisation);
+    let counts = || ensemble.at(sigma).count(0..16, &|| false).expect("the chain is allowed");
+    let scenarios: Vec<Scenario> = (0..16)
+        .map(|i| Scenario::draw(&ensemble.chain, sigma, &mut NormalPairs::new("sweep", 2007, i)))
+        .collect();
+    let impacts: u64 = counts().iter().map(|counts| counts.total.impacts).sum();
+    let bencher = bencher.counter(ItemsCount::new(impacts));
+    if together {
+        bencher.bench(counts);
     } else {
-        bencher.bench(|| run(divan::black_box(&scenario), ensemble.until(sigma)));
+        let until = ensemble.until(sigma);
+        bencher.bench(|| scenarios.iter().map(|scenario| run(scenario, until)).sum::<u64>());
     }
 }

@@ -41,6 +41,8 @@ pub struct RunTotals {
     pub realisations: usize,
     pub rejected: usize,
     pub failed: usize,
+    /// Realisations that were not simulated side by side.
+    pub by_engine: usize,
     pub total: Total,
 }
 
@@ -114,6 +116,7 @@ fn join(
             realisations: one.realisations_at(sigma),
             rejected: counts.rejected,
             failed: counts.failed,
+            by_engine: counts.by_engine,
             total: counts.total.clone(),
         };
         let runs: Vec<RunTotals> = one.sigmas.iter().zip(&counts).map(totals).collect();

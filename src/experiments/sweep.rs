@@ -43,6 +43,7 @@ fn run(sweep: &Counted, total: &Total) -> Table {
     let (protocol, beyond) = (sweep.first().protocol, sweep.ensemble.beyond);
     let few = beyond.and_then(|beyond| beyond.realisations);
     let failed = sweep.runs.iter().map(|runs| runs.failed as u64).sum();
+    let by_engine = sweep.runs.iter().map(|runs| runs.by_engine as u64).sum();
     Table::of("sweep.run", &[&sweep.ensemble], |ensemble| ensemble.realisations)
         .count("gaps", "gaps of a chain", |ensemble| ensemble.chain.gaps() as u64)
         .chosen("transient", TIME, "", |_| Some(protocol.transient))
@@ -55,6 +56,7 @@ fn run(sweep: &Counted, total: &Total) -> Table {
         .chosen("confidence", "1", "of all intervals", |_| Some(LEVEL))
         .count("impacts", "impacts simulated, transients included", |_| total.impacts)
         .count("failed", "realisations that the engine ended early", |_| failed)
+        .count("by_engine", "realisations simulated by themselves", |_| by_engine)
         .done()
 }
 

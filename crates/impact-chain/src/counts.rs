@@ -51,6 +51,8 @@ pub struct Counts {
     pub rejected: usize,
     /// Realisations that the engine ended early.
     pub failed: usize,
+    /// Realisations that were simulated by the engine, one by one.
+    pub by_engine: usize,
     pub total: Total,
 }
 
@@ -102,6 +104,7 @@ impl FromIterator<Counts> for Counts {
             extend(&mut whole.masses, one.masses);
             whole.rejected += one.rejected;
             whole.failed += one.failed;
+            whole.by_engine += one.by_engine;
             whole.total.add(&one.total);
         }
         whole
@@ -250,6 +253,7 @@ impl Watch {
             distinct: vec![vec![None]; windows],
             impacts: vec![vec![0]; windows],
             masses: vec![vec![0]; windows],
+            by_engine: 1,
             ..Counts::default()
         }
     }

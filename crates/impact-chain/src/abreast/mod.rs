@@ -209,7 +209,7 @@ impl Abreast {
 impl Realisation {
     /// Returns its counts in the windows, and those of the whole run.
     pub fn counts(&mut self) -> Counts {
-        self.0.watch.complete()
+        Counts { by_engine: 0, ..self.0.watch.complete() }
     }
 
     /// Returns which gaps had an impact in one of the windows, or `None` for another window.
