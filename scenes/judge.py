@@ -12,9 +12,11 @@ between them, flushed. It is ended as soon as its impacts decide the outcome. It
 
     refused WORDS   at the beginning: it does not support the case
     warned WORDS    it could not decide an impact
+    gave_up WORDS   it passed a bound on work of its own
 
-An exit code other than 0 is a warning, too, unless its impacts have decided. Messages belong on standard error. The README has the
-equation of motion, the rules by which a result is judged, and a whole program as an example.
+An exit code other than 0 is a warning, too, unless its impacts have decided. Messages belong on
+standard error. The README has the equation of motion, the rules by which a result is judged, and a
+whole program as an example.
 """
 
 import argparse
@@ -161,12 +163,12 @@ def run(command, case, limit=None):
             except BrokenPipeError:
                 pass  # it does not want to know
             for line in child.stdout:
-                if line.split()[:1] in (["refused"], ["warned"]):
-                    doubt = doubt or line.strip()
+                if line.split()[:1] in (["refused"], ["warned"], ["gave_up"]):
+                    doubt = line.strip() if line.startswith("gave_up") else doubt or line.strip()
                 elif line.strip():
                     hit = impact(case, line)
                     seen += [hit] if counts(case, *hit) else []
-                ended = len(seen) >= most or doubt.startswith("refused")
+                ended = len(seen) >= most or doubt.startswith(("refused", "gave_up"))
                 if ended:
                     break
         finally:
@@ -182,21 +184,21 @@ def run(command, case, limit=None):
     if not ended and child.returncode:  # what it would have found is not known
         found = "gave_up" if limit and seconds >= limit else "warned"
         doubt = doubt or f"warned exit code {child.returncode}: {(words or ['no message'])[-1]}"
-    elif doubt and found != "right":
+    elif doubt and (found != "right" or not doubt.startswith("warned")):
         found = doubt.split()[0]
-    message = doubt if found in ("warned", "refused") else ""
+    message = "" if found == "right" else doubt
     return {"outcome": found, "seconds": round(seconds, 3), "message": message[:200]}
 
 
 def run_all(command, scenes, limit=None):
     """Runs a command on scenes: for each case its id, and what `run` returns. After a case that passes
-    the limit, the others of its scene, which are no easier, are not run, and give up as well."""
+    the limit, the others of its scene are not run, and give up as well."""
     for scene in scenes:
         over = False
         for case in scene["cases"]:
             skipped = {"outcome": "gave_up", "seconds": 0.0, "message": "not run after another that gave up"}
             found = skipped if over else run(command, case, limit)
-            over = over or found["outcome"] == "gave_up"
+            over = over or bool(limit and found["seconds"] >= limit)
             yield {"id": case["id"]} | found
 
 

@@ -110,7 +110,9 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
         .count("warned", "cases that were refused or had a message", |(.., run)| {
             among(run, &[Outcome::Refused, Outcome::Warned])
         })
-        .count("late", "cases that ran out of time", |(.., run)| among(run, &[Outcome::GaveUp]))
+        .count("late", "cases in which it passed a bound on work or time", |(.., run)| {
+            among(run, &[Outcome::GaveUp])
+        })
         .real("seconds", "s", 2, "processor time of all cases", |(.., run)| {
             (!run.seconds.is_empty()).then(|| run.seconds.values().flatten().sum::<f64>())
         })

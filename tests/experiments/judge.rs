@@ -127,6 +127,7 @@ fn programs_are_run_and_judged() {
     };
     assert_eq!(outcomes(code), ["right", "missed", "right"]);
     assert_eq!(outcomes("print('refused all')\nwhile True: pass"), ["refused"; 3]);
+    assert_eq!(outcomes("print('gave_up at once')"), ["gave_up"; 3]);
     assert_eq!(outcomes("print('warned')\nprint(0, 0, 1)"), ["warned"; 3]);
     assert_eq!(outcomes("print(0, 0, 1)\nraise SystemExit('no')"), ["late", "late", "warned"]);
     assert_eq!(outcomes("while True: print(0, 0, 1, flush=True)"), ["late", "late", "ghost"]);

@@ -19,6 +19,10 @@ class Refused(Exception):
     """The program says beforehand that it does not support the case."""
 
 
+class GaveUp(Exception):
+    """The run has passed a bound on work."""
+
+
 class Warned(Exception):
     """The program reports an error in the run."""
 
@@ -101,6 +105,8 @@ def main(program):
         program.simulate(Case(json.load(sys.stdin)), settings[sys.argv[1]], hit)
     except Refused as why:
         say("refused", why)
+    except GaveUp as why:
+        say("gave_up", why)
     except Warned as why:
         say("warned", why)
         sys.exit(1)
