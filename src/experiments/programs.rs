@@ -47,12 +47,6 @@ impl Run {
         &self.outcomes[&scene.id]
     }
 
-    /// Returns the sum over scenes of the share of their cases that is right.
-    fn by_scene(&self) -> f64 {
-        let share = |trial: &Trial| right(trial) as f64 / trial.len() as f64;
-        self.outcomes.values().map(share).sum()
-    }
-
     /// Returns the smallest difficulty of a scene down to which all cases are right, if any is.
     fn hardest(&self, scene: &str) -> Option<f64> {
         let scene = scenes().into_iter().find(|of| of.id == scene)?;
@@ -84,6 +78,7 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
         .flat_map(|of| of.settings.iter().enumerate().map(move |(i, run)| (of, i + 1, run)))
         .collect();
     let total = |of: fn(&Trial) -> usize, run: &Run| run.outcomes.values().map(of).sum::<usize>();
+    let share = |trial: &Trial| right(trial) as f64 / trial.len() as f64;
     let among = |run: &Run, these: &[Outcome]| {
         run.outcomes.values().flatten().filter(|outcome| these.contains(outcome)).count() as u64
     };
@@ -99,7 +94,7 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
         .count("right", "cases with the expected outcome", |(.., run)| total(right, run) as u64)
         .count("scenes", "all scenes", |(.., run)| run.outcomes.len() as u64)
         .real("by_scene", "1", 3, "shares of scenes that are right, added up", |(.., run)| {
-            run.by_scene()
+            run.outcomes.values().map(share).sum::<f64>()
         })
         .real("graze", "1", 1, "smallest depth down to which all grazes are seen", |(.., run)| {
             run.hardest("grazing-hits")
