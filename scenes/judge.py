@@ -182,8 +182,9 @@ def run(command, case, limit=None):
     seconds = usage.ru_utime + usage.ru_stime
     found = judge(case, seen)
     if not ended and child.returncode:  # what it would have found is not known
-        found = "gave_up" if limit and seconds >= limit else "warned"
-        doubt = doubt or f"warned exit code {child.returncode}: {(words or ['no message'])[-1]}"
+        late = limit and (child.returncode == -signal.SIGXCPU or seconds > 0.95 * limit)
+        found = "gave_up" if late else "warned"
+        doubt = doubt or f"{found} exit code {child.returncode}: {(words or ['no message'])[-1]}"
     elif doubt and (found != "right" or not doubt.startswith("warned")):
         found = doubt.split()[0]
     message = "" if found == "right" else doubt
@@ -198,7 +199,7 @@ def run_all(command, scenes, limit=None):
         for case in scene["cases"]:
             skipped = {"outcome": "gave_up", "seconds": 0.0, "message": "not run after another that gave up"}
             found = skipped if over else run(command, case, limit)
-            over = over or bool(limit and found["seconds"] >= limit)
+            over = over or bool(limit and found["outcome"] == "gave_up" and found["seconds"] > 0.95 * limit)
             yield {"id": case["id"]} | found
 
 

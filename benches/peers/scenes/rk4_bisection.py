@@ -7,8 +7,8 @@ import common
 import located
 import numpy as np
 
-NAME, VERSION = "RK4, NumPy", np.__version__
-SETTINGS = [("bisection, h=0.01", 0.0), ("bisection, h=0.01, stop=1e-12", 1e-12)]
+NAME, VERSION = "RK4", f"in NumPy {np.__version__}"
+SETTINGS = [("bisection, h=0.01, stop=1e-12", 1e-12)]
 STEP = 0.01
 
 
