@@ -37,11 +37,23 @@ pub struct Run {
     pub settings: String,
     /// For each scene the outcomes of its cases.
     pub outcomes: BTreeMap<String, Trial>,
+    /// And the processor time that each took, in seconds, that of starting the program included.
+    #[serde(default)]
+    pub seconds: BTreeMap<String, Vec<f64>>,
 }
 
 impl Run {
     pub fn trial(&self, scene: &Scene) -> &Trial {
         &self.outcomes[&scene.id]
+    }
+
+    /// Returns the smallest difficulty of a scene down to which all cases are right, if any is.
+    fn hardest(&self, scene: &str) -> Option<f64> {
+        let scene = scenes().into_iter().find(|of| of.id == scene)?;
+        let mut cases: Vec<_> = scene.cases.iter().zip(self.trial(&scene)).collect();
+        cases.sort_by(|a, b| b.0.difficulty.total_cmp(&a.0.difficulty));
+        let solved = cases.iter().take_while(|(_, outcome)| **outcome == Outcome::Right);
+        solved.last().map(|(case, _)| case.difficulty)
     }
 }
 
@@ -66,6 +78,7 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
         .flat_map(|of| of.settings.iter().enumerate().map(move |(i, run)| (of, i + 1, run)))
         .collect();
     let total = |of: fn(&Trial) -> usize, run: &Run| run.outcomes.values().map(of).sum::<usize>();
+    let share = |trial: &Trial| right(trial) as f64 / trial.len() as f64;
     let among = |run: &Run, these: &[Outcome]| {
         run.outcomes.values().flatten().filter(|outcome| these.contains(outcome)).count() as u64
     };
@@ -79,10 +92,25 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
         .computed_by(origin(complete))
         .count("cases", "cases of all scenes", |(.., run)| total(Trial::len, run) as u64)
         .count("right", "cases with the expected outcome", |(.., run)| total(right, run) as u64)
+        .count("scenes", "all scenes", |(.., run)| run.outcomes.len() as u64)
+        .real("by_scene", "1", 3, "shares of scenes that are right, added up", |(.., run)| {
+            run.outcomes.values().map(share).sum::<f64>()
+        })
+        .real("graze", "1", 1, "smallest depth down to which all grazes are seen", |(.., run)| {
+            run.hardest("grazing-hits")
+        })
+        .real("recontact", "1", 1, "the same of gaps that reopen slowly", |(.., run)| {
+            run.hardest("recontact")
+        })
         .count("warned", "cases that were refused or had a message", |(.., run)| {
             among(run, &[Outcome::Refused, Outcome::Warned])
         })
-        .count("late", "cases that ran out of time", |(.., run)| among(run, &[Outcome::GaveUp]))
+        .count("late", "cases in which it passed a bound on work or time", |(.., run)| {
+            among(run, &[Outcome::GaveUp])
+        })
+        .real("seconds", "s", 2, "processor time of all cases", |(.., run)| {
+            (!run.seconds.is_empty()).then(|| run.seconds.values().flatten().sum::<f64>())
+        })
         .measured();
     let scenes = scenes();
     let all_right = |of: &Scene| {

@@ -2,6 +2,7 @@
 //! numbers of the theory.
 
 mod ensembles;
+mod judge;
 #[path = "../../crates/impact-chain/tests/physics/reference/mod.rs"]
 mod reference;
 mod scenes;

@@ -47,11 +47,6 @@ def integrator(n, frequencies):
     return hy.taylor_adaptive(equations, [0.0] * (2 * n), t_events=events, tol=EPS)
 
 
-def prepare(case):
-    """Compiles, outside the bound on work."""
-    integrator(case.n, len(case.frequencies))
-
-
 def simulate(case, stop, hit):
     n = case.n
     chain = integrator(n, len(case.frequencies))

@@ -5,9 +5,13 @@ shut and slower than that stay shut: masses in contact move with their mean acce
 force between them would pull. An impact that is slower is reported, and its gap then stays shut.
 """
 
+from collections import deque
+
+import common
 import numpy as np
 
 SHUT = 1e-12  # a gap as narrow as this is shut
+MOST, WINDOW = 2000, 1e-6  # a run with more impacts within so short a time gives up
 
 
 class Contact:
@@ -82,8 +86,16 @@ def simulate(case, stop, advance, hit, width=0.0):
     of an open gap, or the force that presses on a shut one, falls below zero. It returns the time,
     positions, velocities, and the gap of the event, or none at the end. Before it starts again, gaps
     are `width` wide at least."""
+    recent = deque(maxlen=MOST)
+
+    def bounded(time, gap, speed):
+        hit(time, gap, speed)
+        recent.append(time)
+        if len(recent) == MOST and time - recent[0] < WINDOW:
+            raise common.GaveUp(f"after {MOST} impacts within {WINDOW:g}")
+
     t, x, v = case.time, case.x.copy(), case.v.copy()
-    contact = settle(case, t, x, v, stop, hit)
+    contact = settle(case, t, x, v, stop, bounded)
     while t < case.until:
         open_gaps(case, x, width)
         t, x, v, gap = advance(t, x, v, contact)
@@ -102,5 +114,5 @@ def simulate(case, stop, advance, hit, width=0.0):
                 x[gap - 1 : gap + 1] = middle
             closing = -case.opening(v)[gap]
             if 0.0 < closing <= stop:
-                hit(t, gap, closing)
-            contact = settle(case, t, x, v, stop, hit)
+                bounded(t, gap, closing)
+            contact = settle(case, t, x, v, stop, bounded)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs programs that people use on the scenes of scenes/scenes.json, and writes benches/scenes.json.
+"""Runs programs that people use on the scenes of scenes/, by scenes/judge.py, and writes benches/scenes.json.
 
 What pip brings is installed below target/peers. Siconos and SUNDIALS must be installed with the
 system (Debian: python3-siconos, libsundials-dev). A program that cannot be run stands in the file
@@ -14,23 +14,26 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent))
+sys.path[:0] = [str(HERE.parent), str(HERE.parents[2] / "scenes")]
+import judge  # noqa: E402
 import measure  # noqa: E402  (the neighbour, for the machine and the environment)
 
 FILE = measure.TOP / "benches" / "scenes.json"
+LIMIT = 60  # seconds of processor time for a case
 # Scripts, and what pip must install; none for those that run with the system's Python.
 PROGRAMS = {
+    "rk4_bisection": ["numpy==2.4.6"],
     "scipy_ivp": ["scipy==1.17.1"],
     "sundials_erkstep": None,
-    "heyoka_taylor": ["heyoka==7.13.2", "numpy"],
+    "heyoka_taylor": ["heyoka==7.13.2", "numpy==2.4.6"],
     "siconos_chain": None,
     "mujoco_steps": ["mujoco==4.0.0"],
-    "pymunk_steps": ["pymunk==7.3.1", "numpy"],
+    "pymunk_steps": ["pymunk==7.3.1", "numpy==2.4.6"],
 }
 
 
 def settings_of(script):
-    """What a program gives for each of its settings: its outcomes by scene, in the order of cases."""
+    """What a program gives for each of its settings: outcomes and times by scene, in the order of cases."""
     python = "/usr/bin/python3"
     if PROGRAMS[script]:
         environment = measure.WORK / "venv"
@@ -39,15 +42,20 @@ def settings_of(script):
             subprocess.run([sys.executable, "-m", "venv", environment], check=True)
         install = [python, "-m", "pip", "install", "--quiet", "--only-binary", ":all:"]
         subprocess.run([*install, *PROGRAMS[script]], check=True)
-    run = subprocess.run([python, HERE / f"{script}.py"], capture_output=True, text=True)
+    command = [python, str(HERE / f"{script}.py")]
+    run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode:
         raise OSError((run.stderr.strip().splitlines() or ["no message"])[-1][:200])
-    found = {}
-    for row in map(json.loads, run.stdout.splitlines()):
-        key = row["name"], row["version"], row["settings"]
-        found.setdefault(key, {}).setdefault(row["scene"], []).append(row["outcome"])
-    names = ["name", "version", "settings", "outcomes"]
-    return [dict(zip(names, [*key, outcomes], strict=True)) for key, outcomes in found.items()]
+    program = json.loads(run.stdout)
+    for words in program["settings"]:
+        measure.say(f"  {words}")
+        outcomes, seconds = {}, {}
+        for one in judge.run_all([*command, words], judge.load(), LIMIT):
+            scene = one["id"].split("/")[0]
+            outcomes.setdefault(scene, []).append(one["outcome"])
+            seconds.setdefault(scene, []).append(round(one["seconds"], 2))
+        yield {"name": program["name"], "version": program["version"], "settings": words,
+               "outcomes": outcomes, "seconds": seconds}  # fmt: skip
 
 
 def main():
@@ -63,18 +71,18 @@ def main():
         measure.say(script)
         here = {"script": script, "date": measure.today(), "machine": measure.machine()}
         try:
-            scripts[script] = here | {"absent": "", "settings": settings_of(script)}
-        except (OSError, subprocess.CalledProcessError) as reason:
+            scripts[script] = here | {"absent": "", "settings": list(settings_of(script))}
+        except (OSError, subprocess.CalledProcessError, judge.Wrong) as reason:
             scripts[script] = here | {"absent": str(reason), "settings": []}
             measure.say(f"  absent: {reason}")
         FILE.write_text(text_of([scripts[script] for script in PROGRAMS if script in scripts]))
 
 
 def text_of(scripts):
-    """JSON with a line for the outcomes of each scene: differences of two files can be read."""
+    """JSON with a line for the cases of each scene: differences of two files can be read."""
     text = json.dumps(scripts, indent=1, ensure_ascii=False)
-    words = r'\[\s*"[a-z_]+"(?:,\s*"[a-z_]+")*\s*\]'
-    return re.sub(words, lambda found: json.dumps(json.loads(found[0])), text) + "\n"
+    lists = r'\[\s*(?:"[a-z_]+"|[0-9.]+)(?:,\s*(?:"[a-z_]+"|[0-9.]+))*\s*\]'
+    return re.sub(lists, lambda found: json.dumps(json.loads(found[0])), text) + "\n"
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@ Its contacts are unilateral constraints with Newton's impact law, so rest needs 
 import os
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import common
@@ -42,7 +41,9 @@ void drive(double t, unsigned n, double *f, unsigned size, double *z)
 
 def plugin():
     """Compiles the drive where Siconos looks for it: the current folder."""
-    os.chdir(tempfile.mkdtemp())
+    folder = Path(__file__).resolve().parents[3] / "target" / "peers" / "siconos"
+    folder.mkdir(parents=True, exist_ok=True)
+    os.chdir(folder)
     Path("ChainPlugin.c").write_text(PLUGIN)
     command = ["cc", "-O2", "-shared", "-fPIC", "-o", "ChainPlugin.so", "ChainPlugin.c", "-lm"]
     subprocess.run(command, check=True, stdout=sys.stderr)

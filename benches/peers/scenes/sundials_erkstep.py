@@ -12,9 +12,9 @@ import numpy as np
 
 TOL = 1e-12
 SETTINGS = [
-    ("ERKStep, order 8, tol=1e-12", (0.0, False)),
-    ("ERKStep, order 8, tol=1e-12, stop=1e-12", (1e-12, False)),
-    ("ERKStep, order 8, tol=1e-12, stop=1e-12, rates", (1e-12, True)),
+    ("order 8, tol=1e-12", (0.0, False)),
+    ("order 8, tol=1e-12, stop=1e-12", (1e-12, False)),
+    ("order 8, tol=1e-12, stop=1e-12, rates", (1e-12, True)),
 ]
 NUMBERS = ctypes.POINTER(ctypes.c_double)
 INTS = ctypes.POINTER(ctypes.c_int)
@@ -42,7 +42,7 @@ def version():
     return text.value.decode()
 
 
-NAME = "SUNDIALS"
+NAME = "ERKStep"
 DOUBT = "root functions identically 0"
 LIBRARY = library()
 VERSION = version()

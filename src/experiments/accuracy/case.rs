@@ -18,6 +18,8 @@ pub struct Scene {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
+    /// Unique in the file, and never given to another case.
+    pub id: String,
     pub difficulty: f64,
     /// The chain and its forcing, as [`Scenario::parse_json`] reads them.
     pub scenario: Json,
@@ -134,7 +136,8 @@ impl Case {
     }
 
     pub fn judge(&self, impacts: &[Impact]) -> Outcome {
-        let counted = impacts.iter().copied().filter(|impact| self.expected.counts(impact));
+        let counts = |impact: &Impact| impact.time <= self.until && self.expected.counts(impact);
+        let counted = impacts.iter().copied().filter(counts);
         let seen: Vec<Impact> = counted.take(self.expected.enough()).collect();
         match &self.expected {
             Expected::Impacts { impacts, within, .. } => in_order(impacts, *within, &seen),
@@ -154,12 +157,12 @@ impl Expected {
     fn counts(&self, impact: &Impact) -> bool {
         match self {
             Expected::Impacts { faster, among, .. } => {
-                impact.closing_speed >= *faster && (among.is_empty() || among.contains(&impact.gap))
+                impact.closing_speed > *faster && (among.is_empty() || among.contains(&impact.gap))
             }
             Expected::Rest { since, slower } => {
                 impact.time >= *since && impact.closing_speed > *slower
             }
-            Expected::Speed { .. } | Expected::Law => true,
+            Expected::Speed { .. } | Expected::Law => impact.closing_speed > 0.0,
         }
     }
 

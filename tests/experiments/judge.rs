@@ -1,0 +1,116 @@
+//! Runs `scenes/judge.py`, which shares its rules with [`Case::judge`] and no code: both judge the
+//! same impacts, and the program that its README shows is run.
+
+use impact_chain::Impact;
+use impact_paper::experiments::accuracy::case::{Case, Expected, Outcome, scenes};
+use serde_json::{Value, json};
+use std::{collections::BTreeSet, fs, process::Command};
+
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
+
+/// Judges what a file has, a line for each case with its impacts.
+const JUDGE: &str = "
+import json, sys
+sys.path.insert(0, sys.argv[1])
+import judge
+cases = {case['id']: case for scene in judge.load() for case in scene['cases']}
+for line in open(sys.argv[2]):
+    case, impacts = json.loads(line)
+    print(judge.judge(cases[case], impacts))
+";
+
+/// Standard output of Python.
+fn python(arguments: &[&str]) -> String {
+    let run = Command::new("python3").arg("-B").args(arguments).output();
+    let run = run.expect("this test needs python3, 3.9 or later: install it");
+    assert!(run.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&run.stderr));
+    String::from_utf8(run.stdout).unwrap()
+}
+
+/// Impacts that are as expected, or nearly.
+fn expected(case: &Case) -> Vec<Impact> {
+    let hit = |time, gap, closing_speed| Impact { time, gap, closing_speed };
+    match &case.expected {
+        Expected::Impacts { impacts, faster, .. } => {
+            impacts.iter().map(|&(time, gap)| hit(time, gap, faster + 0.5)).collect()
+        }
+        Expected::Speed { impacts, speed, .. } => {
+            (0..*impacts).map(|i| hit(1e-3 * i as f64, i % 2, *speed)).collect()
+        }
+        Expected::Rest { since, slower } => vec![hit(*since, 0, slower * 0.5)],
+        Expected::Law => vec![hit(1.0, 0, 0.3), hit(1.0, 3, 0.2)],
+    }
+}
+
+/// The same with a mistake of each kind, and with what is none.
+fn variants(case: &Case) -> Vec<Vec<Impact>> {
+    let (right, last) = (expected(case), case.start.positions.len());
+    let changed = |change: &dyn Fn(&mut Impact)| {
+        let mut impacts = right.clone();
+        impacts.iter_mut().for_each(change);
+        impacts
+    };
+    let more = |at: usize, time| {
+        let mut impacts = right.clone();
+        impacts.insert(at, Impact { time, gap: 0, closing_speed: 1.0 });
+        impacts
+    };
+    let mut all = vec![right.clone(), right.iter().skip(1).copied().collect(), Vec::new()];
+    all.push(right.iter().rev().copied().collect());
+    all.push(more(0, case.start.time));
+    all.extend([0.0, 1.0].map(|after| more(right.len(), case.until + after)));
+    all.extend([1, last].map(|by| changed(&|hit| hit.gap = (hit.gap + by) % (last + 1))));
+    let times = [-1e-1, -1e-3, -1e-5, -1e-10, 1e-10, 1e-5, 1e-3, 1e-1];
+    all.extend(times.map(|by| changed(&|hit| hit.time += by)));
+    let speeds = [0.0, 0.5, 0.97, 1.03, 2.0, 10.0];
+    all.extend(speeds.map(|by| changed(&|hit| hit.closing_speed *= by)));
+    all
+}
+
+#[test]
+fn both_judges_agree() {
+    let (mut lines, mut ours) = (String::new(), Vec::new());
+    for case in scenes().into_iter().flat_map(|scene| scene.cases) {
+        for impacts in variants(&case) {
+            let rows = impacts.iter().map(|hit| json!([hit.time, hit.gap, hit.closing_speed]));
+            lines += &format!("{}\n", json!([case.id, rows.collect::<Vec<_>>()]));
+            ours.push(case.judge(&impacts));
+        }
+    }
+    let file = tempfile::NamedTempFile::new().unwrap();
+    fs::write(&file, &lines).unwrap();
+    let theirs = python(&["-c", JUDGE, FOLDER, file.path().to_str().unwrap()]);
+    assert_eq!(theirs.lines().count(), ours.len());
+    for ((line, theirs), ours) in lines.lines().zip(theirs.lines()).zip(&ours) {
+        assert_eq!(json!(theirs), json!(ours), "{line:.500}");
+    }
+    use Outcome::*;
+    let kinds = BTreeSet::from_iter(ours);
+    assert_eq!(Vec::from_iter(kinds), [Right, Missed, Ghost, Late, WrongSpeed, WrongRest]);
+}
+
+#[test]
+fn programs_are_run_and_judged() {
+    let readme = include_str!("../../scenes/README.md");
+    let shown = readme.split("```python\n").nth(1).unwrap().split("```").next().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let paths = ["program.py", "result.json"].map(|name| folder.path().join(name));
+    let [program, result] = paths.each_ref().map(|path| path.to_str().unwrap());
+    let outcomes = |code: &str| {
+        fs::write(program, code).unwrap();
+        let mut arguments = vec![concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/judge.py")];
+        for case in ["grazing-hits/1e-2", "grazing-hits/1e-8", "mirror/six"] {
+            arguments.extend(["--case", case]);
+        }
+        arguments.extend(["--out", result, "--", "python3", "-B", program]);
+        assert!(python(&arguments).contains(" of 3 right"));
+        let read: Value = serde_json::from_slice(&fs::read(result).unwrap()).unwrap();
+        [0, 1, 2].map(|case| read["cases"][case]["outcome"].as_str().unwrap().to_string())
+    };
+    assert_eq!(outcomes(shown), ["right", "missed", "right"]);
+    assert_eq!(outcomes("print('refused all')\nwhile True: pass"), ["refused"; 3]);
+    assert_eq!(outcomes("print('gave_up at once')"), ["gave_up"; 3]);
+    assert_eq!(outcomes("print('warned')\nprint(0, 0, 1)"), ["warned"; 3]);
+    assert_eq!(outcomes("print(0, 0, 1)\nraise SystemExit('no')"), ["late", "late", "warned"]);
+    assert_eq!(outcomes("while True: print(0, 0, 1, flush=True)"), ["late", "late", "ghost"]);
+}
