@@ -74,6 +74,18 @@ fn the_true_motion_has_digits_beyond_doubles() {
     }
 }
 
+/// d, a free and a forced part of 5 and 10, the latter over ω² − Ω² = −1, and both masses' twice.
+#[test]
+fn the_scale_of_the_true_motion_by_hand() {
+    let free = vec![[3.0, 4.0], [-3.0, -4.0]];
+    let two = crate::given(free, vec![[6.0, 8.0], [-6.0, -8.0]]);
+    let two = Scenario { spacing: 7.0, ..two };
+    let motion = TrueMotion::of(&two, &State::of(&two));
+    for (gap, scale) in [(0, 22.0), (1, 37.0), (2, 22.0)] {
+        assert!((motion.scale(gap) - scale).abs() < 1e-12, "{gap}: {}", motion.scale(gap));
+    }
+}
+
 /// A chain whose components share the mean square displacement that σ = `sigma` gives.
 pub fn several(chain: &Chain, sigma: f64, frequencies: &[f64], index: u64) -> Scenario {
     let mut normals = NormalPairs::new("components", 1, index);
