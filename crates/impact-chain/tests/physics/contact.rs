@@ -3,8 +3,8 @@
 //! known. Then neighbouring gaps that close at the same instant: masses in one point, or mirror
 //! images.
 
-use crate::{drawn, given, in_units, run};
-use impact_chain::{Chain, Engine, Impact, Initial, Scenario};
+use crate::{drawn, given, run};
+use impact_chain::{Chain, Engine, Impact, Initial, Scenario, State};
 
 fn scene(masses: &[(f64, f64)], forces: &[f64], restitution: f64) -> Scenario {
     let free = masses
@@ -192,25 +192,22 @@ fn a_released_gap_is_not_shut_by_rounding() {
     }
 }
 
-/// Runs that collapse and clusters that a force releases have the same contacts in other units.
+/// A load p presses a mass to the wall with p (1 − cos Ωt + q sin Ωt): from zero up by its slope, or
+/// by its curvature alone if q is rounding, until tan(Ωt/2) = −q again.
 #[test]
-fn contacts_depend_on_no_unit() {
-    let pressed = |r| scene(&[(2.0, 0.0), (2.0, 0.0), (2.5, -0.1)], &[9.0, -1.0, -8.0], r);
-    let wall = scene(&[(0.0, 0.0); 2], &[3.0, -7.0], 0.8);
-    for (plain, units) in [pressed(0.3), pressed(0.0), wall]
-        .iter()
-        .flat_map(|one| [[8192.0, 1.0], [1.0, 512.0], [1.0, 1.0 / 256.0]].map(|units| (one, units)))
-    {
-        let mut engines = [plain, &in_units(plain, units)].map(|one| Engine::new(one).unwrap());
-        for t in (1..=40).map(|i| 0.1 * f64::from(i)) {
-            let [ours, other] = engines.each_mut();
-            let seen = [(ours, t), (other, t * units[1])].map(|(engine, t)| {
-                let (hits, gaps) = (run(engine, t), engine.contacts(t).unwrap());
-                let held: Vec<usize> = gaps.iter().map(|contact| contact.0).collect();
-                (hits.len(), held, engine.counters().contact_phases)
-            });
-            assert!(seen[0] == seen[1] && seen[0].2 > 0, "{units:?}, {t}: {seen:?}");
-        }
+fn a_force_that_grows_from_zero_holds() {
+    for (i, q) in (1..40).flat_map(|i| [1e-15, -1e-15, 0.1, 10.0].map(|q: f64| (i, q))) {
+        let (load, big_w) = (0.37 * f64::from(i), 8.1);
+        let plain = given(vec![[0.0; 2]], vec![[load, -q * load]]);
+        let places = Some(vec![0.0, -load, 1e3]);
+        let plain = Scenario { forcing_frequency: big_w, places, ..plain };
+        let rest = State { time: 0.0, positions: vec![0.0], velocities: vec![0.0] };
+        let mut engine = Engine::new(&rest.as_scenario(&plain).unwrap()).unwrap();
+        let end = (std::f64::consts::TAU - 2.0 * q.max(1e-3).atan()) / big_w;
+        assert_eq!(held(&mut engine, 0.999 * end), [0], "{load}, {q}");
+        let counters = engine.counters();
+        assert!(counters.contact_phases == 1 && counters.searches < 20, "{load}: {counters:?}");
+        assert_eq!(held(&mut engine, 1.001 * end).len(), usize::from(q < 0.1), "{load}, {q}");
     }
 }
 

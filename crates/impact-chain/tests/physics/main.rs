@@ -23,24 +23,6 @@ fn given(free: Vec<[f64; 2]>, forcing: Vec<[f64; 2]>) -> Scenario {
     Scenario { initial, forcing, ..drawn(&Chain::default(), 0.0, "given", 0) }
 }
 
-/// The same in units of length and time that are smaller by these factors.
-fn in_units(scenario: &Scenario, [length, time]: [f64; 2]) -> Scenario {
-    let scaled = |pairs: &[[f64; 2]], factor: f64| -> Vec<[f64; 2]> {
-        pairs.iter().map(|pair| pair.map(|x| factor * x)).collect()
-    };
-    let mut scaled_one = scenario.clone();
-    if let Initial::Free(parts) = &mut scaled_one.initial {
-        *parts = scaled(parts, length);
-    }
-    Scenario {
-        spacing: length * scenario.spacing,
-        natural_frequency: scenario.natural_frequency / time,
-        forcing_frequency: scenario.forcing_frequency / time,
-        forcing: scaled(&scenario.forcing, length / (time * time)),
-        ..scaled_one
-    }
-}
-
 fn run(engine: &mut Engine, until: f64) -> Vec<Impact> {
     engine.impacts(until).unwrap()
 }
