@@ -206,7 +206,7 @@ fn a_force_that_grows_from_zero_holds() {
         let end = (std::f64::consts::TAU - 2.0 * q.max(1e-3).atan()) / big_w;
         assert_eq!(held(&mut engine, 0.999 * end), [0], "{load}, {q}");
         let counters = engine.counters();
-        assert!(counters.contact_phases == 1 && counters.searches < 20, "{load}: {counters:?}");
+        assert!(counters.contact_phases == 1 && counters.searches < 7, "{load}: {counters:?}");
         assert_eq!(held(&mut engine, 1.001 * end).len(), usize::from(q < 0.1), "{load}, {q}");
     }
 }
