@@ -237,7 +237,7 @@ fn an_advance_goes_to_the_zero_of_the_parabola() {
         let wait = |gap: usize| {
             let [mut f, mut g, mut reach, mut bend] = [1.0, 0.0, 0.0, 0.0];
             for (w, part) in frequencies.iter().zip(&parts) {
-                let side = |m: usize| if m % 4 == 0 { [0.0; 2] } else { part[m - 1] };
+                let side = |m: usize| if m.is_multiple_of(4) { [0.0; 2] } else { part[m - 1] };
                 let [left, right] = [side(gap), side(gap + 1)];
                 let [x, y] = [right[0] - left[0], right[1] - left[1]];
                 (f, g, reach) = (f + x, g + w * y, reach + x.hypot(y));
