@@ -229,9 +229,13 @@ impl Chances {
         }
     }
 
-    /// Returns 1 − e^{−λ}: that at least one gap of `masses` ≥ 1 masses closes by itself.
+    /// Returns 1 − e^{−λ}: that at least one gap of `masses` ≥ 1 masses closes by itself. The only
+    /// two gaps of a chain are mirror images, of which in unlimited time both close or none.
     pub fn at_least_one(&self, masses: usize, boundary: Boundary) -> f64 {
-        let walls = boundary == Boundary::Walls && masses > 1;
+        let walls = boundary == Boundary::Walls;
+        if boundary.gaps(masses) == 2 {
+            return if walls { self.wall } else { self.p };
+        }
         let mut clumps = 0.0;
         for gap in 0..boundary.gaps(masses) {
             // The chance that a clump begins at this gap.
@@ -287,6 +291,8 @@ mod tests {
             (4, Boundary::Walls, 0.02_f64 + 0.095 + 0.07 + 0.07 + 0.015),
             (2, Boundary::Walls, 0.02 + 0.095 + 0.015),
             (4, Boundary::Ring, 4.0 * 0.07),
+            (1, Boundary::Walls, -0.98_f64.ln()),
+            (2, Boundary::Ring, -0.9_f64.ln()),
         ] {
             let found = chances.at_least_one(masses, boundary);
             assert!((found - (1.0 - (-clumps).exp())).abs() < 1e-15, "{masses}: {found}");

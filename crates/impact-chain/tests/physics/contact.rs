@@ -4,7 +4,7 @@
 //! images.
 
 use crate::{drawn, given, run};
-use impact_chain::{Chain, Engine, Impact, Initial, Scenario};
+use impact_chain::{Chain, Engine, Impact, Initial, Scenario, State};
 
 fn scene(masses: &[(f64, f64)], forces: &[f64], restitution: f64) -> Scenario {
     let free = masses
@@ -189,6 +189,25 @@ fn a_released_gap_is_not_shut_by_rounding() {
             assert!(engine.counters().searches < 1000, "{forces:?}: {:?}", engine.counters());
         }
         assert_eq!(opened, 60, "{pressing}");
+    }
+}
+
+/// A load p presses a mass to the wall with p (1 − cos Ωt + q sin Ωt): from zero up by its slope, or
+/// by its curvature alone if q is rounding, until tan(Ωt/2) = −q again.
+#[test]
+fn a_force_that_grows_from_zero_holds() {
+    for (i, q) in (1..40).flat_map(|i| [1e-15, -1e-15, 0.1, 10.0].map(|q: f64| (i, q))) {
+        let (load, big_w) = (0.37 * f64::from(i), 8.1);
+        let plain = given(vec![[0.0; 2]], vec![[load, -q * load]]);
+        let places = Some(vec![0.0, -load, 1e3]);
+        let plain = Scenario { forcing_frequency: big_w, places, ..plain };
+        let rest = State { time: 0.0, positions: vec![0.0], velocities: vec![0.0] };
+        let mut engine = Engine::new(&rest.as_scenario(&plain).unwrap()).unwrap();
+        let end = (std::f64::consts::TAU - 2.0 * q.max(1e-3).atan()) / big_w;
+        assert_eq!(held(&mut engine, 0.999 * end), [0], "{load}, {q}");
+        let counters = engine.counters();
+        assert!(counters.contact_phases == 1 && counters.searches < 7, "{load}: {counters:?}");
+        assert_eq!(held(&mut engine, 1.001 * end).len(), usize::from(q < 0.1), "{load}, {q}");
     }
 }
 

@@ -4,10 +4,13 @@ use crate::{drawn, given, run};
 use impact_chain::methods::{
     Advancement, Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, Verlet,
 };
-use impact_chain::{Boundary, Chain, Engine, Error, Impact, Scenario, State};
+use impact_chain::{Boundary, Chain, Engine, Error, Impact, NormalPairs, Scenario, State};
 
 fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario {
-    drawn(&Chain { masses, boundary, ..Chain::default() }, sigma, "methods", index)
+    let (spacing, w) = if boundary == Boundary::Ring { (2.0, 1.25) } else { (1.0, 1.0) };
+    let chain = Chain { masses, boundary, spacing, natural_frequency: w, ..Chain::default() };
+    let chain = Chain { forcing_frequency: w * chain.forcing_frequency, ..chain };
+    drawn(&chain, sigma * spacing * w * w, "methods", index)
 }
 
 /// One mass between walls, or more, without forcing and from given free parts.
@@ -177,4 +180,99 @@ fn no_method_loops_or_panics_on_bad_data() {
             assert!(named, "{}: {error}", method.name());
         }
     }
+}
+
+/// Jean's θ = 1/2 turns a free part by 2 arctan(ωh/2) a step, and the response to a frequency Ω is
+/// that to (2/h) tan(Ωh/2): the step with the first impact, and the speed before it.
+#[test]
+fn a_flight_by_the_implicit_midpoint_rule_is_known_in_closed_form() {
+    let (w, big_w, h) = (1.3, 0.7, 0.2);
+    let (turn, rate) = (2.0 * (0.5_f64 * w * h).atan(), 2.0 / h * (0.5_f64 * big_w * h).tan());
+    let one = given(vec![[0.0; 2]], vec![[0.42, -0.5]]);
+    let one = Scenario { natural_frequency: w, forcing_frequency: big_w, ..one };
+    let [c, s] = one.forcing[0].map(|force| force / (w * w - rate * rate));
+    for [a, b] in [[0.5, 0.0], [-0.1, 0.49], [0.3, -0.42], [-0.46, -0.1]] {
+        let motion = |n: f64| {
+            let ((sin, cos), (big_sin, big_cos)) =
+                ((n * turn).sin_cos(), (n * h * big_w).sin_cos());
+            let v = w * (b * cos - a * sin) + rate * (s * big_cos - c * big_sin);
+            [a * cos + b * sin + c * big_cos + s * big_sin, v]
+        };
+        let [u, v] = motion(0.0);
+        let start = State { time: 0.0, positions: vec![1.0 + u], velocities: vec![v] };
+        let hit = MoreauJean { step: h }.impacts((&one, &start, 40.0)).unwrap()[0];
+        let mut steps = (0..200).map(f64::from).map(|n| (n, motion(n)));
+        let (n, [_, v]) = steps.find(|(_, [u, v])| (u + 0.5 * h * v).abs() >= 1.0).unwrap();
+        let off = (hit.closing_speed - v.abs()).abs().max((hit.time - (n + 0.5) * h).abs());
+        assert!(n > 9.0 && off < 1e-12 && hit.gap == usize::from(v > 0.0), "{n}: {hit:?}");
+    }
+}
+
+/// Evaluations of three masses and four gaps where nothing moves.
+#[test]
+fn costs_are_counted_as_declared() {
+    for method in &all()[1..] {
+        let cost = trace(&**method, &free(&[[0.0; 2]; 3], 0.5), 1.0).1.unwrap();
+        let expected = match method.name() {
+            "sampled" => 4 + cost.steps * 4,
+            "advancement" => 4,
+            "runge-kutta" => 3 + cost.steps * (6 * 3 + 4),
+            _ => cost.steps * (3 + 4),
+        };
+        assert_eq!(cost.evaluations, expected, "{}: {cost:?}", method.name());
+    }
+}
+
+/// A gap is evaluated again where the parabola below it comes to zero, and never if its amplitudes
+/// add up to less than d.
+#[test]
+fn an_advance_goes_to_the_zero_of_the_parabola() {
+    let (frequencies, mut safe) = ([1.1, 0.6], 0);
+    for index in 0..100 {
+        let mut normals = NormalPairs::new("advance", 1, index);
+        let parts = [(); 2].map(|()| [(); 3].map(|()| normals.pair().map(|x| 0.25 * x)));
+        let forcing = parts[1].map(|part| part.map(|x| (1.21 - 0.36) * x)).to_vec();
+        let one = Scenario { forcing_frequency: 0.6, ..given(parts[0].to_vec(), forcing) };
+        let one = Scenario { natural_frequency: 1.1, ..one };
+        let wait = |gap: usize| {
+            let [mut f, mut g, mut reach, mut bend] = [1.0, 0.0, 0.0, 0.0];
+            for (w, part) in frequencies.iter().zip(&parts) {
+                let side = |m: usize| if m.is_multiple_of(4) { [0.0; 2] } else { part[m - 1] };
+                let [left, right] = [side(gap), side(gap + 1)];
+                let [x, y] = [right[0] - left[0], right[1] - left[1]];
+                (f, g, reach) = (f + x, g + w * y, reach + x.hypot(y));
+                bend += w * w * x.hypot(y);
+            }
+            if reach < 1.0 { f64::INFINITY } else { (g + (g * g + 2.0 * f * bend).sqrt()) / bend }
+        };
+        let wait = (0..4).map(wait).fold(f64::INFINITY, f64::min);
+        let method = Advancement { tolerance: 1e-13, stop: 0.0 };
+        let ends = [1.0 - 1e-6, 1.0 + 1e-6].map(|factor| (factor * wait).min(1e3));
+        let found = ends.map(|end| trace(&method, &one, end).1.map(|cost| cost.evaluations));
+        safe += usize::from(found[0].is_ok() && wait.is_infinite());
+        let expected = [Ok(4), Ok(4 + u64::from(wait.is_finite()))];
+        assert!(found[0].is_err() || found == expected, "{index}: {wait}, {found:?}");
+    }
+    assert!((5..60).contains(&safe), "{safe}");
+}
+
+/// Between two walls that are 2000 apart a mass of amplitude A hits each a period p = 2 arcsin(d/A)
+/// after the other: at samples, to rounding, which must not hit it twice. And a ball at 1/20 above
+/// a wall, to which it is pulled by 20, bounces ten times within one step.
+#[test]
+fn impacts_at_samples_and_within_a_step_are_found_once() {
+    for amplitude in (1..40).map(|i| 1000.0 + 37.0 * f64::from(i)) {
+        let orbit = Scenario { spacing: 1000.0, ..free(&[[0.0, amplitude]], 1.0) };
+        let half = (1000.0 / amplitude).asin();
+        let found = impacts(&Sampled { step: half / 4.0, stop: 0.0 }, &orbit, 40.5 * half);
+        let off = |(i, hit): (u32, &Impact)| (hit.time - f64::from(2 * i + 1) * half).abs();
+        let worst = (0..).zip(&found).map(off).fold(0.0, f64::max);
+        assert!(found.len() == 20 && worst < 1e-11, "{amplitude}: {worst:e}, {found:?}");
+    }
+    let ball = given(vec![[-0.95 + 20.0, 0.0]], vec![[-20.0 + 1e-3, 0.0]]);
+    let ball = Scenario { forcing_frequency: 1e-2, restitution: 0.5, ..ball };
+    let methods: [&dyn Method; 2] = [&Sampled { step: 0.5, stop: 0.0 }, &Certified];
+    let [found, exact] = methods.map(|method| trace(method, &ball, 0.5).0);
+    let off = |i: usize| (found[i].time - exact[i].time).abs() * exact[i].closing_speed;
+    assert!((0..10).all(|i| found[i].gap == 0 && off(i) < 1e-14), "{found:?}, {exact:?}");
 }

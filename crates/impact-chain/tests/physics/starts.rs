@@ -81,4 +81,16 @@ fn places_are_constant_loads_and_gaps_of_any_width() {
     for (a, b) in crate::trace(&moved, 20.0).iter().zip(crate::trace(&plain, 20.0)) {
         assert!(a.gap == b.gap && (a.time - b.time).abs() < 1e-9, "{a:?} {b:?}");
     }
+    // What a file leaves out is regular: places j d, and walls at 0 and (n + 1) d.
+    for (fields, places) in [
+        (r#""walls":[-1,10]"#, &[-1.0, 3.0, 6.0, 10.0][..]),
+        (r#""places":[2,5]"#, &[0.0, 2.0, 5.0, 9.0]),
+        (r#""places":[2,5],"walls":[-1e9,1e9]"#, &[-1e9, 2.0, 5.0, 1e9]),
+        (r#""places":[2]"#, &[]),
+        (r#""walls":[-1.1e9,9]"#, &[]),
+    ] {
+        let json = format!(r#"{{"forcing":[[0,0],[0,0]],"spacing":3,{fields}}}"#);
+        let read = Scenario::from_json(&json).map(|scenario| scenario.places.unwrap());
+        assert_eq!(read.unwrap_or_default(), places, "{fields}");
+    }
 }

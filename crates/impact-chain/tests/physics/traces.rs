@@ -72,6 +72,10 @@ fn the_true_motion_has_digits_beyond_doubles() {
         let error = (found.time - exact.time).hi.abs();
         assert!(found.gap == exact.gap && error < 1e-24, "{found:?}: {error:e}");
     }
+    // d, and parts of 5 and 10 of each mass, the latter over ω² − Ω² = −1.
+    let two = crate::given(vec![[3.0, 4.0], [-3.0, -4.0]], vec![[6.0, 8.0], [-6.0, -8.0]]);
+    let motion = TrueMotion::of(&two, &State::of(&two));
+    assert_eq!([0, 1, 2].map(|gap| motion.scale(gap).round()), [16.0, 31.0, 16.0]);
 }
 
 /// A chain whose components share the mean square displacement that σ = `sigma` gives.

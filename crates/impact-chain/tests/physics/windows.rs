@@ -1,7 +1,7 @@
 //! Compares counts in windows with a list of impacts.
 
-use crate::{drawn, trace};
-use impact_chain::{Chain, Engine, Protocol, Watch};
+use crate::{drawn, given, trace};
+use impact_chain::{Chain, Counts, Engine, Protocol, Scenario, Watch};
 
 #[test]
 fn windows_by_a_list_of_impacts() {
@@ -21,4 +21,18 @@ fn windows_by_a_list_of_impacts() {
         assert_eq!(found.distinct[at], [Some(distinct)]);
         assert_eq!(found.impacts[at], [gaps.len() as u64]);
     }
+}
+
+/// A speed of 1e7 between walls exceeds the bound on work, and a mass may start beyond a wall.
+#[test]
+fn runs_that_fail_or_overlap_are_counted() {
+    let chain = Chain { masses: 1, ..Chain::default() };
+    let elastic = |part| Scenario { restitution: 1.0, ..given(vec![part], vec![[0.0; 2]]) };
+    let start = |part| Engine::new(&elastic(part));
+    let work = start([0.0, 1e7]).and_then(|mut hot| hot.impacts(9.0)).unwrap_err();
+    let starts = [start([0.0, 0.5]), start([0.0, 1e7]), Err(work), start([-1.5, 0.0])];
+    let mut watch = Watch::new(&chain, &[Protocol { transient: 1.0, window: 2.0 }]);
+    let counts = starts.map(|engine| watch.run(engine, 0, 9.0, &|| false).unwrap());
+    let known = |one: Counts| [one.failed, one.rejected, one.distinct[0].iter().flatten().count()];
+    assert_eq!(counts.map(known), [[0, 0, 1], [1, 0, 0], [1, 0, 0], [0, 1, 0]]);
 }
