@@ -33,8 +33,8 @@ fn impacts(bencher: Bencher, masses: usize) {
     bencher.counter(ItemsCount::new(count)).bench(|| run(divan::black_box(&scenario), until));
 }
 
-/// Sixteen realisations of the main sweep, first by the bare engine one by one, then side by side as
-/// ensembles run and count them.
+/// Sixteen realisations of the main sweep, first by the bare engine one by one, then side by side
+/// as ensembles run and count them.
 #[divan::bench(args = [(0.11, false), (0.11, true), (0.14, false), (0.14, true), (0.3, false), (0.3, true)])]
 fn counted(bencher: Bencher, (sigma, together): (f64, bool)) {
     let ensemble = Ensemble { stream: "sweep".into(), ..Ensemble::default() };

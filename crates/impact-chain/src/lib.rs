@@ -6,7 +6,7 @@
 //!   amplitudes of its forcing, its start, and places of its choice.
 //! - [`Engine`], [`Impact`], [`Counters`], [`Graze`]: the simulation of a scenario, its impacts,
 //!   its counted work, and what rounding could not decide.
-//! - [`Abreast`]: many realisations of a chain, simulated side by side in less than half of the time.
+//! - [`Abreast`]: many realisations of a chain, simulated side by side in half of the time.
 //! - [`State`]: positions and velocities at a time, and the scenario that goes on from there.
 //! - [`counts`], [`rise`]: many random chains, counted in windows of time; means and places of the
 //!   rise.

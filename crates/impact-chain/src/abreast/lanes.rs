@@ -192,7 +192,8 @@ impl<'a> Lanes<'a> {
     /// about the others.
     ///
     /// A tame gap with a root has a minimum ≤ 0 within the step and is convex there (see
-    /// [`Part::tame`]), so f' < 0 at the start, f' ≥ 0 at the end, and the tangents meet below zero.
+    /// [`Part::tame`]), so f' < 0 at the start and f' ≥ 0 at the end, and the tangents meet below
+    /// zero.
     #[inline(always)]
     fn sift<S: Simd>(&mut self, simd: S, start: Phases, step: &Step) {
         let (ratio, length) = (self.plan.ratio, self.plan.step);

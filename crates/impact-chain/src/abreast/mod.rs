@@ -98,8 +98,7 @@ impl Plan {
 /// Simulates many realisations of a chain side by side, with the same impacts as the engine until
 /// rounding parts them: chains that impacts make unstable differ then in every method.
 ///
-/// Each realisation is the same whatever else is simulated, how many there are, and whatever vectors
-/// the processor has.
+/// Each realisation has the same bits whatever else is simulated, with any vectors of a processor.
 #[derive(Clone, Debug)]
 pub struct Abreast {
     chain: Chain,
@@ -115,8 +114,9 @@ pub struct Realisation(Slot);
 
 impl Abreast {
     /// Prepares runs of a chain through the windows that end by `until`, or to `until` if there are
-    /// no windows. Returns `None` if all of them are left to the engine: with r near 0, where masses
-    /// stick, r = 1, where it keeps the energy, rings of one or two masses, and very long runs.
+    /// no windows. Returns `None` if all of them are left to the engine: with r near 0, where
+    /// masses stick, r = 1, where it keeps the energy, rings of one or two masses, and very long
+    /// runs.
     pub fn new(chain: &Chain, windows: &[Protocol], until: f64) -> Option<Abreast> {
         let frequencies = [chain.natural_frequency, chain.forcing_frequency];
         let mut watch = Watch::new(chain, windows);

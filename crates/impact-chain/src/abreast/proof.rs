@@ -127,7 +127,8 @@ impl Local {
         f0 + rate0 * half > sunk && f1 - rate1 * half > sunk
     }
 
-    /// Goes by steps without a root, as f(t + s) ≥ f + f' s − M₂ s²/2, to the first root or the end.
+    /// Goes by steps without a root to the first root or the end, as
+    /// f(t + s) ≥ f + f' s − M₂ s²/2.
     fn step_to_root(&self, Part { start, end, just_hit, .. }: Part) -> Outcome {
         let bend = self.bend();
         let mut s = start;

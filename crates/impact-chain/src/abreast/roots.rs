@@ -129,7 +129,7 @@ impl Candidates {
     }
 }
 
-/// Terms of the Taylor polynomial about the middle of a step; the next is below 1e-15 of [`LARGEST`]
+/// Terms of the Taylor polynomial about the middle of a step; the next is below 2e-16 of the
 /// amplitudes at the ends.
 const TERMS: usize = 12;
 

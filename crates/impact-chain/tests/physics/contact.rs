@@ -192,8 +192,8 @@ fn a_released_gap_is_not_shut_by_rounding() {
     }
 }
 
-/// A load p presses a mass to the wall with p (1 − cos Ωt + q sin Ωt): from zero up by its slope, or
-/// by its curvature alone if q is rounding, until tan(Ωt/2) = −q again.
+/// A load p presses a mass to the wall with p (1 − cos Ωt + q sin Ωt): from zero up by its slope,
+/// or by its curvature alone if q is rounding, until tan(Ωt/2) = −q again.
 #[test]
 fn a_force_that_grows_from_zero_holds() {
     for (i, q) in (1..40).flat_map(|i| [1e-15, -1e-15, 0.1, 10.0].map(|q: f64| (i, q))) {
