@@ -1,7 +1,7 @@
 //! Keeps the gaps of many chains in lanes of wide registers, and looks at all of them step by step.
 
 use super::grid::{Grid, Phases, Step};
-use super::proof::{LARGEST, MARGIN, Part, TIE};
+use super::proof::{LARGEST, MARGIN, Part};
 use super::roots::{Candidate, Candidates};
 use super::slot::{A, B, C, D, FORCED, REACH, SAG, Slot, TAME, WIDTH};
 use super::{CHECK_EVERY, Plan};
@@ -280,21 +280,17 @@ impl<'a> Lanes<'a> {
         }
         let closing_speed = now.speed * plan.speed;
         chain.watch.count(Impact { time, gap: now.gap + plan.first, closing_speed });
-        // Roots of the three gaps are outdated; one of a neighbour at nearly this time is a tie.
+        // Roots of the three gaps are outdated. The impact pushes masses into the gaps beside it, so
+        // one of these that had a root at nearly this time has it even sooner, and is a tie there.
         let [left, right] = plan.neighbours[now.gap];
-        let (mut kept, mut tie) = (0, false);
+        let mut kept = 0;
         for place in 0..chain.roots.len() {
             let root = chain.roots[place];
             let near = root.gap == left || root.gap == right;
-            tie |= near & (root.s - now.s < TIE);
             chain.roots[kept] = root;
             kept += usize::from(!near & (root.gap != now.gap));
         }
         chain.roots.truncate(kept);
-        if tie {
-            chain.hand_over();
-            return true;
-        }
         // The three columns of the gap and its neighbours, and a fourth that does not change.
         let column = now.gap;
         let weights = f64x4::from_slice(simd, &plan.weights[now.gap]);
