@@ -280,7 +280,7 @@ impl<'a> Lanes<'a> {
         }
         let closing_speed = now.speed * plan.speed;
         chain.watch.count(Impact { time, gap: now.gap + plan.first, closing_speed });
-        // Roots of the three gaps are outdated. The impact pushes masses into the gaps beside it, so
+        // Roots of the three gaps are outdated. The impact pushes masses into the gaps beside it:
         // one of these that had a root at nearly this time has it even sooner, and is a tie there.
         let [left, right] = plan.neighbours[now.gap];
         let mut kept = 0;
