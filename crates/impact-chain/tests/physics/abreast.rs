@@ -1,6 +1,7 @@
 //! Compares chains that are simulated side by side with the engine.
 
 use crate::{drawn, first, given};
+use impact_chain::NormalPairs;
 use impact_chain::abreast::{Abreast, Realisation};
 use impact_chain::{Boundary, Chain, Counts, Engine, Overtone, Protocol, Scenario, Start, Watch};
 
@@ -190,6 +191,55 @@ fn dips_after_an_impact_are_seen() {
         }
     }
     assert!(late > 200 && handed_over < 200, "{late} {handed_over}");
+}
+
+/// Gaps that turn within the first step about a width of zero while their acceleration changes its
+/// sign, also after an impact beside them: tangents and signs at the ends prove nothing there.
+#[test]
+fn dips_that_are_not_convex_are_seen() {
+    let (mut hits, mut seen) = ([0; 2], 0);
+    for i in 0..40_000u64 {
+        let mut normals = NormalPairs::new("turns", 1, i);
+        let ([c, s], [place, depth]) = (normals.pair(), normals.pair());
+        let big_w: f64 = [0.6, 1.2, 1.99][i as usize % 3];
+        let rebounds = i % 2 == 0;
+        let chain = Chain { masses: 2, forcing_frequency: big_w, ..Chain::default() };
+        // Mass 1 rests, or has rebounded from the wall at the time `start`.
+        let (start, fast) = (0.02, 0.3);
+        let after = |t: f64| {
+            let (sin, cos) = (t - start).sin_cos();
+            let [x, v] = if rebounds { [-1.0, 0.8 * fast] } else { [0.0; 2] };
+            [1.0 + x * cos + v * sin, v * cos - x * sin]
+        };
+        // Mass 2 turns near it at `turn`.
+        let (turn, factor) = (0.13 + 0.04 * place, 1.0 - big_w * big_w);
+        let forces = [c, s].map(|x| 2.0 * x * factor);
+        let forced = |t: f64| {
+            let (sin, cos) = (big_w * t).sin_cos();
+            [2.0 * (c * cos + s * sin), 2.0 * big_w * (s * cos - c * sin)]
+        };
+        let [x, v] = [0, 1].map(|k| after(turn)[k] - forced(turn)[k]);
+        let (x, (sin, cos)) = (x + 1e-3 * depth - 2.0, turn.sin_cos());
+        let second = [x * cos - v * sin, x * sin + v * cos];
+        let (sin, cos) = start.sin_cos();
+        let first = if rebounds { [-cos + fast * sin, -sin - fast * cos] } else { [0.0; 2] };
+        let scenario = Scenario {
+            forcing_frequency: big_w,
+            ..given(vec![first, second], vec![[0.0; 2], forces])
+        };
+        let Ok(mut engine) = Engine::new(&scenario) else { continue };
+        let windows = [Protocol { transient: 0.0, window: 0.25 }];
+        let impacts = engine.impacts(0.25).unwrap();
+        if rebounds && impacts.first().is_none_or(|hit| hit.gap != 0) {
+            continue;
+        }
+        let found = run(&chain, &windows, 0.25, std::slice::from_ref(&scenario));
+        let Some(mut found) = found.into_iter().next().flatten() else { continue };
+        seen += 1;
+        hits[usize::from(rebounds)] += usize::from(impacts.len() > usize::from(rebounds));
+        assert_eq!(found.counts().total.impacts, impacts.len() as u64, "{i} {scenario:?}");
+    }
+    assert!(seen > 2000 && hits.iter().all(|hits| *hits > 300), "{seen} {hits:?}");
 }
 
 /// What the proofs do not cover is left to the engine.
