@@ -108,9 +108,14 @@ pub const STRAIGHT: f64 = 0.0075;
 /// Finds where the end overtakes the bulk, or the other way round for a single gap: the logarithm
 /// of the ratio of their shares is a straight line there. Returns `None` without such a place.
 pub fn crossing(rows: &[Heights], rises: bool) -> Option<Crossing> {
-    let ahead = |row: &Heights| (row.end > row.bulk) == rises;
-    let after = rows.iter().rposition(|row| !ahead(row))? + 1;
-    let centre = 0.5 * (rows[after - 1].sigma + rows.get(after)?.sigma);
+    // Up to there what is overtaken leads in all, so that one row that is off by chance is no place.
+    let (mut sum, mut least, mut after) = (0.0, 0.0, 0_usize);
+    for (row, number) in rows.iter().zip(1..) {
+        let lead = (row.end - row.bulk) * row.chains.sqrt();
+        sum += if rises { lead } else { -lead };
+        (least, after) = if sum < least { (sum, number) } else { (least, after) };
+    }
+    let centre = 0.5 * (rows[after.checked_sub(1)?].sigma + rows.get(after)?.sigma);
     let near = || rows.iter().filter(|row| (row.sigma - centre).abs() <= STRAIGHT + 1e-9);
     // Half a chain more, so that none has a logarithm; weights as of two counts.
     let counts = |row: &Heights| [row.end, row.bulk].map(|share| share * row.chains + 0.5);

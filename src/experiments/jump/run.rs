@@ -2,11 +2,13 @@
 
 use crate::experiments::ensembles::{joined, part, rows};
 use crate::experiments::prelude::*;
-use crate::params::{Ensemble, Protocol};
+use crate::params::{Boundary, Ensemble, Protocol};
 use impact_chain::Counts;
 use impact_chain::mode_jump::{ModeJump, Sample, mode_jump};
 use literate::experiments::cutting::Cutting;
 use rayon::prelude::*;
+
+type Counted = (Ensemble, Vec<Counts>);
 
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> = Cutting { rows, part, join };
 
@@ -14,6 +16,8 @@ pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> = Cutting { rows, part,
 pub struct Jumps {
     pub ensembles: Vec<Ensemble>,
     pub windows: Vec<WindowJump>,
+    /// What was found on rings with our protocol.
+    pub ring: WindowJump,
     /// The place with our protocol when the bulk is smoothed over so many numbers on both sides.
     pub widths: Vec<(usize, Option<Estimate>)>,
 }
@@ -35,6 +39,13 @@ impl Jumps {
         self.ensembles.first().map_or(0, |ensemble| ensemble.chain.gaps())
     }
 
+    /// Returns how many σ, and chains in all, between walls (false) or on rings (true).
+    pub fn size(&self, ring: bool) -> [u64; 2] {
+        let own = self.ensembles.iter().filter(|one| is_ring(one) == ring);
+        let chains = own.clone().map(|one| one.realisations as u64).sum();
+        [own.count() as u64, chains]
+    }
+
     /// Returns what was found in a window, or `None` if there is no such window.
     pub fn window(&self, protocol: Protocol) -> Option<&WindowJump> {
         self.windows.iter().find(|window| window.protocol == protocol)
@@ -46,35 +57,44 @@ fn join(
     parts: Vec<Vec<Counts>>,
     progress: &Progress,
 ) -> Result<Jumps, Error> {
-    let counted: Vec<(Ensemble, Vec<Counts>)> = joined(ensembles, parts).collect();
+    let (rings, walls): (Vec<Counted>, Vec<Counted>) =
+        joined(ensembles, parts).partition(|(one, _)| is_ring(one));
     let protocols = ensembles.first().map_or(&[][..], |ensemble| &ensemble.protocols);
-    let samples = |window: usize| samples(&counted, window);
+    let samples = |window: usize| samples(&walls, window);
     let gaps = ensembles.first().map_or(0, |ensemble| ensemble.chain.gaps());
-    let histogram = |sample: &Sample<'_>| {
-        let mut histogram = vec![0; gaps + 1];
-        sample.counts.iter().flatten().for_each(|&k| histogram[k as usize] += 1);
-        histogram
-    };
     let window = |(window, &protocol): (usize, &Protocol)| {
         progress.check()?;
-        let samples = samples(window);
-        let jump = mode_jump(&samples, gaps, HALF_WIDTH);
-        let histograms = samples.iter().map(histogram).collect();
-        Ok(WindowJump { protocol, jump, histograms })
+        Ok(found(protocol, &samples(window), gaps))
     };
     let windows = protocols.par_iter().enumerate().with_max_len(1).map(window);
     let windows = windows.collect::<Result<Vec<_>, Error>>()?;
+    let ring_gaps = rings.first().map_or(0, |(ensemble, _)| ensemble.chain.gaps());
+    let ring = found(Protocol::default(), &self::samples(&rings, 0), ring_gaps);
     let ours = protocols.iter().position(|protocol| *protocol == Protocol::default());
     let place = |width: usize| {
         let jump = ours.map(|window| mode_jump(&samples(window), gaps, width));
         (width, jump.and_then(|jump| jump.all_gaps.sigma))
     };
     let widths = HALF_WIDTHS.into_par_iter().map(place).collect();
-    Ok(Jumps { ensembles: ensembles.clone(), windows, widths })
+    Ok(Jumps { ensembles: ensembles.clone(), windows, ring, widths })
+}
+
+fn is_ring(ensemble: &Ensemble) -> bool {
+    ensemble.chain.boundary == Boundary::Ring
+}
+
+fn found(protocol: Protocol, samples: &[Sample<'_>], gaps: usize) -> WindowJump {
+    let histogram = |sample: &Sample<'_>| {
+        let mut histogram = vec![0; gaps + 1];
+        sample.counts.iter().flatten().for_each(|&k| histogram[k as usize] += 1);
+        histogram
+    };
+    let histograms = samples.iter().map(histogram).collect();
+    WindowJump { protocol, jump: mode_jump(samples, gaps, HALF_WIDTH), histograms }
 }
 
 /// Returns the counts of a window at each σ.
-fn samples(counted: &[(Ensemble, Vec<Counts>)], window: usize) -> Vec<Sample<'_>> {
+fn samples(counted: &[Counted], window: usize) -> Vec<Sample<'_>> {
     let mut samples = Vec::new();
     for (ensemble, counts) in counted {
         samples.push(Sample {
