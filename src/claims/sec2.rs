@@ -5,14 +5,23 @@ use crate::experiments::rise::{Curve, Rise, RisePoint};
 use crate::experiments::sweep::{self, mode_half};
 use crate::experiments::theory::comparison::LARGE_SIGMA;
 use crate::experiments::{JUMP, LENGTHS, TWO_MASSES};
-use crate::params::{NEAR_SIMULTANEOUS, Protocol, SLOW};
+use crate::params::{Chain, NEAR_SIMULTANEOUS, Protocol, SLOW};
 use impact_chain::mode_jump::Passing;
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::{Estimate, wilson};
 
 pub fn rules() -> Vec<Rule> {
+    let own = Chain::default();
+    let chain = [
+        ("masses", own.masses as f64),
+        ("spacing", own.spacing),
+        ("mass", 1.0),
+        ("natural_frequency", own.natural_frequency),
+        ("forcing_frequency_squared", (own.forcing_frequency * own.forcing_frequency).round()),
+        ("restitution", own.restitution),
+    ];
     vec![
-        Rule::new("sec2_parameters", parameters),
+        Rule::new("sec2_parameters", parameters).uses(&chain),
         Rule::new("sec2_few_below", few_below).on(OurMeasure),
         Rule::new("sec2_none_below", none_below).on(OurMeasure).statistical(),
         Rule::new("sec2_rise_exists", rise_exists).on(OurMeasure).statistical(),
@@ -26,7 +35,7 @@ pub fn rules() -> Vec<Rule> {
         Rule::new("sec2_sticking", sticking).on(OurMeasure),
         Rule::new("sec2_two_masses", without_impact).on(FiniteCases),
         Rule::new("sec2_percolation", percolation).on(OurMeasure),
-        Rule::new("sec2_walls_like_masses", walls_like_masses).on(OurMeasure).statistical(),
+        Rule::new("sec2_walls_like_masses", walls_like_masses).on(OurMeasure),
     ]
 }
 
@@ -161,10 +170,16 @@ fn mode_jump(e: &Evidence<'_>) -> Judged {
         climbs,
         windows,
         sure,
-        no,
-        single
+        no
     ];
-    e.check(by_runs([jumps, climbs, all]), found)
+    let check = e.check(by_runs([jumps, climbs, all]), found)?;
+    let lower = ["single_place", "single_above"].map(|name| e.estimate(&format!("{row}.{name}")));
+    let [Ok(lower), Ok(above)] = lower else { return Ok(check) };
+    let is_sure = e.number(&format!("{row}.single_jumps")).is_ok();
+    let key = if is_sure { "note_single" } else { "note_single_open" };
+    let note = e.text(key, numbers![lower, above, single])?;
+    let note = check.note.clone().then(" ").then(note);
+    Ok(check.note(note))
 }
 
 /// Against a chain in which each gap closes by itself: its rise from a quarter to three quarters,
@@ -258,7 +273,10 @@ fn mode_rise(e: &Evidence<'_>) -> Judged {
     let found = numbers![
         place, transient, window, half_unit, all, released, least, most, printed, ranges, apart
     ];
-    e.check(by_runs([printed, all - printed, all]), found)
+    let check = e.check(by_runs([printed, all - printed, all]), found)?;
+    let Ok(ring) = e.estimate("jump.ring.place") else { return Ok(check) };
+    let note = check.note.clone().then(" ").then(e.text("note_ring", numbers![ring])?);
+    Ok(check.note(note))
 }
 
 /// Returns the end of the latest window in which the jump was measured.
@@ -312,8 +330,10 @@ fn without_impact(e: &Evidence<'_>) -> Judged {
 fn walls_like_masses(e: &Evidence<'_>) -> Judged {
     let difference = e.estimate("starts.variants[chain=ring].difference")?;
     let allowed = half_unit(e)?;
-    let agrees = difference.value.abs() <= allowed + e.level()?.quantile * difference.error;
-    e.check(agrees, numbers![difference, allowed])
+    let check = e.check(difference.value.abs() <= allowed, numbers![difference, allowed])?;
+    let Ok(mode) = e.estimate("jump.ring.difference") else { return Ok(check) };
+    let note = check.note.clone().then(" ").then(e.text("note_mode", numbers![mode])?);
+    Ok(check.note(note))
 }
 
 /// The threshold of percolation sharpens with size. The paper compares without a quantity.

@@ -109,6 +109,29 @@ impl Published {
         let found = self.parameters.iter().find(|parameter| parameter.id == id);
         found.map(|one| one.value).ok_or_else(|| PublishedError::missing("parameter", id))
     }
+
+    /// Refuses a parameter with another number than these, which checks use, or, if there are any,
+    /// one that is not among them.
+    pub(super) fn compare<'a>(
+        &self,
+        used: impl Iterator<Item = (&'a str, f64)> + Clone,
+    ) -> Result<(), PublishedError> {
+        for (id, number) in used.clone() {
+            let value = self.parameter(id)?;
+            if value != number {
+                let what = "restore the one that is wrong";
+                let problem = format!("the parameter {id:?} is {value}, and its check uses {number}");
+                return Err(PublishedError(format!("published.toml: {problem}; {what}")));
+            }
+        }
+        let is_used = |one: &Parameter| used.clone().any(|(id, _)| id == one.id);
+        let first = self.parameters.iter().find(|one| !is_used(one));
+        first.filter(|_| used.clone().next().is_some()).map_or(Ok(()), |one| {
+            let what = "name it in `uses` of one";
+            let problem = format!("no check uses the parameter {:?}; {what}", one.id);
+            Err(PublishedError(format!("published.toml: {problem}")))
+        })
+    }
 }
 
 /// Returns the id that a line gives to an entry, with the number of the line.
