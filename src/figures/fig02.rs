@@ -5,7 +5,6 @@ use super::prelude::*;
 use super::simulated::*;
 use crate::experiments::{JUMP, Results};
 use crate::params::Protocol;
-use impact_numerics::statistics::Estimate;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let jumps = results.of(&JUMP)?;
@@ -24,9 +23,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let modes = rows.curve(&[], "sigma", "mode")?;
     let peaks = rows.series(&[], "sigma", "peak")?;
     // Where a single gap or all gaps are the most likely number there is no interval.
-    let is_peak =
-        |(sigma, peak): &&(f64, Estimate)| modes.iter().any(|mode| *mode == (*sigma, peak.value));
-    let bars = peaks.iter().filter(is_peak);
+    let bars = peaks.iter().filter(|(sigma, peak)| modes.contains(&(*sigma, peak.value)));
     let bars: Vec<_> = bars.map(|(s, peak)| (*s, peak.interval[0], peak.interval[1])).collect();
     panel.bars("most likely number", &bars, 40, INTERVAL)?;
     printed(&panel, 1.03 * n as f64)?;

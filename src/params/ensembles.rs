@@ -253,7 +253,7 @@ pub fn jump(profile: Profile) -> Vec<Ensemble> {
             first += realisations as u64;
         }
     }
-    let order = |one: &Ensemble| (one.chain.boundary == Boundary::Ring, one.sigmas[0]);
-    ensembles.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
+    ensembles.sort_by(|a, b| a.sigmas[0].total_cmp(&b.sigmas[0]));
+    ensembles.sort_by_key(|one| one.chain.boundary == Boundary::Ring);
     ensembles
 }

@@ -183,7 +183,8 @@ impl Sample<'_> {
     }
 }
 
-/// A [`Crossing`] with bootstrap errors, each `None` where the sample shows none.
+/// A [`Crossing`] with bootstrap errors, each `None` where the sample shows none; where the mode
+/// surely climbs there is a clearance only.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Passing {
     pub sigma: Option<Estimate>,
@@ -197,11 +198,10 @@ impl Passing {
             let values: Vec<_> = resamples.iter().map(|crossing| crossing.map(column)).collect();
             bootstrap::estimate(whole.map(column), &values, LEVEL)
         };
-        Passing {
-            sigma: estimate(|crossing| crossing.sigma),
-            peak: estimate(|crossing| crossing.peak),
-            clearance: estimate(|crossing| crossing.clearance),
-        }
+        let clearance = estimate(|crossing| crossing.clearance);
+        let climbs = clearance.is_some_and(|of| of.interval[1] < 0.0);
+        let of = |column: fn(Crossing) -> f64| estimate(column).filter(|_| !climbs);
+        Passing { sigma: of(|at| at.sigma), peak: of(|at| at.peak), clearance }
     }
 
     /// Returns whether the mode surely jumps (true) or surely climbs (false), or `None` if neither

@@ -30,6 +30,12 @@ pub struct WindowJump {
     pub histograms: Vec<Vec<u32>>,
 }
 
+impl WindowJump {
+    pub fn chains(&self) -> u64 {
+        self.histograms.iter().flatten().map(|count| u64::from(*count)).sum()
+    }
+}
+
 /// Numbers on both sides over which the bulk is smoothed, and others that must give the same.
 const HALF_WIDTH: usize = 6;
 const HALF_WIDTHS: [usize; 4] = [3, 6, 9, 12];
@@ -37,13 +43,6 @@ const HALF_WIDTHS: [usize; 4] = [3, 6, 9, 12];
 impl Jumps {
     pub fn gaps(&self) -> usize {
         self.ensembles.first().map_or(0, |ensemble| ensemble.chain.gaps())
-    }
-
-    /// Returns how many σ, and chains in all, between walls (false) or on rings (true).
-    pub fn size(&self, ring: bool) -> [u64; 2] {
-        let own = self.ensembles.iter().filter(|one| is_ring(one) == ring);
-        let chains = own.clone().map(|one| one.realisations as u64).sum();
-        [own.count() as u64, chains]
     }
 
     /// Returns what was found in a window, or `None` if there is no such window.
@@ -58,7 +57,7 @@ fn join(
     progress: &Progress,
 ) -> Result<Jumps, Error> {
     let (rings, walls): (Vec<Counted>, Vec<Counted>) =
-        joined(ensembles, parts).partition(|(one, _)| is_ring(one));
+        joined(ensembles, parts).partition(|(one, _)| one.chain.boundary == Boundary::Ring);
     let protocols = ensembles.first().map_or(&[][..], |ensemble| &ensemble.protocols);
     let samples = |window: usize| samples(&walls, window);
     let gaps = ensembles.first().map_or(0, |ensemble| ensemble.chain.gaps());
@@ -77,10 +76,6 @@ fn join(
     };
     let widths = HALF_WIDTHS.into_par_iter().map(place).collect();
     Ok(Jumps { ensembles: ensembles.clone(), windows, ring, widths })
-}
-
-fn is_ring(ensemble: &Ensemble) -> bool {
-    ensemble.chain.boundary == Boundary::Ring
 }
 
 fn found(protocol: Protocol, samples: &[Sample<'_>], gaps: usize) -> WindowJump {

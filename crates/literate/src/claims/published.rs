@@ -110,27 +110,21 @@ impl Published {
         found.map(|one| one.value).ok_or_else(|| PublishedError::missing("parameter", id))
     }
 
-    /// Refuses a parameter with another number than these, which checks use, or, if there are any,
-    /// one that is not among them.
-    pub(super) fn compare<'a>(
-        &self,
-        used: impl Iterator<Item = (&'a str, f64)> + Clone,
-    ) -> Result<(), PublishedError> {
-        for (id, number) in used.clone() {
+    /// Refuses a parameter with another number than checks use, or, if any do, without a check.
+    pub(super) fn compare(&self, used: &[(&str, f64)]) -> Result<(), PublishedError> {
+        let refused = |what| Err(PublishedError(format!("published.toml: the parameter {what}")));
+        for (id, number) in used {
             let value = self.parameter(id)?;
-            if value != number {
+            if value != *number {
                 let what = "restore the one that is wrong";
-                let problem = format!("the parameter {id:?} is {value}, and its check uses {number}");
-                return Err(PublishedError(format!("published.toml: {problem}; {what}")));
+                return refused(format!("{id:?} is {value}, and its check uses {number}; {what}"));
             }
         }
-        let is_used = |one: &Parameter| used.clone().any(|(id, _)| id == one.id);
-        let first = self.parameters.iter().find(|one| !is_used(one));
-        first.filter(|_| used.clone().next().is_some()).map_or(Ok(()), |one| {
-            let what = "name it in `uses` of one";
-            let problem = format!("no check uses the parameter {:?}; {what}", one.id);
-            Err(PublishedError(format!("published.toml: {problem}")))
-        })
+        let is_unused = |one: &&Parameter| used.iter().all(|(id, _)| *id != one.id);
+        match self.parameters.iter().find(is_unused).filter(|_| !used.is_empty()) {
+            Some(one) => refused(format!("{:?} is in `uses` of no check; name it in one", one.id)),
+            None => Ok(()),
+        }
     }
 }
 

@@ -124,7 +124,8 @@ pub fn judge_all(
     for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
         published.statement(rule.id)?;
     }
-    published.compare(rules.iter().flat_map(|rule| rule.uses.iter().copied()))?;
+    let used: Vec<_> = rules.iter().flat_map(|rule| rule.uses.clone()).collect();
+    published.compare(&used)?;
     results.tables()?;
     let level = Some(level_of(rules));
     let mut checks = Vec::new();

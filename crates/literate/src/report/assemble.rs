@@ -177,11 +177,11 @@ fn other_digits(blocks: &mut [Block], equations: &[EquationEntry]) -> Vec<Error>
     let mut errors = Vec::new();
     visit(blocks, &mut |inline| {
         let Inline::Display { formula, number, .. } = inline else { return };
-        let listed = equations.iter().find(|equation| equation.number.to_string() == *number);
-        let Some(listed) = listed.and_then(|equation| equation.digits) else { return };
         let found: String = formula.digits().chars().filter(char::is_ascii_digit).collect();
-        if found != listed {
-            errors.push(Error::OtherDigits(number.clone(), found, listed));
+        let own = equations.iter().filter(|listed| listed.number.to_string() == *number);
+        for other in own.filter_map(|own| own.digits).filter(|digits| *digits != found) {
+            let what = format!("equation ({number}) has the digits {found}, in the list {other}");
+            errors.push(Error::Named { thing: format!("#eq:{number}"), what });
         }
     });
     errors

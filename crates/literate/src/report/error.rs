@@ -49,10 +49,6 @@ pub enum Error {
     NotShown(String),
     #[error("equation ({0}) is not shown; add \\tag{{{0}}} to it in the prose")]
     NoEquation(String),
-    #[error(
-        "equation ({0}) has the digits {1} here and {2} in the list of equations; restore the one that is wrong"
-    )]
-    OtherDigits(String, String, &'static str),
 }
 
 impl Error {
@@ -97,7 +93,7 @@ impl Error {
     /// Whether the prose can be read but breaks a rule about its numbers and figures.
     pub fn is_of_rules(&self) -> bool {
         match self {
-            Error::HardCoded(_) | Error::NotShown(_) | Error::OtherDigits(..) => true,
+            Error::HardCoded(_) | Error::NotShown(_) => true,
             Error::At { error, .. } => error.is_of_rules(),
             Error::Several(errors) => errors.iter().all(Error::is_of_rules),
             _ => false,

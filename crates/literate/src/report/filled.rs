@@ -99,7 +99,6 @@ impl<'a> Places<'a> {
                 return Error::Several(errors.collect());
             }
             Error::Named { thing, .. } => self.offset(thing),
-            Error::OtherDigits(number, ..) => self.offset(&format!("#eq:{number}")),
             Error::Maths { tex, .. } => self.offset(&format!("${tex}")),
             Error::NoLatex(c) => self.filled.text.find(*c),
             _ => None,

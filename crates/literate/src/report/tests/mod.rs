@@ -319,7 +319,11 @@ fn numerals_that_were_typed_outside_the_prose_are_refused() {
         let mut given = with_digit();
         given.edition.equations[0].digits = digits;
         let error = given.made().err().map(|error| error.to_string()).unwrap_or_default();
-        assert_eq!(error.contains("equation (18) has the digits 2 here and 3"), fails, "{error}");
+        assert_eq!(
+            error.contains("equation (18) has the digits 2, in the list 3"),
+            fails,
+            "{error}"
+        );
     }
 }
 
