@@ -110,21 +110,13 @@ impl Published {
         found.map(|one| one.value).ok_or_else(|| PublishedError::missing("parameter", id))
     }
 
-    /// Refuses a parameter with another number than checks use, or, if any do, without a check.
-    pub(super) fn compare(&self, used: &[(&str, f64)]) -> Result<(), PublishedError> {
-        let refused = |what| Err(PublishedError(format!("published.toml: the parameter {what}")));
-        for (id, number) in used {
-            let value = self.parameter(id)?;
-            if value != *number {
-                let what = "restore the one that is wrong";
-                return refused(format!("{id:?} is {value}, and its check uses {number}; {what}"));
-            }
-        }
-        let is_unused = |one: &&Parameter| used.iter().all(|(id, _)| *id != one.id);
-        match self.parameters.iter().find(is_unused).filter(|_| !used.is_empty()) {
-            Some(one) => refused(format!("{:?} is in `uses` of no check; name it in one", one.id)),
-            None => Ok(()),
-        }
+    /// Refuses a parameter with another number than the one that a check uses.
+    pub(super) fn compare(&self, id: &str, number: f64) -> Result<(), PublishedError> {
+        let value = self.parameter(id)?;
+        let what = "restore the one that is wrong";
+        let fault = format!("the parameter {id:?} is {value}, and its check uses {number}; {what}");
+        let fault = PublishedError(format!("published.toml: {fault}"));
+        if value == number { Ok(()) } else { Err(fault) }
     }
 }
 

@@ -13,7 +13,7 @@ pub struct Rule {
     /// What it says, if it judges a relation between numbers and nothing that was printed.
     relation: Option<&'static str>,
     reads: Option<&'static str>,
-    uses: Vec<(&'static str, f64)>,
+    pub uses: Vec<(&'static str, f64)>,
     basis: Option<Basis>,
     statistical: bool,
     pub(crate) place: &'static Location<'static>,
@@ -56,8 +56,7 @@ impl Rule {
         Rule { reads: Some(words), ..self }
     }
 
-    /// Sets the numbers of `[[parameter]]` that it judges with: a file with others is refused, and
-    /// so is a parameter that no rule uses, once any rule uses one.
+    /// Sets the numbers of `[[parameter]]` that it judges with: a file with others is refused.
     pub fn uses(self, parameters: &[(&'static str, f64)]) -> Rule {
         Rule { uses: parameters.to_vec(), ..self }
     }
@@ -124,8 +123,9 @@ pub fn judge_all(
     for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
         published.statement(rule.id)?;
     }
-    let used: Vec<_> = rules.iter().flat_map(|rule| rule.uses.clone()).collect();
-    published.compare(&used)?;
+    for (id, number) in rules.iter().flat_map(|rule| &rule.uses) {
+        published.compare(id, *number)?;
+    }
     results.tables()?;
     let level = Some(level_of(rules));
     let mut checks = Vec::new();
