@@ -37,7 +37,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     }
     if let (Some(place), Some(bar)) = (single, bars.first()) {
         panel.guide("jump", &[(place, 1.0), (place, bar.1)], guide)?;
-        panel.label("one gap", (place, 1.0), (5, 2), RED)?;
+        panel.label("one gap", (panel.x.lo, 1.0), (3, -4), RED)?;
     }
     if let Some(bar) = bars.get(bars.len() / 2) {
         panel.label("its 95 % interval", (bar.0, bar.1), (2, 3), GREY)?;

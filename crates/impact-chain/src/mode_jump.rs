@@ -108,7 +108,7 @@ pub const STRAIGHT: f64 = 0.0075;
 /// Finds where the end overtakes the bulk, or the other way round for a single gap: the logarithm
 /// of the ratio of their shares is a straight line there. Returns `None` without such a place.
 pub fn crossing(rows: &[Heights], rises: bool) -> Option<Crossing> {
-    // Up to there what is overtaken leads in all, so that one row that is off by chance is no place.
+    // Up to there what is overtaken leads in all: one row that is off by chance is no place.
     let (mut sum, mut least, mut after) = (0.0, 0.0, 0_usize);
     for (row, number) in rows.iter().zip(1..) {
         let lead = (row.end - row.bulk) * row.chains.sqrt();
