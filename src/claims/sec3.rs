@@ -3,11 +3,13 @@
 use super::sec2::small_force;
 use super::shared::*;
 use crate::experiments::SEGMENTS;
+use crate::params::GRAPH_MASSES;
 
 pub fn rules() -> Vec<Rule> {
     vec![
         cases("sec3_impact_types").reads("n + 1 = (n − 1) + 2"),
-        Rule::new("sec3_vertices", |e| size(e, e.number("theory.graph.vertices")?)),
+        Rule::new("sec3_vertices", |e| size(e, e.number("theory.graph.vertices")?))
+            .uses(&[("graph_masses", GRAPH_MASSES as f64)]),
         Rule::new("sec3_edges", |e| size(e, e.number("theory.graph.edges")?)),
         Rule::new("sec3_different_orbits", different_orbits),
         Rule::new("sec3_every_orbit", every_orbit).on(FiniteCases),

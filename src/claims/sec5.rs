@@ -14,7 +14,10 @@ pub fn rules() -> Vec<Rule> {
         cases("sec5_eq7").reads("N!/(k (N − k)!)"),
         Rule::new("sec5_eq8", eq8).on(OurMeasure).reads("≪ 1 for all k ≲ N"),
         Rule::new("sec5_eq8_next", eq8_next).on(OurMeasure).reads("≪ 1 for all k ≲ N"),
-        Rule::new("sec5_majority", majority).on(OurMeasure).reads("length ≈ N"),
+        Rule::new("sec5_majority", majority)
+            .on(OurMeasure)
+            .reads("length ≈ N")
+            .uses(&[("vertices", VERTICES as f64)]),
     ]
 }
 

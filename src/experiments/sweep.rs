@@ -92,17 +92,12 @@ fn rise_table(sweep: &Counted) -> Table {
 }
 
 fn modes(sweep: &Counted) -> Table {
-    const UNDER: &str = "to here the mode is surely under half of all gaps";
     let (sigma, interval) =
         mode_intervals(sweep.first()).max_by_key(|(_, [low, high])| high - low).unzip();
-    let half = mode_half(sweep.first(), sweep.ensemble.chain.gaps());
     Table::of("sweep.mode", &[()], |()| 0)
         .chosen("noisiest_sigma", SIGMA, "where the interval of the mode is longest", |()| sigma)
         .chosen("noisiest_from", "1", "its lower end", |()| Some(interval?[0] as f64))
         .chosen("noisiest_to", "1", "its upper end", |()| Some(interval?[1] as f64))
-        .computed_by(origin(mode_half))
-        .chosen("half_from", SIGMA, UNDER, |()| Some(half?[0]))
-        .chosen("half_to", SIGMA, "from here surely over", |()| Some(half?[1]))
         .done()
 }
 

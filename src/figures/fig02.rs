@@ -14,32 +14,30 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         Protocol::default().transient,
         Protocol::default().window
     );
-    let place = results.number(&format!("{row}.place")).ok();
+    let at = |column: &str| results.number(&format!("{row}.{column}")).ok();
+    let (place, single) = (at("place"), at("single_place"));
     let sheet = Sheet::new(8300);
     let y = Axis::linear(0.0, 1.15 * n as f64, 20.0, 2, "most likely number of impacts");
     let panel = sheet.lettered("(a)", MAIN, sigma_axis(), y)?.outside(Outside::Cut);
-    let peaks = results.table("jump.rows")?.series(&[], "sigma", "peak")?;
-    let is_below = |sigma: f64| place.is_none_or(|place| sigma < place);
-    let below: Vec<_> = peaks.iter().filter(|(sigma, _)| is_below(*sigma)).collect();
-    let bars: Vec<_> =
-        below.iter().map(|(s, peak)| (*s, peak.interval[0], peak.interval[1])).collect();
+    let rows = results.table("jump.rows")?;
+    let modes = rows.curve(&[], "sigma", "mode")?;
+    let peaks = rows.series(&[], "sigma", "peak")?;
+    // Where a single gap or all gaps are the most likely number there is no interval.
+    let bars = peaks.iter().filter(|(sigma, peak)| modes.contains(&(*sigma, peak.value)));
+    let bars: Vec<_> = bars.map(|(s, peak)| (*s, peak.interval[0], peak.interval[1])).collect();
     panel.bars("most likely number", &bars, 40, INTERVAL)?;
     printed(&panel, 1.03 * n as f64)?;
-    let mut modes: Vec<_> = below.iter().map(|(sigma, peak)| (*sigma, peak.value)).collect();
-    let beyond = peaks.iter().filter(|(sigma, _)| !is_below(*sigma));
-    modes.extend(beyond.map(|(sigma, _)| (*sigma, n as f64)));
     panel.markers("most likely number", &modes, CROSSES)?;
     panel.label(&format!("all {n} gaps"), (panel.x.hi, n as f64), (-1, 3), RED)?;
-    if let Some(place) = place {
-        let level = bars.last().map_or(0.0, |bar| bar.2);
-        let guide = Stroke::dashed(RED, THIN, SHORT);
-        panel.guide("jump", &[(place, level), (place, n as f64)], guide)?;
-        panel.label(
-            &format!("jump at *σ* = {}", short(place, 4)),
-            (place, 0.86 * n as f64),
-            (5, 0),
-            RED,
-        )?;
+    let guide = Stroke::dashed(RED, THIN, SHORT);
+    if let (Some(place), Some(bar)) = (place, bars.last()) {
+        panel.guide("jump", &[(place, bar.2), (place, n as f64)], guide)?;
+        let text = format!("jump at *σ* = {}", short(place, 4));
+        panel.label(&text, (place, 0.86 * n as f64), (5, 0), RED)?;
+    }
+    if let (Some(place), Some(bar)) = (single, bars.first()) {
+        panel.guide("jump", &[(place, 1.0), (place, bar.1)], guide)?;
+        panel.label("one gap", (panel.x.lo, 1.0), (3, -4), RED)?;
     }
     if let Some(bar) = bars.get(bars.len() / 2) {
         panel.label("its 95 % interval", (bar.0, bar.1), (2, 3), GREY)?;
@@ -64,10 +62,15 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let all = shares.last().map_or(0.0, |last| last.1);
         heights.push(format!("{} at σ = {}", short(all, 2), short(*sigma, 4)));
     }
+    let at = |place: Option<f64>, digits| {
+        place.map_or(String::new(), |place| format!(" at σ = {}", short(place, digits)))
+    };
     let description = describe!(
-        "(a) Most likely number of gaps that impact against σ: it climbs to about half of {n}, then jumps to all{}; \
-         dotted: the printed σ = {}. (b) to (d) Before, at and after, the column of all gaps overtakes the hump: {}.",
-        place.map_or(String::new(), |place| format!(" at σ = {}", short(place, 4))),
+        "(a) Most likely number of gaps that impact against σ: one, then{} a hump that climbs to about half of {n}, \
+         then all{}; dotted: the printed σ = {}. (b) to (d) Before, at and after, the column of all gaps overtakes \
+         the hump: {}.",
+        at(single, 2),
+        at(place, 4),
         printed_threshold(),
         heights.join(", "),
     );

@@ -12,6 +12,9 @@ pub const SECOND_SEED: u64 = 7002;
 /// Number of vertices N of the theory's main curves (Figs. 7 to 9: 100).
 pub const VERTICES: usize = 100;
 
+/// Masses of the graph of Fig. 4.
+pub const GRAPH_MASSES: usize = 3;
+
 /// Edge probabilities of Fig. 8 (a) to (d).
 pub const DISTRIBUTION_P: [f64; 4] = [0.01, 0.02, 0.05, 0.1];
 

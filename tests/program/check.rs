@@ -69,7 +69,10 @@ const FAULTS: &str = r##"1 front.md +About 12 of them. => :$:7: hard-coded numbe
 2 literals.toml why = "what the model is -> why = " " # => : [
 2 claims/sec7.toml {first:8} -> {initial:8} => : [sec7_extrema] has {initial:8} in found; write {name} or {name:3}, with a name of first, crit, all
 2 published.toml [[statement]] -> [[statement => :
-2 published.toml printed = "N − 1" -> printed = "N − 2" => :448: the id "sec7_limit": its check judges "N − 1", and not its printed
+2 published.toml printed = "N − 1" -> printed = "N − 2" => :447: the id "sec7_limit": its check judges "N − 1", and not its printed
+2 published.toml value = 0.04 -> value = 0.07 => : the parameter "fig14_p_b" is 0.07, and its check uses 0.04
+2 published.toml "fig14_p_b" -> "fig14_p_c" => : no parameter "fig14_p_b"
+2 edition/09-higher.md frac{1}{24} -> frac{1}{25} => :66:1: equation (36) has the digits 1001251434, in the list 1001241434
 2 published.toml "sec2_half_height" -> "sec2_new" => : no statement "sec2_half_height""##;
 
 #[test]

@@ -85,6 +85,14 @@ fn judged(results: &Results, expected: &[(&str, Verdict)]) {
     }
 }
 
+#[test]
+fn each_number_that_the_paper_chose_is_used_by_a_check() {
+    let rules = claims::rules();
+    let is_used = |id: &str| rules.iter().flat_map(|rule| &rule.uses).any(|(used, _)| *used == id);
+    let unused = QUICK.published.parameters.iter().find(|one| !is_used(&one.id));
+    assert!(unused.is_none(), "{unused:?}");
+}
+
 /// Verdicts follow the simulated numbers: shift, flatten or crowd them, and the claims fail.
 #[test]
 fn claims_fail_when_the_results_say_so() {

@@ -108,9 +108,14 @@ pub const STRAIGHT: f64 = 0.0075;
 /// Finds where the end overtakes the bulk, or the other way round for a single gap: the logarithm
 /// of the ratio of their shares is a straight line there. Returns `None` without such a place.
 pub fn crossing(rows: &[Heights], rises: bool) -> Option<Crossing> {
-    let ahead = |row: &Heights| (row.end > row.bulk) == rises;
-    let after = rows.iter().rposition(|row| !ahead(row))? + 1;
-    let centre = 0.5 * (rows[after - 1].sigma + rows.get(after)?.sigma);
+    // Up to there what is overtaken leads in all: one row that is off by chance is no place.
+    let (mut sum, mut least, mut after) = (0.0, 0.0, 0_usize);
+    for (row, number) in rows.iter().zip(1..) {
+        let lead = (row.end - row.bulk) * row.chains.sqrt();
+        sum += if rises { lead } else { -lead };
+        (least, after) = if sum < least { (sum, number) } else { (least, after) };
+    }
+    let centre = 0.5 * (rows[after.checked_sub(1)?].sigma + rows.get(after)?.sigma);
     let near = || rows.iter().filter(|row| (row.sigma - centre).abs() <= STRAIGHT + 1e-9);
     // Half a chain more, so that none has a logarithm; weights as of two counts.
     let counts = |row: &Heights| [row.end, row.bulk].map(|share| share * row.chains + 0.5);
@@ -178,7 +183,8 @@ impl Sample<'_> {
     }
 }
 
-/// A [`Crossing`] with bootstrap errors, each `None` where the sample shows none.
+/// A [`Crossing`] with bootstrap errors, each `None` where the sample shows none; where the mode
+/// surely climbs there is a clearance only.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Passing {
     pub sigma: Option<Estimate>,
@@ -192,11 +198,10 @@ impl Passing {
             let values: Vec<_> = resamples.iter().map(|crossing| crossing.map(column)).collect();
             bootstrap::estimate(whole.map(column), &values, LEVEL)
         };
-        Passing {
-            sigma: estimate(|crossing| crossing.sigma),
-            peak: estimate(|crossing| crossing.peak),
-            clearance: estimate(|crossing| crossing.clearance),
-        }
+        let clearance = estimate(|crossing| crossing.clearance);
+        let climbs = clearance.is_some_and(|of| of.interval[1] < 0.0);
+        let of = |column: fn(Crossing) -> f64| estimate(column).filter(|_| !climbs);
+        Passing { sigma: of(|at| at.sigma), peak: of(|at| at.peak), clearance }
     }
 
     /// Returns whether the mode surely jumps (true) or surely climbs (false), or `None` if neither

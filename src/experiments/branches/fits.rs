@@ -1,5 +1,5 @@
-//! Fits laws to the distance of the branches against T: a power without and with a limit, and a
-//! power of ln T, which has no limit either.
+//! Fits laws to the distance of the branches against T: a power of T and one of ln T, each without
+//! and with a limit.
 //!
 //! A distance has the weight 1/error². Errors are by leaving out whole chains, those of what is
 //! fitted too, with the weights kept, since distances at different T are of the same chains.
@@ -17,10 +17,13 @@ pub(super) struct Law {
     scale: fn(f64) -> f64,
 }
 
-pub(super) const LAWS: [Law; 3] = [
+const LOG_LOG: fn(f64) -> f64 = |time| pxfm::f_log(pxfm::f_log(time));
+
+pub(super) const LAWS: [Law; 4] = [
     Law { name: "power", limited: false, scale: pxfm::f_log },
     Law { name: "limit", limited: true, scale: pxfm::f_log },
-    Law { name: "logarithm", limited: false, scale: |time| pxfm::f_log(pxfm::f_log(time)) },
+    Law { name: "logarithm", limited: false, scale: LOG_LOG },
+    Law { name: "logarithm_limit", limited: true, scale: LOG_LOG },
 ];
 
 pub(super) struct Fit {
@@ -85,7 +88,7 @@ mod tests {
         let (mean, error) = (0.104, standard_error(&own).unwrap());
         for law in LAWS {
             let at = |time: f64| {
-                let u: f64 = if law.name == "logarithm" {
+                let u: f64 = if law.name.starts_with("logarithm") {
                     pxfm::f_log(time) / pxfm::f_log(4.0)
                 } else {
                     time / 4.0

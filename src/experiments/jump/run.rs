@@ -2,11 +2,13 @@
 
 use crate::experiments::ensembles::{joined, part, rows};
 use crate::experiments::prelude::*;
-use crate::params::{Ensemble, Protocol};
+use crate::params::{Boundary, Ensemble, Protocol};
 use impact_chain::Counts;
 use impact_chain::mode_jump::{ModeJump, Sample, mode_jump};
 use literate::experiments::cutting::Cutting;
 use rayon::prelude::*;
+
+type Counted = (Ensemble, Vec<Counts>);
 
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> = Cutting { rows, part, join };
 
@@ -14,6 +16,8 @@ pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> = Cutting { rows, part,
 pub struct Jumps {
     pub ensembles: Vec<Ensemble>,
     pub windows: Vec<WindowJump>,
+    /// What was found on rings with our protocol.
+    pub ring: WindowJump,
     /// The place with our protocol when the bulk is smoothed over so many numbers on both sides.
     pub widths: Vec<(usize, Option<Estimate>)>,
 }
@@ -24,6 +28,12 @@ pub struct WindowJump {
     pub jump: ModeJump,
     /// Numbers of chains by their count k = 0..=N, at each σ.
     pub histograms: Vec<Vec<u32>>,
+}
+
+impl WindowJump {
+    pub fn chains(&self) -> u64 {
+        self.histograms.iter().flatten().map(|count| u64::from(*count)).sum()
+    }
 }
 
 /// Numbers on both sides over which the bulk is smoothed, and others that must give the same.
@@ -46,35 +56,40 @@ fn join(
     parts: Vec<Vec<Counts>>,
     progress: &Progress,
 ) -> Result<Jumps, Error> {
-    let counted: Vec<(Ensemble, Vec<Counts>)> = joined(ensembles, parts).collect();
+    let (rings, walls): (Vec<Counted>, Vec<Counted>) =
+        joined(ensembles, parts).partition(|(one, _)| one.chain.boundary == Boundary::Ring);
     let protocols = ensembles.first().map_or(&[][..], |ensemble| &ensemble.protocols);
-    let samples = |window: usize| samples(&counted, window);
+    let samples = |window: usize| samples(&walls, window);
     let gaps = ensembles.first().map_or(0, |ensemble| ensemble.chain.gaps());
-    let histogram = |sample: &Sample<'_>| {
-        let mut histogram = vec![0; gaps + 1];
-        sample.counts.iter().flatten().for_each(|&k| histogram[k as usize] += 1);
-        histogram
-    };
     let window = |(window, &protocol): (usize, &Protocol)| {
         progress.check()?;
-        let samples = samples(window);
-        let jump = mode_jump(&samples, gaps, HALF_WIDTH);
-        let histograms = samples.iter().map(histogram).collect();
-        Ok(WindowJump { protocol, jump, histograms })
+        Ok(found(protocol, &samples(window), gaps))
     };
     let windows = protocols.par_iter().enumerate().with_max_len(1).map(window);
     let windows = windows.collect::<Result<Vec<_>, Error>>()?;
+    let ring_gaps = rings.first().map_or(0, |(ensemble, _)| ensemble.chain.gaps());
+    let ring = found(Protocol::default(), &self::samples(&rings, 0), ring_gaps);
     let ours = protocols.iter().position(|protocol| *protocol == Protocol::default());
     let place = |width: usize| {
         let jump = ours.map(|window| mode_jump(&samples(window), gaps, width));
         (width, jump.and_then(|jump| jump.all_gaps.sigma))
     };
     let widths = HALF_WIDTHS.into_par_iter().map(place).collect();
-    Ok(Jumps { ensembles: ensembles.clone(), windows, widths })
+    Ok(Jumps { ensembles: ensembles.clone(), windows, ring, widths })
+}
+
+fn found(protocol: Protocol, samples: &[Sample<'_>], gaps: usize) -> WindowJump {
+    let histogram = |sample: &Sample<'_>| {
+        let mut histogram = vec![0; gaps + 1];
+        sample.counts.iter().flatten().for_each(|&k| histogram[k as usize] += 1);
+        histogram
+    };
+    let histograms = samples.iter().map(histogram).collect();
+    WindowJump { protocol, jump: mode_jump(samples, gaps, HALF_WIDTH), histograms }
 }
 
 /// Returns the counts of a window at each σ.
-fn samples(counted: &[(Ensemble, Vec<Counts>)], window: usize) -> Vec<Sample<'_>> {
+fn samples(counted: &[Counted], window: usize) -> Vec<Sample<'_>> {
     let mut samples = Vec::new();
     for (ensemble, counts) in counted {
         samples.push(Sample {

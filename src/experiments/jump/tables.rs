@@ -6,7 +6,7 @@ use crate::params::Protocol;
 use impact_chain::mode_jump::{Passing, mode_jump};
 
 pub fn tables(jumps: &Jumps) -> Vec<Table> {
-    vec![run(jumps), windows(jumps), widths(jumps)]
+    vec![run(jumps), windows(jumps), ring(jumps), widths(jumps)]
         .into_iter()
         .chain(
             jumps
@@ -18,49 +18,64 @@ pub fn tables(jumps: &Jumps) -> Vec<Table> {
 }
 
 fn run(jumps: &Jumps) -> Table {
-    let chains = |jumps: &Jumps| jumps.ensembles.iter().map(|one| one.realisations as u64).sum();
     let counted = |outcome: Option<bool>| {
         let same = |window: &&WindowJump| window.jump.all_gaps.is_jump() == outcome;
         jumps.windows.iter().filter(same).count() as u64
     };
+    let first = jumps.windows.first();
     Table::of("jump.run", &[jumps], |_| 0)
-        .count("chains", "chains of all σ", |jumps| chains(jumps))
-        .count("sigmas", "values of σ", |jumps| jumps.ensembles.len() as u64)
+        .count("chains", "chains of all σ", |_| first.map_or(0, WindowJump::chains))
+        .count("sigmas", "values of σ", |_| first.map_or(0, |one| one.histograms.len() as u64))
         .count("windows", "windows", |jumps| jumps.windows.len() as u64)
         .computed_by(origin(Passing::is_jump))
         .count("jumps", "windows in which the mode surely jumps to all gaps", |_| {
             counted(Some(true))
         })
         .count("climbs", "windows in which it surely climbs there", |_| counted(Some(false)))
+        .count("open", "windows in which the sample does not tell", |_| counted(None))
         .done()
 }
 
+fn outcome(passing: &Passing) -> Option<f64> {
+    passing.is_jump().map(|jump| f64::from(u8::from(jump)))
+}
+
+const PLACE: &str = "σ where all gaps are as likely as the peak of the bulk";
+const BELOW: &str = "number of gaps at that peak";
+const CLEARANCE: &str = "likeliest number between, below both by this part";
+const SINGLE: &str = "σ where a single gap is as likely as the peak of the bulk";
+const JUMPS: &str = "1 if the mode surely jumps, 0 if it surely climbs";
+
 fn windows(jumps: &Jumps) -> Table {
-    let gaps = jumps.gaps() as f64;
-    let outcome = |passing: &Passing| passing.is_jump().map(|jump| f64::from(u8::from(jump)));
-    let place = |window: &WindowJump| window.jump.all_gaps.sigma;
-    let step = |window: &WindowJump| {
-        let peak = window.jump.all_gaps.peak?;
-        let [low, high] = peak.interval;
-        Some(Estimate { value: gaps - peak.value, interval: [gaps - high, gaps - low], ..peak })
-    };
     Table::of("jump.windows", &jumps.windows, |_| 0)
         .key("transient", TIME, |window| window.protocol.transient)
         .key("window", TIME, |window| window.protocol.window)
         .computed_by(origin(mode_jump))
-        .estimate("place", SIGMA, "σ where all gaps are as likely as the peak of the bulk", place)
-        .estimate("below", "1", "number of gaps at that peak", |window| window.jump.all_gaps.peak)
-        .estimate("step", "1", "from there to all gaps", step)
-        .estimate("clearance", "1", "likeliest number between, below both by this part", |window| {
-            window.jump.all_gaps.clearance
-        })
+        .estimate("place", SIGMA, PLACE, |window| window.jump.all_gaps.sigma)
+        .estimate("below", "1", BELOW, |window| window.jump.all_gaps.peak)
+        .estimate("clearance", "1", CLEARANCE, |window| window.jump.all_gaps.clearance)
+        .estimate("single_place", SIGMA, SINGLE, |window| window.jump.single_gap.sigma)
+        .estimate("single_above", "1", BELOW, |window| window.jump.single_gap.peak)
+        .estimate("single_clearance", "1", CLEARANCE, |window| window.jump.single_gap.clearance)
         .computed_by(origin(Passing::is_jump))
-        .chosen("jumps", "1", "1 if the mode surely jumps, 0 if it surely climbs", |window| {
-            outcome(&window.jump.all_gaps)
-        })
+        .chosen("jumps", "1", JUMPS, |window| outcome(&window.jump.all_gaps))
         .chosen("single_jumps", "1", "the same where a single gap is overtaken", |window| {
             outcome(&window.jump.single_gap)
         })
+        .done()
+}
+
+/// Makes the table of the jump on rings, with our protocol.
+fn ring(jumps: &Jumps) -> Table {
+    let (ring, walls) = (&jumps.ring.jump.all_gaps, jumps.window(Protocol::default()));
+    let less = || Some(difference(ring.sigma?, walls?.jump.all_gaps.sigma?));
+    Table::of("jump.ring", &[ring], |_| 0)
+        .count("chains", "chains of all σ", |_| jumps.ring.chains())
+        .computed_by(origin(mode_jump))
+        .estimate("place", SIGMA, PLACE, |ring| ring.sigma)
+        .estimate("difference", SIGMA, "place less that between walls", |_| less())
+        .computed_by(origin(Passing::is_jump))
+        .chosen("jumps", "1", JUMPS, |ring| outcome(ring))
         .done()
 }
 
@@ -72,17 +87,37 @@ fn widths(jumps: &Jumps) -> Table {
         .done()
 }
 
-/// Makes the table of the shares at each σ with our protocol.
+/// Makes the table of the shares at each σ with our protocol, and of the number that is the most
+/// likely one by where the peak overtakes a single gap, and all gaps the peak.
 fn rows(window: &WindowJump) -> Table {
-    let rows: Vec<_> = window.jump.rows.iter().zip(&window.jump.peaks).collect();
-    Table::of("jump.rows", &rows, |(row, _)| row.chains as usize)
-        .key("sigma", SIGMA, |(row, _)| row.sigma)
+    let rows: Vec<_> =
+        window.jump.rows.iter().zip(&window.jump.peaks).zip(&window.histograms).collect();
+    let [single, all] = [&window.jump.single_gap, &window.jump.all_gaps].map(|one| one.sigma);
+    let mode = |sigma: f64, peak: f64, gaps: usize| match (single, all) {
+        (Some(place), _) if sigma < place.value => 1.0,
+        (_, Some(place)) if sigma > place.value => gaps as f64,
+        _ => peak,
+    };
+    Table::of("jump.rows", &rows, |((row, _), _)| row.chains as usize)
+        .key("sigma", SIGMA, |((row, _), _)| row.sigma)
         .computed_by(origin(mode_jump))
-        .estimate("all", "1", "share of chains with all gaps, of those with any", |(row, _)| {
-            share((row.end * row.chains).round() as u64, row.chains as u64)
+        .estimate(
+            "single",
+            "1",
+            "share of chains with one gap, of those with any",
+            |(both, own)| share(u64::from(own[1]), both.0.chains as u64),
+        )
+        .estimate(
+            "all",
+            "1",
+            "share of chains with all gaps, of those with any",
+            |((row, _), _)| share((row.end * row.chains).round() as u64, row.chains as u64),
+        )
+        .real("bulk", "1", 3, "share at the peak of the bulk", |((row, _), _)| row.bulk)
+        .estimate("peak", "1", "number of gaps at that peak", |((_, peak), _)| **peak)
+        .chosen("mode", "1", "most likely number of gaps", |((row, peak), own)| {
+            Some(mode(row.sigma, peak.as_ref()?.value, own.len() - 1))
         })
-        .real("bulk", "1", 3, "share at the peak of the bulk", |(row, _)| row.bulk)
-        .estimate("peak", "1", "number of gaps at that peak", |(_, peak)| **peak)
         .done()
 }
 

@@ -2,7 +2,7 @@
 
 use super::basics::{known, largest, one, sum};
 use crate::experiments::prelude::*;
-use crate::params::VERTICES;
+use crate::params::{GRAPH_MASSES, VERTICES};
 use impact_circuits::distribution::SampleSpace;
 use impact_circuits::graph::Graph;
 use impact_circuits::{commuting, counting, jump};
@@ -15,7 +15,7 @@ const ABOUT: usize = VERTICES / 20;
 const ENUMERATED: usize = 7;
 
 pub(super) fn graph() -> Table {
-    let vertices = Graph::of_chain(3).vertices() as u64;
+    let vertices = Graph::of_chain(GRAPH_MASSES).vertices() as u64;
     one("theory.graph", origin(Graph::of_chain))
         .count("vertices", "of the graph for three masses", |()| vertices)
         .count("edges", "of the same", |()| vertices * vertices)

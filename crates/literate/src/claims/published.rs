@@ -109,6 +109,15 @@ impl Published {
         let found = self.parameters.iter().find(|parameter| parameter.id == id);
         found.map(|one| one.value).ok_or_else(|| PublishedError::missing("parameter", id))
     }
+
+    /// Refuses a parameter with another number than the one that a check uses.
+    pub(super) fn compare(&self, id: &str, number: f64) -> Result<(), PublishedError> {
+        let value = self.parameter(id)?;
+        let what = "restore the one that is wrong";
+        let fault = format!("the parameter {id:?} is {value}, and its check uses {number}; {what}");
+        let fault = PublishedError(format!("published.toml: {fault}"));
+        if value == number { Ok(()) } else { Err(fault) }
+    }
 }
 
 /// Returns the id that a line gives to an entry, with the number of the line.

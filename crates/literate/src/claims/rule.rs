@@ -13,6 +13,7 @@ pub struct Rule {
     /// What it says, if it judges a relation between numbers and nothing that was printed.
     relation: Option<&'static str>,
     reads: Option<&'static str>,
+    pub uses: Vec<(&'static str, f64)>,
     basis: Option<Basis>,
     statistical: bool,
     pub(crate) place: &'static Location<'static>,
@@ -27,7 +28,8 @@ impl Rule {
         judge: impl Fn(&Evidence<'_>) -> Judged + Send + Sync + 'static,
     ) -> Rule {
         let (judge, place) = (Box::new(judge), Location::caller());
-        Rule { id, relation: None, reads: None, basis: None, statistical: false, place, judge }
+        let (relation, reads, uses, basis, statistical) = (None, None, Vec::new(), None, false);
+        Rule { id, relation, reads, uses, basis, statistical, place, judge }
     }
 
     /// Makes it the rule of a relation between numbers that must hold. It may allow for standard
@@ -52,6 +54,11 @@ impl Rule {
     /// statement with other words is refused. `{}` stands for the number.
     pub fn reads(self, words: &'static str) -> Rule {
         Rule { reads: Some(words), ..self }
+    }
+
+    /// Sets the numbers of `[[parameter]]` that it judges with: a file with others is refused.
+    pub fn uses(self, parameters: &[(&'static str, f64)]) -> Rule {
+        Rule { uses: parameters.to_vec(), ..self }
     }
 
     pub fn is_of_statement(&self) -> bool {
@@ -115,6 +122,9 @@ pub fn judge_all(
 ) -> Result<Vec<Check>, Error> {
     for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
         published.statement(rule.id)?;
+    }
+    for (id, number) in rules.iter().flat_map(|rule| &rule.uses) {
+        published.compare(id, *number)?;
     }
     results.tables()?;
     let level = Some(level_of(rules));

@@ -3,7 +3,7 @@
 use super::bibliography::Library;
 use super::card::{Cards, link_to_line, links};
 use super::claims::{row, scorecard};
-use super::document::{self, Block, Inline};
+use super::document::{self, Block, Inline, visit};
 use super::edition::Document;
 use super::error::Error;
 use super::filled::{Filled, Places};
@@ -138,6 +138,8 @@ fn parts<'a>(
         }
         let (figures, found) = illustrate(&mut blocks, input);
         errors.extend(found.into_iter().map(|error| places.locate(error)));
+        let digits = other_digits(&mut blocks, &input.edition.equations);
+        errors.extend(digits.into_iter().map(|error| places.locate(error)));
         let numbered = labels.number_all(&mut blocks, *document);
         errors.extend(numbered.err().map(|error| places.locate(error)));
         if !document.repeats {
@@ -168,6 +170,21 @@ fn parts<'a>(
     }
     all_in_order(errors)?;
     Ok((parts, labels))
+}
+
+/// Finds the equations whose digits are not those that the list of equations has.
+fn other_digits(blocks: &mut [Block], equations: &[EquationEntry]) -> Vec<Error> {
+    let mut errors = Vec::new();
+    visit(blocks, &mut |inline| {
+        let Inline::Display { formula, number, .. } = inline else { return };
+        let found: String = formula.digits().chars().filter(char::is_ascii_digit).collect();
+        let own = equations.iter().filter(|listed| listed.number.to_string() == *number);
+        for other in own.filter_map(|own| own.digits).filter(|digits| *digits != found) {
+            let what = format!("equation ({number}) has the digits {found}, in the list {other}");
+            errors.push(Error::Named { thing: format!("#eq:{number}"), what });
+        }
+    });
+    errors
 }
 
 /// Makes the ledger, in which figures have the labels and numbers that the documents give them.

@@ -31,6 +31,9 @@ pub struct FigureEntry {
 pub struct EquationEntry {
     pub number: u32,
     pub section: u32,
+    /// All digits of its formula, which the prose must have too.
+    #[serde(skip)]
+    pub digits: Option<&'static str>,
     pub what: String,
     pub home: String,
     /// The equation that the home leads to, where coding this one would be pointless.

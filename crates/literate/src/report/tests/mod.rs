@@ -235,7 +235,8 @@ impl Given {
 
 fn given(prose: &str) -> Given {
     let (what, home) = ("the jump".into(), "toy::flight".into());
-    let equation = ledger::EquationEntry { number: 18, section: 7, what, home, step_towards: None };
+    let (number, section, digits, step_towards) = (18, 7, None, None);
+    let equation = ledger::EquationEntry { number, section, digits, what, home, step_towards };
     let authors = vec![("A. Uthor", "R & D"), ("B. Uthor", "")];
     let edition = Edition::new("toy");
     Given {
@@ -312,6 +313,17 @@ fn numerals_that_were_typed_outside_the_prose_are_refused() {
     ] {
         let error = given.made().unwrap_err().to_string();
         assert!(error.starts_with(words) && error.contains("12"), "{error}");
+    }
+    let with_digit = || given(&PROSE.replace("x = y", "x = 2 y"));
+    for (digits, fails) in [(None, false), (Some("2"), false), (Some("3"), true)] {
+        let mut given = with_digit();
+        given.edition.equations[0].digits = digits;
+        let error = given.made().err().map(|error| error.to_string()).unwrap_or_default();
+        assert_eq!(
+            error.contains("equation (18) has the digits 2, in the list 3"),
+            fails,
+            "{error}"
+        );
     }
 }
 
