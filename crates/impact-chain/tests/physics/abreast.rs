@@ -275,6 +275,10 @@ fn chains_that_are_handed_over() {
         let runs = run(&chain, &windows(1.0), END, std::slice::from_ref(&scenario));
         assert!(matches!(runs[..], [None]), "{scenario:?}");
     }
+    // It hits the wall at 5e-4 and leaves it at 5e-5.
+    let weak = Chain { restitution: 0.1, ..chain.clone() };
+    let rebound = Scenario { restitution: 0.1, ..set([[0.0, -1.0 - 1.25e-7], [0.0; 2], [0.0; 2]]) };
+    assert!(matches!(run(&weak, &windows(1.0), END, &[rebound])[..], [None]));
     let stopped = Abreast::new(&chain, &windows(1.0), END).unwrap();
     assert!(matches!(stopped.run(&[drawn(&chain, 0.3, "a", 0)], &|| true)[..], [None]));
 }
