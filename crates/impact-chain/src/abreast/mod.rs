@@ -22,6 +22,7 @@ use grid::Grid;
 use lanes::Lanes;
 use proof::SLOW;
 use slot::Slot;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Steps after which a run checks again whether to stop, and which gaps can close.
 const CHECK_EVERY: usize = 128;
@@ -34,6 +35,20 @@ const OPEN: f64 = 1e-6;
 
 /// Masses side by side that fill the registers.
 const MASSES: usize = 1600;
+
+/// Whether only such vectors are used as every processor of the kind has.
+static GENERIC: AtomicBool = AtomicBool::new(false);
+
+/// Does from now on without the vectors that not every processor of the kind has, as a measurement
+/// may want: nothing but times depends on it.
+pub fn without_wide_vectors() {
+    GENERIC.store(true, Ordering::Relaxed);
+}
+
+/// Returns the vectors to compute with.
+pub(crate) fn level() -> Level {
+    if GENERIC.load(Ordering::Relaxed) { Level::baseline() } else { Level::new() }
+}
 
 /// What chains side by side have in common. Lengths in units of d, times of 1/ω.
 #[derive(Clone, Debug)]
@@ -148,7 +163,7 @@ impl Abreast {
         scenarios: &[Scenario],
         stopped: &dyn Fn() -> bool,
     ) -> Vec<Option<Realisation>> {
-        self.run_at(Level::new(), scenarios, stopped)
+        self.run_at(level(), scenarios, stopped)
     }
 
     fn run_at(
