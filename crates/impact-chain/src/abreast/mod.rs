@@ -70,6 +70,8 @@ struct Plan {
     /// gap after it go back.
     weights: Vec<[f64; 4]>,
     ring: bool,
+    /// A chain ends with its first impact after this time.
+    enough: f64,
 }
 
 impl Plan {
@@ -95,6 +97,7 @@ impl Plan {
             neighbours: gaps.clone().map(neighbours).collect(),
             weights: gaps.map(weights).collect(),
             ring: chain.boundary == Boundary::Ring,
+            enough: f64::INFINITY,
         }
     }
 
@@ -149,6 +152,13 @@ impl Abreast {
         let plan = Plan::new(chain, grid.length);
         let (chain, windows) = (chain.clone(), windows.to_vec());
         Some(Abreast { chain, windows, until, end, plan, grid })
+    }
+
+    /// Ends each realisation right after its first impact later than `time`; the engine is not asked
+    /// to, where it has to do one.
+    pub fn until_first_after(mut self, time: f64) -> Abreast {
+        self.plan.enough = time;
+        self
     }
 
     /// Returns how many realisations of a chain are best simulated together.
