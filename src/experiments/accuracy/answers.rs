@@ -206,9 +206,9 @@ fn question(
         let values = values(&pairs);
         let found = match setting.method {
             Certified => {
-                let own = all.iter().map(|(_, (runs, again))| {
-                    own_error([&runs[0], again], runs[0].len())
-                });
+                let own = all
+                    .iter()
+                    .map(|(_, (runs, again))| own_error([&runs[0], again], runs[0].len()));
                 with_error(0.0, if is_share { 0.0 } else { own.fold(0.0, f64::max) })
             }
             // Where all chains agree, only of a share one knows how often they would not.
@@ -253,20 +253,35 @@ fn questions(biases: &Biases, measured: (&Measured, bool)) -> Vec<Question> {
     let (low, high, percent) = (MEANS[0].0, MEANS[1].0, 100.0 * ALIKE);
     let words =
         format!("the share of chains with an impact to {percent} percentage point, $σ = {low}$");
-    all.extend(question(biases, measured, &[low], ALIKE, (["share".into(), words], true), |pairs| {
-        let any = |count: f64| f64::from(u8::from(count > 0.0));
-        pairs[0].iter().map(|pair| any(pair[0]) - any(pair[1])).collect()
-    }));
+    all.extend(question(
+        biases,
+        measured,
+        &[low],
+        ALIKE,
+        (["share".into(), words], true),
+        |pairs| {
+            let any = |count: f64| f64::from(u8::from(count > 0.0));
+            pairs[0].iter().map(|pair| any(pair[0]) - any(pair[1])).collect()
+        },
+    ));
     let words = format!("the half height of the rise to {percent} %");
-    all.extend(question(biases, measured, &[low, high], ALIKE, (["rise".into(), words], false), |pairs| {
-        let half = 0.5 * (1 + biases.parameters.means[0].chains.chain.masses) as f64;
-        let [below, above] = [0, 1].map(|i| ours(&pairs[i]).unwrap_or(f64::NAN));
-        let slope = (above - below) / (high - low);
-        let (part, height) = ((half - below) / (above - below), low + (half - below) / slope);
-        let lower = |[a, b]: [&[f64; 2]; 2]| (1.0 - part) * (a[1] - a[0]) + part * (b[1] - b[0]);
-        let both = pairs[0].iter().zip(&pairs[1]);
-        both.map(|(a, b)| lower([a, b]) / slope / height).collect()
-    }));
+    all.extend(question(
+        biases,
+        measured,
+        &[low, high],
+        ALIKE,
+        (["rise".into(), words], false),
+        |pairs| {
+            let half = 0.5 * (1 + biases.parameters.means[0].chains.chain.masses) as f64;
+            let [below, above] = [0, 1].map(|i| ours(&pairs[i]).unwrap_or(f64::NAN));
+            let slope = (above - below) / (high - low);
+            let (part, height) = ((half - below) / (above - below), low + (half - below) / slope);
+            let lower =
+                |[a, b]: [&[f64; 2]; 2]| (1.0 - part) * (a[1] - a[0]) + part * (b[1] - b[0]);
+            let both = pairs[0].iter().zip(&pairs[1]);
+            both.map(|(a, b)| lower([a, b]) / slope / height).collect()
+        },
+    ));
     all
 }
 

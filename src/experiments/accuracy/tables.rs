@@ -157,7 +157,9 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
         .key("sigma", SIGMA, |row| row.0)
         .computed_by(origin(bias::run))
         .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |row| mean(&row.1))
-        .real("chaos", "1", 1, "its error that chaos makes of roundings, over it", |row| Some(row.2))
+        .real("chaos", "1", 1, "its error that chaos makes of roundings, over it", |row| {
+            Some(row.2)
+        })
         .done();
     vec![cells, means]
 }

@@ -265,6 +265,32 @@ mod tests {
     use crate::NormalPairs;
     use fearless_simd::Simd;
 
+    /// A realisation that ends early has the impacts of the whole one up to the first after a time.
+    #[test]
+    fn realisations_end_with_the_impact_that_is_asked_for() {
+        let chain = Chain { masses: 30, ..Chain::default() };
+        let all: Vec<Scenario> = (0..16)
+            .map(|i| Scenario::draw(&chain, 0.2, &mut NormalPairs::new("first", 1, i)))
+            .collect();
+        let many = Abreast::new(&chain, &[], 60.0).unwrap();
+        let early = many.clone().until_first_after(30.0);
+        let mut after = 0;
+        for (run, scenario) in early.run(&all, &|| false).into_iter().zip(&all) {
+            let mut expected = 0;
+            let mut engine = crate::Engine::new(scenario).unwrap();
+            engine
+                .run(60.0, |impact| {
+                    expected += 1;
+                    impact.time <= 30.0
+                })
+                .unwrap();
+            let counts = run.unwrap().counts();
+            assert_eq!(counts.total.impacts, expected);
+            after += usize::from(expected > 0);
+        }
+        assert!(after > 8);
+    }
+
     /// A realisation has the same bits with any vectors, alone or with others.
     #[test]
     fn bits_are_the_same_for_any_width() {

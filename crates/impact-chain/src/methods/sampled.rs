@@ -176,7 +176,8 @@ impl Gaps {
             *half = part.rate.sin_cos(Instant::at(0.5 * h));
         }
         let smallest = |part: &Part| {
-            let term = |power: f64, factor: &f64| (1e-18 < power * factor).then_some(0.5 * h * power);
+            let term =
+                |power: f64, factor: &f64| (1e-18 < power * factor).then_some(0.5 * h * power);
             let mut power = 1.0;
             let terms = part.factors.iter().map_while(|factor| {
                 power = term(power, factor)?;
@@ -227,13 +228,7 @@ impl Gaps {
     }
 
     /// Adds the zero of gap k in the step from a time on, with width and rate then, if it closes.
-    fn locate(
-        &mut self,
-        k: usize,
-        (from, start): (f64, [f64; 2]),
-        step: &Step,
-        tally: &mut Tally,
-    ) {
+    fn locate(&mut self, k: usize, (from, start): (f64, [f64; 2]), step: &Step, tally: &mut Tally) {
         tally.cost.evaluations += 2;
         let mut end = self.at(k, step.phases);
         if start[0] <= 0.0 && start[1] < 0.0 {
@@ -375,7 +370,8 @@ impl Stepper for Gaps {
         }
         tally.cost.evaluations += self.topology.gaps() as u64;
         self.sample(simd, step, tally);
-        while let Some(root) = self.roots.iter().copied().reduce(|a, b| if b.0 < a.0 { b } else { a })
+        while let Some(root) =
+            self.roots.iter().copied().reduce(|a, b| if b.0 < a.0 { b } else { a })
         {
             self.hit(root, step, tally);
             tally.event(root.1, step.from().after(root.0).time(), root.2)?;

@@ -224,9 +224,8 @@ impl<T: Real> Flip<T> {
     #[inline(always)]
     fn acceleration(&self, m: usize) -> f64 {
         let forces = self.forces.iter().zip(&self.phases);
-        let sum = forces.fold(0.0, |sum, ([c, s], (sin, cos))| {
-            sum + (c[m].into() * cos + s[m].into() * sin)
-        });
+        let sum = forces
+            .fold(0.0, |sum, ([c, s], (sin, cos))| sum + (c[m].into() * cos + s[m].into() * sin));
         sum - self.stiffness * self.u[m].into()
     }
 }

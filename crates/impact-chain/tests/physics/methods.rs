@@ -137,6 +137,22 @@ fn runs_stop_and_go_on() {
     }
 }
 
+/// Methods find the same impacts to the last bit, whatever vectors the processor has.
+#[test]
+fn vectors_change_no_bits() {
+    let found = || {
+        let runs = all().into_iter().flat_map(|method| {
+            let chains =
+                [Boundary::Walls, Boundary::Ring].map(|boundary| chain(70, boundary, 0.3, 1));
+            chains.map(|scenario| trace(&*method, &scenario, 10.0).0)
+        });
+        runs.collect::<Vec<_>>()
+    };
+    let wide = found();
+    impact_chain::abreast::without_wide_vectors();
+    assert!(wide == found() && wide.iter().all(|run| run.len() > 20));
+}
+
 #[test]
 fn no_method_loops_or_panics_on_bad_data() {
     let good = chain(2, Boundary::Walls, 0.3, 0);
