@@ -281,7 +281,7 @@ impl Gaps {
                 break;
             }
         }
-        if !(moved <= CONVERGED) {
+        if moved.is_nan() || moved > CONVERGED {
             (x, rate) = (low, value(low)[1]);
         }
         self.roots.push((x + half, k, (-rate).max(0.0)));
