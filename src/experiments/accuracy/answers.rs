@@ -120,12 +120,10 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     let orbits = ORBITS.map(|until| [false, true].map(|generic| orbits(generic, until)));
     let programs = results.of(&PROGRAMS).ok()?;
     let trials = results.of(&TRIALS).ok()?;
-    let (rest, scenes) = at_rest(trials);
-    let all = Table::of("answers.all", &[()], |()| scenes)
+    let all = Table::of("answers.all", &[()], |()| cases_at_rest(trials))
         .chosen("share", "1", "share of chains in which an orbit must be right", |()| Some(MOST))
         .chosen("tie", "1", "times that differ by less than this factor tie", |()| Some(TIE))
-        .computed_by(origin(at_rest))
-        .words("methods", "methods with a setting right wherever masses rest", |()| rest.join(", "))
+        .computed_by(origin(tables))
         .real("cradle", "d", 1, "gap between balls of the cradle as the first comes", |()| {
             cradle(trials)
         })
@@ -285,17 +283,10 @@ fn questions(biases: &Biases, measured: (&Measured, bool)) -> Vec<Question> {
     all
 }
 
-/// Names the methods that are right wherever masses come to rest; counts these cases.
-fn at_rest(trials: &Trials) -> (Vec<String>, usize) {
-    let scenes = trials.parameters.scenes.iter().zip(&trials.found);
-    let rest: Vec<_> = scenes.filter(|(scene, _)| REST.contains(&&*scene.id)).collect();
-    let is_right =
-        |i: usize| rest.iter().all(|(scene, found)| right(&found[i]) == scene.cases.len());
-    let settings = trials.parameters.settings.iter().enumerate();
-    let right = settings.filter(|(i, _)| is_right(*i));
-    let mut methods: Vec<String> = right.map(|(_, of)| of.method.title().into()).collect();
-    methods.dedup();
-    (methods, rest.iter().map(|(scene, _)| scene.cases.len()).sum())
+/// Counts the cases in which masses come to rest.
+fn cases_at_rest(trials: &Trials) -> usize {
+    let scenes = trials.parameters.scenes.iter().filter(|scene| REST.contains(&&*scene.id));
+    scenes.map(|scene| scene.cases.len()).sum()
 }
 
 /// Returns the gap between two balls of the cradle when the first comes, in units of d.
