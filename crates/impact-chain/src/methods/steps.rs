@@ -1,7 +1,6 @@
 //! Cuts time into equal steps, tabulates phases at their ends, and checks the ranges of steps, tolerances and end times.
 
 use super::method::Task;
-use super::tally::Stop;
 use crate::error::{Error, within};
 use crate::search::clock::{Instant, LATEST, Rate};
 use std::cell::RefCell;
@@ -65,7 +64,7 @@ impl Steps {
 
     /// Hands on each step in turn.
     #[inline(always)]
-    pub fn each(&self, mut one: impl FnMut(&Step) -> Result<(), Stop>) -> Result<(), Stop> {
+    pub fn each<E>(&self, mut one: impl FnMut(&Step) -> Result<(), E>) -> Result<(), E> {
         let Steps { ref rates, begin, end, h, count } = *self;
         let whole = count.saturating_sub(1);
         for first in (0..whole).step_by(KEPT) {
