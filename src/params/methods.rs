@@ -61,7 +61,7 @@ impl MethodName {
             MethodName::MoreauJean => "time stepping",
             MethodName::Verlet => "Verlet",
             MethodName::Penalty => "penalty springs",
-            MethodName::VerletSingle => "single-precision Verlet",
+            MethodName::VerletSingle => "float32 Verlet",
             MethodName::Truth => "true motion",
         }
     }
