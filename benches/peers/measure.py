@@ -154,23 +154,11 @@ def part_ours():
 
 
 def part_methods():
-    """The methods of this project, then two of them with the vectors of this processor, over the
-    engine without. `measure methods` prints rows."""
-    engine, where = {}, WORK / "native"
-    native = ["env", "RUSTFLAGS=-Ctarget-cpu=native", "cargo", "build", "--release", "--locked", "--quiet"]
-    call([*native, "-p", "impact-bench", "--bin", "measure", "--target-dir", str(where)], 1800)
-    for of in ["race", "bias", "scale", "native"]:
-        command = [where / "release" / "measure", "methods", "bias"] if of == "native" else [MEASURE, "methods", of]
-        text, _, late = call([str(part) for part in command], 3600, keep=True)
-        for row in map(json.loads, text.splitlines()):
-            key = row["name"], row["value"], row["sigma"]
-            if of != "native":
-                engine[key] = row["engine_seconds"]
-            elif row["name"] in ["certified", "verlet"]:
-                row |= {"name": row["name"] + "-native", "engine_seconds": engine[key]}
-            else:
-                continue
-            yield row
+    """The methods of this project, and without the vectors of this processor. `measure methods`
+    prints rows."""
+    for of in ["race", "bias", "scale", "questions", "bias --generic", "questions --generic"]:
+        text, _, late = call([str(MEASURE), "methods", *of.split()], 3600, keep=True)
+        yield from map(json.loads, text.splitlines())
         if late:
             yield {"what": "absent", "name": "methods", "note": f"the next setting: {late}"}
 
@@ -280,7 +268,7 @@ def today():
 def of_part(row):
     """The part that writes a row."""
     by_what = dict.fromkeys(["engine", "ensemble"], "ours")
-    by_what |= {"method": "methods", "size": "methods", "command": "commands"}
+    by_what |= dict.fromkeys(["method", "size", "question"], "methods") | {"command": "commands"}
     return by_what.get(row["what"], row["name"].split()[0].lower().strip(":"))
 
 

@@ -4,8 +4,9 @@
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
 use clap::Parser;
+use impact_chain::abreast::{Abreast, without_wide_vectors};
 use impact_chain::methods::{Certified, Method};
-use impact_chain::{Counters, Engine, Error, Scenario, State};
+use impact_chain::{Counters, Engine, Error, Protocol, Scenario, State};
 use impact_numerics::random::NormalPairs;
 use impact_paper::params::{
     BiasParams, Chain, Means, MethodName, Profile, RaceParams, Runs, ScaleParams, Setting,
@@ -41,6 +42,9 @@ enum What {
         /// Repetitions: the best of each is printed.
         #[arg(long, default_value_t = 3)]
         repetitions: usize,
+        /// Without vectors that not every processor of the kind has.
+        #[arg(long)]
+        generic: bool,
     },
     /// Prints a chain as a scenario file.
     Scenario {
@@ -77,9 +81,12 @@ fn main() -> Result<(), Failure> {
             let cases = [engine(&drawn, until, chains, threads, repetitions)?];
             json!({"version": env!("CARGO_PKG_VERSION"), "cases": cases})
         }
-        What::Methods { of, repetitions } => {
+        What::Methods { of, repetitions, generic } => {
+            if generic {
+                without_wide_vectors();
+            }
             for case in cases(of) {
-                println!("{}", row(of, &case, repetitions)?);
+                println!("{}", row(&case, repetitions, if generic { "-generic" } else { "" })?);
             }
             return Ok(());
         }
@@ -174,6 +181,8 @@ enum Of {
     Bias,
     /// The cost against the number of masses.
     Scale,
+    /// Runs that end when a question is answered: orbits to a time, and whether there is an impact.
+    Questions,
 }
 
 /// The chains of the race, to its end.
@@ -183,17 +192,45 @@ fn race() -> Runs {
 }
 
 /// Chains and the method that is timed on them.
-fn cases(of: Of) -> Vec<(Runs, Setting)> {
+struct Case {
+    what: &'static str,
+    runs: Runs,
+    setting: Setting,
+    /// Of a question about means, for which the engine simulates chains side by side.
+    window: Option<Protocol>,
+    /// Whether a run ends with its first impact in the window.
+    first: bool,
+}
+
+/// Times to which orbits are asked for.
+const ORBITS: [f64; 2] = [10.0, 100.0];
+
+/// The most chains of a mean that are timed.
+const MOST: usize = 400;
+
+fn means(of: Means) -> impl Iterator<Item = Case> {
+    let window = Some(of.window());
+    let chains = of.chains;
+    of.settings.into_iter().map(move |(setting, n)| {
+        let runs = Runs { realisations: n.min(MOST), ..chains.clone() };
+        Case { what: "method", runs, setting, window, first: false }
+    })
+}
+
+fn cases(of: Of) -> Vec<Case> {
+    let alone = |what, runs, setting| Case { what, runs, setting, window: None, first: false };
+    let race_settings = || RaceParams::new(Profile::Full).settings.into_iter();
+    let all_means = BiasParams::new(Profile::Full).means;
     match of {
-        Of::Race => {
-            RaceParams::new(Profile::Full).settings.into_iter().map(|way| (race(), way)).collect()
-        }
-        Of::Bias => {
-            let of = |Means { chains, settings, .. }: Means| {
-                let with = move |n: usize| Runs { realisations: n, ..chains.clone() };
-                settings.into_iter().map(move |(setting, n)| (with(n), setting))
+        Of::Race => race_settings().map(|way| alone("method", race(), way)).collect(),
+        Of::Bias => all_means.into_iter().flat_map(means).collect(),
+        Of::Questions => {
+            let orbit = |until| {
+                race_settings().map(move |way| alone("question", Runs { until, ..race() }, way))
             };
-            BiasParams::new(Profile::Full).means.into_iter().flat_map(of).collect()
+            let shares = all_means.into_iter().take(1).flat_map(means);
+            let shares = shares.map(|case| Case { what: "question", first: true, ..case });
+            ORBITS.into_iter().flat_map(orbit).chain(shares).collect()
         }
         Of::Scale => {
             let ScaleParams { sigma, masses, rivals, settings } = ScaleParams::new(Profile::Full);
@@ -207,7 +244,7 @@ fn cases(of: Of) -> Vec<(Runs, Setting)> {
                     ..race()
                 };
                 let masses = masses.iter().copied().filter(move |n| own || *n <= rivals);
-                masses.map(move |n| (chains(n), setting))
+                masses.map(move |n| alone("size", chains(n), setting))
             };
             settings.into_iter().flat_map(of).collect()
         }
@@ -217,22 +254,41 @@ fn cases(of: Of) -> Vec<(Runs, Setting)> {
 /// Seconds that a repetition takes at least.
 const ENOUGH: f64 = 0.2;
 
+/// Runs all chains; returns the number of impacts.
+fn once(case: &Case, method: &dyn Method, scenarios: &[Scenario]) -> Result<u64, Error> {
+    let Case { runs, window, first, .. } = case;
+    let from = window.map_or(f64::INFINITY, |window| window.transient);
+    let alone = |scenario: &Scenario| {
+        let task = (scenario, &State::of(scenario), runs.until);
+        // A run that the method gives up counts with the time that it took.
+        match method.run(task, &mut |impact| !(*first && impact.time > from)) {
+            Err(Error::Work { .. }) => Ok(0),
+            ended => Ok(ended?.impacts),
+        }
+    };
+    let together = window.filter(|_| method.name() == Certified.name());
+    let Some(many) = together.and_then(|of| Abreast::new(&runs.chain, &[of], runs.until)) else {
+        return scenarios.iter().map(alone).sum();
+    };
+    let many = if *first { many.until_first_after(from) } else { many };
+    let mut impacts = 0;
+    for some in scenarios.chunks(Abreast::number(&runs.chain)) {
+        for (run, scenario) in many.run(some, &|| false).into_iter().zip(some) {
+            impacts += match run {
+                Some(mut run) => run.counts().total.impacts,
+                None => alone(scenario)?,
+            };
+        }
+    }
+    Ok(impacts)
+}
+
 /// A row of benches/measured.json: the best times of a method and of the engine on the same chains.
-fn row(of: Of, (runs, setting): &(Runs, Setting), repetitions: usize) -> Result<Value, Failure> {
+fn row(case: &Case, repetitions: usize, suffix: &str) -> Result<Value, Failure> {
+    let Case { what, runs, setting, .. } = case;
     let scenarios: Vec<Scenario> =
         (0..runs.realisations as u64).map(|index| runs.scenario(index)).collect();
-    let once = |method: &dyn Method| -> Result<u64, Error> {
-        let mut impacts = 0;
-        for scenario in &scenarios {
-            let task = (scenario, &State::of(scenario), runs.until);
-            // A run that the method gives up counts with the time that it took.
-            match method.run(task, &mut |_| true) {
-                Err(Error::Work { .. }) => (),
-                ended => impacts += ended?.impacts,
-            }
-        }
-        Ok(impacts)
-    };
+    let once = |method: &dyn Method| once(case, method, &scenarios);
     // The system counts in ticks of some milliseconds, so short runs are repeated.
     let timed = |method: &dyn Method| -> Result<f64, Error> {
         let (began, mut times) = (processor_time(), 0.0);
@@ -260,7 +316,7 @@ fn row(of: Of, (runs, setting): &(Runs, Setting), repetitions: usize) -> Result<
         way => format!("{}={:e}", if way.has_tolerance() { "tol" } else { "h" }, setting.value),
     };
     Ok(json!({
-        "what": if let Of::Scale = of { "size" } else { "method" }, "name": method.name(), "version": env!("CARGO_PKG_VERSION"),
+        "what": what, "name": format!("{}{suffix}", method.name()), "version": env!("CARGO_PKG_VERSION"),
         "settings": text, "value": setting.value, "n": runs.chain.masses, "sigma": runs.sigma,
         "until": runs.until, "chains": runs.realisations, "impacts": impacts,
         "microseconds_per_impact": (impacts > 0).then(|| best / impacts as f64 * 1e6),

@@ -85,13 +85,14 @@ pub struct Args {
 /// A method, its option with the usual value, and its line of `trace --help` with `{}` for that.
 type MethodLine = (MethodName, Option<(&'static str, f64)>, &'static str);
 
-const METHODS: [MethodLine; 8] = [
+const METHODS: [MethodLine; 9] = [
     (Certified, None, "Closed form, the first root of each gap certified: misses nothing"),
-    (Sampled, step(0.01), "Closed form, sampled every {}, then bisected: misses grazes"),
+    (Sampled, step(0.01), "Closed form, sampled every {}, then Newton: misses close roots"),
     (Advancement, tolerance(1e-12), "Closed form, parabolas to {}: near misses are impacts"),
     (RungeKutta, tolerance(1e-9), "Dormand–Prince 5(4) with events, {}: misses close roots"),
     (MoreauJean, step(1e-3), "Time stepping, {}: first order, near misses are impacts, can rest"),
     (Verlet, step(1e-3), "Velocity Verlet, reflected after steps of {}: first order, late"),
+    (VerletSingle, step(1e-2), "The same in single precision, {}: for means, not for orbits"),
     (Penalty, step(1e-4), "Stiff damped springs, {}: order 1/2, wrong in clusters"),
     (Truth, None, "106 bits, slowly: walls, one frequency, no contact; the gap from the engine"),
 ];

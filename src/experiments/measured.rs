@@ -2,7 +2,7 @@
 //! run to run, so nothing of the reproduction depends on them.
 
 use crate::experiments::prelude::*;
-use crate::params::{MethodName, Setting};
+use crate::params::{MethodName, Runs, Setting};
 use literate::input::one_line;
 use serde::de::DeserializeOwned;
 
@@ -45,6 +45,8 @@ pub enum What {
     Method,
     /// The same on chains of several lengths.
     Size,
+    /// The same in a run that ends when a question is answered.
+    Question,
     Peer,
     #[serde(other)]
     Other,
@@ -97,21 +99,41 @@ impl Measured {
 
     fn rows(&self, what: What, of: Setting, n: usize) -> impl Iterator<Item = &Measurement> {
         let rows = self.of(what).filter(move |row| row.n == n as u64);
-        rows.filter(move |row| row.name == of.method.id() && row.value == Some(of.value))
+        rows.filter(move |row| row.method() == of.method.id() && row.value == Some(of.value))
     }
 
     pub fn method(&self, setting: Setting, n: usize, sigma: f64) -> Option<&Measurement> {
-        self.rows(What::Method, setting, n).find(|row| row.sigma == sigma)
+        let mut rows = self.rows(What::Method, setting, n);
+        rows.find(|row| row.sigma == sigma && !row.is_generic())
     }
 
     pub fn size(&self, setting: Setting, n: usize) -> Option<&Measurement> {
         self.rows(What::Size, setting, n).next()
     }
 
+    /// Returns the seconds of a setting for a thousand chains to a time, where runs end when a
+    /// question is answered, or to their end; without the vectors that few processors have, or with.
+    pub fn seconds(
+        &self,
+        (what, generic): (What, bool),
+        setting: Setting,
+        run: &Runs,
+        until: f64,
+    ) -> Option<f64> {
+        let mut rows = self.rows(what, setting, run.chain.masses);
+        self.thousand(rows.find(|row| {
+            row.sigma == run.sigma && row.until == until && row.is_generic() == generic
+        })?)
+    }
+
     /// Returns the seconds of one core for a thousand chains: the engine's, times the ratio to it.
     pub fn thousand(&self, row: &Measurement) -> Option<f64> {
         let engine = Setting { method: MethodName::Certified, value: 0.0, stop: 0.0 };
-        let engine = self.method(engine, row.n as usize, row.sigma)?;
+        let alike = |other: &&Measurement| {
+            (other.sigma, other.until, other.is_generic())
+                == (row.sigma, row.until, row.is_generic())
+        };
+        let engine = self.rows(row.what, engine, row.n as usize).find(alike)?;
         Some(row.over_engine()? * engine.seconds? / engine.chains as f64 * 1e3)
     }
 
@@ -123,7 +145,18 @@ impl Measured {
     }
 }
 
+/// What the names of methods end with that were run with the vectors that any processor has.
+const GENERIC: &str = "-generic";
+
 impl Measurement {
+    fn method(&self) -> &str {
+        self.name.strip_suffix(GENERIC).unwrap_or(&self.name)
+    }
+
+    fn is_generic(&self) -> bool {
+        self.name.ends_with(GENERIC)
+    }
+
     /// Returns the time over that of the engine on the same chains.
     pub fn over_engine(&self) -> Option<f64> {
         Some(self.seconds? / self.engine_seconds?)

@@ -16,7 +16,9 @@ pub fn look(method: MethodName) -> Marker {
         MethodName::RungeKutta => (Symbol::Disc, MEDIUM, GREY),
         MethodName::MoreauJean => (Symbol::Plus, MEDIUM + 14, BLUE),
         MethodName::Penalty => (Symbol::OpenTriangle, MEDIUM + 4, PURPLE),
-        MethodName::Verlet | MethodName::Truth => (Symbol::Cross, MEDIUM, ORANGE),
+        MethodName::Verlet | MethodName::VerletSingle | MethodName::Truth => {
+            (Symbol::Cross, MEDIUM, ORANGE)
+        }
     };
     (mark, size, Stroke::solid(colour, THIN))
 }

@@ -1,6 +1,7 @@
 //! Chooses the sizes of the experiments on the speed and accuracy of methods.
 
 use super::chosen::SEED;
+use super::ensemble::Ensemble;
 use super::methods::{MethodName, Setting};
 use super::runs::Runs;
 use impact_chain::{Chain, Protocol};
@@ -9,10 +10,11 @@ use serde::{Deserialize, Serialize};
 
 const STEPS: &[f64] = &[1e-1, 1e-2, 1e-3, 1e-4];
 
-/// Settings of each method of [`MethodName::ALL`] in the race, coarse to fine.
+/// Settings of each method of [`MethodName::ALL`] in the race, coarse to fine; single precision is
+/// for means only.
 const RACE: [&[f64]; 7] = [
     &[0.0],
-    &[0.5, 0.2, 0.1, 0.03, 0.01],
+    &[0.5, 0.25, 0.1, 0.03, 0.01],
     &[1e-3, 1e-6, 1e-9, 1e-12, 1e-14],
     &[1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13],
     STEPS,
@@ -30,8 +32,8 @@ const FEW_STEPS: &[f64] = &[1e-2, 1e-4];
 const SCENES: [&[f64]; 7] =
     [&[0.0], &[0.1, 0.01], TOLERANCES, TOLERANCES, FEW_STEPS, FEW_STEPS, FEW_STEPS];
 
-/// The same against the number of masses, without the last method.
-const SCALE: [&[f64]; 6] = [&[0.0], &[0.1], &[1e-12], &[1e-6], &[0.01], &[0.01]];
+/// The same against the number of masses, without the last methods.
+const SCALE: [&[f64]; 6] = [&[0.0], &[0.25], &[1e-12], &[1e-6], &[0.01], &[0.01]];
 
 /// σ of the chains whose mean is compared, and the time T that is dropped: up the rise, and late.
 const MEANS: [(f64, f64); 4] = [(0.11, 500.0), (0.12, 500.0), (0.14, 500.0), (0.115, 2000.0)];
@@ -39,20 +41,20 @@ const MEANS: [(f64, f64); 4] = [(0.11, 500.0), (0.12, 500.0), (0.14, 500.0), (0.
 /// The settings there, each with its number of chains at each of [`MEANS`]. The engine and the
 /// cheapest rivals have so many that the 95 % interval is about half of what is asked; less is
 /// enough for one that is far off, and for one that takes longer than another that suffices.
-const BIAS: [&[(f64, [usize; 4])]; 7] = [
-    &[(0.0, [2000, 400, 1600, 100])],
-    &[(0.5, [8, 0, 0, 0]), (0.1, [6, 6, 6, 0])],
+const BIAS: [&[(f64, [usize; 4])]; 8] = [
+    &[(0.0, [3000, 1000, 1600, 1500])],
+    &[(0.25, [100, 60, 40, 20])],
     &[(1e-2, [40, 40, 20, 20]), (1e-12, [100, 40, 30, 20])],
     &[(1e-3, [8, 0, 0, 0]), (1e-6, [4, 4, 4, 0])],
     &[(0.1, [100, 60, 60, 20]), (0.01, [10, 10, 10, 0])],
-    &[
-        (0.4, [100, 200, 60, 0]),
-        (0.3, [2000, 400, 200, 40]),
-        (0.2, [1000, 400, 400, 100]),
-        (0.1, [1000, 100, 1600, 40]),
-        (0.01, [10, 10, 10, 0]),
-    ],
+    &[(0.3, [400, 400, 200, 100]), (0.1, [400, 100, 400, 40]), (0.01, [10, 10, 10, 0])],
     &[(0.1, [40, 40, 20, 20]), (0.01, [10, 10, 10, 0])],
+    &[
+        (0.4, [400, 400, 200, 400]),
+        (0.3, [3000, 1000, 600, 1500]),
+        (0.2, [2000, 1000, 1600, 1500]),
+        (0.1, [1000, 400, 1600, 1500]),
+    ],
 ];
 
 fn all<T: Copy>(values: &[&[T]]) -> Vec<(MethodName, T)> {
@@ -149,6 +151,31 @@ pub struct Means {
     pub settings: Vec<(Setting, usize)>,
 }
 
+/// Two motions of a chain whose forces differ by this factor part by chaos long before they end.
+const NUDGE: f64 = 1.0 + 4.0 * f64::EPSILON;
+
+impl Means {
+    pub fn window(&self) -> Protocol {
+        let Means { transient, .. } = *self;
+        Protocol { transient, window: self.chains.until - transient }
+    }
+
+    /// Returns the chains as the engine simulates many, side by side; with a nudge, the same with
+    /// other roundings.
+    pub fn ensemble(&self, nudged: bool) -> Ensemble {
+        let Runs { chain, sigma, realisations, stream, seed, .. } = self.chains.clone();
+        Ensemble {
+            chain,
+            sigmas: vec![if nudged { NUDGE * sigma } else { sigma }],
+            protocols: vec![self.window()],
+            realisations,
+            stream,
+            seed,
+            ..Ensemble::default()
+        }
+    }
+}
+
 impl BiasParams {
     pub fn new(profile: Profile) -> Self {
         let quick = profile == Profile::Quick;
@@ -170,6 +197,12 @@ impl BiasParams {
     }
 
     pub fn runs(&self) -> u64 {
-        self.means.iter().flat_map(|of| &of.settings).map(|(_, chains)| *chains as u64).sum()
+        let settings = self.means.iter().flat_map(|of| &of.settings);
+        settings.map(|(_, chains)| *chains as u64).sum::<u64>() + self.engine_again()
+    }
+
+    /// Counts the chains that the engine runs again, to know what chaos makes of a rounding.
+    fn engine_again(&self) -> u64 {
+        self.means.iter().map(|of| of.chains.realisations as u64).sum()
     }
 }

@@ -2,6 +2,7 @@
 
 use impact_chain::methods::{
     Advancement, Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Truth, Verlet,
+    VerletSingle,
 };
 use serde::{Deserialize, Serialize};
 
@@ -16,11 +17,12 @@ pub enum MethodName {
     MoreauJean,
     Verlet,
     Penalty,
+    VerletSingle,
     Truth,
 }
 
 impl MethodName {
-    pub const ALL: [MethodName; 7] = [
+    pub const ALL: [MethodName; 8] = [
         MethodName::Certified,
         MethodName::Sampled,
         MethodName::Advancement,
@@ -28,6 +30,7 @@ impl MethodName {
         MethodName::MoreauJean,
         MethodName::Verlet,
         MethodName::Penalty,
+        MethodName::VerletSingle,
     ];
 
     /// Returns the method with its step or tolerance, and a least rebound speed if it can have one.
@@ -40,6 +43,7 @@ impl MethodName {
             MethodName::MoreauJean => Box::new(MoreauJean { step: value }),
             MethodName::Verlet => Box::new(Verlet { step: value }),
             MethodName::Penalty => Box::new(Penalty { step: value }),
+            MethodName::VerletSingle => Box::new(VerletSingle { step: value }),
             MethodName::Truth => Box::new(Truth),
         }
     }
@@ -57,6 +61,7 @@ impl MethodName {
             MethodName::MoreauJean => "time stepping",
             MethodName::Verlet => "Verlet",
             MethodName::Penalty => "penalty springs",
+            MethodName::VerletSingle => "float32 Verlet",
             MethodName::Truth => "true motion",
         }
     }

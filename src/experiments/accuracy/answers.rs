@@ -3,8 +3,9 @@
 use super::bias::{Biases, GapCount};
 use super::case::Expected;
 use super::race::Entry;
-use super::tables::{in_formulas, pairs};
+use super::tables::{in_formulas, own_error, pairs};
 use super::trials::{Trial, Trials, right};
+use crate::experiments::measured::What::{self, Question as Asked};
 use crate::experiments::prelude::*;
 use crate::experiments::programs::{Program, Run};
 use crate::experiments::{BIAS, MEASURED, Measured, PROGRAMS, RACE, TRIALS};
@@ -74,6 +75,12 @@ impl Question {
         self.answers.iter().find(|answer| answer.setting.method == Certified)
     }
 
+    /// Returns by what factor the engine or its fastest rival is faster than the other.
+    fn lead(&self) -> Option<f64> {
+        let ratio = self.rival()?.seconds / self.engine()?.seconds;
+        Some(ratio.max(1.0 / ratio))
+    }
+
     /// Names the method of the least time, or says that it ties, or that the chains do not decide.
     fn take(&self) -> String {
         let engine = self.engine().filter(|engine| engine.is_enough());
@@ -91,12 +98,11 @@ impl Question {
 pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     let (biases, measured) = (results.of(&BIAS).ok()?, results.of(&MEASURED).ok()?);
     let race = results.of(&RACE).ok()?;
-    let orbits = ORBITS.map(|until| {
+    let orbits = |generic: bool, until: f64| {
         let run = &race.parameters.growth;
         let answer = |entry: &Entry| {
-            let row = measured.method(entry.setting, run.chain.masses, run.sigma)?;
-            let (chains, setting, seconds) =
-                (entry.runs.len(), entry.setting, measured.thousand(row)?);
+            let (chains, setting) = (entry.runs.len(), entry.setting);
+            let seconds = measured.seconds((Asked, generic), setting, run, until)?;
             let right = entry.runs.iter().filter(|left| **left >= until).count();
             let interval = wilson(right as u64, chains as u64, LEVEL)?;
             let value = right as f64 / chains as f64;
@@ -110,15 +116,14 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
             words: format!("every impact in its order, to $t = {until}$"),
             answers: race.entries.iter().filter_map(answer).collect(),
         }
-    });
+    };
+    let orbits = ORBITS.map(|until| [false, true].map(|generic| orbits(generic, until)));
     let programs = results.of(&PROGRAMS).ok()?;
     let trials = results.of(&TRIALS).ok()?;
-    let (rest, scenes) = at_rest(trials);
-    let all = Table::of("answers.all", &[()], |()| scenes)
+    let all = Table::of("answers.all", &[()], |()| cases_at_rest(trials))
         .chosen("share", "1", "share of chains in which an orbit must be right", |()| Some(MOST))
         .chosen("tie", "1", "times that differ by less than this factor tie", |()| Some(TIE))
-        .computed_by(origin(at_rest))
-        .words("methods", "methods with a setting right wherever masses rest", |()| rest.join(", "))
+        .computed_by(origin(tables))
         .real("cradle", "d", 1, "gap between balls of the cradle as the first comes", |()| {
             cradle(trials)
         })
@@ -129,9 +134,11 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
             names(programs, &["grazing-hits", "grazing-misses"])
         })
         .done();
-    let means = table("answers.means", "1", &questions(biases, measured)).done();
+    let [means, generic] = [false, true].map(|generic| questions(biases, (measured, generic)));
+    let means: Vec<[Question; 2]> = means.into_iter().zip(generic).map(Into::into).collect();
+    let means = table("answers.means", "1", &means).done();
     let orbits = table("answers.orbits", "1", &orbits)
-        .words("right", "runs of the rival that are right to that time", |of| {
+        .words("right", "runs of the rival that are right to that time", |[of, _]| {
             of.rival().map_or("–".into(), |answer| {
                 let right = (answer.found.value * answer.chains as f64).round();
                 format!("{right} of {}", answer.chains)
@@ -148,49 +155,68 @@ fn named(answer: Option<&Answer>) -> String {
 fn table<'a>(
     name: &'static str,
     unit: &'static str,
-    questions: &'a [Question],
-) -> Building<'a, Question> {
+    questions: &'a [[Question; 2]],
+) -> Building<'a, [Question; 2]> {
     let seconds = |answer: Option<&Answer>| answer.map(|answer| answer.seconds);
     const CHEAPEST: &str = "seconds of one core for a thousand chains";
-    Table::of(name, questions, |of| of.rival().map_or(0, |answer| answer.chains))
-        .text_key("id", |of| of.id.clone())
-        .words("question", "what is asked", |of| of.words.clone())
+    const LEAD: &str = "time of the engine or its fastest rival over that of the other";
+    Table::of(name, questions, |[of, _]| of.rival().map_or(0, |answer| answer.chains))
+        .text_key("id", |[of, _]| of.id.clone())
+        .words("question", "what is asked", |[of, _]| of.words.clone())
         .computed_by(origin(tables))
-        .words("take", "the method of the least time", Question::take)
-        .words("rival", "the rival of the least time", |of| named(of.rival()))
-        .real("seconds", "s", 2, CHEAPEST, |of| seconds(of.rival()))
-        .estimate("found", unit, "its error, or share of runs that are right", |of| {
+        .words("take", "the method of the least time", |[of, _]| of.take())
+        .real("lead", "1", 2, LEAD, |[of, _]| of.lead())
+        .words("generic", "the same by any processor's vectors", |[_, of]| of.take())
+        .real("generic_lead", "1", 2, LEAD, |[_, of]| of.lead())
+        .words("rival", "the rival of the least time", |[of, _]| named(of.rival()))
+        .real("seconds", "s", 2, CHEAPEST, |[of, _]| seconds(of.rival()))
+        .estimate("found", unit, "its error, or share of runs that are right", |[of, _]| {
             Some(of.rival()?.found)
         })
-        .real("engine", "s", 2, "the engine's seconds", |of| seconds(of.engine()))
+        .real("engine", "s", 2, "the engine's seconds", |[of, _]| seconds(of.engine()))
 }
+
+/// The counts of all settings at one σ, and those of the engine again.
+type Runs<'a> = (&'a Vec<Vec<GapCount>>, &'a Vec<GapCount>);
 
 /// Asks how far a mean over chains is off; `values` turns a method's pairs at each σ into errors.
 fn question(
-    (biases, measured): (&Biases, &Measured),
+    biases: &Biases,
+    (measured, generic): (&Measured, bool),
     sigmas: &[f64],
     tolerance: f64,
     ([id, words], is_share): ([String; 2], bool),
     values: impl Fn(&[Vec<[f64; 2]>]) -> Vec<f64>,
 ) -> Option<Question> {
     let at = |sigma: &f64| {
-        let mut all = biases.parameters.means.iter().zip(&biases.runs);
-        all.find(|(of, _)| of.chains.sigma == *sigma)
+        let all = biases.runs.iter().zip(&biases.again);
+        biases.parameters.means.iter().zip(all).find(|(of, _)| of.chains.sigma == *sigma)
     };
     let all = sigmas.iter().map(at).collect::<Option<Vec<_>>>()?;
     let answer = |&(setting, _): &(Setting, usize)| {
         let run = |of: &Means| of.settings.iter().position(|(other, _)| *other == setting);
-        let pairs = |(of, runs): &(&Means, &Vec<Vec<GapCount>>)| Some(pairs(&runs[run(of)?], runs));
+        let pairs = |&(of, (runs, again)): &(&Means, Runs)| {
+            // Shares compare one run with another.
+            let ours = [&runs[0][..], if is_share { &runs[0] } else { again }];
+            Some(pairs(&runs[run(of)?], ours))
+        };
         let pairs = all.iter().map(pairs).collect::<Option<Vec<_>>>()?;
         let values = values(&pairs);
         let found = match setting.method {
-            Certified => with_error(0.0, 0.0),
+            Certified => {
+                let own = all
+                    .iter()
+                    .map(|(_, (runs, again))| own_error([&runs[0], again], runs[0].len()));
+                with_error(0.0, if is_share { 0.0 } else { own.fold(0.0, f64::max) })
+            }
             // Where all chains agree, only of a share one knows how often they would not.
             _ => average(&values).filter(|found| is_share || found.error > 0.0)?,
         };
-        let masses = all[0].0.chains.chain.masses;
-        let time = |sigma: &f64| measured.thousand(measured.method(setting, masses, *sigma)?);
-        let seconds = sigmas.iter().map(time).sum::<Option<f64>>()?;
+        let time = |(of, _): &(&Means, Runs)| {
+            let what = if is_share { Asked } else { What::Method };
+            measured.seconds((what, generic), setting, &of.chains, of.chains.until)
+        };
+        let seconds = all.iter().map(time).sum::<Option<f64>>()?;
         let (chains, off) = (values.len(), found.value.abs());
         let margin = tolerance - off;
         let half = if is_share && setting.method != Certified {
@@ -206,8 +232,7 @@ fn question(
 }
 
 /// Questions about means: of gaps with an impact, of chains with any, and where the first rises.
-fn questions(biases: &Biases, measured: &Measured) -> Vec<Question> {
-    let both = (biases, measured);
+fn questions(biases: &Biases, measured: (&Measured, bool)) -> Vec<Question> {
     let ours = |pairs: &[[f64; 2]]| mean(&pairs.iter().map(|pair| pair[1]).collect::<Vec<_>>());
     let mut all = Vec::new();
     for of in &biases.parameters.means {
@@ -216,7 +241,7 @@ fn questions(biases: &Biases, measured: &Measured) -> Vec<Question> {
         let percent = 100.0 * tolerance;
         let words = format!("a mean to {percent} %, $σ = {sigma}$, $T = {transient}$");
         let named = [format!("mean-{sigma}"), words];
-        all.extend(question(both, &[sigma], tolerance, (named, false), |pairs| {
+        all.extend(question(biases, measured, &[sigma], tolerance, (named, false), |pairs| {
             let [theirs, ours] = [0, 1].map(|i| pairs[0].iter().map(|pair| pair[i]).sum::<f64>());
             let (ratio, mean) = (theirs / ours, ours / pairs[0].len() as f64);
             let residual = |pair: &[f64; 2]| (pair[0] - ratio * pair[1]) / mean + ratio - 1.0;
@@ -226,34 +251,42 @@ fn questions(biases: &Biases, measured: &Measured) -> Vec<Question> {
     let (low, high, percent) = (MEANS[0].0, MEANS[1].0, 100.0 * ALIKE);
     let words =
         format!("the share of chains with an impact to {percent} percentage point, $σ = {low}$");
-    all.extend(question(both, &[low], ALIKE, (["share".into(), words], true), |pairs| {
-        let any = |count: f64| f64::from(u8::from(count > 0.0));
-        pairs[0].iter().map(|pair| any(pair[0]) - any(pair[1])).collect()
-    }));
+    all.extend(question(
+        biases,
+        measured,
+        &[low],
+        ALIKE,
+        (["share".into(), words], true),
+        |pairs| {
+            let any = |count: f64| f64::from(u8::from(count > 0.0));
+            pairs[0].iter().map(|pair| any(pair[0]) - any(pair[1])).collect()
+        },
+    ));
     let words = format!("the half height of the rise to {percent} %");
-    all.extend(question(both, &[low, high], ALIKE, (["rise".into(), words], false), |pairs| {
-        let half = 0.5 * (1 + biases.parameters.means[0].chains.chain.masses) as f64;
-        let [below, above] = [0, 1].map(|i| ours(&pairs[i]).unwrap_or(f64::NAN));
-        let slope = (above - below) / (high - low);
-        let (part, height) = ((half - below) / (above - below), low + (half - below) / slope);
-        let lower = |[a, b]: [&[f64; 2]; 2]| (1.0 - part) * (a[1] - a[0]) + part * (b[1] - b[0]);
-        let both = pairs[0].iter().zip(&pairs[1]);
-        both.map(|(a, b)| lower([a, b]) / slope / height).collect()
-    }));
+    all.extend(question(
+        biases,
+        measured,
+        &[low, high],
+        ALIKE,
+        (["rise".into(), words], false),
+        |pairs| {
+            let half = 0.5 * (1 + biases.parameters.means[0].chains.chain.masses) as f64;
+            let [below, above] = [0, 1].map(|i| ours(&pairs[i]).unwrap_or(f64::NAN));
+            let slope = (above - below) / (high - low);
+            let (part, height) = ((half - below) / (above - below), low + (half - below) / slope);
+            let lower =
+                |[a, b]: [&[f64; 2]; 2]| (1.0 - part) * (a[1] - a[0]) + part * (b[1] - b[0]);
+            let both = pairs[0].iter().zip(&pairs[1]);
+            both.map(|(a, b)| lower([a, b]) / slope / height).collect()
+        },
+    ));
     all
 }
 
-/// Names the methods that are right wherever masses come to rest; counts these cases.
-fn at_rest(trials: &Trials) -> (Vec<String>, usize) {
-    let scenes = trials.parameters.scenes.iter().zip(&trials.found);
-    let rest: Vec<_> = scenes.filter(|(scene, _)| REST.contains(&&*scene.id)).collect();
-    let is_right =
-        |i: usize| rest.iter().all(|(scene, found)| right(&found[i]) == scene.cases.len());
-    let settings = trials.parameters.settings.iter().enumerate();
-    let right = settings.filter(|(i, _)| is_right(*i));
-    let mut methods: Vec<String> = right.map(|(_, of)| of.method.title().into()).collect();
-    methods.dedup();
-    (methods, rest.iter().map(|(scene, _)| scene.cases.len()).sum())
+/// Counts the cases in which masses come to rest.
+fn cases_at_rest(trials: &Trials) -> usize {
+    let scenes = trials.parameters.scenes.iter().filter(|scene| REST.contains(&&*scene.id));
+    scenes.map(|scene| scene.cases.len()).sum()
 }
 
 /// Returns the gap between two balls of the cradle when the first comes, in units of d.

@@ -1,7 +1,8 @@
 //! The error of a method in the mean number of gaps that impact, on the same chains.
 
 use crate::experiments::prelude::*;
-use crate::params::{BiasParams, Means, Setting};
+use crate::params::{BiasParams, Means, MethodName, Setting};
+use impact_chain::Abreast;
 use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -9,6 +10,8 @@ pub struct Biases {
     pub parameters: BiasParams,
     /// For each σ and each setting, in their order, the realisations.
     pub runs: Vec<Vec<Vec<GapCount>>>,
+    /// For each σ, those of the engine when all forces are changed by a few roundings.
+    pub again: Vec<Vec<GapCount>>,
 }
 
 /// Different gaps with an impact in the window of one realisation; none if the method gave up.
@@ -16,8 +19,25 @@ pub type GapCount = Option<u32>;
 
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
     let stage = progress.stage("error of the mean", parameters.runs());
+    let together = |of: &Means, nudged: bool| {
+        let ensemble = of.ensemble(nudged);
+        let (number, all) = (Abreast::number(&ensemble.chain), ensemble.realisations as u64);
+        let groups = (0..all).step_by(number);
+        let found = each(&stage, progress, groups, |first| {
+            let at = ensemble.at(ensemble.sigmas[0]);
+            let counts = at.count(first..all.min(first + number as u64), &|| progress.stopped());
+            let counts = counts.map_err(|source| Error::failed("bias", source))?;
+            stage.advance(counts.len() as u64 - 1);
+            Ok(counts.into_iter().map(|one| one.distinct[0][0]).collect::<Vec<_>>())
+        })?;
+        progress.check()?;
+        Ok(found.concat())
+    };
     let methods = |of: &Means| {
         let one = |&(setting, realisations): &(Setting, usize)| {
+            if setting.method == MethodName::Certified {
+                return together(of, false);
+            }
             let method = setting.method();
             each(&stage, progress, 0..realisations as u64, |index| {
                 let scenario = of.chains.scenario(index);
@@ -35,5 +55,7 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
         of.settings.par_iter().map(one).collect()
     };
     let runs = parameters.means.par_iter().map(methods).collect::<Result<_, Error>>()?;
-    Ok(Biases { runs, parameters: parameters.clone() })
+    let again = parameters.means.par_iter().map(|of| together(of, true));
+    let again = again.collect::<Result<_, Error>>()?;
+    Ok(Biases { runs, again, parameters: parameters.clone() })
 }

@@ -6,7 +6,7 @@ use super::scale::{self, Scale};
 use crate::experiments::prelude::*;
 use crate::params::Setting;
 use impact_numerics::estimates::{LEVEL, ratio};
-use impact_numerics::statistics::{mean, student_quantile};
+use impact_numerics::statistics::{mean, standard_error, student_quantile};
 
 /// Writes the name of a setting with its formula: `Verlet, $h = 0.1$`.
 pub fn in_formulas(name: &str) -> String {
@@ -80,6 +80,8 @@ pub struct Compared {
     pub pairs: usize,
     /// Ratio of their mean counts less one, with its 95 % interval by the jackknife.
     pub share: Option<Estimate>,
+    /// The error of the engine's mean through its own draw of chaos, which all methods share.
+    pub engine: f64,
 }
 
 /// One in a thousand differences is clear by chance.
@@ -88,22 +90,39 @@ const CLEAR: f64 = 0.999;
 impl Compared {
     pub fn is_clear(&self) -> bool {
         let bound = student_quantile(CLEAR, self.pairs.saturating_sub(1)).unwrap_or(f64::INFINITY);
-        self.share.is_some_and(|off| off.value.abs() > bound * off.error)
+        let error = |off: Estimate| (off.error * off.error + self.engine * self.engine).sqrt();
+        self.share.is_some_and(|off| off.value.abs() > bound * error(off))
     }
 }
 
-/// Returns what a method and the engine count in the chains that both ran to the end, by chain.
-pub fn pairs(run: &[GapCount], runs: &[Vec<GapCount>]) -> Vec<[f64; 2]> {
-    let both = run.iter().zip(&runs[0]);
-    both.filter_map(|(theirs, ours)| Some([f64::from((*theirs)?), f64::from((*ours)?)])).collect()
+/// Returns what a method and the engine, in the mean of two runs, count in the chains that all ran
+/// to the end, by chain.
+pub fn pairs(run: &[GapCount], ours: [&[GapCount]; 2]) -> Vec<[f64; 2]> {
+    let all = run.iter().zip(ours[0].iter().zip(ours[1]));
+    let pair = |(theirs, (first, second)): (&GapCount, (&GapCount, &GapCount))| {
+        Some([f64::from((*theirs)?), 0.5 * (f64::from((*first)?) + f64::from((*second)?))])
+    };
+    all.filter_map(pair).collect()
+}
+
+/// Returns the error of the engine's mean, in the mean of two runs, that chaos makes of roundings,
+/// relative to the mean, for so many chains.
+pub fn own_error(ours: [&[GapCount]; 2], chains: usize) -> f64 {
+    let both = pairs(ours[0], [ours[1]; 2]);
+    let half: Vec<f64> = both.iter().map(|[first, second]| 0.5 * (first - second)).collect();
+    let sum: f64 = both.iter().map(|pair| pair[0]).sum();
+    let of_all = standard_error(&half).unwrap_or(f64::INFINITY) * both.len() as f64 / sum;
+    of_all * (both.len() as f64 / chains as f64).sqrt()
 }
 
 /// Returns the comparisons of all rivals, σ outer.
 pub fn compared(biases: &Biases) -> Vec<Compared> {
     let mut rows = Vec::new();
-    for (of, runs) in biases.parameters.means.iter().zip(&biases.runs) {
+    let again = biases.runs.iter().zip(&biases.again);
+    for (of, (runs, again)) in biases.parameters.means.iter().zip(again) {
         for (&(setting, _), run) in of.settings.iter().zip(runs).skip(1) {
-            let pairs = pairs(run, runs);
+            let ours = [&runs[0][..], again];
+            let pairs = pairs(run, ours);
             let share = || {
                 // With few chains all ratios may be equal.
                 let Estimate { value, error, .. } = ratio(&pairs).filter(|of| of.error > 0.0)?;
@@ -112,7 +131,8 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
                 Some(Estimate { value, error, interval: [value - half, value + half] })
             };
             let (sigma, share) = (of.chains.sigma, share());
-            rows.push(Compared { setting, sigma, pairs: pairs.len(), share });
+            let engine = own_error(ours, pairs.len());
+            rows.push(Compared { setting, sigma, pairs: pairs.len(), share, engine });
         }
     }
     rows
@@ -126,15 +146,20 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
         .computed_by(origin(bias::run))
         .estimate("share", "1", "error of the mean over the mean", |row| row.share)
         .done();
-    let engine = biases.parameters.means.iter().zip(&biases.runs).map(|(of, runs)| {
-        let counts: Vec<f64> = runs[0].iter().flatten().map(|k| f64::from(*k)).collect();
-        (of.chains.sigma, counts)
+    let all = biases.runs.iter().zip(&biases.again);
+    let engine = biases.parameters.means.iter().zip(all).map(|(of, (runs, again))| {
+        let ours = [&runs[0][..], again];
+        let counts: Vec<f64> = pairs(&runs[0], ours).iter().map(|pair| pair[1]).collect();
+        (of.chains.sigma, counts, own_error(ours, runs[0].len()))
     });
     let engine: Vec<_> = engine.collect();
-    let means = Table::of("bias.means", &engine, |(_, counts)| counts.len())
-        .key("sigma", SIGMA, |(sigma, _)| *sigma)
+    let means = Table::of("bias.means", &engine, |(_, counts, _)| counts.len())
+        .key("sigma", SIGMA, |row| row.0)
         .computed_by(origin(bias::run))
         .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |row| mean(&row.1))
+        .real("chaos", "1", 1, "its error that chaos makes of roundings, over it", |row| {
+            Some(row.2)
+        })
         .done();
     vec![cells, means]
 }

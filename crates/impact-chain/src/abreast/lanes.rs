@@ -160,7 +160,8 @@ impl<'a> Lanes<'a> {
         for (slot, chain) in self.slots.iter().enumerate() {
             for number in 0..self.blocks_each {
                 let place = slot * self.blocks_each + number;
-                let is_active = !chain.handed_over && chain.can_close(simd, WIDTH * number) != 0;
+                let over = chain.handed_over || chain.ended;
+                let is_active = !over && chain.can_close(simd, WIDTH * number) != 0;
                 self.blocks[place].is_active = is_active;
                 if is_active {
                     self.active.push([place as u32, slot as u32]);
@@ -249,7 +250,7 @@ impl<'a> Lanes<'a> {
                 left += 1;
             } else {
                 self.slots[slot].in_turn = false;
-                self.changed |= self.slots[slot].handed_over;
+                self.changed |= self.slots[slot].handed_over || self.slots[slot].ended;
             }
         }
         self.todo.truncate(left);
@@ -280,6 +281,11 @@ impl<'a> Lanes<'a> {
         }
         let closing_speed = now.speed * plan.speed;
         chain.watch.count(Impact { time, gap: now.gap + plan.first, closing_speed });
+        if time > plan.enough {
+            chain.ended = true;
+            chain.roots.clear();
+            return false;
+        }
         // Roots of the three gaps are outdated. The impact pushes masses into the gaps beside it:
         // one of these that had a root at nearly this time has it even sooner, and is a tie there.
         let [left, right] = plan.neighbours[now.gap];

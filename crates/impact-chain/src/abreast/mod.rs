@@ -22,6 +22,7 @@ use grid::Grid;
 use lanes::Lanes;
 use proof::SLOW;
 use slot::Slot;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Steps after which a run checks again whether to stop, and which gaps can close.
 const CHECK_EVERY: usize = 128;
@@ -34,6 +35,20 @@ const OPEN: f64 = 1e-6;
 
 /// Masses side by side that fill the registers.
 const MASSES: usize = 1600;
+
+/// Whether only such vectors are used as every processor of the kind has.
+static GENERIC: AtomicBool = AtomicBool::new(false);
+
+/// Does from now on without the vectors that not every processor of the kind has, as a measurement
+/// may want: nothing but times depends on it.
+pub fn without_wide_vectors() {
+    GENERIC.store(true, Ordering::Relaxed);
+}
+
+/// Returns the vectors to compute with.
+pub(crate) fn level() -> Level {
+    if GENERIC.load(Ordering::Relaxed) { Level::baseline() } else { Level::new() }
+}
 
 /// What chains side by side have in common. Lengths in units of d, times of 1/ω.
 #[derive(Clone, Debug)]
@@ -55,6 +70,8 @@ struct Plan {
     /// gap after it go back.
     weights: Vec<[f64; 4]>,
     ring: bool,
+    /// A chain ends with its first impact after this time.
+    enough: f64,
 }
 
 impl Plan {
@@ -80,6 +97,7 @@ impl Plan {
             neighbours: gaps.clone().map(neighbours).collect(),
             weights: gaps.map(weights).collect(),
             ring: chain.boundary == Boundary::Ring,
+            enough: f64::INFINITY,
         }
     }
 
@@ -136,6 +154,13 @@ impl Abreast {
         Some(Abreast { chain, windows, until, end, plan, grid })
     }
 
+    /// Ends each realisation right after its first impact later than `time`; the engine is not asked
+    /// to, where it has to do one.
+    pub fn until_first_after(mut self, time: f64) -> Abreast {
+        self.plan.enough = time;
+        self
+    }
+
     /// Returns how many realisations of a chain are best simulated together.
     pub fn number(chain: &Chain) -> usize {
         (MASSES / chain.masses.max(1)).clamp(1, 16)
@@ -148,7 +173,7 @@ impl Abreast {
         scenarios: &[Scenario],
         stopped: &dyn Fn() -> bool,
     ) -> Vec<Option<Realisation>> {
-        self.run_at(Level::new(), scenarios, stopped)
+        self.run_at(level(), scenarios, stopped)
     }
 
     fn run_at(
@@ -239,6 +264,32 @@ mod tests {
     use super::*;
     use crate::NormalPairs;
     use fearless_simd::Simd;
+
+    /// A realisation that ends early has the impacts of the whole one up to the first after a time.
+    #[test]
+    fn realisations_end_with_the_impact_that_is_asked_for() {
+        let chain = Chain { masses: 30, ..Chain::default() };
+        let all: Vec<Scenario> = (0..16)
+            .map(|i| Scenario::draw(&chain, 0.2, &mut NormalPairs::new("first", 1, i)))
+            .collect();
+        let many = Abreast::new(&chain, &[], 60.0).unwrap();
+        let early = many.clone().until_first_after(30.0);
+        let mut after = 0;
+        for (run, scenario) in early.run(&all, &|| false).into_iter().zip(&all) {
+            let mut expected = 0;
+            let mut engine = crate::Engine::new(scenario).unwrap();
+            engine
+                .run(60.0, |impact| {
+                    expected += 1;
+                    impact.time <= 30.0
+                })
+                .unwrap();
+            let counts = run.unwrap().counts();
+            assert_eq!(counts.total.impacts, expected);
+            after += usize::from(expected > 0);
+        }
+        assert!(after > 8);
+    }
 
     /// A realisation has the same bits with any vectors, alone or with others.
     #[test]

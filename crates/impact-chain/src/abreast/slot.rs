@@ -49,6 +49,8 @@ pub struct Slot {
     pub in_turn: bool,
     /// Whether the chain has to be simulated by the engine.
     pub handed_over: bool,
+    /// Whether it has had the impact that was asked for.
+    pub ended: bool,
 }
 
 impl Slot {
@@ -57,7 +59,8 @@ impl Slot {
         let columns = (gaps + WIDTH - 1).next_multiple_of(WIDTH);
         let fill = |row| [0.0, -1.0, f64::INFINITY, 0.0, 1.0][usize::max(row, D) - D];
         let rows = std::array::from_fn(|row| vec![fill(row); columns]);
-        Slot { rows, gaps, columns, watch, roots: Vec::new(), in_turn: false, handed_over: false }
+        let (in_turn, handed_over, ended) = (false, false, false);
+        Slot { rows, gaps, columns, watch, roots: Vec::new(), in_turn, handed_over, ended }
     }
 
     /// Sets a gap; hands the chain over if amplitudes are beyond the bounds of the proofs.

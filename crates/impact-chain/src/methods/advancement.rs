@@ -70,13 +70,13 @@ impl Gaps {
             tally.step()?;
             tally.cost.evaluations += 1;
             let phases = self.flights.phases(now);
-            let mut gap = self.flights.gap_at(k, 0.0, &phases);
+            let mut gap = self.flights.gap_at(k, &phases);
             if gap.width <= self.reached && gap.rate < 0.0 {
                 let speed = -gap.rate;
                 gap.rate = self.flights.hit(k, speed, &phases);
                 for j in self.flights.topology.near(k) {
                     tally.cost.evaluations += 1;
-                    let neighbour = self.flights.gap_at(j, 0.0, &phases);
+                    let neighbour = self.flights.gap_at(j, &phases);
                     self.advance_gap(j, now, neighbour);
                 }
                 self.advance_gap(k, now, gap);

@@ -5,7 +5,8 @@ use super::steps::Step;
 use crate::Error;
 use crate::forcing::{Component, Phases, phases};
 use crate::impact::jumps;
-use crate::search::clock::Instant;
+use crate::scenario::COMPONENTS;
+use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;
 
 /// Gaps that are tested together, where any is shut.
@@ -77,8 +78,17 @@ impl Bodies {
         self.v[right] += jumps[1];
     }
 
-    pub fn phases_at(&self, at: Instant) -> Phases {
-        phases(&self.forcing, at)
+    /// Lists the rates of the forcing, for the phases of steps.
+    pub fn rates(&self) -> Vec<Rate> {
+        self.forcing.iter().map(|component| component.rate).collect()
+    }
+
+    /// Returns the phases at the end of a step, filled up.
+    #[inline(always)]
+    pub fn phases_of(step: &Step) -> Phases {
+        let mut phases = [(0.0, 1.0); COMPONENTS];
+        phases[..step.phases.len()].copy_from_slice(step.phases);
+        phases
     }
 
     /// Computes the accelerations in flight at displacements `u` and an instant; walls have none.
@@ -86,18 +96,9 @@ impl Bodies {
         for (out, u) in out.iter_mut().zip(u) {
             *out = -self.stiffness * u;
         }
-        for (component, (sin, cos)) in self.forcing.iter().zip(self.phases_at(at)) {
+        for (component, (sin, cos)) in self.forcing.iter().zip(phases(&self.forcing, at)) {
             add_forces(component, [cos, sin], out);
         }
-    }
-
-    /// Returns the acceleration of one body in flight at the end of the last step.
-    pub fn acceleration(&self, m: usize) -> f64 {
-        let mut sum = -self.stiffness * self.u[m];
-        for (component, (sin, cos)) in self.forcing.iter().zip(&self.phases) {
-            sum += component.cos[m] * cos + component.sin[m] * sin;
-        }
-        sum
     }
 
     /// Makes a step of flight with all bodies: v' = `keep` v + `pull` u + forces, where `waves` has
@@ -119,14 +120,16 @@ impl Bodies {
     }
 
     /// Makes a step of Verlet; between steps velocities are those half of the last step ago.
+    #[inline(always)]
     pub fn leap(&mut self, step: &Step) {
         let (kick, phases) = (0.5 * (self.last + step.h), self.phases);
         let waves = |i: usize| [kick * phases[i].1, kick * phases[i].0];
         self.fly([1.0, -kick * self.stiffness], waves, [0.0, step.h]);
-        (self.phases, self.last) = (self.phases_at(step.to), step.h);
+        (self.phases, self.last) = (Bodies::phases_of(step), step.h);
     }
 
     /// Lists the gaps that are shut at displacements `u`, in their order.
+    #[inline(always)]
     pub fn shut(&self, u: &[f64], found: &mut Vec<usize>) {
         found.clear();
         // Neighbours in the array are neighbours in the row; a ring has one gap more.
@@ -158,6 +161,7 @@ impl Bodies {
 }
 
 /// Adds the forces of a component, given the factors of its amplitudes.
+#[inline(always)]
 fn add_forces(component: &Component, [c, s]: [f64; 2], out: &mut [f64]) {
     for (out, (cos, sin)) in out.iter_mut().zip(component.cos.iter().zip(&component.sin)) {
         *out += c * cos + s * sin;
@@ -176,10 +180,8 @@ fn step(
 ) {
     let amplitudes = component.cos.iter().zip(&component.sin);
     for ((u, v), (cos, sin)) in u.iter_mut().zip(v).zip(amplitudes) {
-        // In Verlet keep is 1 and before is 0; their products take time.
-        let kept = if keep == 1.0 { *v } else { keep * *v };
-        let new = (kept + pull * *u) + (c * cos + s * sin);
-        *u += if before == 0.0 { after * new } else { before * *v + after * new };
+        let new = (keep * *v + pull * *u) + (c * cos + s * sin);
+        *u += before * *v + after * new;
         *v = new;
     }
 }

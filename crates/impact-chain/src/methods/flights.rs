@@ -2,7 +2,6 @@
 
 use super::method::Task;
 use super::sign_change::is_rounding;
-use super::steps::Step;
 use crate::Error;
 use crate::flight::INFLATION;
 use crate::forcing::{Component, Phases, phases};
@@ -10,10 +9,9 @@ use crate::impact::jumps;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;
 
-/// Width and rate of a gap, `s` after the beginning of a step.
+/// Width and rate of a gap.
 #[derive(Clone, Copy, Debug)]
 pub struct GapState {
-    pub s: f64,
     pub width: f64,
     pub rate: f64,
 }
@@ -65,11 +63,6 @@ impl Flights {
         (self.turns.sin_cos(at), phases(&self.forced, at))
     }
 
-    /// Returns the phases at `s` after the beginning of a step.
-    pub fn phases_within(&self, step: &Step, s: f64) -> FlightPhases {
-        self.phases(if s == step.h { step.to } else { step.from.after(s) })
-    }
-
     /// Returns the forced response of the right body less that of the left one, and its rate.
     fn response(&self, [left, right]: [usize; 2], phases: &FlightPhases) -> [f64; 2] {
         let [mut v, mut rate] = [0.0; 2];
@@ -83,7 +76,7 @@ impl Flights {
     }
 
     /// Evaluates gap k at a time whose phases are given.
-    pub fn gap_at(&self, k: usize, s: f64, phases: &FlightPhases) -> GapState {
+    pub fn gap_at(&self, k: usize, phases: &FlightPhases) -> GapState {
         let sides = self.topology.sides(k);
         let [free_left, free_right] = sides.map(|m| self.free[m]);
         let [a, b] = [free_right[0] - free_left[0], free_right[1] - free_left[1]];
@@ -92,7 +85,7 @@ impl Flights {
         let width = self.spacing + (a * cos + b * sin + v);
         let rate = self.omega * (b * cos - a * sin) + forced_rate;
         let width = if is_rounding(width, rate, self.spacing) { 0.0 } else { width };
-        GapState { s, width, rate }
+        GapState { width, rate }
     }
 
     /// Bounds how far gap k is from d, Σ R over its sinusoids, and its second derivative, Σ R Ω².

@@ -35,4 +35,4 @@ pub use penalty::Penalty;
 pub use runge_kutta::RungeKutta;
 pub use sampled::Sampled;
 pub use truth::Truth;
-pub use verlet::Verlet;
+pub use verlet::{Verlet, VerletSingle};

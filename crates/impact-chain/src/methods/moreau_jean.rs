@@ -6,6 +6,7 @@ use super::rival::{Rival, Run, Stepper, run_steps};
 use super::steps::Step;
 use super::tally::{Stop, Tally};
 use crate::Error;
+use fearless_simd::Simd;
 
 /// Time stepping with contacts on the level of velocities and impulses: flight by the implicit
 /// midpoint rule (Jean's θ = 1/2); gaps that the forecast Δ + h Δ'/2 finds shut enter one
@@ -42,7 +43,8 @@ impl Rival for MoreauJean {
         let row = Bodies::new(task)?;
         let (forecast, shut, active, touching) =
             (row.u.clone(), Vec::new(), Vec::new(), Vec::new());
-        run_steps(task, self.step, Impulses { row, forecast, shut, active, touching })
+        let rates = row.rates();
+        run_steps(task, self.step, rates, Impulses { row, forecast, shut, active, touching })
     }
 }
 
@@ -65,7 +67,8 @@ struct Impulses {
 }
 
 impl Stepper for Impulses {
-    fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+    #[inline(always)]
+    fn step<S: Simd>(&mut self, _: S, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
         let row = &mut self.row;
         let half = 0.5 * step.h;
         for (forecast, (u, v)) in self.forecast.iter_mut().zip(row.u.iter().zip(&row.v)) {
@@ -78,7 +81,7 @@ impl Stepper for Impulses {
         tally.cost.evaluations += row.masses() + row.topology.gaps() as u64;
         let bend = half * half * row.stiffness;
         let lightness = 1.0 / (1.0 + bend);
-        let (phases, later) = (row.phases, row.phases_at(step.to));
+        let (phases, later) = (row.phases, Bodies::phases_of(step));
         let scale = half * lightness;
         let waves = |i: usize| {
             let ((sin, cos), (later_sin, later_cos)) = (phases[i], later[i]);
@@ -100,7 +103,7 @@ impl Stepper for Impulses {
         let before = std::mem::take(&mut self.touching);
         self.touching = pressed().map(|gap| gap.k).collect();
         for gap in pressed().filter(|gap| !before.contains(&gap.k)) {
-            tally.impact(gap.k, step.from.after(half).time(), (-gap.rate).max(0.0))?;
+            tally.impact(gap.k, step.from().after(half).time(), (-gap.rate).max(0.0))?;
         }
         Ok(())
     }

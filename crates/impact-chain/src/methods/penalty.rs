@@ -6,6 +6,7 @@ use super::rival::{Rival, Run, Stepper, run_steps};
 use super::steps::Step;
 use super::tally::{Stop, Tally};
 use crate::Error;
+use fearless_simd::Simd;
 use std::f64::consts::PI;
 
 /// Penalty springs: a shut gap is a stiff spring with a damper that is tuned to the restitution;
@@ -47,6 +48,7 @@ impl Rival for Penalty {
         let (scenario, ..) = task;
         let steps = (DURATION / (self.step * scenario.natural_frequency)).sqrt().max(STEPS);
         let contact = PI / (steps * self.step);
+        let rates = row.rates();
         let springs = Springs {
             stiffness: contact * contact,
             damping: 2.0 * damping_ratio(row.restitution) * contact,
@@ -54,7 +56,7 @@ impl Rival for Penalty {
             contacts: Vec::new(),
             row,
         };
-        run_steps(task, self.step, springs)
+        run_steps(task, self.step, rates, springs)
     }
 }
 
@@ -78,7 +80,8 @@ struct Springs {
 }
 
 impl Stepper for Springs {
-    fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+    #[inline(always)]
+    fn step<S: Simd>(&mut self, _: S, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
         let row = &mut self.row;
         let kick = 0.5 * (row.last + step.h);
         // The damper uses the velocity in the middle of the last step.
@@ -98,7 +101,7 @@ impl Stepper for Springs {
             let speed = -row.rate(k);
             let touches = before.iter().any(|of| of.0 == k);
             if !touches && speed > 0.0 {
-                tally.impact(k, step.to.time(), speed)?;
+                tally.impact(k, step.to().time(), speed)?;
             }
             if touches || speed > 0.0 {
                 self.contacts.push((k, 0.0));

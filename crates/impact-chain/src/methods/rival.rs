@@ -1,9 +1,12 @@
 //! Runs the methods other than the engine, which share all but their steps.
 
 use super::method::{Cost, Method, Task};
-use super::steps::{Step, check_end, steps};
+use super::steps::{Step, Steps, check_end};
 use super::tally::{Stop, Tally};
+use crate::abreast::level;
+use crate::search::clock::Rate;
 use crate::{Error, Sink};
+use fearless_simd::{Simd, dispatch};
 
 /// A method other than the engine.
 pub trait Rival: Sync {
@@ -32,16 +35,33 @@ impl<R: Rival> Method for R {
     }
 }
 
+/// Makes steps of equal length; what is inlined there is compiled for the vectors of the processor.
 pub trait Stepper: 'static {
-    fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop>;
+    fn step<S: Simd>(&mut self, simd: S, step: &Step, tally: &mut Tally) -> Result<(), Stop>;
 }
 
-pub fn run_steps(task: Task, h: f64, mut stepper: impl Stepper) -> Result<Run, Error> {
-    let mut steps = steps(task, h)?;
-    Ok(Box::new(move |tally| {
-        steps.try_for_each(|step| {
+pub fn run_steps(
+    task: Task,
+    h: f64,
+    rates: Vec<Rate>,
+    mut stepper: impl Stepper,
+) -> Result<Run, Error> {
+    let steps = Steps::new(task, h, rates)?;
+    Ok(Box::new(move |tally| dispatch!(level(), simd => all(simd, &steps, &mut stepper, tally))))
+}
+
+#[inline(always)]
+fn all<S: Simd>(
+    simd: S,
+    steps: &Steps,
+    stepper: &mut impl Stepper,
+    tally: &mut Tally,
+) -> Result<(), Stop> {
+    steps.each(
+        #[inline(always)]
+        |step| {
             tally.cost.steps += 1;
-            stepper.step(&step, tally)
-        })
-    }))
+            stepper.step(simd, step, tally)
+        },
+    )
 }

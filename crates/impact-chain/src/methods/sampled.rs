@@ -1,25 +1,29 @@
-//! Simulates by sampling gaps on a grid of times, and bisection.
+//! Simulates by sampling gaps on a grid of times; Newton's method finds zeros between.
 
-use super::flights::{Flights, GapState};
 use super::method::Task;
 use super::rival::{Rival, Run, Stepper, run_steps};
-use super::sign_change::closing_time;
 use super::steps::Step;
 use super::tally::{Stop, Tally};
 use crate::Error;
-use crate::search::clock::Instant;
+use crate::forcing::Component;
+use crate::impact::jumps;
+use crate::search::clock::{Instant, Rate};
+use crate::topology::Topology;
+use fearless_simd::{Simd, prelude::*};
+use impact_numerics::roots::crossing;
 
-/// Flight in closed form; every gap is sampled with a fixed step, and a change of its sign is
-/// bisected down to neighbouring doubles.
+/// Flight in closed form; every gap is sampled with a fixed step. One that is below M₂ h²/8 at an
+/// end of the step, with M₂ a bound of its second derivative, is looked at: whether it is negative
+/// at the end, or is lowest within the step and negative there. Newton's method goes to the zero
+/// from a parabola, within a bracket.
 ///
-/// - Source: the bracketing and bisection of every textbook (Press et al., Numerical Recipes, sec.
-///   9.1); simulations of impacting oscillators are mostly written so.
+/// - Source: the bracketing of every textbook (Press et al., Numerical Recipes, sec. 9.4);
+///   simulations of impacting oscillators are mostly written so.
 /// - Order: none; an impact that is found is accurate to rounding, and the step decides whether it
 ///   is found.
-/// - Fails: two roots within a step leave no change of sign, so grazes and short dips are missed,
-///   of depth up to |Δ''| h²/8; three are taken for one, often the wrong one. A chatter has
-///   infinitely many impacts in a finite time: the bound on work ends the run there,
-///   unless a least rebound speed is given.
+/// - Fails: three zeros within a step are taken for one, often the wrong one, and so is the first
+///   of two after an impact. A chatter has infinitely many impacts in a finite time: the bound on
+///   work ends the run there, unless a least rebound speed is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
     /// Time h between two samples.
@@ -32,82 +36,347 @@ impl Rival for Sampled {
     const NAME: &'static str = "sampled";
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
-        let mut flights = Flights::new(task)?;
-        flights.stop = self.stop;
-        let phases = flights.phases(Instant::at(task.1.time));
-        let gaps = flights.topology.gaps();
-        let begin = (0..gaps).map(|k| flights.gap_at(k, 0.0, &phases)).collect();
-        let samples = Samples { flights, begin, end: Vec::new(), roots: vec![None; gaps] };
-        let (stop, run) = (self.stop, run_steps(task, self.step, samples)?);
+        let gaps = Gaps::new(task, self.stop)?;
+        let (stop, number) = (self.stop, gaps.topology.gaps() as u64);
+        let rates = gaps.parts.iter().map(|part| part.rate).collect();
+        let run = run_steps(task, self.step, rates, gaps)?;
         Ok(Box::new(move |tally| {
             tally.stopping_at(stop);
-            tally.cost.evaluations += gaps as u64;
+            tally.cost.evaluations += number;
             run(tally)
         }))
     }
 }
 
-struct Samples {
-    flights: Flights,
-    /// Gaps at the beginning of the step, or right after the last impact at or next to the gap.
-    begin: Vec<GapState>,
-    end: Vec<GapState>,
-    /// The times between at which gaps close.
-    roots: Vec<Option<f64>>,
+/// Terms of the Taylor polynomial about the middle of a step, within which no phase advances by
+/// more than 1: the next is below 1e-17 of an amplitude.
+const TERMS: usize = 18;
+
+/// Terms for the first correction.
+const ROUGH: usize = 8;
+
+/// Gaps in a word of bits; a multiple of the numbers in a register.
+const WORD: usize = 64;
+
+/// A correction by Newton's method below this, in units of time, leaves less than rounding.
+const CONVERGED: f64 = 1e-11;
+
+/// The most corrections; after them the bracket counts.
+const CORRECTIONS: usize = 60;
+
+/// Width, in units of d, below zero of which an opening gap that has just been hit may be.
+const ROUNDING: f64 = 1e-12;
+
+/// Amplitudes of cosine and sine of each gap at one frequency.
+struct Part {
+    frequency: f64,
+    rate: Rate,
+    cos: Vec<f64>,
+    sin: Vec<f64>,
+    /// Powers of the frequency over factorials.
+    factors: [f64; TERMS],
 }
 
-impl Stepper for Samples {
-    fn step(&mut self, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
-        let last = self.flights.phases_within(step, step.h);
-        let gaps = self.begin.len();
-        self.end.clear();
-        self.end.extend((0..gaps).map(|k| self.flights.gap_at(k, step.h, &last)));
-        tally.cost.evaluations += gaps as u64;
-        for k in 0..gaps {
-            self.roots[k] = self.locate(k, step, tally);
-        }
-        while let Some((k, s)) = self.earliest() {
-            let flights = &mut self.flights;
-            let phases = flights.phases_within(step, s);
-            let time = step.from.after(s).time();
-            let before = flights.gap_at(k, s, &phases);
-            let speed = (-before.rate).max(0.0);
-            let rate = flights.hit(k, speed, &phases);
-            self.begin[k] = GapState { s, width: 0.0, rate };
-            let near = flights.topology.near(k);
-            for j in near.clone() {
-                self.begin[j] = flights.gap_at(j, s, &phases);
+struct Gaps {
+    topology: Topology,
+    spacing: f64,
+    restitution: f64,
+    stop: f64,
+    /// The free part first. Gaps that fill the last register never close.
+    parts: Vec<Part>,
+    /// The forced part of M₂ of each gap, and M₂ h²/8.
+    forced: Vec<f64>,
+    sag: Vec<f64>,
+    h: f64,
+    /// Terms that a step needs.
+    terms: usize,
+    /// The gaps below M₂ h²/8 at the end of the step, a bit each.
+    low: Vec<u64>,
+    /// (sin, cos) at the beginning of the step, or at the last impact.
+    now: Vec<(f64, f64)>,
+    /// (sin, cos) at the middle of the step.
+    middle: Vec<(f64, f64)>,
+    /// Half the advance of each phase in a step, as (sin, cos).
+    half: Vec<(f64, f64)>,
+    /// Time after the beginning of the step, gap and closing speed of zeros.
+    roots: Vec<(f64, usize, f64)>,
+}
+
+impl Gaps {
+    fn new(task: Task, stop: f64) -> Result<Gaps, Error> {
+        let (scenario, start, _) = task;
+        scenario.check_uniform()?;
+        let u = start.displacements(scenario)?;
+        let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
+        let (w, gaps) = (scenario.natural_frequency, topology.gaps());
+        let responses = Component::responses(scenario);
+        let length = gaps.next_multiple_of(8);
+        let begin = Instant::at(start.time);
+        let phases: Vec<_> = responses.iter().map(|of| of.phase(begin)).collect();
+        let (sin, cos) = Rate::new(w).sin_cos(begin);
+        let free = |m: usize| {
+            if topology.is_wall(m) {
+                return [0.0; 2];
             }
-            for j in std::iter::once(k).chain(near) {
-                self.end[j] = self.flights.gap_at(j, step.h, &last);
-                tally.cost.evaluations += 2;
-                self.roots[j] = self.locate(j, step, tally);
+            let (mut v, mut rate) = (0.0, 0.0);
+            for (of, (sin, cos)) in responses.iter().zip(&phases) {
+                v += of.cos[m] * cos + of.sin[m] * sin;
+                rate += of.frequency * (of.sin[m] * cos - of.cos[m] * sin);
             }
-            tally.event(k, time, speed)?;
-        }
-        for (begin, end) in self.begin.iter_mut().zip(&self.end) {
-            *begin = GapState { s: 0.0, ..*end };
-        }
-        Ok(())
+            let (u, quadrature) = (u[m] - v, (start.velocities[m - 1] - rate) / w);
+            [u * cos - quadrature * sin, u * sin + quadrature * cos]
+        };
+        let part = |frequency: f64, of: &dyn Fn(usize) -> [f64; 2]| {
+            let [mut cos, mut sin] = [0, 1].map(|_| vec![0.0; length]);
+            for k in 0..gaps {
+                let [left, right] = topology.sides(k).map(of);
+                (cos[k], sin[k]) = (right[0] - left[0], right[1] - left[1]);
+            }
+            let mut factor = 1.0;
+            let factors = std::array::from_fn(|i| {
+                let now = factor;
+                factor *= frequency / (i + 1) as f64;
+                now
+            });
+            Part { frequency, rate: Rate::new(frequency), cos, sin, factors }
+        };
+        let forced = responses.iter().map(|of| part(of.frequency, &|m| [of.cos[m], of.sin[m]]));
+        let parts: Vec<Part> = std::iter::once(part(w, &free)).chain(forced).collect();
+        let bend = |k: usize| {
+            let of = |part: &Part| part.frequency * part.frequency * part.reach(k);
+            parts[1..].iter().map(of).sum()
+        };
+        Ok(Gaps {
+            topology,
+            spacing: scenario.spacing,
+            restitution: scenario.restitution,
+            stop,
+            forced: (0..length).map(bend).collect(),
+            sag: vec![-1.0; length],
+            h: 0.0,
+            terms: TERMS,
+            low: vec![u64::MAX; length.div_ceil(WORD)],
+            now: parts.iter().map(|part| part.rate.sin_cos(begin)).collect(),
+            middle: vec![(0.0, 1.0); parts.len()],
+            half: vec![(0.0, 1.0); parts.len()],
+            roots: Vec::new(),
+            parts,
+        })
     }
-}
 
-impl Samples {
-    /// Returns the time in the step at which gap k comes to zero, none if it changes no sign.
-    fn locate(&self, k: usize, step: &Step, tally: &mut Tally) -> Option<f64> {
-        let (from, to) = (self.begin[k], self.end[k]);
-        if to.width >= 0.0 {
-            return None;
+    fn bend(&self, k: usize) -> f64 {
+        let free = &self.parts[0];
+        self.forced[k] + free.frequency * free.frequency * free.reach(k)
+    }
+
+    /// Prepares for steps of another length.
+    fn lengthen(&mut self, h: f64) {
+        self.h = h;
+        for (half, part) in self.half.iter_mut().zip(&self.parts) {
+            *half = part.rate.sin_cos(Instant::at(0.5 * h));
         }
-        Some(closing_time(from.s, to.s, from.width, |s| {
+        let smallest = |part: &Part| {
+            let term =
+                |power: f64, factor: &f64| (1e-18 < power * factor).then_some(0.5 * h * power);
+            let mut power = 1.0;
+            let terms = part.factors.iter().map_while(|factor| {
+                power = term(power, factor)?;
+                Some(())
+            });
+            terms.count()
+        };
+        self.terms = self.parts.iter().map(smallest).max().unwrap_or(TERMS).clamp(ROUGH, TERMS);
+        for k in 0..self.topology.gaps() {
+            self.sag[k] = self.bend(k) * h * h / 8.0;
+        }
+    }
+
+    /// Samples all gaps at the end of a step and looks at those that are or were low.
+    #[inline(always)]
+    fn sample<S: Simd>(&mut self, simd: S, step: &Step, tally: &mut Tally) {
+        let width = S::f64s::LEN;
+        for word in 0..self.low.len() {
+            let (first, mut low) = (WORD * word, 0);
+            for at in (first..self.sag.len().min(first + WORD)).step_by(width) {
+                let row = |row: &[f64]| S::f64s::from_slice(simd, &row[at..at + width]);
+                let mut f = S::f64s::splat(simd, self.spacing);
+                for (part, &(sin, cos)) in self.parts.iter().zip(step.phases) {
+                    f += row(&part.cos) * cos + row(&part.sin) * sin;
+                }
+                low |= f.simd_lt(row(&self.sag)).to_bitmask() << (at - first);
+            }
+            let mut look = low | std::mem::replace(&mut self.low[word], low);
+            while look != 0 {
+                let k = first + look.trailing_zeros() as usize;
+                look &= look - 1;
+                if k < self.topology.gaps() {
+                    let start = self.at(k, &self.now);
+                    self.locate(k, (0.0, start), step, tally);
+                }
+            }
+        }
+    }
+
+    /// Evaluates gap k and its rate at given phases.
+    #[inline(always)]
+    fn at(&self, k: usize, phases: &[(f64, f64)]) -> [f64; 2] {
+        let parts = self.parts.iter().zip(phases);
+        parts.fold([self.spacing, 0.0], |[f, rate], (part, (sin, cos))| {
+            let [a, b] = [part.cos[k], part.sin[k]];
+            [f + (a * cos + b * sin), rate + part.frequency * (b * cos - a * sin)]
+        })
+    }
+
+    /// Adds the zero of gap k in the step from a time on, with width and rate then, if it closes.
+    fn locate(&mut self, k: usize, (from, start): (f64, [f64; 2]), step: &Step, tally: &mut Tally) {
+        tally.cost.evaluations += 2;
+        let mut end = self.at(k, step.phases);
+        if start[0] <= 0.0 && start[1] < 0.0 {
+            self.roots.push((from, k, -start[1]));
+            return;
+        }
+        let is_rounding = end[1] >= 0.0 && end[0] >= -ROUNDING * self.spacing;
+        let dips = end[1] > 0.0 && start[1] < 0.0;
+        if (end[0] >= 0.0 || is_rounding) && !dips {
+            return;
+        }
+        let half = 0.5 * self.h;
+        let (mut low, mut high) = (from - half, half);
+        let gap = Polynomial::of(self, k);
+        let value = |x: f64| gap.value(x, self.terms);
+        if end[0] >= 0.0 || is_rounding {
+            // Where the tangents at both ends meet above zero, so does a gap that is convex.
+            let meet = (end[0] * start[1] - start[0] * end[1]) - (high - low) * end[1] * start[1];
+            if meet < 0.0 {
+                return;
+            }
+            high = crossing([low, high], 1e-12 * self.h, |x| {
+                tally.cost.evaluations += 1;
+                value(x)[1]
+            });
+            end = value(high);
+            if end[0] >= 0.0 {
+                return;
+            }
+        }
+        let [p0, p1, p2, p3, p4, p5, ..] = gap.terms;
+        let inside = (p1 * p1 - 4.0 * p0 * p2).max(0.0);
+        let mut x = -2.0 * p0 / (p1 - inside.sqrt());
+        let (mut moved, mut rate) = (f64::INFINITY, end[1]);
+        for turn in 0..CORRECTIONS {
+            // Not at an end, nor by NaN.
+            if !(x > low && x < high) {
+                x = 0.5 * (low + high);
+            }
+            let [f, slope] = if turn == 0 { gap.value(x, ROUGH) } else { value(x) };
             tally.cost.evaluations += 1;
-            self.flights.gap_at(k, s, &self.flights.phases_within(step, s)).width
-        }))
+            if turn > 0 {
+                *if f > 0.0 { &mut low } else { &mut high } = x;
+            }
+            let next = if slope < 0.0 { x - f / slope } else { f64::NAN };
+            let bend = 2.0 * p2 + x * (6.0 * p3 + x * (12.0 * p4 + x * 20.0 * p5));
+            rate = slope + bend * (next - x);
+            (moved, x) = ((next - x).abs(), next);
+            if moved <= CONVERGED && turn > 0 || high - low <= f64::EPSILON * self.h {
+                break;
+            }
+        }
+        if moved.is_nan() || moved > CONVERGED {
+            (x, rate) = (low, value(low)[1]);
+        }
+        self.roots.push((x + half, k, (-rate).max(0.0)));
     }
 
-    /// Returns the gap that closes first, the lowest of several, and the time; none if none does.
-    fn earliest(&self) -> Option<(usize, f64)> {
-        let found = self.roots.iter().enumerate().filter_map(|(k, s)| Some((k, (*s)?)));
-        found.reduce(|best, next| if next.1 < best.1 { next } else { best })
+    /// Lets gap k be hit, `s` after the beginning of the step.
+    fn hit(&mut self, (s, k, speed): (f64, usize, f64), step: &Step, tally: &mut Tally) {
+        let rebound = (self.restitution * speed).max(self.stop);
+        let at = step.from().after(s);
+        for (now, part) in self.now.iter_mut().zip(&self.parts) {
+            *now = part.rate.sin_cos(at);
+        }
+        let (sin, cos) = self.now[0];
+        let jumps = jumps(speed + rebound, 0.0, self.topology.inverse_masses(k));
+        let [before, after] = self.topology.adjacent(k);
+        let changes = [(Some(k), jumps[1] - jumps[0]), (before, jumps[0]), (after, -jumps[1])];
+        for (j, change) in changes {
+            let Some(j) = j else { continue };
+            let kick = change / self.parts[0].frequency;
+            self.parts[0].cos[j] -= kick * sin;
+            self.parts[0].sin[j] += kick * cos;
+        }
+        self.roots.retain(|root| root.1 != k && Some(root.1) != before && Some(root.1) != after);
+        for j in std::iter::once(k).chain(self.topology.near(k)) {
+            self.sag[j] = self.bend(j) * self.h * self.h / 8.0;
+            let low = u64::from(self.at(j, step.phases)[0] < self.sag[j]) << (j % WORD);
+            self.low[j / WORD] = self.low[j / WORD] & !(1 << (j % WORD)) | low;
+            let start = if j == k { [0.0, rebound] } else { self.at(j, &self.now) };
+            self.locate(j, (s, start), step, tally);
+        }
+    }
+}
+
+impl Part {
+    fn reach(&self, k: usize) -> f64 {
+        (self.cos[k] * self.cos[k] + self.sin[k] * self.sin[k]).sqrt()
+    }
+}
+
+/// A gap about the middle of a step.
+struct Polynomial {
+    terms: [f64; TERMS],
+}
+
+impl Polynomial {
+    #[inline(always)]
+    fn of(gaps: &Gaps, k: usize) -> Polynomial {
+        let mut terms = [0.0; TERMS];
+        terms[0] = gaps.spacing;
+        for (part, (sin, cos)) in gaps.parts.iter().zip(&gaps.middle) {
+            let [a, b] = [part.cos[k], part.sin[k]];
+            let (u, q) = (a * cos + b * sin, b * cos - a * sin);
+            let derivatives = [u, q, -u, -q];
+            for (i, (term, factor)) in terms.iter_mut().zip(&part.factors).enumerate() {
+                *term += derivatives[i % 4] * factor;
+            }
+        }
+        Polynomial { terms }
+    }
+
+    /// Evaluates the gap and its rate by so many terms, the even powers apart from the odd.
+    #[inline(always)]
+    fn value(&self, x: f64, terms: usize) -> [f64; 2] {
+        let square = x * x;
+        let [mut even, mut odd, mut even_rate, mut odd_rate] = [0.0; 4];
+        for pair in (0..terms.div_ceil(2)).rev() {
+            even_rate = even_rate * square + even;
+            odd_rate = odd_rate * square + odd;
+            even = even * square + self.terms[2 * pair];
+            odd = odd * square + self.terms[2 * pair + 1];
+        }
+        // With E and O in x²: f = E + x O, f' = 2 x E' + O + 2 x² O'.
+        [even + x * odd, odd + 2.0 * (x * even_rate + square * odd_rate)]
+    }
+}
+
+impl Stepper for Gaps {
+    #[inline(always)]
+    fn step<S: Simd>(&mut self, simd: S, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+        if step.h != self.h {
+            self.lengthen(step.h);
+        }
+        let ends = step.phases.iter().zip(&self.half);
+        for (middle, ((sin, cos), (half_sin, half_cos))) in self.middle.iter_mut().zip(ends) {
+            *middle = (sin * half_cos - cos * half_sin, cos * half_cos + sin * half_sin);
+        }
+        tally.cost.evaluations += self.topology.gaps() as u64;
+        self.sample(simd, step, tally);
+        while let Some(root) =
+            self.roots.iter().copied().reduce(|a, b| if b.0 < a.0 { b } else { a })
+        {
+            self.hit(root, step, tally);
+            tally.event(root.1, step.from().after(root.0).time(), root.2)?;
+        }
+        self.now.copy_from_slice(step.phases);
+        Ok(())
     }
 }

@@ -1,37 +1,106 @@
-//! Cuts time into equal steps, and checks the ranges of steps, tolerances and end times.
+//! Cuts time into equal steps, tabulates phases at their ends, and checks the ranges of steps, tolerances and end times.
 
 use super::method::Task;
 use crate::error::{Error, within};
-use crate::search::clock::{Instant, LATEST};
+use crate::search::clock::{Instant, LATEST, Rate};
+use std::cell::RefCell;
+use std::rc::Rc;
 
 pub const MAX_STEPS: f64 = 1e10;
 
 const SHORTEST: f64 = 1e-9;
 
+/// Steps whose phases are kept; those of a longer run are computed in pieces of as many.
+const KEPT: usize = 1 << 14;
+
 /// One of equal steps in time; the last may be shorter.
 #[derive(Clone, Copy)]
-pub struct Step {
-    pub from: Instant,
-    pub to: Instant,
+pub struct Step<'a> {
+    begin: Instant,
+    /// The end of the last step.
+    end: Option<Instant>,
+    whole: f64,
+    number: u64,
     pub h: f64,
+    /// (sin, cos) of each rate at its end.
+    pub phases: &'a [(f64, f64)],
 }
 
-pub fn steps(
-    (scenario, start, until): Task,
-    h: f64,
-) -> Result<impl Iterator<Item = Step> + use<>, Error> {
-    within("step", h, SHORTEST, 1.0 / scenario.fastest())?;
-    let count = ((until - start.time).max(0.0) / h).ceil();
-    if count > MAX_STEPS {
-        return Err(too_many(count, "step"));
+impl Step<'_> {
+    pub fn from(&self) -> Instant {
+        self.begin.after(self.number as f64 * self.whole)
     }
-    let (begin, end) = (Instant::at(start.time), Instant::at(until));
-    let mut from = begin;
-    Ok((1..=count as u64).map(move |i| {
-        let to = if i < count as u64 { begin.after(i as f64 * h) } else { end };
-        let h = if i < count as u64 { h } else { end.since(from).max(0.0) };
-        Step { from: std::mem::replace(&mut from, to), to, h }
-    }))
+
+    pub fn to(&self) -> Instant {
+        self.end.unwrap_or_else(|| self.begin.after((self.number + 1) as f64 * self.whole))
+    }
+}
+
+/// Equal steps from the start of a task to its end, and the rates whose phases are wanted.
+pub struct Steps {
+    rates: Vec<Rate>,
+    begin: Instant,
+    end: Instant,
+    h: f64,
+    count: u64,
+}
+
+/// The phases at the ends of whole steps from a number on.
+struct Piece {
+    of: (Vec<Rate>, Instant, u64, u64),
+    phases: Vec<(f64, f64)>,
+}
+
+impl Steps {
+    pub fn new((scenario, start, until): Task, h: f64, rates: Vec<Rate>) -> Result<Steps, Error> {
+        within("step", h, SHORTEST, 1.0 / scenario.fastest())?;
+        let count = ((until - start.time).max(0.0) / h).ceil();
+        if count > MAX_STEPS {
+            return Err(too_many(count, "step"));
+        }
+        let (begin, end) = (Instant::at(start.time), Instant::at(until));
+        Ok(Steps { rates, begin, end, h, count: count as u64 })
+    }
+
+    /// Hands on each step in turn.
+    #[inline(always)]
+    pub fn each<E>(&self, mut one: impl FnMut(&Step) -> Result<(), E>) -> Result<(), E> {
+        let Steps { ref rates, begin, end, h, count } = *self;
+        let whole = count.saturating_sub(1);
+        for first in (0..whole).step_by(KEPT) {
+            let number = (whole - first).min(KEPT as u64) as usize;
+            let piece = self.shared(first, number);
+            let phases = piece.phases.chunks_exact(rates.len()).take(number);
+            for (number, phases) in (first..).zip(phases) {
+                one(&Step { begin, end: None, whole: h, number, h, phases })?;
+            }
+        }
+        if count > 0 {
+            let phases: Vec<_> = rates.iter().map(|rate| rate.sin_cos(end)).collect();
+            let from = begin.after(whole as f64 * h);
+            let last = end.since(from).max(0.0);
+            let (number, phases) = (whole, &phases[..]);
+            one(&Step { begin, end: Some(end), whole: h, number, h: last, phases })?;
+        }
+        Ok(())
+    }
+
+    /// Tabulates the phases of some steps. The last table of a thread serves all chains with the
+    /// same frequencies, start and step.
+    fn shared(&self, first: u64, number: usize) -> Rc<Piece> {
+        thread_local!(static LAST: RefCell<Option<Rc<Piece>>> = const { RefCell::new(None) });
+        let of = (self.rates.clone(), self.begin, self.h.to_bits(), first);
+        LAST.with_borrow_mut(|last| {
+            let length = number * self.rates.len();
+            let kept = last.take().filter(|it| it.of == of && it.phases.len() >= length);
+            let piece = kept.unwrap_or_else(|| {
+                let at = |i: u64| self.begin.after((first + i + 1) as f64 * self.h);
+                let phases = |i| self.rates.iter().map(move |rate| rate.sin_cos(at(i)));
+                Rc::new(Piece { of, phases: (0..number as u64).flat_map(phases).collect() })
+            });
+            last.insert(piece).clone()
+        })
+    }
 }
 
 pub fn too_many(steps: f64, field: &str) -> Error {

@@ -3,6 +3,7 @@
 use crate::{drawn, given, run};
 use impact_chain::methods::{
     Advancement, Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, Verlet,
+    VerletSingle,
 };
 use impact_chain::{Boundary, Chain, Engine, Error, Impact, NormalPairs, Scenario, State};
 
@@ -43,6 +44,7 @@ fn all() -> Vec<Box<dyn Method>> {
         Box::new(RungeKutta { tolerance: 1e-9, stop: 0.0 }),
         Box::new(MoreauJean { step: 1e-3 }),
         Box::new(Verlet { step: 1e-3 }),
+        Box::new(VerletSingle { step: 1e-2 }),
         Box::new(Penalty { step: 1e-4 }),
     ]
 }
@@ -138,6 +140,22 @@ fn runs_stop_and_go_on() {
     }
 }
 
+/// Methods find the same impacts to the last bit, whatever vectors the processor has.
+#[test]
+fn vectors_change_no_bits() {
+    let found = || {
+        let runs = all().into_iter().flat_map(|method| {
+            let chains =
+                [Boundary::Walls, Boundary::Ring].map(|boundary| chain(70, boundary, 0.3, 1));
+            chains.map(|scenario| trace(&*method, &scenario, 10.0).0)
+        });
+        runs.collect::<Vec<_>>()
+    };
+    let wide = found();
+    impact_chain::abreast::without_wide_vectors();
+    assert!(wide == found() && wide.iter().all(|run| run.len() > 20));
+}
+
 #[test]
 fn no_method_loops_or_panics_on_bad_data() {
     let good = chain(2, Boundary::Walls, 0.3, 0);
@@ -166,11 +184,12 @@ fn no_method_loops_or_panics_on_bad_data() {
         assert_eq!(run(&ring, &State::of(&ring), 9.0).unwrap().impacts, 0, "{name}: one on a ring");
     }
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY, 2.0, 1e-300] {
-        let wrong: [&dyn Method; 6] = [
+        let wrong: [&dyn Method; 7] = [
             &Sampled { step, stop: 0.0 },
             &Advancement { tolerance: step, stop: 0.0 },
             &MoreauJean { step },
             &Verlet { step },
+            &VerletSingle { step },
             &Penalty { step },
             &RungeKutta { tolerance: step, stop: 0.0 },
         ];
