@@ -4,8 +4,8 @@
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
 use clap::Parser;
-use impact_chain::abreast::{Abreast, without_wide_vectors};
 use impact_chain::methods::{Certified, Method};
+use impact_chain::{Abreast, without_wide_vectors};
 use impact_chain::{Counters, Engine, Error, Protocol, Scenario, State};
 use impact_numerics::random::NormalPairs;
 use impact_paper::params::{

@@ -112,7 +112,8 @@ impl Measured {
     }
 
     /// Returns the seconds of a setting for a thousand chains to a time, where runs end when a
-    /// question is answered, or to their end; without the vectors that few processors have, or with.
+    /// question is answered, or to their end; without the vectors that few processors have, or
+    /// with.
     pub fn seconds(
         &self,
         (what, generic): (What, bool),

@@ -53,6 +53,8 @@ mod simulation;
 mod state;
 mod topology;
 mod validation;
+#[cfg(feature = "ensembles")]
+mod vectors;
 
 #[cfg(feature = "ensembles")]
 pub use abreast::Abreast;
@@ -67,3 +69,5 @@ pub use scenario::{Initial, Overtone, Scenario};
 pub use search::clock::LATEST;
 pub use search::outcome::{Counters, Graze};
 pub use state::State;
+#[cfg(feature = "ensembles")]
+pub use vectors::without_wide_vectors;

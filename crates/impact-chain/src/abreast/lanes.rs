@@ -1,12 +1,15 @@
 //! Keeps the gaps of many chains in lanes of wide registers, and looks at all of them step by step.
 
 use super::grid::{Grid, Phases, Step};
+use super::plan::Plan;
 use super::proof::{LARGEST, MARGIN, Part};
 use super::roots::{Candidate, Candidates};
 use super::slot::{A, B, C, D, FORCED, REACH, SAG, Slot, TAME, WIDTH};
-use super::{CHECK_EVERY, Plan};
 use crate::Impact;
 use fearless_simd::{f64x4, prelude::*};
+
+/// Steps after which a run checks again whether to stop, and which gaps can close.
+const CHECK_EVERY: usize = 128;
 
 /// What is read at each step of four gaps, a bit of each byte for each gap.
 #[derive(Clone, Copy, Default)]

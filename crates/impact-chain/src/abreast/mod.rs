@@ -10,22 +10,21 @@
 
 mod grid;
 mod lanes;
+mod plan;
 mod proof;
 mod roots;
 mod slot;
 
 use crate::flight::response;
 use crate::topology::Topology;
+use crate::vectors::level;
 use crate::{Boundary, Chain, Counts, Protocol, Scenario, Watch};
 use fearless_simd::{Level, dispatch};
 use grid::Grid;
 use lanes::Lanes;
+use plan::Plan;
 use proof::SLOW;
 use slot::Slot;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Steps after which a run checks again whether to stop, and which gaps can close.
-const CHECK_EVERY: usize = 128;
 
 /// Runs of more steps than this are left to the engine, which waits at no cost.
 const MOST_STEPS: f64 = 1e7;
@@ -35,83 +34,6 @@ const OPEN: f64 = 1e-6;
 
 /// Masses side by side that fill the registers.
 const MASSES: usize = 1600;
-
-/// Whether only such vectors are used as every processor of the kind has.
-static GENERIC: AtomicBool = AtomicBool::new(false);
-
-/// Does from now on without the vectors that not every processor of the kind has, as a measurement
-/// may want: nothing but times depends on it.
-pub fn without_wide_vectors() {
-    GENERIC.store(true, Ordering::Relaxed);
-}
-
-/// Returns the vectors to compute with.
-pub(crate) fn level() -> Level {
-    if GENERIC.load(Ordering::Relaxed) { Level::baseline() } else { Level::new() }
-}
-
-/// What chains side by side have in common. Lengths in units of d, times of 1/ω.
-#[derive(Clone, Debug)]
-struct Plan {
-    omega: f64,
-    /// ρ = Ω/ω.
-    ratio: f64,
-    restitution: f64,
-    /// Length h of a step, and h²/8.
-    step: f64,
-    eighth: f64,
-    /// Unit of speeds, d ω.
-    speed: f64,
-    /// Number of the first gap in results.
-    first: usize,
-    /// For each gap those that share a mass with it; `usize::MAX` if there is none.
-    neighbours: Vec<[usize; 2]>,
-    /// For each gap the parts of its jump by which the rates of the gap before it, itself and the
-    /// gap after it go back.
-    weights: Vec<[f64; 4]>,
-    ring: bool,
-    /// A chain ends with its first impact after this time.
-    enough: f64,
-}
-
-impl Plan {
-    fn new(chain: &Chain, length: f64) -> Plan {
-        let topology = Topology::new(chain.masses, chain.boundary);
-        let step = chain.natural_frequency * length;
-        let gaps = 0..topology.gaps();
-        // The masses beside the gap jump by half of its jump each, or one by all at a wall.
-        let weights = |gap| {
-            let [left, right] = topology.inverse_masses(gap);
-            [left / (left + right), -1.0, right / (left + right), 0.0]
-        };
-        let neighbours =
-            |gap| topology.adjacent(gap).map(|near: Option<usize>| near.unwrap_or(usize::MAX));
-        Plan {
-            omega: chain.natural_frequency,
-            ratio: chain.forcing_frequency / chain.natural_frequency,
-            restitution: chain.restitution,
-            step,
-            eighth: step * step / 8.0,
-            speed: chain.spacing * chain.natural_frequency,
-            first: topology.label(0),
-            neighbours: gaps.clone().map(neighbours).collect(),
-            weights: gaps.map(weights).collect(),
-            ring: chain.boundary == Boundary::Ring,
-            enough: f64::INFINITY,
-        }
-    }
-
-    /// Returns the column of the gap of which another column is a copy, or that column.
-    #[inline(always)]
-    fn own_column(&self, column: usize) -> usize {
-        let gaps = self.weights.len();
-        match column {
-            0 if self.ring => gaps,
-            _ if self.ring && column > gaps => 1,
-            _ => column,
-        }
-    }
-}
 
 /// Simulates many realisations of a chain side by side, with the same impacts as the engine until
 /// rounding parts them: chains that impacts make unstable differ then in every method.
@@ -154,8 +76,9 @@ impl Abreast {
         Some(Abreast { chain, windows, until, end, plan, grid })
     }
 
-    /// Ends each realisation right after its first impact later than `time`; the engine is not asked
-    /// to, where it has to do one.
+    /// Ends each realisation right after its first impact later than `time`. One that the engine
+    /// has to do is not ended.
+    #[must_use]
     pub fn until_first_after(mut self, time: f64) -> Abreast {
         self.plan.enough = time;
         self

@@ -1,7 +1,7 @@
 //! Locates the first roots of many gaps together.
 
-use super::Plan;
 use super::grid::Phases;
+use super::plan::Plan;
 use super::proof::{Part, SLOW};
 use super::slot::{A, B, C, D, Root, Slot};
 use fearless_simd::{f64x8, prelude::*};

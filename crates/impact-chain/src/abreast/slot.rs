@@ -1,7 +1,7 @@
 //! Keeps one of the chains that are simulated side by side.
 
-use super::Plan;
 use super::grid::Phases;
+use super::plan::Plan;
 use super::proof::{LARGEST, Local, Outcome, Part, SLOW, TIE, cos_sin};
 use crate::Watch;
 use fearless_simd::{f64x4, prelude::*};

@@ -3,8 +3,8 @@
 use super::method::{Cost, Method, Task};
 use super::steps::{Step, Steps, check_end};
 use super::tally::{Stop, Tally};
-use crate::abreast::level;
 use crate::search::clock::Rate;
+use crate::vectors::level;
 use crate::{Error, Sink};
 use fearless_simd::{Simd, dispatch};
 

@@ -86,7 +86,7 @@ struct Flip<T> {
     restitution: f64,
     stiffness: f64,
     masses: usize,
-    /// Displacements and velocities of the bodies, 0 for the walls and what fills the last register.
+    /// Displacements and velocities of the bodies; 0 for walls and what fills the last register.
     u: Vec<T>,
     v: Vec<T>,
     /// Amplitudes of cosine and sine of each component.

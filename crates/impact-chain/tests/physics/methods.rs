@@ -152,7 +152,7 @@ fn vectors_change_no_bits() {
         runs.collect::<Vec<_>>()
     };
     let wide = found();
-    impact_chain::abreast::without_wide_vectors();
+    impact_chain::without_wide_vectors();
     assert!(wide == found() && wide.iter().all(|run| run.len() > 20));
 }
 
