@@ -2,7 +2,7 @@
 
 use super::grid::{Grid, Phases, Step};
 use super::plan::Plan;
-use super::proof::{LARGEST, MARGIN, Part};
+use super::proof::{LARGEST, MARGIN, Part, blur};
 use super::roots::{Candidate, Candidates};
 use super::slot::{A, B, C, D, FORCED, REACH, SAG, Slot, TAME, WIDTH};
 use crate::Impact;
@@ -230,13 +230,14 @@ impl<'a> Lanes<'a> {
             }
             for lane in places(below) {
                 let (gap, tame) = (column + lane - 1, tame >> lane & 1 == 1);
-                let who = Candidate { slot, gap, just_hit: false, tame };
+                let who = Candidate { slot, gap, after: -self.half, just_hit: false, tame };
                 let amplitudes = [A, B, C, D].map(|row| block.rows[row][lane]);
                 self.candidates.push(amplitudes, -self.half, who);
             }
             for lane in places(dips) {
                 let tame = tame >> lane & 1 == 1;
-                let part = Part { start: -self.half, end: self.half, just_hit: false, tame };
+                let [start, end] = [-self.half, self.half];
+                let part = Part { start, end, after: start, just_hit: false, tame };
                 chain.decide(self.plan, step.middle, column + lane - 1, part, false);
             }
         }
@@ -346,14 +347,16 @@ impl<'a> Lanes<'a> {
                 self.active.push([place as u32, slot as u32]);
             }
         }
+        let after = now.s + blur(now.speed);
         for lane in places(below) {
             let gap = plan.own_column(column + lane) - 1;
-            let who = Candidate { slot, gap, just_hit: lane == 1, tame: tame >> lane & 1 == 1 };
+            let (just_hit, tame) = (lane == 1, tame >> lane & 1 == 1);
+            let who = Candidate { slot, gap, after, just_hit, tame };
             self.candidates.push([a[lane], b[lane], c[lane], d[lane]], now.s, who);
         }
         for lane in places(dips) {
             let (just_hit, tame) = (lane == 1, tame >> lane & 1 == 1);
-            let part = Part { start: now.s, end: self.half, just_hit, tame };
+            let part = Part { start: now.s, end: self.half, after, just_hit, tame };
             let gap = plan.own_column(column + lane) - 1;
             self.slots[slot].decide(plan, step.middle, gap, part, false);
         }

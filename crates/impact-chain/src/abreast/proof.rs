@@ -10,11 +10,15 @@ use super::grid::Phases;
 pub const MARGIN: f64 = 1e-12;
 
 /// Closing and opening speeds below this, in units of d ω, are left to the engine.
-pub const SLOW: f64 = 1e-4;
+pub const SLOW: f64 = 1e-5;
 
-/// A time in units of 1/ω: a width that is off by [`MARGIN`] moves an impact by less than half of
-/// it, as f falls faster than [`SLOW`]. So adjacent impacts further apart are in certain order.
-pub const TIE: f64 = 2.5 * MARGIN / SLOW;
+/// Returns more than the time, in units of 1/ω, by which a width that is off by [`MARGIN`] moves an
+/// impact at this speed. Adjacent impacts that are further apart than the sum of theirs are in
+/// certain order.
+#[inline(always)]
+pub fn blur(speed: f64) -> f64 {
+    1.25 * MARGIN / speed
+}
 
 /// The largest amplitudes, in units of d. Each of five terms and the sines in it are rounded by
 /// 2⁻⁵³ of an amplitude two or three times: by less than 1e-13 in all.
@@ -38,6 +42,8 @@ pub struct Local {
 pub struct Part {
     pub start: f64,
     pub end: f64,
+    /// The time up to which an adjacent gap may have been hit: `start`, or later by rounding.
+    pub after: f64,
     /// Whether the gap has just been hit: f(start) = 0 by definition, and f'(start) ≥ [`SLOW`].
     pub just_hit: bool,
     /// Whether 1 − |ρ² − 1| R₂ > M₂ h²/2, for a step of length h.
@@ -104,7 +110,7 @@ impl Local {
     }
 
     /// Whether a test of both ends proves that there is no root.
-    fn is_open(&self, Part { start, end, just_hit, tame }: Part) -> bool {
+    fn is_open(&self, Part { start, end, just_hit, tame, .. }: Part) -> bool {
         let ([f0, rate0], [f1, rate1]) = (self.at(start), self.at(end));
         if f1 <= MARGIN || !just_hit && f0 <= MARGIN {
             return false;
@@ -151,7 +157,7 @@ impl Local {
                     let [f, rate] = self.at(s);
                     (s - f / rate, rate)
                 };
-                let (s, rate) = polished(polished(s).0);
+                let (s, rate) = polished(polished(polished(s).0).0);
                 return Outcome::Root { s, speed: -rate };
             } else {
                 let root = (rate * rate + 2.0 * bend * width).sqrt();
@@ -220,7 +226,7 @@ mod tests {
             if !just_hit && gap.at(start)[0] <= 0.0 {
                 continue;
             }
-            let outcome = gap.first_root(Part { start, end: half, just_hit, tame });
+            let outcome = gap.first_root(Part { start, end: half, after: start, just_hit, tame });
             let until = if let Outcome::Root { s, .. } = outcome { s } else { half };
             let sample = |k: u32| start + (until - start) * f64::from(k) / 1000.0;
             let least = (1..1000).map(|k| gap.at(sample(k))[0]).fold(f64::INFINITY, f64::min);

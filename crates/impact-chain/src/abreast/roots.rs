@@ -24,6 +24,8 @@ struct Eight {
 pub struct Candidate {
     pub slot: usize,
     pub gap: usize,
+    /// As in [`Part::after`].
+    pub after: f64,
     pub just_hit: bool,
     pub tame: bool,
 }
@@ -110,16 +112,15 @@ impl Candidates {
             let by_sine = (jump * (co * sin + si * cos)).to_array();
             let by_cosine = (jump * (co * cos - si * sin)).to_array();
             for lane in 0..8.min(total - at) {
-                let Candidate { slot, gap, just_hit, tame } = self.who[at + lane];
+                let Candidate { slot, gap, after, just_hit, tame } = self.who[at + lane];
                 let chain = &mut slots[slot];
                 if (tame || definite >> lane & 1 == 1) && sure >> lane & 1 == 1 {
-                    let start = eight.start[lane];
                     let jump = [by_sine[lane], by_cosine[lane]];
                     let root = Root { s: s[lane], gap, speed: speed[lane], jump };
-                    chain.add(root, start, half, restitution);
+                    chain.add(root, after, half, restitution);
                 } else {
                     let start = eight.start[lane];
-                    let part = Part { start, end: half, just_hit, tame };
+                    let part = Part { start, end: half, after, just_hit, tame };
                     chain.decide(plan, middle, gap, part, true);
                 }
             }

@@ -2,7 +2,7 @@
 
 use super::grid::Phases;
 use super::plan::Plan;
-use super::proof::{LARGEST, Local, Outcome, Part, SLOW, TIE, cos_sin};
+use super::proof::{LARGEST, Local, Outcome, Part, SLOW, blur, cos_sin};
 use crate::Watch;
 use fearless_simd::{f64x4, prelude::*};
 
@@ -120,10 +120,13 @@ impl Slot {
         (a * a + b * b).simd_gt(self.four(simd, REACH, column)).to_bitmask() as u8
     }
 
-    /// Adds a root of a gap after `start`, if an impact there is certain and its order too.
+    /// Adds a root of a gap, if an impact there is certain and its order too: `after` is the time
+    /// up to which an adjacent gap may have been hit.
     #[inline(always)]
-    pub fn add(&mut self, root: Root, start: f64, half: f64, restitution: f64) {
-        let sure = root.speed * restitution >= SLOW && root.s - start > TIE && half - root.s > TIE;
+    pub fn add(&mut self, root: Root, after: f64, half: f64, restitution: f64) {
+        let blur = blur(root.speed);
+        let sure =
+            root.speed * restitution >= SLOW && root.s - after > blur && half - root.s > blur;
         if sure && !self.handed_over {
             self.roots.push(root);
         } else {
@@ -144,7 +147,7 @@ impl Slot {
                     jump * (cos * middle[1] + sin * middle[0]),
                     jump * (cos * middle[0] - sin * middle[1]),
                 ];
-                self.add(Root { s, gap, speed, jump }, part.start, part.end, plan.restitution);
+                self.add(Root { s, gap, speed, jump }, part.after, part.end, plan.restitution);
             }
             Outcome::Open | Outcome::Unsure => self.hand_over(),
         }
