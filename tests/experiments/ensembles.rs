@@ -110,8 +110,8 @@ fn the_mode_jumps_where_it_was_measured_elsewhere() {
     let counts: Vec<Vec<Option<u32>>> = (0..4)
         .map(|at| {
             let chains =
-                Ensemble { first: 400 * at as u64, stream: "test".into(), ..Ensemble::default() };
-            run(&chains, sigmas[at], 400).distinct.remove(0)
+                Ensemble { first: 1000 * at as u64, stream: "test".into(), ..Ensemble::default() };
+            run(&chains, sigmas[at], 1000).distinct.remove(0)
         })
         .collect();
     let samples =
