@@ -101,7 +101,6 @@ fn claims_fail_when_the_results_say_so() {
     let as_found = [
         ("sec2_half_height", CannotBeJudged),
         ("sec2_onset", CannotBeJudged),
-        ("sec2_mode_rise", CannotBeJudged),
         ("printed_threshold", Reproduced),
         ("sec2_sticking", Reproduced),
         ("sec2_parameters", Reproduced),
