@@ -149,8 +149,9 @@ impl Local {
                 }
                 s += rate / bend;
             } else if width <= MARGIN {
-                // f is too small to go on: it crosses zero here, surely, or rounding does not tell.
-                if rate > -SLOW {
+                // f is too small to go on: it crosses zero here, as f + f' s + M₂ s²/2 does, or
+                // rounding does not tell.
+                if rate > -SLOW || rate * rate < 4.0 * bend * MARGIN {
                     return Outcome::Unsure;
                 }
                 let polished = |s: f64| {
@@ -248,5 +249,16 @@ mod tests {
             seen[if matches!(outcome, Outcome::Unsure) { 3 } else { kind }] += 1;
         }
         assert!(seen.iter().all(|&number| number > 1000), "{seen:?}");
+    }
+
+    /// A dip that turns 1.05e-12 above zero, steeply on both sides, is no root.
+    #[test]
+    fn a_sharp_dip_is_no_root() {
+        let (u, q) = (5.475_725_649_221_678, 0.066_909_719_374_661_39);
+        let (v, z) = (-6.471_784_006_246_018, -0.712_011_512_733_158_9);
+        let gap = Local { u, q, v, z, ratio: 3.0 };
+        let (start, end) = (-0.0625, 0.0625);
+        let part = Part { start, end, after: start, just_hit: false, tame: false };
+        assert!(!matches!(gap.first_root(part), Outcome::Root { .. }));
     }
 }

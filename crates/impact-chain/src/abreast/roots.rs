@@ -90,16 +90,21 @@ impl Candidates {
             let mut fall = f1 + f2 * step;
             // Rarely more. A lane that has converged stays as it is, whatever its neighbours do.
             let mut turns = 0;
-            while turns < 5 && step.abs().simd_gt(CONVERGED).any_true() {
-                let open = step.abs().simd_gt(CONVERGED);
+            let is_open = |step: f64x8<S>, fall: f64x8<S>, f2: f64x8<S>| {
+                let step = step.abs();
+                step.simd_gt(CONVERGED) | (step * f2.abs()).simd_gt(fall.abs() * STRAIGHT)
+            };
+            let mut open = is_open(step, fall, f2);
+            while turns < 5 && open.any_true() {
                 let [f, f1, f2] = full(&p, s);
                 let next = correction(f, f1, f2);
                 s = open.select(within(s + next), s);
                 fall = open.select(f1 + f2 * next, fall);
                 step = open.select(next, step);
+                open &= is_open(step, fall, f2);
                 turns += 1;
             }
-            let sure = fall.simd_lt(-SLOW) & step.abs().simd_le(CONVERGED);
+            let sure = fall.simd_lt(-SLOW) & step.abs().simd_le(CONVERGED) & !open;
             let third = (u.abs() + q.abs() + (v.abs() * ratio + z.abs()) * square) * half;
             let second = (u.abs() + q.abs() + (v.abs() * ratio + z.abs()) * ratio) * half;
             let definite = (p[2] * 2.0).abs().simd_gt(third) | p[1].abs().simd_gt(second);
@@ -134,8 +139,10 @@ impl Candidates {
 /// amplitudes at the ends.
 const TERMS: usize = 12;
 
-/// A correction of third order below this leaves less than rounding.
+/// A correction of third order below this leaves less than rounding, if it is also so short that f'
+/// hardly changes on it: it is small near a maximum of f too, which is no root.
 const CONVERGED: f64 = 1e-6;
+const STRAIGHT: f64 = 1e-4;
 
 /// Coefficients of (cos x − 1)/x² and of (sin x − x)/x³ in x².
 const COSINE: [f64; 6] =
