@@ -87,9 +87,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             by_time.label_nearby(&in_powers(setting.value), (*x, t.min(top)), offset, GREY)?;
         }
     }
-    by_time.label_nearby("sampling", (13.5, 0.6 * top), (1, 0), INK)?;
+    by_time.label_nearby("sampling", (6.5, 0.77 * top), (1, 0), INK)?;
     rivals::key(&by_time, 700.0, [0.48, 0.37, 0.26].map(|share| share * top))?;
-    rivals::better(&by_time, (0.5, 0.5 * top), (0.28, 0.7 * top))?;
+    rivals::better(&by_time, (2500.0, 0.68 * top), (1300.0, 0.79 * top))?;
     rivals::better(&others, (0.5, 0.5 * top), (0.28, 0.7 * top))?;
     by_error.label_nearby("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
     let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
