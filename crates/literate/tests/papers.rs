@@ -49,7 +49,9 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
     assert!(report.contains_key("report.html"));
 
     // To the digits that the literature has: 4.669 201 609 102… and 2.502 907 875 095….
-    let cascade = feigenbaum::CASCADE.found(&session).unwrap();
+    let cascade = feigenbaum::CASCADE
+        .found(&feigenbaum::CASCADE.identity(&session).unwrap(), &session)
+        .unwrap();
     let tables = AnyExperiment::tables(&feigenbaum::CASCADE, &cascade);
     let limit = |column: &str| tables[1].distinct(column).unwrap()[0];
     assert!((limit("delta") - 4.669_201_609_102_99).abs() < 1e-10, "{}", limit("delta"));

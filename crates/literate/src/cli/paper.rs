@@ -111,7 +111,7 @@ fn forget(names: &[String], paper: &Paper, session: &Session<'_>) -> Result<(), 
     }
     for experiment in &paper.experiments {
         if names.iter().any(|name| name == "all" || name == experiment.name()) {
-            session.store.remove(&experiment.identity(session), true)?;
+            session.store.remove(&experiment.identity(session)?, true)?;
         }
     }
     Ok(())
@@ -135,8 +135,8 @@ pub(super) fn profile_in(root: &Path) -> Option<Profile> {
 }
 
 fn dry_run(session: &Session<'_>, needs: &[&'static dyn AnyExperiment]) -> Result<(), Failure> {
-    let stale: Vec<String> =
-        needs.iter().filter_map(|need| Some(need.stale(session)? + "\n")).collect();
+    let stale = needs.iter().map(|need| need.stale(session)).collect::<Result<Vec<_>, _>>()?;
+    let stale: Vec<String> = stale.into_iter().flatten().map(|line| line + "\n").collect();
     print(&stale.concat())?;
     match stale.len() {
         0 => Ok(()),

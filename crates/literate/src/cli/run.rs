@@ -66,15 +66,16 @@ fn run_shard(
     for experiment in experiments {
         let mut units = experiment.units(session.profile);
         units.retain(|_| shards.next() == Some(shard));
-        open.extend(experiment.missing(units.clone(), session));
-        shares.push((experiment, units));
+        let identity = experiment.identity(session)?;
+        open.extend(experiment.missing(units.clone(), &identity, &session.store));
+        shares.push((experiment, units, identity));
     }
     session.announce(&format!("shard {shard}/{of}: {}", count(open.len(), "unit")), &open)?;
     let [mut run, mut all] = [0, 0];
-    for (experiment, units) in shares.iter().filter(|(_, units)| !units.is_empty()) {
+    for (experiment, units, identity) in shares.iter().filter(|(_, units, _)| !units.is_empty()) {
         session.progress.check()?;
         all += units.len();
-        run += experiment.run_units(units, session)?;
+        run += experiment.run_units(units, identity, session)?;
     }
     Ok([run, all - run])
 }

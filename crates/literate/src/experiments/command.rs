@@ -5,6 +5,7 @@
 //! modules where a link leads. [`crate::manual`] has the form of what it reads and prints.
 
 use super::printed::{PrintedTable, tables_by_name};
+use super::store::{Identity, Store};
 use super::{AnyExperiment, Error, Found, Profile, Session, process};
 use crate::input;
 use crate::project::Project;
@@ -177,29 +178,29 @@ impl AnyExperiment for Command {
         self.inputs(&project.folder()).map(drop).map_err(error)
     }
 
-    fn code(&self, project: &Project) -> BTreeMap<String, String> {
-        self.hashes(&project.folder())
+    fn made_of(&self, session: &Session<'_>) -> Result<BTreeMap<String, String>, Error> {
+        Ok(self.hashes(&session.project.folder()))
     }
 
-    fn parameters(&self, profile: Profile) -> Json {
+    fn parameters(&self, profile: Profile) -> Result<Json, Error> {
         let mut all = json!({"command": self.line, "parameters": (self.parameters)(profile)});
         if !self.writes.is_empty() {
             all["writes"] = json!(self.writes);
         }
-        all
+        Ok(all)
     }
 
     fn item(&self) -> String {
         self.line.into()
     }
 
-    fn saved(&self, session: &Session<'_>) -> Result<Found, String> {
-        Ok(Arc::new(session.store.look::<Output>(&self.identity(session))?))
+    fn saved(&self, identity: &Identity, store: &Store) -> Result<Found, String> {
+        Ok(Arc::new(store.look::<Output>(identity)?))
     }
 
-    fn found(&self, session: &Session<'_>) -> Result<Found, Error> {
+    fn found(&self, identity: &Identity, session: &Session<'_>) -> Result<Found, Error> {
         let output = self.run(&session.project.folder(), session)?;
-        session.store.put(&self.identity(session), &output)?;
+        session.store.put(identity, &output)?;
         Ok(Arc::new(output))
     }
 
@@ -253,9 +254,9 @@ echo "[[$n, 3.125, 0.04, \"sh\", 7, 0.12345], [2, null, 0.1, null, null, null]]}
         }
         assert!(throws.at("toy.throws[needles=100].pi_error").is_none());
         // The result depends on the bytes of the script, which need not be text.
-        assert_eq!(command.stale(&session), None);
+        assert_eq!(command.stale(&session).unwrap(), None);
         std::fs::write(&path, [SCRIPT.as_bytes(), b"# \xff"].concat()).unwrap();
-        assert!(command.stale(&session).unwrap().contains("toy.sh changed"));
+        assert!(command.stale(&session).unwrap().unwrap().contains("toy.sh changed"));
     }
 
     #[test]

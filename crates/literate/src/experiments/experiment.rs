@@ -1,7 +1,7 @@
 //! Defines an experiment: its name, its parameters, how it is run, and the tables of its result.
 
 use super::cutting::{Cutting, Unit};
-use super::store::{Identity, Json};
+use super::store::{Identity, Json, Store};
 use super::{Error, Profile, Progress, Session};
 use crate::input::count;
 use crate::project::Project;
@@ -122,10 +122,17 @@ pub trait AnyExperiment: Sync {
     /// Checks that the files on which its result depends are there and are all declared.
     fn check(&self, project: &Project) -> Result<(), Error>;
 
-    /// Returns path and hash of every file on which its result depends.
-    fn code(&self, project: &Project) -> BTreeMap<String, String>;
+    /// Returns name and hash of all that its result is made of, but for its parameters.
+    ///
+    /// # Errors
+    /// Something cannot be read.
+    fn made_of(&self, session: &Session<'_>) -> Result<BTreeMap<String, String>, Error>;
 
-    fn parameters(&self, profile: Profile) -> serde_json::Value;
+    /// Returns its parameters as JSON.
+    ///
+    /// # Errors
+    /// JSON cannot hold them, or loses some of them.
+    fn parameters(&self, profile: Profile) -> Result<serde_json::Value, Error>;
 
     /// Returns the path of its module: `experiments::sweep` for `src/experiments/sweep.rs`.
     fn item(&self) -> String;
@@ -135,9 +142,9 @@ pub trait AnyExperiment: Sync {
         true
     }
 
-    fn identity(&self, session: &Session<'_>) -> Identity {
-        let code = self.code(session.project);
-        Identity::new(self.name(), session.profile, code, &self.parameters(session.profile))
+    fn identity(&self, session: &Session<'_>) -> Result<Identity, Error> {
+        let made_of = self.made_of(session)?;
+        Ok(Identity::new(self.name(), session.profile, made_of, self.parameters(session.profile)?))
     }
 
     /// Returns its units of work: one if it is not cut.
@@ -146,9 +153,8 @@ pub trait AnyExperiment: Sync {
     }
 
     /// Returns those of the given units that must be run: none if its result is fresh.
-    fn missing(&self, mut units: Vec<Unit>, session: &Session<'_>) -> Vec<Unit> {
-        let (store, identity) = (&session.store, self.identity(session));
-        if !self.is_saved() || store.fresh(&identity).is_ok() {
+    fn missing(&self, mut units: Vec<Unit>, identity: &Identity, store: &Store) -> Vec<Unit> {
+        if !self.is_saved() || store.fresh(identity).is_ok() {
             return Vec::new();
         }
         units.retain(|unit| store.fresh(&identity.of_unit(unit)).is_err());
@@ -156,29 +162,39 @@ pub trait AnyExperiment: Sync {
     }
 
     /// Runs and saves those of the units that are not in the store; returns how many were run.
-    fn run_units(&self, _: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
-        if self.saved(session).is_ok() { Ok(0) } else { self.found(session).map(|_| 1) }
+    fn run_units(
+        &self,
+        _: &[Unit],
+        identity: &Identity,
+        session: &Session<'_>,
+    ) -> Result<usize, Error> {
+        if session.store.fresh(identity).is_ok() {
+            return Ok(0);
+        }
+        self.found(identity, session).map(|_| 1)
     }
 
     /// Returns what would be run, and why; none if the saved result is fresh.
-    fn stale(&self, session: &Session<'_>) -> Option<String> {
-        let identity = self.identity(session);
-        let why = session.store.fresh(&identity).err().filter(|_| self.is_saved())?;
+    fn stale(&self, session: &Session<'_>) -> Result<Option<String>, Error> {
+        let identity = self.identity(session)?;
+        let Some(why) = session.store.fresh(&identity).err().filter(|_| self.is_saved()) else {
+            return Ok(None);
+        };
         let why = format!("{}: {why}", self.name());
         let units = self.units(session.profile);
         if let [_] = units[..] {
-            return Some(why);
+            return Ok(Some(why));
         }
         let all = count(units.len(), "unit");
-        let there = units.len() - self.missing(units, session).len();
-        Some(format!("{why}; {there} of {all} there"))
+        let there = units.len() - self.missing(units, &identity, &session.store).len();
+        Ok(Some(format!("{why}; {there} of {all} there")))
     }
 
     /// Returns the saved result, or why it must be run.
-    fn saved(&self, session: &Session<'_>) -> Result<Found, String>;
+    fn saved(&self, identity: &Identity, store: &Store) -> Result<Found, String>;
 
     /// Returns what is read, or the result of a run, which is then saved.
-    fn found(&self, session: &Session<'_>) -> Result<Found, Error>;
+    fn found(&self, identity: &Identity, session: &Session<'_>) -> Result<Found, Error>;
 
     fn tables(&self, found: &Found) -> Vec<Table>;
 
@@ -205,12 +221,14 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
         checked.map_err(|(problem, remedy)| Error::input(self.name, problem, remedy))
     }
 
-    fn code(&self, project: &Project) -> BTreeMap<String, String> {
-        project.code(self.code)
+    fn made_of(&self, session: &Session<'_>) -> Result<BTreeMap<String, String>, Error> {
+        Ok(session.project.code(self.code))
     }
 
-    fn parameters(&self, profile: Profile) -> serde_json::Value {
-        serde_json::to_value((self.parameters)(profile)).unwrap_or_default()
+    fn parameters(&self, profile: Profile) -> Result<serde_json::Value, Error> {
+        let fault = |problem: String| Error::input(self.name, problem, "give it other parameters");
+        let parameters = self.finite_parameters(profile)?;
+        serde_json::to_value(parameters).map_err(|error| fault(format!("its parameters: {error}")))
     }
 
     fn item(&self) -> String {
@@ -230,36 +248,41 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
         }
     }
 
-    fn run_units(&self, units: &[Unit], session: &Session<'_>) -> Result<usize, Error> {
-        let identity = self.identity(session);
-        if session.store.fresh(&identity).is_ok() {
+    fn run_units(
+        &self,
+        units: &[Unit],
+        identity: &Identity,
+        session: &Session<'_>,
+    ) -> Result<usize, Error> {
+        if session.store.fresh(identity).is_ok() {
             return Ok(0);
         }
-        let How::Cut(..) = self.how else { return self.found(session).map(|_| units.len()) };
+        let How::Cut(..) = self.how else {
+            return self.found(identity, session).map(|_| units.len());
+        };
         let parameters = self.finite_parameters(session.profile)?;
-        Ok(self.parts(units, &parameters, &identity, session)?.1)
+        Ok(self.parts(units, &parameters, identity, session)?.1)
     }
 
-    fn saved(&self, session: &Session<'_>) -> Result<Found, String> {
-        self.finite_parameters(session.profile).map_err(|error| error.to_string())?;
-        Ok(Arc::new(session.store.look::<T>(&self.identity(session))?))
+    fn saved(&self, identity: &Identity, store: &Store) -> Result<Found, String> {
+        Ok(Arc::new(store.look::<T>(identity)?))
     }
 
-    fn found(&self, session: &Session<'_>) -> Result<Found, Error> {
-        let (identity, progress) = (self.identity(session), &session.progress);
+    fn found(&self, identity: &Identity, session: &Session<'_>) -> Result<Found, Error> {
+        let progress = &session.progress;
         let parameters = self.finite_parameters(session.profile)?;
         let result = match &self.how {
             How::Read(read) => return Ok(Arc::new(read(session)?)),
             How::Whole(run, _) => run(&parameters, progress)?,
             How::Cut(_, cutting) => {
                 let units = cutting.units(&parameters);
-                let (parts, _) = self.parts(&units, &parameters, &identity, session)?;
+                let (parts, _) = self.parts(&units, &parameters, identity, session)?;
                 cutting.joined(&parameters, &units, parts, progress)?
             }
         };
-        session.store.put(&identity, &result)?;
+        session.store.put(identity, &result)?;
         // Units that stay do no harm: the joined result is looked for first.
-        let _ = session.store.remove(&identity, false);
+        let _ = session.store.remove(identity, false);
         Ok(Arc::new(result))
     }
 

@@ -1,7 +1,7 @@
 //! Runs experiments, and holds their results and the tables that follow from them.
 
 use super::progress::say;
-use super::store::Json;
+use super::store::{Identity, Json};
 use super::{AnyExperiment, Command, Error, Experiment, Found, Profile, Session};
 use crate::input::count;
 use crate::table::{Table, Tables, cell, number_at, table, table_of};
@@ -153,25 +153,32 @@ impl Results {
         derived: &[DerivedTables],
         session: &Session<'_>,
     ) -> Result<Self, Error> {
-        let saved = |one: &&'static dyn AnyExperiment| {
-            let read = || one.found(session).map_err(|error| error.to_string());
-            made(*one, || if one.is_saved() { one.saved(session) } else { read() })
-        };
-        let saved: Vec<_> = experiments.par_iter().with_max_len(1).map(saved).collect();
+        let identities = experiments.par_iter().with_max_len(1).map(|one| one.identity(session));
+        let identities: Vec<Identity> = identities.collect::<Result<_, Error>>()?;
+        let pairs = experiments.par_iter().zip(&identities).with_max_len(1);
+        let saved = pairs.map(|(one, identity)| {
+            let read = || one.found(identity, session).map_err(|error| error.to_string());
+            let saved = || one.saved(identity, &session.store);
+            made(*one, || if one.is_saved() { saved() } else { read() })
+        });
+        let saved: Vec<_> = saved.collect();
         let (mut stale, mut missing) = (0, Vec::new());
-        for (experiment, _) in experiments.iter().zip(&saved).filter(|(_, saved)| saved.is_err()) {
-            let units = experiment.missing(experiment.units(session.profile), session);
+        for ((experiment, identity), _) in
+            experiments.iter().zip(&identities).zip(&saved).filter(|(_, saved)| saved.is_err())
+        {
+            let units = experiment.units(session.profile);
+            let units = experiment.missing(units, identity, &session.store);
             stale += usize::from(!units.is_empty());
             missing.extend(units);
         }
         session.announce(&count(stale, "experiment"), &missing)?;
         let (mut found, mut all) = (Vec::new(), Vec::new());
-        for (experiment, saved) in experiments.iter().zip(saved) {
+        for ((experiment, identity), saved) in experiments.iter().zip(&identities).zip(saved) {
             if experiment.is_saved() {
                 let why = saved.as_ref().err().map_or("fresh", String::as_str);
                 session.progress.say(&format!("{}: {why}", experiment.name()));
             }
-            let run = |_| made(*experiment, || experiment.found(session));
+            let run = |_| made(*experiment, || experiment.found(identity, session));
             let (result, tables) = saved.or_else(run)?;
             found.push((*experiment, result));
             all.extend(tables);

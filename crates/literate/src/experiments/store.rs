@@ -37,13 +37,13 @@ impl Identity {
         experiment: &str,
         profile: Profile,
         code: BTreeMap<String, String>,
-        parameters: &impl Serialize,
+        parameters: serde_json::Value,
     ) -> Self {
         Identity {
             experiment: experiment.into(),
             profile,
             schema: SCHEMA,
-            parameters: serde_json::to_value(parameters).unwrap_or_default(),
+            parameters,
             unit: None,
             code,
         }
@@ -210,7 +210,7 @@ mod tests {
         let mut result: Vec<_> = (0..500).flat_map(|_| normals.pair()).map(Some).collect();
         result.extend([None, Some(-0.0), Some(f64::MIN_POSITIVE / 4.0), Some(f64::MAX)]);
         let store = Store::open(folder.path());
-        let identity = Identity::new("test", Profile::Quick, Default::default(), &1.5);
+        let identity = Identity::new("test", Profile::Quick, Default::default(), 1.5.into());
         store.put(&identity, &result).unwrap();
         let again: Vec<Option<f64>> = store.look(&identity).unwrap();
         assert_eq!(format!("{again:?}"), format!("{result:?}"));

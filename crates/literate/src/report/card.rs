@@ -53,7 +53,9 @@ impl Card {
             let mut card = Card::of(String::new(), Vec::new());
             card.item("experiment", &experiment.item(), cards.project);
             let profile = cards.values.profile().unwrap_or(Profile::Full);
-            for (i, setting) in settings(&experiment.parameters(profile)).iter().enumerate() {
+            for (i, setting) in
+                settings(&experiment.parameters(profile).unwrap_or_default()).iter().enumerate()
+            {
                 card.words(if i == 0 { "its parameters" } else { "" }, setting);
             }
             card
