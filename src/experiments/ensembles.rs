@@ -21,8 +21,8 @@ pub const fn ensembles(
     parameters: fn(Profile) -> Vec<Ensemble>,
     tables: fn(&Vec<Counted>) -> Vec<Table>,
 ) -> Ensembles {
-    let code = &["src/experiments/ensembles.rs"];
-    Experiment { name, code, parameters, how: Cut(title, CUTTING), tables }
+    let own = &["src/experiments/ensembles.rs"];
+    Experiment { name, own, reads: &[], parameters, how: Cut(title, CUTTING), tables }
 }
 
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> = Cutting { rows, part, join };

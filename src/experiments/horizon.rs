@@ -9,7 +9,8 @@ use impact_numerics::statistics::slope;
 
 pub const HORIZON: Experiment<Runs, Horizon> = Experiment {
     name: "horizon",
-    code: &["src/experiments/horizon.rs"],
+    own: &["src/experiments/horizon.rs"],
+    reads: &[],
     parameters: Runs::horizon,
     how: Whole(run, |parameters| parameters.realisations as u64 * SECOND / 300),
     tables,

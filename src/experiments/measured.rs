@@ -8,7 +8,8 @@ use serde::de::DeserializeOwned;
 
 pub const MEASURED: Experiment<(), Measured> = Experiment {
     name: "measured",
-    code: &["src/experiments/measured.rs", FILE],
+    own: &["src/experiments/measured.rs"],
+    reads: &[FILE],
     parameters: |_| (),
     how: Read(|session| committed(session, FILE)),
     tables,

@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 
 pub const PROGRAMS: Experiment<(), Vec<Program>> = Experiment {
     name: "programs",
-    code: &["src/experiments/programs.rs", FILE],
+    own: &["src/experiments/programs.rs"],
+    reads: &[FILE],
     parameters: |_| (),
     how: Read(|session| complete(committed(session, FILE)?)),
     tables,

@@ -8,7 +8,8 @@ use std::collections::BTreeSet;
 
 pub const REPLAY: Experiment<ReplayRuns, Replays> = Experiment {
     name: "replay",
-    code: &["src/experiments/replay.rs"],
+    own: &["src/experiments/replay.rs"],
+    reads: &[],
     parameters: runs,
     how: Whole(run, |_| SECOND / 10),
     tables,

@@ -8,7 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 pub const SEGMENTS: Experiment<(), Segments> = Experiment {
     name: "segments",
-    code: &["src/experiments/segments.rs"],
+    own: &["src/experiments/segments.rs"],
+    reads: &[],
     parameters: |_| (),
     how: Read(read),
     tables,

@@ -5,7 +5,8 @@ use crate::params::Runs;
 
 pub const SPACE_TIME: Experiment<Runs, SpaceTime> = Experiment {
     name: "spacetime",
-    code: &["src/experiments/spacetime.rs"],
+    own: &["src/experiments/spacetime.rs"],
+    reads: &[],
     parameters: Runs::spacetime,
     how: Whole(run, |parameters| parameters.until as u64 * SECOND / 100_000),
     tables,

@@ -10,7 +10,8 @@ use impact_circuits::nucleation::{closing_pull, pulls};
 
 pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
     name: "two_masses",
-    code: &["src/experiments/two_masses.rs"],
+    own: &["src/experiments/two_masses.rs"],
+    reads: &[],
     parameters: TwoMassesParams::new,
     how: Whole(run, |parameters| parameters.directions.realisations as u64 * SECOND / 800),
     tables,

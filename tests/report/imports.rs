@@ -1,5 +1,6 @@
 //! Reads all imports, and refuses those that DESIGN.md does not allow, and circles.
 
+use super::QUICK;
 use super::structure::{files, root};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -342,4 +343,29 @@ fn imports_are_those_of_the_drawing() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// What is apart, and the code of one experiment, changes no other result: nothing that counts for
+/// a saved result imports it.
+#[test]
+fn nothing_that_counts_for_a_result_imports_what_does_not() {
+    let (project, experiments) = (&QUICK.paper.project, &QUICK.paper.experiments);
+    let owned: Vec<&str> = experiments.iter().flat_map(|one| one.own()).copied().collect();
+    let mut wrong = BTreeSet::new();
+    let arrows = arrows();
+    for experiment in experiments.iter().filter(|experiment| experiment.is_saved()) {
+        let counts = |path: &str| project.counts(path, experiment.own(), &owned);
+        for (from, to) in arrows.iter().filter(|(from, _)| counts(from)) {
+            // Tables are named where their experiment is defined.
+            let is_definition = from.ends_with("/mod.rs");
+            let is_known = |file: &str| {
+                file.starts_with("crates/literate/")
+                    || file.ends_with("/prelude.rs")
+                    || is_definition && file.ends_with("/tables.rs")
+            };
+            let others = to.iter().filter(|file| !counts(file) && !is_known(file));
+            wrong.extend(others.map(|file| format!("{from} imports {file}")));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }

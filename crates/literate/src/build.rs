@@ -1,6 +1,7 @@
 //! Builds a report: opens a run of a paper, judges its results, and makes every file in memory.
 
 use crate::claims::{Basis, Check, Published, Words, judge_all};
+use crate::code::Code;
 use crate::experiments::{AnyExperiment, Error, Profile, Progress, Results, Session, Store};
 use crate::failure::Failure;
 use crate::figures::Figure;
@@ -14,7 +15,8 @@ use std::path::Path;
 
 impl Paper {
     /// Returns a run with the prose of a folder, or else that of the project, or the copy inside.
-    /// Fails if two things have one name, or if a file or the prose is missing or not declared.
+    /// Fails if two things have one name, if a file or the prose is missing, or if the program is
+    /// older than its code.
     pub fn session(
         &self,
         prose: Option<&Path>,
@@ -23,8 +25,6 @@ impl Paper {
         progress: Progress,
     ) -> Result<Session<'_>, Failure> {
         let project = &self.project;
-        let shared = project.check_named(project.shared);
-        shared.map_err(|(problem, remedy)| Error::input("project.shared", problem, remedy))?;
         self.check_names()?;
         self.experiments.iter().try_for_each(|experiment| experiment.check(project))?;
         let folder = prose.map(Path::to_path_buf).or_else(|| project.find(self.prose));
@@ -42,7 +42,10 @@ impl Paper {
             let what = format!("{folder}: no prose is there; give the folder of");
             return Err(Failure::input(format!("{what} {}", names.join(", "))));
         }
-        Ok(Session { project, templates, profile, store, progress })
+        let own =
+            self.experiments.iter().flat_map(|experiment| experiment.own()).copied().collect();
+        let code = Code::of_program(project, self.prose, own).map_err(Failure::input)?;
+        Ok(Session { project, templates, profile, store, progress, code })
     }
 
     /// Runs the experiments that are needed, in the order of the paper, and returns their results.

@@ -33,11 +33,11 @@
 mod build;
 pub mod claims;
 pub mod cli;
+mod code;
 mod decimal;
 pub mod experiments;
 mod failure;
 pub mod figures;
-mod imports;
 pub mod input;
 #[doc = include_str!("manual.md")]
 pub mod manual {}

@@ -8,6 +8,8 @@ pub struct Sources {
     pub files: &'static [(&'static str, &'static str)],
     /// Names of crates in paths of items, empty for the program, and the folders of their source.
     pub crates: &'static [(&'static str, &'static str)],
+    /// How it was compiled: names and values, of the compiler, its options and features.
+    pub compiled: &'static [(&'static str, &'static str)],
 }
 
 impl Sources {
@@ -86,7 +88,7 @@ pub(crate) fn toy() -> Sources {
                `kick`.\n    pub fn kick<const M: usize>(&mut self, kick: f64, p: &Phases<M>) {\n        self.a -= kick * \
                p.sin;\n        self.b += kick * p.cos;\n    }\n    // end\n}\n";
     let files = &[("src/flight.rs", FLIGHT), ("src/flight/drag/mod.rs", ""), ("src/lib.rs", "")];
-    Sources { name: "toy-paper", version: "1", files, crates: &[("toy", "src")] }
+    Sources { name: "toy-paper", version: "1", files, crates: &[("toy", "src")], compiled: &[] }
 }
 
 #[cfg(test)]

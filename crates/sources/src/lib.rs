@@ -4,23 +4,65 @@
 use proc_macro::TokenStream;
 use std::path::{Path, PathBuf};
 
-/// The source of a program, as `literate::Sources`: `sources!("src")` has Cargo.lock and every Rust
-/// file below `src`. Folders are given from that of the crate's Cargo.toml; the first has the
-/// program.
+/// The source of a program, as `literate::Sources`: `sources!("src")` has every Rust file below
+/// `src`, Cargo.toml and Cargo.lock, those of a workspace too, and how the compiler is called.
+/// Folders are given from that of the crate's Cargo.toml; the first has the program.
 #[proc_macro]
 pub fn sources(folders: TokenStream) -> TokenStream {
     let folders: Vec<String> = names(folders);
     let program = folders.first().cloned().unwrap_or_default();
-    let mut files = found(folders, &["rs"]);
-    if let Ok(files) = &mut files {
-        files.extend(Path::new(&top()).join("Cargo.lock").is_file().then(|| "Cargo.lock".into()));
-    }
+    let files = found(folders, &["rs"]).map(|files| [files, of_cargo()].concat());
+    let compiled = compiled();
     code(files, |list| {
         format!(
-            "::literate::Sources {{ name: env!(\"CARGO_PKG_NAME\"), version: env!(\"CARGO_PKG_VERSION\"), files: &[{list}], \
-             crates: &[(\"\", {program:?})] }}"
+            "::literate::Sources {{ name: env!(\"CARGO_PKG_NAME\"), version: env!(\"CARGO_PKG_VERSION\"), \
+             files: &[{list}], crates: &[(\"\", {program:?})], compiled: &{compiled:?} }}"
         )
     })
+}
+
+/// Paths of Cargo.toml and Cargo.lock of the package, and of the workspace in which it lies.
+fn of_cargo() -> Vec<String> {
+    let (top, mut files) = (top(), Vec::new());
+    let (mut all, mut way) = (Vec::new(), String::new());
+    for folder in Path::new(&top).ancestors() {
+        let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap_or_default();
+        let is_there = |name: &&str| folder.join(name).is_file();
+        let names = ["Cargo.lock", "Cargo.toml"].into_iter().filter(is_there);
+        all.extend(names.map(|name| format!("{way}{name}")));
+        if way.is_empty() || manifest.contains("[workspace]") {
+            files.clone_from(&all);
+        }
+        if manifest.contains("[workspace]") {
+            break;
+        }
+        way += "../";
+    }
+    files
+}
+
+/// What changes the meaning of code, each with its value: the compiler, features and other
+/// conditions, level of optimisation, checks, processor.
+fn compiled() -> Vec<(String, String)> {
+    const OPTIONS: [&str; 5] =
+        ["opt-level", "debug-assertions", "overflow-checks", "target-cpu", "target-feature"];
+    let mut compiled = vec![("the compiler".to_string(), env!("COMPILER").to_string())];
+    // A macro runs within the compiler.
+    let arguments: Vec<String> = std::env::args().collect();
+    for pair in arguments.windows(2) {
+        let (name, value) = pair[1].split_once('=').unwrap_or((&pair[1], "yes"));
+        match pair[0].as_str() {
+            "--cfg" if name == "feature" => {
+                compiled.push((format!("feature {}", value.trim_matches('"')), "yes".into()));
+            }
+            "--cfg" => compiled.push((format!("condition {}", pair[1]), "yes".into())),
+            "-C" if OPTIONS.contains(&name) => {
+                compiled.push((format!("option {name}"), value.into()))
+            }
+            _ => (),
+        }
+    }
+    compiled
 }
 
 /// Paths and texts of files, as `&[(&str, &str)]`: of the named files, and of every text below the

@@ -11,13 +11,14 @@ pub mod trials;
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, RaceParams, ScaleParams};
 
+/// Code that these experiments share, and no others but one.
+const METHODS: &str = "src/experiments/accuracy";
+const HORIZON: &str = "src/experiments/horizon.rs";
+
 pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
     name: "race",
-    code: &[
-        "src/experiments/accuracy/race.rs",
-        "src/experiments/accuracy",
-        "src/experiments/horizon.rs",
-    ],
+    own: &["src/experiments/accuracy/race.rs", METHODS, HORIZON],
+    reads: &[],
     parameters: RaceParams::new,
     how: Whole(race::run, |parameters| parameters.chains as u64 * SECOND / 5),
     tables: tables::race,
@@ -25,7 +26,8 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
 
 pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
     name: "bias",
-    code: &["src/experiments/accuracy/bias.rs", "src/experiments/accuracy"],
+    own: &["src/experiments/accuracy/bias.rs", METHODS, HORIZON],
+    reads: &[],
     parameters: BiasParams::new,
     how: Whole(bias::run, |parameters| parameters.runs() * SECOND / 200),
     tables: tables::bias,
@@ -33,7 +35,8 @@ pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
 
 pub const TRIALS: Experiment<trials::TrialParams, trials::Trials> = Experiment {
     name: "trials",
-    code: &["src/experiments/accuracy/trials.rs", "src/experiments/accuracy"],
+    own: &["src/experiments/accuracy/trials.rs", METHODS, HORIZON, "scenes"],
+    reads: &[],
     parameters: trials::TrialParams::new,
     how: Whole(trials::run, |parameters| parameters.cases() as u64 * SECOND / 10),
     tables: |_| Vec::new(),
@@ -41,7 +44,8 @@ pub const TRIALS: Experiment<trials::TrialParams, trials::Trials> = Experiment {
 
 pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
     name: "scale",
-    code: &["src/experiments/accuracy/scale.rs", "src/experiments/accuracy"],
+    own: &["src/experiments/accuracy/scale.rs", METHODS, HORIZON],
+    reads: &[],
     parameters: ScaleParams::new,
     how: Whole(scale::run, |_| SECOND / 10),
     tables: tables::scale,

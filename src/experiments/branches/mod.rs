@@ -14,7 +14,8 @@ use literate::experiments::experiment::How::Cut;
 
 pub const BRANCHES: Experiment<Vec<Ensemble>, Vec<Chains>, Counts> = Experiment {
     name: "branches",
-    code: &["src/experiments/branches", "src/experiments/ensembles.rs"],
+    own: &["src/experiments/branches", "src/experiments/ensembles.rs"],
+    reads: &[],
     parameters: params::branches,
     how: Cut("branches", run::CUTTING),
     tables: tables::tables,

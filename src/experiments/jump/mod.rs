@@ -14,7 +14,8 @@ use literate::experiments::experiment::How::Cut;
 
 pub const JUMP: Experiment<Vec<Ensemble>, Jumps, Counts> = Experiment {
     name: "jump",
-    code: &["src/experiments/jump", "src/experiments/ensembles.rs"],
+    own: &["src/experiments/jump", "src/experiments/ensembles.rs"],
+    reads: &[],
     parameters: params::jump,
     how: Cut("jump of the mode", run::CUTTING),
     tables: tables::tables,

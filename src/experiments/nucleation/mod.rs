@@ -10,7 +10,8 @@ use crate::params::NucleationParams;
 
 pub const NUCLEATION: Experiment<NucleationParams, Nucleation> = Experiment {
     name: "nucleation",
-    code: &["src/experiments/nucleation"],
+    own: &["src/experiments/nucleation"],
+    reads: &[],
     parameters: NucleationParams::new,
     how: Whole(run::run, |parameters| parameters.chains() * SECOND / 30_000),
     tables: tables::tables,

@@ -15,7 +15,8 @@ use crate::params::SeedsParams;
 
 pub const SEEDS: Experiment<SeedsParams, Seeds> = Experiment {
     name: "seeds",
-    code: &["src/experiments/seeds"],
+    own: &["src/experiments/seeds"],
+    reads: &[],
     parameters: SeedsParams::new,
     how: Whole(run, |parameters| {
         (parameters.sigmas.len() * parameters.realisations) as u64 * SECOND / 600

@@ -7,7 +7,7 @@ use literate::double_double::DoubleDouble;
 use literate::prelude::*;
 
 /// How far the cascade of period doublings is followed.
-#[derive(serde::Serialize)]
+#[derive(PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Depth {
     /// The last orbit has a period of two to this power.
     deepest: u32,

@@ -1,6 +1,6 @@
 //! Runs the verb `check`: judges every statement and relation.
 
-use super::common::{RunOptions, scores, verdict};
+use super::common::{RunOptions, outdated, outdated_line, scores, verdict};
 use super::terminal::print;
 use crate::claims::{Check, Verdict, blind_to_their_number, never_moved};
 use crate::failure::Failure;
@@ -66,6 +66,10 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         ids.retain(|id| checks.iter().any(|check| check.id == *id));
     }
     print(&text(&checks, [&blind, &unmoved], &args, &numbers))?;
+    let out = args.options.out(paper);
+    if let Some(paths) = outdated(paper, &session, &out)?.filter(|paths| !paths.is_empty()) {
+        print(&outdated_line(&out, &paths))?;
+    }
     verdict(&checks)
 }
 

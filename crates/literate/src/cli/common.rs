@@ -1,12 +1,14 @@
 //! Gives the verbs the options, scores and verdict that they share.
 
-use super::terminal::{Threads, warn};
+use super::terminal::{Threads, shown};
+use crate::build::make_report;
 use crate::claims::{Basis, Check, Kind, Verdict, score};
-use crate::experiments::{Profile, Progress, Session, Store};
+use crate::experiments::{AnyExperiment, Profile, Progress, Session, Store};
 use crate::failure::Failure;
-use crate::input::count;
+use crate::input::{count, regular_text};
 use crate::paper::Paper;
-use std::path::PathBuf;
+use crate::report::{folder, values};
+use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
 pub(super) struct RunOptions {
@@ -29,13 +31,53 @@ impl RunOptions {
         self.results.clone().unwrap_or_else(|| paper.project.place("target/results"))
     }
 
+    /// Returns the folder of the report.
+    pub fn out(&self, paper: &Paper) -> PathBuf {
+        paper.project.place(match self.profile {
+            Profile::Full => "paper",
+            Profile::Quick => "target/paper-quick",
+        })
+    }
+
     pub fn session<'a>(&self, paper: &'a Paper) -> Result<Session<'a>, Failure> {
-        if let Some(file) = paper.project.changed() {
-            warn(&format!("{file} has changed since this program was built; build it again"));
-        }
         let store = Store::open(&self.results(paper));
         paper.session(self.templates.as_deref(), self.profile, store, Progress::on_stderr())
     }
+}
+
+/// Returns the files of a report, of those that are committed, that are not as prose, printed
+/// numbers and saved results make them, or `None` if there is no such report or a result is stale.
+pub(super) fn outdated(
+    paper: &Paper,
+    session: &Session<'_>,
+    folder: &Path,
+) -> Result<Option<Vec<String>>, Failure> {
+    let stale = |one: &&'static dyn AnyExperiment| one.stale(session).transpose();
+    if profile_in(folder) != Some(session.profile)
+        || paper.experiments.iter().find_map(stale).transpose()?.is_some()
+    {
+        return Ok(None);
+    }
+    let (report, _) = make_report(paper, &session.silent(), folder)?;
+    let committed = report.into_iter().filter(|(path, _)| !folder::is_generated(path));
+    let differ = folder::compare(folder, &committed.collect())?.1;
+    let paths = differ.iter().filter(|fault| !fault.starts_with("unlisted"));
+    Ok(Some(paths.filter_map(|fault| Some(fault.split_once("  ")?.1.to_string())).collect()))
+}
+
+/// Says in one line that files of a report are outdated.
+pub(super) fn outdated_line(folder: &Path, paths: &[String]) -> String {
+    let names = match paths {
+        [one, more @ ..] if !more.is_empty() => format!("{one} and {} more", more.len()),
+        _ => paths.concat(),
+    };
+    let what = "not as prose, published numbers and results make it; `paper` writes it anew";
+    format!("{}: {names}: {what}\n", shown(folder))
+}
+
+/// Returns the profile of the report in a folder, or `None` if there is no report.
+pub(super) fn profile_in(root: &Path) -> Option<Profile> {
+    values::read(&regular_text(&root.join("values.json")).ok()?).ok()?.profile()
 }
 
 fn of(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> + Clone {

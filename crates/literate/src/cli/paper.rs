@@ -1,13 +1,12 @@
 //! Runs the verb `paper`: makes the report, or says what would be run.
 
-use super::common::{RunOptions, scores, verdict};
+use super::common::{RunOptions, outdated, outdated_line, profile_in, scores, verdict};
 use super::terminal::{print, shown};
 use crate::build::make_report;
 use crate::experiments::{AnyExperiment, Profile, Session};
 use crate::failure::Failure;
-use crate::input::{count, one_line, regular_text};
+use crate::input::{count, one_line};
 use crate::paper::{FigureSpec, Paper};
-use crate::report::values;
 use crate::report::{Files, files_of, folder};
 use crate::table::no_such;
 use std::path::{Path, PathBuf};
@@ -36,7 +35,8 @@ pub(super) struct Args {
     /// target/paper-PROFILE].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Say which experiments would be run, and why (exit code 1 if any), and run nothing.
+    /// Say which experiments would be run, and why, or that the report is not as prose and results
+    /// would make it (exit code 1 for both), and run nothing.
     #[arg(long)]
     dry_run: bool,
     /// Run this experiment again, even if its result is fresh (may be repeated), or `all`.
@@ -52,10 +52,7 @@ pub(super) struct Args {
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let began = Instant::now();
     let Args { options, force, .. } = args;
-    let out = args.out.unwrap_or_else(|| match options.profile {
-        Profile::Full => paper.project.place("paper"),
-        Profile::Quick => paper.project.place("target/paper-quick"),
-    });
+    let mut out = args.out.clone().unwrap_or_else(|| options.out(paper));
     let find = |text: &String| paper.find_figure(text).map_err(|error| error.of("--figure"));
     let figures = args.figure.iter().map(find).collect::<Result<Vec<&FigureSpec>, Failure>>()?;
     let is_whole = figures.is_empty();
@@ -65,9 +62,13 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     }
     let session = options.session(paper)?;
     if args.dry_run {
-        return dry_run(&session, &needs);
+        return dry_run(paper, &session, &needs, &out);
     }
     refuse_over_other(options.profile, &out, is_whole)?;
+    let apart = !is_whole && !is_current_but_for(&figures, paper, &session, &out)?;
+    if apart && (args.out.is_none() || profile_in(&out).is_some()) {
+        out = paper.project.place("target/figures");
+    }
     let option = |error: folder::Error| Failure::from(error).of("--out");
     if !force {
         folder::refuse(&out, &Files::new(), is_whole).map_err(option)?;
@@ -90,6 +91,9 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     if is_whole {
         let pages: Vec<&str> = paper.edition.documents.iter().map(|one| one.page).collect();
         line += &format!(": {}", pages.join(", "));
+    }
+    if apart {
+        line += "; the report is not up to date, so it was left alone";
     }
     let lines: Vec<String> = [line].into_iter().chain(scores(&checks)).collect();
     // Printed also if a check fails.
@@ -129,17 +133,36 @@ fn refuse_over_other(profile: Profile, out: &Path, is_whole: bool) -> Result<(),
     }
 }
 
-/// Returns the profile of the report in a folder; none if there is no report.
-pub(super) fn profile_in(root: &Path) -> Option<Profile> {
-    values::read(&regular_text(&root.join("values.json")).ok()?).ok()?.profile()
+/// Returns whether a folder has a report that is as prose and saved results make it, but for files
+/// of some figures.
+fn is_current_but_for(
+    figures: &[&FigureSpec],
+    paper: &Paper,
+    session: &Session<'_>,
+    out: &Path,
+) -> Result<bool, Failure> {
+    let is_of_figures = |path: &String| {
+        let name = path.split(['/', '.']).nth(1).unwrap_or_default();
+        figures.iter().any(|figure| name.starts_with(figure.name))
+    };
+    let paths = outdated(paper, session, out)?;
+    Ok(paths.is_some_and(|paths| paths.iter().all(is_of_figures)))
 }
 
-fn dry_run(session: &Session<'_>, needs: &[&'static dyn AnyExperiment]) -> Result<(), Failure> {
+fn dry_run(
+    paper: &Paper,
+    session: &Session<'_>,
+    needs: &[&'static dyn AnyExperiment],
+    out: &Path,
+) -> Result<(), Failure> {
     let stale = needs.iter().map(|need| need.stale(session)).collect::<Result<Vec<_>, _>>()?;
     let stale: Vec<String> = stale.into_iter().flatten().map(|line| line + "\n").collect();
     print(&stale.concat())?;
     match stale.len() {
-        0 => Ok(()),
+        0 => match outdated(paper, session, out)? {
+            Some(paths) if !paths.is_empty() => Err(Failure::check(outdated_line(out, &paths))),
+            _ => Ok(()),
+        },
         stale => Err(Failure::check(format!("{} to be run", count(stale, "experiment")))),
     }
 }

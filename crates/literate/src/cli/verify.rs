@@ -1,14 +1,14 @@
 //! Runs the verb `verify`: compares a report with its list, or with what the source makes.
 
-use super::paper::profile_in;
-use super::terminal::{Threads, print, shown};
+use super::common::{outdated, outdated_line, profile_in};
+use super::terminal::{Threads, print, shown, warn};
 use crate::build::make_report;
 use crate::experiments::{Progress, Store};
 use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::Paper;
 use crate::report::folder;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Check a report against its SHA256SUMS, and with --rerun against what this program makes
 ///
@@ -18,7 +18,7 @@ use std::path::PathBuf;
 ///   verify --rerun --results target/results     the same with saved results
 ///
 /// Nothing is written. Exit code 1 says that a file differs, is missing, or is there without being
-/// listed. Pages and figures for LaTeX are listed in SHA256SUMS.built, and may be missing.
+/// listed, or that prose and saved results would make it otherwise. Pages and figures for LaTeX are listed in SHA256SUMS.built, and may be missing.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
@@ -63,7 +63,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         faults.extend(differences.into_iter().map(|fault| format!("rerun: {fault}")));
     }
     if faults.is_empty() {
-        return Ok(());
+        return if rerun { Ok(()) } else { compare_with_prose(paper, &folder) };
     }
     print(&(faults.join("\n") + "\n"))?;
     let number = count(faults.len(), "file");
@@ -71,4 +71,19 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         "{place}: faults in {number}; with the same options `paper --force` writes it again, and \
          `paper --force --rerun all` without saved results; move unlisted files yourself"
     )))
+}
+
+/// Compares a report with what prose and saved results make, if these are fresh.
+fn compare_with_prose(paper: &Paper, folder: &Path) -> Result<(), Failure> {
+    let Some(profile) = profile_in(folder) else { return Ok(()) };
+    let store = Store::open(&paper.project.place("target/results"));
+    let session = paper.session(None, profile, store, Progress::on_stderr());
+    match session.and_then(|session| outdated(paper, &session, folder)) {
+        Ok(Some(paths)) if !paths.is_empty() => {
+            return Err(Failure::check(outdated_line(folder, &paths)));
+        }
+        Ok(_) => (),
+        Err(failure) => warn(&format!("prose was not compared: {}", failure.message)),
+    }
+    Ok(())
 }

@@ -7,18 +7,19 @@ use crate::input::count;
 use crate::project::Project;
 use crate::table::Table;
 use rayon::prelude::*;
-use serde::Serialize;
 use std::any::Any;
 use std::collections::BTreeMap;
+use std::io;
 use std::sync::Arc;
 
 /// An experiment with parameters P and result T; U is what a unit of one that is cut gives.
 pub struct Experiment<P: 'static, T: 'static, U: 'static = ()> {
     pub name: &'static str,
-    /// The files and folders on which the result depends, from the top of the project, the main one
-    /// first. A saved result is fresh as long as these, and those that all experiments share, are
-    /// the same; if none is listed, as long as the whole source is.
-    pub code: &'static [&'static str],
+    /// Files and folders of code that only this experiment needs, from the top of the project, the
+    /// main one first: a change of them makes no other result stale. All other code counts for all.
+    pub own: &'static [&'static str],
+    /// Files and folders that it reads when it runs, from the top of the project.
+    pub reads: &'static [&'static str],
     pub parameters: fn(Profile) -> P,
     pub how: How<P, T, U>,
     pub tables: fn(&T) -> Vec<Table>,
@@ -44,23 +45,32 @@ impl<P, T> Experiment<P, T> {
         run: fn(&P, &Progress) -> Result<T, Error>,
         tables: fn(&T) -> Vec<Table>,
     ) -> Self {
-        Experiment { name, code: &[], parameters, how: How::Whole(run, |_| 0), tables }
+        Experiment { name, own: &[], reads: &[], parameters, how: How::Whole(run, |_| 0), tables }
     }
 }
 
 pub type Found = Arc<dyn Any + Send + Sync>;
 
-impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
-    /// Returns its parameters. JSON, by which a saved result is known, has null for a number that
-    /// is not finite; the values of TOML have the number.
-    fn finite_parameters(&self, profile: Profile) -> Result<P, Error> {
+impl<P: Json, T: Json, U: Json> Experiment<P, T, U> {
+    /// Returns its parameters, and the JSON by which a saved result is known, which reads back to
+    /// the same.
+    fn known_parameters(&self, profile: Profile) -> Result<(P, serde_json::Value), Error> {
         let parameters = (self.parameters)(profile);
-        match toml::Value::try_from(&parameters) {
-            Ok(value) if !is_finite(&value) => {
-                let problem = "a parameter is NaN or infinite";
-                Err(Error::input(self.name, problem, "give it a number, or use `None`"))
+        let fault = |problem: &str, remedy| Err(Error::input(self.name, problem, remedy));
+        let json = match serde_json::to_value(&parameters) {
+            Ok(json) => json,
+            Err(error) => {
+                let problem = format!("JSON cannot hold its parameters: {error}");
+                return fault(&problem, "use texts as keys, and numbers of 64 bits");
             }
-            _ => Ok(parameters),
+        };
+        // JSON has null for a number that is not finite.
+        match P::deserialize(&json) {
+            Ok(read) if read == parameters => Ok((parameters, json)),
+            _ => fault(
+                "a parameter is NaN or infinite, or is not saved",
+                "give it a number or `None`, without `#[serde(skip)]`",
+            ),
         }
     }
 
@@ -106,20 +116,16 @@ impl<P: Serialize + Sync, T: Json, U: Json> Experiment<P, T, U> {
     }
 }
 
-fn is_finite(value: &toml::Value) -> bool {
-    match value {
-        toml::Value::Float(number) => number.is_finite(),
-        toml::Value::Array(values) => values.iter().all(is_finite),
-        toml::Value::Table(fields) => fields.values().all(is_finite),
-        _ => true,
-    }
-}
-
 /// What is known of every experiment, whatever its parameters and result are.
 pub trait AnyExperiment: Sync {
     fn name(&self) -> &'static str;
 
-    /// Checks that the files on which its result depends are there and are all declared.
+    /// Returns the code that only this experiment needs.
+    fn own(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// Checks that the files that it lists are there.
     fn check(&self, project: &Project) -> Result<(), Error>;
 
     /// Returns name and hash of all that its result is made of, but for its parameters.
@@ -208,31 +214,33 @@ pub trait AnyExperiment: Sync {
     }
 }
 
-impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
+impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
     fn name(&self) -> &'static str {
         self.name
     }
 
+    fn own(&self) -> &'static [&'static str] {
+        self.own
+    }
+
     fn check(&self, project: &Project) -> Result<(), Error> {
-        let mut checked = project.check_listed(self.code);
-        if self.is_saved() {
-            checked = checked.and_then(|()| project.check_named(self.code));
-        }
+        let checked = project.check_listed(self.own).and(project.check_listed(self.reads));
         checked.map_err(|(problem, remedy)| Error::input(self.name, problem, remedy))
     }
 
     fn made_of(&self, session: &Session<'_>) -> Result<BTreeMap<String, String>, Error> {
-        Ok(session.project.code(self.code))
+        let mut made_of = session.code.counted(session.project, self.own);
+        let unread = |error: io::Error| Error::input(self.name, error.to_string(), "restore it");
+        made_of.extend(session.project.hashes(self.reads).map_err(unread)?);
+        Ok(made_of)
     }
 
     fn parameters(&self, profile: Profile) -> Result<serde_json::Value, Error> {
-        let fault = |problem: String| Error::input(self.name, problem, "give it other parameters");
-        let parameters = self.finite_parameters(profile)?;
-        serde_json::to_value(parameters).map_err(|error| fault(format!("its parameters: {error}")))
+        Ok(self.known_parameters(profile)?.1)
     }
 
     fn item(&self) -> String {
-        let path = self.code.first().copied().unwrap_or_default();
+        let path = self.own.first().copied().unwrap_or_default();
         path.trim_start_matches("src/").trim_end_matches(".rs").replace('/', "::")
     }
 
@@ -260,7 +268,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
         let How::Cut(..) = self.how else {
             return self.found(identity, session).map(|_| units.len());
         };
-        let parameters = self.finite_parameters(session.profile)?;
+        let (parameters, _) = self.known_parameters(session.profile)?;
         Ok(self.parts(units, &parameters, identity, session)?.1)
     }
 
@@ -270,7 +278,7 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
 
     fn found(&self, identity: &Identity, session: &Session<'_>) -> Result<Found, Error> {
         let progress = &session.progress;
-        let parameters = self.finite_parameters(session.profile)?;
+        let (parameters, _) = self.known_parameters(session.profile)?;
         let result = match &self.how {
             How::Read(read) => return Ok(Arc::new(read(session)?)),
             How::Whole(run, _) => run(&parameters, progress)?,
@@ -302,15 +310,25 @@ impl<P: Serialize + Sync, T: Json, U: Json> AnyExperiment for Experiment<P, T, U
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde::{Deserialize, Serialize};
 
     #[test]
-    fn a_parameter_that_is_not_finite_is_refused() {
-        type Parameters = (Vec<f64>, Option<u64>);
-        const fn toy(parameters: fn(Profile) -> Parameters) -> Experiment<Parameters, ()> {
-            Experiment::new("toy", parameters, |_, _| Ok(()), |()| Vec::new())
+    fn a_parameter_that_json_loses_is_refused() {
+        #[derive(Clone, PartialEq, Serialize, Deserialize)]
+        struct Skips {
+            #[serde(skip)]
+            seed: u64,
         }
-        let error = toy(|_| (vec![1.0, f64::NAN], Some(1))).finite_parameters(Profile::Quick);
-        assert!(error.unwrap_err().to_string().starts_with("toy: a parameter is NaN or infinite"));
-        assert!(toy(|_| (vec![1.0], Some(1))).finite_parameters(Profile::Full).is_ok());
+        fn problem<P: Json>(parameters: fn(Profile) -> P) -> Option<String> {
+            let toy = Experiment::new("toy", parameters, |_, _| Ok(()), |()| Vec::new());
+            toy.parameters(Profile::Quick).err().map(|error| error.to_string())
+        }
+        let lost = "toy: a parameter is NaN or infinite, or is not saved; ";
+        assert!(problem(|_| (vec![1.0, f64::NAN], Some(1))).unwrap().starts_with(lost));
+        assert!(problem(|_| Skips { seed: 1 }).unwrap().starts_with(lost));
+        let keys = problem(|_| BTreeMap::from([((1, 2), 3)])).unwrap();
+        assert!(keys.starts_with("toy: JSON cannot hold its parameters: "), "{keys}");
+        assert!(problem(|_| u128::MAX).is_some());
+        assert_eq!(problem(|_| (vec![1.0], Some(1), -0.0)), None);
     }
 }

@@ -5,6 +5,7 @@ use super::error::Error;
 use super::profile::Profile;
 use super::progress::Progress;
 use super::store::Store;
+use crate::code::Code;
 use crate::input::count;
 use crate::project::Project;
 use crate::prose::Templates;
@@ -16,9 +17,18 @@ pub struct Session<'a> {
     pub profile: Profile,
     pub store: Store,
     pub progress: Progress,
+    /// What results are made of.
+    pub(crate) code: Code,
 }
 
 impl Session<'_> {
+    /// Returns a session of the same that shows no progress.
+    pub(crate) fn silent(&self) -> Self {
+        let (templates, store, code) =
+            (self.templates.clone(), self.store.clone(), self.code.clone());
+        Session { progress: Progress::silent(), templates, store, code, ..*self }
+    }
+
     /// Prints one line if some units are to be run: of what, and about how long they take.
     pub(crate) fn announce(&self, what: &str, units: &[Unit]) -> Result<(), Error> {
         if units.is_empty() {
@@ -56,7 +66,8 @@ mod tests {
         pub(crate) fn toy(store: Store, progress: Progress) -> Self {
             let project = Box::leak(Box::new(Project::new(crate::source::toy())));
             let (templates, profile) = (Templates::of([]), Profile::Quick);
-            Session { project, templates, profile, store, progress }
+            let code = Code::default();
+            Session { project, templates, profile, store, progress, code }
         }
     }
 

@@ -1,0 +1,146 @@
+//! Finds the code of a program: all files that cargo built it from, and how they were compiled.
+//!
+//! Cargo writes a list beside each program, `NAME.d`, which has its files, those of all packages of
+//! the same machine that it needs, what build scripts read, and what `include_str!` takes. A
+//! program without its list, such as a copy, is known by its own bytes.
+
+use crate::input::{self, sha256};
+use crate::project::{Project, is_in};
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+use std::time::SystemTime;
+
+/// What results are made of, besides parameters and files that experiments read.
+#[derive(Clone, Debug, Default)]
+pub struct Code {
+    /// Hashes of files, by their paths from the top of the project, and values of what else counts.
+    hashes: BTreeMap<String, String>,
+    /// Code of single experiments.
+    own: Vec<&'static str>,
+}
+
+impl Code {
+    /// Reads the code of the program that runs, whose prose lies in a folder and whose experiments
+    /// list some code as their own.
+    ///
+    /// # Errors
+    /// A file cannot be read, or has changed since the program was built.
+    pub fn of_program(
+        project: &Project,
+        prose: &str,
+        own: Vec<&'static str>,
+    ) -> Result<Code, String> {
+        let program = std::env::current_exe().map_err(|error| format!("the program: {error}"))?;
+        Code::of(&program, project, prose, own)
+    }
+
+    fn of(
+        program: &Path,
+        project: &Project,
+        prose: &str,
+        own: Vec<&'static str>,
+    ) -> Result<Code, String> {
+        if let Some(path) = project.changed() {
+            return Err(older_than(path));
+        }
+        let unread = |path: &Path, error: io::Error| {
+            format!("{}: {error}; restore it, and run `cargo build`", path.display())
+        };
+        let mut hashes = BTreeMap::new();
+        let Some((top, files)) = listed(program, project) else {
+            let bytes = std::fs::read(program).map_err(|error| unread(program, error))?;
+            hashes.insert("the program".into(), sha256(bytes));
+            return Ok(Code { hashes, own });
+        };
+        let time = |path: &Path| path.metadata()?.modified();
+        let built: SystemTime = time(program).map_err(|error| unread(program, error))?;
+        let mut manifests = Vec::new();
+        for path in &files {
+            let name = name(path, &top);
+            let changed = time(path).map_or(true, |changed| changed > built);
+            // The program reads its prose, and what it has a copy of, each time.
+            let is_read = is_in(&name, prose) || project.copied(&name).is_some();
+            if changed && !is_read {
+                return Err(older_than(&name));
+            }
+            let package = path.ancestors().find(|folder| folder.join("Cargo.toml").is_file());
+            manifests.extend(package.map(|folder| folder.join("Cargo.toml")));
+        }
+        manifests.sort();
+        manifests.dedup();
+        for path in files.iter().chain(&manifests) {
+            let bytes = std::fs::read(path).map_err(|error| unread(path, error))?;
+            // The first 64 bits are enough.
+            hashes.insert(name(path, &top), sha256(bytes)[..16].to_string());
+        }
+        let compiled = project.sources.compiled.iter();
+        hashes.extend(compiled.map(|(name, value)| (name.to_string(), value.to_string())));
+        let profile = program.parent().and_then(Path::file_name).unwrap_or_default();
+        hashes.insert("the profile".into(), profile.to_string_lossy().into());
+        Ok(Code { hashes, own })
+    }
+
+    /// Returns what the result of an experiment with some code of its own is made of.
+    pub fn counted(&self, project: &Project, own: &[&str]) -> BTreeMap<String, String> {
+        let all = self.hashes.iter().filter(|(path, _)| project.counts(path, own, &self.own));
+        all.map(|(path, hash)| (path.clone(), hash.clone())).collect()
+    }
+}
+
+fn older_than(path: &str) -> String {
+    format!("{path} has changed since this program was built; run `cargo build`")
+}
+
+/// Returns the folder of the program's package and the files of the list beside it, or `None` if
+/// there is no list, or one of another machine.
+fn listed(program: &Path, project: &Project) -> Option<(PathBuf, Vec<PathBuf>)> {
+    // Beside a test is a list of the compiler, without other packages.
+    if program.parent()?.file_name()? == "deps" {
+        return None;
+    }
+    let text = input::regular_text(&program.with_extension("d")).ok()?;
+    let (_, list) = text.split_once(": ")?;
+    let (mut files, mut path) = (Vec::new(), String::new());
+    for part in list.trim_end().split(' ') {
+        match part.strip_suffix('\\') {
+            Some(part) => path += &format!("{part} "),
+            None => files.push(real(Path::new(&(std::mem::take(&mut path) + part)))),
+        }
+    }
+    let own = || project.sources.files.iter().map(|(path, _)| *path);
+    let first = own().find(|path| !path.starts_with("..") && path.contains('/'))?;
+    let is_top = |top: &PathBuf| own().all(|path| files.contains(&real(&top.join(path))));
+    let mut tops = files.iter().filter(|path| path.ends_with(first)).filter_map(|path| {
+        Some(path.ancestors().nth(Path::new(first).components().count())?.to_path_buf())
+    });
+    let top = tops.find(is_top)?;
+    files.iter().any(|path| path.exists()).then_some((top, files))
+}
+
+/// Returns a path without `..`.
+fn real(path: &Path) -> PathBuf {
+    let mut real = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::ParentDir => drop(real.pop()),
+            part => real.push(part),
+        }
+    }
+    real
+}
+
+/// Returns the path of a file from a folder, with `/` and `..`; what build scripts made is found in
+/// a folder with another name on each machine.
+fn name(path: &Path, top: &Path) -> String {
+    let text = path.to_string_lossy();
+    if let Some((folder, made)) = text.rsplit_once("/out/")
+        && folder.contains("/build/")
+    {
+        return format!("made by a build script: {made}");
+    }
+    let common = path.components().zip(top.components()).take_while(|(a, b)| a == b).count();
+    let up = top.components().skip(common).map(|_| "..");
+    let down = path.components().skip(common).map(|part| part.as_os_str().to_str().unwrap_or("?"));
+    up.chain(down).collect::<Vec<_>>().join("/")
+}
