@@ -19,6 +19,11 @@ pub enum Error {
     NotRun(&'static str),
     #[error("{experiment}: a result is not finite, so it was not saved; use `None` for no number")]
     NotFinite { experiment: String },
+    #[error(
+        "{experiment}: JSON does not keep its result ({problem}), so it was not saved; let its type \
+         have no `#[serde(skip)]`, and no keys of maps but text and whole numbers"
+    )]
+    Lost { experiment: String, problem: String },
     #[error("--results: {path}: {source}; {}", remedy(source, "choose another folder"))]
     Store { path: PathBuf, source: std::io::Error },
 }

@@ -146,7 +146,8 @@ impl Store {
         let stem = format!("{}-", identity.file_stem());
         let is_unit = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            name.starts_with(&stem) && name.ends_with(".json")
+            let number = name.strip_prefix(&stem).and_then(|rest| rest.strip_suffix(".json"));
+            number.is_some_and(|number| number.bytes().all(|digit| digit.is_ascii_digit()))
         };
         let files = self.folder.iter().filter_map(|folder| folder.read_dir().ok()).flatten();
         let units = files.flatten().map(|entry| entry.path()).filter(is_unit);
@@ -176,14 +177,28 @@ fn made_of(text: &str) -> Result<Identity, &'static str> {
 }
 
 /// Writes a result as text that reads back to the same bits. JSON has neither NaN nor infinity, and
-/// serde_json writes null instead: reading back finds all such losses.
+/// serde_json writes null instead: reading back finds all such losses, and those of fields.
 fn written<T: Json>(identity: &Identity, result: &T) -> Result<String, Error> {
-    let not_finite = || Error::NotFinite { experiment: identity.experiment.clone() };
-    let body = serde_json::to_string(result).map_err(|_| not_finite())?;
+    let lost = |problem: String| {
+        let experiment = identity.experiment.clone();
+        match tera::Value::try_from_serializable(result) {
+            Ok(value) if !is_finite(&value) => Error::NotFinite { experiment },
+            _ => Error::Lost { experiment, problem },
+        }
+    };
+    let body = serde_json::to_string(result).map_err(|error| lost(error.to_string()))?;
     match serde_json::from_str::<T>(&body) {
         Ok(read) if read == *result => Ok(body),
-        _ => Err(not_finite()),
+        Ok(_) => Err(lost("it reads back as another".into())),
+        Err(error) => Err(lost(error.to_string())),
     }
+}
+
+/// Returns whether all numbers are finite; unlike JSON, the values of Tera have those that are not.
+fn is_finite(value: &tera::Value) -> bool {
+    let list = value.as_array().is_none_or(|list| list.iter().all(is_finite));
+    let map = value.as_map().is_none_or(|map| map.values().all(is_finite));
+    list && map && value.as_f64().is_none_or(f64::is_finite)
 }
 
 /// Writes a temporary file and renames it, so that no file ever has half a result.
@@ -216,6 +231,42 @@ mod tests {
         assert_eq!(format!("{again:?}"), format!("{result:?}"));
         for bad in [f64::NAN, f64::INFINITY] {
             assert!(matches!(store.put(&identity, &vec![bad]), Err(Error::NotFinite { .. })));
+            let bad = store.put(&identity, &vec![Some(1.0), None, Some(bad)]);
+            assert!(matches!(bad, Err(Error::NotFinite { .. })));
         }
+    }
+
+    #[test]
+    fn a_result_that_json_does_not_keep_is_named_as_such() {
+        #[derive(PartialEq, Serialize, Deserialize)]
+        struct Partly {
+            kept: Option<f64>,
+            #[serde(skip)]
+            left_out: u32,
+        }
+        let identity = Identity::new("toy", Profile::Quick, Default::default(), 1.into());
+        let put =
+            |kept, left_out| Store::open(Path::new("")).put(&identity, &Partly { kept, left_out });
+        let error = put(None, 1).unwrap_err().to_string();
+        assert!(error.contains("`#[serde(skip)]`") && !error.contains("finite"), "{error}");
+        assert!(matches!(put(Some(f64::NAN), 0), Err(Error::NotFinite { .. })));
+        let error = written(&identity, &BTreeMap::from([((1, 2), 3)])).unwrap_err().to_string();
+        assert!(error.contains("key must be a string"), "{error}");
+    }
+
+    #[test]
+    fn an_experiment_removes_its_own_results_only() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path());
+        let of = |name| Identity::new(name, Profile::Full, Default::default(), 1.into());
+        let [short, long] = [of("a"), of("a-full")];
+        let units = [&short, &long].map(|one| one.of_unit(&Unit::whole(1)));
+        for identity in [&short, &long].into_iter().chain(&units) {
+            store.put(identity, &7).unwrap();
+        }
+        store.remove(&short, true).unwrap();
+        assert_eq!(store.look::<i32>(&long), Ok(7));
+        assert_eq!(store.look::<i32>(&units[1]), Ok(7));
+        assert!(store.fresh(&short).is_err() && store.fresh(&units[0]).is_err());
     }
 }
