@@ -25,17 +25,25 @@ impl Session<'_> {
             return Ok(());
         }
         self.store.prepare()?;
-        let work: u64 = units.iter().map(|unit| unit.weight).sum();
         let threads = rayon::current_num_threads();
-        let time = duration(work / SECOND / threads as u64);
-        let quick = match self.profile {
-            Profile::Full => "; `--profile quick` takes seconds",
-            Profile::Quick => "",
+        let (time, threads) = (time(units, threads as u64), count(threads, "thread"));
+        let line = match (time, self.profile) {
+            (None, _) => format!("{what} to run on {threads}, time unknown"),
+            (Some(time), Profile::Quick) => format!("{what} to run, {time} on {threads}"),
+            (Some(time), Profile::Full) => {
+                format!("{what} to run, {time} on {threads}; `--profile quick` takes seconds")
+            }
         };
-        let threads = count(threads, "thread");
-        self.progress.say(&format!("{what} to run, {time} on {threads}{quick}"));
+        self.progress.say(&line);
         Ok(())
     }
+}
+
+/// Returns how long units take on so many threads; none if no estimate of their work was given.
+fn time(units: &[Unit], threads: u64) -> Option<String> {
+    let work: u64 = units.iter().map(|unit| unit.weight).sum();
+    let or_more = if units.iter().any(|unit| unit.weight == 0) { " or more" } else { "" };
+    (work > 0).then(|| duration(work / SECOND / threads) + or_more)
 }
 
 /// Returns a time in words, as precise as an estimate from counted work is.
@@ -65,5 +73,13 @@ mod tests {
         assert_eq!(duration(3), "a few seconds");
         assert_eq!(duration(41), "about 50 seconds");
         assert_eq!(duration(179), "about 3 minutes");
+    }
+
+    #[test]
+    fn no_time_is_given_without_an_estimate() {
+        let [none, some] = [0, 100 * SECOND].map(Unit::whole);
+        assert_eq!(time(&[none.clone(), none.clone()], 2), None);
+        assert_eq!(time(&[some.clone()], 2).unwrap(), "about 50 seconds");
+        assert_eq!(time(&[some, none], 2).unwrap(), "about 50 seconds or more");
     }
 }
