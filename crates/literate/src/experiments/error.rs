@@ -20,10 +20,10 @@ pub enum Error {
     #[error("{experiment}: a result is not finite, so it was not saved; use `None` for no number")]
     NotFinite { experiment: String },
     #[error(
-        "{experiment}: JSON does not keep its result ({problem}), so it was not saved; let its type \
-         have no `#[serde(skip)]`, and no keys of maps but text and whole numbers"
+        "{experiment}: JSON loses some of its result, so it was not saved; let its type have no \
+         `#[serde(skip)]`, and as keys of maps text and whole numbers"
     )]
-    Lost { experiment: String, problem: String },
+    Lost { experiment: String },
     #[error("--results: {path}: {source}; {}", remedy(source, "choose another folder"))]
     Store { path: PathBuf, source: std::io::Error },
 }

@@ -27,23 +27,21 @@ impl Session<'_> {
         self.store.prepare()?;
         let threads = rayon::current_num_threads();
         let (time, threads) = (time(units, threads as u64), count(threads, "thread"));
-        let line = match (time, self.profile) {
-            (None, _) => format!("{what} to run on {threads}, time unknown"),
-            (Some(time), Profile::Quick) => format!("{what} to run, {time} on {threads}"),
-            (Some(time), Profile::Full) => {
-                format!("{what} to run, {time} on {threads}; `--profile quick` takes seconds")
-            }
+        let more = match self.profile {
+            _ if time.is_empty() => ", time unknown",
+            Profile::Full => "; `--profile quick` takes seconds",
+            Profile::Quick => "",
         };
-        self.progress.say(&line);
+        self.progress.say(&format!("{what} to run{time} on {threads}{more}"));
         Ok(())
     }
 }
 
-/// Returns how long units take on so many threads; none if no estimate of their work was given.
-fn time(units: &[Unit], threads: u64) -> Option<String> {
+/// Returns how long units take; nothing if none of them has an estimate of its work.
+fn time(units: &[Unit], threads: u64) -> String {
     let work: u64 = units.iter().map(|unit| unit.weight).sum();
-    let or_more = if units.iter().any(|unit| unit.weight == 0) { " or more" } else { "" };
-    (work > 0).then(|| duration(work / SECOND / threads) + or_more)
+    let more = if units.iter().any(|unit| unit.weight == 0) { " or more" } else { "" };
+    if work == 0 { "".into() } else { format!(", {}{more}", duration(work / SECOND / threads)) }
 }
 
 /// Returns a time in words, as precise as an estimate from counted work is.
@@ -69,17 +67,12 @@ mod tests {
     }
 
     #[test]
-    fn times_are_rounded_up() {
+    fn times_are_rounded_up_and_unknown_without_an_estimate() {
         assert_eq!(duration(3), "a few seconds");
         assert_eq!(duration(41), "about 50 seconds");
         assert_eq!(duration(179), "about 3 minutes");
-    }
-
-    #[test]
-    fn no_time_is_given_without_an_estimate() {
-        let [none, some] = [0, 100 * SECOND].map(Unit::whole);
-        assert_eq!(time(&[none.clone(), none.clone()], 2), None);
-        assert_eq!(time(&[some.clone()], 2).unwrap(), "about 50 seconds");
-        assert_eq!(time(&[some, none], 2).unwrap(), "about 50 seconds or more");
+        let units = [0, 100 * SECOND].map(Unit::whole);
+        assert_eq!(time(&units, 2), ", about 50 seconds or more");
+        assert_eq!([time(&units[..1], 2), time(&units[1..], 2)], ["", ", about 50 seconds"]);
     }
 }
