@@ -257,8 +257,9 @@ impl AnyExperiment for Command {
     }
 
     fn made_of(&self, session: &Session<'_>) -> Result<BTreeMap<String, String>, Error> {
+        let hashes = self.hashes(&session.project.folder());
         session.progress.check()?;
-        self.hashes(&session.project.folder()).map_err(|what| self.fault(what))
+        hashes.map_err(|what| self.fault(what))
     }
 
     fn parameters(&self, profile: Profile) -> Result<Json, Error> {

@@ -93,7 +93,7 @@ impl Stage {
 
     /// Sets the share that is done of [`PARTS`].
     pub(super) fn reach(&self, share: f64) {
-        self.done.store((share * PARTS as f64) as u64, Ordering::Relaxed);
+        self.done.store((share * PARTS as f64).round() as u64, Ordering::Relaxed);
     }
 }
 
