@@ -79,8 +79,21 @@ fn program(folder: &Path, line: &str) -> Command {
     program
 }
 
+/// The program with one more experiment: a script `toy.sh` in a folder, with an argument.
+fn with_script(folder: &Path, script: &str, argument: &str, line: &str) -> Command {
+    std::fs::write(folder.join("toy.sh"), script).unwrap();
+    let line = format!("{line} --results {}/results", folder.display());
+    let mut program = program(Path::new(env!("CARGO_MANIFEST_DIR")), &line);
+    program.env("LITERATE_COMMAND", format!("sh {}/toy.sh {argument}", folder.display()));
+    program
+}
+
 fn run(folder: &Path, line: &str) -> (i32, String, String) {
-    let output = program(folder, line).output().unwrap();
+    ended(program(folder, line))
+}
+
+fn ended(mut program: Command) -> (i32, String, String) {
+    let output = program.output().unwrap();
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
 }
@@ -125,15 +138,13 @@ fn a_signal_also_ends_the_programs_that_commands_started() {
     let inner = format!("trap 'touch {here}/$1-ended; exit' TERM; {wait}");
     std::fs::write(folder.path().join("inner.sh"), inner).unwrap();
     let outer = format!("sh {here}/inner.sh $1 & wait");
-    std::fs::write(folder.path().join("outer.sh"), outer).unwrap();
     let exists = |mark: String| folder.path().join(mark).exists();
     for (signal, number) in [("INT", SIGINT), ("TERM", SIGTERM), ("HUP", SIGHUP)] {
         if is_ignored(number) {
             continue;
         }
-        let line = format!("run --templates examples/feigenbaum --results {here}/results");
-        let mut program = program(Path::new(env!("CARGO_MANIFEST_DIR")), &line);
-        program.env("LITERATE_COMMAND", format!("sh {here}/outer.sh {signal}"));
+        let line = "run --templates examples/feigenbaum";
+        let mut program = with_script(folder.path(), &outer, signal, line);
         let mut program = program.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         while !exists(format!("{signal}-ready")) {
             assert_eq!(program.try_wait().unwrap(), None, "ended too early");
@@ -145,4 +156,33 @@ fn a_signal_also_ends_the_programs_that_commands_started() {
         assert_eq!(output.status.code(), Some(INTERRUPTED.into()), "{signal}: {output:?}");
         assert!(exists(format!("{signal}-ended")), "{signal}: {output:?}");
     }
+}
+
+#[test]
+fn what_a_command_says_is_shown_and_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path().display();
+    let table = r#"{"rows": {"columns": ["b"], "rows": [[7]]}}"#;
+    let script = format!("echo a warning >&2; echo progress 1/2 >&2; echo '{table}'");
+    let made = |line: String| ended(with_script(folder.path(), &script, "", &line));
+    let (_, _, note) = made(format!("paper --templates examples/feigenbaum --out {here}/paper"));
+    assert!(note.starts_with("2 experiments to run on ") && note.contains(", time unknown\n"));
+    assert!(note.contains("\ntoy: a warning\n") && !note.contains("progress"), "{note}");
+    let (_, said, _) = made(format!("explain toy.rows.b --paper {here}/paper"));
+    assert!(said.ends_with("\n  7\ntoy said: a warning\n"), "{said}");
+}
+
+#[test]
+fn what_a_command_runs_ends_even_if_this_program_is_killed() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    // The pipe ends when all that have opened it are gone.
+    let script = format!("exec 3> {}; (sleep 5; echo late >&3) & wait", pipe.display());
+    let line = "run --templates examples/feigenbaum";
+    let mut program = with_script(folder.path(), &script, "", line);
+    let mut program = program.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let mut pipe = std::fs::File::open(pipe).unwrap();
+    program.kill().and_then(|()| program.wait()).unwrap();
+    assert_eq!(std::io::read_to_string(&mut pipe).unwrap(), "");
 }

@@ -1,6 +1,7 @@
 //! Runs the verb `explain`: prints the card of a value, figure, equation or statement.
 
 use super::terminal::print;
+use crate::experiments::{Command, Profile, Store};
 use crate::failure::Failure;
 use crate::input::{is_control, one_line, regular_text};
 use crate::paper::Paper;
@@ -18,7 +19,8 @@ use std::path::{Path, PathBuf};
 ///   explain 0.1159              a number as it is printed
 ///   explain                     a list of all
 ///
-/// Nothing is run: the answer is read from the folder of the report.
+/// Nothing is run: the answer is read from the folder of the report, and what a command said from
+/// the saved results.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
@@ -28,6 +30,10 @@ pub(super) struct Args {
     /// Read the report in this folder [default: paper in the project].
     #[arg(long, value_name = "DIR")]
     paper: Option<PathBuf>,
+    /// Read what commands said from the saved results in this folder [default: target/results in
+    /// the project].
+    #[arg(long, value_name = "DIR")]
+    results: Option<PathBuf>,
 }
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
@@ -52,6 +58,15 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         found.extend(ids);
     }
     let in_short = args.ids.len() < 2 && found.len() > 1;
+    let results = args.results.unwrap_or_else(|| paper.project.place("target/results"));
+    let (store, profile) = (Store::open(&results), values.profile().unwrap_or(Profile::Full));
+    for name in experiments.iter().map(|experiment| experiment.name()) {
+        let mut ids = found.iter().chain(&args.ids);
+        if !in_short && ids.any(|id| id.trim_start_matches("v.").split('.').next() == Some(name)) {
+            let said = Command::said(name, profile, &store).unwrap_or_default();
+            rows.extend(said.lines().map(|line| format!("{name} said: {}\n", clean(line))));
+        }
+    }
     let found: Vec<Card> = found.iter().filter_map(|id| cards.get(id)).collect();
     let text = |card: &Card| if in_short { line(card) } else { shown(card) };
     let found = found.iter().map(text).collect::<Vec<_>>().join(if in_short { "" } else { "\n" });

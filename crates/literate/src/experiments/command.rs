@@ -6,47 +6,72 @@
 
 use super::printed::{PrintedTable, tables_by_name};
 use super::store::{Identity, Store};
-use super::{AnyExperiment, Error, Found, Profile, Session, process};
-use crate::input;
+use super::{AnyExperiment, Error, Found, Profile, Session, process, progress};
+use crate::input::{self, sha256};
 use crate::project::Project;
 use crate::table::Table;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use std::io;
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::process::Command as Process;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Hashes of what commands that tell versions printed, by their lines and variables.
+static VERSIONS: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
 
 #[derive(Clone, Copy, Debug)]
 pub struct Command {
     pub name: &'static str,
-    /// The program and its arguments, with blanks between. A program is found in `PATH` unless it
-    /// has a slash. Arguments that are files or folders of the project, alone or behind `=`, are
-    /// copied to where the command runs, and are part of what identifies a saved result.
+    /// The program and its arguments, with blanks between, and quotes as in a shell. A program is
+    /// found in `PATH` unless it has a slash; its bytes are part of what identifies a saved result.
+    /// So are arguments that are files or folders of the project, alone or behind `=`; they are
+    /// copied to where the command runs.
     pub line: &'static str,
     /// Its parameters in a profile: an object.
     pub parameters: fn(Profile) -> Json,
     pub reads: &'static [&'static str],
     /// Files that it writes where it runs, such as pictures; they are saved with its tables.
     pub writes: &'static [&'static str],
+    /// Variables of the environment that it gets besides `PATH`, `HOME`, `LANG` and `TMPDIR`; their
+    /// values are part of what identifies a saved result.
+    pub env: &'static [&'static str],
+    /// Commands that print the versions of what it uses, which are part of what identifies a saved
+    /// result: `python3 -m pip freeze`. They run in the project.
+    pub versions: &'static [&'static str],
 }
 
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Output {
     tables: BTreeMap<String, PrintedTable>,
     files: BTreeMap<String, Vec<u8>>,
+    /// What it wrote to standard error; no table depends on it.
+    said: String,
 }
 
 impl Command {
     pub const fn new(name: &'static str, line: &'static str) -> Self {
-        Command { name, line, parameters: |_| Json::Null, reads: &[], writes: &[] }
+        let (parameters, none): (fn(Profile) -> Json, _) = (|_| Json::Null, &[]);
+        Command { name, line, parameters, reads: none, writes: none, env: none, versions: none }
+    }
+
+    /// Returns what a command wrote to standard error when its result was saved; none if this is
+    /// no command.
+    pub(crate) fn said(name: &str, profile: Profile, store: &Store) -> Option<String> {
+        Some(store.last::<Output>(name, profile)?.said)
+    }
+
+    fn fault(&self, what: String) -> Error {
+        Error::input(self.name, format!("`{}`", self.line), what)
     }
 
     /// Lists the files and folders that it names, from the folder `top`.
-    fn inputs(&self, top: &Path) -> Result<Vec<&'static str>, String> {
+    fn inputs(&self, top: &Path) -> Result<Vec<String>, String> {
         let mut inputs = Vec::new();
-        for (at, word) in self.line.split_whitespace().enumerate() {
-            let value = word.split_once('=').map_or(word, |(_, value)| value);
+        for (at, word) in words(self.line)?.iter().enumerate() {
+            let value = word.split_once('=').map_or(word.as_str(), |(_, value)| value);
             let is_option = value.starts_with('-') || value.contains("://");
             let is_program_of_path = at == 0 && !word.contains('/');
             let is_written = self.writes.contains(&value);
@@ -54,12 +79,12 @@ impl Command {
                 continue;
             }
             if top.join(value).exists() || looks_like_a_file(value) {
-                inputs.push(value);
+                inputs.push(value.to_string());
             }
         }
-        inputs.extend(self.reads);
+        inputs.extend(self.reads.iter().map(ToString::to_string));
         for input in &mut inputs {
-            *input = input.trim_start_matches("./").trim_end_matches('/');
+            *input = input.trim_start_matches("./").trim_end_matches('/').into();
             if input.split('/').any(|part| part == "..") {
                 return Err(format!("{input} lies outside the project; copy it into the project"));
             }
@@ -70,18 +95,44 @@ impl Command {
         Ok(inputs)
     }
 
-    fn hashes(&self, top: &Path) -> BTreeMap<String, String> {
-        let inputs = self.inputs(top).unwrap_or_default().into_iter();
-        inputs.filter_map(|input| input::hashes(top, input).ok()).flatten().collect()
+    /// Returns name and hash of all on which its result depends, but for its parameters.
+    fn hashes(&self, top: &Path) -> Result<BTreeMap<String, String>, String> {
+        let mut all = BTreeMap::new();
+        for input in self.inputs(top)? {
+            all.extend(input::hashes(top, &input).map_err(|error| error.to_string())?);
+        }
+        let program = &words(self.line)?[0];
+        if !program.contains('/') {
+            let path = in_path(program)?;
+            let bytes = std::fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+            all.insert(format!("{program} in PATH"), sha256(bytes));
+        }
+        for name in self.env {
+            let hash = std::env::var_os(name).map(|value| sha256(value.as_encoded_bytes()));
+            all.insert(format!("{name} in the environment"), hash.unwrap_or_default());
+        }
+        // Held, so that each of them runs once.
+        let mut known = VERSIONS.lock().unwrap_or_else(PoisonError::into_inner);
+        for line in self.versions {
+            let key = format!("{line} {:?}", self.env);
+            if !known.contains_key(&key) {
+                let failed = |what| format!("`{line}`, which `versions` lists: {what}");
+                let process = self.process(line, top, top);
+                let ended = process.and_then(|mut it| process::run(&mut it, "".into(), |_| true));
+                known.insert(key.clone(), sha256(ended.map_err(failed)?.0));
+            }
+            all.insert(format!("the output of `{line}`"), known[&key].clone());
+        }
+        Ok(all)
     }
 
-    /// Copies its inputs into a folder, and returns the path of the program.
-    fn prepare(&self, top: &Path, folder: &Path) -> io::Result<PathBuf> {
+    /// Copies its inputs into a folder.
+    fn copy_to(&self, folder: &Path, top: &Path) -> io::Result<()> {
         for input in self.inputs(top).map_err(io::Error::other)? {
-            if top.join(input).is_dir() {
-                std::fs::create_dir_all(folder.join(input))?;
+            if top.join(&input).is_dir() {
+                std::fs::create_dir_all(folder.join(&input))?;
             }
-            for path in input::files_in(top, input)? {
+            for path in input::files_in(top, &input)? {
                 let copy = folder.join(&path);
                 // Absolute paths, and those that two inputs have, are already there.
                 if !copy.exists() {
@@ -90,46 +141,50 @@ impl Command {
                 }
             }
         }
-        let program = self.line.split_whitespace().next().unwrap_or_default();
-        if !program.contains('/') {
-            return Ok(program.into());
-        }
-        // Python in a virtual environment finds its modules by the place of its link.
-        let is_link = top.join(program).is_symlink();
-        if is_link { std::path::absolute(top.join(program)) } else { Ok(folder.join(program)) }
+        Ok(())
     }
 
-    fn run(&self, top: &Path, session: &Session<'_>) -> Result<Output, Error> {
-        let fail = |what: String| {
-            let source = format!("`{}` {what}", self.line).into();
-            Error::Failed { experiment: self.name, source }
+    /// Prepares a process that runs a line in a folder, with few variables in its environment.
+    fn process(&self, line: &str, folder: &Path, top: &Path) -> Result<Process, String> {
+        let words = words(line)?;
+        let program = match words[0].as_str() {
+            name if !name.contains('/') => in_path(name)?,
+            // Python in a virtual environment finds its modules by the place of its link.
+            link if top.join(link).is_symlink() => top.join(link),
+            copied => folder.join(copied),
         };
-        let cannot = |error: io::Error| {
-            fail(format!("cannot be started: {error}; install it, or correct the command"))
-        };
-        let _stage = session.progress.stage(self.name, 1);
-        let folder = tempfile::tempdir().map_err(cannot)?;
-        let program = self.prepare(top, folder.path()).map_err(cannot)?;
-        let mut command = std::process::Command::new(program);
-        command.args(self.line.split_whitespace().skip(1)).current_dir(folder.path());
+        let program = std::path::absolute(program).map_err(|error| error.to_string())?;
+        let names = ["PATH", "HOME", "LANG", "TMPDIR"].iter().chain(self.env);
+        let variables = names.filter_map(|name| Some((name, std::env::var_os(name)?)));
+        let mut process = Process::new(program);
+        process.args(&words[1..]).current_dir(folder).env_clear().envs(variables);
+        Ok(process)
+    }
+
+    fn run(&self, top: &Path, session: &Session<'_>) -> Result<Output, String> {
+        let folder = folder_in(&std::env::temp_dir())?;
+        self.copy_to(folder.path(), top).map_err(|error| error.to_string())?;
+        let mut process = self.process(self.line, folder.path(), top)?;
         let parameters = (self.parameters)(session.profile);
         let given = json!({"profile": session.profile, "parameters": parameters});
-        let output = process::run(&mut command, format!("{given}\n")).map_err(cannot)?;
-        session.progress.check()?;
-        if !output.status.success() {
-            let said = String::from_utf8_lossy(&output.stderr);
-            let said = if said.trim().is_empty() { "nothing" } else { said.trim_end() };
-            return Err(fail(format!("ended with {}; it said:\n{said}", output.status)));
-        }
-        let tables = self.tables_in(&output.stdout).map_err(fail)?;
-        let mut files = BTreeMap::new();
+        let stage = session.progress.stage(self.name, progress::PARTS);
+        let hear = |line: &str| {
+            let share = progress::share_in(line);
+            match share {
+                Some(share) => stage.reach(share),
+                None => session.progress.say(&format!("{}: {line}", self.name)),
+            }
+            share.is_none()
+        };
+        let (printed, said) = process::run(&mut process, format!("{given}\n"), hear)?;
+        let (tables, mut files) = (self.tables_in(&printed)?, BTreeMap::new());
         for path in self.writes {
             let bytes = std::fs::read(folder.path().join(path)).map_err(|error| {
-                fail(format!("did not write {path}, which its `writes` lists: {error}"))
+                format!("did not write {path}, which its `writes` lists: {error}")
             })?;
             files.insert(path.to_string(), bytes);
         }
-        Ok(Output { tables, files })
+        Ok(Output { tables, files, said })
     }
 
     pub(super) fn file(&self, found: &Found, path: &str) -> Option<Vec<u8>> {
@@ -159,6 +214,30 @@ impl Command {
     }
 }
 
+/// Makes a folder for a run among the temporary ones.
+fn folder_in(temporary: &Path) -> Result<tempfile::TempDir, String> {
+    let failed = |error| format!("TMPDIR is {}: {error}; make that folder", temporary.display());
+    tempfile::tempdir_in(temporary).map_err(failed)
+}
+
+/// Splits a line into words as a shell does, of which there is at least one.
+fn words(line: &str) -> Result<Vec<String>, String> {
+    match shell_words::split(line) {
+        Ok(words) if words.is_empty() => Err("there is no program; name one".into()),
+        words => words.map_err(|error| format!("{error}; close it")),
+    }
+}
+
+/// Finds a program in the folders of `PATH`.
+fn in_path(name: &str) -> Result<PathBuf, String> {
+    let is_program = |path: &PathBuf| {
+        path.metadata().is_ok_and(|file| file.is_file() && file.permissions().mode() & 0o111 != 0)
+    };
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    let program = std::env::split_paths(&folders).map(|folder| folder.join(name)).find(is_program);
+    program.ok_or_else(|| format!("PATH has no {name}; install it, or correct the command"))
+}
+
 /// Returns whether a word looks like the name of a file: it has a slash, or an ending of letters.
 fn looks_like_a_file(word: &str) -> bool {
     let Some((name, ending)) = word.rsplit_once('.') else { return word.contains('/') };
@@ -174,12 +253,13 @@ impl AnyExperiment for Command {
     }
 
     fn check(&self, project: &Project) -> Result<(), Error> {
-        let error = |what: String| Error::input(self.name, format!("`{}`", self.line), what);
-        self.inputs(&project.folder()).map(drop).map_err(error)
+        self.inputs(&project.folder()).map(drop).map_err(|what| self.fault(what))
     }
 
     fn made_of(&self, session: &Session<'_>) -> Result<BTreeMap<String, String>, Error> {
-        Ok(self.hashes(&session.project.folder()))
+        let hashes = self.hashes(&session.project.folder());
+        session.progress.check()?;
+        hashes.map_err(|what| self.fault(what))
     }
 
     fn parameters(&self, profile: Profile) -> Result<Json, Error> {
@@ -199,7 +279,16 @@ impl AnyExperiment for Command {
     }
 
     fn found(&self, identity: &Identity, session: &Session<'_>) -> Result<Found, Error> {
-        let output = self.run(&session.project.folder(), session)?;
+        let unchanged = || match identity.differences(&self.identity(session)?).as_str() {
+            "" => Ok(()),
+            what => Err(self.fault(format!("{what} since this run began; run it again"))),
+        };
+        unchanged()?;
+        let output = self.run(&session.project.folder(), session);
+        session.progress.check()?;
+        let failed = |what| io::Error::other(format!("`{}`: {what}", self.line));
+        let output = output.map_err(|what| Error::failed(self.name, failed(what)))?;
+        unchanged()?;
         session.store.put(identity, &output)?;
         Ok(Arc::new(output))
     }
@@ -212,111 +301,4 @@ impl AnyExperiment for Command {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::{Progress, Results, Store};
-    use super::*;
-
-    const SCRIPT: &str = r#"read given
-case $given in *quick*) n=100 ;; *) n=1000 ;; esac
-echo '{"throws": {"keys": ["needles"], "columns": ["pi", "pi_error", "by", "seed", "ratio"],'
-echo '"digits": {"ratio": 3}, "units": {"pi": "m"}, "meanings": {"ratio": "of areas"}, "rows": '
-echo "[[$n, 3.125, 0.04, \"sh\", 7, 0.12345], [2, null, 0.1, null, null, null]]}}"
-"#;
-
-    /// Runs a command in the project of a folder, with a script in its file `toy.sh`.
-    fn run(top: &Path, script: &str, command: Command) -> Result<Output, Error> {
-        std::fs::write(top.join("toy.sh"), script).unwrap();
-        command.run(top, &Session::toy(Store::nowhere(), Progress::silent()))
-    }
-
-    #[test]
-    fn its_tables_are_those_of_any_experiment() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("toy.sh");
-        let session = Session::toy(Store::open(&folder.path().join("saved")), Progress::silent());
-        let line = Box::leak(format!("sh {}", path.display()).into_boxed_str());
-        let command: &'static Command = Box::leak(Box::new(Command::new("toy", line)));
-        std::fs::write(&path, SCRIPT).unwrap();
-        let results = Results::run(&[command], &[], &session).unwrap();
-        assert_eq!(results.number("toy.throws[needles=100].pi").unwrap(), 3.125);
-        let throws = results.table("toy.throws").unwrap();
-        for (column, shown, unit, meaning) in [
-            ("pi", "3.12(4)", "$m$", ""),
-            ("by", "sh", "", ""),
-            ("seed", "7", "", ""),
-            ("ratio", "0.123", "", "of areas"),
-        ] {
-            let cell = throws.at(&format!("toy.throws[needles=100].{column}")).unwrap();
-            let found = (cell.plain(), cell.unit.as_str(), cell.note.as_str());
-            assert_eq!(found, (shown.into(), unit, meaning));
-            let cell = throws.at(&format!("toy.throws[needles=2].{column}")).unwrap();
-            assert_eq!(cell.plain(), "–");
-        }
-        assert!(throws.at("toy.throws[needles=100].pi_error").is_none());
-        // The result depends on the bytes of the script, which need not be text.
-        assert_eq!(command.stale(&session).unwrap(), None);
-        std::fs::write(&path, [SCRIPT.as_bytes(), b"# \xff"].concat()).unwrap();
-        assert!(command.stale(&session).unwrap().unwrap().contains("toy.sh changed"));
-    }
-
-    #[test]
-    fn it_sees_the_files_that_it_names_and_no_others() {
-        let folder = tempfile::tempdir().unwrap();
-        let top = folder.path();
-        std::fs::create_dir_all(top.join("data/deep")).unwrap();
-        for file in ["data/deep/a.bin", "b.csv", "c.csv", "hidden.csv"] {
-            std::fs::write(top.join(file), [0xff, 0]).unwrap();
-        }
-        let command = Command::new("toy", "sh toy.sh data/ --table=./b.csv 0.5 -x n=3");
-        let command = Command { reads: &["c.csv"], writes: &["plot.png"], ..command };
-        let script =
-            "touch plot.png; find . -type f | sort | tr -d '\\n' > plot.png; rm data/deep/a.bin";
-        let output: Found = Arc::new(run(top, script, command).unwrap());
-        let written = String::from_utf8(command.file(&output, "plot.png").unwrap()).unwrap();
-        assert_eq!(written, "./b.csv./c.csv./data/deep/a.bin./plot.png./toy.sh");
-        let before = command.hashes(top);
-        assert_eq!(before.len(), 4, "{before:?}");
-        std::fs::write(top.join("data/deep/a.bin"), [0xfe, 0]).unwrap();
-        assert_ne!(command.hashes(top), before);
-    }
-
-    #[test]
-    fn a_file_that_is_missing_is_refused_before_it_runs() {
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("a.py"), "").unwrap();
-        for (line, fault) in [
-            ("python3 a.py table.npz", "table.npz: No such file"),
-            ("python3 a.py --in=data/x", "data/x: No such file"),
-            ("./prog a.py", "prog: No such file"),
-            ("python3 a.py ../b.csv", "../b.csv lies outside"),
-            ("true", "x: No such file"),
-        ] {
-            let command = Command { reads: &["x"], ..Command::new("toy", line) };
-            let error = command.inputs(folder.path()).unwrap_err();
-            assert!(error.starts_with(fault), "{line}: {error}");
-        }
-    }
-
-    #[test]
-    fn what_goes_wrong_is_shown() {
-        let folder = tempfile::tempdir().unwrap();
-        let table = |fields: &str| format!("echo '{{\"a\": {{\"columns\": [\"b\"], {fields}}}}}'");
-        let fields = "\"columns\": [], \"rows\": []";
-        for (script, shown) in [
-            ("echo a >&2; echo b >&2; exit 3", "exit status: 3; it said:\na\nb"),
-            ("echo Hello; echo '{}]'", "it printed:\nHello\n{}]"),
-            (&table("\"rows\": [[1, 2]]"), "a: row 1 has 2 cells for 1 names"),
-            (&table("\"rows\": [[[]]]"), "row 1 has more than a number"),
-            (&table("\"rows\": [[1], [2]]"), "printed a: two rows have the keys []; add a key"),
-            (&table("\"rows\": [], \"units\": {\"B\": \"m\"}"), "units: there is no column B;"),
-            (&format!("echo '{{\"a\": {{{fields}}}, \"a\": {{{fields}}}}}'"), "two tables a"),
-            ("", "did not write a.png"),
-        ] {
-            let command = Command { writes: &["a.png"], ..Command::new("toy", "sh toy.sh") };
-            let error = run(folder.path(), script, command).unwrap_err().to_string();
-            assert!(error.contains(shown), "{error}");
-        }
-        let error = run(folder.path(), "", Command::new("toy", "no-such-program")).unwrap_err();
-        assert!(error.to_string().contains("cannot be started: "), "{error}");
-    }
-}
+mod tests;

@@ -19,6 +19,11 @@ pub enum Error {
     NotRun(&'static str),
     #[error("{experiment}: a result is not finite, so it was not saved; use `None` for no number")]
     NotFinite { experiment: String },
+    #[error(
+        "{experiment}: JSON loses some of its result, so it was not saved; let its type have no \
+         `#[serde(skip)]`, and as keys of maps text and whole numbers"
+    )]
+    Lost { experiment: String },
     #[error("--results: {path}: {source}; {}", remedy(source, "choose another folder"))]
     Store { path: PathBuf, source: std::io::Error },
 }

@@ -90,10 +90,31 @@ impl Stage {
     pub fn advance(&self, units: u64) {
         self.done.fetch_add(units, Ordering::Relaxed);
     }
+
+    /// Sets the share that is done of [`PARTS`].
+    pub(super) fn reach(&self, share: f64) {
+        self.done.store((share * PARTS as f64).round() as u64, Ordering::Relaxed);
+    }
 }
 
-/// Returns `40 %, about 12 s left`: 100 % only when all is done, and no time below a second.
+/// The units of a stage of which only shares are known.
+pub(super) const PARTS: u64 = 1_000_000;
+
+/// Returns the share that a line reports: `progress 40 %`, `progress 40/100`; none of other lines.
+pub(super) fn share_in(line: &str) -> Option<f64> {
+    let words = line.strip_prefix("progress ")?.trim();
+    let percent = words.strip_suffix('%').map(|done| (done, "100"));
+    let (done, all) = percent.or_else(|| words.split_once('/'))?;
+    let share = done.trim().parse::<f64>().ok()? / all.trim().parse::<f64>().ok()?;
+    (0.0..=1.0).contains(&share).then_some(share)
+}
+
+/// Returns `40 %, about 12 s left`: 100 % only when all is done, no time below a second, and no
+/// share before a first one is known.
 fn progress_text(done: u64, total: u64, elapsed: Duration) -> String {
+    if done == 0 && total > 0 {
+        return "running".into();
+    }
     let share = if total == 0 { 1.0 } else { done as f64 / total as f64 };
     let percent = (100.0 * share).floor();
     let left = elapsed.as_secs_f64() * (1.0 - share) / share;
@@ -101,5 +122,20 @@ fn progress_text(done: u64, total: u64, elapsed: Duration) -> String {
         format!("{percent:.0} %, about {left:.0} s left")
     } else {
         format!("{percent:.0} %")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_is_shown_once_it_is_known() {
+        let text = |done| progress_text(done, 10, Duration::from_secs(8));
+        assert_eq!([0, 4].map(text), ["running", "40 %, about 12 s left"]);
+        let known = ["progress 40 %", "progress 2.5%", "progress 1 / 2"].map(share_in);
+        assert_eq!(known, [Some(0.4), Some(0.025), Some(0.5)]);
+        let others = ["progress 140 %", "progress 0/0", "progress is slow", "40 %"].map(share_in);
+        assert_eq!(others, [None; 4]);
     }
 }

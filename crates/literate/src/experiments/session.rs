@@ -35,17 +35,23 @@ impl Session<'_> {
             return Ok(());
         }
         self.store.prepare()?;
-        let work: u64 = units.iter().map(|unit| unit.weight).sum();
         let threads = rayon::current_num_threads();
-        let time = duration(work / SECOND / threads as u64);
-        let quick = match self.profile {
+        let (time, threads) = (time(units, threads as u64), count(threads, "thread"));
+        let more = match self.profile {
+            _ if time.is_empty() => ", time unknown",
             Profile::Full => "; `--profile quick` takes seconds",
             Profile::Quick => "",
         };
-        let threads = count(threads, "thread");
-        self.progress.say(&format!("{what} to run, {time} on {threads}{quick}"));
+        self.progress.say(&format!("{what} to run{time} on {threads}{more}"));
         Ok(())
     }
+}
+
+/// Returns how long units take; nothing if none of them has an estimate of its work.
+fn time(units: &[Unit], threads: u64) -> String {
+    let work: u64 = units.iter().map(|unit| unit.weight).sum();
+    let more = if units.iter().any(|unit| unit.weight == 0) { " or more" } else { "" };
+    if work == 0 { "".into() } else { format!(", {}{more}", duration(work / SECOND / threads)) }
 }
 
 /// Returns a time in words, as precise as an estimate from counted work is.
@@ -72,9 +78,12 @@ mod tests {
     }
 
     #[test]
-    fn times_are_rounded_up() {
+    fn times_are_rounded_up_and_unknown_without_an_estimate() {
         assert_eq!(duration(3), "a few seconds");
         assert_eq!(duration(41), "about 50 seconds");
         assert_eq!(duration(179), "about 3 minutes");
+        let units = [0, 100 * SECOND].map(Unit::whole);
+        assert_eq!(time(&units, 2), ", about 50 seconds or more");
+        assert_eq!([time(&units[..1], 2), time(&units[1..], 2)], ["", ", about 50 seconds"]);
     }
 }

@@ -63,7 +63,7 @@ impl Identity {
     }
 
     /// Says in one line what differs from what a saved result was made of; empty if nothing does.
-    fn differences(&self, saved: &Identity) -> String {
+    pub(super) fn differences(&self, saved: &Identity) -> String {
         if saved.schema != self.schema || saved.experiment != self.experiment {
             return OLDER_FORMAT.into();
         }
@@ -113,6 +113,14 @@ impl Store {
         serde_json::from_str(body).map_err(|_| again(OLDER_FORMAT))
     }
 
+    /// Returns the result that was saved last, whatever it was made of.
+    pub(super) fn last<T: DeserializeOwned>(&self, name: &str, profile: Profile) -> Option<T> {
+        let identity = Identity::new(name, profile, BTreeMap::new(), ().into());
+        let text = regular_text(&self.path(&identity)?).ok()?;
+        made_of(&text).ok()?;
+        serde_json::from_str(text.split('\n').nth(2)?).ok()
+    }
+
     /// Returns the text of a saved file that is whole and was made of the same, or why the result
     /// must be run, in one line: `run`, `run again, Cargo.lock changed`.
     pub fn fresh(&self, identity: &Identity) -> Result<String, String> {
@@ -146,7 +154,8 @@ impl Store {
         let stem = format!("{}-", identity.file_stem());
         let is_unit = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            name.starts_with(&stem) && name.ends_with(".json")
+            let number = name.strip_prefix(&stem).and_then(|rest| rest.strip_suffix(".json"));
+            number.is_some_and(|number| number.bytes().all(|digit| digit.is_ascii_digit()))
         };
         let files = self.folder.iter().filter_map(|folder| folder.read_dir().ok()).flatten();
         let units = files.flatten().map(|entry| entry.path()).filter(is_unit);
@@ -176,14 +185,27 @@ fn made_of(text: &str) -> Result<Identity, &'static str> {
 }
 
 /// Writes a result as text that reads back to the same bits. JSON has neither NaN nor infinity, and
-/// serde_json writes null instead: reading back finds all such losses.
+/// serde_json writes null instead: reading back finds all such losses, and those of fields.
 fn written<T: Json>(identity: &Identity, result: &T) -> Result<String, Error> {
-    let not_finite = || Error::NotFinite { experiment: identity.experiment.clone() };
-    let body = serde_json::to_string(result).map_err(|_| not_finite())?;
+    let lost = || {
+        let experiment = identity.experiment.clone();
+        match tera::Value::try_from_serializable(result) {
+            Ok(value) if !is_finite(&value) => Error::NotFinite { experiment },
+            _ => Error::Lost { experiment },
+        }
+    };
+    let body = serde_json::to_string(result).map_err(|_| lost())?;
     match serde_json::from_str::<T>(&body) {
         Ok(read) if read == *result => Ok(body),
-        _ => Err(not_finite()),
+        _ => Err(lost()),
     }
+}
+
+/// Returns whether all numbers are finite; unlike JSON, the values of Tera have those that are not.
+fn is_finite(value: &tera::Value) -> bool {
+    let list = value.as_array().is_none_or(|list| list.iter().all(is_finite));
+    let map = value.as_map().is_none_or(|map| map.values().all(is_finite));
+    list && map && value.as_f64().is_none_or(f64::is_finite)
 }
 
 /// Writes a temporary file and renames it, so that no file ever has half a result.
@@ -215,7 +237,25 @@ mod tests {
         let again: Vec<Option<f64>> = store.look(&identity).unwrap();
         assert_eq!(format!("{again:?}"), format!("{result:?}"));
         for bad in [f64::NAN, f64::INFINITY] {
-            assert!(matches!(store.put(&identity, &vec![bad]), Err(Error::NotFinite { .. })));
+            let bad = store.put(&identity, &vec![None, Some(bad)]);
+            assert!(matches!(bad, Err(Error::NotFinite { .. })));
         }
+        #[derive(PartialEq, Serialize, Deserialize)]
+        struct Partly(Option<f64>, #[serde(skip)] u32);
+        assert!(matches!(store.put(&identity, &Partly(None, 1)), Err(Error::Lost { .. })));
+        let keys = BTreeMap::from([((1, 2), 3)]);
+        assert!(matches!(written(&identity, &keys), Err(Error::Lost { .. })));
+    }
+
+    #[test]
+    fn an_experiment_removes_its_own_results_only() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path());
+        let of = |name| Identity::new(name, Profile::Full, Default::default(), 1.into());
+        let ([a, long], unit) = ([of("a"), of("a-full")], Unit::whole(1));
+        let all = [a.of_unit(&unit), a.clone(), long.of_unit(&unit), long];
+        all.iter().for_each(|one| store.put(one, &7).unwrap());
+        store.remove(&a, true).unwrap();
+        assert_eq!(all.map(|one| store.fresh(&one).is_ok()), [false, false, true, true]);
     }
 }
