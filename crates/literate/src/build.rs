@@ -1,6 +1,6 @@
 //! Builds a report: opens a run of a paper, judges its results, and makes every file in memory.
 
-use crate::claims::{Basis, Check, Published, Words, judge_all};
+use crate::claims::{Basis, Check, Published, Words, check_rules, judge_all};
 use crate::code::Code;
 use crate::experiments::{AnyExperiment, Error, Profile, Progress, Results, Session, Store};
 use crate::failure::Failure;
@@ -66,7 +66,9 @@ impl Paper {
         let published = Published::parse(templates.text("published.toml")?);
         let ids: Vec<&str> = self.rules.iter().map(|rule| rule.id).collect();
         let words = Words::read(templates).and_then(|words| words.taken(&ids)).map_err(fault)?;
-        Ok(Published { words, ..published.map_err(|error| fault(error.to_string()))? })
+        let published = Published { words, ..published.map_err(|error| fault(error.to_string()))? };
+        check_rules(&published, &self.rules)?;
+        Ok(published)
     }
 
     /// Returns all checks: statements, first those that rest on a measure of ours, then relations.

@@ -158,6 +158,12 @@ mod tests {
         assert!(project.check_listed(&["src/fligth.rs"]).unwrap_err().0.contains("src/fligth.rs"));
         let hashes = project.hashes(&["fonts/OFL.txt"]).unwrap();
         assert_eq!(hashes["fonts/OFL.txt"], sha256(std::fs::read("fonts/OFL.txt").unwrap()));
+        // What cannot be read is an error, and not a hash.
+        let folder = tempfile::tempdir().unwrap();
+        std::os::unix::fs::symlink("nowhere", folder.path().join("dangling")).unwrap();
+        let place: &'static str = folder.path().display().to_string().leak();
+        let error = project.hashes(&[place]).unwrap_err().to_string();
+        assert!(error.contains("dangling: "), "{error}");
         let error = project.text("templates/no_such.md").unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::NotFound);
     }

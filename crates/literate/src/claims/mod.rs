@@ -15,6 +15,7 @@ pub use check::{Basis, Check, Kind, Verdict, score};
 pub use evidence::{Error, Evidence, Judged};
 pub use level::{CheckLevel, FAMILY_LEVEL};
 pub use published::{Parameter, Published, PublishedError, Statement};
+pub(crate) use rule::check_rules;
 pub use rule::{Rule, blind_to_their_number, judge_all, level_of};
 pub use text::Text;
 pub use words::{Numbers, Words};

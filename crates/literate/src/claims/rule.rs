@@ -113,6 +113,17 @@ pub fn level_of(rules: &[Rule]) -> CheckLevel {
     CheckLevel::of(rules.iter().filter(|rule| rule.statistical).count())
 }
 
+/// Checks that each rule has its statement, and each parameter that a rule uses its number.
+pub(crate) fn check_rules(published: &Published, rules: &[Rule]) -> Result<(), Error> {
+    for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
+        published.statement(rule.id)?;
+    }
+    for (id, number) in rules.iter().flat_map(|rule| &rule.uses) {
+        published.compare(id, *number)?;
+    }
+    Ok(())
+}
+
 /// Judges all statements, in their order, and then all relations. A statement without a rule stays
 /// open and [fails](Check::fails); a rule without a statement, or a number, is an error.
 pub fn judge_all(
@@ -120,12 +131,7 @@ pub fn judge_all(
     rules: &[Rule],
     results: &Results,
 ) -> Result<Vec<Check>, Error> {
-    for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
-        published.statement(rule.id)?;
-    }
-    for (id, number) in rules.iter().flat_map(|rule| &rule.uses) {
-        published.compare(id, *number)?;
-    }
+    check_rules(published, rules)?;
     results.tables()?;
     let level = Some(level_of(rules));
     let mut checks = Vec::new();

@@ -25,7 +25,8 @@ pub(super) fn report_panic(fault: &std::panic::PanicHookInfo<'_>) {
     let words = fault.payload_as_str().unwrap_or("no words");
     let place = fault.location().map_or_else(String::new, |at| format!(" at {at}"));
     let line = format!(
-        "internal error{place}: {words}; please report it; if saved results were edited, remove them"
+        "internal error{place}: {words}; mend it if that file is your paper's, else please report \
+         it; if saved results were edited, remove them"
     );
     warn(&one_line(&line, 4000));
 }

@@ -18,7 +18,8 @@ use std::path::{Path, PathBuf};
 ///   verify --rerun --results target/results     the same with saved results
 ///
 /// Nothing is written. Exit code 1 says that a file differs, is missing, or is there without being
-/// listed, or that prose and saved results would make it otherwise. Pages and figures for LaTeX are listed in SHA256SUMS.built, and may be missing.
+/// listed, or that prose and saved results would make it otherwise. Pages and figures for LaTeX are
+/// listed in SHA256SUMS.built, and may be missing.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {

@@ -76,7 +76,8 @@ impl Identity {
         }
         let paths: BTreeSet<&String> = self.code.keys().chain(saved.code.keys()).collect();
         let changed = |path: &&&String| self.code.get(**path) != saved.code.get(**path);
-        let changed: Vec<_> = paths.iter().filter(changed).collect();
+        let mut changed: Vec<_> = paths.iter().filter(changed).collect();
+        changed.sort_by_key(|path| path.starts_with(".."));
         match changed.as_slice() {
             [] => (),
             [one] => differences.push(format!("{one} changed")),
