@@ -85,6 +85,8 @@ const APART: &[(&str, &str)] = &[
     ("src/experiments/restitution.rs", "tables of an ensemble"),
     ("src/experiments/seeds/compared.rs", "compares saved results"),
     ("templates", "numbers that it prints are parameters, which are compared"),
+    ("benches", "has times, which are read and not saved"),
+    ("feature embed", "puts texts into the program"),
 ];
 
 /// The crates as paths of items name them, and the folders of their source.

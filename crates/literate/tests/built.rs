@@ -63,7 +63,8 @@ impl Toy {
             .map(|l| format!("{l}\n"))
             .collect();
         let target = std::env::current_exe().unwrap().ancestors().nth(3).unwrap().to_path_buf();
-        let toy = Toy { folder: tempfile::tempdir().unwrap(), target };
+        let toy =
+            Toy { folder: tempfile::Builder::new().prefix("a toy ").tempdir().unwrap(), target };
         let literate = env!("CARGO_MANIFEST_DIR");
         for (path, text) in [
             (
