@@ -12,9 +12,9 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Work that a core does in about a second.
-pub const SECOND: u64 = 1_600_000;
+pub const SECOND: u64 = 4_800_000;
 
-/// No unit is meant to weigh more than this: about two thirds of a second of one core ...
+/// No unit is meant to weigh more than this: about a fifth of a second of one core ...
 const HEAVY: u64 = 1_000_000;
 
 /// ... unless an experiment had then more units than about this many: each has a file.
