@@ -39,6 +39,7 @@ pub mod experiments;
 mod failure;
 pub mod figures;
 pub mod input;
+mod names;
 #[doc = include_str!("manual.md")]
 pub mod manual {}
 mod paper;

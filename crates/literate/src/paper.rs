@@ -5,6 +5,7 @@ use crate::experiments::{AnyExperiment, DerivedTables, Results, Session};
 use crate::failure::Failure;
 use crate::figures::{self, Figure};
 use crate::input;
+use crate::names::{self, Names};
 use crate::project::Project;
 use crate::report::{Edition, Value};
 use crate::source::Sources;
@@ -147,14 +148,16 @@ impl Paper {
             named.push(("rules", id, input::place(place)));
         }
         for document in &self.edition.documents {
-            named.push(("documents", document.markdown, format!("of {}", document.prose)));
-            named.push(("documents", document.page, format!("of {}", document.prose)));
+            for name in [document.markdown, document.page] {
+                named.push(("documents", name, format!("the document {}", document.prose)));
+            }
         }
-        let mut places = BTreeMap::new();
+        let mut kinds: BTreeMap<&str, Names> = BTreeMap::new();
         for (kind, name, place) in named {
-            if let Some(before) = places.insert((kind, name), place.clone()) {
-                let what = format!("two {kind} have the name {name}: {before} and {place}");
-                return Err(Failure::input(format!("{what}; rename one")));
+            let fault = names::fault(name).map(|fault| format!("{place}: {fault}"));
+            let same = || kinds.entry(kind).or_default().add(name, &place).err();
+            if let Some(what) = fault.or_else(same) {
+                return Err(Failure::input(format!("{kind}: {what}")));
             }
         }
         Ok(())
@@ -189,17 +192,20 @@ mod tests {
         }
         assert!(paper.find_figure("16").err().unwrap().message.contains("fig03, s01, spread"));
         let twice = paper.figure("s01", &[], draw).check_names().unwrap_err().message;
-        assert!(twice.starts_with("two figures have the name s01: "), "{twice}");
+        assert!(twice.starts_with("figures: the name s01: "), "{twice}");
         assert_eq!(twice.matches("src/paper.rs:").count(), 2, "{twice}");
         let open = |e: &Evidence<'_>| Ok(e.open("–"));
         let paper = Paper::new("toy", toy()).check("a", open).check("a", open);
         let twice = paper.check_names().unwrap_err().message;
-        assert!(twice.starts_with("two rules have the name a: "), "{twice}");
+        assert!(twice.starts_with("rules: the name a: "), "{twice}");
         const WALK: Experiment<(), ()> =
             Experiment::new("walk", |_| (), |(), _| Ok(()), |()| Vec::new());
         let paper = Paper::new("toy", toy()).experiment(&WALK).experiment(&WALK);
         let twice = paper.check_names().unwrap_err().message;
-        assert_eq!(twice, "two experiments have the name walk: number 1 and number 2; rename one");
+        assert_eq!(twice, "experiments: the name walk: number 1 and number 2; rename one");
+        let outside = Paper::new("toy", toy()).figure("../../escaped", &[], draw);
+        let fault = outside.check_names().unwrap_err().message;
+        assert!(fault.contains("the name \"../../escaped\" has '/' in it"), "{fault}");
     }
 
     #[test]

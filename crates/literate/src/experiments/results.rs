@@ -4,6 +4,7 @@ use super::progress::say;
 use super::store::{Identity, Json};
 use super::{AnyExperiment, Command, Error, Experiment, Found, Profile, Session};
 use crate::input::count;
+use crate::names::{self, Names};
 use crate::table::{Table, Tables, cell, number_at, table, table_of};
 use crate::value::Value;
 use rayon::prelude::*;
@@ -106,16 +107,18 @@ impl Results {
         for tables in &self.derived {
             all.extend(tables(self, &all).into_iter().flatten());
         }
-        let mut tables = Tables::new();
+        let (mut tables, mut names) = (Tables::new(), Names::default());
         for table in all {
             if let Some(fault) = table.fault() {
                 return Err(fault.into());
             }
-            let place = table.place();
-            if let Some(before) = tables.insert(table.name(), Arc::new(table)) {
-                let (name, before) = (before.name(), before.place());
-                return Err(format!("{place}: the table {name} was made at {before}; rename one"));
+            let (name, place) = (table.name(), table.place());
+            let columns = table.names().find_map(names::fault);
+            if let Some(fault) = names::fault(name).or(columns) {
+                return Err(format!("{place}: the table {name}: {fault}"));
             }
+            names.add(name, &place).map_err(|what| format!("tables: {what}"))?;
+            tables.insert(name, Arc::new(table));
         }
         Ok(tables)
     }

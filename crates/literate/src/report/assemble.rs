@@ -19,6 +19,7 @@ use super::values::Registry;
 use super::{html, latex, ledger, lint, markdown, parse, search};
 use crate::figures::Figure;
 use crate::input::one_line;
+use crate::names::Names;
 use crate::table::{DataFile, Table};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -40,6 +41,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     let declared = filler.declared.clone();
     let read = || parts(input, &filled, &values, &declared);
     let tables: Vec<&Table> = values.tables().collect();
+    check_files(&tables, input.figures)?;
     let tables = tables.par_iter().map(|table| data(&DataFile::of(table)));
     let figure = |figure: &Figure| files_of(figure, input.edition.license);
     let figures = input.figures.par_iter().flat_map_iter(figure);
@@ -157,6 +159,7 @@ fn parts<'a>(
             }
         }
     }
+    errors.extend(labels.add_keys(library.keys()).err());
     if let Err(error) = labels.add_verdicts(input.claims) {
         errors.push(parts.iter().fold(error, |error, part| part.places.locate(error)));
     }
@@ -259,6 +262,20 @@ pub fn files_of(figure: &Figure, license: &str) -> Files {
     let files = figure.files(license).into_iter();
     let picture = files.map(|(name, bytes)| (format!("figures/{name}"), bytes));
     picture.chain(figure.data.iter().map(data)).collect()
+}
+
+/// Refuses two files of data with one name.
+fn check_files(tables: &[&Table], figures: &[Figure]) -> Result<(), Error> {
+    let mut names = Names::default();
+    let of_tables =
+        tables.iter().map(|table| (DataFile::name_of(table.name()), table.place().to_string()));
+    let of_figures = figures.iter().flat_map(|figure| {
+        figure.data.iter().map(|file| (file.name.clone(), format!("the figure {}", figure.id)))
+    });
+    for (name, place) in of_tables.chain(of_figures) {
+        names.add(&name, &place).map_err(|what| Error::Template(format!("data: {what}")))?;
+    }
+    Ok(())
 }
 
 fn data(file: &DataFile) -> (String, Vec<u8>) {

@@ -1,7 +1,9 @@
 //! Numbers sections, figures, tables, equations and statements, and resolves references to them.
 
 use super::bibliography::Library;
-use super::document::{Block, Inline, Reference, Table, rewrite, visit};
+use super::document::{
+    Block, Inline, Reference, Table, heading_place, place_on_page, rewrite, visit,
+};
 use super::edition::Document;
 use super::error::Error;
 use crate::claims::Check;
@@ -20,13 +22,30 @@ pub struct Labels {
     /// Number of statements that have a place so far.
     statements: usize,
     signs: BTreeMap<String, char>,
+    /// Ids by their document and their place on its page.
+    places: BTreeMap<(&'static str, String), String>,
 }
 
 impl Labels {
     fn add(&mut self, id: &str, shown: &str, document: Document) -> Option<Error> {
-        self.labels.insert(id.to_string(), Label { shown: shown.into(), document })?;
+        if self.labels.insert(id.to_string(), Label { shown: shown.into(), document }).is_none() {
+            return self.take_place(id, place_on_page(id), document.page);
+        }
         let what = format!("{id}: two things in the report have this id; give one of them another");
         Some(Error::Named { thing: format!("#{id}"), what })
+    }
+
+    /// Refuses a place on a page that another id has, of which links could find one only.
+    fn take_place(&mut self, id: &str, place: String, page: &'static str) -> Option<Error> {
+        let other = self.places.insert((page, place), id.to_string())?;
+        let what = format!("{id}: links cannot tell it from {other}; give one of them another id");
+        Some(Error::Named { thing: format!("#{id}"), what })
+    }
+
+    /// Refuses keys of references that have one place in the list.
+    pub fn add_keys<'a>(&mut self, keys: impl Iterator<Item = &'a str>) -> Result<(), Error> {
+        let place = |key| place_on_page(&format!("ref:{key}"));
+        Error::all(keys.filter_map(|key| self.take_place(key, place(key), "references")).collect())
     }
 
     /// Adds labels to ids that have none, so that a reference to them is no error.
@@ -66,7 +85,7 @@ impl Labels {
         let mut errors = Vec::new();
         for block in blocks.iter_mut() {
             let (id, number) = match block {
-                Block::Heading { level, number, id, .. } => {
+                Block::Heading { level, number, id, text } => {
                     match number {
                         Some(number) if *level == 2 => {
                             (section, subsection) = (next("sec"), 0);
@@ -77,6 +96,10 @@ impl Labels {
                             *number = format!("{section}.{subsection}");
                         }
                         None => (),
+                    }
+                    if id.is_none() && *level > 1 {
+                        let place = heading_place(None, number.as_deref(), text);
+                        errors.extend(self.take_place(&place.clone(), place, document.page));
                     }
                     (id.as_deref(), number.as_deref().unwrap_or_default())
                 }

@@ -32,6 +32,7 @@ Seen [@eq:a, @eq:b] => 14:6 => ids alone
 Seen [@rice1945, Sec. 3] => 14:6 => ids alone
 [data](data/fig3.csv) => 14:1 => a link to data/fig3.csv: there is no such file or place; correct or remove it; nearest: data/fig03.csv
 [place](#sec-no) => 14:1 => a link to #sec-no
+## A {#sec:a.b}⏎⏎## B {#sec:a-b} => 16:1 => sec:a-b: links cannot tell it from sec:a.b;
 [!claim:rise2] => 14:1 => there is no statement with this id; nearest: rise
 [mice](javascript://x) => 14:1 => a link to javascript://x
 Seen [@mice1945] => 14:6 => [@mice1945]: nothing
