@@ -65,8 +65,11 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         return dry_run(paper, &session, &needs, &out);
     }
     refuse_over_other(options.profile, &out, is_whole)?;
-    let apart = !is_whole && !is_current_but_for(&figures, paper, &session, &out)?;
-    if apart && (args.out.is_none() || profile_in(&out).is_some()) {
+    // A report has one state, so a figure is drawn into one that is as the results make it.
+    let apart = !is_whole
+        && (args.out.is_none() || profile_in(&out).is_some())
+        && !is_current_but_for(&figures, paper, &session, &out)?;
+    if apart {
         out = paper.project.place("target/figures");
     }
     let option = |error: folder::Error| Failure::from(error).of("--out");

@@ -200,7 +200,7 @@ impl DrawingBackend for Drawing {
     }
 
     /// Sets words in the shipped fonts, whatever the font of the style; see `markup`. Nothing is
-    /// drawn for no words.
+    /// drawn for no words, and words that leave the sheet are an error.
     fn draw_text<S: BackendTextStyle>(&mut self, words: &str, style: &S, at: Point) -> Outcome {
         let (mut glyphs, width) = font::set(words, style.size() as i32)?;
         if glyphs.is_empty() {
@@ -223,16 +223,30 @@ impl DrawingBackend for Drawing {
             }
         }
         let colour = in_palette(style.color())?;
+        let upwards = match style.transform() {
+            FontTransform::None => false,
+            FontTransform::Rotate270 => true,
+            _ => return Err(Error::Drawing(format!("{words:?} would be upside down")).into()),
+        };
+        let scaled = |units: i32| units * style.size() as i32 / font::EM;
+        let ((along, size), up) = if upwards {
+            ((-at.1, (-(self.height as i32), 0)), (-at.0, (-(WIDTH as i32), 0)))
+        } else {
+            ((at.0, (0, WIDTH as i32)), (at.1, (0, self.height as i32)))
+        };
+        let (start, base) = (along + scaled(dx), up.0 - scaled(dy));
+        let ends = [start, start + scaled(width)];
+        let heights = [base - scaled(font::CAP_HEIGHT), base];
+        let is_in = |place: i32, (low, high): (i32, i32)| (low..=high).contains(&place);
+        if !ends.iter().all(|end| is_in(*end, size)) || !heights.iter().all(|y| is_in(*y, up.1)) {
+            return Err(Error::OffSheet(markup::plain(words)).into());
+        }
         self.elements.push(Element::Label(Label {
             words: markup::plain(words),
             at,
             size: style.size() as i32,
             colour,
-            upwards: match style.transform() {
-                FontTransform::None => false,
-                FontTransform::Rotate270 => true,
-                _ => return Err(Error::Drawing(format!("{words:?} would be upside down")).into()),
-            },
+            upwards,
             rim: is_rimmed(style),
             glyphs,
         }));

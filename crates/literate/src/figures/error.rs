@@ -20,10 +20,16 @@ pub enum Error {
     )]
     Axis { label: String, low: f64, high: f64 },
     #[error(
-        "the series {0:?} has no point to draw; ask for columns of numbers, and for a logarithmic axis of \
-         positive ones"
+        "the series {0:?} has no point to draw; ask for columns of numbers, within the ranges of the axes, \
+         and for a logarithmic axis of positive ones"
     )]
     Empty(String),
+    #[error("the words {0:?} leave the sheet; shorten them, or make room")]
+    OffSheet(String),
+    #[error(
+        "{0} names find no room at the ends of their curves; name fewer, or place them by hand"
+    )]
+    NoRoom(usize),
     #[error("the plot has no series; add one")]
     NoSeries,
     #[error("the picture {0}")]

@@ -8,6 +8,7 @@ use super::elements::CustomElement;
 use super::error::{Drawn, Error};
 use super::figure::{Description, Figure};
 use super::font;
+use super::markup::spelled;
 use super::path::Point;
 use super::record::Record;
 use super::style::{HAIR, INK, SMALL, Stroke, TEXT, WIDTH, rimmed, words};
@@ -119,8 +120,9 @@ pub(super) fn widest_number(axis: &Axis) -> Result<i32, Error> {
     axis.ticks.iter().try_fold(0, wider)
 }
 
-/// Moves heights that are closer than `least` apart, to both sides; their order stays.
-fn spread(heights: &[i32], least: i32) -> Vec<i32> {
+/// Moves heights apart, so that any two differ by so much, and all are in a range; returns `None`
+/// if it is too short for them.
+fn spread(heights: &[i32], least: i32, (top, bottom): (i32, i32)) -> Option<Vec<i32>> {
     let mut order: Vec<usize> = (0..heights.len()).collect();
     order.sort_by_key(|&i| heights[i]);
     let mut places = heights.to_vec();
@@ -131,7 +133,17 @@ fn spread(heights: &[i32], least: i32) -> Vec<i32> {
             places[pair[1]] += missing - missing / 2;
         }
     }
-    places
+    let mut lowest = bottom;
+    for &i in order.iter().rev() {
+        places[i] = places[i].min(lowest);
+        lowest = places[i] - least;
+    }
+    let mut highest = top;
+    for &i in &order {
+        places[i] = places[i].max(highest);
+        highest = places[i] + least;
+    }
+    places.iter().all(|place| *place <= bottom).then_some(places)
 }
 
 impl Panel {
@@ -277,12 +289,14 @@ impl Panel {
     pub fn label_ends<P: AsRef<[(f64, f64)]>>(&self, curves: &[(String, P, RGBColor)]) -> Drawn {
         let mut ends = Vec::new();
         for (text, points, colour) in curves {
-            if let Some(end) = points.as_ref().iter().rfind(|point| self.contains(**point)) {
-                ends.push((self.area.map_coordinate(end), text, *colour));
-            }
+            let end = points.as_ref().iter().rfind(|point| self.contains(**point));
+            let end = end.ok_or_else(|| Error::Empty(spelled(text)))?;
+            ends.push((self.area.map_coordinate(end), text, *colour));
         }
         let heights: Vec<i32> = ends.iter().map(|(at, ..)| at.1).collect();
-        for (((x, _), text, colour), y) in ends.into_iter().zip(spread(&heights, LINE_HEIGHT)) {
+        let rows = (self.frame.top, self.frame.bottom);
+        let places = spread(&heights, LINE_HEIGHT, rows).ok_or(Error::NoRoom(ends.len()))?;
+        for (((x, _), text, colour), y) in ends.into_iter().zip(places) {
             let style = rimmed(SMALL, colour, HPos::Left, VPos::Center);
             self.text_on_sheet(text, (x + 100, y), style)?;
         }

@@ -22,6 +22,8 @@ struct Series {
     function: Option<Function>,
     /// With an error of zero where there is none.
     points: Vec<(f64, Estimate)>,
+    /// Places of the points before which the line is broken.
+    breaks: Vec<usize>,
 }
 
 #[derive(Default)]
@@ -88,7 +90,8 @@ impl Plot {
     }
 
     fn add(mut self, name: &str, points: Vec<(f64, Estimate)>, symbol: Option<Symbol>) -> Self {
-        self.series.push(Series { name: name.into(), points, symbol, function: None });
+        let (function, breaks) = (None, Vec::new());
+        self.series.push(Series { name: name.into(), points, symbol, function, breaks });
         self
     }
 
@@ -107,10 +110,12 @@ impl Plot {
         self.add(name, estimates.to_vec(), Some(Symbol::Disc))
     }
 
-    /// Adds a function of x across the plot; the range of y follows from other data, if any.
+    /// Adds a function of x across the plot; the range of y follows from other data, if any. The
+    /// line is broken where the function is not finite, and at a pole.
     pub fn curve(mut self, name: &str, function: impl Fn(f64) -> f64 + 'static) -> Self {
         let function: Option<Function> = Some(Box::new(function));
-        self.series.push(Series { name: name.into(), points: Vec::new(), symbol: None, function });
+        let (points, breaks) = (Vec::new(), Vec::new());
+        self.series.push(Series { name: name.into(), points, symbol: None, function, breaks });
         self
     }
 
@@ -132,9 +137,22 @@ impl Plot {
         let (from, to) = x.ends();
         for series in &mut self.series {
             if let Some(function) = &series.function {
-                let place = |i| x.value(from + (to - from) * f64::from(i) / 400.0);
-                let points = (0..=400).map(place).map(|x| (x, with_error(function(x), 0.0)));
-                series.points = points.filter(|(_, y)| y.value.is_finite()).collect();
+                let place = |i: f64| x.value(from + (to - from) * i / 400.0);
+                let value = |i: f64| (place(i), function(place(i)));
+                for i in (0..=400).map(f64::from) {
+                    let (at, y) = value(i);
+                    let before = series.points.last().map_or(y, |(_, before)| before.value);
+                    // At a pole the sign changes, and a value between lies beyond both.
+                    let between = function(place(i - 0.5));
+                    let is_within = before.min(y) <= between && between <= before.max(y);
+                    let is_pole = before * y < 0.0 && !is_within;
+                    series
+                        .breaks
+                        .extend((is_pole || !y.is_finite()).then_some(series.points.len()));
+                    if y.is_finite() {
+                        series.points.push((at, with_error(y, 0.0)));
+                    }
+                }
             }
         }
         if data.is_empty() {
@@ -169,14 +187,22 @@ impl Plot {
         let sheet = Sheet::new((frame.bottom + panel::LABEL_BELOW + 2 * TEXT) as u32);
         let panel = sheet.panel(frame, x, y)?.outside(Outside::Cut);
         let mut ends: Vec<(String, Vec<_>, _)> = Vec::new();
-        for Series { name, symbol, points, .. } in self.series {
+        for Series { name, symbol, points, breaks, .. } in self.series {
+            if !points.iter().any(|(x, y)| panel.contains((*x, y.value))) {
+                return Err(Error::Empty(name));
+            }
             let place = ends.iter().position(|end| end.0 == name).unwrap_or(ends.len());
             let colour = COLOURS[place % COLOURS.len()];
             let stroke = Stroke::dashed(colour, LINE, DASHES[place % DASHES.len()]);
             let thin = Stroke::solid(colour, THIN);
             let places: Vec<(f64, f64)> = points.iter().map(|(x, y)| (*x, y.value)).collect();
             match symbol.map(|symbol| (symbol, self.mark_size, thin)) {
-                None => panel.curve(&name, &places, stroke)?,
+                None => {
+                    let ends = [&[0], breaks.as_slice(), &[places.len()]].concat();
+                    for part in ends.windows(2).filter(|part| part[0] < part[1]) {
+                        panel.curve(&name, &places[part[0]..part[1]], stroke)?;
+                    }
+                }
                 Some(marker) if points.iter().all(|(_, y)| y.error == 0.0) => {
                     panel.markers(&name, &places, marker)?;
                 }
@@ -286,6 +312,24 @@ mod tests {
     }
 
     #[test]
+    fn a_line_is_broken_where_there_is_no_data() {
+        let parts = |plot: Plot| {
+            let (sheet, _) = plot.draw().unwrap();
+            let figure = sheet.finish("A", describe!("A"));
+            let elements = figure.drawing.elements;
+            let opened = elements.iter().skip_while(|one| !matches!(one, Element::Open(..)));
+            let shapes = opened.filter(|one| matches!(one, Element::Shape(_, None, Some(_))));
+            shapes.count()
+        };
+        let through = |y: f64| [(1.0, 1.0), (2.0, 2.0), (3.0, y), (4.0, 4.0), (5.0, 5.0)];
+        let whole = parts(Plot::new().log_y("y").line("a", &through(3.0)));
+        assert_eq!(parts(Plot::new().log_y("y").line("a", &through(0.0))), whole + 1);
+        let whole = parts(Plot::new().x_range(-5.0, 6.0).curve("a", |x| x));
+        assert_eq!(parts(Plot::new().x_range(-5.0, 6.0).curve("a", |x| 1.0 / x)), whole + 1);
+        assert_eq!(parts(Plot::new().x_range(-5.0, 5.0).curve("a", |x| 1.0 / x)), whole + 1);
+    }
+
+    #[test]
     fn all_of_a_plot_lies_on_its_sheet() {
         let points = [(1.0, 0.5), (20.0, 3e4), (300.0, 0.0)];
         let plot = Plot::new().log_x("*k*").log_y("*D* (m²)").line("line", &points);
@@ -310,7 +354,15 @@ mod tests {
         assert!(matches!(missing, Error::Glyph { character: '⌊', .. }));
         let wide = fails(Plot::new().line("a", &[(0.0, -1.7e308), (1.0, 1.7e308)]));
         assert!(matches!(wide, Error::Axis { .. }));
+        // Words that leave the sheet, and names that no place is left for.
+        let long = fails(Plot::new().y(&"a long label ".repeat(9)).line("a", &points));
+        assert!(matches!(long, Error::OffSheet(_)), "{long}");
+        let names = (0..30).map(|i| format!("curve {i}"));
+        let full = fails(names.fold(Plot::new(), |plot, name| plot.line(&name, &points)));
+        assert!(matches!(full, Error::NoRoom(30)), "{full}");
         // What would be an empty frame.
+        let away = Plot::new().x_range(500.0, 600.0).line("a", &points);
+        assert!(matches!(fails(away), Error::Empty(_)));
         for plot in [Plot::new().line("a", &[]), Plot::new().log_y("b").line("a", &[(1.0, -2.0)])] {
             assert!(matches!(fails(plot), Error::Empty(_)));
         }

@@ -101,8 +101,15 @@ impl Panel {
         parts
     }
 
+    /// Draws a line through points. It is broken where the axes have no place for a point.
     pub fn curve(&self, name: &str, points: Points, stroke: Stroke) -> Drawn {
-        let parts = self.cut(&self.places(name, points)?);
+        self.places(name, points)?;
+        let is_missing = |p: &(f64, f64)| self.outside == Outside::Cut && !self.has_place(*p);
+        let quiet = self.unrecorded();
+        let mut parts = Vec::new();
+        for part in points.split(is_missing) {
+            parts.extend(self.cut(&quiet.places(name, part)?));
+        }
         self.draw_series(name, parts.into_iter().map(|part| line(part, stroke)))
     }
 
@@ -248,8 +255,9 @@ mod tests {
     #[test]
     fn on_a_logarithmic_axis_what_is_not_positive_is_outside_below() {
         let sheet = Sheet::new(3000);
-        let panel = sheet.lettered("(b)", FRAME, axis(), Axis::decades(-2, 0, 1, "y")).unwrap();
-        assert_eq!(panel.area.map_coordinate(&(0.5, 0.1)), (1500, 600));
+        let frame = Frame::new(1000, 400, 2000, 1400);
+        let panel = sheet.lettered("(b)", frame, axis(), Axis::decades(-2, 0, 1, "y")).unwrap();
+        assert_eq!(panel.area.map_coordinate(&(0.5, 0.1)), (1500, 900));
         let points = [(0.1, 0.5), (0.2, 0.0), (0.3, 1e-3), (0.4, -1.0)];
         let refused = panel.curve("refused", &points, LINE);
         assert!(matches!(refused, Err(Error::Outside { x: 0.2, y: 0.0, .. })));
