@@ -143,7 +143,7 @@ impl Check {
     /// that holds, and for a statement that is open without a reason.
     pub fn fails(&self) -> bool {
         let open = self.verdict == Verdict::CannotBeJudged && self.note.is_empty();
-        self.verdict == Verdict::Differs || open && self.kind.is_printed()
+        self.verdict == Verdict::Differs || open
     }
 
     /// Returns the author's word for the difference, if there is one and it is explained.

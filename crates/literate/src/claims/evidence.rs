@@ -51,6 +51,8 @@ pub struct Evidence<'a> {
     pub published: &'a Published,
     /// None for a rule that is not statistical.
     pub(super) level: Option<CheckLevel>,
+    /// Whether a tolerance as large as the printed number is refused.
+    pub(super) is_strict: bool,
 }
 
 impl Evidence<'_> {
@@ -136,6 +138,11 @@ impl Evidence<'_> {
             }
             ref number => number.clone(),
         };
+        if self.is_strict && room >= printed.abs() && printed != 0.0 {
+            let problem = format!("its tolerance {room} is as large as the printed number");
+            let remedy = "narrow it, or add `.may_stay_open()` to the rule";
+            return Err(Error::Rule(format!("{problem}; {remedy}")));
+        }
         // The last bit may be rounded.
         let agrees = (found.value - printed).abs() <= room * (1.0 + 1e-9);
         Ok(self.found(found_number, agrees))

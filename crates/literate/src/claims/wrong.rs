@@ -61,7 +61,8 @@ pub fn never_moved(
     let (level, mut left) = (Some(level_of(rules)), Vec::new());
     for rule in rules {
         let (statement, copy) = (rule.statement(published)?, results.copy());
-        let evidence = Evidence { statement: &statement, results: &copy, published, level };
+        let evidence =
+            Evidence { statement: &statement, results: &copy, published, level, is_strict: false };
         let verdict = rule.check(evidence)?.verdict;
         if statement.kind != Kind::Definition && (open || verdict != Verdict::CannotBeJudged) {
             left.push(Unmoved { rule, statement, verdict, read: copy.read() });
@@ -77,8 +78,13 @@ pub fn never_moved(
                 }
                 let Some(wrong) = &wrong(change) else { continue };
                 let moves = |one: &Unmoved<'_>| {
-                    let evidence =
-                        Evidence { statement: &one.statement, results: wrong, published, level };
+                    let evidence = Evidence {
+                        statement: &one.statement,
+                        results: wrong,
+                        published,
+                        level,
+                        is_strict: false,
+                    };
                     one.read.contains(name) && one.is_moved(evidence, number < SMALL)
                 };
                 left.retain(|one| !moves(one));
