@@ -119,7 +119,7 @@ pub fn make_report(
         templates,
         values: &values,
         rows: &rows,
-        claims: &statements,
+        claims: &checks,
         figures: &figures,
         lab: lab.as_deref(),
         top: paper.project.way_up(out).as_deref(),

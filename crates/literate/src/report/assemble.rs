@@ -17,6 +17,7 @@ use super::mark::ids;
 use super::parse::Parsed;
 use super::values::Registry;
 use super::{html, latex, ledger, lint, markdown, parse, search};
+use crate::claims::Check;
 use crate::figures::Figure;
 use crate::input::one_line;
 use crate::names::Names;
@@ -47,7 +48,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     let figures = input.figures.par_iter().flat_map_iter(figure);
     let (read, mut files): (_, Files) = rayon::join(read, || tables.chain(figures).collect());
     let (parts, labels) = read?;
-    let ledger = ledger_of(input, &parts);
+    let ledger = ledger_of(input, &parts, &labels);
     let jsons = [serde_json::to_string_pretty(&values), serde_json::to_string_pretty(&ledger)];
     for (name, json) in ["values.json", "ledger.json"].into_iter().zip(jsons) {
         let json = json.map_err(|error| Error::Template(format!("{name}: {error}")))? + "\n";
@@ -69,10 +70,14 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
 /// Fills the prose of each document; returns also the values, with the scorecard among them.
 fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     let mut values = input.values.clone();
-    values.extend(scorecard(input.claims))?;
+    let (printed, relations): (Vec<Check>, Vec<Check>) =
+        input.claims.iter().cloned().partition(|claim| claim.kind.is_printed());
+    values.extend(scorecard(&printed))?;
     let mut filler = Filler::new(input.templates, &values)?;
     check_texts(input, &filler.declared)?;
-    filler.insert("claims", &input.claims.iter().map(row).collect::<Vec<_>>());
+    for (name, checks) in [("claims", printed), ("relations", relations)] {
+        filler.insert(name, &checks.iter().map(row).collect::<Vec<_>>());
+    }
     filler.insert("figures", &ledger::figures(input.figures));
     filler.insert("equations", &input.edition.equations);
     for (name, rows) in input.rows {
@@ -191,7 +196,7 @@ fn other_digits(blocks: &mut [Block], equations: &[EquationEntry]) -> Vec<Error>
 }
 
 /// Makes the ledger, in which figures have the labels and numbers that the documents give them.
-fn ledger_of(input: &Input<'_>, parts: &[Part<'_>]) -> Ledger {
+fn ledger_of(input: &Input<'_>, parts: &[Part<'_>], labels: &Labels) -> Ledger {
     let mut figures = ledger::figures(input.figures);
     for block in parts.iter().filter(|part| !part.document.repeats).flat_map(|part| &part.blocks) {
         let Block::Figure { id, number, name, .. } = block else { continue };
@@ -200,7 +205,11 @@ fn ledger_of(input: &Input<'_>, parts: &[Part<'_>]) -> Ledger {
         }
     }
     let equations = input.edition.equations.clone();
-    Ledger { claims: input.claims.to_vec(), figures, equations }
+    let mut claims = input.claims.to_vec();
+    // A relation that has no place in a document is one of `check` alone.
+    let is_shown = |claim: &Check| labels.get(&format!("claim:{}", claim.id)).is_some();
+    claims.retain(|claim| claim.kind.is_printed() || is_shown(claim));
+    Ledger { claims, figures, equations }
 }
 
 /// Adds each document in its formats; returns the ids of all things of which a page opens the card.

@@ -17,6 +17,7 @@ pub struct Input<'a> {
     pub values: &'a Registry,
     /// Rows of tables that are not values or claims, by the name that templates use.
     pub rows: &'a BTreeMap<&'static str, serde_json::Value>,
+    /// Statements and relations.
     pub claims: &'a [Check],
     pub figures: &'a [Figure],
     /// What a page loads when a reader asks it to compute: lab.js.

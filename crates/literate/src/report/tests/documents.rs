@@ -70,3 +70,17 @@ more.tex => \renewcommand{\thesection}{S\arabic{section}}"##;
     let error = with("# More", "# More\n\n![Again.](figures/fig03.svg)").unwrap_err().to_string();
     assert!(error.contains("fig:fig03: two things"), "{error}");
 }
+
+#[test]
+fn a_relation_is_shown_where_it_has_a_place() {
+    let shown = "<% for c in relations %>[!claim:«c.id»] «c.statement»: «c.verdict»\n<% endfor %>\n\n[@claim:closed]\n";
+    for (more, is_shown) in [(shown, true), ("", false)] {
+        let given = given(&format!("{PROSE}\n\n{more}"));
+        let relation = Check { kind: Kind::Relation, ..claim("closed") };
+        let claims = [given.claims.clone(), vec![relation]].concat();
+        let report = Given { claims, ..given }.made().unwrap();
+        let text = file(&report, "report.md");
+        assert_eq!(text.contains("A threshold \\| exists: reproduced"), is_shown, "{text}");
+        assert_eq!(file(&report, "ledger.json").contains("\"closed\""), is_shown);
+    }
+}
