@@ -3,7 +3,9 @@
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, Means, MethodName, Setting};
 use impact_chain::Abreast;
+use impact_chain::methods::{VerletAbreast, Wanted};
 use rayon::prelude::*;
+use std::ops::Range;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Biases {
@@ -17,37 +19,59 @@ pub struct Biases {
 /// Different gaps with an impact in the window of one realisation; none if the method gave up.
 pub type GapCount = Option<u32>;
 
+/// Counts chains by their numbers.
+type Counting<'a> = dyn Fn(Range<u64>) -> Result<Vec<GapCount>, Error> + Sync + 'a;
+
+/// Chains that [`VerletAbreast`] gets at a time: those without impacts leave no lane empty.
+const TOGETHER: usize = 64;
+
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
     let stage = progress.stage("error of the mean", parameters.runs());
-    let together = |of: &Means, nudged: bool| {
-        let ensemble = of.ensemble(nudged);
-        let (number, all) = (Abreast::number(&ensemble.chain), ensemble.realisations as u64);
-        let groups = (0..all).step_by(number);
+    let failed = |source| Error::failed("bias", source);
+    let grouped = |all: usize, number: usize, count: &Counting| {
+        let groups = (0..all as u64).step_by(number);
         let found = each(&stage, progress, groups, |first| {
-            let at = ensemble.at(ensemble.sigmas[0]);
-            let counts = at.count(first..all.min(first + number as u64), &|| progress.stopped());
-            let counts = counts.map_err(|source| Error::failed("bias", source))?;
+            let counts = count(first..(first + number as u64).min(all as u64))?;
             stage.advance(counts.len() as u64 - 1);
-            Ok(counts.into_iter().map(|one| one.distinct[0][0]).collect::<Vec<_>>())
+            Ok(counts)
         })?;
         progress.check()?;
         Ok(found.concat())
     };
+    let together = |of: &Means, nudged: bool| {
+        let ensemble = of.ensemble(nudged);
+        let at = ensemble.at(ensemble.sigmas[0]);
+        grouped(ensemble.realisations, Abreast::number(&ensemble.chain), &|group| {
+            let counts = at.count(group, &|| progress.stopped()).map_err(failed)?;
+            Ok(counts.into_iter().map(|one| one.distinct[0][0]).collect())
+        })
+    };
     let methods = |of: &Means| {
         let one = |&(setting, realisations): &(Setting, usize)| {
-            if setting.method == MethodName::Certified {
-                return together(of, false);
+            let (until, after) = (of.chains.until, of.transient);
+            match setting.method {
+                MethodName::Certified => return together(of, false),
+                MethodName::VerletAbreast => {
+                    return grouped(realisations, TOGETHER, &|group| {
+                        let mut counts = vec![0; group.clone().count()];
+                        let all: Vec<Scenario> = group.map(|i| of.chains.scenario(i)).collect();
+                        let mut wanted = Wanted::Gaps { after, one: false, counts: &mut counts };
+                        let verlet = VerletAbreast { step: setting.value };
+                        verlet.run_all(&all, until, &mut wanted).map_err(failed)?;
+                        Ok(counts.into_iter().map(Some).collect())
+                    });
+                }
+                _ => (),
             }
             let method = setting.method();
             each(&stage, progress, 0..realisations as u64, |index| {
                 let scenario = of.chains.scenario(index);
                 let mut hit = vec![false; scenario.gaps()];
                 let mut see = |impact: Impact| {
-                    hit[impact.gap] |= impact.time > of.transient;
+                    hit[impact.gap] |= impact.time > after;
                     !progress.stopped()
                 };
-                let task = (&scenario, &State::of(&scenario), of.chains.until);
-                let ran = method.run(task, &mut see);
+                let ran = method.run((&scenario, &State::of(&scenario), until), &mut see);
                 progress.check()?;
                 Ok(ran.ok().map(|_| hit.iter().map(|hit| u32::from(*hit)).sum()))
             })
