@@ -4,7 +4,7 @@
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
 use clap::Parser;
-use impact_chain::methods::{Certified, Method, VerletAbreast, Wanted};
+use impact_chain::methods::{Certified, Method, VerletAbreast};
 use impact_chain::{Abreast, without_wide_vectors};
 use impact_chain::{Counters, Engine, Error, Protocol, Scenario, State};
 use impact_numerics::random::NormalPairs;
@@ -267,13 +267,9 @@ fn once(case: &Case, method: &dyn Method, scenarios: &[Scenario]) -> Result<u64,
         }
     };
     if method.name() == MethodName::VerletAbreast.id() {
-        let (mut counts, mut any) = (vec![0; scenarios.len()], |_, _| true);
-        let mut wanted = match window {
-            None => Wanted::Impacts(&mut any),
-            Some(_) => Wanted::Gaps { after: from, one: *first, counts: &mut counts },
-        };
-        let verlet = VerletAbreast { step: case.setting.value };
-        return Ok(verlet.run_all(scenarios, runs.until, &mut wanted)?.impacts);
+        let (verlet, window) =
+            (VerletAbreast { step: case.setting.value }, window.map(|_| (from, *first)));
+        return Ok(verlet.run_all(scenarios, runs.until, window, &mut |_, _| true)?.0.impacts);
     }
     let together = window.filter(|_| method.name() == Certified.name());
     let Some(many) = together.and_then(|of| Abreast::new(&runs.chain, &[of], runs.until)) else {

@@ -102,8 +102,8 @@ pub fn over_engine(race: &Race, measured: &Measured, setting: Setting) -> Option
     }
 }
 
-/// Points of each method that has some, in the order of [`MethodName::ALL`], without the chains side
-/// by side, whose times are not those of one chain.
+/// Points of each method that has some, in the order of [`MethodName::ALL`], without chains side by
+/// side, whose times are not those of one.
 pub fn by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<(Setting, Point)>) -> Curves {
     let points_of = |method: MethodName| {
         let at = rows.iter().filter_map(&point).filter(|at| at.0.method == method);

@@ -3,7 +3,7 @@
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, Means, MethodName, Setting};
 use impact_chain::Abreast;
-use impact_chain::methods::{VerletAbreast, Wanted};
+use impact_chain::methods::VerletAbreast;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -52,13 +52,12 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
             match setting.method {
                 MethodName::Certified => return together(of, false),
                 MethodName::VerletAbreast => {
+                    let verlet = VerletAbreast { step: setting.value };
                     return grouped(realisations, TOGETHER, &|group| {
-                        let mut counts = vec![0; group.clone().count()];
                         let all: Vec<Scenario> = group.map(|i| of.chains.scenario(i)).collect();
-                        let mut wanted = Wanted::Gaps { after, one: false, counts: &mut counts };
-                        let verlet = VerletAbreast { step: setting.value };
-                        verlet.run_all(&all, until, &mut wanted).map_err(failed)?;
-                        Ok(counts.into_iter().map(Some).collect())
+                        let window = Some((after, false));
+                        let ran = verlet.run_all(&all, until, window, &mut |_, _| true);
+                        Ok(ran.map_err(failed)?.1.into_iter().map(Some).collect())
                     });
                 }
                 _ => (),

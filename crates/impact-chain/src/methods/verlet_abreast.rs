@@ -35,25 +35,31 @@ pub struct VerletAbreast {
     pub step: f64,
 }
 
-/// What is asked of chains, by their numbers.
-pub enum Wanted<'a> {
-    /// Each impact, sorted within a step; a chain ends when false is returned.
-    Impacts(&'a mut dyn FnMut(usize, Impact) -> bool),
-    /// The number of gaps with an impact in the steps after a time; a chain ends when all are hit,
-    /// or when one is.
-    Gaps { after: f64, one: bool, counts: &'a mut [u32] },
-}
+/// Whether each gap, or one, is to be hit after a time.
+pub type Window = (f64, bool);
+
+/// Receives the number of a chain and an impact; returns false to end the chain.
+pub type Receiver<'a> = dyn FnMut(usize, Impact) -> bool + 'a;
 
 impl VerletAbreast {
-    /// Runs chains that differ in forces and starts only.
+    /// Runs chains that differ in forces and starts only, and hands each impact to `sink`,
+    /// sorted within a step.
+    ///
+    /// With a window, no impact is handed on; instead, the gaps of each chain with an impact in the
+    /// steps after its time are counted, and a chain ends when all are hit, or one.
+    ///
+    /// # Errors
+    /// As [`Method::run`], and [`Error::Input`] for different chains.
     pub fn run_all(
         &self,
         all: &[Scenario],
         until: f64,
-        wanted: &mut Wanted,
-    ) -> Result<Cost, Error> {
+        window: Option<Window>,
+        sink: &mut Receiver,
+    ) -> Result<(Cost, Vec<u32>), Error> {
         let (h, mut ready, mut cost) = (self.step, Vec::new(), Cost::default());
-        let Some(like) = all.first() else { return Ok(cost) };
+        let mut counts = vec![0; all.len()];
+        let Some(like) = all.first() else { return Ok((cost, counts)) };
         for (chain, scenario) in all.iter().enumerate() {
             scenario.validate()?;
             scenario.check_uniform()?;
@@ -75,13 +81,17 @@ impl VerletAbreast {
         let end = ((until / h).ceil() + 0.5) * h;
         let steps = Steps::new((like, &start, end), h, vec![Rate::new(like.forcing_frequency)])?;
         for group in ready.chunks(LANES) {
-            let mut lanes = Lanes::new(like, h, group);
-            dispatch!(level(), simd => lanes.run(simd, &steps, until, wanted));
-            cost.impacts += lanes.cost.impacts;
-            cost.steps += lanes.cost.steps;
+            let mut lanes = Lanes { until, window, ..Lanes::new(like, h, group) };
+            dispatch!(level(), simd => lanes.run(simd, &steps, sink));
+            cost.impacts += lanes.impacts;
+            cost.steps += lanes.steps;
+            for (lane, (chain, _)) in group.iter().enumerate() {
+                let hit = lanes.gaps.iter().map(|gap| u32::from(gap.hit >> lane & 1));
+                counts[*chain] = hit.sum();
+            }
         }
         cost.evaluations = 2 * like.boundary.gaps(like.forcing.len()) as u64 * cost.steps;
-        Ok(cost)
+        Ok((cost, counts))
     }
 }
 
@@ -94,8 +104,8 @@ impl Method for VerletAbreast {
         check_end(until)?;
         let begin = start.time;
         let mut later = |_, impact: Impact| sink(Impact { time: begin + impact.time, ..impact });
-        let wanted = &mut Wanted::Impacts(&mut later);
-        self.run_all(&[start.as_scenario(scenario)?], until - begin, wanted)
+        let all = [start.as_scenario(scenario)?];
+        Ok(self.run_all(&all, until - begin, None, &mut later)?.0)
     }
 }
 
@@ -111,32 +121,35 @@ struct Gap {
     hit: u16,
 }
 
+#[derive(Default)]
 struct Lanes {
     h: f64,
     spacing: f64,
-    topology: Topology,
+    /// ωh, 2 (1 − cos ωh), (1 + r)/ωh.
     turn: f32,
     pull: f32,
     rebound: f32,
     /// A gap that may dip is narrower, in units of d, less 1.
     low: f32,
-    chains: Vec<usize>,
-    /// A bit for each chain that has not ended.
-    live: u16,
-    /// Whether impacts are counted by gaps, and whether they are reported.
-    counts: bool,
-    reports: bool,
-    /// One more, which stands for none.
-    gaps: Vec<Gap>,
-    /// The gaps beside each, with their parts of its jump.
+    /// Number of the first gap in results.
+    first: usize,
+    /// The gaps beside each, with their parts of its jump; the last of `gaps` stands for none.
     near: Vec<[(usize, f32); 2]>,
-    /// Gaps to look at, each with its lanes.
+    gaps: Vec<Gap>,
+    /// Numbers of the chains, and a bit for each that has not ended.
+    chains: Vec<usize>,
+    live: u16,
+    until: f64,
+    window: Option<Window>,
+    /// Whether impacts are counted by gaps.
+    counts: bool,
+    /// Gaps to look at, each with its lanes; in one lane, with the impacts that led to each.
     looks: Vec<(usize, u16)>,
-    /// Gaps to look at in one lane, each with the number of impacts that led to it.
     stack: Vec<(usize, u32)>,
-    /// Lanes and impacts of a step.
+    /// Impacts of a step, with their lanes.
     found: Vec<(usize, Impact)>,
-    cost: Cost,
+    impacts: u64,
+    steps: u64,
 }
 
 impl Lanes {
@@ -148,7 +161,8 @@ impl Lanes {
             4.0 * sin * sin
         });
         let [(sin, cos), (big_sin, big_cos)] = angles.map(pxfm::f_sincos);
-        let mut gaps = vec![Gap::default(); topology.gaps() + 1];
+        let number = topology.gaps();
+        let mut gaps = vec![Gap::default(); number + 1];
         for (lane, (_, amplitudes)) in group.iter().enumerate() {
             for (gap, &[a, b, c, d]) in gaps.iter_mut().zip(amplitudes) {
                 let before = a * cos - b * sin + c * big_cos - d * big_sin;
@@ -159,28 +173,24 @@ impl Lanes {
             }
         }
         let near = |k| {
-            let parts = jumps(1.0, 0.0, topology.inverse_masses(k));
-            let near = topology.adjacent(k).map(|near| near.unwrap_or(topology.gaps()));
-            [(near[0], parts[0] as f32), (near[1], -parts[1] as f32)]
+            let [left, right] = jumps(1.0, 0.0, topology.inverse_masses(k)).map(|x| x as f32);
+            let [before, after] = topology.adjacent(k).map(|near| near.unwrap_or(number));
+            [(before, left), (after, -right)]
         };
         Lanes {
             h,
             spacing: like.spacing,
-            topology,
             turn: angles[0] as f32,
             pull: pull as f32,
             rebound: ((1.0 + like.restitution) / angles[0]) as f32,
             low: (DIP * angles[0] * angles[0] - 1.0) as f32,
+            first: topology.label(0),
+            near: (0..number).map(near).collect(),
+            gaps,
             chains: group.iter().map(|(chain, _)| *chain).collect(),
             live: ((1u32 << group.len()) - 1) as u16,
-            counts: false,
-            reports: false,
-            near: (0..topology.gaps()).map(near).collect(),
-            looks: vec![(0, 0); gaps.len()],
-            gaps,
-            stack: Vec::new(),
-            found: Vec::new(),
-            cost: Cost::default(),
+            looks: vec![(0, 0); number + 1],
+            ..Lanes::default()
         }
     }
 
@@ -196,17 +206,16 @@ impl Lanes {
 
     /// Runs the chains to a time.
     #[inline(always)]
-    fn run<S: Simd>(&mut self, simd: S, steps: &Steps, until: f64, wanted: &mut Wanted) {
+    fn run<S: Simd>(&mut self, simd: S, steps: &Steps, sink: &mut Receiver) {
         let (mut i, mut time, mut from) = (0, 0.0, [1.0, 0.0]);
-        self.reports = matches!(wanted, Wanted::Impacts(_));
         let _ = steps.each(
             #[inline(always)]
             |step| {
                 if self.live == 0 || step.h < 0.75 * self.h {
                     return Err(());
                 }
-                self.counts = !matches!(wanted, Wanted::Gaps { after, .. } if time < *after);
-                self.cost.steps += u64::from(self.live.count_ones());
+                self.counts = self.window.is_some_and(|(after, _)| time >= after);
+                self.steps += u64::from(self.live.count_ones());
                 let number = self.leap(simd, from);
                 let to = [step.phases[0].1 as f32, step.phases[0].0 as f32];
                 let mean = [0, 1].map(|i| 0.5 * (from[i] + to[i]));
@@ -218,23 +227,18 @@ impl Lanes {
                         lanes &= lanes - 1;
                     }
                 }
-                match wanted {
-                    Wanted::Impacts(sink) => self.report(until, sink),
-                    Wanted::Gaps { one, .. } if self.counts && i % 4 == 0 => {
+                match self.window {
+                    None => self.report(sink),
+                    Some((_, one)) if self.counts && i % 4 == 0 => {
                         let hit = self.gaps[..self.near.len()].iter().map(|gap| gap.hit);
                         let (any, all) = hit.fold((0, !0), |of, hit| (of.0 | hit, of.1 & hit));
-                        self.end(self.live & if *one { any } else { all });
+                        self.end(self.live & if one { any } else { all });
                     }
-                    Wanted::Gaps { .. } => (),
+                    Some(_) => (),
                 }
                 Ok(())
             },
         );
-        if let Wanted::Gaps { counts, .. } = wanted {
-            for (lane, chain) in self.chains.iter().enumerate() {
-                counts[*chain] = self.gaps.iter().map(|gap| u32::from(gap.hit >> lane & 1)).sum();
-            }
-        }
     }
 
     /// Moves all gaps by a step; lists those to look at and returns their number.
@@ -279,7 +283,8 @@ impl Lanes {
                 continue;
             };
             let speed = q * s - p;
-            if !(speed > 0.0) {
+            let opens = speed > 0.0;
+            if !opens {
                 continue;
             }
             let jump = speed * self.rebound;
@@ -287,11 +292,11 @@ impl Lanes {
             let y = x + jump * sine(self.turn - s * self.turn);
             gap.hit |= u16::from(self.counts) << lane;
             (gap.u[lane], gap.v[lane]) = (u + x, v + y);
-            self.cost.impacts += 1;
-            if self.reports {
+            self.impacts += 1;
+            if self.window.is_none() {
                 let time = time - f64::from(s.min(1.0)) * self.h;
                 let closing_speed = f64::from(speed) * self.spacing / self.h;
-                let gap = self.topology.label(k);
+                let gap = self.first + k;
                 self.found.push((lane, Impact { time, gap, closing_speed }));
             }
             for (near, part) in self.near[k] {
@@ -306,11 +311,11 @@ impl Lanes {
     }
 
     /// Hands on the impacts of a step.
-    fn report(&mut self, until: f64, sink: &mut dyn FnMut(usize, Impact) -> bool) {
+    fn report(&mut self, sink: &mut Receiver) {
         self.found.sort_by(|a, b| a.1.time.total_cmp(&b.1.time));
         for (lane, impact) in std::mem::take(&mut self.found) {
-            if self.live >> lane & 1 == 0 || impact.time > until {
-                self.cost.impacts -= 1;
+            if self.live >> lane & 1 == 0 || impact.time > self.until {
+                self.impacts -= 1;
             } else if !sink(self.chains[lane], impact) {
                 self.end(1 << lane);
             }

@@ -3,7 +3,7 @@
 use crate::{drawn, given, run};
 use impact_chain::methods::{
     Advancement, Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, Verlet,
-    VerletAbreast, Wanted,
+    VerletAbreast,
 };
 use impact_chain::{Boundary, Chain, Engine, Error, Impact, NormalPairs, Scenario, State};
 
@@ -334,12 +334,9 @@ fn chains_abreast_do_not_touch() {
         found[chain].push(impact);
         found[chain].len() < 200 - 4 * chain
     };
-    method.run_all(&all, 30.0, &mut Wanted::Impacts(&mut take)).unwrap();
-    let mut counts = [vec![0; 40], vec![0; 40]];
-    for (one, counts) in [false, true].into_iter().zip(&mut counts) {
-        let mut wanted = Wanted::Gaps { after: 10.0, one, counts };
-        method.run_all(&all, 30.0, &mut wanted).unwrap();
-    }
+    method.run_all(&all, 30.0, None, &mut take).unwrap();
+    let counts = [false, true]
+        .map(|one| method.run_all(&all, 30.0, Some((10.0, one)), &mut |_, _| false).unwrap().1);
     for (chain, (scenario, found)) in all.iter().zip(&found).enumerate() {
         let alone = impacts(&method, scenario, 30.0);
         assert!(alone[..alone.len().min(200 - 4 * chain)] == *found, "{chain}");
@@ -349,6 +346,5 @@ fn chains_abreast_do_not_touch() {
     }
     assert!(found.iter().flatten().count() > 1000 && found[4].is_empty());
     let other = [all[0].clone(), Scenario { restitution: 0.5, ..all[1].clone() }];
-    let mut wanted = Wanted::Gaps { after: 0.0, one: true, counts: &mut [0; 2] };
-    assert!(method.run_all(&other, 30.0, &mut wanted).is_err());
+    assert!(method.run_all(&other, 30.0, None, &mut |_, _| true).is_err());
 }
