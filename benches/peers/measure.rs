@@ -267,9 +267,9 @@ fn once(case: &Case, method: &dyn Method, scenarios: &[Scenario]) -> Result<u64,
         }
     };
     if method.name() == MethodName::VerletAbreast.id() {
-        let (verlet, window) =
-            (VerletAbreast { step: case.setting.value }, window.map(|_| (from, *first)));
-        return Ok(verlet.run_all(scenarios, runs.until, window, &mut |_, _| true)?.0.impacts);
+        let (step, window) = (case.setting.value, window.map(|_| (from, *first)));
+        let ran = VerletAbreast { step }.run_all(scenarios, runs.until, window, &mut |_, _| true);
+        return Ok(ran?.0.impacts);
     }
     let together = window.filter(|_| method.name() == Certified.name());
     let Some(many) = together.and_then(|of| Abreast::new(&runs.chain, &[of], runs.until)) else {

@@ -5,7 +5,6 @@ use crate::params::{BiasParams, Means, MethodName, Setting};
 use impact_chain::Abreast;
 use impact_chain::methods::VerletAbreast;
 use rayon::prelude::*;
-use std::ops::Range;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Biases {
@@ -19,58 +18,46 @@ pub struct Biases {
 /// Different gaps with an impact in the window of one realisation; none if the method gave up.
 pub type GapCount = Option<u32>;
 
-/// Counts chains by their numbers.
-type Counting<'a> = dyn Fn(Range<u64>) -> Result<Vec<GapCount>, Error> + Sync + 'a;
-
-/// Chains that [`VerletAbreast`] gets at a time: those without impacts leave no lane empty.
-const TOGETHER: usize = 64;
-
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
     let stage = progress.stage("error of the mean", parameters.runs());
-    let failed = |source| Error::failed("bias", source);
-    let grouped = |all: usize, number: usize, count: &Counting| {
-        let groups = (0..all as u64).step_by(number);
+    let together = |of: &Means, nudged: bool| {
+        let ensemble = of.ensemble(nudged);
+        let (number, all) = (Abreast::number(&ensemble.chain), ensemble.realisations as u64);
+        let groups = (0..all).step_by(number);
         let found = each(&stage, progress, groups, |first| {
-            let counts = count(first..(first + number as u64).min(all as u64))?;
+            let at = ensemble.at(ensemble.sigmas[0]);
+            let counts = at.count(first..all.min(first + number as u64), &|| progress.stopped());
+            let counts = counts.map_err(|source| Error::failed("bias", source))?;
             stage.advance(counts.len() as u64 - 1);
-            Ok(counts)
+            Ok(counts.into_iter().map(|one| one.distinct[0][0]).collect::<Vec<_>>())
         })?;
         progress.check()?;
         Ok(found.concat())
     };
-    let together = |of: &Means, nudged: bool| {
-        let ensemble = of.ensemble(nudged);
-        let at = ensemble.at(ensemble.sigmas[0]);
-        grouped(ensemble.realisations, Abreast::number(&ensemble.chain), &|group| {
-            let counts = at.count(group, &|| progress.stopped()).map_err(failed)?;
-            Ok(counts.into_iter().map(|one| one.distinct[0][0]).collect())
-        })
-    };
     let methods = |of: &Means| {
         let one = |&(setting, realisations): &(Setting, usize)| {
-            let (until, after) = (of.chains.until, of.transient);
-            match setting.method {
-                MethodName::Certified => return together(of, false),
-                MethodName::VerletAbreast => {
-                    let verlet = VerletAbreast { step: setting.value };
-                    return grouped(realisations, TOGETHER, &|group| {
-                        let all: Vec<Scenario> = group.map(|i| of.chains.scenario(i)).collect();
-                        let window = Some((after, false));
-                        let ran = verlet.run_all(&all, until, window, &mut |_, _| true);
-                        Ok(ran.map_err(failed)?.1.into_iter().map(Some).collect())
-                    });
-                }
-                _ => (),
+            if setting.method == MethodName::Certified {
+                return together(of, false);
+            }
+            if setting.method == MethodName::VerletAbreast {
+                let all = (0..realisations as u64).map(|index| of.chains.scenario(index));
+                let (all, window) = (all.collect::<Vec<_>>(), Some((of.transient, false)));
+                let verlet = VerletAbreast { step: setting.value };
+                let ran = verlet.run_all(&all, of.chains.until, window, &mut |_, _| true);
+                let (_, counts) = ran.map_err(|source| Error::failed("bias", source))?;
+                stage.advance(realisations as u64);
+                return Ok(counts.into_iter().map(Some).collect());
             }
             let method = setting.method();
             each(&stage, progress, 0..realisations as u64, |index| {
                 let scenario = of.chains.scenario(index);
                 let mut hit = vec![false; scenario.gaps()];
                 let mut see = |impact: Impact| {
-                    hit[impact.gap] |= impact.time > after;
+                    hit[impact.gap] |= impact.time > of.transient;
                     !progress.stopped()
                 };
-                let ran = method.run((&scenario, &State::of(&scenario), until), &mut see);
+                let task = (&scenario, &State::of(&scenario), of.chains.until);
+                let ran = method.run(task, &mut see);
                 progress.check()?;
                 Ok(ran.ok().map(|_| hit.iter().map(|hit| u32::from(*hit)).sum()))
             })

@@ -23,11 +23,11 @@ const DIP: f64 = 0.5;
 /// precision; impacts are placed within the step.
 ///
 /// - Source: Verlet (1967), Phys. Rev. 159, 98; coefficients that make sines of both frequencies
-///   exact: Gautschi (1961), Numer. Math. 3, 381.
-/// - Order: none in flight, which is exact up to rounding; 3 for the time of an impact and 2 for its
-///   speed, by the parabola through both ends of the step with the mean acceleration.
-/// - Fails: single precision loses the orbit early; grazes, and dips within a step, are those of the
-///   parabola; impacts of a step are taken gap by gap, not in the order of their times; a gap
+///   exact after Gautschi (1961), Numerische Mathematik 3, 381.
+/// - Order: none in flight, which is exact up to rounding; 3 for the time of an impact and 2 for
+///   its speed, by the parabola through both ends of the step with the mean acceleration.
+/// - Fails: single precision loses the orbit early; grazes, and dips within a step, are those of
+///   the parabola; impacts of a step are taken gap by gap, not in the order of their times; a gap
 ///   pressed shut is hit again and again. Several frequencies are refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VerletAbreast {
@@ -109,8 +109,8 @@ impl Method for VerletAbreast {
     }
 }
 
-/// A gap in all lanes: how far it is wider than d, its growth in the last step, and amplitudes of
-/// its force; and a bit for each lane in which it was hit. In units of d, the step the unit of time.
+/// A gap in all lanes, in units of d and of the step: how far it is wider than d, its growth in the
+/// last step, and the amplitudes of its force; a bit for each lane in which it was hit.
 #[derive(Clone, Copy, Default)]
 #[repr(align(64))]
 struct Gap {
@@ -260,8 +260,8 @@ impl Lanes {
         number
     }
 
-    /// Finds the impact of a gap in a lane and those to which it leads beside it, in a step with these
-    /// phases in the mean that ends at a time.
+    /// Finds the impact of a gap in a lane and those to which it leads beside it, in a step that
+    /// ends at a time and has these phases in the mean.
     #[inline(always)]
     fn hit(&mut self, k: usize, lane: usize, [cos, sin]: [f32; 2], time: f64) {
         self.stack.push((k, 0));
