@@ -4,7 +4,7 @@
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
 use clap::Parser;
-use impact_chain::methods::{Certified, Method};
+use impact_chain::methods::{Certified, Method, VerletAbreast};
 use impact_chain::{Abreast, without_wide_vectors};
 use impact_chain::{Counters, Engine, Error, Protocol, Scenario, State};
 use impact_numerics::random::NormalPairs;
@@ -266,6 +266,11 @@ fn once(case: &Case, method: &dyn Method, scenarios: &[Scenario]) -> Result<u64,
             ended => Ok(ended?.impacts),
         }
     };
+    if method.name() == MethodName::VerletAbreast.id() {
+        let (step, window) = (case.setting.value, window.map(|_| (from, *first)));
+        let ran = VerletAbreast { step }.run_all(scenarios, runs.until, window, &mut |_, _| true);
+        return Ok(ran?.0.impacts);
+    }
     let together = window.filter(|_| method.name() == Certified.name());
     let Some(many) = together.and_then(|of| Abreast::new(&runs.chain, &[of], runs.until)) else {
         return scenarios.iter().map(alone).sum();

@@ -92,7 +92,11 @@ const METHODS: [MethodLine; 9] = [
     (RungeKutta, tolerance(1e-9), "Dormand–Prince 5(4) with events, {}: misses close roots"),
     (MoreauJean, step(1e-3), "Time stepping, {}: first order, near misses are impacts, can rest"),
     (Verlet, step(1e-3), "Velocity Verlet, reflected after steps of {}: first order, late"),
-    (VerletSingle, step(1e-2), "The same in single precision, {}: for means, not for orbits"),
+    (
+        VerletAbreast,
+        step(1e-2),
+        "The same for many chains side by side, {}: single precision, for means",
+    ),
     (Penalty, step(1e-4), "Stiff damped springs, {}: order 1/2, wrong in clusters"),
     (Truth, None, "106 bits, slowly: walls, one frequency, no contact; the gap from the engine"),
 ];

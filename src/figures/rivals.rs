@@ -16,7 +16,7 @@ pub fn look(method: MethodName) -> Marker {
         MethodName::RungeKutta => (Symbol::Disc, MEDIUM, GREY),
         MethodName::MoreauJean => (Symbol::Plus, MEDIUM + 14, BLUE),
         MethodName::Penalty => (Symbol::OpenTriangle, MEDIUM + 4, PURPLE),
-        MethodName::Verlet | MethodName::VerletSingle | MethodName::Truth => {
+        MethodName::Verlet | MethodName::VerletAbreast | MethodName::Truth => {
             (Symbol::Cross, MEDIUM, ORANGE)
         }
     };
@@ -102,13 +102,15 @@ pub fn over_engine(race: &Race, measured: &Measured, setting: Setting) -> Option
     }
 }
 
-/// Points of each method that has some, in the order of [`MethodName::ALL`].
+/// Points of each method that has some, in the order of [`MethodName::ALL`], without chains side by
+/// side, whose times are not those of one.
 pub fn by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<(Setting, Point)>) -> Curves {
     let points_of = |method: MethodName| {
         let at = rows.iter().filter_map(&point).filter(|at| at.0.method == method);
         (method, at.collect::<Vec<_>>())
     };
-    MethodName::ALL.into_iter().map(points_of).filter(|(_, points)| !points.is_empty()).collect()
+    let alone = MethodName::ALL.into_iter().filter(|one| *one != MethodName::VerletAbreast);
+    alone.map(points_of).filter(|(_, points)| !points.is_empty()).collect()
 }
 
 /// Returns the engine and other programs on one chain of `masses` masses: for each setting the time

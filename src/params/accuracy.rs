@@ -10,9 +10,8 @@ use serde::{Deserialize, Serialize};
 
 const STEPS: &[f64] = &[1e-1, 1e-2, 1e-3, 1e-4];
 
-/// Settings of each method of [`MethodName::ALL`] in the race, coarse to fine; single precision is
-/// for means only.
-const RACE: [&[f64]; 7] = [
+/// Settings of each method of [`MethodName::ALL`] in the race, coarse to fine.
+const RACE: [&[f64]; 8] = [
     &[0.0],
     &[0.5, 0.25, 0.1, 0.03, 0.01],
     &[1e-3, 1e-6, 1e-9, 1e-12, 1e-14],
@@ -20,10 +19,11 @@ const RACE: [&[f64]; 7] = [
     STEPS,
     STEPS,
     STEPS,
+    &[0.1, 0.03, 0.01],
 ];
 
 /// The same in the quick profile.
-const QUICK: [&[f64]; 7] = [&[0.0], &[0.1], &[1e-9], &[1e-3], &[0.1], &[0.1], &[0.1]];
+const QUICK: [&[f64]; 8] = [&[0.0], &[0.1], &[1e-9], &[1e-3], &[0.1], &[0.1], &[0.1], &[0.03]];
 
 /// A coarse and a fine tolerance, and step, in the scenes where methods fail.
 const TOLERANCES: &[f64] = &[1e-6, 1e-12];
@@ -50,10 +50,11 @@ const BIAS: [&[(f64, [usize; 4])]; 8] = [
     &[(0.3, [400, 400, 200, 100]), (0.1, [400, 100, 400, 40]), (0.01, [10, 10, 10, 0])],
     &[(0.1, [40, 40, 20, 20]), (0.01, [10, 10, 10, 0])],
     &[
-        (0.4, [400, 400, 200, 400]),
-        (0.3, [3000, 1000, 600, 1500]),
-        (0.2, [2000, 1000, 1600, 1500]),
-        (0.1, [1000, 400, 1600, 1500]),
+        (0.5, [3000, 1000, 1600, 1500]),
+        (0.4, [3000, 1000, 1600, 1500]),
+        (0.3, [3000, 1000, 1600, 1500]),
+        (0.2, [3000, 1000, 1600, 1500]),
+        (0.1, [3000, 1000, 1600, 1500]),
     ],
 ];
 

@@ -2,7 +2,7 @@
 
 use impact_chain::methods::{
     Advancement, Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Truth, Verlet,
-    VerletSingle,
+    VerletAbreast,
 };
 use serde::{Deserialize, Serialize};
 
@@ -17,7 +17,7 @@ pub enum MethodName {
     MoreauJean,
     Verlet,
     Penalty,
-    VerletSingle,
+    VerletAbreast,
     Truth,
 }
 
@@ -30,7 +30,7 @@ impl MethodName {
         MethodName::MoreauJean,
         MethodName::Verlet,
         MethodName::Penalty,
-        MethodName::VerletSingle,
+        MethodName::VerletAbreast,
     ];
 
     /// Returns the method with its step or tolerance, and a least rebound speed if it can have one.
@@ -43,7 +43,7 @@ impl MethodName {
             MethodName::MoreauJean => Box::new(MoreauJean { step: value }),
             MethodName::Verlet => Box::new(Verlet { step: value }),
             MethodName::Penalty => Box::new(Penalty { step: value }),
-            MethodName::VerletSingle => Box::new(VerletSingle { step: value }),
+            MethodName::VerletAbreast => Box::new(VerletAbreast { step: value }),
             MethodName::Truth => Box::new(Truth),
         }
     }
@@ -61,7 +61,7 @@ impl MethodName {
             MethodName::MoreauJean => "time stepping",
             MethodName::Verlet => "Verlet",
             MethodName::Penalty => "penalty springs",
-            MethodName::VerletSingle => "float32 Verlet",
+            MethodName::VerletAbreast => "float32 Verlet",
             MethodName::Truth => "true motion",
         }
     }

@@ -3,6 +3,7 @@
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, Means, MethodName, Setting};
 use impact_chain::Abreast;
+use impact_chain::methods::VerletAbreast;
 use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,6 +38,15 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
         let one = |&(setting, realisations): &(Setting, usize)| {
             if setting.method == MethodName::Certified {
                 return together(of, false);
+            }
+            if setting.method == MethodName::VerletAbreast {
+                let all = (0..realisations as u64).map(|index| of.chains.scenario(index));
+                let (all, window) = (all.collect::<Vec<_>>(), Some((of.transient, false)));
+                let verlet = VerletAbreast { step: setting.value };
+                let ran = verlet.run_all(&all, of.chains.until, window, &mut |_, _| true);
+                let (_, counts) = ran.map_err(|source| Error::failed("bias", source))?;
+                stage.advance(realisations as u64);
+                return Ok(counts.into_iter().map(Some).collect());
             }
             let method = setting.method();
             each(&stage, progress, 0..realisations as u64, |index| {

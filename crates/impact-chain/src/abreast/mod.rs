@@ -132,26 +132,29 @@ impl Abreast {
             slot.handed_over = true;
             return slot;
         }
-        let topology = Topology::new(chain.masses, chain.boundary);
-        let mass = |body: usize| {
-            if topology.is_wall(body) {
-                return [0.0; 4];
-            }
-            let [a, b] = scenario.free_part(body - 1);
-            let forces = scenario.forcing[body - 1];
-            let [c, d] = response(chain.natural_frequency, chain.forcing_frequency, forces);
-            [a, b, c, d]
-        };
-        for gap in 0..gaps {
-            let [left, right] = topology.sides(gap).map(mass);
-            let amplitudes: [f64; 4] =
-                std::array::from_fn(|i| (right[i] - left[i]) / chain.spacing);
+        for (gap, amplitudes) in amplitudes(scenario).into_iter().enumerate() {
             let width = 1.0 + amplitudes[0] + amplitudes[2];
             slot.set(gap, amplitudes, &self.plan);
             slot.handed_over |= width.is_nan() || width <= OPEN;
         }
         slot
     }
+}
+
+/// Returns the amplitudes of cos ωt, sin ωt, cos Ωt and sin Ωt of each gap, in units of d.
+pub(crate) fn amplitudes(scenario: &Scenario) -> Vec<[f64; 4]> {
+    let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
+    let mut bodies = vec![[0.0; 4]; scenario.forcing.len() + 2];
+    for (j, forces) in scenario.forcing.iter().enumerate() {
+        let [a, b] = scenario.free_part(j);
+        let [c, d] = response(scenario.natural_frequency, scenario.forcing_frequency, *forces);
+        bodies[j + 1] = [a, b, c, d];
+    }
+    let gap = |gap| {
+        let [left, right] = topology.sides(gap).map(|body| bodies[body]);
+        std::array::from_fn(|i| (right[i] - left[i]) / scenario.spacing)
+    };
+    (0..topology.gaps()).map(gap).collect()
 }
 
 impl Realisation {

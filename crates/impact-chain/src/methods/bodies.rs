@@ -8,9 +8,7 @@ use crate::impact::jumps;
 use crate::scenario::COMPONENTS;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;
-
-/// Gaps that are tested together, where any is shut.
-const BLOCK: usize = 16;
+use fearless_simd::{f64x8, prelude::*};
 
 /// The bodies of a chain with state and forces, from the left wall (0) to the right one (n + 1).
 pub struct Bodies {
@@ -128,28 +126,34 @@ impl Bodies {
         (self.phases, self.last) = (Bodies::phases_of(step), step.h);
     }
 
+    /// Returns the acceleration in flight of a body at the end of the last step.
+    #[inline(always)]
+    pub fn acceleration(&self, m: usize) -> f64 {
+        let forces = self.forcing.iter().zip(&self.phases);
+        let sum =
+            forces.fold(0.0, |sum, (of, (sin, cos))| sum + (of.cos[m] * cos + of.sin[m] * sin));
+        sum - self.stiffness * self.u[m]
+    }
+
     /// Lists the gaps that are shut at displacements `u`, in their order.
     #[inline(always)]
-    pub fn shut(&self, u: &[f64], found: &mut Vec<usize>) {
+    pub fn shut<S: Simd>(&self, simd: S, u: &[f64], found: &mut Vec<usize>) {
         found.clear();
         // Neighbours in the array are neighbours in the row; a ring has one gap more.
         let first = self.topology.sides(0)[0];
         let bodies = &u[first..u.len() - first];
         let gaps = bodies.len() - 1;
-        let is_shut = |left: &f64, right: &f64| self.spacing + (right - left) <= 0.0;
-        // Mostly none is, which vectors tell fast.
-        let any = |from: usize, to: usize| {
-            let pairs = bodies[from..to].iter().zip(&bodies[from + 1..=to]);
-            pairs.fold(false, |any, (left, right)| any | is_shut(left, right))
-        };
-        if any(0, gaps) {
-            for from in (0..gaps).step_by(BLOCK) {
-                let to = gaps.min(from + BLOCK);
-                if any(from, to) {
-                    found.extend((from..to).filter(|&k| is_shut(&bodies[k], &bodies[k + 1])));
-                }
+        let [left, right] = [&bodies[..gaps], &bodies[1..]].map(|x| x.chunks_exact(8));
+        let rest = gaps - left.remainder().len();
+        for (from, (left, right)) in (0..).step_by(8).zip(left.zip(right)) {
+            let [left, right] = [left, right].map(|x| f64x8::from_slice(simd, x));
+            let mut bits = ((right - left) + self.spacing).simd_le(0.0).to_bitmask();
+            while bits != 0 {
+                found.push(from + bits.trailing_zeros() as usize);
+                bits &= bits - 1;
             }
         }
+        found.extend((rest..gaps).filter(|&k| self.spacing + (bodies[k + 1] - bodies[k]) <= 0.0));
         if gaps < self.topology.gaps() && self.width_at(gaps, u) <= 0.0 {
             found.push(gaps);
         }

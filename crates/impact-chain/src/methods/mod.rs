@@ -9,7 +9,7 @@
 //!   bits.
 //! - In closed form: [`Sampled`] gaps, conservative [`Advancement`].
 //! - Integrated: a [`RungeKutta`] pair with events, [`MoreauJean`] time stepping, [`Verlet`] with a
-//!   flip, [`Penalty`] springs.
+//!   flip, [`VerletAbreast`] for many chains, [`Penalty`] springs.
 
 mod advancement;
 mod bodies;
@@ -26,6 +26,7 @@ mod steps;
 mod tally;
 pub mod truth;
 mod verlet;
+mod verlet_abreast;
 
 pub use advancement::Advancement;
 pub use certified::Certified;
@@ -35,4 +36,5 @@ pub use penalty::Penalty;
 pub use runge_kutta::RungeKutta;
 pub use sampled::Sampled;
 pub use truth::Truth;
-pub use verlet::{Verlet, VerletSingle};
+pub use verlet::Verlet;
+pub use verlet_abreast::VerletAbreast;

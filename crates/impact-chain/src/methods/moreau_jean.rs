@@ -68,14 +68,14 @@ struct Impulses {
 
 impl Stepper for Impulses {
     #[inline(always)]
-    fn step<S: Simd>(&mut self, _: S, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+    fn step<S: Simd>(&mut self, simd: S, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
         let row = &mut self.row;
         let half = 0.5 * step.h;
         for (forecast, (u, v)) in self.forecast.iter_mut().zip(row.u.iter().zip(&row.v)) {
             *forecast = u + half * v;
         }
         self.active.clear();
-        row.shut(&self.forecast, &mut self.shut);
+        row.shut(simd, &self.forecast, &mut self.shut);
         let active = |&k: &usize| Active { k, rate: row.rate(k), impulse: 0.0 };
         self.active.extend(self.shut.iter().map(active));
         tally.cost.evaluations += row.masses() + row.topology.gaps() as u64;

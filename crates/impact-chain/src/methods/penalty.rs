@@ -81,7 +81,7 @@ struct Springs {
 
 impl Stepper for Springs {
     #[inline(always)]
-    fn step<S: Simd>(&mut self, _: S, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
+    fn step<S: Simd>(&mut self, simd: S, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
         let row = &mut self.row;
         let kick = 0.5 * (row.last + step.h);
         // The damper uses the velocity in the middle of the last step.
@@ -96,7 +96,7 @@ impl Stepper for Springs {
         }
         row.leap(step);
         tally.cost.evaluations += row.masses() + row.topology.gaps() as u64;
-        row.shut(&row.u, &mut self.shut);
+        row.shut(simd, &row.u, &mut self.shut);
         for &k in self.shut.iter().filter(|k| row.width(**k) < 0.0) {
             let speed = -row.rate(k);
             let touches = before.iter().any(|of| of.0 == k);
