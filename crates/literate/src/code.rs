@@ -69,11 +69,24 @@ impl Code {
         }
         manifests.sort();
         manifests.dedup();
-        for path in files.iter().chain(&manifests) {
+        let mut put = |path: &PathBuf| {
             let bytes = std::fs::read(path).map_err(|error| unread(path, error))?;
             // The first 64 bits are enough.
             hashes.insert(name(path, &top), sha256(bytes)[..16].to_string());
+            Ok::<_, String>(())
+        };
+        files.iter().try_for_each(&mut put)?;
+        let is_code = |(path, _): &(&String, &String)| !is_in(path, prose);
+        let code = hashes.iter().filter(is_code).map(|(a, b)| (a.clone(), b.clone())).collect();
+        if let Some(path) = differs_from_first_run(program, built, &code) {
+            let what = "is not what this program was built from, although its time is older";
+            return Err(format!("{path} {what}; touch it, and run `cargo build`"));
         }
+        for path in &manifests {
+            let bytes = std::fs::read(path).map_err(|error| unread(path, error))?;
+            hashes.insert(name(path, &top), sha256(bytes)[..16].to_string());
+        }
+        hashes.extend(variables(program, &files));
         let compiled = project.sources.compiled.iter();
         hashes.extend(compiled.map(|(name, value)| (name.to_string(), value.to_string())));
         let profile = program.parent().and_then(Path::file_name).unwrap_or_default();
@@ -86,6 +99,61 @@ impl Code {
         let all = self.hashes.iter().filter(|(path, _)| project.counts(path, own, &self.own));
         all.map(|(path, hash)| (path.clone(), hash.clone())).collect()
     }
+}
+
+/// Compares code with what it was when this program ran first, and returns a file that differs: the
+/// times by which cargo goes do not tell when an older file is put back. The first run notes it in
+/// a file beside the program, where it may write.
+fn differs_from_first_run(
+    program: &Path,
+    built: SystemTime,
+    code: &BTreeMap<String, String>,
+) -> Option<String> {
+    let place = program.with_extension("built");
+    let since = built.duration_since(SystemTime::UNIX_EPOCH).ok()?.as_nanos().to_string();
+    let text = input::regular_text(&place).unwrap_or_default();
+    let (before, first) = text.split_once('\n').unwrap_or_default();
+    if before == since {
+        let first: BTreeMap<String, String> = serde_json::from_str(first).ok()?;
+        let differs = |(path, hash): &(&String, &String)| code.get(*path) != Some(hash);
+        return first.iter().find(differs).map(|(path, _)| path.clone());
+    }
+    let waiting = program.with_extension(format!("built.{}", std::process::id()));
+    let text = format!("{since}\n{}", serde_json::to_string(code).ok()?);
+    std::fs::write(&waiting, text).and_then(|()| std::fs::rename(&waiting, place)).ok();
+    None
+}
+
+/// Returns the environment variables that code of the program took when it was compiled, and their
+/// values: the compiler lists them for each package, in the file that is the newest.
+fn variables(program: &Path, files: &[PathBuf]) -> BTreeMap<String, String> {
+    let folders = program.ancestors().skip(1).take(2).map(|folder| folder.join("deps"));
+    let lists = folders.filter_map(|folder| folder.read_dir().ok()).flatten().flatten();
+    let mut lists: Vec<_> = lists
+        .filter(|entry| entry.path().extension().is_some_and(|ending| ending == "d"))
+        .filter_map(|entry| Some((entry.metadata().ok()?.modified().ok()?, entry.path())))
+        .collect();
+    lists.sort();
+    let mut packages = BTreeMap::new();
+    for (_, list) in lists {
+        let text = input::regular_text(&list).unwrap_or_default();
+        let mut words = text.split([' ', '\n']).skip(1);
+        let Some(root) = words.next().filter(|root| root.ends_with(".rs")) else { continue };
+        let root = real(Path::new(root));
+        if files.iter().any(|file| file.ends_with(&root)) {
+            packages.insert(root, text);
+        }
+    }
+    let is_of_cargo = |name: &str| {
+        ["CARGO", "CLIPPY"].iter().any(|start| name.starts_with(start)) || name == "OUT_DIR"
+    };
+    let lines = packages.values().flat_map(|text| text.lines());
+    let pairs = lines.filter_map(|line| line.strip_prefix("# env-dep:"));
+    let pairs = pairs.map(|pair| pair.split_once('=').unwrap_or((pair, "")));
+    let pairs = pairs.filter(|(name, _)| !is_of_cargo(name));
+    pairs
+        .map(|(name, value)| (format!("{name} when compiled"), sha256(value)[..16].into()))
+        .collect()
 }
 
 fn older_than(path: &str) -> String {

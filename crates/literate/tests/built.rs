@@ -16,7 +16,8 @@ include!(concat!(env!("OUT_DIR"), "/made.rs"));
 fn run(_: &(), _: &Progress) -> Result<f64, Error> {
     let included: f64 = include_str!("../data/included.csv").trim().parse().unwrap();
     let feature = if cfg!(feature = "heavy") { 1000.0 } else { 0.0 };
-    Ok(phys::G + elsewhere::H + included + MADE + feature)
+    let taken: f64 = option_env!("TOY_TAKEN").map_or(0.0, |text| text.parse().unwrap());
+    Ok(phys::G + elsewhere::H + included + MADE + feature + taken)
 }
 
 fn tables(sum: &f64) -> Vec<Table> {
@@ -103,9 +104,17 @@ impl Toy {
     }
 
     fn build(&self, more: &[&str]) {
+        self.build_with(more, &[]);
+    }
+
+    fn build_with(&self, more: &[&str], variables: &[(&str, &str)]) {
         let mut cargo = Command::new(env!("CARGO"));
         cargo.args(["build", "--release", "--offline", "--quiet", "--package=literate-toy"]);
-        cargo.args(more).current_dir(self.folder.path()).env("CARGO_TARGET_DIR", &self.target);
+        cargo
+            .args(more)
+            .current_dir(self.folder.path())
+            .env("CARGO_TARGET_DIR", &self.target)
+            .envs(variables.iter().copied());
         let output = cargo.output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     }
@@ -158,7 +167,7 @@ fn a_result_is_stale_as_soon_as_what_made_it_has_changed() {
 
     // Before it is built again, a program older than its code computes and judges nothing.
     toy.write("phys/src/lib.rs", "pub const G: f64 = 16.0;\n");
-    for line in ["paper", "paper --dry-run", "run", "check", "verify --rerun"] {
+    for line in ["paper", "paper --dry-run", "run", "check", "verify", "verify --rerun"] {
         let (code, text) = toy.run(line);
         assert_eq!(code, 2, "{line}: {text}");
         assert!(text.contains("../phys/src/lib.rs has changed since"), "{line}: {text}");
@@ -182,7 +191,7 @@ fn a_result_is_stale_as_soon_as_what_made_it_has_changed() {
         "toy/prose/report.md",
         "# Sum\n\nIt is «sum.all.value».\n\n![A line](figures/line.svg)\n",
     );
-    for (line, code) in [("paper --dry-run", 1), ("verify", 1), ("check", 0)] {
+    for (line, code) in [("paper --dry-run", 1), ("verify", 1), ("check", 1)] {
         let (exit, text) = toy.run(line);
         assert!(exit == code && text.contains("not as prose, published numbers"), "{line}: {text}");
     }
@@ -190,6 +199,23 @@ fn a_result_is_stale_as_soon_as_what_made_it_has_changed() {
     toy.build(&["--features=heavy"]);
     let (code, text) = toy.run("paper --dry-run");
     assert!(code == 1 && text.contains("feature heavy changed"), "{text}");
+
+    // A variable that code takes when it is compiled.
+    assert_eq!(toy.run("paper").0, 0);
+    toy.build_with(&["--features=heavy"], &[("TOY_TAKEN", "64")]);
+    let (code, text) = toy.run("paper --dry-run");
+    assert!(code == 1 && text.contains("TOY_TAKEN when compiled changed"), "{text}");
+
+    // A file that is put back with its old time, which cargo does not see.
+    let old = toy.folder.path().join("old.rs");
+    let path = toy.folder.path().join("phys/src/lib.rs");
+    fs::write(&old, "pub const G: f64 = 1.0;\n").unwrap();
+    let hour = std::time::Duration::from_secs(3600);
+    let before = fs::metadata(&path).unwrap().modified().unwrap() - hour;
+    fs::File::options().write(true).open(&old).unwrap().set_modified(before).unwrap();
+    fs::rename(&old, &path).unwrap();
+    let (code, text) = toy.run("paper");
+    assert!(code == 2 && text.contains("is not what this program was built from"), "{text}");
 
     // A copy without the list of cargo is known by its bytes.
     let copy = toy.folder.path().join("copy");

@@ -17,8 +17,8 @@ use std::collections::BTreeMap;
 ///   check 12 sec7_jump          these two, by number in the ledger or by id
 ///
 /// Saved results are used where they are fresh; what is missing is run. Exit code 1 says that a
-/// statement differs without an explanation that holds, or that a relation between numbers does not
-/// hold. Each statement with a printed number is judged once more with another first digit in it;
+/// statement differs without an explanation that holds, that a relation between numbers does not
+/// hold, or that the report is not as prose and results would make it. Each statement with a printed number is judged once more with another first digit in it;
 /// those that are still reproduced or explained are named. Each is judged by wrong results too:
 /// the numbers that its rule reads are changed one after the other, and a verdict that stays the
 /// same is named. With -v this is also done, in some seconds, where the verdict is open.
@@ -68,7 +68,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     print(&text(&checks, [&blind, &unmoved], &args, &numbers))?;
     let out = args.options.out(paper);
     if let Some(paths) = outdated(paper, &session, &out)?.filter(|paths| !paths.is_empty()) {
-        print(&outdated_line(&out, &paths))?;
+        return verdict(&checks).and(Err(Failure::check(outdated_line(&out, &paths))));
     }
     verdict(&checks)
 }

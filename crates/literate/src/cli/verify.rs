@@ -1,7 +1,7 @@
 //! Runs the verb `verify`: compares a report with its list, or with what the source makes.
 
 use super::common::{outdated, outdated_line, profile_in};
-use super::terminal::{Threads, print, shown, warn};
+use super::terminal::{Threads, print, shown};
 use crate::build::make_report;
 use crate::experiments::{Progress, Store};
 use crate::failure::Failure;
@@ -30,12 +30,13 @@ pub(super) struct Args {
     /// byte by byte.
     #[arg(long)]
     rerun: bool,
-    /// Take results of long runs from this folder, where they are fresh, and keep them there.
-    #[arg(long, value_name = "DIR", requires = "rerun")]
+    /// Take results of long runs from this folder, where they are fresh; with --rerun keep them there
+    /// [default: target/results in the project, with --rerun none].
+    #[arg(long, value_name = "DIR")]
     results: Option<PathBuf>,
     /// Read the prose from this folder [default: that of the project, or the copy inside the
     /// program].
-    #[arg(long, value_name = "DIR", requires = "rerun")]
+    #[arg(long, value_name = "DIR")]
     templates: Option<PathBuf>,
     #[command(flatten)]
     threads: Threads,
@@ -64,7 +65,11 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         faults.extend(differences.into_iter().map(|fault| format!("rerun: {fault}")));
     }
     if faults.is_empty() {
-        return if rerun { Ok(()) } else { compare_with_prose(paper, &folder) };
+        if rerun {
+            return Ok(());
+        }
+        let results = results.unwrap_or_else(|| paper.project.place("target/results"));
+        return compare_with_prose(paper, &folder, &results, templates.as_deref());
     }
     print(&(faults.join("\n") + "\n"))?;
     let number = count(faults.len(), "file");
@@ -74,17 +79,25 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     )))
 }
 
-/// Compares a report with what prose and saved results make, if these are fresh.
-fn compare_with_prose(paper: &Paper, folder: &Path) -> Result<(), Failure> {
+/// Compares a report with what prose and saved results make, or says why it does not.
+fn compare_with_prose(
+    paper: &Paper,
+    folder: &Path,
+    results: &Path,
+    templates: Option<&Path>,
+) -> Result<(), Failure> {
     let Some(profile) = profile_in(folder) else { return Ok(()) };
-    let store = Store::open(&paper.project.place("target/results"));
-    let session = paper.session(None, profile, store, Progress::on_stderr());
-    match session.and_then(|session| outdated(paper, &session, folder)) {
-        Ok(Some(paths)) if !paths.is_empty() => {
-            return Err(Failure::check(outdated_line(folder, &paths)));
+    let session = paper.session(templates, profile, Store::open(results), Progress::on_stderr())?;
+    match outdated(paper, &session, folder)? {
+        Some(paths) if paths.is_empty() => Ok(()),
+        Some(paths) => Err(Failure::check(outdated_line(folder, &paths))),
+        None if results.is_dir() => {
+            let what = "saved results are stale or missing, so prose was not compared";
+            Err(Failure::check(format!("{}: {what}; `paper` runs them", shown(folder))))
         }
-        Ok(_) => (),
-        Err(failure) => warn(&format!("prose was not compared: {}", failure.message)),
+        None => {
+            let what = "not compared with the prose, since there are no saved results";
+            print(&format!("{}: {what}; --rerun runs them\n", shown(folder)))
+        }
     }
-    Ok(())
 }

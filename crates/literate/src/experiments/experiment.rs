@@ -288,6 +288,10 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
                 cutting.joined(&parameters, &units, parts, progress)?
             }
         };
+        if self.identity(session)? != *identity {
+            let problem = "a file that it reads changed since this run began";
+            return Err(Error::input(self.name, problem, "run it again"));
+        }
         session.store.put(identity, &result)?;
         // Units that stay do no harm: the joined result is looked for first.
         let _ = session.store.remove(identity, false);

@@ -11,7 +11,7 @@ use std::time::Duration;
 /// The ids of the process groups of the programs that run.
 static RUNNING: Mutex<Vec<u32>> = Mutex::new(Vec::new());
 
-/// MiB that a program may print on standard output.
+/// MiB that a program may print on standard output, and on standard error.
 const MOST: u64 = if cfg!(test) { 1 } else { 256 };
 
 /// Bytes of standard error that are kept, the last ones.
@@ -33,7 +33,7 @@ pub(super) fn run(
     running().push(group);
     let (input, output, errors) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
     let mut printed = Vec::new();
-    let (status, said) = std::thread::scope(|threads| {
+    let (status, said, is_full) = std::thread::scope(|threads| {
         // In threads, since a program may write much before it reads.
         threads.spawn(|| input.map(|mut input| input.write_all(text.as_bytes())));
         threads.spawn(|| {
@@ -42,18 +42,27 @@ pub(super) fn run(
                 send("KILL", group);
             }
         });
-        let said = threads.spawn(|| errors.map(|errors| lines_of(errors, hear)));
+        let said = threads.spawn(|| {
+            let mut errors = errors.map(|errors| errors.take(MOST << 20));
+            let said = errors.as_mut().map(|errors| lines_of(errors, hear));
+            let is_full = errors.is_some_and(|errors| errors.limit() == 0);
+            if is_full {
+                send("KILL", group);
+            }
+            (said.unwrap_or_default(), is_full)
+        });
         let status = child.wait();
         // After a signal its children may take some time to end.
         if !Progress::silent().stopped() {
             let _ = guard.wait();
         }
-        (status, said.join().ok().flatten().unwrap_or_default())
+        let (said, is_full) = said.join().unwrap_or_default();
+        (status, said, is_full)
     });
     let _ = guard.wait();
     running().retain(|other| *other != group);
     match status {
-        _ if printed.len() as u64 > MOST << 20 => {
+        _ if is_full || printed.len() as u64 > MOST << 20 => {
             Err(format!("printed more than {MOST} MiB; print less, or write a file in `writes`"))
         }
         Ok(status) if status.success() => Ok((printed, said)),
@@ -124,7 +133,9 @@ mod tests {
             run(Command::new("sh").args(["-c", line]), String::new(), |line| line != "not kept")
         };
         assert_eq!(sh("(sleep 2; echo late) & echo early").unwrap().0, b"early\n");
-        assert!(sh("trap '' PIPE; yes").unwrap_err().starts_with("printed more than 1 MiB;"));
+        for endless in ["trap '' PIPE; yes", "trap '' PIPE; yes >&2"] {
+            assert!(sh(endless).unwrap_err().starts_with("printed more than 1 MiB;"));
+        }
         let (_, said) = sh(r"printf 'first\nnot kept\n10 %%\r20 %%\r\nbell\a\n' >&2").unwrap();
         assert_eq!(said, "first\n20 %\nbell \n");
         let (_, said) = sh("yes σ | head -n 100000 >&2; echo last >&2").unwrap();
