@@ -4,6 +4,7 @@
 //! it, it becomes a [`Value`] with an id, and a template names that id: `«v.version»`. The
 //! printed digits follow from the value itself, so that prose, tables and `values.json` agree.
 
+use crate::sample::Sample;
 use impact_numerics::statistics::Estimate;
 use serde::{Deserialize, Serialize};
 
@@ -24,10 +25,12 @@ pub enum Number {
 }
 
 impl Number {
-    /// Returns whether neither number nor error is infinite or NaN.
+    /// Returns whether neither number nor error is infinite or NaN, and no error is negative.
     pub(crate) fn is_finite(&self) -> bool {
         match *self {
-            Number::Real { value, digits: Digits::Error(e) } => value.is_finite() && e.is_finite(),
+            Number::Real { value, digits: Digits::Error(error) } => {
+                value.is_finite() && error.is_finite() && error >= 0.0
+            }
             Number::Real { value, .. } => value.is_finite(),
             _ => true,
         }
@@ -110,11 +113,11 @@ pub enum Provenance {
     Ensemble {
         realisations: u64,
         standard_error: f64,
+        #[serde(default, skip_serializing_if = "Sample::is_unknown")]
+        sample: Sample,
     },
     /// Printed in the paper, at this section, figure or equation.
-    Printed {
-        place: String,
-    },
+    Printed { place: String },
     /// Measured once on a machine (times), and an input since then.
     Measured,
 }

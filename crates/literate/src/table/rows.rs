@@ -250,6 +250,7 @@ pub fn number(cell: &Value) -> Option<f64> {
 mod tests {
     use super::super::{DataFile, Tables, cell, table_of};
     use super::*;
+    use crate::sample::Sample;
     use crate::value::Provenance;
     use std::sync::Arc;
 
@@ -279,7 +280,9 @@ mod tests {
         let table = table();
         let at = |address| table.at(address).unwrap();
         let cell = at("test.rise[r=0.8,sigma=0.3].mean");
-        assert_eq!(cell.kind, Provenance::Ensemble { realisations: 2, standard_error: 0.5 });
+        let sample = Sample::Unknown;
+        let kind = Provenance::Ensemble { realisations: 2, standard_error: 0.5, sample };
+        assert_eq!(cell.kind, kind);
         assert_eq!(cell.source, "literate::table::rows::tests::mean");
         assert_eq!((cell.experiment.as_str(), cell.note.as_str()), ("test", "the mean"));
         assert_eq!(table_of(&cell.id), Some("test.rise"));
@@ -324,14 +327,17 @@ mod tests {
         let columns = one(&[1.0]).chosen("x", "1", "", |_| 1.0).count("x", "", |_| 2).done();
         let late = one(&[1.0]).chosen("x", "1", "", |_| 1.0).key("s", "1", |row| *row).done();
         let nan = one(&[1.0, 0.0]).real("x", "1", 3, "", |row| 1.0 / row).done();
-        let error = Estimate { value: 1.0, error: f64::NAN, interval: [0.0; 2] };
-        let error = one(&[1.0]).estimate("x", "1", "", |_| Some(error)).done();
+        let [error, negative] = [f64::NAN, -0.5].map(|error| {
+            let found = Estimate { value: 1.0, error, interval: [0.0; 2] };
+            one(&[1.0]).estimate("x", "1", "", |_| Some(found)).done()
+        });
         for (table, what) in [
             (twice, "two rows have the keys [r=1]"),
             (columns, "two columns have the name x"),
             (late, "the key s stands after other columns"),
             (nan, "test.bad[r=0].x is inf; "),
             (error, "test.bad[r=1].x is 1"),
+            (negative, "test.bad[r=1].x is 1"),
         ] {
             let fault = table.fault.unwrap_or_default();
             let place = format!("{}:{}: the table test.bad: ", file!(), table.place.line());
