@@ -6,7 +6,9 @@
 
 use crate::sample::Sample;
 use impact_numerics::statistics::Estimate;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -100,6 +102,28 @@ pub enum Digits {
     Decimals(usize),
     /// All: the shortest decimal that reads back to the same double.
     Full,
+    /// Those of a text, which may be more than a double holds: 0.50.
+    Text(Written),
+}
+
+/// A number as it was written, kept once for all its cells as long as the program runs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Written(pub(crate) &'static str);
+
+impl Written {
+    pub(crate) fn new(text: &str) -> Written {
+        static ALL: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+        let mut all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = all.get(text).copied().unwrap_or_else(|| Box::leak(text.into()));
+        all.insert(known);
+        Written(known)
+    }
+}
+
+impl<'de> Deserialize<'de> for Written {
+    fn deserialize<D: Deserializer<'de>>(reader: D) -> Result<Self, D::Error> {
+        Ok(Written::new(&String::deserialize(reader)?))
+    }
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

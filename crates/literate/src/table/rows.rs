@@ -1,8 +1,9 @@
 //! Holds the cells of a table, and finds them by addresses and keys.
 
 use super::missing::{Missing, NO_NUMBER, no_such};
+use crate::decimal::Decimal;
 use crate::input::place;
-use crate::value::{Number, Value};
+use crate::value::{Digits, Number, Value, Written};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 use std::panic::Location;
@@ -221,10 +222,15 @@ fn different<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
     found
 }
 
-pub(crate) fn called(key: &Number) -> String {
+pub(super) fn called(key: &Number) -> String {
     match key {
         Number::None => "none".into(),
         Number::Integer(n) => n.to_string(),
+        Number::Real { value, digits: Digits::Text(Written(text)) }
+            if Decimal::read(text).trimmed() != Decimal::shortest(*value).trimmed() =>
+        {
+            text.to_string()
+        }
         Number::Real { value, .. } => value.to_string(),
         Number::Text(words) => words.clone(),
     }
@@ -336,8 +342,8 @@ mod tests {
             (columns, "two columns have the name x"),
             (late, "the key s stands after other columns"),
             (nan, "test.bad[r=0].x is inf; "),
-            (error, "test.bad[r=1].x is 1"),
-            (negative, "test.bad[r=1].x is 1"),
+            (error, "test.bad[r=1].x is 1(NaN)"),
+            (negative, "test.bad[r=1].x is 1(-0.5)"),
         ] {
             let fault = table.fault.unwrap_or_default();
             let place = format!("{}:{}: the table test.bad: ", file!(), table.place.line());
