@@ -15,16 +15,12 @@ pub(crate) struct Decimal {
 impl Decimal {
     /// Reads a number such as 1.5e-4 with all its digits; zero keeps its decimals.
     pub fn read(text: &str) -> Decimal {
-        const MOST: i32 = 1_000_000;
         let text = text.trim_start_matches('-').to_lowercase();
         let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
         let decimals = mantissa.split_once('.').map_or(0, |(_, after)| after.len()) as i32;
         let digits: String = mantissa.replace('.', "").trim_start_matches('0').into();
-        let exponent = if digits.is_empty() {
-            0
-        } else {
-            exponent.parse().unwrap_or(-MOST).clamp(-MOST, MOST)
-        };
+        let exponent = exponent.parse().map_or(-1_000_000, i16::into);
+        let exponent: i32 = if digits.is_empty() { 0 } else { exponent };
         Decimal { digits, places: decimals - exponent }
     }
 

@@ -2,8 +2,8 @@
 //! them.
 
 use crate::value::Number;
-use impact_numerics::estimates;
-use impact_numerics::statistics::Estimate;
+use impact_numerics::estimates::{self, LEVEL, with_error};
+use impact_numerics::statistics::{Estimate, wilson};
 use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 
@@ -57,22 +57,27 @@ impl From<Sampled> for Number {
     }
 }
 
+fn of(values: usize, estimate: Estimate) -> Sampled {
+    Sampled { estimate, sample: Sample::Values(values as u64) }
+}
+
 /// Returns the mean of a sample; none of fewer than two values. Equal values have the error zero,
 /// by which no check judges: use [`share`] where each is yes or no, and a number without an error
 /// where there is no chance.
 pub fn average(values: &[f64]) -> Option<Sampled> {
-    let mut estimate = estimates::average(values)?;
-    if values.iter().all(|value| value == &values[0]) {
-        // And none that rounding made.
-        estimate = estimates::with_error(values[0], 0.0);
-    }
-    Some(Sampled { estimate, sample: Sample::Values(values.len() as u64) })
+    let found = estimates::average(values)?;
+    // Equal values have no error, also none by rounding.
+    let are_equal = values.iter().all(|value| value == &values[0]);
+    Some(of(values.len(), if are_equal { with_error(values[0], 0.0) } else { found }))
 }
 
-/// Returns the share `part`/`whole` with its binomial error; none if `whole` is 0. Its checks use
-/// the exact interval of Clopper and Pearson, so that 0 of 100 is not certain.
+/// Returns the share `part`/`whole` with its binomial error and Wilson's interval; none if `whole`
+/// is 0. None and all have the error of Wilson's interval, and checks use the exact interval.
 pub fn share(part: u64, whole: u64) -> Option<Sampled> {
-    Some(Sampled { estimate: estimates::share(part, whole)?, sample: Sample::Trials(whole) })
+    let found = estimates::share(part, whole)?;
+    let error = if found.error > 0.0 { found.error } else { 1.0 / (whole as f64 + 1.0) };
+    let estimate = Estimate { error, interval: wilson(part, whole, LEVEL)?, ..found };
+    Some(Sampled { estimate, sample: Sample::Trials(whole) })
 }
 
 /// Returns the difference a − b of estimates from independent samples, of which the smaller counts.
@@ -90,12 +95,10 @@ pub fn jackknife(
     realisations: usize,
     statistic: impl Fn(Option<usize>) -> Option<f64>,
 ) -> Option<Sampled> {
-    let estimate = estimates::jackknife(realisations, statistic)?;
-    Some(Sampled { estimate, sample: Sample::Values(realisations as u64) })
+    estimates::jackknife(realisations, statistic).map(|found| of(realisations, found))
 }
 
 /// Returns the ratio of two sums over realisations, with its jackknife error.
 pub fn ratio(pairs: &[[f64; 2]]) -> Option<Sampled> {
-    let estimate = estimates::ratio(pairs)?;
-    Some(Sampled { estimate, sample: Sample::Values(pairs.len() as u64) })
+    estimates::ratio(pairs).map(|found| of(pairs.len(), found))
 }

@@ -101,8 +101,8 @@ impl Evidence<'_> {
 
     /// Judges the number of a cell by its standard error alone: the printed one lies no further
     /// than chance at the level of the statistical checks allows, by Student's distribution for the
-    /// mean of few values and the exact interval for a share. Another number than that of a sample of
-    /// equal values, whose error is zero, leaves the statement undecided.
+    /// mean of few values and the exact interval for a share. Equal values have no error, and leave
+    /// a statement of another number undecided.
     #[track_caller]
     pub fn within_errors(&self, address: &str) -> Judged {
         let (chance, found) = (self.chance(address)?, self.number(address)?);
@@ -137,8 +137,8 @@ impl Evidence<'_> {
         if is_sure { Ok(None) } else { Ok(self.level()?.room(found)) }
     }
 
-    /// Starts the check of a cell: the printed number lies no further from it than `room` and chance
-    /// allow. The results do not decide it if chance is unknown.
+    /// Starts the check of a cell: the printed number lies no further from it than `room` and
+    /// chance allow. If chance is unknown, the results do not decide that it lies further.
     #[track_caller]
     fn compared(&self, address: &str, room: f64, chance: Option<[f64; 2]>) -> Judged {
         let (found, printed) = (self.estimate(address)?, self.statement.number()?);

@@ -29,9 +29,8 @@ impl CheckLevel {
         CheckLevel::of(self.claims.max(1) * rows.max(1)).quantile
     }
 
-    /// Returns how far chance may have moved an estimate up and down: the true number may lie so far
-    /// below and above it. None if that is unknown: its error is zero, as of a sample of equal
-    /// values, or its sample has fewer than two.
+    /// Returns how far below and above an estimate the true number may lie by chance. None if that
+    /// is unknown: its error is zero, as of equal values, or its sample has fewer than two.
     pub fn room(&self, found: Sampled) -> Option<[f64; 2]> {
         let (value, level) = (found.value, 1.0 - self.each);
         match found.sample {
@@ -57,8 +56,8 @@ mod tests {
     use crate::sample::{average, share};
     use impact_numerics::random::NormalPairs;
 
-    /// Of 4000 papers with four right numbers, means of few values, 40 have a check that fails, with
-    /// a deviation of six.
+    /// Of 4000 papers with four right numbers, means of few values, 40 have a check that fails,
+    /// with a deviation of six.
     #[test]
     fn one_in_a_hundred_papers_fails_however_few_the_values() {
         for (values, stream) in [(3, 0), (5, 4000), (20, 8000)] {
@@ -79,15 +78,13 @@ mod tests {
     /// The probability that a share is too far from the right one, summed over all samples.
     #[test]
     fn shares_near_nothing_and_all_fail_no_more_often() {
-        for (trials, right) in [3, 20, 100]
-            .into_iter()
-            .flat_map(|n| [1e-4, 0.003, 0.02, 0.1, 0.5, 0.98, 0.9999].map(|right: f64| (n, right)))
-        {
+        let rights = [1e-4_f64, 0.003, 0.02, 0.1, 0.5, 0.98, 0.9999];
+        for (trials, right) in [3, 20, 100].iter().flat_map(|n| rights.map(|right| (*n, right))) {
             let (mut failed, mut chance) = (0.0, (1.0 - right).powi(trials));
             for part in 0..=trials as u64 {
                 let found = share(part, trials as u64).unwrap();
                 let [below, above] = CheckLevel::of(1).room(found).unwrap();
-                assert!(below + above > 0.0);
+                assert!(below + above > 0.0 && found.error > 0.0);
                 if !(-below..=above).contains(&(right - found.value)) {
                     failed += chance;
                 }

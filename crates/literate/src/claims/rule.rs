@@ -242,8 +242,8 @@ mod tests {
         assert_eq!(checks[1].verdict, Verdict::Differs);
     }
 
-    /// Printed are 0.12 and 0.11. None of 20 and all of 20 exclude neither or both of them; equal
-    /// values exclude none, and so does 0.2 from three values with an error of 0.02, of 9.93 errors.
+    /// Printed is 0.12. None of 20 does not exclude it, none of 100 and all of 20 do. Equal values
+    /// do not, nor does 0.2 from three values: they allow 9.93 errors of 0.02.
     #[test]
     fn shares_equal_values_and_few_are_not_certain() {
         use crate::sample::{Sampled, average, share};

@@ -97,12 +97,7 @@ fn reference(entry: &Entry) -> Result<Reference, String> {
             ];
             vec![title, journal.concat()]
         }
-        EntryType::Book
-        | EntryType::Collection
-        | EntryType::Proceedings
-        | EntryType::MvBook
-        | EntryType::MvCollection
-        | EntryType::MvProceedings => {
+        EntryType::Book | EntryType::Collection | EntryType::Proceedings => {
             let edition = between(" (", ordinal(field("edition")?), " ed.)");
             vec![[slanted(title), edition].concat(), field("publisher")?]
         }
@@ -186,24 +181,23 @@ fn field(entry: &Entry, name: &str) -> Result<Vec<Inline>, String> {
 /// open from before.
 fn with_quotes(text: &str, open: &mut [bool; 2]) -> String {
     let text = text.replace("``", "“").replace("''", "”");
-    let mut signs = text.chars().peekable();
-    let mut shown = String::new();
-    while let Some(sign) = signs.next() {
-        let ends = !signs.peek().is_some_and(|next| next.is_alphanumeric());
-        shown.push(match sign {
-            '`' => '‘',
-            '\'' if open[0] && ends => '’',
-            '"' if open[1] => '”',
-            '"' if !ends => '“',
-            _ => sign,
-        });
-        match shown.chars().last() {
-            Some(mark @ ('‘' | '’')) => open[0] = mark == '‘',
-            Some(mark @ ('“' | '”')) => open[1] = mark == '“',
-            _ => (),
+    let ends = |at: usize| !text[at + 1..].starts_with(char::is_alphanumeric);
+    let set = |(at, sign): (usize, char)| match sign {
+        '`' => {
+            open[0] = true;
+            '‘'
         }
-    }
-    shown
+        '\'' if open[0] && ends(at) => {
+            open[0] = false;
+            '’'
+        }
+        '"' if open[1] || !ends(at) => {
+            open[1] = !open[1];
+            if open[1] { '“' } else { '”' }
+        }
+        _ => sign,
+    };
+    text.char_indices().map(set).collect()
 }
 
 /// Emphasises words. A title with a formula stands upright: GitHub renders none in emphasis.
@@ -298,6 +292,7 @@ mod tests {
 @misc{a, author={A}, title={T}, eprint={2010.12345}, archivePrefix={arXiv}, year=1} => A, 1: A. (1). *T*. [https://arxiv.org/abs/2010.12345](https://arxiv.org/abs/2010.12345)
 @online{a, author={A}, title={T}, organization={O}, url={https://x.org}, year=1} => A, 1: A. (1). *T*. O. [https://x.org](https://x.org)
 @book{a, author={A}, year=1, title="The {"}x{"} y", publisher={Kept}} => A, 1: A. (1). *The “x” y*. Kept.
+free { "text @comment{a "b} @book{a, author="M{\"u}ller, J AND D'Arcy, \'Ulf", year=1, title="On {"}Q{"}: \"Uber"} => Müller & D'Arcy, 1: Müller, J., & D'Arcy, Ú. (1). *On “Q”: Über*.
 @book{b, author={B}, year=1, title={``q'' and `r' of Royen's}} => B, 1: B. (1). *“q” and ‘r’ of Royen's*.
 @book{e, author={Garc{\'\i}a, J and D\'\i az, Jos\'e and Ho\v{c}\"{\i}~A. B.}, year=1, title={Na{\"\i}ve "\`\i"}} => García et al., 1: García, J., Díaz, J., & B., H. A. (1). *Naïve “ì”*.
 @string{x = "a"} @string{y = x # "b"} @book{a, author={A}, title=y # "c", year=1} => A, 1: A. (1). *abc*.

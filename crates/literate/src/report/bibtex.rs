@@ -46,14 +46,20 @@ fn prepared(text: &str) -> String {
             text = text.replace(&format!(r"\{accent}{macros}"), &format!(r"\{accent}{letter}"));
         }
     }
-    let (mut depth, mut before, mut is_quoted, mut is_literal) = (0, ' ', false, false);
+    let (mut depth, mut before) = (0, ' ');
+    let [mut is_entry, mut is_comment, mut is_quoted, mut is_literal] = [false; 4];
     let sign = |sign: char| {
         let mut set = sign;
         match sign {
-            _ if is_literal => (),
-            '{' => depth += 1,
-            '}' => depth -= 1,
-            '@' if depth < 1 => depth = 0,
+            '\n' => is_comment = false,
+            _ if is_comment || is_literal => (),
+            '%' if depth < 2 && !is_quoted => is_comment = true,
+            '@' if depth == 0 => is_entry = true,
+            '{' if is_entry => depth += 1,
+            '}' if depth > 0 => {
+                depth -= 1;
+                is_entry = depth > 0;
+            }
             '"' if depth == 1 && (is_quoted || ['=', '#'].contains(&before)) => {
                 set = if is_quoted { '}' } else { '{' };
                 is_quoted = !is_quoted;
@@ -61,7 +67,7 @@ fn prepared(text: &str) -> String {
             _ => (),
         }
         is_literal = sign == '\\' && !is_literal;
-        before = if sign.is_whitespace() { before } else { sign };
+        before = if is_comment || sign.is_whitespace() { before } else { sign };
         set
     };
     text.chars().map(sign).collect()
