@@ -4,6 +4,7 @@
 pub(crate) const MAX_DIGITS: usize = 1100;
 
 /// A decimal number without its sign: an integer, divided by a power of ten.
+#[derive(Debug, PartialEq)]
 pub(crate) struct Decimal {
     /// The digits of the integer, without zeros at the beginning; empty for zero.
     pub digits: String,
@@ -12,16 +13,21 @@ pub(crate) struct Decimal {
 }
 
 impl Decimal {
-    /// Reads a number such as 1.5e-4; zero has no decimals.
-    fn read(text: &str) -> Decimal {
-        let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
+    /// Reads a number such as 1.5e-4 with all its digits; zero keeps its decimals.
+    pub fn read(text: &str) -> Decimal {
+        let text = text.trim_start_matches('-').to_lowercase();
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
         let decimals = mantissa.split_once('.').map_or(0, |(_, after)| after.len()) as i32;
         let digits: String = mantissa.replace('.', "").trim_start_matches('0').into();
-        let places = if digits.is_empty() { 0 } else { decimals - exponent.parse().unwrap_or(0) };
-        Decimal { digits, places }
+        let exponent = exponent.parse().map_or(-1_000_000, i16::into);
+        let exponent: i32 = if digits.is_empty() { 0 } else { exponent };
+        Decimal { digits, places: decimals - exponent }
     }
 
     pub fn exact(x: f64) -> Decimal {
+        if x == 0.0 {
+            return Decimal { digits: String::new(), places: 0 };
+        }
         // No double has more decimals than bits behind its point.
         let decimals = 1075 - (x.to_bits() >> 52 & 0x7ff).clamp(1, 1075) as usize;
         Decimal::read(&format!("{:.decimals$}", x.abs()))
@@ -30,6 +36,14 @@ impl Decimal {
     /// Returns the shortest decimal that reads back to the same double as |x|.
     pub fn shortest(x: f64) -> Decimal {
         Decimal::read(&format!("{:e}", x.abs()))
+    }
+
+    /// Leaves zeros at the end of the digits out.
+    pub fn trimmed(mut self) -> Decimal {
+        let kept = self.digits.trim_end_matches('0').len();
+        self.places -= (self.digits.len() - kept) as i32;
+        self.digits.truncate(kept);
+        self
     }
 
     pub fn integer(n: i128) -> Decimal {

@@ -49,11 +49,10 @@ pub mod prelude {
     pub use crate::claims::{Basis, Check, Evidence, Judged, Rule, Text};
     pub use crate::experiments::{Command, Error, Experiment, Profile, Progress, Results};
     pub use crate::figures::prelude::{Error as FigureError, *};
+    pub use crate::sample::{average, difference, jackknife, ratio, share};
     pub use crate::table::Table;
     pub use crate::{Failure, Paper, numbers, sources};
-    pub use impact_numerics::estimates::{
-        average, difference, jackknife, ratio, share, with_error,
-    };
+    pub use impact_numerics::estimates::with_error;
     pub use impact_numerics::random::{NormalPairs, generator};
     pub use impact_numerics::statistics::Estimate;
     pub use rand::RngExt;
@@ -62,6 +61,7 @@ mod print;
 pub mod project;
 pub mod prose;
 pub mod report;
+pub mod sample;
 mod source;
 pub mod table;
 pub mod value;

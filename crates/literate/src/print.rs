@@ -4,7 +4,7 @@
 //! the decimal conversion of Rust is used, which rounds exactly and alike on every platform.
 
 use crate::decimal::Decimal;
-use crate::value::{Digits, Number, Value};
+use crate::value::{Digits, Number, Value, Written};
 
 /// What filters of a template change of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -49,16 +49,26 @@ pub fn print(number: &Number, style: Style) -> Shown {
             (n < 0, numeral)
         }
         Number::Real { value, digits } => {
+            let read = |else_as: fn(f64) -> Decimal| match digits {
+                Digits::Text(Written(text)) => Decimal::read(text),
+                _ => else_as(value),
+            };
             let numeral = match style.digits.unwrap_or(digits) {
                 Digits::Error(error) => with_error(value, error, power),
                 Digits::Significant(n) => {
-                    numeral(Decimal::exact(value).significant(n).times_ten(power))
+                    numeral(read(Decimal::exact).significant(n).times_ten(power))
                 }
                 Digits::Decimals(n) => {
-                    let rounded = Decimal::exact(value).rounded((n as i32).max(power));
+                    let rounded = read(Decimal::exact).rounded((n as i32).max(power));
                     plain(rounded.times_ten(power).written())
                 }
-                Digits::Full => numeral(Decimal::shortest(value).times_ten(power)),
+                Digits::Full | Digits::Text(_) => match (read(Decimal::shortest), digits) {
+                    (zero, Digits::Text(_)) if zero.digits.is_empty() => plain(zero.written()),
+                    (whole, Digits::Text(_)) if whole.places == power => {
+                        plain(grouped(whole.times_ten(power).written()))
+                    }
+                    (full, _) => numeral(full.times_ten(power)),
+                },
             };
             (value < 0.0, numeral)
         }
@@ -135,13 +145,21 @@ fn plain(digits: String) -> Numeral {
 
 /// Prints a number with one digit of its error in brackets, or two after a leading 1.
 fn with_error(x: f64, error: f64, power: i32) -> Numeral {
-    if error <= 0.0 || !error.is_finite() {
-        return numeral(Decimal::shortest(x).times_ten(power));
+    if error == 0.0 {
+        // Rounding may have spoilt more digits than these.
+        return numeral(Decimal::exact(x).significant(15).trimmed().times_ten(power));
+    }
+    let shortest = || numeral(Decimal::shortest(x).times_ten(power));
+    if error < 0.0 || !error.is_finite() {
+        return Numeral { error: Some(error.to_string()), ..shortest() };
     }
     let error = Decimal::exact(error);
     let one = error.significant(1);
     let two = one.digits == "1" || error.significant(2).digits.starts_with('1');
     let places = i32::from(two) - one.exponent();
+    if x != 0.0 && places + Decimal::exact(x).exponent() > 16 {
+        return shortest();
+    }
     let number = numeral(Decimal::exact(x).rounded(places).times_ten(power));
     let error = error.rounded(places).times_ten(power - number.exponent.unwrap_or(0));
     // In units of the last digit, unless it reaches over the point: 0.1165(4), but 16.0(1.2).
@@ -204,6 +222,10 @@ mod tests {
             (-3.16, 0.2, "-3.2(2)"),
             (0.0, 0.03, "0.00(3)"),
             (101.0, 0.0, "101"),
+            (0.1 + 0.2, 0.0, "0.3"),
+            (0.1, 1e-30, "0.1"),
+            (0.1, 3e-17, "0.10000000000000001(3)"),
+            (0.1, -0.02, "0.1(-0.02)"),
             (3.14e-8, 2e-9, "3.1(2)e-8"),
             (2.5e9, 3e7, "2.50(3)e9"),
             (9.996, 0.02, "10.00(2)"),

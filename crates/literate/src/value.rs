@@ -4,8 +4,11 @@
 //! it, it becomes a [`Value`] with an id, and a template names that id: `«v.version»`. The
 //! printed digits follow from the value itself, so that prose, tables and `values.json` agree.
 
+use crate::sample::Sample;
 use impact_numerics::statistics::Estimate;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -24,10 +27,12 @@ pub enum Number {
 }
 
 impl Number {
-    /// Returns whether neither number nor error is infinite or NaN.
+    /// Returns whether neither number nor error is infinite or NaN, and no error is negative.
     pub(crate) fn is_finite(&self) -> bool {
         match *self {
-            Number::Real { value, digits: Digits::Error(e) } => value.is_finite() && e.is_finite(),
+            Number::Real { value, digits: Digits::Error(error) } => {
+                value.is_finite() && error.is_finite() && error >= 0.0
+            }
             Number::Real { value, .. } => value.is_finite(),
             _ => true,
         }
@@ -97,6 +102,28 @@ pub enum Digits {
     Decimals(usize),
     /// All: the shortest decimal that reads back to the same double.
     Full,
+    /// Those of a text, which may be more than a double holds: 0.50.
+    Text(Written),
+}
+
+/// A number as it was written, kept once for all its cells as long as the program runs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Written(pub(crate) &'static str);
+
+impl Written {
+    pub(crate) fn new(text: &str) -> Written {
+        static ALL: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+        let mut all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = all.get(text).copied().unwrap_or_else(|| Box::leak(text.into()));
+        all.insert(known);
+        Written(known)
+    }
+}
+
+impl<'de> Deserialize<'de> for Written {
+    fn deserialize<D: Deserializer<'de>>(reader: D) -> Result<Self, D::Error> {
+        Ok(Written::new(&String::deserialize(reader)?))
+    }
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -110,11 +137,11 @@ pub enum Provenance {
     Ensemble {
         realisations: u64,
         standard_error: f64,
+        #[serde(default, skip_serializing_if = "Sample::is_unknown")]
+        sample: Sample,
     },
     /// Printed in the paper, at this section, figure or equation.
-    Printed {
-        place: String,
-    },
+    Printed { place: String },
     /// Measured once on a machine (times), and an input since then.
     Measured,
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+use statrs::function::beta::inv_beta_reg;
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
@@ -78,6 +79,17 @@ pub fn wilson(successes: u64, trials: u64, level: f64) -> Option<[f64; 2]> {
     (trials > 0).then_some([low, high])
 }
 
+/// Returns the exact interval of a proportion, of Clopper and Pearson; none without trials.
+pub fn clopper_pearson(successes: u64, trials: u64, level: f64) -> Option<[f64; 2]> {
+    let (s, n, tail) = (successes as f64, trials as f64, 0.5 - 0.5 * level);
+    let end = |p: f64| (p * 1e9).round() / 1e9;
+    let low = || end(inv_beta_reg(s, n - s + 1.0, tail));
+    let high = || end(inv_beta_reg(s + 1.0, n - s, 1.0 - tail));
+    let low = if successes == 0 { 0.0 } else { low() };
+    let high = if successes >= trials { 1.0 } else { high() };
+    (trials > 0).then_some([low, high])
+}
+
 /// Finds where y(x) rises to `level` for good, linear between the points that have a value: from
 /// there on none is below it. None if y ends below the level or never lies below it.
 pub fn last_rise(x: &[f64], y: &[Option<f64>], level: f64) -> Option<f64> {
@@ -145,6 +157,21 @@ mod tests {
         assert_eq!(wilson(0, 10, 0.95).unwrap()[0], 0.0);
         assert_eq!(wilson(10, 10, 0.95).unwrap()[1], 1.0);
         assert_eq!(wilson(0, 0, 0.95), None);
+    }
+
+    /// As printed tables have it, and, without successes, as 1 − (α/2)^(1/n).
+    #[test]
+    fn exact_intervals_of_tables() {
+        for (s, n, level, printed) in [
+            (3, 10, 0.95, [0.0667, 0.6525]),
+            (0, 10, 0.95, [0.0, 0.3085]),
+            (10, 10, 0.95, [0.6915, 1.0]),
+            (0, 100, 0.99, [0.0, 1.0 - 0.005_f64.powf(0.01)]),
+        ] {
+            let found = clopper_pearson(s, n, level).unwrap();
+            assert!((0..2).all(|i| (found[i] - printed[i]).abs() < 5.1e-5), "{found:?}");
+        }
+        assert_eq!(clopper_pearson(0, 0, 0.95), None);
     }
 
     /// As tables print it; with one degree of freedom, tan(π · level/2).

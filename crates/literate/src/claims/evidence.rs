@@ -5,9 +5,10 @@ use super::level::CheckLevel;
 use super::published::{Published, PublishedError, Statement};
 use super::text::Text;
 use crate::experiments::{self, Results};
+use crate::sample::Sampled;
 use crate::table::{self, Missing};
 use crate::text;
-use crate::value::{Digits, Number};
+use crate::value::{Digits, Number, Provenance};
 use impact_numerics::statistics::Estimate;
 
 #[derive(Debug, thiserror::Error)]
@@ -91,45 +92,57 @@ impl Evidence<'_> {
     #[track_caller]
     pub fn cell(&self, address: &str) -> Judged {
         let half = self.statement.half_unit();
-        let (room, reason) = match self.standard_errors(address)? {
-            0.0 => (half, "half a unit of the last printed digit"),
-            errors => {
-                (half + errors, "half a unit of the last printed digit, and the statistical error")
-            }
+        let chance = self.chance(address)?;
+        let reason = match chance {
+            None | Some([0.0, 0.0]) => "half a unit of the last printed digit",
+            _ => "half a unit of the last printed digit, and the statistical error",
         };
-        let check = self.compared(address, room)?.within(text!("± {:1}", half), reason);
+        let check = self.compared(address, half, chance)?.within(text!("± {:1}", half), reason);
         Ok(Check { basis: Basis::PrintedDigit, ..check })
     }
 
-    /// Judges the number of a cell by its standard error alone: it lies as many of them from the
-    /// printed one, at most, as the level of the statistical checks allows.
+    /// Judges the number of a cell by its standard error alone: the printed one lies no further
+    /// than chance at the level of the statistical checks allows, by Student's distribution for the
+    /// mean of few values and the exact interval for a share. Equal values have no error, and leave
+    /// a statement of another number undecided.
     #[track_caller]
     pub fn within_errors(&self, address: &str) -> Judged {
-        let room = self.standard_errors(address)?;
+        let (chance, found) = (self.chance(address)?, self.number(address)?);
+        let [below, above] = chance.unwrap_or_default();
+        let tolerance = if below == above {
+            text!("± {:1}", above)
+        } else {
+            text!("{:2} to {:2}", found - below, found + above)
+        };
         let reason = "standard errors at the level of the table";
-        let check = self.compared(address, room)?.within(text!("± {:1}", room), reason);
+        let check = self.compared(address, 0.0, chance)?.within(tolerance, reason);
         Ok(Check { basis: Basis::Statistics, ..check })
     }
 
     /// Judges the number of a cell by a measure of ours: it lies no further from the printed one.
     #[track_caller]
     pub fn near(&self, address: &str, tolerance: f64, reason: &str) -> Judged {
-        let check = self.compared(address, tolerance)?.within(text!("± {}", tolerance), reason);
+        let check = self.compared(address, tolerance, Some([0.0; 2]))?;
+        let check = check.within(text!("± {}", tolerance), reason);
         Ok(Check { basis: Basis::OurMeasure, ..check })
     }
 
-    /// Returns how far chance may move the number of a cell; 0 if it has no standard error.
+    /// Returns how far below and above that of a cell the true number may lie by chance; none if
+    /// that is unknown.
     #[track_caller]
-    fn standard_errors(&self, address: &str) -> Result<f64, Error> {
-        match self.estimate(address)?.error {
-            error if error > 0.0 => Ok(self.level()?.quantile * error),
-            _ => Ok(0.0),
-        }
+    fn chance(&self, address: &str) -> Result<Option<[f64; 2]>, Error> {
+        let Provenance::Ensemble { sample, .. } = self.results.cell(address)?.kind else {
+            return Ok(Some([0.0; 2]));
+        };
+        let found = Sampled { estimate: self.estimate(address)?, sample };
+        let is_sure = sample.is_unknown() && found.error == 0.0;
+        if is_sure { Ok(None) } else { Ok(self.level()?.room(found)) }
     }
 
-    /// Starts the check of a cell whose number lies no further from the printed one than `room`.
+    /// Starts the check of a cell: the printed number lies no further from it than `room` and
+    /// chance allow. If chance is unknown, the results do not decide that it lies further.
     #[track_caller]
-    fn compared(&self, address: &str, room: f64) -> Judged {
+    fn compared(&self, address: &str, room: f64, chance: Option<[f64; 2]>) -> Judged {
         let (found, printed) = (self.estimate(address)?, self.statement.number()?);
         let found_number = match self.results.cell(address)?.number {
             Number::Real { value, .. } if found.error == 0.0 => {
@@ -144,7 +157,12 @@ impl Evidence<'_> {
             return Err(Error::Rule(format!("{problem}; {remedy}")));
         }
         // The last bit may be rounded.
+        let [below, above] = chance.unwrap_or_default();
+        let room = room + if printed < found.value { below } else { above };
         let agrees = (found.value - printed).abs() <= room * (1.0 + 1e-9);
+        if !agrees && chance.is_none() {
+            return Err(Error::Undecided);
+        }
         Ok(self.found(found_number, agrees))
     }
 

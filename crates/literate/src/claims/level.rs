@@ -1,6 +1,7 @@
 //! Computes the level of each statistical check, so that all together rarely fail by chance.
 
-use impact_numerics::statistics::normal_quantile;
+use crate::sample::{Sample, Sampled};
+use impact_numerics::statistics::{clopper_pearson, normal_quantile, student_quantile};
 
 /// The probability that at least one statistical check fails although all hold (ours).
 pub const FAMILY_LEVEL: f64 = 0.01;
@@ -27,11 +28,72 @@ impl CheckLevel {
     pub fn among(self, rows: usize) -> f64 {
         CheckLevel::of(self.claims.max(1) * rows.max(1)).quantile
     }
+
+    /// Returns how far below and above an estimate the true number may lie by chance. None if that
+    /// is unknown: its error is zero, as of equal values, or its sample has fewer than two.
+    pub fn room(&self, found: Sampled) -> Option<[f64; 2]> {
+        let (value, level) = (found.value, 1.0 - self.each);
+        match found.sample {
+            Sample::Trials(_) if !(0.0..=1.0).contains(&value) => Some([0.0; 2]),
+            Sample::Trials(trials) => {
+                let part = (value * trials as f64).round() as u64;
+                let [low, high] = clopper_pearson(part, trials, level)?;
+                Some([value - low, high - value])
+            }
+            _ if found.error <= 0.0 => None,
+            Sample::Values(values) => {
+                let quantile = student_quantile(level, values.checked_sub(1)? as usize)?;
+                Some([(100.0 * quantile).ceil() / 100.0 * found.error; 2])
+            }
+            Sample::Unknown => Some([self.quantile * found.error; 2]),
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sample::{average, share};
+    use impact_numerics::random::NormalPairs;
+
+    /// Of 4000 papers with four right numbers, means of few values, 40 have a check that fails,
+    /// with a deviation of six.
+    #[test]
+    fn one_in_a_hundred_papers_fails_however_few_the_values() {
+        for (values, stream) in [(3, 0), (5, 4000), (20, 8000)] {
+            let level = CheckLevel::of(4);
+            let fails = |paper: &u64| {
+                let mut normals = NormalPairs::new("papers", 1, stream + paper);
+                (0..4).any(|_| {
+                    let sample: Vec<f64> = (0..values).map(|_| normals.pair()[0]).collect();
+                    let mean = average(&sample).unwrap();
+                    mean.value.abs() > level.room(mean).unwrap()[0]
+                })
+            };
+            let failed = (0..4000).filter(fails).count();
+            assert!((15..65).contains(&failed), "{values}: {failed}");
+        }
+    }
+
+    /// The probability that a share is too far from the right one, summed over all samples.
+    #[test]
+    fn shares_near_nothing_and_all_fail_no_more_often() {
+        let rights = [1e-4_f64, 0.003, 0.02, 0.1, 0.5, 0.98, 0.9999];
+        for (trials, right) in [3, 20, 100].iter().flat_map(|n| rights.map(|right| (*n, right))) {
+            let (mut failed, mut chance) = (0.0, (1.0 - right).powi(trials));
+            for part in 0..=trials as u64 {
+                let found = share(part, trials as u64).unwrap();
+                let [below, above] = CheckLevel::of(1).room(found).unwrap();
+                assert!(below + above > 0.0 && found.error > 0.0);
+                if !(-below..=above).contains(&(right - found.value)) {
+                    failed += chance;
+                }
+                let left = (trials as u64 - part) as f64;
+                chance *= left / (part as f64 + 1.0) * right / (1.0 - right);
+            }
+            assert!(failed <= FAMILY_LEVEL, "{failed} of {trials} at {right}");
+        }
+    }
 
     /// Printed tables of the normal distribution have z(0.995) = 2.5758 and z(0.99975) = 3.4808;
     /// Šidák's level for 20 checks is 5.024e-4, a little above 5e-4, and z a little below.

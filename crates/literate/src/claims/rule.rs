@@ -267,6 +267,34 @@ mod tests {
         assert_eq!(checks[1].verdict, Verdict::Differs);
     }
 
+    /// Printed is 0.12. None of 20 does not exclude it, none of 100 and all of 20 do. Equal values
+    /// do not, nor does 0.2 from three values: they allow 9.93 errors of 0.02.
+    #[test]
+    fn shares_equal_values_and_few_are_not_certain() {
+        use crate::sample::{Sampled, average, share};
+        let judge = |found: Option<Sampled>, judge: fn(&Evidence<'_>) -> Judged| {
+            let table = Table::of("toy.all", &[()], |()| 9).estimate("mean", "1", "", |()| found);
+            let published = Published::parse(PUBLISHED).unwrap();
+            let results = Results::made_up(vec![table.done()]);
+            let rule = [Rule::new("rise", judge).statistical()];
+            let mut checks = judge_all(&published, &rule, &results).unwrap();
+            (checks[0].verdict, std::mem::take(&mut checks[0].tolerance).to_string())
+        };
+        let within = |found| judge(found, |e| e.within_errors("toy.all.mean"));
+        use Verdict::{CannotBeJudged as Open, Differs as No, Reproduced as Yes};
+        assert_eq!(within(share(0, 20)), (Yes, "0 to 0.23".into()));
+        assert_eq!(within(share(0, 100)), (No, "0 to 0.052".into()));
+        assert_eq!(within(share(20, 20)), (No, "0.77 to 1.0".into()));
+        let near = [0.2, 0.2 - 0.02 * 3_f64.sqrt(), 0.2 + 0.02 * 3_f64.sqrt()];
+        assert_eq!(within(average(&near)), (Yes, "± 0.2".into()));
+        assert_eq!(within(average(&[0.2; 9])).0, Open);
+        assert_eq!(within(average(&[0.12; 9])).0, Yes);
+        for (value, verdict) in [(0.2, Open), (0.124, Yes)] {
+            let cell = judge(average(&[value; 9]), |e| e.cell("toy.all.mean"));
+            assert_eq!(cell.0, verdict);
+        }
+    }
+
     /// One rule can fail; one does so only if its number has another sign, which is no small change
     /// of an explanation; one stays open, one is decided by other results, and one panics.
     #[test]

@@ -18,10 +18,11 @@ use std::collections::BTreeMap;
 ///
 /// Saved results are used where they are fresh; what is missing is run. Exit code 1 says that a
 /// statement differs without an explanation that holds, that a relation between numbers does not
-/// hold, or that the report is not as prose and results would make it. Each statement with a printed number is judged once more with another first digit in it;
-/// those that are still reproduced or explained are named. Each is judged by wrong results too:
-/// the numbers that its rule reads are changed one after the other, and a verdict that stays the
-/// same is named. With -v this is also done, in some seconds, where the verdict is open.
+/// hold, or that the report is not as prose and results would make it. Each statement with a
+/// printed number is judged once more with another first digit in it; those that are still
+/// reproduced or explained are named. Each is judged by wrong results too: the numbers that its
+/// rule reads are changed one after the other, and a verdict that stays the same is named. With -v
+/// this is also done, in some seconds, where the verdict is open.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {

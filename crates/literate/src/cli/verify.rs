@@ -30,8 +30,8 @@ pub(super) struct Args {
     /// byte by byte.
     #[arg(long)]
     rerun: bool,
-    /// Take results of long runs from this folder, where they are fresh; with --rerun keep them there
-    /// [default: target/results in the project, with --rerun none].
+    /// Take results of long runs from this folder, where they are fresh; with --rerun keep them
+    /// there [default: target/results in the project, with --rerun none].
     #[arg(long, value_name = "DIR")]
     results: Option<PathBuf>,
     /// Read the prose from this folder [default: that of the project, or the copy inside the

@@ -1,11 +1,13 @@
 //! Reads the tables that a command printed.
 
-use crate::table::{Building, Table, called, no_such};
-use crate::value::{Number, Origin};
+use crate::decimal::Decimal;
+use crate::table::{Building, Table, no_such};
+use crate::value::{Digits, Number, Origin, Written};
 use impact_numerics::estimates::with_error;
 use serde::de::{Error, MapAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value as Json;
+use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -22,7 +24,28 @@ pub(super) struct PrintedTable {
     digits: BTreeMap<String, usize>,
     #[serde(default)]
     meanings: BTreeMap<String, String>,
-    rows: Vec<Vec<Json>>,
+    rows: Vec<Vec<Cell>>,
+}
+
+/// A cell, and as what it was printed: a double may have fewer digits.
+#[derive(Clone, Debug, PartialEq)]
+struct Cell {
+    json: Json,
+    text: String,
+}
+
+impl<'de> Deserialize<'de> for Cell {
+    fn deserialize<D: Deserializer<'de>>(reader: D) -> Result<Self, D::Error> {
+        let text = Box::<RawValue>::deserialize(reader)?.get().to_string();
+        Ok(Cell { json: serde_json::from_str(&text).map_err(D::Error::custom)?, text })
+    }
+}
+
+impl Serialize for Cell {
+    fn serialize<S: Serializer>(&self, writer: S) -> Result<S::Ok, S::Error> {
+        let text = RawValue::from_string(self.text.clone());
+        text.map_err(serde::ser::Error::custom)?.serialize(writer)
+    }
 }
 
 /// Reads the tables of a command by their names, each of which may stand only once.
@@ -94,12 +117,12 @@ impl PrintedTable {
         table.fault()?.splitn(3, ": ").nth(2).map(String::from)
     }
 
-    fn fault_in(&self, row: &[Json]) -> Option<String> {
+    fn fault_in(&self, row: &[Cell]) -> Option<String> {
         let all = self.names().count();
         if row.len() != all {
             return Some(format!("has {} cells for {all} names", row.len()));
         }
-        for (at, (name, cell)) in self.names().zip(row).enumerate() {
+        for (at, (name, Cell { json: cell, .. })) in self.names().zip(row).enumerate() {
             if cell.is_array() || cell.is_object() {
                 return Some(format!("has more than a number or a word as {name}"));
             }
@@ -107,7 +130,7 @@ impl PrintedTable {
                 return Some(format!("has no {name}, which is a key"));
             }
             if let Some(error) = self.error_of(name).filter(|_| !cell.is_null()) {
-                let valid = row[error].as_f64().is_some_and(|error| error >= 0.0);
+                let valid = row[error].json.as_f64().is_some_and(|error| error >= 0.0);
                 if cell.as_f64().is_none() || !valid {
                     let names = format!("{name} and {name}_error, or null as {name}");
                     return Some(format!("needs numbers as {names}"));
@@ -132,18 +155,21 @@ impl PrintedTable {
 
     fn add<'a>(
         &'a self,
-        table: Building<'a, Vec<Json>>,
+        table: Building<'a, Vec<Cell>>,
         at: usize,
         name: &'static str,
-    ) -> Building<'a, Vec<Json>> {
+    ) -> Building<'a, Vec<Cell>> {
         let is_key = at < self.keys.len();
         let unit = self.units.get(name).map_or("1", |unit| leaked(unit));
         let meaning = self.meanings.get(name).map_or("", String::as_str);
-        let number = move |row: &Vec<Json>| row[at].as_f64();
-        let exact = move |row: &Vec<Json>| exact(&row[at]);
-        if self.rows.iter().any(|row| row[at].is_string() || row[at].is_boolean()) {
-            let words = move |row: &Vec<Json>| called(&exact(row));
-            let cell = move |row: &Vec<Json>| (!row[at].is_null()).then(|| words(row));
+        let number = move |row: &Vec<Cell>| row[at].json.as_f64();
+        let exact = move |row: &Vec<Cell>| row[at].exact();
+        if self.rows.iter().any(|row| row[at].json.is_string() || row[at].json.is_boolean()) {
+            let words = move |row: &Vec<Cell>| {
+                let Cell { json, text } = &row[at];
+                json.as_str().unwrap_or(text).to_string()
+            };
+            let cell = move |row: &Vec<Cell>| (!row[at].json.is_null()).then(|| words(row));
             return if is_key {
                 table.text_key(name, words)
             } else {
@@ -155,7 +181,7 @@ impl PrintedTable {
         }
         if let Some(error) = self.error_of(name) {
             return table.estimate(name, unit, meaning, move |row| {
-                Some(with_error(number(row)?, row[error].as_f64()?))
+                Some(with_error(number(row)?, row[error].json.as_f64()?))
             });
         }
         match self.digits.get(name) {
@@ -165,15 +191,20 @@ impl PrintedTable {
     }
 }
 
-/// Returns a cell with all its digits, or its words; none for null.
-fn exact(cell: &Json) -> Number {
-    match cell {
-        Json::Null => Number::None,
-        Json::String(words) => Number::Text(words.clone()),
-        Json::Number(number) => {
-            number.as_i128().map_or_else(|| number.as_f64().into(), Number::Integer)
+impl Cell {
+    /// Returns it with all its digits; none for null.
+    fn exact(&self) -> Number {
+        let Json::Number(number) = &self.json else { return Number::None };
+        let value = number.as_f64().unwrap_or(f64::NAN);
+        let (number, full) = match number.as_i128() {
+            Some(n) => (Number::Integer(n), Decimal::integer(n)),
+            None => (value.into(), Decimal::shortest(value)),
+        };
+        // A double says nothing of digits that it lacks, and of zeros at the end.
+        if Decimal::read(&self.text) == full {
+            return number;
         }
-        _ => Number::Text(cell.to_string()),
+        Number::Real { value, digits: Digits::Text(Written::new(&self.text)) }
     }
 }
 

@@ -132,7 +132,7 @@ impl Cards<'_> {
             let full = Style { digits: Some(Digits::Full), ..Style::default() };
             card.words("in full", &print(&value.number, full).plain());
         }
-        if let Provenance::Ensemble { realisations, standard_error } = &value.kind {
+        if let Provenance::Ensemble { realisations, standard_error, .. } = &value.kind {
             card.words("standard error", &standard_error.to_string());
             if *realisations > 0 {
                 card.words("realisations", &realisations.to_string());

@@ -9,6 +9,7 @@
 
 pub(crate) mod assemble;
 pub mod bibliography;
+mod bibtex;
 pub(crate) mod card;
 pub(crate) mod claims;
 pub(crate) mod document;
@@ -27,6 +28,7 @@ pub(crate) mod mark;
 pub mod markdown;
 mod mathml;
 pub mod parse;
+mod people;
 mod search;
 pub(crate) mod tex;
 pub mod values;

@@ -1,8 +1,8 @@
 //! Makes a table: each call adds a column, keys first.
 
 use super::rows::{Column, Table, called};
+use crate::sample::Sampled;
 use crate::value::{Digits, Number, Origin, Provenance, Value, origin_of};
-use impact_numerics::statistics::Estimate;
 use std::collections::BTreeSet;
 use std::panic::Location;
 use std::rc::Rc;
@@ -101,7 +101,7 @@ impl<'a, R> Building<'a, R> {
     }
 
     /// Adds a number from chance with its standard error; none where the sample decides nothing.
-    pub fn estimate<F: Fn(&R) -> Option<Estimate>>(
+    pub fn estimate<E: Into<Sampled>, F: Fn(&R) -> Option<E>>(
         self,
         name: &'static str,
         unit: &'static str,
@@ -109,10 +109,10 @@ impl<'a, R> Building<'a, R> {
         get: F,
     ) -> Self {
         let number = self.number.clone();
-        self.put((name, unit), meaning, get, |row, found| match found {
-            Some(Estimate { error, .. }) => {
-                let realisations = number(row) as u64;
-                (found.into(), Provenance::Ensemble { realisations, standard_error: error })
+        self.put((name, unit), meaning, get, |row, found| match found.map(E::into) {
+            Some(Sampled { estimate, sample }) => {
+                let (realisations, standard_error) = (number(row) as u64, estimate.error);
+                (estimate.into(), Provenance::Ensemble { realisations, standard_error, sample })
             }
             None => (Number::None, Provenance::Exact),
         })

@@ -1,7 +1,7 @@
 //! Writes data files: whole tables and the points of figures as CSV.
 
 use super::rows::{Column, Table};
-use crate::value::{Number, Provenance};
+use crate::value::{Digits, Number, Provenance, Written};
 use std::borrow::Cow;
 
 impl DataFile {
@@ -43,6 +43,7 @@ fn written(number: &Number) -> String {
     match number {
         Number::None => String::new(),
         Number::Integer(n) => n.to_string(),
+        Number::Real { digits: Digits::Text(Written(text)), .. } => text.to_string(),
         Number::Real { value, .. } => format!("{value:?}"),
         Number::Text(words) => words.clone(),
     }

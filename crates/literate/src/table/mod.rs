@@ -19,5 +19,4 @@ pub use data::{DataFile, shortest};
 pub use find::{Tables, cell, number_at, table, table_of};
 pub(crate) use missing::no_such;
 pub use missing::{Missing, nearest};
-pub(crate) use rows::called;
 pub use rows::{Keys, Table, number};

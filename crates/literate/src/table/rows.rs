@@ -1,8 +1,9 @@
 //! Holds the cells of a table, and finds them by addresses and keys.
 
 use super::missing::{Missing, NO_NUMBER, no_such};
+use crate::decimal::Decimal;
 use crate::input::place;
-use crate::value::{Number, Value};
+use crate::value::{Digits, Number, Value, Written};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 use std::panic::Location;
@@ -221,10 +222,15 @@ fn different<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
     found
 }
 
-pub(crate) fn called(key: &Number) -> String {
+pub(super) fn called(key: &Number) -> String {
     match key {
         Number::None => "none".into(),
         Number::Integer(n) => n.to_string(),
+        Number::Real { value, digits: Digits::Text(Written(text)) }
+            if Decimal::read(text).trimmed() != Decimal::shortest(*value).trimmed() =>
+        {
+            text.to_string()
+        }
         Number::Real { value, .. } => value.to_string(),
         Number::Text(words) => words.clone(),
     }
@@ -250,6 +256,7 @@ pub fn number(cell: &Value) -> Option<f64> {
 mod tests {
     use super::super::{DataFile, Tables, cell, table_of};
     use super::*;
+    use crate::sample::Sample;
     use crate::value::Provenance;
     use std::sync::Arc;
 
@@ -279,7 +286,9 @@ mod tests {
         let table = table();
         let at = |address| table.at(address).unwrap();
         let cell = at("test.rise[r=0.8,sigma=0.3].mean");
-        assert_eq!(cell.kind, Provenance::Ensemble { realisations: 2, standard_error: 0.5 });
+        let sample = Sample::Unknown;
+        let kind = Provenance::Ensemble { realisations: 2, standard_error: 0.5, sample };
+        assert_eq!(cell.kind, kind);
         assert_eq!(cell.source, "literate::table::rows::tests::mean");
         assert_eq!((cell.experiment.as_str(), cell.note.as_str()), ("test", "the mean"));
         assert_eq!(table_of(&cell.id), Some("test.rise"));
@@ -324,14 +333,17 @@ mod tests {
         let columns = one(&[1.0]).chosen("x", "1", "", |_| 1.0).count("x", "", |_| 2).done();
         let late = one(&[1.0]).chosen("x", "1", "", |_| 1.0).key("s", "1", |row| *row).done();
         let nan = one(&[1.0, 0.0]).real("x", "1", 3, "", |row| 1.0 / row).done();
-        let error = Estimate { value: 1.0, error: f64::NAN, interval: [0.0; 2] };
-        let error = one(&[1.0]).estimate("x", "1", "", |_| Some(error)).done();
+        let [error, negative] = [f64::NAN, -0.5].map(|error| {
+            let found = Estimate { value: 1.0, error, interval: [0.0; 2] };
+            one(&[1.0]).estimate("x", "1", "", |_| Some(found)).done()
+        });
         for (table, what) in [
             (twice, "two rows have the keys [r=1]"),
             (columns, "two columns have the name x"),
             (late, "the key s stands after other columns"),
             (nan, "test.bad[r=0].x is inf; "),
-            (error, "test.bad[r=1].x is 1"),
+            (error, "test.bad[r=1].x is 1(NaN)"),
+            (negative, "test.bad[r=1].x is 1(-0.5)"),
         ] {
             let fault = table.fault.unwrap_or_default();
             let place = format!("{}:{}: the table test.bad: ", file!(), table.place.line());

@@ -60,6 +60,37 @@ fn its_tables_are_those_of_any_experiment() {
 }
 
 #[test]
+fn its_numbers_have_all_the_digits_that_were_printed() {
+    let numbers = [
+        ("0.50", "0.50"),
+        ("5.0", "5.0"),
+        ("0.000", "0.000"),
+        ("-7", "-7"),
+        ("1.50E-7", "1.50e-7"),
+        ("3.14159265358979323846", "3.14159265358979323846"),
+        ("123456789012345678901", "123456789012345678901"),
+        (
+            "-98765432109876543210987654321098765432109876543210.125",
+            "-9.8765432109876543210987654321098765432109876543210125e49",
+        ),
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let rows = numbers.map(|(printed, _)| format!("[{printed}, {printed}]")).join(", ");
+    let keys = r#""keys": ["n"], "columns": ["v"]"#;
+    let script = format!("echo '{{\"t\": {{{keys}, \"rows\": [{rows}]}}}}'");
+    let output = run(folder.path(), &script, Command::new("toy", "sh toy.sh")).unwrap();
+    // Also once they were saved.
+    let saved: Output = serde_json::from_str(&serde_json::to_string(&output).unwrap()).unwrap();
+    assert_eq!(output.tables, saved.tables);
+    let table = saved.tables["t"].table("toy", "t", "");
+    let shown: Vec<String> = table.cells().skip(1).step_by(2).map(|cell| cell.plain()).collect();
+    assert_eq!(shown, numbers.map(|(_, shown)| shown));
+    for row in ["n=0.5", "n=5", "n=123456789012345678901"] {
+        assert!(table.at(&format!("toy.t[{row}].v")).is_some(), "{row}");
+    }
+}
+
+#[test]
 fn it_sees_the_files_that_it_names_and_no_others() {
     let folder = tempfile::tempdir().unwrap();
     let top = folder.path();

@@ -1,0 +1,122 @@
+//! Reads BibTeX: entries with the fields of their parents, by the rules of BibTeX and biblatex.
+
+use biblatex::EntryType::*;
+use biblatex::{Bibliography, ChunksExt, Entry, ParseError, ParseErrorKind};
+use biblatex::{RawBibliography, RawChunk};
+
+/// Fields of which an entry needs one: with one of its own it has none of these from a parent.
+const ALIKE: [&[&str]; 4] = [
+    &["date", "month", "year"],
+    &["doi", "eprint", "url"],
+    &["journal", "journaltitle"],
+    &["institution", "school"],
+];
+
+/// The names of `xdata` and `crossref` here, so that the crate does not follow them.
+const PARENTS: [&str; 2] = [" xdata", " crossref"];
+
+/// Reads the entries. An abbreviation may be made of those that stand before it.
+pub fn entries(text: &str) -> Result<Bibliography, ParseError> {
+    let text = prepared(text);
+    let mut raw = RawBibliography::parse(&text)?;
+    for (at, pair) in raw.abbreviations.iter().enumerate() {
+        for part in &pair.value.v {
+            let RawChunk::Abbreviation(name) = part.v else { continue };
+            if raw.abbreviations[at..].iter().any(|later| later.key.v == name) {
+                let kind = ParseErrorKind::UnknownAbbreviation(name.into());
+                return Err(ParseError { span: part.span.clone(), kind });
+            }
+        }
+    }
+    for field in raw.entries.iter_mut().flat_map(|entry| &mut entry.v.fields) {
+        let is_it = |name: &&&str| name.trim().eq_ignore_ascii_case(field.key.v);
+        field.key.v = PARENTS.iter().find(is_it).unwrap_or(&field.key.v);
+    }
+    Bibliography::from_raw(raw)
+}
+
+/// Sets quoted values in braces, since they may have quotes in braces, and `\'\i` as `\' i`: no
+/// place of the text moves.
+fn prepared(text: &str) -> String {
+    let mut text = text.to_string();
+    for accent in "`'\"^~=.uvHcdbrk".chars() {
+        // The blank after a macro is none.
+        for macros in [r"\i ", r"\j ", r"\i", r"\j"] {
+            let letter = format!("{:>1$}", macros[1..].trim(), macros.len());
+            text = text.replace(&format!(r"\{accent}{macros}"), &format!(r"\{accent}{letter}"));
+        }
+    }
+    let (mut depth, mut before) = (0, ' ');
+    let [mut is_entry, mut is_comment, mut is_quoted, mut is_literal] = [false; 4];
+    let sign = |sign: char| {
+        let mut set = sign;
+        match sign {
+            '\n' => is_comment = false,
+            _ if is_comment || is_literal => (),
+            '%' if depth < 2 && !is_quoted => is_comment = true,
+            '@' if depth == 0 => is_entry = true,
+            '{' if is_entry => depth += 1,
+            '}' if depth > 0 => {
+                depth -= 1;
+                is_entry = depth > 0;
+            }
+            '"' if depth == 1 && (is_quoted || ['=', '#'].contains(&before)) => {
+                set = if is_quoted { '}' } else { '{' };
+                is_quoted = !is_quoted;
+            }
+            _ => (),
+        }
+        is_literal = sign == '\\' && !is_literal;
+        before = if is_comment || sign.is_whitespace() { before } else { sign };
+        set
+    };
+    text.chars().map(sign).collect()
+}
+
+fn keys(entry: &Entry, field: &str) -> Vec<String> {
+    let text = entry.get(field).unwrap_or_default().format_verbatim();
+    text.split(',').map(|key| key.trim().into()).filter(|key: &String| !key.is_empty()).collect()
+}
+
+/// Returns the keys of all that are parents of others; they need not be complete.
+pub fn parents(all: &Bibliography) -> Vec<String> {
+    all.iter().flat_map(|entry| PARENTS.iter().flat_map(|field| keys(entry, field))).collect()
+}
+
+/// Returns an entry with what it lacks from its parents, itself one of those that lie below it. The
+/// error is a message that follows its key.
+pub fn completed(entry: &Entry, all: &Bibliography, below: &[&str]) -> Result<Entry, String> {
+    let (mut full, way) = (entry.clone(), [below, &[&entry.key]].concat());
+    for field in PARENTS {
+        for key in keys(entry, field) {
+            let said = format!("has the {} {key}", field.trim());
+            let lost = || format!("{said}, which no entry has as its key; correct it");
+            let parent = all.get(&key).ok_or_else(lost)?;
+            if way.contains(&parent.key.as_str()) || way.len() > 8 {
+                let circle = format!("{} → {key}", way.join(" → "));
+                return Err(format!("{said}, which makes a circle, {circle}; end it"));
+            }
+            let own: Vec<String> = full.fields.keys().cloned().collect();
+            for (mut name, value) in completed(parent, all, &way)?.fields {
+                // The title of a book is the booktitle of a chapter.
+                let before = match (&entry.entry_type, &parent.entry_type) {
+                    (InBook | InCollection | InProceedings, Book | Collection | Proceedings) => {
+                        "book"
+                    }
+                    (Article, Periodical) => "journal",
+                    _ => "",
+                };
+                if ["title", "subtitle"].contains(&name.as_str()) && field == " crossref" {
+                    name.insert_str(0, before);
+                }
+                let alike = ALIKE.into_iter().find(|names| names.contains(&name.as_str()));
+                let is_own = |one: &&str| own.iter().any(|own| own == one);
+                if !alike.unwrap_or(&[&name]).iter().any(is_own) {
+                    full.fields.entry(name).or_insert(value);
+                }
+            }
+        }
+        full.remove(field);
+    }
+    Ok(full)
+}

@@ -1,0 +1,104 @@
+//! Estimates that know their sample: how many values they are from decides how far chance may move
+//! them.
+
+use crate::value::Number;
+use impact_numerics::estimates::{self, LEVEL, with_error};
+use impact_numerics::statistics::{Estimate, wilson};
+use serde::{Deserialize, Serialize};
+use std::ops::Deref;
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Sample {
+    /// Not known, or large: the error is that of a normal distribution.
+    #[default]
+    Unknown,
+    /// So many values, of which it is the mean or the like.
+    Values(u64),
+    /// So many trials, of which it is a share.
+    Trials(u64),
+}
+
+impl Sample {
+    pub(crate) fn is_unknown(&self) -> bool {
+        *self == Sample::Unknown
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampled {
+    pub estimate: Estimate,
+    pub sample: Sample,
+}
+
+impl Deref for Sampled {
+    type Target = Estimate;
+
+    fn deref(&self) -> &Estimate {
+        &self.estimate
+    }
+}
+
+impl From<Estimate> for Sampled {
+    fn from(estimate: Estimate) -> Sampled {
+        Sampled { estimate, sample: Sample::Unknown }
+    }
+}
+
+impl From<Sampled> for Estimate {
+    fn from(found: Sampled) -> Estimate {
+        found.estimate
+    }
+}
+
+impl From<Sampled> for Number {
+    fn from(found: Sampled) -> Number {
+        found.estimate.into()
+    }
+}
+
+fn of(values: usize, estimate: Estimate) -> Sampled {
+    Sampled { estimate, sample: Sample::Values(values as u64) }
+}
+
+/// Returns the mean of a sample; none of fewer than two values. Equal values have the error zero,
+/// by which no check judges: use [`share`] where each is yes or no, and a number without an error
+/// where there is no chance.
+pub fn average(values: &[f64]) -> Option<Sampled> {
+    let found = estimates::average(values)?;
+    // Equal values have no error, also none by rounding.
+    let are_equal = values.iter().all(|value| value == &values[0]);
+    Some(of(values.len(), if are_equal { with_error(values[0], 0.0) } else { found }))
+}
+
+/// Returns the share `part`/`whole` with its binomial error and Wilson's interval; none if `whole`
+/// is 0. None and all have the error of Wilson's interval, and checks use the exact interval.
+pub fn share(part: u64, whole: u64) -> Option<Sampled> {
+    let found = estimates::share(part, whole)?;
+    let error = if found.error > 0.0 { found.error } else { 1.0 / (whole as f64 + 1.0) };
+    let estimate = Estimate { error, interval: wilson(part, whole, LEVEL)?, ..found };
+    Some(Sampled { estimate, sample: Sample::Trials(whole) })
+}
+
+/// Returns the difference a − b of estimates from independent samples, of which the smaller counts.
+pub fn difference(a: impl Into<Sampled>, b: impl Into<Sampled>) -> Sampled {
+    let (a, b) = (a.into(), b.into());
+    let sample = match (a.sample, b.sample) {
+        (Sample::Values(a), Sample::Values(b)) => Sample::Values(a.min(b)),
+        _ => Sample::Unknown,
+    };
+    Sampled { estimate: estimates::difference(a.estimate, b.estimate), sample }
+}
+
+/// Returns `statistic` of all realisations, with the error of [`estimates::jackknife`].
+pub fn jackknife(
+    realisations: usize,
+    statistic: impl Fn(Option<usize>) -> Option<f64>,
+) -> Option<Sampled> {
+    estimates::jackknife(realisations, statistic).map(|found| of(realisations, found))
+}
+
+/// Returns the ratio of two sums over realisations, with its jackknife error.
+pub fn ratio(pairs: &[[f64; 2]]) -> Option<Sampled> {
+    estimates::ratio(pairs).map(|found| of(pairs.len(), found))
+}
