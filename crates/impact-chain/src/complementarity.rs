@@ -98,3 +98,23 @@ impl<const M: usize> Shut<'_, M> {
         forces
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::clock::Instant;
+
+    /// Outer gaps press with 1 each on one that accelerates by 2, within rounding: 5 · 8 ε of 2.
+    #[test]
+    fn an_acceleration_by_rounding_shuts_no_gap() {
+        let frequencies = Frequencies::new(1.0, [2.0]);
+        let p = Phases::at(&frequencies, Instant::ZERO);
+        let outer = Force { constant: -1.0, forced: [[-1.0, 0.0]] };
+        for (part, is_shut) in [(36.0, false), (44.0, true)] {
+            let middle = Force { constant: 1.0 - part * f64::EPSILON, forced: [[1.0, 1.0]] };
+            let g = [outer, middle, outer];
+            let found = contact_forces(&g, &[2.0; 3], &[true; 3], &p, &frequencies);
+            assert_eq!(found[1].is_some(), is_shut, "{part}: {found:?}");
+        }
+    }
+}

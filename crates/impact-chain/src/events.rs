@@ -203,7 +203,7 @@ impl<const M: usize> Simulation<M> {
                 self.collide(k, speed, &phases);
                 return Ok(Some(impact));
             }
-            Awaits::Search { whole_reach: true } if !self.gaps[k].in_contact => {
+            Awaits::Search { whole_reach: true } => {
                 // After an empty reach the frame is rotated, which is cheap; after the next one it
                 // comes from the motions, which do not drift, and a longer wait is tried.
                 let gap = &mut self.gaps[k];

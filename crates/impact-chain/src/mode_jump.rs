@@ -293,6 +293,20 @@ mod tests {
         assert_eq!(crossing(&[heights(0.1, 10, 5), heights(0.105, 15, 5)], true), None);
     }
 
+    /// A line through three values leaves residuals along 1, −2, 1, each by its variance.
+    #[test]
+    fn a_crossing_of_three_rows() {
+        let rows = [(0.1, 10), (0.105, 40), (0.11, 30)].map(|(sigma, all)| heights(sigma, all, 5));
+        let fit = |y: [f64; 3], variance: [f64; 3]| {
+            let bent = (y[0] - 2.0 * y[1] + y[2]) / (variance[0] + 4.0 * variance[1] + variance[2]);
+            [y[0] - bent * variance[0], y[1] + 2.0 * bent * variance[1]]
+        };
+        let counts = rows.map(|row| [row.end, row.bulk].map(|share| share * row.chains + 0.5));
+        let [a, b] = fit(counts.map(|[a, b]| (a / b).ln()), counts.map(|[a, b]| 1.0 / a + 1.0 / b));
+        let found = crossing(&rows, true).unwrap().sigma;
+        assert!((found - 0.1 - 0.005 * a / (a - b)).abs() < 1e-9, "{found}");
+    }
+
     /// Equal numbers have the height that they have, not that of the luckiest of them.
     #[test]
     fn a_peak_of_noise_is_not_too_high() {

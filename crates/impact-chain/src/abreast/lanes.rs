@@ -238,7 +238,7 @@ impl<'a> Lanes<'a> {
                 let tame = tame >> lane & 1 == 1;
                 let [start, end] = [-self.half, self.half];
                 let part = Part { start, end, after: start, just_hit: false, tame };
-                chain.decide(self.plan, step.middle, column + lane - 1, part, false);
+                chain.decide(self.plan, step.middle, column + lane - 1, part);
             }
         }
     }
@@ -358,7 +358,7 @@ impl<'a> Lanes<'a> {
             let (just_hit, tame) = (lane == 1, tame >> lane & 1 == 1);
             let part = Part { start: now.s, end: self.half, after, just_hit, tame };
             let gap = plan.own_column(column + lane) - 1;
-            self.slots[slot].decide(plan, step.middle, gap, part, false);
+            self.slots[slot].decide(plan, step.middle, gap, part);
         }
         true
     }

@@ -215,6 +215,7 @@ mod tests {
             after += usize::from(expected > 0);
         }
         assert!(after > 8);
+        assert_eq!(Abreast::number(&Chain { masses: 200, ..chain }), 8);
     }
 
     /// A realisation has the same bits with any vectors, alone or with others.

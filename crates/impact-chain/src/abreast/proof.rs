@@ -121,7 +121,7 @@ impl Local {
             // maximum below 1 − |ρ² − 1| R₂ between the two.
             let meet =
                 (f1 - MARGIN) * rate0 - (f0 - MARGIN) * rate1 - rate1 * rate0 * (end - start);
-            return just_hit || rate0 >= 0.0 || rate1 <= 0.0 || meet < 0.0;
+            return rate0 >= 0.0 || rate1 <= 0.0 || meet < 0.0;
         }
         if curvature < -change {
             // Concave: not below the chord.
@@ -192,6 +192,7 @@ pub fn cos_sin(x: f64) -> (f64, f64) {
 mod tests {
     use super::*;
     use impact_numerics::random::NormalPairs;
+    use impact_numerics::roots::bracket;
 
     /// Returns the gap with a forced part, and with this width and rate at s.
     fn with(width: f64, rate: f64, at: f64, [v, z]: [f64; 2], ratio: f64) -> Local {
@@ -249,6 +250,47 @@ mod tests {
             seen[if matches!(outcome, Outcome::Unsure) { 3 } else { kind }] += 1;
         }
         assert!(seen.iter().all(|&number| number > 1000), "{seen:?}");
+    }
+
+    #[test]
+    fn bounds_of_all_parts() {
+        let gap = Local { u: 3.0, q: -4.0, v: -2.0, z: 8.0, ratio: 3.0 };
+        let [second, change] = gap.curvature(0.125);
+        for (found, exact) in [(second, 15.0), (8.0 * change, 133.0), (gap.bend(), 35.0)] {
+            assert!((0.0..2e-12).contains(&(found / exact - 1.0)), "{found} {exact}");
+        }
+    }
+
+    /// Tangents of a convex gap, or parabolas of curvature −M₂, have to meet above the margin.
+    #[test]
+    fn gaps_that_are_open_by_their_ends() {
+        let (start, end) = (-0.125, 0.125);
+        let part = Part { start, end, after: start, just_hit: false, tame: false };
+        for (rate, at, v) in [(0.0, 0.03, 0.0), (-0.1, 0.0, 0.34), (0.1, 0.0, 0.34)] {
+            let gap = |width: f64| with(width, rate, at, [v, 0.0], 2.0);
+            let height = |width: f64| {
+                let gap = gap(width);
+                let ([f0, rate0], [f1, rate1]) = (gap.at(start), gap.at(end));
+                let bend = gap.u.hypot(gap.q) + 4.0 * gap.v.hypot(gap.z / 2.0);
+                match v {
+                    0.0 => f0 + rate0 * (f1 - f0 - 0.25 * rate1) / (rate0 - rate1),
+                    _ => (f0 + rate0 / 8.0).min(f1 - rate1 / 8.0) - bend / 128.0,
+                }
+            };
+            let [_, width] = bracket(0.0, 1.0, |width| height(width) > MARGIN);
+            assert!(gap(width + 1e-13).is_open(part), "{rate} {v}: {width}");
+            assert!(!gap(width - 1e-13).is_open(part), "{rate} {v}: {width}");
+        }
+        let (hit, tame) = (Part { just_hit: true, ..part }, Part { tame: true, ..part });
+        for (width, rate, at, v, part) in [
+            (0.05, 0.0, 0.0, 2.0, part),
+            (0.0, 0.1, start, 0.0, hit),
+            (0.5, 2.0, start, 2.0, tame),
+            (0.5, -2.0, end, 2.0, tame),
+        ] {
+            assert!(with(width, rate, at, [v, 0.0], 2.0).is_open(part), "{width} {rate}");
+        }
+        assert!(!with(0.9 * MARGIN, 0.1, start, [0.0; 2], 2.0).is_open(part));
     }
 
     /// A dip that turns 1.05e-12 above zero, steeply on both sides, is no root.

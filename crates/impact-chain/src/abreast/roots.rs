@@ -126,7 +126,7 @@ impl Candidates {
                 } else {
                     let start = eight.start[lane];
                     let part = Part { start, end: half, after, just_hit, tame };
-                    chain.decide(plan, middle, gap, part, true);
+                    chain.decide(plan, middle, gap, part);
                 }
             }
         }
@@ -162,7 +162,7 @@ fn series<S: Simd>(x: f64x8<S>, k: [f64; 6]) -> f64x8<S> {
     ((x * k[1] + k[0]) + (x * k[3] + k[2]) * square) + (x * k[5] + k[4]) * (square * square)
 }
 
-/// Evaluates f, f' and f'' by the first eight terms.
+/// Evaluates f and f' by the first eight terms, and f'' by the first seven.
 #[inline(always)]
 fn rough<S: Simd>(p: &[f64x8<S>; TERMS], s: f64x8<S>) -> [f64x8<S>; 3] {
     let s2 = s * s;
@@ -199,4 +199,23 @@ fn correction<S: Simd>(f: f64x8<S>, f1: f64x8<S>, f2: f64x8<S>) -> f64x8<S> {
     (f * f1) / (f * f2 * 0.5 - f1 * f1)
 }
 
-// Each is compiled by itself, for its registers.
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fearless_simd::{Level, dispatch};
+
+    /// 1 + s + s² + … and its derivatives at 1/2.
+    #[test]
+    fn polynomials_have_known_values() {
+        dispatch!(Level::new(), simd => {
+            let (p, s) = ([f64x8::splat(simd, 1.0); TERMS], f64x8::splat(simd, 0.5));
+            let sum = |terms: u32, of: fn(f64) -> f64| -> f64 {
+                (0..terms).map(|n| of(f64::from(n)) * 0.5_f64.powi(n as i32)).sum()
+            };
+            for (found, last) in [(rough(&p, s), [8, 7]), (full(&p, s), [12, 8])] {
+                let rates = [sum(last[0], |n| 2.0 * n), sum(last[1], |n| 4.0 * n * (n - 1.0))];
+                assert_eq!(found.map(|x| x[0]), [sum(last[0], |_| 1.0), rates[0], rates[1]]);
+            }
+        });
+    }
+}

@@ -110,9 +110,7 @@ impl Slot {
     pub fn four<S: Simd>(&self, simd: S, row: usize, column: usize) -> f64x4<S> {
         f64x4::from_slice(simd, &self.rows[row][column..column + WIDTH])
     }
-}
 
-impl Slot {
     /// Returns which of four gaps can close: the others are not looked at.
     #[inline(always)]
     pub fn can_close<S: Simd>(&self, simd: S, column: usize) -> u8 {
@@ -134,12 +132,12 @@ impl Slot {
         }
     }
 
-    /// Finds the first root of a gap in a part of the step by itself; `closes` if it has one.
+    /// Finds the first root of a gap in a part of the step by itself.
     #[cold]
     #[inline(never)]
-    pub fn decide(&mut self, plan: &Plan, middle: Phases, gap: usize, part: Part, closes: bool) {
+    pub fn decide(&mut self, plan: &Plan, middle: Phases, gap: usize, part: Part) {
         match Local::new(self.amplitudes(gap), middle, plan.ratio).first_root(part) {
-            Outcome::Open if !closes => (),
+            Outcome::Open => (),
             Outcome::Root { s, speed } => {
                 let (cos, sin) = cos_sin(s);
                 let jump = (1.0 + plan.restitution) * speed;
@@ -149,7 +147,23 @@ impl Slot {
                 ];
                 self.add(Root { s, gap, speed, jump }, part.after, part.end, plan.restitution);
             }
-            Outcome::Open | Outcome::Unsure => self.hand_over(),
+            Outcome::Unsure => self.hand_over(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Chain;
+
+    #[test]
+    fn bounds_of_a_gap() {
+        let chain = Chain { masses: 1, forcing_frequency: 3.0, ..Chain::default() };
+        let mut slot = Slot::new(2, Watch::new(&chain, &[]));
+        slot.set(1, [3.0, 4.0, 0.15, 0.2], &Plan::new(&chain, 0.125));
+        let exact = [7.25 / 512.0, 0.75 * 0.75, 2.25, (1.0 - 8.0 * 0.25) / 4.0];
+        let off = [SAG, REACH, FORCED, TAME].map(|row| slot.rows[row][2] - exact[row - SAG]);
+        assert!(off.iter().all(|off| off.abs() < 2e-9), "{off:?}");
     }
 }

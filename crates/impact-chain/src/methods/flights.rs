@@ -1,7 +1,7 @@
 //! Computes flight in closed form, for methods that evaluate gaps at given times.
 
 use super::method::Task;
-use super::sign_change::is_rounding;
+use super::sign_change::is_open;
 use crate::Error;
 use crate::flight::INFLATION;
 use crate::forcing::{Component, Phases, phases};
@@ -84,7 +84,7 @@ impl Flights {
         let [v, forced_rate] = self.response(sides, phases);
         let width = self.spacing + (a * cos + b * sin + v);
         let rate = self.omega * (b * cos - a * sin) + forced_rate;
-        let width = if is_rounding(width, rate, self.spacing) { 0.0 } else { width };
+        let width = if is_open(width, rate, self.spacing) { width.max(0.0) } else { width };
         GapState { width, rate }
     }
 

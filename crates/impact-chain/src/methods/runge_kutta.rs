@@ -3,7 +3,7 @@
 use super::bodies::Bodies;
 use super::method::Task;
 use super::rival::{Rival, Run};
-use super::sign_change::{closing_time, is_rounding};
+use super::sign_change::{closing_time, is_open};
 use super::steps::check_tolerance;
 use super::tally::{Stop, Tally};
 use crate::Error;
@@ -99,10 +99,10 @@ impl Steps {
         for k in 0..gaps {
             let [left, right] = row.topology.sides(k);
             let width = row.width_at(k, u);
-            if width >= 0.0 || is_rounding(width, v[right] - v[left], row.spacing) {
+            if is_open(width, v[right] - v[left], row.spacing) {
                 continue;
             }
-            let s = closing_time(0.0, h, row.width_at(k, &stages.y), |s| {
+            let s = closing_time(h, row.width_at(k, &stages.y), |s| {
                 tally.cost.evaluations += 1;
                 let u = |m| stages.dense(m, s / h);
                 row.spacing + (u(right) - u(left))

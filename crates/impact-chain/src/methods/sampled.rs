@@ -2,6 +2,7 @@
 
 use super::method::Task;
 use super::rival::{Rival, Run, Stepper, run_steps};
+use super::sign_change::is_open;
 use super::steps::Step;
 use super::tally::{Stop, Tally};
 use crate::Error;
@@ -63,9 +64,6 @@ const CONVERGED: f64 = 1e-11;
 
 /// The most corrections; after them the bracket counts.
 const CORRECTIONS: usize = 60;
-
-/// Width, in units of d, below zero of which an opening gap that has just been hit may be.
-const ROUNDING: f64 = 1e-12;
 
 /// Amplitudes of cosine and sine of each gap at one frequency.
 struct Part {
@@ -175,17 +173,12 @@ impl Gaps {
         for (half, part) in self.half.iter_mut().zip(&self.parts) {
             *half = part.rate.sin_cos(Instant::at(0.5 * h));
         }
-        let smallest = |part: &Part| {
-            let term =
-                |power: f64, factor: &f64| (1e-18 < power * factor).then_some(0.5 * h * power);
-            let mut power = 1.0;
-            let terms = part.factors.iter().map_while(|factor| {
-                power = term(power, factor)?;
-                Some(())
-            });
-            terms.count()
+        let needed = |part: &Part| {
+            let powers = std::iter::successors(Some(1.0), |power| Some(0.5 * h * power));
+            let terms = part.factors.iter().zip(powers).map(|(factor, power)| power * factor);
+            terms.take_while(|&term| term > 1e-18).count()
         };
-        self.terms = self.parts.iter().map(smallest).max().unwrap_or(TERMS).clamp(ROUGH, TERMS);
+        self.terms = self.parts.iter().map(needed).fold(ROUGH, usize::max);
         for k in 0..self.topology.gaps() {
             self.sag[k] = self.bend(k) * h * h / 8.0;
         }
@@ -235,16 +228,16 @@ impl Gaps {
             self.roots.push((from, k, -start[1]));
             return;
         }
-        let is_rounding = end[1] >= 0.0 && end[0] >= -ROUNDING * self.spacing;
+        let is_open = is_open(end[0], end[1], self.spacing);
         let dips = end[1] > 0.0 && start[1] < 0.0;
-        if (end[0] >= 0.0 || is_rounding) && !dips {
+        if is_open && !dips {
             return;
         }
         let half = 0.5 * self.h;
         let (mut low, mut high) = (from - half, half);
         let gap = Polynomial::of(self, k);
         let value = |x: f64| gap.value(x, self.terms);
-        if end[0] >= 0.0 || is_rounding {
+        if is_open {
             // Where the tangents at both ends meet above zero, so does a gap that is convex.
             let meet = (end[0] * start[1] - start[0] * end[1]) - (high - low) * end[1] * start[1];
             if meet < 0.0 {
@@ -378,5 +371,26 @@ impl Stepper for Gaps {
         }
         self.now.copy_from_slice(step.phases);
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Chain, Initial, Scenario, State};
+
+    /// M₂ = 0.5 + 4 · 0.1, and at x = Ωh/2 as many terms xⁿ/n! as are above 1e-18.
+    #[test]
+    fn a_step_needs_few_terms() {
+        let scenario =
+            Scenario::given(&Chain { masses: 1, ..Chain::default() }, vec![[0.18, 0.24]]);
+        let initial = Initial::Free(vec![[0.3, 0.4]]);
+        let scenario = Scenario { forcing_frequency: 2.0, initial, ..scenario.unwrap() };
+        let mut gaps = Gaps::new((&scenario, &State::of(&scenario), 1.0), 0.0).unwrap();
+        for (h, terms) in [(0.5, 16), (0.1, 11), (1e-3, ROUGH)] {
+            gaps.lengthen(h);
+            assert_eq!(gaps.terms, terms, "{h}");
+            assert!((gaps.sag[0] - 0.9 * h * h / 8.0).abs() < 1e-16, "{h}: {}", gaps.sag[0]);
+        }
     }
 }

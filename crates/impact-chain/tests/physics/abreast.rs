@@ -279,6 +279,16 @@ fn chains_that_are_handed_over() {
     let outer = set([[0.0, 1.5], [0.0; 2], [0.0, -1.5]]);
     let mirrored = Scenario { restitution: 0.95, ..outer };
     assert!(matches!(run(&lively, &windows(1.0), END, &[mirrored])[..], [None]));
+    // The second impact makes an amplitude of 104.
+    let faster = set([[0.0, 60.0], [0.0; 2], [0.0, -50.0]]);
+    assert!(run(&chain, &[], 0.05, &[faster])[0].is_none());
+    // Impacts beside one another: errors of 1e-12 in the widths move each by 1.25e-11.
+    let (sin, cos) = 0.3_f64.sin_cos();
+    let back = |x: f64, v: f64| [x * cos - v * sin, x * sin + v * cos];
+    for (apart, is_certain) in [(2e-11, false), (3e-11, true)] {
+        let near = set([back(1.0, 0.1), [0.0; 2], back(-1.0 + 0.1 * apart, -0.01)]);
+        assert_eq!(run(&chain, &[], 0.4, &[near])[0].is_some(), is_certain, "{apart:e}");
+    }
     // It hits the wall at 5e-5 and leaves it at 5e-6.
     let weak = Chain { restitution: 0.1, ..chain.clone() };
     let rebound = Scenario { restitution: 0.1, ..set([[0.0, -1.0 - 1.25e-9], [0.0; 2], [0.0; 2]]) };

@@ -64,7 +64,8 @@ fn impacts_have_the_order_and_times_of_the_reference() {
 /// The true motion and the reference share no code; chaos enlarges 1e-31 by a factor of 1e4 or so.
 #[test]
 fn the_true_motion_has_digits_beyond_doubles() {
-    let scenario = drawn(&Chain { masses: 20, ..Chain::default() }, 0.3, "truth", 1);
+    let chain = Chain { masses: 20, natural_frequency: 1.3, spacing: 2.0, ..Chain::default() };
+    let scenario = drawn(&chain, 0.3, "truth", 1);
     let found = TrueMotion::of(&scenario, &State::of(&scenario)).run(50.0).unwrap();
     let exact = Reference::new(&scenario).run(50.0).unwrap();
     assert!(found.len() > 100 && found.len() == exact.len(), "{} {}", found.len(), exact.len());

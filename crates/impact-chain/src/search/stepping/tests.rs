@@ -74,3 +74,22 @@ fn a_climb_ends_above_the_band() {
         assert!(h > 0.0 && above > 2.0 * margin * (1.0 - 1e-6), "{d1}, {d2}: {above:e}");
     }
 }
+
+/// δ − (cos σx − c)³, where cos σx = c at both ends: value δ, and no slope or curvature, so the
+/// quintic is δ, and the remainder alone tells that the function goes below zero between.
+#[test]
+fn a_dip_that_neither_end_shows_is_not_leapt_over() {
+    const SIGMA: f64 = 16.0;
+    let frequencies = Frequencies::new(SIGMA, [2.0 * SIGMA, 3.0 * SIGMA]);
+    let edge = 0.5 * SIGMA * frequencies.reach;
+    let c = edge.cos();
+    let parts = [(1.0, -0.75 - 3.0 * c * c), (2.0, 1.5 * c), (3.0, -0.25_f64)];
+    let bound = parts.iter().map(|(n, r)| (n * SIGMA).powi(4) * r.abs()).sum();
+    let [free, forced @ ..] = parts.map(|(n, r)| [r * (n * edge).cos(), r * (n * edge).sin()]);
+    let f0 = 0.98 * (1.0 - c).powi(3);
+    let frame = Frame { f0, g0: 0.0, alpha: free[0], forced, bound, size: 20.0 };
+    let (reach, mut work) = (frequencies.reach, Counters::default());
+    let found = first_root_by_steps(&frame, 0.0, reach, &frequencies, &mut work);
+    let exact = (edge - (c + f0.cbrt()).acos()) / SIGMA;
+    assert!(matches!(found, Next::Root { s, .. } if (s - exact).abs() < 1e-12), "{found:?}");
+}
