@@ -24,6 +24,8 @@ pub enum Error {
          and for a logarithmic axis of positive ones"
     )]
     Empty(String),
+    #[error("row {row} of the series {series:?} has the error {error}; give one of 0 or more")]
+    NegativeError { series: String, row: usize, error: f64 },
     #[error("the words {0:?} leave the sheet; shorten them, or make room")]
     OffSheet(String),
     #[error(

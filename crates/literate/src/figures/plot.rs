@@ -360,6 +360,8 @@ mod tests {
         let names = (0..30).map(|i| format!("curve {i}"));
         let full = fails(names.fold(Plot::new(), |plot, name| plot.line(&name, &points)));
         assert!(matches!(full, Error::NoRoom(30)), "{full}");
+        let negative = fails(Plot::new().estimates("a", &[(2.0, with_error(1.0, -0.5))]));
+        assert!(matches!(negative, Error::NegativeError { row: 1, .. }), "{negative}");
         // What would be an empty frame.
         let away = Plot::new().x_range(500.0, 600.0).line("a", &points);
         assert!(matches!(fails(away), Error::Empty(_)));

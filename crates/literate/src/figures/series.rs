@@ -182,6 +182,11 @@ impl Panel {
     /// Draws estimates with bars of one standard error. What lies outside the frame is left out,
     /// and bars are cut: a few realisations leave some that are longer than the axis.
     pub fn estimates(&self, name: &str, estimates: &[(f64, Estimate)], marker: Marker) -> Drawn {
+        for ((_, Estimate { error, .. }), row) in estimates.iter().zip(1..) {
+            if !(0.0..).contains(error) {
+                return Err(Error::NegativeError { series: spelled(name), row, error: *error });
+            }
+        }
         let shown = |(x, y): &&(f64, Estimate)| self.has_place((*x, y.value));
         self.record(name, estimates.iter().filter(shown).copied());
         let points: Vec<_> = estimates.iter().map(|(x, y)| (*x, y.value)).collect();
