@@ -167,10 +167,11 @@ impl From<&str> for Formula {
     }
 }
 
-/// Returns a printed value as text, with its formulas, or as a formula where it has a power of ten.
+/// Returns a printed value as text, or as a formula where it has a power of ten.
 pub fn printed(shown: &Shown) -> Vec<Inline> {
     let numeral = match shown {
-        Shown::Words(words) => return words_and_maths(&in_one_line(words)),
+        // A dollar sign is a sign like others.
+        Shown::Words(words) => return vec![Inline::Text(in_one_line(words))],
         Shown::Number(numeral) => numeral,
     };
     let percent = if numeral.percent { "\u{a0}%" } else { "" };
@@ -235,6 +236,27 @@ pub fn heading_place(id: Option<&str>, number: Option<&str>, words: &[Inline]) -
 /// Returns the id of a place on a page: `fig-3` for `fig:3`.
 pub fn place_on_page(id: &str) -> String {
     place(id).replace([':', '.'], "-")
+}
+
+/// Writes what no address has, and brackets without their pairs, as `%7C`: every format has such
+/// signs for itself.
+pub fn address(to: &str) -> String {
+    let depth = |depth: Option<u32>, c| match c {
+        '(' => Some(depth? + 1),
+        ')' => depth?.checked_sub(1),
+        _ => depth,
+    };
+    let in_pairs = to.chars().fold(Some(0), depth) == Some(0);
+    let is_own = |c: char| c.is_alphanumeric() || "-._~:/?#[]@!$&'*+,;=%".contains(c);
+    let mut out = String::new();
+    for c in to.chars() {
+        if is_own(c) || in_pairs && "()".contains(c) {
+            out.push(c);
+        } else {
+            out.extend(c.encode_utf8(&mut [0; 4]).bytes().map(|byte| format!("%{byte:02X}")));
+        }
+    }
+    out
 }
 
 /// Returns an id without signs that TeX or a page would read: a key may have them.

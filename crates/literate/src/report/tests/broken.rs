@@ -76,6 +76,9 @@ at $5, with => 14:4 => a dollar sign alone
 a @ b => 14:3 => a citation is @key
 «v» => 14:1 => a group or a row
 ```⏎code => 14:1 => between two lines ```
+```⏎code⏎⏎`x` is the last word => 14:1 => between two lines ```
+````⏎code⏎``` => 14:1 => between two lines ```
+~~~⏎code⏎``` => 14:1 => between two lines ```
 > ## Words => 14:3 => cannot stand in a list
 What not every format supports.
 <b>bold</b> => 14:1 => not supported by every format
@@ -122,6 +125,7 @@ fn good_prose_passes() {
     let good = "Words \\*, \\_, \\$, me@x.org: C#, \\@sec:a, \\#, a * b, a_b, \\[a, b\\], a < b, \\^, \\~, \\-- and\n\n\
         [data](data), [code](../src/lib.rs), [out](https://x.org/10), `*` and $a_b * c^*$.\n\n\
         «literal(text=\"2007\", why=\"the year\")», two-sided, `f64`, $k = 3$, $x_{12} = «v.half_height»$\n\n```\n12\n```\n\n\
+        ~~~~\n12\n```\n~~~~~  \n\n> ```\n> 12\n> ```\n\n\
         $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n«v.empty | otherwise(words=\"nothing\")», «v.count | otherwise(words=\"nothing\")»\n\n| a |\n|---|\n| «v.empty» |\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>\
         <% for row in keys.toy.none.rows %><% if raw.toy.none[row].x > 1 %>a<% endif %><% endfor %>";
     let none = Table::of("toy.none", &[0.5; 0], |_| 0).key("x", "1", |x| *x).done();
