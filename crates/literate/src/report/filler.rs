@@ -47,6 +47,13 @@ impl Filler {
             comment_start: "<#".into(),
             comment_end: "#>".into(),
         };
+        // Tera reads what follows each of them within it.
+        let long = templates.iter().find_map(|(path, text)| {
+            let (at, _) = text.match_indices("elif").nth(MOST_CASES)?;
+            let what = format!("more than {MOST_CASES} `elif` in a file; write a table");
+            Some(fault(templates, path, at, &what))
+        });
+        long.map_or(Ok(()), Err)?;
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
         let names = names(values, &tables);
@@ -67,7 +74,17 @@ impl Filler {
     }
 
     pub fn fill(&self, path: &str) -> Result<String, Error> {
-        self.tera.render(path, &self.context).map_err(|error| self.failure(&error))
+        let mut written = Written::default();
+        let made = self.tera.render_to(path, &self.context, &mut written);
+        let Written { bytes, is_full } = written;
+        let text = String::from_utf8_lossy(&bytes);
+        if is_full {
+            let what = format!("this writes more than {} MiB; end the loop earlier", MOST >> 20);
+            let place = text.rsplit(mark::OPEN).find_map(|mark| mark::place_of(mark));
+            return Err(self.fault(path, place.unwrap_or_default(), &what));
+        }
+        made.map_err(|error| self.failure(&error))?;
+        Ok(text.into_owned())
     }
 
     /// Fills the prose of a document, and keeps where each piece of it stands.
@@ -105,8 +122,7 @@ impl Filler {
     }
 
     fn fault(&self, path: &str, at: usize, what: &str) -> Error {
-        let place = line_and_column(self.templates.text(path).unwrap_or_default(), at);
-        Error::Template(self.templates.place(&format!("{path}:{place}: {what}")))
+        fault(&self.templates, path, at, what)
     }
 
     /// Returns which part of a name, `table["row"].column`, does not exist, with the nearest that
@@ -179,6 +195,37 @@ impl Filler {
             None => what,
         };
         self.fault(path, at, &what)
+    }
+}
+
+fn fault(templates: &Templates, path: &str, at: usize, what: &str) -> Error {
+    let place = line_and_column(templates.text(path).unwrap_or_default(), at);
+    Error::Template(templates.place(&format!("{path}:{place}: {what}")))
+}
+
+const MOST_CASES: usize = 200;
+
+/// A template writes at most this many bytes.
+const MOST: usize = 64 << 20;
+
+#[derive(Default)]
+struct Written {
+    bytes: Vec<u8>,
+    is_full: bool,
+}
+
+impl std::io::Write for Written {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.is_full = self.bytes.len() + bytes.len() > MOST;
+        if self.is_full {
+            return Err(std::io::ErrorKind::OutOfMemory.into());
+        }
+        self.bytes.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
     }
 }
 

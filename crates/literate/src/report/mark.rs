@@ -82,6 +82,12 @@ pub fn style(words: &str) -> Style {
     style
 }
 
+/// The offset in the template that the rest of a mark without an id holds.
+pub fn place_of(mark: &str) -> Option<usize> {
+    let (place, _) = mark.strip_prefix(NEXT)?.split_once(CLOSE)?;
+    place.trim_end_matches(['t', 'x']).parse().ok()
+}
+
 /// Adds to a template a mark before each `«` and after each `»`, `%>` and `#>`, with the offset
 /// there, and whether a tag writes what follows.
 pub fn marked(text: &str) -> String {

@@ -5,6 +5,7 @@ use super::super::error::Error;
 use super::super::lint;
 use super::super::mark::{self, Piece, pieces};
 use super::super::tex;
+use super::brackets::bracketed;
 use super::{ALONE, ELSE, Reader, is_block, markup};
 use crate::experiments::Profile;
 use crate::input::one_line;
@@ -218,7 +219,8 @@ impl Reader<'_> {
         if let Some(what) = has_index.then(|| bare_index.into()).or_else(|| tex::refused(&tex)) {
             return Err(Error::Maths { tex, what });
         }
-        self.places.add(format!("${tex}"), at);
+        let formula = bracketed(formula.0);
+        self.places.add(format!("${}", formula.digits()), at);
         Ok(formula)
     }
 

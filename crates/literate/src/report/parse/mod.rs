@@ -4,6 +4,7 @@
 //! The manual ([`crate::manual`]) lists all markup. Whatever else Markdown reads is refused, and so
 //! is markup that is not closed.
 
+mod brackets;
 mod inlines;
 
 use super::document::{Block, Inline, Table, plain};

@@ -64,6 +64,13 @@ at $\begin{align} a \end{align}$ => 14:4 => an environment must be one of aligne
 at $x^«v.half_height»$ => 14:4 => a value used as an index
 at «v.half_height»$x$ => 14:19 => right after a word or a number
 a *word with $x$* => 14:14 => in emphasis
+What is too deep or too long.
+at $DEEP{xDEEP}$ => 14:4 => cannot be shown: it is nested more than 40 deep
+at $HATSx$ => 14:4 => nested more than 40 deep
+QUOTESa => 14: => nested too deeply
+<% for a in range(end=30000) %><% for b in range(end=30000) %>QUOTES⏎<% endfor %><% endfor %> => 14:6 => this writes more than 64 MiB
+at «IN1IN» => 14: => too complex
+<% if false %>ELIFS<% endif %> => 14: => more than 200 `elif`
 A delimiter that is not closed.
 at $\frac{1}{2$ of => 14:4 => a dollar sign alone
 a *word => 14:3 => unclosed markup
@@ -94,7 +101,13 @@ see 漢 => 14:5 => '漢'"##;
 #[test]
 fn faults_in_prose_are_reported_with_their_places() {
     let mut wrong = Vec::new();
-    for line in BROKEN.lines() {
+    let deep = [("DEEP{", r"\sqrt{"), ("DEEP}", "}"), ("HATS", r"\hat "), ("QUOTES", "> ")];
+    let deep = deep.into_iter().chain([("IN1IN", "("), ("ELIFS", "<% elif false %>a")]);
+    let deep = |line: &str| {
+        deep.clone()
+            .fold(line.to_string(), |line, (name, sign)| line.replace(name, &sign.repeat(201)))
+    };
+    for line in BROKEN.lines().map(deep) {
         let parts: Vec<String> = line.split(" => ").map(unmarked).collect();
         let [broken, place, words] = parts.as_slice() else { continue };
         let made = assembled(&format!("{PROSE}\n\n{broken}\n"));
