@@ -29,6 +29,7 @@ mod mathml;
 pub mod parse;
 mod search;
 pub(crate) mod tex;
+mod typed;
 pub mod values;
 
 pub use assemble::{assemble, files_of};

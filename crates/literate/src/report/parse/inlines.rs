@@ -10,7 +10,7 @@ use super::{ALONE, ELSE, Reader, is_block, markup};
 use crate::experiments::Profile;
 use crate::input::one_line;
 use crate::print::{Shown, print};
-use crate::value::Number;
+use crate::value::{Digits, Number};
 use pulldown_cmark::{Event, LinkType, Tag};
 use std::ops::Range;
 
@@ -91,8 +91,35 @@ impl Reader<'_> {
         let tex = tex.trim_end_matches('$').split(r"\tag").next().unwrap_or_default();
         let typed = |(i, c)| if self.filled.is_typed(begin + i) { c } else { 'x' };
         let tex: String = tex.char_indices().map(typed).collect();
-        let found = lint::formula(&lint::without_literals(&tex));
+        let found = lint::formula(&tex);
         self.hard_coded(found.map(|numeral| (range.start, numeral)));
+        self.check_values(range);
+    }
+
+    /// Notes what beside a value changes its unit or sign, and digits that drop its error.
+    fn check_values(&mut self, range: &Range<usize>) {
+        let (filled, values) = (self.filled, self.values);
+        let (source, mut at) = (&filled.text, range.start);
+        for piece in pieces(&source[range.clone()]) {
+            let Piece::Value { id, shown } = piece else {
+                let Piece::Text(text) = piece else { continue };
+                at += text.len();
+                continue;
+            };
+            let end = at + mark::framed(&id, shown).len();
+            let style = mark::style(shown);
+            if let Some(value) = values.get(&id) {
+                let is_error =
+                    matches!(value.number, Number::Real { digits: Digits::Error(_), .. });
+                let drops = (is_error && style.digits.is_some())
+                    .then(|| format!("«{id}» has a standard error, which `significant` drops"));
+                let beside = || lint::beside(&source[..at], &source[end..], value, style.percent);
+                if let Some(what) = drops.or_else(beside) {
+                    self.note(at, Error::Named { thing: id, what });
+                }
+            }
+            at = end;
+        }
     }
 
     fn span(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Inline, Error> {
@@ -173,6 +200,7 @@ impl Reader<'_> {
             return Err(markup(what).at(self.filled.place(at)));
         }
         self.hard_coded(lint::words(source, part.clone(), self.declared));
+        self.check_values(&part);
         // A backslash before a backslash is meant.
         let escaped = usize::from(source[..part.start].ends_with('\\') && text.starts_with('\\'));
         let text = &(text[..escaped].to_string() + &lint::literal(&text[escaped..]));

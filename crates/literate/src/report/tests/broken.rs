@@ -21,6 +21,15 @@ A hard-coded number.
 at 0.12, so => 14:4 => hard-coded number 0.12;
 a tenfold rise => 14:3 => hard-coded number tenfold;
 at «"3.14"» => 14:4 => hard-coded number 3.14;
+<% set b = 98.98 %>at «b» => 14:23 => hard-coded number 98.98;
+<% for n in [13.5] %>at «n»<% endfor %> => 14:25 => hard-coded number 13.5;
+<% set a = raw.half_height * 60 %>at «a» => 14:38 => hard-coded number 6.99
+at «v.empty | otherwise(words="12") » => 14:4 => hard-coded number 12;
+by $N = «6 + 1»$ => 14:4 => hard-coded number 7;
+at «v.half_height» % => 14:4 => «half_height» has the unit none, and % follows
+at −«v.half_height» => 14:5 => a minus before «half_height» changes its sign
+$x = «v.half_height | percent»\,\%$ => 14:6 => has the unit %, and % follows
+at «v.half_height | significant(digits=17)» => 14:4 => a standard error, which `significant` drops
 We find $\sigma_{1/2} = 0.1159$ here. => 14:9 => hard-coded number 0.1159;
 by `0.1159` => 14:5 => hard-coded number 0.1159;
 | a |⏎|---|⏎| 12 | => 16:3 => hard-coded number 12;
@@ -137,7 +146,7 @@ fn several_faults_have_their_places() {
 fn good_prose_passes() {
     let good = "Words \\*, \\_, \\$, me@x.org: C#, \\@sec:a, \\#, a * b, a_b, \\[a, b\\], a < b, \\^, \\~, \\-- and\n\n\
         [data](data), [code](../src/lib.rs), [out](https://x.org/10), `*` and $a_b * c^*$.\n\n\
-        «literal(text=\"2007\", why=\"the year\")», two-sided, `f64`, $k = 3$, $x_{12} = «v.half_height»$\n\n```\n12\n```\n\n\
+        «literal(text=\"2007\", why=\"the year\")», two-sided, `f64`, $k \\ge 3$, $x_{12} = «v.half_height»$\n\n```\n12\n```\n\n\
         ~~~~\n12\n```\n~~~~~  \n\n> ```\n> 12\n> ```\n\n\
         $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n«v.empty | otherwise(words=\"nothing\")», «v.count | otherwise(words=\"nothing\")»\n\n| a |\n|---|\n| «v.empty» |\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>\
         <% for row in keys.toy.none.rows %><% if raw.toy.none[row].x > 1 %>a<% endif %><% endfor %>";

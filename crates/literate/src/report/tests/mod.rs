@@ -23,7 +23,7 @@ const SAMPLE: &str = r#"# Impact\_dynamics & large % systems: R&D $\sigma_{1/2}$
 
 Masses in a row ([@rice1945]; see [@fig:3], [@eq:18; @eq:25] and [@sec:protocol]). With
 «v.half_height» and $\sigma = «v.half_height»$, far below «v.tiny» or «v.least», the $n$-th mass of
-$f_{N,p}(k)$ and $\Phi'_{N,p}\,(k) < 1$ moves *fast*, **very** fast, at \100 % of `a_b`.
+$f_{N,p}(k)$ and $\Phi'_{N,p}\,(k) < 1$ moves *fast*, **very** fast, at «literal(text="100 %", why="all")» of `a_b`.
 
 $$
 p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{N}\right)^2 \tag{18}
@@ -34,7 +34,7 @@ $$
 \begin{aligned} a &= b \\ c &= d \end{aligned} \tag{25}
 $$
 
-![The rise, at «v.half_height» or $\sigma$ ≥ \0.12.](figures/fig03.svg){#fig:3}
+![The rise, at «v.half_height» or $\sigma$ ≥ «literal(text="0.12", why="toy")».](figures/fig03.svg){#fig:3}
 
 Of [@eq:map],
 $$
@@ -48,7 +48,7 @@ Table: What σ gives {#tab:sigma}
 
 | Check | Statement | Ours |
 |:--|---|--:|
-| [!claim:rise] | A threshold exists near \0.12 | «v.half_height» |
+| [!claim:rise] | A threshold exists near «literal(text="0.12", why="toy")» | «v.half_height» |
 | [!claim:jump] | a_b * c | «v.kept | percent» |
 
 «v.count»
