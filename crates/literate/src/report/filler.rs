@@ -48,12 +48,17 @@ impl Filler {
             comment_end: "#>".into(),
         };
         // Tera reads what follows each of them within it.
-        let long = templates.iter().find_map(|(path, text)| {
-            let (at, _) = text.match_indices("elif").nth(MOST_CASES)?;
-            let what = format!("more than {MOST_CASES} `elif` in a file; write a table");
-            Some(fault(templates, path, at, &what))
-        });
-        long.map_or(Ok(()), Err)?;
+        let long = |(path, text): (&str, &str)| {
+            Some((path.to_string(), text.match_indices("elif").nth(200)?.0))
+        };
+        if let Some((path, at)) = templates.iter().find_map(long) {
+            return Err(fault(
+                templates,
+                &path,
+                at,
+                "more than 200 `elif` in a file; write a table",
+            ));
+        }
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
         let names = names(values, &tables);
@@ -202,8 +207,6 @@ fn fault(templates: &Templates, path: &str, at: usize, what: &str) -> Error {
     let place = line_and_column(templates.text(path).unwrap_or_default(), at);
     Error::Template(templates.place(&format!("{path}:{place}: {what}")))
 }
-
-const MOST_CASES: usize = 200;
 
 /// A template writes at most this many bytes.
 const MOST: usize = 64 << 20;

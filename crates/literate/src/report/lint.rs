@@ -5,6 +5,7 @@ use super::mark::{CLOSE, OPEN};
 use super::tex;
 use super::values::Value;
 use crate::input::toml_fault;
+use crate::print::Style;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -118,7 +119,7 @@ pub fn literal(text: &str) -> String {
 }
 
 /// Whether a number behind a backslash is one of an address, `doi:`, a year, or a version behind a
-/// name; that is no quantity with a unit.
+/// name; that is no quantity with a unit, nor behind the first word of a sentence.
 fn is_name(before: &str, number: &str) -> bool {
     let token = number.split(ends_literal).next().unwrap_or_default();
     let behind = number[token.len()..].split_whitespace().next().unwrap_or_default();
@@ -127,8 +128,13 @@ fn is_name(before: &str, number: &str) -> bool {
     let glued = before.ends_with(|c: char| c.is_alphanumeric() || ":/-".contains(c));
     let name = before.split_whitespace().next_back().unwrap_or_default();
     let is_unit = unit(behind).is_some();
-    glued || !is_unit && (is_year || before.ends_with(' ') && name.starts_with(char::is_uppercase))
+    let is_named =
+        before.ends_with(' ') && name.starts_with(char::is_uppercase) && !FIRST.contains(name);
+    glued || !is_unit && (is_year || is_named)
 }
+
+const FIRST: &str =
+    "A About Above After And At Below Between By For From If In Near Of On Only Over The To With";
 
 /// Units that a sentence names behind a number.
 const UNITS: &str = "s ms µs ns min h d m km cm mm µm nm g kg mg N kN Pa kPa MPa J kJ W kW V mV A mA K Hz \
@@ -142,28 +148,28 @@ fn unit(text: &str) -> Option<String> {
     UNITS.split_whitespace().any(|unit| unit == first).then_some(unit)
 }
 
-/// Returns what beside a value changes its unit or its sign.
-pub fn beside(before: &str, after: &str, of: &Value, percent: bool) -> Option<String> {
-    let tex = [r"\,", r"\;", r"\ ", "~", " ", "\n", "\u{a0}", "\u{202f}"];
-    let (mut rest, length) = (after, after.len());
+/// Returns what beside a value changes its unit or its sign; a formula has units in `\mathrm` alone.
+pub fn beside(before: &str, after: &str, of: &Value, style: Style, maths: bool) -> Option<String> {
+    let tex = [r"\,", r"\;", r"\ ", "~", " ", "\u{a0}", "\u{202f}"];
+    let mut rest = after;
     while let Some(other) = tex.iter().find_map(|blank| rest.strip_prefix(blank)) {
         rest = other;
     }
-    let words = [r"\mathrm{", r"\text{"].iter().find_map(|open| rest.strip_prefix(open));
-    let apart = rest.len() < length || words.is_some();
-    let rest = words.unwrap_or(rest).trim_start_matches(['\\', ' ']);
-    let typed = unit(rest).filter(|_| apart || rest.starts_with(['%', '‰', '°']));
-    let own = if percent { "%" } else { &of.unit.replace('μ', "µ") };
+    let apart = if maths { "" } else { rest };
+    let apart =
+        [r"\mathrm{", r"\text{"].iter().find_map(|open| rest.strip_prefix(open)).unwrap_or(apart);
+    let touches = rest.trim_start_matches('\\').starts_with(['%', '‰', '°']);
+    let rest = if touches { rest.trim_start_matches('\\') } else { apart.trim_start_matches(' ') };
+    let typed = unit(rest).filter(|_| touches || maths || rest.len() < after.len());
+    let own = if style.percent { "%" } else { &of.unit.replace('μ', "µ") };
     if let Some(typed) = typed
-        && (percent || own != typed && (!own.is_empty() || typed == "%"))
+        && (style.percent || own != typed && (!own.is_empty() || typed == "%"))
     {
-        let own = if own.is_empty() { "none" } else { own };
-        let what = "write it into the value, by its unit or by «… | percent»";
-        return Some(format!("«{}» has the unit {own}, and {typed} follows; {what}", of.id));
+        let what = "write it by the value's own unit or by «… | percent»";
+        return Some(format!("{typed} follows «{}», whose unit is {own:?}; {what}", of.id));
     }
-    let sign = before.strip_suffix('-').or(before.strip_suffix('−'))?;
-    let begins =
-        sign.is_empty() || sign.ends_with(|c: char| c.is_whitespace() || "(|“".contains(c));
+    let sign = before.strip_suffix(['-', '−']).filter(|_| !maths)?;
+    let begins = sign.chars().next_back().is_none_or(|c| c.is_whitespace() || "(|“".contains(c));
     begins.then(|| format!("a minus before «{}» changes its sign; compute it so", of.id))
 }
 
@@ -201,7 +207,12 @@ fn sides(tex: &str) -> Vec<(String, bool)> {
     }
     let whole = |side: &String| side.trim_end_matches([' ', '.', ',']).trim_start().to_string();
     let sides = sides.iter().map(|(side, equals)| (whole(side), *equals));
-    sides.filter(|(side, _)| !side.is_empty()).collect()
+    let mut sides: Vec<_> = sides.filter(|(side, _)| !side.is_empty()).collect();
+    // `i = 2, \dots, n` counts.
+    for at in 1..sides.len() {
+        sides[at - 1].1 &= ![r"\dots", r"\ldots", "…"].contains(&sides[at].0.as_str());
+    }
+    sides
 }
 
 const EQUALS: [&str; 5] = ["=", "≈", r"\approx", r"\simeq", r"\sim"];
@@ -212,10 +223,11 @@ pub fn formula(tex: &str) -> Option<String> {
     let sides = sides(tex);
     let digits = |text: &str| text.chars().filter(char::is_ascii_digit).count();
     let is_hard_coded = |(side, equals): &&(String, bool)| {
-        let fraction = ["\\frac", "\\dfrac", "\\tfrac"].iter().find_map(|of| side.strip_prefix(of));
+        let fraction =
+            [r"\frac{", r"\dfrac{", r"\tfrac{"].iter().find_map(|of| side.strip_prefix(of));
         let bare = fraction.unwrap_or(side);
         let above =
-            bare.split(['/', '}']).next().filter(|_| fraction.is_some() || bare.contains('/'));
+            bare.split_once(if fraction.is_some() { '}' } else { '/' }).map(|(above, _)| above);
         let long = |text: &str| text.contains('.') || digits(text) > 1;
         // One letter behind a number is a unit, or a factor of a decimal.
         let letter = tex::signs(bare)
@@ -267,31 +279,35 @@ mod tests {
         ] {
             assert_eq!(found(text).join(" "), numerals, "{text}");
         }
-        let of = |unit: &str| Value { unit: unit.into(), ..Value::real("x", 0.5, 1) };
-        for (before, after, unit, percent, wrong) in [
-            ("at ", " s,", "ms", false, true),
-            ("at ", r"\,\mathrm{s}", "ms", false, true),
-            ("at ", "\u{a0}ms.", "ms", false, false),
-            ("at ", " so", "ms", false, false),
-            ("at ", " km/h", "m/s", false, true),
-            ("at ", "%", "1", false, true),
-            ("at ", r"\,\%$", "", true, true),
-            ("at ", " %", "%", false, false),
-            ("at −", "", "1", false, true),
-            ("(-", "", "1", false, true),
-            ("non-", " s", "", false, false),
-        ] {
-            assert_eq!(
-                beside(before, after, &of(unit), percent).is_some(),
-                wrong,
-                "{before}{after}"
-            );
-        }
         let value = super::super::mark::framed("rows[x=12].mean", "significant2");
         assert_eq!(found(&format!("at {value} or 3")), ["3"]);
         let text = "k_12";
         assert_eq!(words(text, 2..4, &Declared::default()), [], "the part of a word");
         assert!(Declared::read("[[literal]]\nwhy = \" \"\nphrases = [\"two\"]").is_err());
+    }
+
+    #[test]
+    fn another_unit_or_sign_beside_a_value_is_found() {
+        for (line, wrong) in [
+            ("at V s, ms|at V km/h, m/s|at V\u{a0}%,|at V%,1|at −V,1|(-V,1|V\\%,s", true),
+            (
+                "at V\u{a0}ms.,ms|at V so,ms|at V s,|at V %,%|non-V s,|1–V,1|V\n\nA dog,s|a − V,1",
+                false,
+            ),
+        ] {
+            for (text, unit) in line.split('|').map(|one| one.split_once(',').unwrap()) {
+                let (before, after) = text.split_once('V').unwrap();
+                let of = Value { unit: unit.trim().into(), ..Value::real("x", 0.5, 1) };
+                let found = beside(before, after, &of, Style::default(), false);
+                assert_eq!(found.is_some(), wrong, "{text}: {found:?}");
+            }
+        }
+        let of = Value { unit: "ms".into(), ..Value::real("x", 0.5, 1) };
+        let maths = |after| beside("-", after, &of, Style::default(), true).is_some();
+        assert_eq!(
+            [r"\,\mathrm{s}", r"\,\%", " h", r"\,\mathrm{ms}"].map(maths),
+            [true, true, false, false]
+        );
     }
 
     #[test]
@@ -303,7 +319,9 @@ mod tests {
         for number in numbers.split('|') {
             assert!(formula(number.trim()).is_some(), "{number}");
         }
-        let fine = r"= 0 | \approx 1 | k \ge 3 . | i = 1, 2, \dots | v = 2\pi | x = 12 y | \frac{1}{2} | x = 1/2 | f = -1 | x_{12} | 10^{n} | 2 \text{ of } n | \sum_{i=12}^N i |
+        let fine = r"= 0 | \approx 1 | k \ge 3 . | i = 2, \dots | \frac12 | n = \frac12 | v = 2\pi | x = 12 y |
+            \frac{1}{2} | x = 1/2 | f = -1 | x_{12} | 10^{n} |
+            2 \text{ of } n | \sum_{i=12}^N i |
             f(1, 12) = k | \sigma = \frac{1}{12}";
         for fine in fine.split('|') {
             assert_eq!(formula(fine.trim()), None, "{fine}");

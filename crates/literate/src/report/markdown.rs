@@ -122,7 +122,19 @@ pub fn escaped(text: &str) -> String {
         match piece {
             // A bar would end a cell.
             Inline::Maths(tex) => out += &format!("${}$", tex.digits().replace('|', r"\vert{}")),
-            words => escape::words(&document::plain(&[words]), Within::default(), &mut out),
+            // The prose into which it goes has more signs.
+            words => {
+                let written = out.len();
+                escape::words(
+                    &document::plain(&[words]),
+                    Within { link: true, cell: false },
+                    &mut out,
+                );
+                for c in out.split_off(written).chars() {
+                    out.extend("{}^@".contains(c).then_some('\\'));
+                    out.push(c);
+                }
+            }
         }
     }
     out

@@ -22,7 +22,10 @@ pub fn code(code: &str, within: Within, out: &mut String) {
         words(code, within, out);
         return out.push_str("</code>");
     }
-    let fence = fence(code, if code.is_empty() { 0 } else { 1 });
+    if code.is_empty() {
+        return;
+    }
+    let fence = fence(code, 1);
     let both = code.starts_with(' ') && code.ends_with(' ') && !code.trim().is_empty();
     let blank = if both || code.starts_with('`') || code.ends_with('`') { " " } else { "" };
     let code = if within.cell { code.replace('|', r"\|") } else { code.into() };
@@ -49,7 +52,8 @@ pub fn words(text: &str, within: Within, out: &mut String) {
         let (before, after) = (i.checked_sub(1).map(|i| &chars[i]), &chars[i + 1..]);
         match chars[i] {
             '\\' | '*' | '`' | '<' | '$' | '~' | '|' => true,
-            '&' => names_character(after.iter().copied()),
+            // What names a character.
+            '&' => after.iter().find(|c| !c.is_alphanumeric() && **c != '#') == Some(&';'),
             '[' | ']' if within.link => true,
             '_' => !(is_word(before) && is_word(after.first())),
             '(' => before == Some(&']'),
@@ -66,11 +70,6 @@ pub fn words(text: &str, within: Within, out: &mut String) {
         out.extend((is_read(i) || ":.".contains(c) && is_address(i)).then_some('\\'));
         out.push(c);
     }
-}
-
-/// Whether it goes on as a name or number of a character, `amp;`.
-fn names_character(mut after: impl Iterator<Item = char>) -> bool {
-    after.find(|c| !c.is_alphanumeric() && *c != '#') == Some(';')
 }
 
 /// Where a backslash stops words at the start of a line from becoming a list, a heading, a quote,

@@ -93,28 +93,30 @@ impl Reader<'_> {
         let tex: String = tex.char_indices().map(typed).collect();
         let found = lint::formula(&tex);
         self.hard_coded(found.map(|numeral| (range.start, numeral)));
-        self.check_values(range);
+        self.check_values(range, true);
     }
 
     /// Notes what beside a value changes its unit or sign, and digits that drop its error.
-    fn check_values(&mut self, range: &Range<usize>) {
+    fn check_values(&mut self, range: &Range<usize>, maths: bool) {
         let (filled, values) = (self.filled, self.values);
         let (source, mut at) = (&filled.text, range.start);
         for piece in pieces(&source[range.clone()]) {
-            let Piece::Value { id, shown } = piece else {
-                let Piece::Text(text) = piece else { continue };
-                at += text.len();
-                continue;
+            let (id, shown) = match piece {
+                Piece::Text(text) => {
+                    at += text.len();
+                    continue;
+                }
+                Piece::Value { id, shown } => (id, shown),
             };
-            let end = at + mark::framed(&id, shown).len();
-            let style = mark::style(shown);
+            let (end, style) = (at + mark::framed(&id, shown).len(), mark::style(shown));
             if let Some(value) = values.get(&id) {
-                let is_error =
-                    matches!(value.number, Number::Real { digits: Digits::Error(_), .. });
-                let drops = (is_error && style.digits.is_some())
-                    .then(|| format!("«{id}» has a standard error, which `significant` drops"));
-                let beside = || lint::beside(&source[..at], &source[end..], value, style.percent);
-                if let Some(what) = drops.or_else(beside) {
+                let has_error =
+                    |digits: &Digits| matches!(digits, Digits::Error(_)) && style.digits.is_some();
+                let drops =
+                    matches!(&value.number, Number::Real { digits, .. } if has_error(digits));
+                let what = format!("«{id}» has a standard error, which `significant` drops");
+                let beside = || lint::beside(&source[..at], &source[end..], value, style, maths);
+                if let Some(what) = drops.then_some(what).or_else(beside) {
                     self.note(at, Error::Named { thing: id, what });
                 }
             }
@@ -200,7 +202,7 @@ impl Reader<'_> {
             return Err(markup(what).at(self.filled.place(at)));
         }
         self.hard_coded(lint::words(source, part.clone(), self.declared));
-        self.check_values(&part);
+        self.check_values(&part, false);
         // A backslash before a backslash is meant.
         let escaped = usize::from(source[..part.start].ends_with('\\') && text.starts_with('\\'));
         let text = &(text[..escaped].to_string() + &lint::literal(&text[escaped..]));

@@ -26,9 +26,9 @@ at «"3.14"» => 14:4 => hard-coded number 3.14;
 <% set a = raw.half_height * 60 %>at «a» => 14:38 => hard-coded number 6.99
 at «v.empty | otherwise(words="12") » => 14:4 => hard-coded number 12;
 by $N = «6 + 1»$ => 14:4 => hard-coded number 7;
-at «v.half_height» % => 14:4 => «half_height» has the unit none, and % follows
+at «v.half_height» % => 14:4 => % follows «half_height», whose unit is
 at −«v.half_height» => 14:5 => a minus before «half_height» changes its sign
-$x = «v.half_height | percent»\,\%$ => 14:6 => has the unit %, and % follows
+$x = «v.half_height | percent»\,\%$ => 14:6 => % follows «half_height», whose unit is
 at «v.half_height | significant(digits=17)» => 14:4 => a standard error, which `significant` drops
 We find $\sigma_{1/2} = 0.1159$ here. => 14:9 => hard-coded number 0.1159;
 by `0.1159` => 14:5 => hard-coded number 0.1159;

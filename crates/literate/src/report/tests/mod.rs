@@ -189,7 +189,7 @@ fn figure() -> Figure {
 
 fn claim(id: &'static str) -> Check {
     let found = crate::text!("{}", with_error(0.11652, 0.0004));
-    let check = Check::new(Kind::Statement, id, "A threshold | exists", found);
+    let check = Check::new(Kind::Statement, id, "A threshold | in [xx, {yy}^zz] @ exists", found);
     let mut judged = check.judged(true).within(crate::text!("{:1}", 0.005), "half a unit");
     (judged.place, judged.expected) = ("Sec. 2".into(), "σ ≈ 0.12".into());
     judged
@@ -288,7 +288,7 @@ fn a_report_is_all_its_files() {
     assert_eq!(paths.collect::<Vec<_>>().join(" "), expected);
     assert_eq!(file(&report, "SHA256SUMS").lines().count(), 6);
     let parts = r##"
-report.md => 1 | A threshold \| exists: 0.1165(4), reproduced |
+report.md => 1 | A threshold \| in [xx, {yy}^zz] @ exists: 0.1165(4), reproduced |
 report.md => [fig03.csv](data/fig03.csv)
 report.tex => At \origin{half_height}{0.1165(4)}, 
 values.json => "score.reproduced"
