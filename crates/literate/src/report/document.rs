@@ -167,11 +167,17 @@ impl From<&str> for Formula {
     }
 }
 
-/// Returns a printed value as text, or as a formula where it has a power of ten.
+/// Returns a printed value as text, with its formulas, or as a formula where it has a power of ten.
 pub fn printed(shown: &Shown) -> Vec<Inline> {
     let numeral = match shown {
-        // A dollar sign is a sign like others.
-        Shown::Words(words) => return vec![Inline::Text(in_one_line(words))],
+        Shown::Words(words) => {
+            let line = in_one_line(words);
+            return if has_formulas(&line) {
+                words_and_maths(&line)
+            } else {
+                vec![Inline::Text(line)]
+            };
+        }
         Shown::Number(numeral) => numeral,
     };
     let percent = if numeral.percent { "\u{a0}%" } else { "" };
@@ -179,6 +185,20 @@ pub fn printed(shown: &Shown) -> Vec<Inline> {
         Some(power) => vec![Inline::Maths(power.as_str().into()), Inline::Text(percent.into())],
         None => vec![Inline::Text(numeral.signed("−") + percent)],
     }
+}
+
+/// Whether words from data are written with formulas, `at $h = 0.3$`: each of their dollar signs
+/// begins one behind a blank or ends one before no letter. Else, as in `^a$|^b$`, they are signs.
+pub fn has_formulas(words: &str) -> bool {
+    let parts: Vec<&str> = words.split('$').collect();
+    let is_formula = |at: usize| {
+        let [before, tex, after] = [at - 1, at, at + 1].map(|at| parts[at]);
+        let opens = before.ends_with([' ', '(', '[', '“']) || before.is_empty() && at == 1;
+        let closes =
+            !tex.is_empty() && tex.trim() == tex && !after.starts_with(char::is_alphanumeric);
+        opens && closes && tex::refused(tex).is_none()
+    };
+    parts.len() % 2 == 1 && parts.len() > 1 && (1..parts.len()).step_by(2).all(is_formula)
 }
 
 pub fn in_one_line(words: &str) -> String {
@@ -241,12 +261,9 @@ pub fn place_on_page(id: &str) -> String {
 /// Writes what no address has, and brackets without their pairs, as `%7C`: every format has such
 /// signs for itself.
 pub fn address(to: &str) -> String {
-    let depth = |depth: Option<u32>, c| match c {
-        '(' => Some(depth? + 1),
-        ')' => depth?.checked_sub(1),
-        _ => depth,
-    };
-    let in_pairs = to.chars().fold(Some(0), depth) == Some(0);
+    let deeper =
+        |depth: i32, c| Some(depth + i32::from(c == '(') - i32::from(c == ')')).filter(|d| *d >= 0);
+    let in_pairs = to.chars().try_fold(0, deeper) == Some(0);
     let is_own = |c: char| c.is_alphanumeric() || "-._~:/?#[]@!$&'*+,;=%".contains(c);
     let mut out = String::new();
     for c in to.chars() {

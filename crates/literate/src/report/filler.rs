@@ -79,17 +79,15 @@ impl Filler {
     }
 
     pub fn fill(&self, path: &str) -> Result<String, Error> {
-        let mut written = Written::default();
+        let mut written = Written(Vec::new());
         let made = self.tera.render_to(path, &self.context, &mut written);
-        let Written { bytes, is_full } = written;
-        let text = String::from_utf8_lossy(&bytes);
-        if is_full {
+        let text = String::from_utf8(written.0).unwrap_or_default();
+        if text.len() > MOST {
             let what = format!("this writes more than {} MiB; end the loop earlier", MOST >> 20);
-            let place = text.rsplit(mark::OPEN).find_map(|mark| mark::place_of(mark));
+            let place = text.rsplit(mark::OPEN).find_map(mark::place_of);
             return Err(self.fault(path, place.unwrap_or_default(), &what));
         }
-        made.map_err(|error| self.failure(&error))?;
-        Ok(text.into_owned())
+        made.map(|()| text).map_err(|error| self.failure(&error))
     }
 
     /// Fills the prose of a document, and keeps where each piece of it stands.
@@ -211,20 +209,13 @@ fn fault(templates: &Templates, path: &str, at: usize, what: &str) -> Error {
 /// A template writes at most this many bytes.
 const MOST: usize = 64 << 20;
 
-#[derive(Default)]
-struct Written {
-    bytes: Vec<u8>,
-    is_full: bool,
-}
+struct Written(Vec<u8>);
 
 impl std::io::Write for Written {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.is_full = self.bytes.len() + bytes.len() > MOST;
-        if self.is_full {
-            return Err(std::io::ErrorKind::OutOfMemory.into());
-        }
-        self.bytes.extend_from_slice(bytes);
-        Ok(bytes.len())
+        self.0.extend_from_slice(bytes);
+        let is_full = self.0.len() > MOST;
+        if is_full { Err(std::io::ErrorKind::OutOfMemory.into()) } else { Ok(bytes.len()) }
     }
 
     fn flush(&mut self) -> std::io::Result<()> {

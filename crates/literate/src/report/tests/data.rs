@@ -95,7 +95,10 @@ fn words_of_data_are_data() {
         (state >> 33) as usize % below
     };
     let (mut words, mut prose, mut shown) = (Vec::new(), String::new(), Vec::new());
-    for line in BLOCKS.lines().skip(1).cycle().take(500) {
+    let mixed = BLOCKS.lines().skip(1).cycle().take(400).map(|line| (line, None));
+    let alone = ["W => W", "- W⏎- aW => W aW"];
+    let alone = pieces.iter().flat_map(|piece| alone.map(|line| (line, Some(piece))));
+    for (line, piece) in mixed.chain(alone) {
         let (block, seen) = line.split_once(" => ").unwrap();
         let (mut written, mut expected) = (String::new(), seen.to_string());
         for c in unmarked(block).chars() {
@@ -103,8 +106,12 @@ fn words_of_data_are_data() {
                 written.push(c);
                 continue;
             }
-            let word: String = (0..=random(4)).map(|_| pieces[random(pieces.len())]).collect();
+            let mix = || (0..=random(4)).map(|_| pieces[random(pieces.len())]).collect();
+            let word: String = piece.map_or_else(mix, |piece| piece.to_string());
             let word = unmarked(&word.replace('␣', " "));
+            // What is written as a formula is one.
+            let is_formula = document::has_formulas(&word);
+            let word = if is_formula { word.replace('$', "€") } else { word };
             written += &format!("«toy.words[keys.toy.words.rows[{}]].word»", words.len());
             if c == 'W' {
                 expected = expected.replacen('W', &word.replace('\n', " "), 1);
@@ -134,6 +141,10 @@ fn words_of_data_are_data() {
     let id = format!("toy.words[n=0,name={}].word", words[0]);
     let card = crate::figures::escape(&word).replace(" %", "\u{a0}%");
     assert_eq!(cards[1][&id][0], card);
+    assert!(document::has_formulas("at $h = 0.3$, ($x$)"));
+    assert!(
+        !["^a$|^b$", "$HOME/$USER", "$5 and $6", "US$"].into_iter().any(document::has_formulas)
+    );
     for words in ["a\u{7}b", "\0", "a\u{e000}b"] {
         let error = with_words(&[words.into()], "").unwrap_err().to_string();
         assert!(error.contains("which no format can show"), "{error}");
