@@ -148,7 +148,7 @@ fn unit(text: &str) -> Option<String> {
     UNITS.split_whitespace().any(|unit| unit == first).then_some(unit)
 }
 
-/// Returns what beside a value changes its unit or its sign; a formula has units in `\mathrm` alone.
+/// Returns what beside a value changes its unit or its sign; formulas have units in `\mathrm`.
 pub fn beside(before: &str, after: &str, of: &Value, style: Style, maths: bool) -> Option<String> {
     let tex = [r"\,", r"\;", r"\ ", "~", " ", "\u{a0}", "\u{202f}"];
     let mut rest = after;
@@ -218,7 +218,7 @@ fn sides(tex: &str) -> Vec<(String, bool)> {
 const EQUALS: [&str; 5] = ["=", "≈", r"\approx", r"\simeq", r"\sim"];
 
 /// Finds a hard-coded number in a formula; none if each number is a part of mathematics. `0` and
-/// `1` alone are allowed: they are as much words as numbers; and so are fractions with a digit above.
+/// `1` alone are allowed: they are as much words as numbers; so are fractions with a digit above.
 pub fn formula(tex: &str) -> Option<String> {
     let sides = sides(tex);
     let digits = |text: &str| text.chars().filter(char::is_ascii_digit).count();

@@ -112,7 +112,9 @@ fn anchor(id: &str) -> String {
 fn alternative(text: &str) -> String {
     let (line, mut out) = (text.split_whitespace().collect::<Vec<_>>().join(" "), "[".to_string());
     escape::words(&line, Within { link: true, cell: false }, &mut out);
-    out.split_off(1)
+    // One star alone is a star.
+    let out = if line.matches('*').count() == 1 { out.replace(r"\*", "*") } else { out };
+    out[1..].into()
 }
 
 /// Returns a text of an author as Markdown that shows just its words and formulas.

@@ -114,7 +114,8 @@ impl Reader<'_> {
                     |digits: &Digits| matches!(digits, Digits::Error(_)) && style.digits.is_some();
                 let drops =
                     matches!(&value.number, Number::Real { digits, .. } if has_error(digits));
-                let what = format!("«{id}» has a standard error, which `significant` drops");
+                let what =
+                    format!("«{id}» has a standard error, which `significant` drops; leave it out");
                 let beside = || lint::beside(&source[..at], &source[end..], value, style, maths);
                 if let Some(what) = drops.then_some(what).or_else(beside) {
                     self.note(at, Error::Named { thing: id, what });
