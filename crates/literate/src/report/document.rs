@@ -264,7 +264,7 @@ pub fn address(to: &str) -> String {
     let deeper =
         |depth: i32, c| Some(depth + i32::from(c == '(') - i32::from(c == ')')).filter(|d| *d >= 0);
     let in_pairs = to.chars().try_fold(0, deeper) == Some(0);
-    let is_own = |c: char| c.is_alphanumeric() || "-._~:/?#[]@!$&'*+,;=%".contains(c);
+    let is_own = |c: char| c.is_ascii_alphanumeric() || "-._~:/?#[]@!$&'*+,;=%".contains(c);
     let mut out = String::new();
     for c in to.chars() {
         if is_own(c) || in_pairs && "()".contains(c) {

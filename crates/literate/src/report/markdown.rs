@@ -192,7 +192,7 @@ fn inlines_in(list: &[Inline], within: Within) -> String {
 /// Writes emphasis, by a tag where stars would be read as stars: beside a letter a star needs a
 /// letter on its other side too.
 fn enclosed(inner: &str, [sign, tag]: [&str; 2], next: Option<&Inline>, out: &mut String) {
-    let words = inner.trim();
+    let words = inner.trim_matches(' ');
     let (Some(first), Some(last)) = (words.chars().next(), words.chars().next_back()) else {
         return out.push_str(inner);
     };
@@ -204,7 +204,8 @@ fn enclosed(inner: &str, [sign, tag]: [&str; 2], next: Option<&Inline>, out: &mu
         _ => ' ',
     };
     let fits = |inner: char, outer: char| {
-        inner != '*' && outer != '*' && (inner.is_alphanumeric() || !outer.is_alphanumeric())
+        let both = !inner.is_whitespace() && inner != '*' && outer != '*';
+        both && (inner.is_alphanumeric() || !outer.is_alphanumeric())
     };
     let before = out.chars().next_back().unwrap_or(' ');
     if fits(first, before) && fits(last, next) {

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 
 /// Pieces of words, with signs of markup; `␣` is a blank, and `⏎` ends a line.
-const PIECES: &str = r##"a b Z é σ 0.5 7 ␣ ␣ ␣ ␣␣ ␣␣␣␣ * ** _ __ ` `` ``` $ $$ | | \ \| \\ - -- --- -␣ +␣ 1.␣ 12) # ##
+const PIECES: &str = r##"a b Z é σ 0.5 7 · ␣ ␣ ␣ ␣␣ ␣␣␣␣ * ** _ __ ` `` ``` $ $$ | | \ \| \\ - -- --- -␣ +␣ 1.␣ 12) # ##
     #␣ > = === [ ] ( ) [␣] [x] ](x) [a]:␣b ! ![ [!NOTE] [^1] < <b> </b> <!-- & &amp; &#35; ~ ~~ ~~~ @a @ {
     } {#a} ^ % ␣% " ' '' ,, : :- :-: :: ; / « » − – → https://x.org/a_b*c www.x.org ^a$|^b$ $HOME/$USER US$
     C:\new{x} null ⏎ a␣b a␣b a␣b"##;
