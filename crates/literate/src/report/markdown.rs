@@ -29,7 +29,7 @@ fn block(block: &Block) -> String {
         Block::Heading { level, number, id, text } => {
             let number = number.as_ref().map(|n| format!("{n} ")).unwrap_or_default();
             let (hashes, id) = ("#".repeat(usize::from(*level)), id.as_deref().map(anchor));
-            let mut words = inlines(text);
+            let mut words = inlines(text).trim_end().to_string();
             // Signs at the end would close the heading.
             let kept = words.trim_end_matches('#').len();
             if kept < words.len() && words[..kept].ends_with(' ') {

@@ -60,11 +60,12 @@ pub fn words(text: &str, within: Within, out: &mut String) {
             _ => marker == Some(i),
         }
     };
-    // An address, of which GitHub makes a link, takes backslashes as its own.
+    // An address, of which GitHub makes a link, takes backslashes and markup behind it as its own.
     let is_address = |i: usize| {
-        let ends = |j: &usize| chars[*j].is_whitespace();
         let begins = chars[i..].starts_with(&[':', '/']) || chars[..i].ends_with(&['w', 'w', 'w']);
-        begins && (i..chars.len()).take_while(|j| !ends(j)).any(is_read)
+        let mut rest = (i..chars.len()).take_while(|j| !chars[*j].is_whitespace());
+        let has_end = chars[i..].iter().any(|c| c.is_whitespace());
+        begins && !within.link && (!has_end || rest.any(is_read))
     };
     for (i, &c) in chars.iter().enumerate() {
         out.extend((is_read(i) || ":.".contains(c) && is_address(i)).then_some('\\'));
