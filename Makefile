@@ -1,6 +1,6 @@
 # Every target is one line that calls cargo, the program or a script. Requirements: Rust
 # (rust-toolchain.toml names the version), make and a C compiler for linking; tests also run Python
-# 3.9 or later.
+# 3.9 or later, and cmark-gfm where it is installed.
 
 .PHONY: paper quick check latex browser test test-checked test-long lint deny identity archive bench measure clean help
 

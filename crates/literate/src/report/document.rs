@@ -170,7 +170,14 @@ impl From<&str> for Formula {
 /// Returns a printed value as text, with its formulas, or as a formula where it has a power of ten.
 pub fn printed(shown: &Shown) -> Vec<Inline> {
     let numeral = match shown {
-        Shown::Words(words) => return words_and_maths(&in_one_line(words)),
+        Shown::Words(words) => {
+            let line = in_one_line(words);
+            return if has_formulas(&line) {
+                words_and_maths(&line)
+            } else {
+                vec![Inline::Text(line)]
+            };
+        }
         Shown::Number(numeral) => numeral,
     };
     let percent = if numeral.percent { "\u{a0}%" } else { "" };
@@ -178,6 +185,20 @@ pub fn printed(shown: &Shown) -> Vec<Inline> {
         Some(power) => vec![Inline::Maths(power.as_str().into()), Inline::Text(percent.into())],
         None => vec![Inline::Text(numeral.signed("−") + percent)],
     }
+}
+
+/// Whether words from data are written with formulas, `at $h = 0.3$`: each of their dollar signs
+/// begins one behind a blank or ends one before no letter. Else, as in `^a$|^b$`, they are signs.
+pub fn has_formulas(words: &str) -> bool {
+    let parts: Vec<&str> = words.split('$').collect();
+    let is_formula = |at: usize| {
+        let [before, tex, after] = [at - 1, at, at + 1].map(|at| parts[at]);
+        let opens = before.ends_with([' ', '(', '[', '“']) || before.is_empty() && at == 1;
+        let closes =
+            !tex.is_empty() && tex.trim() == tex && !after.starts_with(char::is_alphanumeric);
+        opens && closes && tex::refused(tex).is_none()
+    };
+    parts.len() % 2 == 1 && parts.len() > 1 && (1..parts.len()).step_by(2).all(is_formula)
 }
 
 pub fn in_one_line(words: &str) -> String {
@@ -235,6 +256,24 @@ pub fn heading_place(id: Option<&str>, number: Option<&str>, words: &[Inline]) -
 /// Returns the id of a place on a page: `fig-3` for `fig:3`.
 pub fn place_on_page(id: &str) -> String {
     place(id).replace([':', '.'], "-")
+}
+
+/// Writes what no address has, and brackets without their pairs, as `%7C`: every format has such
+/// signs for itself.
+pub fn address(to: &str) -> String {
+    let deeper =
+        |depth: i32, c| Some(depth + i32::from(c == '(') - i32::from(c == ')')).filter(|d| *d >= 0);
+    let in_pairs = to.chars().try_fold(0, deeper) == Some(0);
+    let is_own = |c: char| c.is_ascii_alphanumeric() || "-._~:/?#[]@!$&'*+,;=%".contains(c);
+    let mut out = String::new();
+    for c in to.chars() {
+        if is_own(c) || in_pairs && "()".contains(c) {
+            out.push(c);
+        } else {
+            out.extend(c.encode_utf8(&mut [0; 4]).bytes().map(|byte| format!("%{byte:02X}")));
+        }
+    }
+    out
 }
 
 /// Returns an id without signs that TeX or a page would read: a key may have them.

@@ -2,6 +2,7 @@
 
 use super::error::Error;
 use super::mark::{Piece, framed, pieces};
+use super::typed::{self, Names};
 use crate::input::line_and_column;
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -9,6 +10,8 @@ pub struct Filled {
     /// The text; values are marks in it.
     pub text: String,
     templates: Vec<(String, String)>,
+    /// Of each template the names of what was typed in its tags.
+    typed: Vec<Names>,
     origins: Vec<Origin>,
 }
 
@@ -29,6 +32,7 @@ impl Filled {
         }
         let template = self.templates.len();
         self.templates.push((path.into(), text.into()));
+        self.typed.push(typed::names(text));
         let here = |start, offset, tag| Origin { start, template, offset, tag };
         self.origins.push(here(self.text.len(), 0, false));
         for piece in pieces(filled) {
@@ -59,9 +63,9 @@ impl Filled {
     /// Returns whether people typed what stands at an offset, as text or within a tag.
     pub fn is_typed(&self, offset: usize) -> bool {
         let Origin { template, offset, tag, .. } = self.origin(offset);
-        let typed = self.templates[template].1[offset..].trim_start_matches(['«', '-', ' ']);
-        let number = |c: char| c.is_ascii_digit() || "\"'`(-".contains(c);
-        !tag || typed.starts_with(number) || typed.starts_with("loop.")
+        let inside = self.templates[template].1[offset..].trim_start_matches('«');
+        let inside = inside.split('»').next().unwrap_or_default();
+        !tag || typed::is_typed(inside, &self.typed[template])
     }
 }
 

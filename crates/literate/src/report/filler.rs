@@ -47,6 +47,18 @@ impl Filler {
             comment_start: "<#".into(),
             comment_end: "#>".into(),
         };
+        // Tera reads what follows each of them within it.
+        let long = |(path, text): (&str, &str)| {
+            Some((path.to_string(), text.match_indices("elif").nth(200)?.0))
+        };
+        if let Some((path, at)) = templates.iter().find_map(long) {
+            return Err(fault(
+                templates,
+                &path,
+                at,
+                "more than 200 `elif` in a file; write a table",
+            ));
+        }
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
         let names = names(values, &tables);
@@ -67,7 +79,15 @@ impl Filler {
     }
 
     pub fn fill(&self, path: &str) -> Result<String, Error> {
-        self.tera.render(path, &self.context).map_err(|error| self.failure(&error))
+        let mut written = Written(Vec::new());
+        let made = self.tera.render_to(path, &self.context, &mut written);
+        let text = String::from_utf8(written.0).unwrap_or_default();
+        if text.len() > MOST {
+            let what = format!("this writes more than {} MiB; end the loop earlier", MOST >> 20);
+            let place = text.rsplit(mark::OPEN).find_map(mark::place_of);
+            return Err(self.fault(path, place.unwrap_or_default(), &what));
+        }
+        made.map(|()| text).map_err(|error| self.failure(&error))
     }
 
     /// Fills the prose of a document, and keeps where each piece of it stands.
@@ -105,8 +125,7 @@ impl Filler {
     }
 
     fn fault(&self, path: &str, at: usize, what: &str) -> Error {
-        let place = line_and_column(self.templates.text(path).unwrap_or_default(), at);
-        Error::Template(self.templates.place(&format!("{path}:{place}: {what}")))
+        fault(&self.templates, path, at, what)
     }
 
     /// Returns which part of a name, `table["row"].column`, does not exist, with the nearest that
@@ -179,6 +198,28 @@ impl Filler {
             None => what,
         };
         self.fault(path, at, &what)
+    }
+}
+
+fn fault(templates: &Templates, path: &str, at: usize, what: &str) -> Error {
+    let place = line_and_column(templates.text(path).unwrap_or_default(), at);
+    Error::Template(templates.place(&format!("{path}:{place}: {what}")))
+}
+
+/// A template writes at most this many bytes.
+const MOST: usize = 64 << 20;
+
+struct Written(Vec<u8>);
+
+impl std::io::Write for Written {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.extend_from_slice(bytes);
+        let is_full = self.0.len() > MOST;
+        if is_full { Err(std::io::ErrorKind::OutOfMemory.into()) } else { Ok(bytes.len()) }
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
     }
 }
 

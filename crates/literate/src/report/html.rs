@@ -287,8 +287,8 @@ impl<'a> Page<'a> {
                 // A document is another file here, and a host shows no folder.
                 let of = self.input.edition.documents.iter().find(|of| of.markdown == to);
                 let folder = (to == "data").then_some("data/index.html");
-                let to = of.map(|of| of.page).or(folder).unwrap_or(to);
-                format!("<a href=\"{}\">{}</a>", text(to), self.inlines(shown))
+                let to = document::address(of.map(|of| of.page).or(folder).unwrap_or(to));
+                format!("<a href=\"{}\">{}</a>", escape(&to), self.inlines(shown))
             }
             Inline::Reference { to, within, shown } => {
                 let file = within.map_or("", |document| document.page);

@@ -1,6 +1,6 @@
 //! Writes the tree as a document for LaTeX; what surrounds it is the template report.tex.
 
-use super::document::{Block, Formula, Inline, Reference, Table, title};
+use super::document::{self, Block, Formula, Inline, Reference, Table, title};
 use super::document::{goes_on, is_abstract, place, plain, printed, spelt};
 use super::edition::{Document, Edition};
 use super::error::Error;
@@ -215,7 +215,7 @@ fn breakable(code: &str) -> String {
 }
 
 fn address(to: &str) -> String {
-    to.replace('\\', "").replace('%', r"\%").replace('#', r"\#").replace('&', r"\&")
+    document::address(to).replace('%', r"\%").replace('#', r"\#").replace('&', r"\&")
 }
 
 /// Characters that fit into a line of the page in the size of tables.

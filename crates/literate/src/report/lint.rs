@@ -3,7 +3,9 @@
 use super::error::Error;
 use super::mark::{CLOSE, OPEN};
 use super::tex;
+use super::values::Value;
 use crate::input::toml_fault;
+use crate::print::Style;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -74,7 +76,8 @@ pub fn words(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize,
     }
     while let Some(c) = text[at..part.end].chars().next() {
         let (start, rest) = (at, &text[at..part.end]);
-        let is_literal = c.is_numeric() && text[..start].ends_with('\\');
+        let escaped = text[..start].strip_suffix('\\').filter(|_| c.is_numeric());
+        let is_literal = escaped.is_some_and(|before| is_name(before, &text[start..]));
         at += match c {
             _ if is_literal => rest.find(ends_literal).unwrap_or(rest.len()),
             OPEN => rest.find(CLOSE).unwrap_or(rest.len()),
@@ -115,19 +118,59 @@ pub fn literal(text: &str) -> String {
     tex::signs(text).map(|sign| literal_digit(sign).unwrap_or(sign)).collect()
 }
 
-/// Returns a formula in which a letter stands for what is meant literally.
-pub fn without_literals(tex: &str) -> String {
-    let (mut out, mut signs) = (String::new(), tex::signs(tex));
-    while let Some(sign) = signs.next() {
-        match literal_digit(sign) {
-            Some(_) => {
-                out.push('x');
-                out.extend(signs.find(|sign| sign.ends_with(ends_literal)));
-            }
-            None => out.push_str(sign),
-        }
+/// Whether a number behind a backslash is one of an address, `doi:`, a year, or a version behind a
+/// name; that is no quantity with a unit, nor behind the first word of a sentence.
+fn is_name(before: &str, number: &str) -> bool {
+    let token = number.split(ends_literal).next().unwrap_or_default();
+    let behind = number[token.len()..].split_whitespace().next().unwrap_or_default();
+    let token = token.trim_end_matches(|c: char| c.is_ascii_punctuation());
+    let is_year = token.len() == 4 && token.starts_with(['1', '2']) && !token.contains('.');
+    let glued = before.ends_with(|c: char| c.is_alphanumeric() || ":/-".contains(c));
+    let name = before.split_whitespace().next_back().unwrap_or_default();
+    let is_unit = unit(behind).is_some();
+    let is_named =
+        before.ends_with(' ') && name.starts_with(char::is_uppercase) && !FIRST.contains(name);
+    glued || !is_unit && (is_year || is_named)
+}
+
+const FIRST: &str =
+    "A About Above After And At Below Between By For From If In Near Of On Only Over The To With";
+
+/// Units that a sentence names behind a number.
+const UNITS: &str = "s ms µs ns min h d m km cm mm µm nm g kg mg N kN Pa kPa MPa J kJ W kW V mV A mA K Hz \
+    kHz MHz GHz rad mrad ° °C % ‰ kB MB GB";
+
+/// Returns the unit, as `km/h`, that a text begins with.
+fn unit(text: &str) -> Option<String> {
+    let ends = |c: char| c.is_whitespace() || ",.;:!?()[]{}|*_$\\".contains(c) || c == OPEN;
+    let unit = text.split(ends).next().unwrap_or_default().replace('μ', "µ");
+    let first = unit.split(['/', '·', '²', '³']).next()?;
+    UNITS.split_whitespace().any(|unit| unit == first).then_some(unit)
+}
+
+/// Returns what beside a value changes its unit or its sign; formulas have units in `\mathrm`.
+pub fn beside(before: &str, after: &str, of: &Value, style: Style, maths: bool) -> Option<String> {
+    let tex = [r"\,", r"\;", r"\ ", "~", " ", "\u{a0}", "\u{202f}"];
+    let mut rest = after;
+    while let Some(other) = tex.iter().find_map(|blank| rest.strip_prefix(blank)) {
+        rest = other;
     }
-    out
+    let apart = if maths { "" } else { rest };
+    let apart =
+        [r"\mathrm{", r"\text{"].iter().find_map(|open| rest.strip_prefix(open)).unwrap_or(apart);
+    let touches = rest.trim_start_matches('\\').starts_with(['%', '‰', '°']);
+    let rest = if touches { rest.trim_start_matches('\\') } else { apart.trim_start_matches(' ') };
+    let typed = unit(rest).filter(|_| touches || maths || rest.len() < after.len());
+    let own = if style.percent { "%" } else { &of.unit.replace('μ', "µ") };
+    if let Some(typed) = typed
+        && (style.percent || own != typed && (!own.is_empty() || typed == "%"))
+    {
+        let what = "write it by the value's own unit or by «… | percent»";
+        return Some(format!("{typed} follows «{}», whose unit is {own:?}; {what}", of.id));
+    }
+    let sign = before.strip_suffix(['-', '−']).filter(|_| !maths)?;
+    let begins = sign.chars().next_back().is_none_or(|c| c.is_whitespace() || "(|“".contains(c));
+    begins.then(|| format!("a minus before «{}» changes its sign; compute it so", of.id))
 }
 
 /// Signs that end a side of a relation.
@@ -139,8 +182,9 @@ const AROUND: &str = r"\, \; \: \! ~ ± \times \cdot \pm \thinspace \mathbf \mat
 
 const DIGITS: &str = "0123456789 .,+-−^{}%\\()";
 
-/// Returns the sides of the relations in a formula, without what may surround a number.
-fn sides(tex: &str) -> Vec<String> {
+/// Returns the sides of the relations in a formula, without what may surround a number, and whether
+/// each is what something equals.
+fn sides(tex: &str) -> Vec<(String, bool)> {
     let [_, between, around] = &*LISTS;
     let mut tex = tex.replace(r"\begin{aligned}", "").replace(r"\end{aligned}", "");
     // A number with a unit or another word is still a number alone.
@@ -151,32 +195,53 @@ fn sides(tex: &str) -> Vec<String> {
             tex = format!("{before}{}{after}", if number { word } else { "" });
         }
     }
-    let (mut sides, mut depth) = (vec![String::new()], 0_i32);
+    let (mut sides, mut depth) = (vec![(String::new(), false)], 0_i32);
     for sign in tex::signs(&tex) {
         depth += i32::from("{([".contains(sign)) - i32::from("})]".contains(sign));
         match sides.last_mut() {
-            Some(side) if depth > 0 || !between.contains(sign) => {
+            Some((side, _)) if depth > 0 || !between.contains(sign) => {
                 side.push_str(if around.contains(sign) { "" } else { sign });
             }
-            _ => sides.push(String::new()),
+            _ => sides.push((String::new(), EQUALS.contains(&sign))),
         }
     }
     let whole = |side: &String| side.trim_end_matches([' ', '.', ',']).trim_start().to_string();
-    sides.iter().map(whole).filter(|side| !side.is_empty()).collect()
+    let sides = sides.iter().map(|(side, equals)| (whole(side), *equals));
+    let mut sides: Vec<_> = sides.filter(|(side, _)| !side.is_empty()).collect();
+    // `i = 2, \dots, n` counts.
+    for at in 1..sides.len() {
+        sides[at - 1].1 &= ![r"\dots", r"\ldots", "…"].contains(&sides[at].0.as_str());
+    }
+    sides
 }
 
+const EQUALS: [&str; 5] = ["=", "≈", r"\approx", r"\simeq", r"\sim"];
+
 /// Finds a hard-coded number in a formula; none if each number is a part of mathematics. `0` and
-/// `1` alone are allowed: they are as much words as numbers.
+/// `1` alone are allowed: they are as much words as numbers; so are fractions with a digit above.
 pub fn formula(tex: &str) -> Option<String> {
     let sides = sides(tex);
-    let is_hard_coded = |side: &String| {
-        let digits = side.chars().filter(char::is_ascii_digit).count();
-        let long = side.contains('.') || digits > 1;
-        let number = digits > 0 && side.chars().all(|c| DIGITS.contains(c));
-        let alone = sides.len() == 1 && !matches!(side.as_str(), "0" | "1");
-        number && (long || alone) || is_number_word(side)
+    let digits = |text: &str| text.chars().filter(char::is_ascii_digit).count();
+    let is_hard_coded = |(side, equals): &&(String, bool)| {
+        let fraction =
+            [r"\frac{", r"\dfrac{", r"\tfrac{"].iter().find_map(|of| side.strip_prefix(of));
+        let bare = fraction.unwrap_or(side);
+        let above =
+            bare.split_once(if fraction.is_some() { '}' } else { '/' }).map(|(above, _)| above);
+        let long = |text: &str| text.contains('.') || digits(text) > 1;
+        // One letter behind a number is a unit, or a factor of a decimal.
+        let letter = tex::signs(bare)
+            .last()
+            .filter(|sign| tex::spell(sign).chars().all(char::is_alphabetic));
+        let factor =
+            letter.filter(|letter| bare.contains('.') || unit(letter).is_some() && long(bare));
+        let rest = factor.map_or(bare, |letter| &bare[..bare.len() - letter.len()]);
+        let number = digits(rest) > 0 && rest.chars().all(|c| DIGITS.contains(c) || c == '/');
+        let small = ["0", "1", "-1", "−1"].contains(&side.as_str());
+        let alone = (sides.len() == 1 || *equals) && above.is_none() && !small;
+        number && (long(above.unwrap_or(bare)) || alone) || is_number_word(side)
     };
-    sides.iter().find(|side| is_hard_coded(side)).cloned()
+    sides.iter().find(is_hard_coded).map(|(side, _)| side.clone())
 }
 
 /// Refuses hard-coded numbers in texts without formulas; `0` and `1` are allowed as in a formula.
@@ -209,6 +274,7 @@ mod tests {
             ("twenty-one times, two-sided", "twenty"),
             ("one of them, once, a single pair, both halves, often, weight, f64, k_1, H2O", ""),
             ("Two masses and two\nmasses at 100 % of 100; two", "100 two"),
+            (r"takes \98.98 s, Waits \7 s, at \0.5, in \2007", "98.98 7 0.5"),
             (r"Python \3.11, doi:\10.1000/182.4 and 3.11", "3.11"),
         ] {
             assert_eq!(found(text).join(" "), numerals, "{text}");
@@ -221,17 +287,44 @@ mod tests {
     }
 
     #[test]
+    fn another_unit_or_sign_beside_a_value_is_found() {
+        for (line, wrong) in [
+            ("at V s, ms|at V km/h, m/s|at V\u{a0}%,|at V%,1|at −V,1|(-V,1|V\\%,s", true),
+            (
+                "at V\u{a0}ms.,ms|at V so,ms|at V s,|at V %,%|non-V s,|1–V,1|V\n\nA dog,s|a − V,1",
+                false,
+            ),
+        ] {
+            for (text, unit) in line.split('|').map(|one| one.split_once(',').unwrap()) {
+                let (before, after) = text.split_once('V').unwrap();
+                let of = Value { unit: unit.trim().into(), ..Value::real("x", 0.5, 1) };
+                let found = beside(before, after, &of, Style::default(), false);
+                assert_eq!(found.is_some(), wrong, "{text}: {found:?}");
+            }
+        }
+        let of = Value { unit: "ms".into(), ..Value::real("x", 0.5, 1) };
+        let maths = |after| beside("-", after, &of, Style::default(), true).is_some();
+        assert_eq!(
+            [r"\,\mathrm{s}", r"\,\%", " h", r"\,\mathrm{ms}"].map(maths),
+            [true, true, false, false]
+        );
+    }
+
+    #[test]
     fn numbers_in_formulas_are_found() {
         let numbers = r"0.12 | 10^{-9} | \approx 0.12 | \text{0.12} | 3~\text{gaps} | \mathbf{3} | = 3 |
             \mathrm{seven} | \sigma_{1/2} = 0.1159 | \sigma \approx 57 | N = 101 | 12 \le n |
-            \begin{aligned} a &= b \\ c &= 12 \end{aligned} | \delta < 8.9\times10^{-4}";
+            \begin{aligned} a &= b \\ c &= 12 \end{aligned} | \delta < 8.9\times10^{-4} |
+            v = 0.35 \omega | N = 6 | T = 99 s | \frac{355}{113} | x = 355/113 | e = \0.5 | T = \99 s";
         for number in numbers.split('|') {
             assert!(formula(number.trim()).is_some(), "{number}");
         }
-        let fine = r"= 0 | \approx 1 | k = 3 . | x_{12} | 10^{n} | 2 \text{ of } n | \sum_{i=12}^N i |
-            f(1, 12) = k | \sigma = \frac{1}{12} | e = \0.5 | \10^{-3} | a \\ \0.5";
+        let fine = r"= 0 | \approx 1 | k \ge 3 . | i = 2, \dots | \frac12 | n = \frac12 | v = 2\pi | x = 12 y |
+            \frac{1}{2} | x = 1/2 | f = -1 | x_{12} | 10^{n} |
+            2 \text{ of } n | \sum_{i=12}^N i |
+            f(1, 12) = k | \sigma = \frac{1}{12}";
         for fine in fine.split('|') {
-            assert_eq!(formula(&without_literals(fine.trim())), None, "{fine}");
+            assert_eq!(formula(fine.trim()), None, "{fine}");
         }
     }
 }

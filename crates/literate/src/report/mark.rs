@@ -11,8 +11,8 @@ pub(super) const OPEN: char = '\u{e000}';
 const NEXT: char = '\u{e001}';
 pub(super) const CLOSE: char = '\u{e002}';
 
-/// An id has words from data in it, whose signs Markdown would read: all of ASCII but letters and
-/// digits is moved to private-use characters from here on.
+/// An id has words from data in it, whose signs Markdown would read: all of Latin-1 but letters
+/// and digits is moved to private-use characters from here on.
 const MOVED: u32 = 0xe100;
 
 pub(super) fn is_of_mark(c: char) -> bool {
@@ -21,12 +21,12 @@ pub(super) fn is_of_mark(c: char) -> bool {
 
 fn moved(c: char) -> char {
     let moved = char::from_u32(MOVED + u32::from(c));
-    moved.filter(|_| c.is_ascii() && !c.is_ascii_alphanumeric()).unwrap_or(c)
+    moved.filter(|_| c <= '\u{ff}' && !c.is_alphanumeric()).unwrap_or(c)
 }
 
 fn moved_back(c: char) -> char {
-    let ascii = u32::from(c).checked_sub(MOVED).and_then(|code| u8::try_from(code).ok());
-    ascii.filter(u8::is_ascii).map_or(c, char::from)
+    let code = u32::from(c).checked_sub(MOVED).and_then(|code| u8::try_from(code).ok());
+    code.map_or(c, char::from)
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -80,6 +80,12 @@ pub fn style(words: &str) -> Style {
         }
     }
     style
+}
+
+/// The offset in the template that the rest of a mark without an id holds.
+pub fn place_of(mark: &str) -> Option<usize> {
+    let (place, _) = mark.strip_prefix(NEXT)?.split_once(CLOSE)?;
+    place.trim_end_matches(['t', 'x']).parse().ok()
 }
 
 /// Adds to a template a mark before each `«` and after each `»`, `%>` and `#>`, with the offset

@@ -5,8 +5,11 @@
 //! `\\` `\cr`, `*` `\ast`, `<` `\lt`; a `_` that could open emphasis gets a space behind it; and
 //! what follows a closing `$` without a space (`$n$-th`) moves inside.
 
+mod escape;
+
 use super::document::{self, Block, Inline, Table, place_on_page};
 use super::tex;
+use escape::{Within, fence};
 use pulldown_cmark::Alignment;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -26,9 +29,16 @@ fn block(block: &Block) -> String {
         Block::Heading { level, number, id, text } => {
             let number = number.as_ref().map(|n| format!("{n} ")).unwrap_or_default();
             let (hashes, id) = ("#".repeat(usize::from(*level)), id.as_deref().map(anchor));
-            format!("{hashes} {}{number}{}", id.unwrap_or_default(), inlines(text))
+            let mut words = inlines(text).trim_end().to_string();
+            // Signs at the end would close the heading.
+            let kept = words.trim_end_matches('#').len();
+            if kept < words.len() && words[..kept].ends_with(' ') {
+                words.insert(kept, '\\');
+            }
+            format!("{hashes} {}{number}{words}", id.unwrap_or_default())
         }
-        Block::Paragraph(text) => inlines(text),
+        // Four blanks begin a block of code.
+        Block::Paragraph(text) => inlines(text).trim_start_matches(' ').into(),
         Block::Figure { id, number, files: [file, _], alt, origin, caption, .. } => {
             let (caption, origin) = (inlines(caption), inlines(origin));
             let origin = if origin.is_empty() { origin } else { format!("\n<sub>{origin}</sub>") };
@@ -75,9 +85,11 @@ fn block(block: &Block) -> String {
     }
 }
 
+const CELL: Within = Within { link: false, cell: true };
+
 fn table(table: &Table) -> String {
     let row = |cells: &[Vec<Inline>]| {
-        let cells: Vec<String> = cells.iter().map(|cell| inlines(cell)).collect();
+        let cells: Vec<String> = cells.iter().map(|cell| inlines_in(cell, CELL)).collect();
         format!("| {} |\n", cells.join(" | "))
     };
     let rule = |align: &Alignment| match align {
@@ -92,20 +104,17 @@ fn table(table: &Table) -> String {
     out
 }
 
-/// Returns a fence of at least this many grave accents, longer than any in the code.
-fn fence(code: &str, least: usize) -> String {
-    let longest = code.split(|c| c != '`').map(str::len).max().unwrap_or_default();
-    "`".repeat(least.max(longest + 1))
-}
-
 fn anchor(id: &str) -> String {
     format!("<a id=\"{}\"></a>", place_on_page(id))
 }
 
-/// Alternative text: one line, without characters that Markdown would read.
+/// Alternative text, in one line.
 fn alternative(text: &str) -> String {
-    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    line.replace('\\', r"\\").replace('[', r"\[").replace(']', r"\]").replace('_', r"\_")
+    let (line, mut out) = (text.split_whitespace().collect::<Vec<_>>().join(" "), "[".to_string());
+    escape::words(&line, Within { link: true, cell: false }, &mut out);
+    // One star alone is a star.
+    let out = if line.matches('*').count() == 1 { out.replace(r"\*", "*") } else { out };
+    out[1..].into()
 }
 
 /// Returns a text of an author as Markdown that shows just its words and formulas.
@@ -115,21 +124,44 @@ pub fn escaped(text: &str) -> String {
         match piece {
             // A bar would end a cell.
             Inline::Maths(tex) => out += &format!("${}$", tex.digits().replace('|', r"\vert{}")),
-            words => write_text(&document::plain(&[words]), &mut out),
+            // The prose into which it goes has more signs.
+            words => {
+                let written = out.len();
+                escape::words(
+                    &document::plain(&[words]),
+                    Within { link: true, cell: false },
+                    &mut out,
+                );
+                for c in out.split_off(written).chars() {
+                    out.extend("{}^@".contains(c).then_some('\\'));
+                    out.push(c);
+                }
+            }
         }
     }
     out
 }
 
 pub fn inlines(list: &[Inline]) -> String {
-    // Values are text and formulas, so that neighbours of mathematics are seen.
-    let flat = list.iter().flat_map(|inline| match inline {
+    inlines_in(list, Within::default())
+}
+
+fn inlines_in(list: &[Inline], within: Within) -> String {
+    // Values are text and formulas, so that neighbours are seen; words that touch are one text.
+    let mut flat: Vec<Inline> = Vec::new();
+    let shown = list.iter().flat_map(|inline| match inline {
         Inline::Value { shown, .. } => document::printed(shown),
         other => vec![other.clone()],
     });
+    for inline in shown {
+        match (flat.last_mut(), &inline) {
+            (Some(Inline::Text(before)), Inline::Text(words)) => before.push_str(words),
+            _ => flat.push(inline),
+        }
+    }
     let (mut out, mut in_formula) = (String::new(), false);
-    for inline in flat {
-        match &inline {
+    for (i, inline) in flat.iter().enumerate() {
+        match inline {
             Inline::Maths(formula) => {
                 out.push_str(if in_formula { "" } else { "$" });
                 out.push_str(&maths(&formula.digits()));
@@ -143,13 +175,13 @@ pub fn inlines(list: &[Inline]) -> String {
                 }
                 if !rest.is_empty() {
                     out.push('$');
-                    write_text(rest, &mut out);
+                    escape::words(rest, within, &mut out);
                     in_formula = false;
                 }
             }
             other => {
                 out.push_str(if in_formula { "$" } else { "" });
-                write_inline(other, &mut out);
+                write_inline(other, flat.get(i + 1), within, &mut out);
                 in_formula = false;
             }
         }
@@ -157,19 +189,46 @@ pub fn inlines(list: &[Inline]) -> String {
     out + if in_formula { "$" } else { "" }
 }
 
-fn write_inline(inline: &Inline, out: &mut String) {
+/// Writes emphasis, by a tag where stars would be read as stars: beside a letter a star needs a
+/// letter on its other side too.
+fn enclosed(inner: &str, [sign, tag]: [&str; 2], next: Option<&Inline>, out: &mut String) {
+    let words = inner.trim_matches(' ');
+    let (Some(first), Some(last)) = (words.chars().next(), words.chars().next_back()) else {
+        return out.push_str(inner);
+    };
+    let [blank, blank_after] = [inner.starts_with(' '), inner.ends_with(' ')];
+    out.extend(blank.then_some(' '));
+    let next = match next {
+        Some(Inline::Text(words)) if !blank_after => words.chars().next().unwrap_or(' '),
+        Some(Inline::Emphasis(_) | Inline::Strong(_)) if !blank_after => '*',
+        _ => ' ',
+    };
+    let fits = |inner: char, outer: char| {
+        let both = !inner.is_whitespace() && inner != '*' && outer != '*';
+        both && (inner.is_alphanumeric() || !outer.is_alphanumeric())
+    };
+    let before = out.chars().next_back().unwrap_or(' ');
+    if fits(first, before) && fits(last, next) {
+        out.push_str(&format!("{sign}{words}{sign}"));
+    } else {
+        out.push_str(&format!("<{tag}>{words}</{tag}>"));
+    }
+    out.extend(blank_after.then_some(' '));
+}
+
+fn write_inline(inline: &Inline, next: Option<&Inline>, within: Within, out: &mut String) {
+    let linked = |shown: &[Inline]| inlines_in(shown, Within { link: true, ..within });
     match inline {
-        Inline::Text(text) => write_text(text, out),
-        Inline::Soft if out.ends_with('\n') => (),
-        Inline::Soft => out.push('\n'),
-        Inline::Code(code) => {
-            let fence = fence(code, 1);
-            let blank = if code.starts_with('`') || code.ends_with('`') { " " } else { "" };
-            out.push_str(&format!("{fence}{blank}{code}{blank}{fence}"));
+        Inline::Text(text) => escape::words(text, within, out),
+        Inline::Soft => {
+            // Two blanks would end the line.
+            out.truncate(out.trim_end_matches(' ').len());
+            out.push_str(if out.ends_with('\n') { "" } else { "\n" });
         }
-        Inline::Emphasis(inner) => out.push_str(&format!("*{}*", inlines(inner))),
-        Inline::Raised(inner) => out.push_str(&format!("<sup>{}</sup>", inlines(inner))),
-        Inline::Strong(inner) => out.push_str(&format!("**{}**", inlines(inner))),
+        Inline::Code(code) => escape::code(code, within, out),
+        Inline::Emphasis(inner) => enclosed(&inlines_in(inner, within), ["*", "em"], next, out),
+        Inline::Strong(inner) => enclosed(&inlines_in(inner, within), ["**", "strong"], next, out),
+        Inline::Raised(inner) => out.push_str(&format!("<sup>{}</sup>", inlines_in(inner, within))),
         Inline::Display { formula, id, number } => {
             out.truncate(out.trim_end_matches([' ', '\n']).len());
             if !out.is_empty() {
@@ -182,52 +241,15 @@ fn write_inline(inline: &Inline, out: &mut String) {
             }
             out.push_str(&format!("$$\n{}{tag}\n$$\n\n", maths(&formula.digits())));
         }
-        Inline::Link { to, shown } => out.push_str(&format!("[{}]({to})", inlines(shown))),
+        Inline::Link { to, shown } => escape::link(&linked(shown), to, out),
         Inline::Reference { to, within, shown } => {
             let file = within.map_or("", |document| document.markdown);
-            out.push('[');
-            write_text(shown, out);
-            out.push_str(&format!("]({file}#{})", place_on_page(to)));
+            let to = format!("{file}#{}", place_on_page(to));
+            escape::link(&linked(&[Inline::Text(shown.clone())]), &to, out);
         }
         Inline::Anchor { id, number } => out.push_str(&format!("{}{number}", anchor(id))),
         Inline::Unresolved { ids, .. } => out.push_str(&ids.join("; ")),
         Inline::Maths(_) | Inline::Value { .. } => (),
-    }
-}
-
-fn write_text(text: &str, out: &mut String) {
-    // After a displayed equation the line starts anew.
-    let text = if out.ends_with('\n') { text.trim_start() } else { text };
-    let starts_line = out.is_empty() || out.ends_with('\n');
-    let chars: Vec<char> = text.chars().collect();
-    let marker = if starts_line { marker_length(&chars) } else { None };
-    let is_word = |c: Option<&char>| c.is_some_and(|c| c.is_alphanumeric());
-    for (i, &c) in chars.iter().enumerate() {
-        let (before, after) = (i.checked_sub(1).map(|i| &chars[i]), &chars[i + 1..]);
-        let escape = match c {
-            '\\' | '*' | '`' | '<' | '$' | '~' | '|' => true,
-            // Not what names a character.
-            '&' => after.iter().find(|c| !c.is_alphanumeric() && **c != '#') == Some(&';'),
-            // Not what defines a link.
-            '[' => starts_line && i == 0 && text.contains("]:"),
-            '_' => !(is_word(before) && is_word(after.first())),
-            '(' => before == Some(&']'),
-            _ => marker == Some(i),
-        };
-        out.extend(escape.then_some('\\'));
-        out.push(c);
-    }
-}
-
-/// Where a backslash stops words at the start of a line from becoming a list, a heading, a quote.
-fn marker_length(chars: &[char]) -> Option<usize> {
-    let digits = chars.iter().take_while(|c| c.is_ascii_digit()).count();
-    let next_is_space = |i: usize| chars.get(i + 1).is_none_or(|c| *c == ' ');
-    match chars.get(digits)? {
-        '.' | ')' if digits > 0 && next_is_space(digits) => Some(digits),
-        '-' | '+' if digits == 0 && next_is_space(0) => Some(0),
-        '#' | '>' | '=' if digits == 0 => Some(0),
-        _ => None,
     }
 }
 

@@ -8,7 +8,19 @@ use std::sync::LazyLock;
 
 static CONVERTER: LazyLock<LatexToMathML> = LazyLock::new(LatexToMathML::default);
 
+/// The converter is recursive, and so are readers of what it makes.
+const DEEPEST: i32 = 40;
+
 fn convert(tex: &str, display: MathDisplay) -> Result<String, String> {
+    let (mut depth, mut macros) = (0, 0);
+    for sign in tex::signs(tex).filter(|sign| !sign.trim().is_empty()) {
+        depth += braces(sign);
+        // Each may be the argument of the one before, as in `\hat\hat x`.
+        macros = if sign.len() > 1 { macros + 1 } else { 0 };
+        if depth + macros > DEEPEST {
+            return Err(format!("it is nested more than {DEEPEST} deep"));
+        }
+    }
     let made = CONVERTER.convert_with_local_state(tex, display);
     made.map(|made| made.mathml).map_err(|error| error.to_string())
 }

@@ -31,6 +31,7 @@ pub mod parse;
 mod people;
 mod search;
 pub(crate) mod tex;
+mod typed;
 pub mod values;
 
 pub use assemble::{assemble, files_of};

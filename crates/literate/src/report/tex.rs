@@ -22,6 +22,7 @@ pub fn text(text: &str) -> String {
             '<' => out.push_str(r"\textless{}"),
             '>' => out.push_str(r"\textgreater{}"),
             '|' => out.push_str(r"\textbar{}"),
+            '`' => out.push_str(r"\textasciigrave{}"),
             '"' => out.push_str(r"\textquotedbl{}"),
             // Two of these become one sign.
             '-' | '\'' | ',' if out.ends_with(c) => out.extend(['{', '}', c]),

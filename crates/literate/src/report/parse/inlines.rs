@@ -5,11 +5,12 @@ use super::super::error::Error;
 use super::super::lint;
 use super::super::mark::{self, Piece, pieces};
 use super::super::tex;
+use super::brackets::bracketed;
 use super::{ALONE, ELSE, Reader, is_block, markup};
 use crate::experiments::Profile;
 use crate::input::one_line;
 use crate::print::{Shown, print};
-use crate::value::Number;
+use crate::value::{Digits, Number};
 use pulldown_cmark::{Event, LinkType, Tag};
 use std::ops::Range;
 
@@ -90,8 +91,38 @@ impl Reader<'_> {
         let tex = tex.trim_end_matches('$').split(r"\tag").next().unwrap_or_default();
         let typed = |(i, c)| if self.filled.is_typed(begin + i) { c } else { 'x' };
         let tex: String = tex.char_indices().map(typed).collect();
-        let found = lint::formula(&lint::without_literals(&tex));
+        let found = lint::formula(&tex);
         self.hard_coded(found.map(|numeral| (range.start, numeral)));
+        self.check_values(range, true);
+    }
+
+    /// Notes what beside a value changes its unit or sign, and digits that drop its error.
+    fn check_values(&mut self, range: &Range<usize>, maths: bool) {
+        let (filled, values) = (self.filled, self.values);
+        let (source, mut at) = (&filled.text, range.start);
+        for piece in pieces(&source[range.clone()]) {
+            let (id, shown) = match piece {
+                Piece::Text(text) => {
+                    at += text.len();
+                    continue;
+                }
+                Piece::Value { id, shown } => (id, shown),
+            };
+            let (end, style) = (at + mark::framed(&id, shown).len(), mark::style(shown));
+            if let Some(value) = values.get(&id) {
+                let has_error =
+                    |digits: &Digits| matches!(digits, Digits::Error(_)) && style.digits.is_some();
+                let drops =
+                    matches!(&value.number, Number::Real { digits, .. } if has_error(digits));
+                let what =
+                    format!("«{id}» has a standard error, which `significant` drops; leave it out");
+                let beside = || lint::beside(&source[..at], &source[end..], value, style, maths);
+                if let Some(what) = drops.then_some(what).or_else(beside) {
+                    self.note(at, Error::Named { thing: id, what });
+                }
+            }
+            at = end;
+        }
     }
 
     fn span(&mut self, tag: Tag<'_>, range: Range<usize>) -> Result<Inline, Error> {
@@ -172,6 +203,7 @@ impl Reader<'_> {
             return Err(markup(what).at(self.filled.place(at)));
         }
         self.hard_coded(lint::words(source, part.clone(), self.declared));
+        self.check_values(&part, false);
         // A backslash before a backslash is meant.
         let escaped = usize::from(source[..part.start].ends_with('\\') && text.starts_with('\\'));
         let text = &(text[..escaped].to_string() + &lint::literal(&text[escaped..]));
@@ -218,7 +250,8 @@ impl Reader<'_> {
         if let Some(what) = has_index.then(|| bare_index.into()).or_else(|| tex::refused(&tex)) {
             return Err(Error::Maths { tex, what });
         }
-        self.places.add(format!("${tex}"), at);
+        let formula = bracketed(formula.0);
+        self.places.add(format!("${}", formula.digits()), at);
         Ok(formula)
     }
 

@@ -4,6 +4,7 @@
 //! The manual ([`crate::manual`]) lists all markup. Whatever else Markdown reads is refused, and so
 //! is markup that is not closed.
 
+mod brackets;
 mod inlines;
 
 use super::document::{Block, Inline, Table, plain};
@@ -281,13 +282,15 @@ impl<'a> Reader<'a> {
     }
 
     fn code(&mut self, kind: CodeBlockKind<'_>, range: &Range<usize>) -> Result<Block, Error> {
-        let mut text = String::new();
-        while let Some((Event::Text(piece), _)) = self.events.peek() {
+        let opened = self.source(range).find('\n').unwrap_or(range.len());
+        let (mut text, mut end) = (String::new(), range.start + opened);
+        while let Some((Event::Text(piece), piece_at)) = self.events.peek() {
             text.push_str(piece);
+            end = piece_at.end;
             self.events.next();
         }
-        let last = self.source(range).trim_end().lines().skip(1).last();
-        let closed = last.is_some_and(|line| line.trim_start().starts_with(['`', '~']));
+        // Behind the code stands nothing but its fence.
+        let closed = self.source(&(end..range.end)).contains(['`', '~']);
         let CodeBlockKind::Fenced(language) = kind else { return Err(markup(FENCE)) };
         match language.split_once(' ') {
             _ if !closed => Err(markup(FENCE)),
@@ -301,7 +304,7 @@ impl<'a> Reader<'a> {
                 let origin = vec![words("From "), link, words(".")];
                 Ok(Block::Listing { id, number, caption, item, file, origin, text })
             }
-            None => Ok(Block::Code { language: language.to_string(), text: self.plain(&text)? }),
+            None => Ok(Block::Code { language: self.plain(&language)?, text: self.plain(&text)? }),
         }
     }
 

@@ -21,6 +21,15 @@ A hard-coded number.
 at 0.12, so => 14:4 => hard-coded number 0.12;
 a tenfold rise => 14:3 => hard-coded number tenfold;
 at «"3.14"» => 14:4 => hard-coded number 3.14;
+<% set b = 98.98 %>at «b» => 14:23 => hard-coded number 98.98;
+<% for n in [13.5] %>at «n»<% endfor %> => 14:25 => hard-coded number 13.5;
+<% set a = raw.half_height * 60 %>at «a» => 14:38 => hard-coded number 6.99
+at «v.empty | otherwise(words="12") » => 14:4 => hard-coded number 12;
+by $N = «6 + 1»$ => 14:4 => hard-coded number 7;
+at «v.half_height» % => 14:4 => % follows «half_height», whose unit is
+at −«v.half_height» => 14:5 => a minus before «half_height» changes its sign
+$x = «v.half_height | percent»\,\%$ => 14:6 => % follows «half_height», whose unit is
+at «v.half_height | significant(digits=17)» => 14:4 => a standard error, which `significant` drops
 We find $\sigma_{1/2} = 0.1159$ here. => 14:9 => hard-coded number 0.1159;
 by `0.1159` => 14:5 => hard-coded number 0.1159;
 | a |⏎|---|⏎| 12 | => 16:3 => hard-coded number 12;
@@ -65,6 +74,13 @@ at $\begin{align} a \end{align}$ => 14:4 => an environment must be one of aligne
 at $x^«v.half_height»$ => 14:4 => a value used as an index
 at «v.half_height»$x$ => 14:19 => right after a word or a number
 a *word with $x$* => 14:14 => in emphasis
+What is too deep or too long.
+at $DEEP{xDEEP}$ => 14:4 => cannot be shown: it is nested more than 40 deep
+at $HATSx$ => 14:4 => nested more than 40 deep
+QUOTESa => 14: => nested too deeply
+<% for a in range(end=30000) %><% for b in range(end=30000) %>QUOTES⏎<% endfor %><% endfor %> => 14:6 => this writes more than 64 MiB
+at «IN1IN» => 14: => too complex
+<% if false %>ELIFS<% endif %> => 14: => more than 200 `elif`
 A delimiter that is not closed.
 at $\frac{1}{2$ of => 14:4 => a dollar sign alone
 a *word => 14:3 => unclosed markup
@@ -77,6 +93,9 @@ at $5, with => 14:4 => a dollar sign alone
 a @ b => 14:3 => a citation is @key
 «v» => 14:1 => a group or a row
 ```⏎code => 14:1 => between two lines ```
+```⏎code⏎⏎`x` is the last word => 14:1 => between two lines ```
+````⏎code⏎``` => 14:1 => between two lines ```
+~~~⏎code⏎``` => 14:1 => between two lines ```
 > ## Words => 14:3 => cannot stand in a list
 What not every format supports.
 <b>bold</b> => 14:1 => not supported by every format
@@ -92,7 +111,13 @@ see 漢 => 14:5 => '漢'"##;
 #[test]
 fn faults_in_prose_are_reported_with_their_places() {
     let mut wrong = Vec::new();
-    for line in BROKEN.lines() {
+    let deep = [("DEEP{", r"\sqrt{"), ("DEEP}", "}"), ("HATS", r"\hat "), ("QUOTES", "> ")];
+    let deep = deep.into_iter().chain([("IN1IN", "("), ("ELIFS", "<% elif false %>a")]);
+    let deep = |line: &str| {
+        deep.clone()
+            .fold(line.to_string(), |line, (name, sign)| line.replace(name, &sign.repeat(201)))
+    };
+    for line in BROKEN.lines().map(deep) {
         let parts: Vec<String> = line.split(" => ").map(unmarked).collect();
         let [broken, place, words] = parts.as_slice() else { continue };
         let made = assembled(&format!("{PROSE}\n\n{broken}\n"));
@@ -122,7 +147,8 @@ fn several_faults_have_their_places() {
 fn good_prose_passes() {
     let good = "Words \\*, \\_, \\$, me@x.org: C#, \\@sec:a, \\#, a * b, a_b, \\[a, b\\], a < b, \\^, \\~, \\-- and\n\n\
         [data](data), [code](../src/lib.rs), [out](https://x.org/10), `*` and $a_b * c^*$.\n\n\
-        «literal(text=\"2007\", why=\"the year\")», two-sided, `f64`, $k = 3$, $x_{12} = «v.half_height»$\n\n```\n12\n```\n\n\
+        «literal(text=\"2007\", why=\"the year\")», two-sided, `f64`, $k \\ge 3$, $x_{12} = «v.half_height»$\n\n```\n12\n```\n\n\
+        ~~~~\n12\n```\n~~~~~  \n\n> ```\n> 12\n> ```\n\n\
         $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n«v.empty | otherwise(words=\"nothing\")», «v.count | otherwise(words=\"nothing\")»\n\n| a |\n|---|\n| «v.empty» |\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>\
         <% for row in keys.toy.none.rows %><% if raw.toy.none[row].x > 1 %>a<% endif %><% endfor %>";
     let none = Table::of("toy.none", &[0.5; 0], |_| 0).key("x", "1", |x| *x).done();

@@ -1,70 +1,152 @@
-//! Checks that every format shows words from data as they are.
+//! Checks that every format shows words from data as they are: other programs read them back.
 
 use super::*;
+use std::io::Write as _;
+use std::process::{Command, Stdio};
+
+/// Pieces of words, with signs of markup; `␣` is a blank, and `⏎` ends a line.
+const PIECES: &str = r##"a b Z é σ 0.5 7 · ␣ ␣ ␣ ␣␣ ␣␣␣␣ * ** _ __ ` `` ``` $ $$ | | \ \| \\ - -- --- -␣ +␣ 1.␣ 12) # ##
+    #␣ > = === [ ] ( ) [␣] [x] ](x) [a]:␣b ! ![ [!NOTE] [^1] < <b> </b> <!-- & &amp; &#35; ~ ~~ ~~~ @a @ {
+    } {#a} ^ % ␣% " ' '' ,, : :- :-: :: ; / « » − – → https://x.org/a_b*c www.x.org ^a$|^b$ $HOME/$USER US$
+    C:\new{x} null ⏎ a␣b a␣b a␣b"##;
+
+/// Blocks around words `W`, and what readers see of each.
+const BLOCKS: &str = r"
+W => W
+aWb => aWb
+W and WW => W and WW
+W⏎W => W W
+*W* => W
+a*W*b => aWb
+**W** *W* W => W W W
+**a *W* b**, => a W b,
+*aW* **Wb** => aW Wb
+`W` => W
+a`W`W => aWW
+`aWb` => aWb
+[W](https://x.org/V) => W
+a\![aWb](data)W => a!aWbW
+W\![*W*](https://x.org/a\)V) => W!W
+- W⏎- aW⏎- `W` => W aW W
+3. W⏎4. *W* => W W
+> W⏎>⏎> aW => W aW
+> - W => W
+### W {.unnumbered} => W
+### aW {.unnumbered} => aW
+```⏎W⏎aWb⏎``` => W aWb
+- ~~~⏎  W⏎  ~~~ => W
+| a | b | c | d | e |⏎|--|--|--|--|--|⏎| W | `W` | a\| *W*! | [W](https://x.org/V\|) | aWb⏎| W | `W` | a | b | c | => a b c d e W W a| W! W aWb W W a b c";
+
+/// All text below an element, cut at the word *cut*, with one blank between words.
+fn read(xml: &str, top: &str, shows: fn(&str) -> bool) -> Vec<String> {
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    let tree = roxmltree::Document::parse_with_options(xml, options).unwrap();
+    let top = tree.descendants().find(|node| node.tag_name().name() == top).unwrap();
+    let mut text = String::new();
+    for node in top.descendants() {
+        let name = node.tag_name().name();
+        // A document in XML has text in `text` and `code` alone.
+        let shown = node.is_text() && shows(node.parent().unwrap().tag_name().name());
+        text += node.text().filter(|_| shown).unwrap_or_default();
+        let within =
+            ["text", "code", "emph", "strong", "link", "html_inline", "", "em", "a", "span", "wbr"];
+        text += if within.contains(&name) { "" } else { " " };
+    }
+    text.split("cut").map(in_words).collect()
+}
+
+fn in_words(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The tree that GitHub's reader of Markdown makes; none where that is not installed.
+fn as_github_reads(markdown: &str) -> Option<String> {
+    let extensions = ["table", "tasklist", "strikethrough", "autolink"];
+    let arguments = extensions.iter().flat_map(|extension| ["-e", extension]);
+    let mut command = Command::new("cmark-gfm");
+    command.args(arguments).args(["-t", "xml"]).stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut program = match command.spawn() {
+        Ok(program) => program,
+        Err(error) if std::env::var_os("CI").is_some() => panic!("cmark-gfm: {error}"),
+        Err(_) => {
+            eprintln!("cmark-gfm is not installed: what GitHub reads is not checked");
+            return None;
+        }
+    };
+    program.stdin.take().unwrap().write_all(markdown.as_bytes()).unwrap();
+    let read = program.wait_with_output().unwrap();
+    Some(String::from_utf8(read.stdout).unwrap().replace("<softbreak />", "<text> </text>"))
+}
+
+fn with_words(words: &[String], prose: &str) -> Result<Files, Error> {
+    let rows: Vec<(usize, &String)> = words.iter().enumerate().collect();
+    let table = Table::of("toy.words", &rows, |_| 1).key("n", "1", |(n, _)| *n as f64);
+    let table = table.text_key("name", |(_, word)| word.to_string());
+    let table = table.words("word", "", |(_, word)| word.to_string()).done();
+    Given { table: Some(table), ..given(&format!("{PROSE}\n\n{prose}")) }.made()
+}
 
 #[test]
 fn words_of_data_are_data() {
-    let shown = |words: &str| {
-        let rows = [words];
-        let table = Table::of("toy.words", &rows, |_| 1)
-            .text_key("name", |word| word.to_string())
-            .words("word", "", |word| word.to_string())
-            .done();
-        let cell = "«toy.words[row].word»";
-        let prose = format!(
-            "{PROSE}\n\n{cell} and <% for row in keys.toy.words.rows %>{cell}<% endfor %>.\n\n\
-             | Name | Word |\n|---|---|\n<% for row in keys.toy.words.rows -%>\n\
-             | «toy.words[row].name» | {cell} |\n<% endfor %>"
-        );
-        let prose = prose.replacen(cell, "«toy.words[keys.toy.words.rows[0]].word»", 1);
-        Given { table: Some(table), ..given(&prose) }.made()
+    let pieces: Vec<&str> = PIECES.split_whitespace().collect();
+    let mut state = 2007_u64;
+    let mut random = |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 33) as usize % below
     };
-    for words in [
-        "US$",
-        "cost $5 and $6",
-        "a|b",
-        r"C:\new{x}",
-        "<b>&amp;</b>",
-        "*a* _b_ `c`",
-        "[x](y)",
-        "one\ntwo\r\nthree",
-        "\"quoted\" ~ ^ #1 @a 50 %",
-        "1. a",
-        "null",
-    ] {
-        let report = shown(words).unwrap();
-        let line = words.replace("\r\n", " ").replace('\n', " ");
-        // Another reader of Markdown finds the words, in a sentence and in two cells.
-        let markdown = file(&report, "report.md");
-        let options = pulldown_cmark::Options::ENABLE_TABLES | pulldown_cmark::Options::ENABLE_MATH;
-        let mut read = String::new();
-        for event in pulldown_cmark::Parser::new_ext(&markdown, options) {
-            match event {
-                pulldown_cmark::Event::Text(text) => read += &text,
-                pulldown_cmark::Event::End(_) => read += "⏎",
-                _ => (),
+    let (mut words, mut prose, mut shown) = (Vec::new(), String::new(), Vec::new());
+    let mixed = BLOCKS.lines().skip(1).cycle().take(400).map(|line| (line, None));
+    let alone = ["W => W", "- W⏎- aW => W aW"];
+    let alone = pieces.iter().flat_map(|piece| alone.map(|line| (line, Some(piece))));
+    for (line, piece) in mixed.chain(alone) {
+        let (block, seen) = line.split_once(" => ").unwrap();
+        let (mut written, mut expected) = (String::new(), seen.to_string());
+        for c in unmarked(block).chars() {
+            if !['W', 'V'].contains(&c) {
+                written.push(c);
+                continue;
             }
+            let mix = || (0..=random(4)).map(|_| pieces[random(pieces.len())]).collect();
+            let word: String = piece.map_or_else(mix, |piece| piece.to_string());
+            let word = unmarked(&word.replace('␣', " "));
+            // What is written as a formula is one.
+            let is_formula = document::has_formulas(&word);
+            let word = if is_formula { word.replace('$', "€") } else { word };
+            written += &format!("«toy.words[keys.toy.words.rows[{}]].word»", words.len());
+            if c == 'W' {
+                expected = expected.replacen('W', &word.replace('\n', " "), 1);
+            }
+            words.push(word);
         }
-        for place in [format!("{line} and {line}.⏎"), format!("⏎{line}⏎{line}⏎")] {
-            assert!(read.contains(&place), "{words:?}: {place:?} is not in {read}");
-        }
-        let tex = file(&report, "report.tex");
-        let tex_line = tex::text(&line);
-        assert!(tex.contains(&format!("{{{tex_line}}} \\\\\n")), "{words:?}: {tex}");
-        let page = file(&report, "report.html");
-        let id = format!("toy.words[name={words}].word");
-        let [escaped, escaped_id] =
-            [&line.replace(" %", "\u{a0}%"), &id].map(|text| crate::figures::escape(text));
-        let value = format!("\"{}\">{escaped}</span>", escaped_id.replace('\n', "&#10;"));
-        assert_eq!(page.matches(&value).count(), 3, "{words:?}");
-        let cards = file(&report, "cards.js");
-        let cards: serde_json::Value =
-            serde_json::from_str(cards.trim_start_matches("CARDS = ").trim_end_matches(";\n"))
-                .unwrap();
-        assert_eq!(cards[1][&id][0], escaped, "{words:?}");
+        prose += &format!("cut\n\n{written}\n\n");
+        shown.push((line, in_words(&expected)));
     }
+    let report = with_words(&words, &format!("{prose}cut")).unwrap();
+    let page = file(&report, "report.html").replace("<!DOCTYPE html>", "");
+    let mut readings = vec![("report.html", read(&page, "main", |_| true))];
+    let markdown = as_github_reads(&file(&report, "report.md"));
+    let shows = |name: &str| ["text", "code", "code_block"].contains(&name);
+    readings.extend(markdown.map(|xml| ("report.md", read(&xml, "document", shows))));
+    for (path, read) in readings {
+        let both = shown.iter().zip(&read[1..]).filter(|((_, shown), read)| shown != *read);
+        let wrong = both.map(|((line, shown), read)| format!("{line}\n  {shown}\n  {read}\n"));
+        assert_eq!(wrong.collect::<String>(), "", "{path}");
+        assert_eq!(read.len(), shown.len() + 2, "{path}");
+    }
+    let [tex, cards] = ["report.tex", "cards.js"].map(|path| file(&report, path));
+    let word = words[0].replace('\n', " ");
+    assert!(tex.contains(&format!("{{{}}}\n", tex::text(&word))), "{word:?}: {tex}");
+    let cards = cards.trim_start_matches("CARDS = ").trim_end_matches(";\n");
+    let cards: serde_json::Value = serde_json::from_str(cards).unwrap();
+    let id = format!("toy.words[n=0,name={}].word", words[0]);
+    let card = crate::figures::escape(&word).replace(" %", "\u{a0}%");
+    assert_eq!(cards[1][&id][0], card);
+    assert!(document::has_formulas("at $h = 0.3$, ($x$)"));
+    assert!(
+        !["^a$|^b$", "$HOME/$USER", "$5 and $6", "US$"].into_iter().any(document::has_formulas)
+    );
     for words in ["a\u{7}b", "\0", "a\u{e000}b"] {
-        let error = shown(words).unwrap_err().to_string();
+        let error = with_words(&[words.into()], "").unwrap_err().to_string();
         assert!(error.contains("which no format can show"), "{error}");
     }
 }

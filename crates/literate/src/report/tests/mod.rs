@@ -23,7 +23,7 @@ const SAMPLE: &str = r#"# Impact\_dynamics & large % systems: R&D $\sigma_{1/2}$
 
 Masses in a row ([@rice1945]; see [@fig:3], [@eq:18; @eq:25] and [@sec:protocol]). With
 «v.half_height» and $\sigma = «v.half_height»$, far below «v.tiny» or «v.least», the $n$-th mass of
-$f_{N,p}(k)$ and $\Phi'_{N,p}\,(k) < 1$ moves *fast*, **very** fast, at \100 % of `a_b`.
+$f_{N,p}(k)$ and $\Phi'_{N,p}\,(k) < 1$ moves *fast*, **very** fast, at «literal(text="100 %", why="all")» of `a_b`.
 
 $$
 p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{N}\right)^2 \tag{18}
@@ -34,7 +34,7 @@ $$
 \begin{aligned} a &= b \\ c &= d \end{aligned} \tag{25}
 $$
 
-![The rise, at «v.half_height» or $\sigma$ ≥ \0.12.](figures/fig03.svg){#fig:3}
+![The rise, at «v.half_height» or $\sigma$ ≥ «literal(text="0.12", why="toy")».](figures/fig03.svg){#fig:3}
 
 Of [@eq:map],
 $$
@@ -48,7 +48,7 @@ Table: What σ gives {#tab:sigma}
 
 | Check | Statement | Ours |
 |:--|---|--:|
-| [!claim:rise] | A threshold exists near \0.12 | «v.half_height» |
+| [!claim:rise] | A threshold exists near «literal(text="0.12", why="toy")» | «v.half_height» |
 | [!claim:jump] | a_b * c | «v.kept | percent» |
 
 «v.count»
@@ -189,7 +189,7 @@ fn figure() -> Figure {
 
 fn claim(id: &'static str) -> Check {
     let found = crate::text!("{}", with_error(0.11652, 0.0004));
-    let check = Check::new(Kind::Statement, id, "A threshold | exists", found);
+    let check = Check::new(Kind::Statement, id, "A threshold | in [xx, {yy}^zz] @ exists", found);
     let mut judged = check.judged(true).within(crate::text!("{:1}", 0.005), "half a unit");
     (judged.place, judged.expected) = ("Sec. 2".into(), "σ ≈ 0.12".into());
     judged
@@ -288,7 +288,7 @@ fn a_report_is_all_its_files() {
     assert_eq!(paths.collect::<Vec<_>>().join(" "), expected);
     assert_eq!(file(&report, "SHA256SUMS").lines().count(), 6);
     let parts = r##"
-report.md => 1 | A threshold \| exists: 0.1165(4), reproduced |
+report.md => 1 | A threshold \| in [xx, {yy}^zz] @ exists: 0.1165(4), reproduced |
 report.md => [fig03.csv](data/fig03.csv)
 report.tex => At \origin{half_height}{0.1165(4)}, 
 values.json => "score.reproduced"
