@@ -14,8 +14,8 @@ pub fn is_open(width: f64, rate: f64, spacing: f64) -> bool {
     width >= 0.0 || rate >= 0.0 && width >= -ROUNDING * spacing
 }
 
-/// Returns the last time in [0, end] before `width` becomes negative, given its value `first` ≥ 0 at
-/// 0 and a negative one at the end. At most 128 evaluations.
+/// Returns the last time in [0, end] before `width` becomes negative, given its value `first` ≥ 0
+/// at 0 and a negative one at the end. At most 128 evaluations.
 ///
 /// A gap that has just been hit has the width 0; first a time at which it is open is found by
 /// halving. If there is none, the gap is shut from 0 on.
