@@ -174,7 +174,7 @@ fn a_rerun_finds_what_the_list_cannot() {
     let page = fs::read_to_string(here.join("r/report.html")).unwrap();
     let [old, new] = [&page[..page.len() - 1], &page].map(sha256);
     edit("SHA256SUMS.built", &|list| list.replace(&old, &new));
-    assert!(answer(here, "verify r").ends_with(" files, all as SHA256SUMS lists them\n"));
+    assert!(answer(here, "verify r").contains(" files, all as SHA256SUMS lists them\n"));
     let (code, out, note) =
         crate::run(here, &format!("verify r --rerun --results saved {templates}"));
     assert_eq!(code, 1, "{out}{note}");

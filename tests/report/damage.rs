@@ -25,7 +25,7 @@ const PROSE: &str = r#"# A title
 Masses ([@rice1945]; see [@eq:18] and [@sec:a]) at «sweep.rise.half_height» move *fast*, [here](x.md):
 
 $$
-p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{«sweep.rise.half_height | significant(digits=3)»}\right)^2 \tag{18}
+p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{«theory.jump.p_jump | significant(digits=3)»}\right)^2 \tag{18}
 $$
 
 | Check | Ours |

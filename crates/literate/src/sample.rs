@@ -1,7 +1,6 @@
 //! Estimates that know their sample: how many values they are from decides how far chance may move
 //! them.
 
-use crate::value::Number;
 use impact_numerics::estimates::{self, LEVEL, with_error};
 use impact_numerics::statistics::{Estimate, wilson};
 use serde::{Deserialize, Serialize};
@@ -48,12 +47,6 @@ impl From<Estimate> for Sampled {
 impl From<Sampled> for Estimate {
     fn from(found: Sampled) -> Estimate {
         found.estimate
-    }
-}
-
-impl From<Sampled> for Number {
-    fn from(found: Sampled) -> Number {
-        found.estimate.into()
     }
 }
 
