@@ -141,6 +141,20 @@ mod tests {
     use crate::search::truth::{derivative, frame};
     use impact_numerics::random::NormalPairs;
 
+    #[test]
+    fn a_gap_at_zero_or_below_is_hit_at_once_unless_it_opens() {
+        let search = Search::new(Frequencies::new(1.0, [1.5]));
+        for quadrature in [-0.4, 0.4] {
+            let parts = [[0.1, quadrature], [0.1, quadrature]];
+            let level = frame(1.0, parts, &search.frequencies);
+            for f0 in [-1e-3, 0.0] {
+                let next = search.first_root(&Frame { f0, ..level }, &mut Counters::default());
+                let is_hit = matches!(next, Next::Root { s: 0.0, speed } if speed == -level.g0);
+                assert_eq!(is_hit, f0 < 0.0 || level.g0 < 0.0, "{f0}, {}", level.g0);
+            }
+        }
+    }
+
     /// A function that is lowest at s, little more or much above, by a depth: above the band it has
     /// no root there, below it its first, and within it either, and a miss is counted. The band is
     /// up to three times as wide where the curvature changes within it.
