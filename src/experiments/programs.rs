@@ -39,7 +39,6 @@ pub struct Run {
     /// For each scene the outcomes of its cases.
     pub outcomes: BTreeMap<String, Trial>,
     /// And the processor time that each took, in seconds, that of starting the program included.
-    #[serde(default)]
     pub seconds: BTreeMap<String, Vec<f64>>,
 }
 

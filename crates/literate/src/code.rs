@@ -145,7 +145,8 @@ fn variables(program: &Path, files: &[PathBuf]) -> BTreeMap<String, String> {
         }
     }
     let is_of_cargo = |name: &str| {
-        ["CARGO", "CLIPPY"].iter().any(|start| name.starts_with(start)) || name == "OUT_DIR"
+        ["CARGO", "CLIPPY"].iter().any(|start| name.starts_with(start))
+            || ["OUT_DIR", "COMPILER"].contains(&name)
     };
     let lines = packages.values().flat_map(|text| text.lines());
     let pairs = lines.filter_map(|line| line.strip_prefix("# env-dep:"));

@@ -9,6 +9,7 @@ use crate::sample::Sampled;
 use crate::table::{self, Missing};
 use crate::text;
 use crate::value::{Digits, Number, Provenance};
+use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 
 #[derive(Debug, thiserror::Error)]
@@ -107,7 +108,7 @@ impl Evidence<'_> {
     /// a statement of another number undecided.
     #[track_caller]
     pub fn within_errors(&self, address: &str) -> Judged {
-        let (chance, found) = (self.chance(address)?, self.number(address)?);
+        let (chance, found) = (self.chance(address)?, self.number(address)? * self.scale(address)?);
         let [below, above] = chance.unwrap_or_default();
         let tolerance = if below == above {
             text!("± {:1}", above)
@@ -136,7 +137,20 @@ impl Evidence<'_> {
         };
         let found = Sampled { estimate: self.estimate(address)?, sample };
         let is_sure = sample.is_unknown() && found.error == 0.0;
-        if is_sure { Ok(None) } else { Ok(self.level()?.room(found)) }
+        let scale = self.scale(address)?;
+        let room = |level: CheckLevel| level.room(found).map(|room| room.map(|by| by * scale));
+        if is_sure { Ok(None) } else { self.level().map(room) }
+    }
+
+    /// Returns the factor by which a number in the unit of a cell is one in units of 1, as which
+    /// printed percents are kept.
+    #[track_caller]
+    fn scale(&self, address: &str) -> Result<f64, Error> {
+        Ok(match self.results.cell(address)?.unit.trim_matches('$') {
+            "%" => 0.01,
+            "‰" => 0.001,
+            _ => 1.0,
+        })
     }
 
     /// Starts the check of a cell: the printed number lies no further from it than `room` and
@@ -144,7 +158,9 @@ impl Evidence<'_> {
     #[track_caller]
     fn compared(&self, address: &str, room: f64, chance: Option<[f64; 2]>) -> Judged {
         let (found, printed) = (self.estimate(address)?, self.statement.number()?);
+        let scale = self.scale(address)?;
         let found_number = match self.results.cell(address)?.number {
+            _ if scale < 1.0 => with_error(found.value * scale, found.error * scale).into(),
             Number::Real { value, .. } if found.error == 0.0 => {
                 let places = self.statement.decimals.unwrap_or(0) + 2;
                 Number::Real { value, digits: Digits::Decimals(places.max(0) as usize) }
@@ -158,8 +174,9 @@ impl Evidence<'_> {
         }
         // The last bit may be rounded.
         let [below, above] = chance.unwrap_or_default();
-        let room = room + if printed < found.value { below } else { above };
-        let agrees = (found.value - printed).abs() <= room * (1.0 + 1e-9);
+        let value = found.value * scale;
+        let room = room + if printed < value { below } else { above };
+        let agrees = (value - printed).abs() <= room * (1.0 + 1e-9);
         if !agrees && chance.is_none() {
             return Err(Error::Undecided);
         }

@@ -26,6 +26,8 @@ pub enum Error {
     Empty(String),
     #[error("row {row} of the series {series:?} has the error {error}; give one of 0 or more")]
     NegativeError { series: String, row: usize, error: f64 },
+    #[error("two lines or sets of points have the name {0:?}; give each its own")]
+    SameName(String),
     #[error("the words {0:?} leave the sheet; shorten them, or make room")]
     OffSheet(String),
     #[error(

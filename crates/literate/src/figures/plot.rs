@@ -172,6 +172,14 @@ impl Plot {
     pub fn draw(mut self) -> Result<(Sheet, Panel), Error> {
         let (x, y) = self.axes();
         let first = self.series.first().ok_or(Error::NoSeries)?;
+        for (at, series) in self.series.iter().enumerate() {
+            let is_same = |other: &Series| {
+                (&other.name, other.symbol.is_some()) == (&series.name, series.symbol.is_some())
+            };
+            if self.series[..at].iter().any(is_same) {
+                return Err(Error::SameName(series.name.clone()));
+            }
+        }
         let has_names = self.series.iter().any(|series| series.name != first.name);
         let left = panel::widest_number(&y)? + panel::LABEL_LEFT + 2 * TEXT;
         let mut right = WIDTH as i32 - 150 - panel::widest_number(&x)? / 2;
@@ -350,6 +358,8 @@ mod tests {
         let fails = |plot: Plot| plot.finish("A", describe!("A")).unwrap_err();
         let wrong = fails(Plot::new().line("*σ*", &[(0.0, 1.0), (5.0, f64::NAN)])).to_string();
         assert!(wrong.starts_with("row 2 of the series \"sigma\", (5, NaN), is not finite"));
+        let same = fails(Plot::new().line("a", &points).line("a", &points));
+        assert!(matches!(same, Error::SameName(_)), "{same}");
         let missing = fails(Plot::new().line("a", &points).line("⌊k⌋", &points));
         assert!(matches!(missing, Error::Glyph { character: '⌊', .. }));
         let wide = fails(Plot::new().line("a", &[(0.0, -1.7e308), (1.0, 1.7e308)]));

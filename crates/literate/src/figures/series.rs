@@ -11,7 +11,7 @@ use super::markup::spelled;
 use super::panel::{Outside, Panel};
 use super::path::inside;
 use super::record::DataPoint;
-use super::style::Stroke;
+use super::style::{Stroke, Symbol};
 use impact_numerics::statistics::Estimate;
 use plotters::element::{Drawable, PointCollection, Polygon};
 use plotters::style::{Color, ShapeStyle};
@@ -107,9 +107,16 @@ impl Panel {
         let is_missing = |p: &(f64, f64)| self.outside == Outside::Cut && !self.has_place(*p);
         let quiet = self.unrecorded();
         let mut parts = Vec::new();
+        let mut alone = Vec::new();
         for part in points.split(is_missing) {
-            parts.extend(self.cut(&quiet.places(name, part)?));
+            let places = quiet.places(name, part)?;
+            if let ([place], true) = (places.as_slice(), points.len() > 1) {
+                alone.push(*place);
+            }
+            parts.extend(self.cut(&places));
         }
+        // A point with no neighbour is a dot.
+        quiet.markers(name, &alone, (Symbol::Disc, 2 * stroke.width as i32, stroke))?;
         self.draw_series(name, parts.into_iter().map(|part| line(part, stroke)))
     }
 
@@ -222,7 +229,7 @@ mod tests {
     use crate::figures::axis::Axis;
     use crate::figures::drawing::Frame;
     use crate::figures::panel::Sheet;
-    use crate::figures::style::{GREEN, Symbol};
+    use crate::figures::style::GREEN;
     use impact_numerics::estimates::with_error;
 
     const FRAME: Frame = Frame::new(1000, 100, 2000, 1100);

@@ -85,7 +85,12 @@ fn reference(entry: &Entry) -> Result<Reference, String> {
     let (authors, editors) = (people(entry, "author")?, people(entry, "editor")?);
     let people = [&authors, &editors].into_iter().find(|all| !all.is_empty());
     let people = people.ok_or("lacks its author or editor; give it")?;
-    let title = either(&["title", "booktitle"])?;
+    let title = [
+        either(&["title", "booktitle"])?,
+        between(": ", field("subtitle")?, ""),
+        between(" ", field("titleaddon")?, ""),
+    ];
+    let title = joined(title.concat());
     let publisher = || any(&["publisher", "organization", "howpublished"]);
     let sentences = match entry.entry_type {
         EntryType::Article => {
@@ -119,7 +124,10 @@ fn reference(entry: &Entry) -> Result<Reference, String> {
             vec![[slanted(title), number].concat(), either(&["institution", "publisher"])?]
         }
         EntryType::PhdThesis => {
-            let title = between("", slanted(title), " [Doctoral dissertation]");
+            let kind = plain(&field("type")?);
+            let kind =
+                if ["", "phdthesis"].contains(&&*kind) { "Doctoral dissertation" } else { &kind };
+            let title = between("", slanted(title), &format!(" [{kind}]"));
             vec![title, either(&["school", "institution"])?]
         }
         EntryType::Software => vec![between("", slanted(title), " [Computer software]")],
@@ -131,6 +139,7 @@ fn reference(entry: &Entry) -> Result<Reference, String> {
         }
     };
     let mut rest = Vec::new();
+    let sentences = [sentences, vec![field("note")?]].concat();
     for sentence in sentences.into_iter().filter(|sentence| !sentence.is_empty()) {
         let ends = plain(&sentence).ends_with(['.', '?', '!']);
         rest.extend(between(" ", sentence, if ends { "" } else { "." }));
@@ -146,9 +155,27 @@ fn reference(entry: &Entry) -> Result<Reference, String> {
         key: entry.key.clone(),
         names: names(people),
         year,
-        authors: listed(people),
+        authors: if authors.is_empty() { edited(people) } else { listed(people) },
         rest,
     })
+}
+
+/// Joins neighbouring words, so that a title with a subtitle is emphasised as a whole.
+fn joined(text: Vec<Inline>) -> Vec<Inline> {
+    let mut out: Vec<Inline> = Vec::new();
+    for piece in text {
+        match (out.last_mut(), piece) {
+            (Some(Inline::Text(before)), Inline::Text(words)) => before.push_str(&words),
+            (_, piece) => out.push(piece),
+        }
+    }
+    out
+}
+
+/// All editors of a work without authors.
+fn edited(people: &[biblatex::Person]) -> String {
+    let kind = if people.len() > 1 { "Eds." } else { "Ed." };
+    format!("{} ({kind}).", listed(people))
 }
 
 fn between(before: &str, inner: Vec<Inline>, after: &str) -> Vec<Inline> {
@@ -282,7 +309,7 @@ mod tests {
 @book{k, author={A}, title={T}, doi={https://dx.doi.org/10.1/a\_b}, url={https://doi.org/10.1/a}, year=1} => A, 1: A. (1). *T*. [https://doi.org/10.1/a_b](https://doi.org/10.1/a_b)
 @book{k, author={A}, title={T~U}, doi={DOI: 10.1/a}, year=1} => A, 1: A. (1). *T·U*. [https://doi.org/10.1/a](https://doi.org/10.1/a)
 @patent{a, author={B}, title={c}, year={1999}} => references.bib: a has the type @patent
-@book{foo, author={Mayer, M}, title={Lorem}, publisher={P}, year=2005, crossref={ref}} @book{ref, editor={Itor, Ed}, title={Whole}, date={2001-02}, publisher={Q}} => Itor, 2001: Itor, E. (2001). *Whole*. Q. | Mayer, 2005: Mayer, M. (2005). *Lorem*. P.
+@book{foo, author={Mayer, M}, title={Lorem}, publisher={P}, year=2005, crossref={ref}} @book{ref, editor={Itor, Ed}, title={Whole}, date={2001-02}, publisher={Q}} => Itor, 2001: Itor, E. (Ed.). (2001). *Whole*. Q. | Mayer, 2005: Mayer, M. (2005). *Lorem*. P.
 @proceedings{ref, title={Whole}, year=2001, doi={10.1/w}, publisher={Q}, pages={1--900}} @inproceedings{foo, author={M}, title={L}, date={2005}, pages={7}, url={https://x.org}, crossref={ref}} => M, 2005: M. (2005). L. In *Whole* (p. 7). Q. [https://x.org](https://x.org)
 @article{foo, author={M}, title={L}, journaltitle={Own}, crossref={ref}} @article{ref, author={R}, journal={Not}, title={T}, year=2001, volume=3} => M, 2001: M. (2001). L. *Own*, *3*. | R, 2001: R. (2001). T. *Not*, *3*.
 @xdata{x, publisher={P}, year=3, xdata={y}} @xdata{y, year=4, edition=2} @book{a, author={A}, title={T}, xdata={x}} => A, 3: A. (3). *T* (2nd ed.). P.

@@ -261,7 +261,8 @@ fn source((path, text): (&str, &str)) -> Option<(String, String)> {
 fn raw(value: &Value) -> Json {
     match &value.number {
         Number::None => Json::Null,
-        Number::Integer(n) => serde_json::json!(n),
+        // Templates have integers of 64 bits.
+        Number::Integer(n) => serde_json::to_value(n).unwrap_or_else(|_| (*n as f64).into()),
         Number::Real { value, .. } => (*value).into(),
         Number::Text(text) => text.clone().into(),
     }

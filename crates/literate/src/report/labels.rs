@@ -97,7 +97,7 @@ impl Labels {
                         }
                         None => (),
                     }
-                    if id.is_none() && *level > 1 {
+                    if id.is_none() && number.is_some() {
                         let place = heading_place(None, number.as_deref(), text);
                         errors.extend(self.take_place(&place.clone(), place, document.page));
                     }

@@ -6,6 +6,7 @@ use super::tex;
 use super::values::Value;
 use crate::input::toml_fault;
 use crate::print::Style;
+use crate::value::Number;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -148,6 +149,11 @@ fn unit(text: &str) -> Option<String> {
     UNITS.split_whitespace().any(|unit| unit == first).then_some(unit)
 }
 
+/// Whether a point behind it ends a sentence or a name, and begins no number.
+fn is_word_end(c: char) -> bool {
+    !c.is_whitespace() && !"([".contains(c)
+}
+
 /// Returns what beside a value changes its unit or its sign; formulas have units in `\mathrm`.
 pub fn beside(before: &str, after: &str, of: &Value, style: Style, maths: bool) -> Option<String> {
     let tex = [r"\,", r"\;", r"\ ", "~", " ", "\u{a0}", "\u{202f}"];
@@ -161,7 +167,19 @@ pub fn beside(before: &str, after: &str, of: &Value, style: Style, maths: bool) 
     let touches = rest.trim_start_matches('\\').starts_with(['%', '‰', '°']);
     let rest = if touches { rest.trim_start_matches('\\') } else { apart.trim_start_matches(' ') };
     let typed = unit(rest).filter(|_| touches || maths || rest.len() < after.len());
-    let own = if style.percent { "%" } else { &of.unit.replace('μ', "µ") };
+    let glued = ["", ".", ",", "e"].iter().filter_map(|sign| after.strip_prefix(sign));
+    let after_point = before.strip_suffix('.').is_some_and(|text| !text.ends_with(is_word_end));
+    let is_number = !matches!(of.number, Number::Text(_));
+    if is_number && !maths && (after_point || glued.into_iter().any(|rest| rest.starts_with(OPEN)))
+    {
+        let what = "reads as one number with what stands beside it; put a blank between";
+        return Some(format!("«{}» {what}", of.id));
+    }
+    let own = if style.percent { "%" } else { &of.unit.trim_matches('$').replace('μ', "µ") };
+    if style.percent && !of.unit.is_empty() {
+        let what = "which `percent` would change; write it without";
+        return Some(format!("«{}» has the unit {own:?}, {what}", of.id));
+    }
     if let Some(typed) = typed
         && (style.percent || own != typed && (!own.is_empty() || typed == "%"))
     {
@@ -291,7 +309,7 @@ mod tests {
         for (line, wrong) in [
             ("at V s, ms|at V km/h, m/s|at V\u{a0}%,|at V%,1|at −V,1|(-V,1|V\\%,s", true),
             (
-                "at V\u{a0}ms.,ms|at V so,ms|at V s,|at V %,%|non-V s,|1–V,1|V\n\nA dog,s|a − V,1",
+                "at V\u{a0}ms.,ms|at V\u{a0}%,$%$|at V so,ms|at V s,|at V %,%|non-V s,|1–V,1|V\n\nA dog,s|a − V,1",
                 false,
             ),
         ] {
@@ -303,6 +321,9 @@ mod tests {
             }
         }
         let of = Value { unit: "ms".into(), ..Value::real("x", 0.5, 1) };
+        let percent = Style { percent: true, ..Style::default() };
+        let found = beside("", "", &of, percent, false).unwrap();
+        assert!(found.contains("which `percent` would change"), "{found}");
         let maths = |after| beside("-", after, &of, Style::default(), true).is_some();
         assert_eq!(
             [r"\,\mathrm{s}", r"\,\%", " h", r"\,\mathrm{ms}"].map(maths),

@@ -82,7 +82,7 @@ pub fn pairs(list: &str) -> BTreeMap<&str, &str> {
 static TEXT: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
     pairs(
         r"– --  — ---  ‑ -  ‘ `  ’ '  “ ``  ” ''  … \ldots{}  § \S{}  © \textcopyright{}
-          ° \textdegree{}  « \guillemotleft{}  » \guillemotright{}  € \texteuro{}",
+          ‰ \textperthousand{}  ° \textdegree{}  « \guillemotleft{}  » \guillemotright{}  € \texteuro{}",
     )
 });
 

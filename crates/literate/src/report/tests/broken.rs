@@ -27,6 +27,9 @@ at «"3.14"» => 14:4 => hard-coded number 3.14;
 at «v.empty | otherwise(words="12") » => 14:4 => hard-coded number 12;
 by $N = «6 + 1»$ => 14:4 => hard-coded number 7;
 at «v.half_height» % => 14:4 => % follows «half_height», whose unit is
+at «v.count»«v.half_height» => 14:4 => «count» reads as one number with what stands beside it
+at «v.count».«v.count» => 14:4 => «count» reads as one number
+at .«v.count» => 14:5 => «count» reads as one number
 at −«v.half_height» => 14:5 => a minus before «half_height» changes its sign
 $x = «v.half_height | percent»\,\%$ => 14:6 => % follows «half_height», whose unit is
 at «v.half_height | significant(digits=17)» => 14:4 => a standard error, which `significant` drops

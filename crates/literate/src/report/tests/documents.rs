@@ -80,7 +80,7 @@ fn a_relation_is_shown_where_it_has_a_place() {
         let claims = [given.claims.clone(), vec![relation]].concat();
         let report = Given { claims, ..given }.made().unwrap();
         let text = file(&report, "report.md");
-        assert_eq!(text.contains("A threshold \\| exists: reproduced"), is_shown, "{text}");
+        assert_eq!(text.contains("exists: reproduced"), is_shown, "{text}");
         assert_eq!(file(&report, "ledger.json").contains("\"closed\""), is_shown);
     }
 }
