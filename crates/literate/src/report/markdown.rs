@@ -15,8 +15,16 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 pub fn write(blocks: &[Block]) -> String {
-    let blocks = blocks.iter().map(|one| block(one).trim_end().to_string());
-    blocks.filter(|text| !text.is_empty()).collect::<Vec<_>>().join("\n\n") + "\n"
+    let (mut texts, mut before): (Vec<String>, Option<&Block>) = (Vec::new(), None);
+    for one in blocks {
+        let text = block(one).trim_end().to_string();
+        let is_list = |block: &Block| matches!(block, Block::List { .. });
+        // Without a comment between, Markdown makes one list of two.
+        texts.extend((before.is_some_and(is_list) && is_list(one)).then(|| "<!-- -->".into()));
+        texts.extend(Some(text).filter(|text| !text.is_empty()));
+        before = Some(one);
+    }
+    texts.join("\n\n") + "\n"
 }
 
 fn lines(text: &str, before: &str) -> String {

@@ -188,14 +188,24 @@ impl<'a> Reader<'a> {
                 let number = (!bare).then(String::new);
                 Block::Heading { level, number, id, text }
             }
-            Tag::BlockQuote(_) => Block::Quote(self.inner()?),
+            Tag::BlockQuote(_) => {
+                let quote = Block::Quote(self.inner()?);
+                if deepest(std::slice::from_ref(&quote), false) > 6 {
+                    return Err(markup("quotations stand at most six deep, as in LaTeX"));
+                }
+                quote
+            }
             Tag::List(start) => {
                 let mut items = Vec::new();
                 while self.begins(|tag| *tag == Tag::Item).is_some() {
                     items.push(self.inner()?);
                     self.events.next();
                 }
-                Block::List { start, items }
+                let list = Block::List { start, items };
+                if deepest(std::slice::from_ref(&list), true) > 4 {
+                    return Err(markup("lists stand at most four deep, as in LaTeX"));
+                }
+                list
             }
             Tag::CodeBlock(kind) => self.code(kind, &range)?,
             Tag::Table(columns) => self.table(columns)?,
@@ -337,6 +347,19 @@ impl<'a> Reader<'a> {
 
 const ELSE: &str = "this markup is not supported by every format";
 const ALONE: &str = "a figure must stand alone in its paragraph";
+/// Returns how deep lists, or else quotations, stand in one another.
+fn deepest(blocks: &[Block], of_lists: bool) -> usize {
+    let depth = |block: &Block| match block {
+        Block::List { items, .. } => {
+            let inner = items.iter().map(|item| deepest(item, of_lists)).max();
+            usize::from(of_lists) + inner.unwrap_or_default()
+        }
+        Block::Quote(blocks) => usize::from(!of_lists) + deepest(blocks, of_lists),
+        _ => 0,
+    };
+    blocks.iter().map(depth).max().unwrap_or_default()
+}
+
 const FENCE: &str = "a block of code must stand between two lines ```";
 
 fn cells_of(row: &str) -> usize {

@@ -30,6 +30,7 @@ at «v.half_height» % => 14:4 => % follows «half_height», whose unit is
 at «v.count»«v.half_height» => 14:4 => «count» reads as one number with what stands beside it
 at «v.count».«v.count» => 14:4 => «count» reads as one number
 at .«v.count» => 14:5 => «count» reads as one number
+- a⏎  - b⏎    - c⏎      - d⏎        - e => 14:1 => lists stand at most four deep
 at −«v.half_height» => 14:5 => a minus before «half_height» changes its sign
 $x = «v.half_height | percent»\,\%$ => 14:6 => % follows «half_height», whose unit is
 at «v.half_height | significant(digits=17)» => 14:4 => a standard error, which `significant` drops
@@ -159,4 +160,6 @@ fn good_prose_passes() {
     let report = Given { table: Some(none), ..given(&prose) }.made().unwrap();
     let text = file(&report, "report.md");
     assert!(text.contains("nothing, 12") && text.contains("| – |"), "{text}");
+    let lists = assembled(&format!("{PROSE}\n\n1. a\n\n1) b\n")).unwrap();
+    assert!(file(&lists, "report.md").contains("1. a\n\n<!-- -->\n\n1. b\n"));
 }
