@@ -224,7 +224,12 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
     }
 
     fn check(&self, project: &Project) -> Result<(), Error> {
-        let checked = project.check_listed(self.own).and(project.check_listed(self.reads));
+        // Without a checkout there is no code to look for.
+        let lost = self.own.iter().find(|path| !project.exists(path));
+        let own = lost.map_or(Ok(()), |lost| {
+            Err((format!("it lists {lost}, which is not there"), "correct the path"))
+        });
+        let checked = own.and(project.check_listed(self.reads));
         checked.map_err(|(problem, remedy)| Error::input(self.name, problem, remedy))
     }
 
