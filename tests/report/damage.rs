@@ -30,7 +30,7 @@ $$
 
 | Check | Ours |
 |:--|--:|
-<% for c in [1, 2] %>| «c» | «sweep.rise.half_height | percent» |
+<% for c in ["a", "b"] %>| «c» | «sweep.rise.half_height | percent» |
 <% endfor %>
 [@bibliography]
 "#;
