@@ -30,7 +30,7 @@ $$
 
 | Check | Ours |
 |:--|--:|
-<% for c in ["a", "b"] %>| «c» | «sweep.rise.half_height | percent» |
+<% for c in ["a", "b"] %>| «c» | «theory.jump.p_jump | percent» |
 <% endfor %>
 [@bibliography]
 "#;

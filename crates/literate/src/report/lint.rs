@@ -178,7 +178,7 @@ pub fn beside(before: &str, after: &str, of: &Value, style: Style, maths: bool) 
     let own = if style.percent { "%" } else { &of.unit.trim_matches('$').replace('μ', "µ") };
     if style.percent && !of.unit.is_empty() {
         let what = "which `percent` would change; write it without";
-        return Some(format!("«{}» has the unit {own:?}, {what}", of.id));
+        return Some(format!("«{}» has the unit {}, {what}", of.id, of.unit));
     }
     if let Some(typed) = typed
         && (style.percent || own != typed && (!own.is_empty() || typed == "%"))
