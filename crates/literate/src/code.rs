@@ -137,9 +137,8 @@ fn variables(program: &Path, files: &[PathBuf]) -> BTreeMap<String, String> {
     let mut packages = BTreeMap::new();
     for (_, list) in lists {
         let text = input::regular_text(&list).unwrap_or_default();
-        let mut words = text.split([' ', '\n']).skip(1);
-        let Some(root) = words.next().filter(|root| root.ends_with(".rs")) else { continue };
-        let root = real(Path::new(root));
+        let line = text.lines().next().unwrap_or_default();
+        let Some(root) = paths(line).into_iter().next() else { continue };
         if files.iter().any(|file| file.ends_with(&root)) {
             packages.insert(root, text);
         }
@@ -169,14 +168,7 @@ fn listed(program: &Path, project: &Project) -> Option<(PathBuf, Vec<PathBuf>)> 
         return None;
     }
     let text = input::regular_text(&program.with_extension("d")).ok()?;
-    let (_, list) = text.split_once(": ")?;
-    let (mut files, mut path) = (Vec::new(), String::new());
-    for part in list.trim_end().split(' ') {
-        match part.strip_suffix('\\') {
-            Some(part) => path += &format!("{part} "),
-            None => files.push(real(Path::new(&(std::mem::take(&mut path) + part)))),
-        }
-    }
+    let files = paths(&text);
     let own = || project.sources.files.iter().map(|(path, _)| *path);
     let first = own().find(|path| !path.starts_with("..") && path.contains('/'))?;
     let is_top = |top: &PathBuf| own().all(|path| files.contains(&real(&top.join(path))));
@@ -185,6 +177,19 @@ fn listed(program: &Path, project: &Project) -> Option<(PathBuf, Vec<PathBuf>)> 
     });
     let top = tops.find(is_top)?;
     files.iter().any(|path| path.exists()).then_some((top, files))
+}
+
+/// Returns the files of a list, behind the name of what was made of them; a backslash keeps a blank.
+fn paths(list: &str) -> Vec<PathBuf> {
+    let (_, list) = list.split_once(": ").unwrap_or_default();
+    let (mut files, mut path) = (Vec::new(), String::new());
+    for part in list.trim_end().split(' ') {
+        match part.strip_suffix('\\') {
+            Some(part) => path += &format!("{part} "),
+            None => files.push(real(Path::new(&(std::mem::take(&mut path) + part)))),
+        }
+    }
+    files
 }
 
 /// Returns a path without `..`.
