@@ -179,7 +179,8 @@ fn listed(program: &Path, project: &Project) -> Option<(PathBuf, Vec<PathBuf>)> 
     files.iter().any(|path| path.exists()).then_some((top, files))
 }
 
-/// Returns the files of a list, behind the name of what was made of them; a backslash keeps a blank.
+/// Returns the files of a list, behind the name of what was made of them; a backslash keeps a
+/// blank.
 fn paths(list: &str) -> Vec<PathBuf> {
     let (_, list) = list.split_once(": ").unwrap_or_default();
     let (mut files, mut path) = (Vec::new(), String::new());
