@@ -34,9 +34,9 @@ fn impacts(bencher: Bencher, masses: usize) {
 }
 
 /// Sixteen realisations of the main sweep, first by the bare engine one by one, then side by side
-/// as ensembles run and count them.
-#[divan::bench(args = [(0.11, false), (0.11, true), (0.14, false), (0.14, true), (0.3, false), (0.3, true)])]
-fn counted(bencher: Bencher, (sigma, together): (f64, bool)) {
+/// as ensembles run and count them (`true`).
+#[divan::bench(args = [0.09, 0.11, 0.14, 0.2, 0.3], consts = [false, true])]
+fn counted<const TOGETHER: bool>(bencher: Bencher, sigma: f64) {
     let ensemble = Ensemble { stream: "sweep".into(), ..Ensemble::default() };
     let counts = || ensemble.at(sigma).count(0..16, &|| false).expect("the chain is allowed");
     let scenarios: Vec<Scenario> = (0..16)
@@ -44,7 +44,7 @@ fn counted(bencher: Bencher, (sigma, together): (f64, bool)) {
         .collect();
     let impacts: u64 = counts().iter().map(|counts| counts.total.impacts).sum();
     let bencher = bencher.counter(ItemsCount::new(impacts));
-    if together {
+    if TOGETHER {
         bencher.bench(counts);
     } else {
         let until = ensemble.until(sigma);
