@@ -264,6 +264,18 @@ mod tests {
     use crate::impact_probability::ImpactProbability;
     use impact_chain::NormalPairs;
 
+    /// With ω = 1, Ω = 3 the curve is −½ sin² t (cos t, sin t).
+    #[test]
+    fn the_reach_of_a_closed_curve() {
+        let chain = Chain { forcing_frequency: 3.0, ..Chain::default() };
+        let [early, late] = &Reach::within(&chain, &[2.0, 5.0], 4)[..] else { panic!() };
+        let most = 1.0 / 27.0_f64.sqrt();
+        for (reach, exact) in [(early, [0.0, 0.0, most, 0.5]), (late, [most, 0.5, most, 0.5])] {
+            let off = |i: usize| (reach.radii[i] - exact[i]).abs();
+            assert!((0..4).all(|i| off(i) < 1e-12 || exact[i] == 0.0), "{reach:?}");
+        }
+    }
+
     #[test]
     fn no_sample_of_the_curve_lies_beyond_its_reach() {
         let chain = Chain::default();

@@ -104,16 +104,21 @@ mod tests {
     use super::*;
     use crate::search::clock::Instant;
 
-    /// Outer gaps press with 1 each on one that accelerates by 2, within rounding: 5 · 8 ε of 2.
+    /// Outer gaps press with 1 each on one that accelerates by 2, within rounding: 5 · 8 ε of 2,
+    /// and four times that among 32 gaps.
     #[test]
     fn an_acceleration_by_rounding_shuts_no_gap() {
         let frequencies = Frequencies::new(1.0, [2.0]);
         let p = Phases::at(&frequencies, Instant::ZERO);
         let outer = Force { constant: -1.0, forced: [[-1.0, 0.0]] };
-        for (part, is_shut) in [(36.0, false), (44.0, true)] {
+        for (gaps, part, is_shut) in
+            [(3, 36.0, false), (3, 44.0, true), (32, 144.0, false), (32, 176.0, true)]
+        {
             let middle = Force { constant: 1.0 - part * f64::EPSILON, forced: [[1.0, 1.0]] };
-            let g = [outer, middle, outer];
-            let found = contact_forces(&g, &[2.0; 3], &[true; 3], &p, &frequencies);
+            let mut g = vec![outer, middle, outer];
+            g.resize(gaps, Force::ZERO);
+            let allowed: Vec<bool> = (0..gaps).map(|gap| gap < 3).collect();
+            let found = contact_forces(&g, &vec![2.0; gaps], &allowed, &p, &frequencies);
             assert_eq!(found[1].is_some(), is_shut, "{part}: {found:?}");
         }
     }

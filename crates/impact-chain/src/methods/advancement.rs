@@ -94,11 +94,32 @@ impl Gaps {
     /// Advances gap k from now to the zero of f + g s − b s²/2, with a bound b on its second
     /// derivative; for ever if its amplitudes add up to less than d, until an impact next to it.
     fn advance_gap(&mut self, k: usize, now: Instant, GapState { width, rate, .. }: GapState) {
-        let (f, [reach, b]) = (width.max(0.0), self.flights.bounds(k));
-        let root = (rate * rate + 2.0 * b * f).sqrt();
-        let s = if rate < 0.0 { 2.0 * f / (root - rate) } else { (rate + root) / b };
+        let [reach, bend] = self.flights.bounds(k);
         let is_safe = reach + self.reached < self.flights.spacing;
-        let s = if is_safe { LATEST } else { s.clamp(SHORTEST, LATEST) };
-        self.queue.set(k, [now.after(s)]);
+        let s = if is_safe { LATEST } else { certainly_open(width.max(0.0), rate, bend) };
+        self.queue.set(k, [now.after(s.clamp(SHORTEST, LATEST))]);
+    }
+}
+
+/// Returns the zero s ≥ 0 of f + g s − b s²/2 for a width f ≥ 0, without cancellation.
+fn certainly_open(f: f64, g: f64, b: f64) -> f64 {
+    let root = (g * g + 2.0 * b * f).sqrt();
+    if g < 0.0 { 2.0 * f / (root - g) } else { (g + root) / b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::certainly_open;
+
+    #[test]
+    fn zeros_of_parabolas_do_not_cancel() {
+        for (f, g, b, s) in [
+            (1e-20, -1.0, 1.0, 1e-20),
+            (3.5, -1.0, 2.0, 1.436_491_673_103_708_5),
+            (0.0, 3.0, 2.0, 3.0),
+        ] {
+            let off = certainly_open(f, g, b) / s - 1.0;
+            assert!(off.abs() < 1e-15, "{f}, {g}, {b}: {off:e}");
+        }
     }
 }

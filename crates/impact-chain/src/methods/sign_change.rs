@@ -36,3 +36,21 @@ pub fn closing_time(end: f64, first: f64, mut width: impl FnMut(f64) -> f64) -> 
     }
     bracket(open, shut, |s| width(s) < 0.0)[0]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gap_is_open_down_to_rounding_if_it_opens() {
+        for (width, rate, spacing, expected) in [
+            (0.0, -1.0, 1.0, true),
+            (-0.9e-12, 0.0, 1.0, true),
+            (-0.9e-12, -1e-3, 1.0, false),
+            (-1.1e-12, 1.0, 1.0, false),
+            (-1.1e-12, 1.0, 2.0, true),
+        ] {
+            assert_eq!(is_open(width, rate, spacing), expected, "{width}, {rate}, {spacing}");
+        }
+    }
+}

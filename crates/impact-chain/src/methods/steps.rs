@@ -116,3 +116,30 @@ pub fn check_end(until: f64) -> Result<(), Error> {
 pub fn check_tolerance(tolerance: f64) -> Result<(), Error> {
     within("tolerance", tolerance, 1e-15, 0.1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Chain, Scenario, State};
+
+    /// Also where a shorter run with the same steps came before.
+    #[test]
+    fn runs_of_the_same_step_have_all_of_their_steps() {
+        let scenario = Scenario::given(&Chain { masses: 1, ..Chain::default() }, vec![[0.0; 2]]);
+        let (scenario, rates) = (scenario.unwrap(), [1.0, 1.4].map(Rate::new).to_vec());
+        for number in [8, 15, 24] {
+            let task = (&scenario, &State::of(&scenario), f64::from(number) * 0.125);
+            let mut ends = Vec::new();
+            let steps = Steps::new(task, 0.125, rates.clone()).unwrap();
+            let each = steps.each(|step| -> Result<(), ()> {
+                ends.push((step.to().time(), step.phases[0].0));
+                Ok(())
+            });
+            let expected = (1..=number).map(|i| 0.125 * f64::from(i)).map(|t| (t, t.sin()));
+            let close =
+                |((t, x), (u, y)): ((f64, f64), (f64, f64))| t == u && (x - y).abs() < 1e-15;
+            assert!(each.is_ok() && ends.len() == number as usize, "{ends:?}");
+            assert!(ends.into_iter().zip(expected).all(close), "{number}");
+        }
+    }
+}

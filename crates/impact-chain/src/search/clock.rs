@@ -41,7 +41,7 @@ impl Instant {
         let bits = s.to_bits();
         let shift = (bits >> 52).wrapping_sub(1075 - 80);
         if shift < 64 {
-            let mantissa = bits & ((1 << 52) - 1) | 1 << 52;
+            let mantissa = (bits & ((1 << 52) - 1)) + (1 << 52);
             return Instant(self.0 + (i128::from(mantissa) << shift));
         }
         Instant(self.0 + (s * TICKS) as i128)
@@ -87,7 +87,7 @@ impl Rate {
         // omega = mantissa · 2^exponent exactly.
         let bits = omega.to_bits();
         let raw = (bits >> 52) as i32 & 0x7ff;
-        let mantissa = (bits & ((1 << 52) - 1)) | if raw > 0 { 1 << 52 } else { 0 };
+        let mantissa = (bits & ((1 << 52) - 1)) + if raw > 0 { 1 << 52 } else { 0 };
         let exponent = raw.max(1) - 1075;
         // mantissa · INVERSE_TAU, five limbs, in units of 2^(exponent − 256).
         let mut product = [0u64; 5];
@@ -104,7 +104,7 @@ impl Rate {
         let limb = |i: usize| product.get(i).copied().unwrap_or(0);
         Rate(std::array::from_fn(|i| {
             let low = limb(i + limbs) >> bits;
-            if bits == 0 { low } else { low | limb(i + limbs + 1) << (64 - bits) }
+            if bits == 0 { low } else { low + (limb(i + limbs + 1) << (64 - bits)) }
         }))
     }
 

@@ -291,6 +291,9 @@ fn impacts_at_samples_and_within_a_step_are_found_once() {
         let orbit = Scenario { spacing: 1000.0, ..free(&[[0.0, amplitude]], 1.0) };
         let half = (1000.0 / amplitude).asin();
         let found = impacts(&Sampled { step: half / 4.0, stop: 0.0 }, &orbit, 40.5 * half);
+        // Between samples ten evaluations an impact are enough, looks at ends of steps included.
+        let cost = trace(&Sampled { step: half / 3.7, stop: 0.0 }, &orbit, 40.5 * half).1.unwrap();
+        assert!(cost.evaluations - 2 * cost.steps <= 200, "{amplitude}: {cost:?}");
         let off = |(i, hit): (u32, &Impact)| (hit.time - f64::from(2 * i + 1) * half).abs();
         let worst = (0..).zip(&found).map(off).fold(0.0, f64::max);
         assert!(found.len() == 20 && worst < 1e-11, "{amplitude}: {worst:e}, {found:?}");

@@ -29,6 +29,25 @@ fn the_lowest_function_is_above_zero_on_a_stretch() {
     assert!((stretch(1.0, &point([1.0, 0.0, 0.0, 0.0]), 1.0, 2.0) - 4.0 / 3.0).abs() < 1e-15);
 }
 
+/// Among the stretches that other trials L allow none is far longer than the one that is taken.
+#[test]
+fn a_stretch_is_nearly_the_longest_of_its_kind() {
+    let pick = |i: usize, place: u32| [-1.0, 1e-9, 1.0][i / 3_usize.pow(place) % 3];
+    for i in 0..81 {
+        let (f, d1) = ([1e-24, 1e-8, 1.0][i / 27], pick(i, 0));
+        let (d2, d3, bound) = (-pick(i, 1), pick(i, 2), 10.0);
+        let certified = |trial: f64| {
+            let k = (-d3 * trial).max(0.0) + 0.5 * bound * trial * trial - d2;
+            let root = (d1 * d1 + 2.0 * k * f).sqrt();
+            let zero = if d1 < 0.0 { 2.0 * f / (root - d1) } else { (d1 + root) / k };
+            if root.is_nan() || zero < 0.0 { trial } else { trial.min(zero) }
+        };
+        let best = (-320..=10).map(|i| certified(1.25_f64.powi(i))).fold(0.0, f64::max);
+        let h = stretch(f, &point([f, d1, d2, d3]), bound, 10.0);
+        assert!(best < FAR_LARGER * h, "{f}, {d1}, {d2}, {d3}: {h:e} of {best:e}");
+    }
+}
+
 /// Functions of degree six equal the quintic less its remainder: an interval is open if each of
 /// their inner Bernstein coefficients is, one of which is just above or below what is asked.
 #[test]
