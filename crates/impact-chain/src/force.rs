@@ -56,3 +56,28 @@ impl<const M: usize> Force<M> {
         false
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::clock::Instant;
+
+    /// At t = 0 the parts are c and 3 s, and the rounding of each order is 3 times the last.
+    #[test]
+    fn an_acceleration_falls_by_its_first_derivative_above_rounding() {
+        let frequencies = Frequencies::new(1.0, [3.0]);
+        let p = Phases::at(&frequencies, Instant::ZERO);
+        for (constant, c, s, expected) in [
+            (-1.5 * ROUNDING, 0.0, 0.0, true),
+            (-0.5 * ROUNDING, 0.0, 0.0, false),
+            (1.5 * ROUNDING, 0.0, -1.0, false),
+            (0.0, 0.0, -1.5 * ROUNDING, true),
+            (0.0, 0.0, -0.5 * ROUNDING, false),
+            (-1.0, 1.0, 0.0, true),
+            (1.0, -1.0, 0.0, false),
+        ] {
+            let force = Force { constant, forced: [[c, s]] };
+            assert_eq!(force.falls(1.0, &p, &frequencies), expected, "{constant}, {c}, {s}");
+        }
+    }
+}

@@ -293,6 +293,23 @@ mod tests {
         assert_eq!(crossing(&[heights(0.1, 10, 5), heights(0.105, 15, 5)], true), None);
     }
 
+    /// It jumps, or climbs, if the interval of the clearance has one sign; a climb has no place.
+    #[test]
+    fn an_interval_with_one_sign_decides() {
+        let rows = |clearance: [f64; 2]| {
+            let row = |i: u32| {
+                let clearance = clearance[0] + f64::from(i) * (clearance[1] - clearance[0]) / 39.0;
+                Some(Crossing { sigma: 0.1, peak: 50.0, clearance })
+            };
+            let passing = Passing::new(row(20), &(0..40).map(row).collect::<Vec<_>>());
+            (passing.is_jump(), passing.sigma.is_some())
+        };
+        assert_eq!(rows([0.1, 0.5]), (Some(true), true));
+        assert_eq!(rows([-0.5, -0.1]), (Some(false), false));
+        assert_eq!(rows([-0.5, 0.5]), (None, true));
+        assert_eq!(Passing::new(None, &[]).is_jump(), None);
+    }
+
     /// A line through three values leaves residuals along 1, −2, 1, each by its variance.
     #[test]
     fn a_crossing_of_three_rows() {

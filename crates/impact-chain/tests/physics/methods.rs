@@ -324,6 +324,15 @@ fn impacts_are_placed_within_the_steps_of_verlet_abreast() {
             [sums[0] + off, sums[1] + late.map_or(0.1, |late| late.time.min(exact + 0.1) - exact)];
     }
     assert!(sums[1] > 100.0 * sums[0], "{sums:?}");
+    // The force counts within a step too: here it is 8 and more.
+    for part in (0..24).map(|i| 0.26 * f64::from(i)).map(f64::sin_cos) {
+        let orbit = given(vec![[0.0, 0.3]], vec![[8.0 * part.0, 8.0 * part.1]]);
+        let orbit = Scenario { forcing_frequency: 3.0, ..orbit };
+        let methods: [&dyn Method; 2] = [&VerletAbreast { step: 0.1 }, &Certified];
+        let [hit, exact] = methods.map(|method| impacts(method, &orbit, 9.0)[0]);
+        let off = (hit.time - exact.time).abs() * exact.closing_speed;
+        assert!(exact.time < 0.01 || off < 3e-4, "{hit:?} {exact:?}");
+    }
 }
 
 /// The impacts of a chain have the same bits alone and beside others, among them chains that end
