@@ -178,7 +178,7 @@ impl TrueMotion {
             }
             let [width, rate] = self.gap(gap, &self.phases(time));
             let is_shut = time == self.time && self.shut == Some(gap);
-            let width = if is_shut || width.hi < 0.0 { DoubleDouble::ZERO } else { width };
+            let width = if is_shut { DoubleDouble::ZERO } else { width };
             let wait = self.certainly_open(gap, width, rate);
             if wait.hi > CONVERGED * (1.0 + time.hi.abs()) {
                 self.open[gap] = time + wait;

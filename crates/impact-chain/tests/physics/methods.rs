@@ -5,7 +5,7 @@ use impact_chain::methods::{
     Advancement, Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, Verlet,
     VerletAbreast,
 };
-use impact_chain::{Boundary, Chain, Engine, Error, Impact, NormalPairs, Scenario, State};
+use impact_chain::{Boundary, Chain, Engine, Error, Impact, Initial, NormalPairs, Scenario, State};
 
 fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario {
     let (spacing, w) = if boundary == Boundary::Ring { (2.0, 1.25) } else { (1.0, 1.0) };
@@ -333,6 +333,19 @@ fn impacts_are_placed_within_the_steps_of_verlet_abreast() {
         let off = (hit.time - exact.time).abs() * exact.closing_speed;
         assert!(exact.time < 0.01 || off < 3e-4, "{hit:?} {exact:?}");
     }
+}
+
+/// A blow goes through a row of masses that nearly touch within one step.
+#[test]
+fn verlet_abreast_carries_a_blow_through_a_row() {
+    let row: Vec<_> = (0..6).map(|j| [2.4975 - 0.999 * f64::from(j), 0.0]).collect();
+    let mut blow = free(&row, 0.9);
+    blow.initial = Initial::Free([&[[row[0][0], 4.0]], &row[1..]].concat());
+    let gaps = |method: &dyn Method| -> Vec<usize> {
+        impacts(method, &blow, 0.05).iter().map(|impact| impact.gap).collect()
+    };
+    assert_eq!(gaps(&VerletAbreast { step: 0.05 }), [1, 2, 3, 4, 5]);
+    assert_eq!(gaps(&Certified), [1, 2, 3, 4, 5]);
 }
 
 /// The impacts of a chain have the same bits alone and beside others, among them chains that end

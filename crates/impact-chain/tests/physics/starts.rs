@@ -75,6 +75,7 @@ fn places_are_constant_loads_and_gaps_of_any_width() {
     let placed = Scenario { places, ..plain.clone() };
     assert_eq!(crate::trace(&placed, 50.0), crate::trace(&plain, 50.0));
     assert_eq!(Scenario::from_json(&placed.to_json()).unwrap(), placed);
+    assert_eq!(placed.gaps(), 10);
     // All places moved along, walls too: the same impacts to rounding.
     let places = Some((0..11).map(|j| 3.25 + f64::from(j)).collect());
     let moved = Scenario { places, ..plain.clone() };
