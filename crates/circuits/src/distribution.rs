@@ -161,3 +161,19 @@ impl Law {
         (sums.first_moment / sums.total).to_f64()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// N = 10 and p = 1/4: (10 − k)/4 is 1 at k = 6, and the bound with (k + 3)/(k − 1) is 5/4 at
+    /// k = 7 and 11/14 at k = 8.
+    #[test]
+    fn weights_fall_from_where_their_ratio_is_below_one() {
+        for (space, first) in [(SampleSpace::Simple, 7), (SampleSpace::FiveClasses, 8)] {
+            let law = Law::new(space, 10, 0.25).unwrap();
+            let falls: Vec<bool> = law.weights().map(|of| of.falls_from_here()).collect();
+            assert_eq!(falls.iter().position(|&falls| falls), Some(first - 1), "{falls:?}");
+        }
+    }
+}
