@@ -39,10 +39,11 @@ pub fn jackknife(
 
 /// Returns the ratio of two sums over realisations, with its jackknife error.
 pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
+    let sum = |place: usize| pairs.iter().map(|pair| pair[place]).sum::<f64>();
+    let [above, below] = [sum(0), sum(1)];
     jackknife(pairs.len(), |out| {
-        let used = pairs.iter().enumerate().filter(|(at, _)| Some(*at) != out);
-        let [above, below] = used.fold([0.0; 2], |[a, b], (_, pair)| [a + pair[0], b + pair[1]]);
-        (below > 0.0).then(|| above / below)
+        let [a, b] = out.map_or([0.0; 2], |out| pairs[out]);
+        (below - b > 0.0).then(|| (above - a) / (below - b))
     })
 }
 

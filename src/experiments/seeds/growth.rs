@@ -10,18 +10,30 @@
 //! gaps at distance l that are hit in a window W which begins a time t after the first impact of a
 //! seed, and R(l, t) the share that is hit within t.
 
-use super::ByDistance;
+use super::{ByDistance, Part};
 use crate::params::SeedsParams;
 use impact_circuits::nucleation::{ANGLES, COARSE, Chances, Reach};
 use impact_numerics::estimates::jackknife;
 use impact_numerics::statistics::{Estimate, last_rise};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Groups of runs, each of which is left out in turn for the error of their sum.
 pub(super) const GROUPS: usize = 8;
 
+/// Counts by distance at each σ, without each group of runs in turn, and last of all of them.
+pub(super) fn sums(parameters: &SeedsParams, rows: &[Part]) -> Vec<Vec<ByDistance>> {
+    let grouped = |part: &Part| {
+        let at = |group: usize| group * part.len() / GROUPS;
+        let group = |group| ByDistance::count(parameters, &part[at(group)..at(group + 1)]);
+        ByDistance::sums(&(0..GROUPS).map(group).collect::<Vec<_>>())
+    };
+    rows.par_iter().map(grouped).collect()
+}
+
 /// Mean counts after one transient.
-pub(super) struct Prediction {
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Prediction {
     pub transient: usize,
     /// Without each group in turn, and last with all of them, for each σ: if all gaps that close by
     /// themselves are seeds, and if only the first of each clump is.

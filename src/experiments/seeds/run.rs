@@ -1,5 +1,6 @@
 //! Runs chains in which exactly one gap closes by itself.
 
+use super::growth::{Prediction, predictions, sums};
 use crate::experiments::prelude::*;
 use crate::params::{SEED, SeedsParams};
 use impact_circuits::nucleation::{closing_pull, pulls};
@@ -12,6 +13,15 @@ const WAIT: f64 = 2000.0;
 pub struct Seeds {
     pub parameters: SeedsParams,
     pub rows: Vec<Part>,
+    /// Predicted mean counts after each transient.
+    pub predicted: Vec<Prediction>,
+}
+
+impl Seeds {
+    pub fn new(parameters: SeedsParams, rows: Vec<Part>) -> Seeds {
+        let predicted = predictions(&parameters, &sums(&parameters, &rows));
+        Seeds { parameters, rows, predicted }
+    }
 }
 
 /// One run, in time since its first impact.
@@ -35,7 +45,7 @@ pub fn run(parameters: &SeedsParams, progress: &Progress) -> Result<Seeds, Error
         let one = |index| trace(parameters, sigma, index, progress);
         each(&stage, progress, 0..parameters.realisations as u64, one)
     });
-    Ok(Seeds { parameters: parameters.clone(), rows: rows.collect::<Result<_, _>>()? })
+    Ok(Seeds::new(parameters.clone(), rows.collect::<Result<_, _>>()?))
 }
 
 /// The search for a chain in which exactly one gap closes by itself.

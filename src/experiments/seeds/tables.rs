@@ -2,12 +2,11 @@
 
 use super::counting::{bits, ran};
 use super::fronts::{Fronts, beat, over};
-use super::growth::{GROUPS, Prediction, predictions};
-use super::{ByDistance, Part, Seeds, Trace};
+use super::growth::{GROUPS, Prediction, sums};
+use super::{ByDistance, Seeds, Trace};
 use crate::experiments::prelude::*;
 use crate::params::SeedsParams;
 use impact_numerics::estimates::jackknife;
-use rayon::prelude::*;
 
 struct RunsAtSigma<'a> {
     sigma: f64,
@@ -19,25 +18,19 @@ struct RunsAtSigma<'a> {
 
 pub fn tables(seeds: &Seeds) -> Vec<Table> {
     let parameters = &seeds.parameters;
-    let grouped = |part: &Part| {
-        let at = |group: usize| group * part.len() / GROUPS;
-        let group = |group| ByDistance::count(parameters, &part[at(group)..at(group + 1)]);
-        ByDistance::sums(&(0..GROUPS).map(group).collect::<Vec<_>>())
-    };
-    let sums: Vec<Vec<ByDistance>> = seeds.rows.par_iter().map(grouped).collect();
+    let sums = sums(parameters, &seeds.rows);
     let mut rows = Vec::new();
     for ((part, sums), &sigma) in seeds.rows.iter().zip(&sums).zip(&parameters.sigmas) {
         let runs: Vec<(usize, &Trace)> = ran(part).collect();
         let fronts = runs.iter().map(|run| Fronts::of(parameters, *run)).collect();
         rows.push(RunsAtSigma { sigma, runs, sums, fronts });
     }
-    let predicted = predictions(parameters, &sums);
     vec![
         course(parameters, &rows),
         advance(parameters, &rows),
         fronts(beat(&parameters.chain), &rows),
-        means(parameters, &predicted),
-        rise(parameters, &predicted),
+        means(parameters, &seeds.predicted),
+        rise(parameters, &seeds.predicted),
         all(parameters),
     ]
 }
@@ -144,7 +137,7 @@ mod tests {
             None,
             run([0b0010, 0b0001, 0b0010], [Some(30), Some(0), Some(40)]),
         ]];
-        let found = tables(&Seeds { parameters, rows });
+        let found = tables(&Seeds::new(parameters, rows));
         let [course, advance, fronts, ..] = &found[..] else { panic!() };
         let at = |until: f64, column| course.number(&[("until", until)], column).unwrap();
         let columns = ["reached", "active"];
