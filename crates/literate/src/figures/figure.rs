@@ -1,6 +1,6 @@
 //! Holds a finished figure: the picture, its description and its data.
 
-use super::drawing::Drawing;
+use super::drawing::{Drawing, Element};
 use super::error::Error;
 use super::svg::escape;
 use crate::table::DataFile;
@@ -67,6 +67,18 @@ impl Figure {
         }
         let name = |format: &str| format!("{}.{format}", self.id);
         self.files.iter().map(|(format, bytes)| (name(format), bytes.clone())).collect()
+    }
+
+    /// Returns its title, its labels and the names of its series, in no order.
+    pub(crate) fn texts(&self) -> Vec<String> {
+        let words = |element: &Element| match element {
+            Element::Label(label) => Some(label.words.clone()),
+            Element::Open(name, _) => Some(name.clone()),
+            Element::Close | Element::Shape(..) => None,
+        };
+        let names = self.data.iter().flat_map(|file| &file.rows).filter_map(|row| row.first());
+        let drawn = self.drawing.elements.iter().filter_map(words);
+        drawn.chain(names.cloned()).chain([self.title.clone()]).collect()
     }
 
     pub fn svg(&self) -> String {

@@ -16,7 +16,7 @@ use super::lint::Declared;
 use super::mark::ids;
 use super::parse::Parsed;
 use super::values::Registry;
-use super::{html, latex, ledger, lint, markdown, parse, search};
+use super::{coded, html, latex, ledger, lint, markdown, parse, search};
 use crate::claims::Check;
 use crate::figures::Figure;
 use crate::input::one_line;
@@ -108,7 +108,7 @@ fn all_in_order(errors: Vec<Error>) -> Result<(), Error> {
     Error::all(errors)
 }
 
-/// Refuses hard-coded numbers in the reasons of checks and the descriptions of figures.
+/// Refuses hard-coded numbers in reasons of checks, descriptions of figures and texts of code.
 fn check_texts(input: &Input<'_>, declared: &Declared) -> Result<(), Error> {
     let reasons = input.claims.iter().map(|claim| {
         let place = format!("the reason of {}", claim.id);
@@ -120,7 +120,8 @@ fn check_texts(input: &Input<'_>, declared: &Declared) -> Result<(), Error> {
         let typed = parts.map(|part| part.split_once('}').map_or(part, |(_, typed)| typed));
         lint::check(&format!("what {} shows", figure.id), &typed.collect::<String>(), declared)
     });
-    Error::all(reasons.chain(descriptions).filter_map(Result::err).collect())
+    let errors = reasons.chain(descriptions).filter_map(Result::err);
+    all_in_order(errors.chain(coded::check(input, declared)).collect())
 }
 
 /// Reads all documents into trees, with their figures, numbers and references. Returns all errors.

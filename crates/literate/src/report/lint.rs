@@ -137,6 +137,12 @@ fn is_name(before: &str, number: &str) -> bool {
 const FIRST: &str =
     "A About Above After And At Below Between By For From If In Near Of On Only Over The To With";
 
+/// Returns the length of a number that may stand behind a backslash without a reason.
+pub fn literal_name(before: &str, number: &str) -> Option<usize> {
+    let is_literal = number.starts_with(char::is_numeric) && is_name(before, number);
+    is_literal.then(|| number.find(ends_literal).unwrap_or(number.len()))
+}
+
 /// Units that a sentence names behind a number.
 const UNITS: &str = "s ms µs ns min h d m km cm mm µm nm g kg mg N kN Pa kPa MPa J kJ W kW V mV A mA K Hz \
     kHz MHz GHz rad mrad ° °C % ‰ kB MB GB";

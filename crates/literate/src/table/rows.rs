@@ -178,6 +178,12 @@ impl Table {
         self.columns.iter().map(|column| column.name)
     }
 
+    /// Returns what its columns mean; nothing without rows.
+    pub(crate) fn meanings(&self) -> impl Iterator<Item = &str> {
+        let first = self.rows.first().into_iter().flat_map(|(_, cells)| cells);
+        first.map(|cell| cell.note.as_str())
+    }
+
     pub fn keys(&self) -> impl Iterator<Item = &'static str> {
         self.names().take(self.keys)
     }

@@ -314,6 +314,21 @@ fn numerals_that_were_typed_outside_the_prose_are_refused() {
         let error = given.made().unwrap_err().to_string();
         assert!(error.starts_with(words) && error.contains("12"), "{error}");
     }
+    for (text, numeral) in [
+        ("at \"12\" s", "src/texts.rs:1: \"at \\\"12\\\" s\": hard-coded number 12;"),
+        ("7 of 0.35 m", "src/texts.rs:1: \"7 of 0.35 m\": hard-coded number 0.35;"),
+        ("so *k* = 0.5 in H^{2}", "src/texts.rs:3: \"so k = 0.5 in H^2\": hard-coded number 0.5;"),
+        (
+            "98.98 s of Python 3.11",
+            "src/texts.rs:3: \"98.98 s of Python 3.11\": hard-coded number 98.98;",
+        ),
+        ("Eq. (25), 12 s, of Python 3.11, of 13 s, 14 s, 0.35", ""),
+    ] {
+        let claims = vec![claim("rise").note(text)];
+        let error = Given { claims, ..given(PROSE) }.made().err().map(|error| error.to_string());
+        let error = error.unwrap_or_default();
+        assert!(error.starts_with(numeral) && error.is_empty() == numeral.is_empty(), "{error}");
+    }
     let with_digit = || given(&PROSE.replace("x = y", "x = 2 y"));
     for (digits, fails) in [(None, false), (Some("2"), false), (Some("3"), true)] {
         let mut given = with_digit();
