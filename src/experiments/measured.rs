@@ -6,9 +6,6 @@ use crate::params::{MethodName, Runs, Setting};
 use literate::input::one_line;
 use serde::de::DeserializeOwned;
 
-/// Masses of the chain whose time documents name.
-const MASSES: u64 = 100;
-
 pub const MEASURED: Experiment<(), Measured> = Experiment {
     name: "measured",
     own: &["src/experiments/measured.rs"],
@@ -184,9 +181,10 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         .words("processor", "on what", |(_, on)| on.machine.processor.replace("(R)", ""))
         .words("os", "under what", |(_, on)| on.machine.os.replace('_', "-"))
         .measured();
-    let one = measured.of(What::Engine).filter(|row| row.n == MASSES && row.chains == 1);
+    let n = 100;
+    let one = measured.of(What::Engine).filter(|row| row.n == n && row.chains == 1);
     let engine = one.filter_map(|row| row.microseconds_per_impact).last();
-    let meaning = format!("time of an impact in the engine, one chain of {MASSES} masses");
+    let meaning = format!("time of an impact in the engine, one chain of {n} masses");
     let impact = Table::of("measured.impact", &[()], |()| 1)
         .computed_by(origin(tables))
         .real("engine", "us", 2, &meaning, |()| engine)

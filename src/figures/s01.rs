@@ -11,8 +11,8 @@ const DETAIL: f64 = 400.0;
 /// The intervals of time in which the first panel counts.
 const INTERVALS: f64 = 200.0;
 
-/// Numbers of shades; each has twice as many impacts as the one before, the last also more.
-const SHADES: usize = 3;
+/// Numbers of impacts that share a shade.
+const SHADES: [&str; 3] = ["1", "2–3", "4 or more"];
 
 pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let sheet = Sheet::new(9700);
@@ -71,23 +71,16 @@ fn shades(sheet: &Sheet, panel: &Panel, run: &SpaceTime, length: f64) -> Drawn {
     let title = format!("impacts in {}/*ω*:", short(length, 2));
     let base = top - 450;
     sheet.area.draw_text(&title, &style, (left + 2250, base))?;
-    for shade in 0..SHADES {
-        let least = 1 << shade;
-        let name = match shade {
-            0 => least.to_string(),
-            _ if shade + 1 == SHADES => format!("{least} or more"),
-            _ => format!("{least}–{}", 2 * least - 1),
-        };
-        let colour = ordered(shade, SHADES);
-        let with_shade =
-            counts.iter().filter(|(_, count)| count.ilog2().min(SHADES as u32 - 1) == shade as u32);
+    for (shade, name) in SHADES.into_iter().enumerate() {
+        let colour = ordered(shade, SHADES.len());
+        let with_shade = counts.iter().filter(|(_, count)| count.ilog2().min(2) == shade as u32);
         let places = with_shade
             .map(|((interval, gap), _)| ((*interval as f64 + 0.5) * length, f64::from(*gap)));
         let stroke = Stroke::solid(colour, row * (shade as u32 + 1) / 3);
         panel.draw_series("impacts", [ticks(places.collect(), width, stroke)])?;
         let x = left + [4150, 4800, 5700][shade];
         sheet.area.draw(&Rectangle::new([(x, base - 170), (x + 250, base)], colour.filled()))?;
-        sheet.area.draw_text(&name, &style, (x + 330, base))?;
+        sheet.area.draw_text(name, &style, (x + 330, base))?;
     }
     Ok(())
 }

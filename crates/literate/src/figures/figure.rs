@@ -69,16 +69,14 @@ impl Figure {
         self.files.iter().map(|(format, bytes)| (name(format), bytes.clone())).collect()
     }
 
-    /// Returns its title, its labels and the names of its series, in no order.
-    pub(crate) fn texts(&self) -> Vec<String> {
-        let words = |element: &Element| match element {
-            Element::Label(label) => Some(label.words.clone()),
-            Element::Open(name, _) => Some(name.clone()),
+    /// Returns its title, its labels and the names of the series that are drawn.
+    pub(crate) fn texts(&self) -> impl Iterator<Item = &str> {
+        let drawn = self.drawing.elements.iter().filter_map(|element| match element {
+            Element::Label(label) => Some(label.words.as_str()),
+            Element::Open(name, _) => Some(name.as_str()),
             Element::Close | Element::Shape(..) => None,
-        };
-        let names = self.data.iter().flat_map(|file| &file.rows).filter_map(|row| row.first());
-        let drawn = self.drawing.elements.iter().filter_map(words);
-        drawn.chain(names.cloned()).chain([self.title.clone()]).collect()
+        });
+        drawn.chain([self.title.as_str()])
     }
 
     pub fn svg(&self) -> String {
@@ -95,19 +93,17 @@ impl Figure {
     }
 }
 
-/// What readers see in a figure: with its numbers, and as its author typed it, so that a typed
-/// numeral is found. [`describe!`](crate::describe) makes both.
+/// What readers see in a figure, in words.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Description {
     pub text: String,
-    pub typed: &'static str,
 }
 
 /// Describes a figure; the arguments are those of `format!`.
 #[macro_export]
 macro_rules! describe {
     ($words:literal $(, $value:expr)* $(,)?) => {
-        $crate::figures::Description { text: format!($words $(, $value)*), typed: $words }
+        $crate::figures::Description { text: format!($words $(, $value)*) }
     };
 }
 
