@@ -197,9 +197,8 @@ impl Results {
     }
 }
 
-fn tables(experiment: &dyn AnyExperiment, found: &Found) -> Vec<Table> {
-    let tables = experiment.tables(found).into_iter();
-    tables.map(|table| table.made_by(&[experiment.name()])).collect()
+fn tables(one: &dyn AnyExperiment, found: &Found) -> Vec<Table> {
+    one.tables(found).into_iter().map(|table| table.made_by(&[one.name()])).collect()
 }
 
 /// Gets the result of an experiment, and makes its tables; a panic says which experiment it was.

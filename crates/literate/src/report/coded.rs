@@ -29,11 +29,15 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
     let mut errors = Vec::new();
     for (text, file, with_words) in given(input) {
         let mut numerals = lint::words(&text, 0..text.len(), declared);
+        // Numbers without words count where they are drawn.
+        let quote = format!("\"{text}\"");
+        let quoted = file.filter(|(_, code)| text.len() > 1 && code.contains(&quote));
         let is_meant = |numeral: &str| with_words || numeral.starts_with(char::is_numeric);
         numerals.retain(|(at, one)| is_meant(one) && is_number(&text, *at, one));
         for (at, numeral) in numerals {
-            let found = typed.iter().find(|typed| typed.has(&text, at, &numeral, file));
-            let place = found.map(|typed| format!("{}: {:?}", typed.place, one_line(&text, 60)));
+            let found = typed.iter().find(|typed| typed.has(&text, at, &numeral));
+            let place = found.map(|typed| &*typed.place).or(quoted.map(|(path, _)| *path));
+            let place = place.map(|place| format!("{place}: {:?}", one_line(&text, 60)));
             errors.extend(place.map(|place| Error::HardCoded(numeral).at(place)));
         }
     }
@@ -58,27 +62,26 @@ fn typed(path: &str, code: &str) -> Vec<Typed> {
 }
 
 impl Typed {
-    /// Returns whether the number at this place of a text stands in these words. A number alone
-    /// does in the file that draws the figure.
-    fn has(&self, text: &str, at: usize, numeral: &str, file: Option<&str>) -> bool {
+    /// Returns whether the number at this place of a text stands in these words.
+    fn has(&self, text: &str, at: usize, numeral: &str) -> bool {
         let covers = |(begin, words): (usize, &str)| (begin..begin + words.len()).contains(&at);
-        let is_near = numeral.len() > 1 && file.is_some_and(|file| self.place.starts_with(file));
-        let is_whole = text == self.words && (text != numeral || is_near);
         self.numerals.iter().any(|typed| typed == numeral)
             && text.match_indices(&self.words).any(covers)
-            && (is_whole || self.words.contains(char::is_alphabetic))
+            && self.words.contains(char::is_alphabetic)
     }
 }
 
 /// All texts that code gives, with the file that draws it for one of a figure, and whether number
 /// words count: in descriptions and reasons, which are sentences.
-fn given<'a>(input: &Input<'a>) -> BTreeSet<(String, Option<&'a str>, bool)> {
+fn given<'a>(input: &Input<'a>) -> BTreeSet<(String, Option<&'a (&'a str, &'a str)>, bool)> {
     let mut all = BTreeSet::new();
     let mut add = |text: &str, file, with_words| {
         all.insert((bare(text), file, with_words));
     };
     for figure in input.figures {
-        let file = input.project.sources.file(&figure.source);
+        let sources = &input.project.sources;
+        let path = sources.file(&figure.source);
+        let file = sources.files.iter().find(|file| Some(file.0) == path);
         figure.texts().for_each(|text| add(text, file, false));
         add(&figure.description.text, file, true);
     }

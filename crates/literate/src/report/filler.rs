@@ -314,9 +314,7 @@ fn register(tera: &mut Tera, empty: BTreeSet<String>) {
     tera.register_filter("significant", move |text: &str, arguments: Kwargs, _: &State| {
         match arguments.must_get("digits") {
             Ok(digits @ 1..=17) => with(text, &format!("significant{digits}")),
-            _ => Err(tera::Error::message(
-                "`significant` needs 1 to 17 digits: significant(digits=2)",
-            )),
+            _ => Err(tera::Error::message("`significant` needs 1 to 17: significant(digits=2)")),
         }
     });
     tera.register_filter("otherwise", move |text: &str, arguments: Kwargs, _: &State| {

@@ -33,7 +33,7 @@ at .«v.count» => 14:5 => «count» reads as one number
 - a⏎  - b⏎    - c⏎      - d⏎        - e => 14:1 => lists stand at most four deep
 at -$«v.half_height»$ => 14:6 => a minus before «half_height» changes its sign
 at **«v.half_height»** % => 14:6 => % follows «half_height», whose unit is
-at «v.count | significant(digits=30)» => 14: => needs 1 to 17 digits
+at «v.count | significant(digits=30)» => 14: => needs 1 to 17: 
 at −«v.half_height» => 14:5 => a minus before «half_height» changes its sign
 $x = «v.half_height | percent»\,\%$ => 14:6 => % follows «half_height», whose unit is
 at «v.half_height | significant(digits=17)» => 14:4 => a standard error, which `significant` drops
