@@ -30,8 +30,8 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
     for (text, file, with_words) in given(input) {
         let mut numerals = lint::words(&text, 0..text.len(), declared);
         // Numbers without words count where they are drawn.
-        let quote = format!("\"{text}\"");
-        let quoted = file.filter(|(_, code)| text.len() > 1 && code.contains(&quote));
+        let file = file.filter(|_| text.len() > 1).map(|file| &input.project.sources.files[file]);
+        let quoted = file.filter(|(_, code)| code.contains(&format!("\"{text}\"")));
         let is_meant = |numeral: &str| with_words || numeral.starts_with(char::is_numeric);
         numerals.retain(|(at, one)| is_meant(one) && is_number(&text, *at, one));
         for (at, numeral) in numerals {
@@ -73,7 +73,7 @@ impl Typed {
 
 /// All texts that code gives, with the file that draws it for one of a figure, and whether number
 /// words count: in descriptions and reasons, which are sentences.
-fn given<'a>(input: &Input<'a>) -> BTreeSet<(String, Option<&'a (&'a str, &'a str)>, bool)> {
+fn given(input: &Input<'_>) -> BTreeSet<(String, Option<usize>, bool)> {
     let mut all = BTreeSet::new();
     let mut add = |text: &str, file, with_words| {
         all.insert((bare(text), file, with_words));
@@ -81,7 +81,7 @@ fn given<'a>(input: &Input<'a>) -> BTreeSet<(String, Option<&'a (&'a str, &'a st
     for figure in input.figures {
         let sources = &input.project.sources;
         let path = sources.file(&figure.source);
-        let file = sources.files.iter().find(|file| Some(file.0) == path);
+        let file = sources.files.iter().position(|file| Some(file.0) == path);
         figure.texts().for_each(|text| add(text, file, false));
         add(&figure.description.text, file, true);
     }
