@@ -95,7 +95,8 @@ fn even_small_p(e: &Evidence<'_>) -> Judged {
     let (simple, first_order) = (of_five(e, p, "simple")?, of_five(e, p, "first_order")?);
     let higher = (1.0 - simple) / simple;
     let (share, predicted) = (100.0 * (1.0 - simple), 100.0 * first_order / (1.0 + first_order));
-    let check = e.check(1.0 - simple >= VISIBLE, numbers![share, predicted])?;
+    let least = 100.0 * VISIBLE;
+    let check = e.check(1.0 - simple >= VISIBLE, numbers![share, predicted, least])?;
     Ok(check.explained_if(higher > first_order && higher < 2.0 * first_order))
 }
 
@@ -103,7 +104,7 @@ fn even_small_p_different(e: &Evidence<'_>) -> Judged {
     let higher = 1.0 - e.number("theory.higher.simple_by_different")?;
     // The share is computed at the smallest p of Fig. 13.
     let agrees = higher >= VISIBLE && e.statement.number()? == HIGHER_P[0];
-    e.check(agrees, numbers![share = 100.0 * higher])
+    e.check(agrees, numbers![share = 100.0 * higher, least = 100.0 * VISIBLE])
 }
 
 fn dominate(e: &Evidence<'_>) -> Judged {

@@ -242,13 +242,23 @@ fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts, window: usize) -> Vec<S
     ]
 }
 
-/// Refuses what needs more memory than there is, in bytes.
-fn fits(needed: u128) -> Result<(), Failure> {
-    // Linux reports it, elsewhere 4 GiB are assumed. A process has at most half of all addresses.
-    let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+/// Returns the bytes of memory that there are, of the machine or of the container where it has
+/// less. Linux reports them, elsewhere 4 GiB are assumed.
+fn available(read: impl Fn(&str) -> Option<String>) -> u128 {
+    let text = read("/proc/meminfo").unwrap_or_default();
     let free = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
     let kib = free.and_then(|line| line.split_whitespace().next()?.parse::<u128>().ok());
-    let available = kib.map_or(4 << 30, |kib| kib << 10).min(usize::MAX as u128 / 2);
+    // A container sees its own group as the top, of either version.
+    let limits = ["/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"];
+    let limits = limits.iter().filter_map(|path| read(path)?.trim().parse::<u128>().ok());
+    limits.chain([kib.map_or(4 << 30, |kib| kib << 10)]).min().unwrap_or(0)
+}
+
+/// Refuses what needs more memory than there is, in bytes.
+fn fits(needed: u128) -> Result<(), Failure> {
+    // A process has at most half of all addresses.
+    let available =
+        available(|path| std::fs::read_to_string(path).ok()).min(usize::MAX as u128 / 2);
     if needed <= available {
         return Ok(());
     }
@@ -257,4 +267,17 @@ fn fits(needed: u128) -> Result<(), Failure> {
     Err(Failure::input(format!(
         "--masses, --realisations: about {needed} of memory are needed and {available} are available; use fewer"
     )))
+}
+
+#[test]
+fn memory_is_that_of_the_container_where_it_has_less() {
+    for (file, limit, bytes) in [
+        ("/sys/fs/cgroup/memory.max", "5000\n", 5000),
+        ("/sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n", 7 << 10),
+        ("/sys/fs/cgroup/memory.max", "max\n", 7 << 10),
+    ] {
+        let files = [("/proc/meminfo", "MemAvailable:   7 kB\n"), (file, limit)];
+        let read = |path: &str| Some(files.iter().find(|file| file.0 == path)?.1.to_string());
+        assert_eq!(available(read), bytes, "{limit}");
+    }
 }

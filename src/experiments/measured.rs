@@ -181,12 +181,13 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         .words("processor", "on what", |(_, on)| on.machine.processor.replace("(R)", ""))
         .words("os", "under what", |(_, on)| on.machine.os.replace('_', "-"))
         .measured();
-    let one = measured.of(What::Engine).filter(|row| row.n == 100 && row.chains == 1);
+    let n = 100;
+    let one = measured.of(What::Engine).filter(|row| row.n == n && row.chains == 1);
     let engine = one.filter_map(|row| row.microseconds_per_impact).last();
-    const ENGINE: &str = "time of an impact in the engine, one chain of 100 masses";
+    let meaning = format!("time of an impact in the engine, one chain of {n} masses");
     let impact = Table::of("measured.impact", &[()], |()| 1)
         .computed_by(origin(tables))
-        .real("engine", "us", 2, ENGINE, |()| engine)
+        .real("engine", "us", 2, &meaning, |()| engine)
         .measured();
     let one = measured.of(What::Engine).chain(measured.of(What::Peer));
     let one: Vec<_> = one.filter(|row| row.chains == 1 && row.horizon_time.is_some()).collect();

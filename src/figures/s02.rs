@@ -2,8 +2,8 @@
 
 use super::prelude::*;
 use super::simulated::FORCING;
-use crate::experiments::Results;
 use crate::experiments::theory::comparison::at;
+use crate::experiments::{Results, sweep};
 use crate::params::printed_threshold;
 use literate::table::Table;
 
@@ -13,8 +13,9 @@ const SIGMAS: (f64, f64) = (0.055, 0.165);
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (missing, shares) = (table("nucleation.times")?, table("nucleation.shares")?);
+    let masses = sweep::main(results)?.ensemble.chain.masses;
     let sheet = Sheet::new(8600);
-    chains(&sheet, table("nucleation.chains")?, shares, table("sweep.rows")?)?;
+    chains(&sheet, table("nucleation.chains")?, shares, table("sweep.rows")?, masses)?;
     times(&sheet, missing)?;
     let sigmas = missing.distinct("sigma")?;
     let description = describe!(
@@ -26,7 +27,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     Ok(sheet.finish("Gaps that close by themselves", description))
 }
 
-fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn {
+fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: usize) -> Drawn {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
     let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
@@ -51,7 +52,7 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table) -> Drawn 
     let Some((sigma, share)) = kept.iter().rfind(|(_, share)| *share < 0.9) else { return Ok(()) };
     let leader = [(sigma + 0.001, share - 0.03), (sigma + 0.004, share - 0.1)];
     panel.guide("leader", &leader, Stroke::solid(INK, HAIR))?;
-    panel.label("main sweep, *n* = 100", leader[1], (1, 1), INK)
+    panel.label(&format!("main sweep, *n* = {masses}"), leader[1], (1, 1), INK)
 }
 
 fn times(sheet: &Sheet, found: &Table) -> Drawn {

@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 use super::simulated::FORCING;
-use crate::experiments::Results;
+use crate::experiments::{PROTOCOL, Results};
 use literate::table::Table;
 
 /// The window of the half heights.
@@ -43,12 +43,14 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
         .column("half_height (d omega^2)");
     let panel =
         sheet.lettered("(a)", Frame::new(1150, 430, 6000, 3930), x, y)?.outside(Outside::Cut);
+    let masses = results.of(&PROTOCOL)?.first().map_or(0, |map| map.ensemble.chain.masses);
+    let rest = format!("from rest, *n* = {masses}");
     let bound = results.number("theory.relation.sigma_kept_half")?;
     panel.level("bound by seeds", bound, Stroke::dashed(INK, THIN, DOTTED))?;
-    panel.label("bound from rest, *n* = 100", (10.0, bound), (1, 1), INK)?;
+    panel.label(&format!("bound {rest}"), (10.0, bound), (1, 1), INK)?;
     let map = results.table("protocol.cells")?;
     let map = map.curve(&[("window", WINDOW)], "transient", "half_height_all")?;
-    panel.curve("from rest, n = 100", &map, Stroke::solid(GREY, LINE))?;
+    panel.curve(&rest.replace('*', ""), &map, Stroke::solid(GREY, LINE))?;
     let mut ends = Vec::new();
     for (place, masses) in lengths.iter().enumerate() {
         let longest = usize::from(place + 1 == lengths.len());
@@ -65,7 +67,7 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
     }
     panel.label_ends(&ends)?;
     let start = map.get(3).copied().unwrap_or((10.0, bound));
-    panel.label_nearby("from rest, *n* = 100", start, (1, -1), GREY)
+    panel.label_nearby(&rest, start, (1, -1), GREY)
 }
 
 /// Shares after the first transient and after the last.

@@ -1,7 +1,7 @@
 //! Rounds numbers to decimal digits, once, from their exact values.
 
 /// More digits than a double has, which ends at its 1074th decimal; no more can be asked for.
-pub(crate) const MAX_DIGITS: usize = 1100;
+const MAX_DIGITS: usize = 1100;
 
 /// A decimal number without its sign: an integer, divided by a power of ten.
 #[derive(Debug, PartialEq)]
@@ -24,10 +24,14 @@ impl Decimal {
         Decimal { digits, places: decimals - exponent }
     }
 
+    /// Returns the decimal that is meant by a double: of a few digits the one that data files show,
+    /// and else its exact value.
+    pub fn meant(x: f64) -> Decimal {
+        let shortest = Decimal::shortest(x);
+        if shortest.digits.len() <= 15 { shortest } else { Decimal::exact(x) }
+    }
+
     pub fn exact(x: f64) -> Decimal {
-        if x == 0.0 {
-            return Decimal { digits: String::new(), places: 0 };
-        }
         // No double has more decimals than bits behind its point.
         let decimals = 1075 - (x.to_bits() >> 52 & 0x7ff).clamp(1, 1075) as usize;
         Decimal::read(&format!("{:.decimals$}", x.abs()))

@@ -86,7 +86,8 @@ impl Sources {
 pub(crate) fn toy() -> Sources {
     const FLIGHT: &str = "//! Free flight.\n\nimpl Motion {\n    // listing: kick\n    /// A jump of the velocity by ω \
                `kick`.\n    pub fn kick<const M: usize>(&mut self, kick: f64, p: &Phases<M>) {\n        self.a -= kick * \
-               p.sin;\n        self.b += kick * p.cos;\n    }\n    // end\n}\n";
+               p.sin;\n        self.b += kick * p.cos;\n    }\n    // end\n}\nf(\"at 12 s\",\n\"{n} of 0.35 \\\n    m\", \
+               \"within ten of it\", \"Eq. (25) at \\\\98.98 s of Python \\\\3.11\");\n#[cfg(test)]\nmod tests { f(\"14 s\") }";
     let files = &[("src/flight.rs", FLIGHT), ("src/flight/drag/mod.rs", ""), ("src/lib.rs", "")];
     Sources { name: "toy-paper", version: "1", files, crates: &[("toy", "src")], compiled: &[] }
 }

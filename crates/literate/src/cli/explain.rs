@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
     /// Explain these; if none is given, list all.
-    #[arg(value_name = "ID")]
+    #[arg(value_name = "ID", allow_negative_numbers = true)]
     ids: Vec<String>,
     /// Read the report in this folder [default: paper in the project].
     #[arg(long, value_name = "DIR")]

@@ -88,7 +88,7 @@ impl Results {
     pub fn tables(&self) -> Result<&Tables, Error> {
         let again = || {
             let found = self.found.iter();
-            self.joined(found.flat_map(|(experiment, found)| experiment.tables(found)).collect())
+            self.joined(found.flat_map(|(experiment, found)| tables(*experiment, found)).collect())
         };
         self.tables.get_or_init(again).as_ref().map_err(|fault| Error::Table(fault.clone()))
     }
@@ -104,8 +104,10 @@ impl Results {
 
     /// Returns these tables and those that need several experiments, by name.
     fn joined(&self, mut all: Vec<Table>) -> Result<Tables, String> {
+        let experiments: Vec<&str> = self.found.iter().map(|(one, _)| one.name()).collect();
         for tables in &self.derived {
-            all.extend(tables(self, &all).into_iter().flatten());
+            let made = tables(self, &all).into_iter().flatten();
+            all.extend(made.map(|table| table.made_by(&experiments)).collect::<Vec<_>>());
         }
         let (mut tables, mut names) = (Tables::new(), Names::default());
         for table in all {
@@ -195,12 +197,16 @@ impl Results {
     }
 }
 
+fn tables(one: &dyn AnyExperiment, found: &Found) -> Vec<Table> {
+    one.tables(found).into_iter().map(|table| table.made_by(&[one.name()])).collect()
+}
+
 /// Gets the result of an experiment, and makes its tables; a panic says which experiment it was.
 fn made<E>(
     experiment: &'static dyn AnyExperiment,
     get: impl FnOnce() -> Result<Found, E>,
 ) -> Result<(Found, Vec<Table>), E> {
-    let work = || get().map(|found| (found.clone(), experiment.tables(&found)));
+    let work = || get().map(|found| (found.clone(), tables(experiment, &found)));
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
         let words = format!("the internal error was in the experiment {}", experiment.name());
         say(&words);

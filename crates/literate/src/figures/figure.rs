@@ -1,6 +1,6 @@
 //! Holds a finished figure: the picture, its description and its data.
 
-use super::drawing::Drawing;
+use super::drawing::{Drawing, Element};
 use super::error::Error;
 use super::svg::escape;
 use crate::table::DataFile;
@@ -69,6 +69,16 @@ impl Figure {
         self.files.iter().map(|(format, bytes)| (name(format), bytes.clone())).collect()
     }
 
+    /// Returns its title, its labels and the names of the series that are drawn.
+    pub(crate) fn texts(&self) -> impl Iterator<Item = &str> {
+        let drawn = self.drawing.elements.iter().filter_map(|element| match element {
+            Element::Label(label) => Some(label.words.as_str()),
+            Element::Open(name, _) => Some(name.as_str()),
+            Element::Close | Element::Shape(..) => None,
+        });
+        drawn.chain([self.title.as_str()])
+    }
+
     pub fn svg(&self) -> String {
         self.drawing.svg(false, &self.id, &self.title, &self.description.text) + "\n"
     }
@@ -83,19 +93,17 @@ impl Figure {
     }
 }
 
-/// What readers see in a figure: with its numbers, and as its author typed it, so that a typed
-/// numeral is found. [`describe!`](crate::describe) makes both.
+/// What readers see in a figure, in words.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Description {
     pub text: String,
-    pub typed: &'static str,
 }
 
 /// Describes a figure; the arguments are those of `format!`.
 #[macro_export]
 macro_rules! describe {
     ($words:literal $(, $value:expr)* $(,)?) => {
-        $crate::figures::Description { text: format!($words $(, $value)*), typed: $words }
+        $crate::figures::Description { text: format!($words $(, $value)*) }
     };
 }
 

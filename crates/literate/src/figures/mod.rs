@@ -19,6 +19,7 @@ mod svg;
 pub use drawing::{Drawing, Glyphs};
 pub use error::{Drawn, Error};
 pub use figure::{Description, Figure};
+pub(crate) use markup::plain;
 pub use svg::{escape, outlines};
 
 /// What a figure is drawn with, for one line of imports.

@@ -16,7 +16,7 @@ use super::lint::Declared;
 use super::mark::ids;
 use super::parse::Parsed;
 use super::values::Registry;
-use super::{html, latex, ledger, lint, markdown, parse, search};
+use super::{coded, html, latex, ledger, markdown, parse, search};
 use crate::claims::Check;
 use crate::figures::Figure;
 use crate::input::one_line;
@@ -74,7 +74,7 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
         input.claims.iter().cloned().partition(|claim| claim.kind.is_printed());
     values.extend(scorecard(&printed))?;
     let mut filler = Filler::new(input.templates, &values)?;
-    check_texts(input, &filler.declared)?;
+    all_in_order(coded::check(input, &filler.declared))?;
     for (name, checks) in [("claims", printed), ("relations", relations)] {
         filler.insert(name, &checks.iter().map(row).collect::<Vec<_>>());
     }
@@ -108,21 +108,6 @@ fn all_in_order(errors: Vec<Error>) -> Result<(), Error> {
     Error::all(errors)
 }
 
-/// Refuses hard-coded numbers in the reasons of checks and the descriptions of figures.
-fn check_texts(input: &Input<'_>, declared: &Declared) -> Result<(), Error> {
-    let reasons = input.claims.iter().map(|claim| {
-        let place = format!("the reason of {}", claim.id);
-        lint::check(&place, &claim.reason, declared)
-    });
-    let descriptions = input.figures.iter().map(|figure| {
-        // What stands in braces is computed where the figure is drawn.
-        let parts = figure.description.typed.split('{');
-        let typed = parts.map(|part| part.split_once('}').map_or(part, |(_, typed)| typed));
-        lint::check(&format!("what {} shows", figure.id), &typed.collect::<String>(), declared)
-    });
-    Error::all(reasons.chain(descriptions).filter_map(Result::err).collect())
-}
-
 /// Reads all documents into trees, with their figures, numbers and references. Returns all errors.
 fn parts<'a>(
     input: &Input<'a>,
@@ -130,8 +115,10 @@ fn parts<'a>(
     values: &'a Registry,
     declared: &'a Declared,
 ) -> Result<(Vec<Part<'a>>, Labels), Error> {
-    let library = Library::read(input.templates.text("references.bib")?)
-        .map_err(|error| Error::Template(input.templates.place(&error.to_string())))?;
+    let library = Library::read(input.templates.text("references.bib")?).map_err(|error| {
+        let placed = |error: Error| Error::Template(input.templates.place(&error.to_string()));
+        Error::Several(error.each().into_iter().map(placed).collect())
+    })?;
     let (mut labels, mut shown, mut errors) = (Labels::default(), BTreeSet::new(), Vec::new());
     let mut parts: Vec<Part<'_>> = Vec::new();
     let read = |filled| parse::parse(filled, values, declared, &input.project.sources);

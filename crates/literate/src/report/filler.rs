@@ -7,7 +7,6 @@ use super::filled::Filled;
 use super::lint::Declared;
 use super::mark::{self, Piece, marked, pieces};
 use super::values::{Number, Registry, Value};
-use crate::decimal::MAX_DIGITS;
 use crate::input::{line_and_column, plain};
 use crate::prose::Templates;
 use crate::table::{Table, nearest};
@@ -314,8 +313,8 @@ fn register(tera: &mut Tera, empty: BTreeSet<String>) {
     tera.register_filter("percent", move |text: &str, _: Kwargs, _: &State| with(text, "percent"));
     tera.register_filter("significant", move |text: &str, arguments: Kwargs, _: &State| {
         match arguments.must_get("digits") {
-            Ok(digits @ 0..=MAX_DIGITS) => with(text, &format!("significant{digits}")),
-            _ => Err(tera::Error::message("`significant` needs digits: significant(digits=2)")),
+            Ok(digits @ 1..=17) => with(text, &format!("significant{digits}")),
+            _ => Err(tera::Error::message("`significant` needs 1 to 17: significant(digits=2)")),
         }
     });
     tera.register_filter("otherwise", move |text: &str, arguments: Kwargs, _: &State| {

@@ -157,10 +157,17 @@ fn is_word_end(c: char) -> bool {
 /// Returns what beside a value changes its unit or its sign; formulas have units in `\mathrm`.
 pub fn beside(before: &str, after: &str, of: &Value, style: Style, maths: bool) -> Option<String> {
     let tex = [r"\,", r"\;", r"\ ", "~", " ", "\u{a0}", "\u{202f}"];
+    // Emphasis, links and formulas do not part a sign from its value.
+    let marks = |c: char| "*_[".contains(c) && !maths;
+    let (before, after) = (before.trim_end_matches(marks), after.trim_start_matches(marks));
+    let link = after.strip_prefix("](").and_then(|link| Some(link.split_once(')')?.1));
+    let after = link.unwrap_or(after);
+    let (inside, before) = (before, before.strip_suffix('$').unwrap_or(before));
     let mut rest = after;
     while let Some(other) = tex.iter().find_map(|blank| rest.strip_prefix(blank)) {
         rest = other;
     }
+    rest = rest.strip_prefix('$').filter(|tex| tex.starts_with('\\')).unwrap_or(rest);
     let apart = if maths { "" } else { rest };
     let apart =
         [r"\mathrm{", r"\text{"].iter().find_map(|open| rest.strip_prefix(open)).unwrap_or(apart);
@@ -168,10 +175,14 @@ pub fn beside(before: &str, after: &str, of: &Value, style: Style, maths: bool) 
     let rest = if touches { rest.trim_start_matches('\\') } else { apart.trim_start_matches(' ') };
     let typed = unit(rest).filter(|_| touches || maths || rest.len() < after.len());
     let glued = ["", ".", ",", "e"].iter().filter_map(|sign| after.strip_prefix(sign));
-    let after_point = before.strip_suffix('.').is_some_and(|text| !text.ends_with(is_word_end));
+    let digit = |c: char| c.is_ascii_digit();
+    let is_after =
+        |text: &str| if maths { text.ends_with(digit) } else { !text.ends_with(is_word_end) };
+    let after_point = inside.strip_suffix('.').is_some_and(is_after);
     let is_number = !matches!(of.number, Number::Text(_));
-    if is_number && !maths && (after_point || glued.into_iter().any(|rest| rest.starts_with(OPEN)))
-    {
+    let goes_on = |rest: &str| !maths && rest.starts_with(OPEN);
+    let before_point = maths && after.strip_prefix('.').is_some_and(|rest| rest.starts_with(digit));
+    if is_number && (after_point || before_point || glued.into_iter().any(goes_on)) {
         let what = "reads as one number with what stands beside it; put a blank between";
         return Some(format!("«{}» {what}", of.id));
     }
@@ -186,8 +197,9 @@ pub fn beside(before: &str, after: &str, of: &Value, style: Style, maths: bool) 
         let what = "write it by the value's own unit or by «… | percent»";
         return Some(format!("{typed} follows «{}», whose unit is {own:?}; {what}", of.id));
     }
-    let sign = before.strip_suffix(['-', '−']).filter(|_| !maths)?;
-    let begins = sign.chars().next_back().is_none_or(|c| c.is_whitespace() || "(|“".contains(c));
+    let sign = before.strip_suffix(['-', '−']).filter(|_| !maths || before != inside)?;
+    let begins = |c: char| c.is_whitespace() || r"(|“$\*[".contains(c);
+    let begins = sign.chars().next_back().is_none_or(begins);
     begins.then(|| format!("a minus before «{}» changes its sign; compute it so", of.id))
 }
 
@@ -262,14 +274,6 @@ pub fn formula(tex: &str) -> Option<String> {
     sides.iter().find(is_hard_coded).map(|(side, _)| side.clone())
 }
 
-/// Refuses hard-coded numbers in texts without formulas; `0` and `1` are allowed as in a formula.
-pub fn check(place: &str, text: &str, declared: &Declared) -> Result<(), Error> {
-    let mut found = words(text, 0..text.len(), declared);
-    found.retain(|(_, numeral)| !["0", "1"].contains(&numeral.as_str()));
-    let error = |(_, numeral)| Error::HardCoded(numeral).at(place.to_string());
-    Error::all(found.into_iter().map(error).collect())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -307,7 +311,10 @@ mod tests {
     #[test]
     fn another_unit_or_sign_beside_a_value_is_found() {
         for (line, wrong) in [
-            ("at V s, ms|at V km/h, m/s|at V\u{a0}%,|at V%,1|at −V,1|(-V,1|V\\%,s", true),
+            (
+                "at V s, ms|at V km/h, m/s|at V\u{a0}%,|at V%,1|at −V,1|(-V,1|V\\%,s|-**V,1|−[V,1|\\-V,1|$-$V,1|V $\\%$,1|V** %,1|V](x) %,1",
+                true,
+            ),
             (
                 "at V\u{a0}ms.,ms|at V\u{a0}%,$%$|at V so,ms|at V s,|at V %,%|non-V s,|1–V,1|V\n\nA dog,s|a − V,1",
                 false,
@@ -324,7 +331,9 @@ mod tests {
         let percent = Style { percent: true, ..Style::default() };
         let found = beside("", "", &of, percent, false).unwrap();
         assert!(found.contains("which `percent` would change"), "{found}");
-        let maths = |after| beside("-", after, &of, Style::default(), true).is_some();
+        let of_maths = |before, after| beside(before, after, &of, Style::default(), true).is_some();
+        assert!(of_maths("-$", "$") && of_maths("$0.", "$") && of_maths("$", ".5$"));
+        let maths = |after| of_maths("$-", after);
         assert_eq!(
             [r"\,\mathrm{s}", r"\,\%", " h", r"\,\mathrm{ms}"].map(maths),
             [true, true, false, false]

@@ -12,6 +12,7 @@ pub mod bibliography;
 mod bibtex;
 pub(crate) mod card;
 pub(crate) mod claims;
+mod coded;
 pub(crate) mod document;
 pub(crate) mod edition;
 pub(crate) mod error;

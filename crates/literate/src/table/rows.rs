@@ -178,6 +178,16 @@ impl Table {
         self.columns.iter().map(|column| column.name)
     }
 
+    /// Returns it with one of these experiments as its origin: the one that it is named after, or
+    /// the only one.
+    pub(crate) fn made_by(mut self, experiments: &[&str]) -> Table {
+        let named = experiments.iter().any(|name| self.name.split('.').next() == Some(name));
+        let only = if let [only] = experiments { only } else { "" };
+        let cells = self.rows.iter_mut().flat_map(|(_, cells)| cells).filter(|_| !named);
+        cells.for_each(|cell| cell.experiment = only.into());
+        self
+    }
+
     pub fn keys(&self) -> impl Iterator<Item = &'static str> {
         self.names().take(self.keys)
     }
@@ -231,7 +241,8 @@ pub(super) fn called(key: &Number) -> String {
         {
             text.to_string()
         }
-        Number::Real { value, .. } => value.to_string(),
+        // Zero has no sign.
+        Number::Real { value, .. } => (value + 0.0).to_string(),
         Number::Text(words) => words.clone(),
     }
 }
@@ -297,6 +308,14 @@ mod tests {
         assert_eq!(source, "literate::table::rows::tests::table");
         assert_eq!(at("test.rise[r=0.8,sigma=0.1].inverse").unit, r"$1/\omega$");
         assert_eq!(at("test.rise[r=0.8,sigma=0.1].sigma").unit, r"$d \omega^2$");
+    }
+
+    #[test]
+    fn a_table_is_from_the_experiment_that_made_it() {
+        for (names, from) in [("one", "one"), ("one test", "test"), ("one two", "")] {
+            let names: Vec<&str> = names.split(' ').collect();
+            assert!(table().made_by(&names).cells().all(|cell| cell.experiment == from));
+        }
     }
 
     #[test]

@@ -6,8 +6,10 @@ use crate::print::Shown;
 
 const BLANKS: [&str; 9] = [" ", "\n", "~", r"\,", r"\:", r"\;", r"\!", r"\thinspace", r"\ "];
 /// Before a sign of a number these bind; and so do letters, numbers, and brackets that close.
-const BEFORE: &str = r"+ - − / ) ] } ! * \ast \pm \mp \times \cdot \div \partial \nabla \ell \hbar \exp \ln \log
-    \sin \cos \tan \cot \sinh \cosh \tanh \coth \arcsin \arccos \arctan";
+const BEFORE: &str = r"+ - − / ) ] } ! ' * \ast \pm \mp \times \cdot \div \partial \nabla \ell \hbar \prime \rangle
+    \rvert \rVert \rceil \rfloor \rbrace";
+const FUNCTIONS: &str =
+    r"\exp \ln \log \sin \cos \tan \cot \sinh \cosh \tanh \coth \arcsin \arccos \arctan";
 
 pub fn bracketed(parts: Vec<Part>) -> Formula {
     let tex = |i: Option<usize>| match i.and_then(|i| parts.get(i)) {
@@ -54,12 +56,17 @@ fn binds(mut before: &str, mut after: &str, shown: &Shown) -> bool {
     let is_text = *last == "}" && of_text.iter().any(|of| opened.ends_with(of));
     let spelt = tex::spell(last);
     let is_letter = spelt.chars().all(char::is_alphabetic) && spelt.chars().count() == 1;
-    let is_sign = BEFORE.split_whitespace().any(|sign| sign == *last);
-    let binds_sign = !is_text && (is_letter || is_sign || digit(last));
+    let is_in = |list: &str| list.split_whitespace().any(|sign| sign == *last);
+    // The second of two bars ends what stands between them.
+    let is_end = *last == "|" && before_signs.iter().filter(|sign| **sign == "|").count() % 2 == 0;
+    let binds_sign =
+        !is_text && (is_letter || is_in(BEFORE) || is_in(FUNCTIONS) || is_end || digit(last));
     raises && (numeral.negative || has_more)
         || joins
         || numeral.negative && binds_sign
-        || *last == "/" && numeral.exponent.is_some() && !numeral.is_power_alone()
+        || (*last == "/" || is_in(FUNCTIONS))
+            && numeral.exponent.is_some()
+            && !numeral.is_power_alone()
 }
 
 #[cfg(test)]
@@ -70,7 +77,7 @@ mod tests {
 
     /// Formulas around −5 `M`, 1.20(3)·10⁻⁵ `P` and 0.1165(4) `E`; what is right stays as it is.
     const FORMULAS: &str = r"
-(P)^2 | (M) ^2 | {(M)}^2 | (E)^2 | 2(M) | 2\,(P) | 2 (E) | a + (M) | \sigma(M) | a/(P) | -(M) | (M)(E) | x_{1}(M)
+(P)^2 | (M) ^2 | {(M)}^2 | (E)^2 | 2(M) | 2\,(P) | x''(M) | ¦x¦(M) | ¦M¦ | \rangle (M) | \ln (P) + x | \ln E | 2 (E) | a + (M) | \sigma(M) | a/(P) | -(M) | (M)(E) | x_{1}(M)
 x = M y | x^{M} | \frac{P}{2} | 2 \cdot P | x^2 E \pm 1 | \text{at }M^\circ | f( M )^2 | \tfrac12 E | a, M | 2 < M";
 
     #[test]
@@ -82,6 +89,7 @@ x = M y | x^{M} | \frac{P}{2} | 2 \cdot P | x^2 E \pm 1 | \text{at }M^\circ | f(
             None => Part::Tex(c.into()),
         };
         for expected in FORMULAS.trim().split(['|', '\n']).map(str::trim) {
+            let expected = &*expected.replace('¦', "|");
             let bare = ["M", "P", "E"]
                 .iter()
                 .fold(expected.to_string(), |tex, v| tex.replace(&format!("({v})"), v));

@@ -136,6 +136,9 @@ impl Reader<'_> {
             let to = self.plain(dest_url)?;
             return Ok(Inline::Link { to: to.clone(), shown: vec![Inline::Text(to)] });
         }
+        if matches!(&tag, Tag::Link { title, .. } if !title.is_empty()) {
+            return Err(markup("a link has no title, which print cannot show; write it in words"));
+        }
         let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
         self.hides += usize::from(hides);
         let shown = self.line()?;

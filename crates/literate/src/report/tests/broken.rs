@@ -31,6 +31,9 @@ at «v.count»«v.half_height» => 14:4 => «count» reads as one number with wh
 at «v.count».«v.count» => 14:4 => «count» reads as one number
 at .«v.count» => 14:5 => «count» reads as one number
 - a⏎  - b⏎    - c⏎      - d⏎        - e => 14:1 => lists stand at most four deep
+at -$«v.half_height»$ => 14:6 => a minus before «half_height» changes its sign
+at **«v.half_height»** % => 14:6 => % follows «half_height», whose unit is
+at «v.count | significant(digits=30)» => 14: => needs 1 to 17: 
 at −«v.half_height» => 14:5 => a minus before «half_height» changes its sign
 $x = «v.half_height | percent»\,\%$ => 14:6 => % follows «half_height», whose unit is
 at «v.half_height | significant(digits=17)» => 14:4 => a standard error, which `significant` drops
@@ -44,6 +47,7 @@ as @rise1945 showed => 14:4 => [@rise1945]: nothing in the report and no entry o
 Seen [@eq:a, @eq:b] => 14:6 => ids alone
 Seen [@rice1945, Sec. 3] => 14:6 => ids alone
 [data](data/fig3.csv) => 14:1 => a link to data/fig3.csv: there is no such file or place; correct or remove it; nearest: data/fig03.csv
+[x](https://x.org "y") => 14:1 => a link has no title
 [place](#sec-no) => 14:1 => a link to #sec-no
 ## A {#sec:a.b}⏎⏎## B {#sec:a-b} => 16:1 => sec:a-b: links cannot tell it from sec:a.b;
 [!claim:rise2] => 14:1 => there is no statement with this id; nearest: rise

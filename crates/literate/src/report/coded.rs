@@ -1,0 +1,121 @@
+//! Finds hard-coded numbers in texts that code gives to figures, notes, tables and checks: a string
+//! of the program, or of the texts of its checks, has the number and the words around it.
+
+use super::error::Error;
+use super::input::Input;
+use super::lint::{self, Declared};
+use super::values::Number;
+use crate::claims::Kind;
+use crate::figures::plain;
+use crate::input::one_line;
+use crate::table::Table;
+use std::collections::BTreeSet;
+
+/// Words of code with numbers that have no reason, up to what is computed between them.
+struct Typed {
+    place: String,
+    words: String,
+    numerals: Vec<String>,
+}
+
+/// Refuses hard-coded numbers in what code gives, by the places of its strings.
+pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
+    let texts = input.templates.iter().filter(|(path, _)| path.starts_with("claims/"));
+    let texts = texts.map(|(path, text)| (input.templates.place(path), text));
+    let is_code = |path: &str| path.ends_with(".rs") && !path.contains("/tests");
+    let code = input.project.sources.files.iter().filter(|(path, _)| is_code(path));
+    let code = code.map(|(path, text)| (path.to_string(), *text));
+    let typed: Vec<Typed> = code.chain(texts).flat_map(|(path, text)| typed(&path, text)).collect();
+    let mut errors = Vec::new();
+    for (text, file, with_words) in given(input) {
+        let mut numerals = lint::words(&text, 0..text.len(), declared);
+        // Numbers without words count where they are drawn.
+        let file = file.filter(|_| text.len() > 1).map(|file| &input.project.sources.files[file]);
+        let quoted = file.filter(|(_, code)| code.contains(&format!("\"{text}\"")));
+        let is_meant = |numeral: &str| with_words || numeral.starts_with(char::is_numeric);
+        numerals.retain(|(at, one)| is_meant(one) && is_number(&text, *at, one));
+        for (at, numeral) in numerals {
+            let found = typed.iter().find(|typed| typed.has(&text, at, &numeral));
+            let place = found.map(|typed| &*typed.place).or(quoted.map(|(path, _)| *path));
+            let place = place.map(|place| format!("{place}: {:?}", one_line(&text, 60)));
+            errors.extend(place.map(|place| Error::HardCoded(numeral).at(place)));
+        }
+    }
+    errors
+}
+
+/// Returns what stands between quotation marks and braces, in strings and elsewhere.
+fn typed(path: &str, code: &str) -> Vec<Typed> {
+    let code = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+    let (mut found, mut line) = (Vec::new(), 1);
+    for piece in code.split(['"', '{', '}']) {
+        let text = piece.replace(r"\\", r"\");
+        let numerals = lint::words(&text, 0..text.len(), &Declared::default());
+        if !numerals.is_empty() {
+            let numerals = numerals.into_iter().map(|(_, numeral)| numeral).collect();
+            let (place, words) = (format!("{path}:{line}"), bare(&text.replace('\\', "")));
+            found.push(Typed { place, words, numerals });
+        }
+        line += piece.matches('\n').count();
+    }
+    found
+}
+
+impl Typed {
+    /// Returns whether the number at this place of a text stands in these words.
+    fn has(&self, text: &str, at: usize, numeral: &str) -> bool {
+        let covers = |(begin, words): (usize, &str)| (begin..begin + words.len()).contains(&at);
+        self.numerals.iter().any(|typed| typed == numeral)
+            && text.match_indices(&self.words).any(covers)
+            && self.words.contains(char::is_alphabetic)
+    }
+}
+
+/// All texts that code gives, with the file that draws it for one of a figure, and whether number
+/// words count: in descriptions and reasons, which are sentences.
+fn given(input: &Input<'_>) -> BTreeSet<(String, Option<usize>, bool)> {
+    let mut all = BTreeSet::new();
+    let mut add = |text: &str, file, with_words| {
+        all.insert((bare(text), file, with_words));
+    };
+    for figure in input.figures {
+        let sources = &input.project.sources;
+        let path = sources.file(&figure.source);
+        let file = sources.files.iter().position(|file| Some(file.0) == path);
+        figure.texts().for_each(|text| add(text, file, false));
+        add(&figure.description.text, file, true);
+    }
+    for check in input.claims {
+        let texts = [&check.found, &check.tolerance, &check.note];
+        texts.iter().for_each(|text| add(&text.to_string(), None, false));
+        add(if check.kind == Kind::Relation { &check.statement } else { "" }, None, false);
+        add(&check.reason, None, true);
+    }
+    for value in input.values.iter() {
+        add(if let Number::Text(words) = &value.number { words } else { "" }, None, false);
+    }
+    let cells = input.values.tables().flat_map(Table::cells).chain(input.values.iter());
+    let notes: BTreeSet<&str> = cells.map(|cell| cell.note.as_str()).collect();
+    notes.into_iter().for_each(|note| add(note, None, false));
+    all
+}
+
+fn bare(text: &str) -> String {
+    plain(text).split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// What is numbered elsewhere, and has its number for a name.
+const NUMBERED: [&str; 7] = ["Eq.", "Eqs.", "Fig.", "Figs.", "Sec.", "Section", "Table"];
+
+/// Whether it is no part of mathematics, as `0` and `1`, indices, powers, factors and divisors are,
+/// nor of a name: `Eq. (7)`, `Rice (1945)`.
+fn is_number(text: &str, at: usize, numeral: &str) -> bool {
+    let (before, after) = (&text[..at], &text[at + numeral.len()..]);
+    let is_script = before.trim_end_matches(['-', '−', ' ']).ends_with(['^', '_']);
+    let is_factor = numeral.len() == 1 && after.starts_with(char::is_alphabetic);
+    let is_divisor = before.ends_with('/') && !numeral.contains('.');
+    let name = before.trim_end_matches('(').split_whitespace().next_back().unwrap_or_default();
+    let is_year = numeral.len() == 4 && before.ends_with('(') && after.starts_with(')');
+    let is_name = NUMBERED.contains(&name) || is_year && name.starts_with(char::is_uppercase);
+    !["0", "1"].contains(&numeral) && !is_script && !is_factor && !is_divisor && !is_name
+}
