@@ -146,7 +146,7 @@ pub fn paper() -> Paper {
             let holds = Some(rounded) == e.statement.value;
             Ok(e.cell("cascade.limit.onset")?.explained(why, holds))
         });
-    Paper { prose: "crates/literate/examples/feigenbaum", ..paper }
+    Paper { prose: "examples/feigenbaum", ..paper }
 }
 
 fn main() -> std::process::ExitCode {
