@@ -10,8 +10,9 @@ pub struct Plan {
     /// ρ = Ω/ω.
     pub ratio: f64,
     pub restitution: f64,
-    /// Length h of a step, and h²/8.
+    /// Length h of a step, half of it, and h²/8.
     pub step: f64,
+    pub half: f64,
     pub eighth: f64,
     /// Unit of speeds, d ω.
     pub speed: f64,
@@ -44,6 +45,7 @@ impl Plan {
             ratio: chain.forcing_frequency / chain.natural_frequency,
             restitution: chain.restitution,
             step,
+            half: 0.5 * step,
             eighth: step * step / 8.0,
             speed: chain.spacing * chain.natural_frequency,
             first: topology.label(0),
@@ -51,17 +53,6 @@ impl Plan {
             weights: gaps.map(weights).collect(),
             ring: chain.boundary == Boundary::Ring,
             enough: f64::INFINITY,
-        }
-    }
-
-    /// Returns the column of the gap of which another column is a copy, or that column.
-    #[inline(always)]
-    pub fn own_column(&self, column: usize) -> usize {
-        let gaps = self.weights.len();
-        match column {
-            0 if self.ring => gaps,
-            _ if self.ring && column > gaps => 1,
-            _ => column,
         }
     }
 }

@@ -4,6 +4,7 @@
 //! f = 1 + u + v with u'' = −u and v'' = −ρ² v, ρ = Ω/ω. M₂ and M₃ are bounds of |f''| and |f'''|.
 
 use super::grid::Phases;
+use fearless_simd::{f64x4, mask64x4, prelude::*};
 
 /// A width, in units of d, by which f > 0 has to be proven: more than ten times what rounding can
 /// move it, see [`LARGEST`].
@@ -18,6 +19,25 @@ pub const SLOW: f64 = 1e-5;
 #[inline(always)]
 pub fn blur(speed: f64) -> f64 {
     1.25 * MARGIN / speed
+}
+
+/// Returns a width above which a gap stays from an impact to the end of the step, `left` later:
+/// given f and f' at the end, M₂, whether it is tame, whether it was hit, and the rate at which it
+/// opens then.
+///
+/// It is above the line from zero at that rate, or of a neighbour the tangent at the end, less M₂
+/// s²/2 if it is not tame.
+#[inline(always)]
+pub fn least<S: Simd>(
+    simd: S,
+    [f, rate, bend]: [f64x4<S>; 3],
+    [is_tame, is_hit]: [mask64x4<S>; 2],
+    opening: f64,
+    left: f64,
+) -> f64x4<S> {
+    let zero = f64x4::splat(simd, 0.0);
+    let line = is_hit.select(f64x4::splat(simd, opening * left), f - rate.max(zero) * left);
+    line - is_tame.select(zero, bend * (0.5 * left * left))
 }
 
 /// The largest amplitudes, in units of d. Each of five terms and the sines in it are rounded by
@@ -191,6 +211,7 @@ pub fn cos_sin(x: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fearless_simd::{Level, dispatch};
     use impact_numerics::random::NormalPairs;
     use impact_numerics::roots::bracket;
 
@@ -302,5 +323,18 @@ mod tests {
         let (start, end) = (-0.0625, 0.0625);
         let part = Part { start, end, after: start, just_hit: false, tame: false };
         assert!(!matches!(gap.first_root(part), Outcome::Root { .. }));
+    }
+
+    /// A neighbour that is tame, the gap that was hit, and neighbours that are not tame: one is
+    /// narrowest at the end.
+    #[test]
+    fn least_widths_after_an_impact() {
+        dispatch!(Level::new(), simd => {
+            let four = |row: [f64; 4]| f64x4::from_slice(simd, &row);
+            let ends = [[5.0; 4], [2.0, 2.0, 2.0, -2.0], [3.0; 4]].map(four);
+            let masks = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]].map(|row| four(row).simd_gt(0.0));
+            let widths = least(simd, ends, masks, 7.0, 0.5).to_array();
+            assert_eq!(widths, [4.0, 3.125, 3.625, 4.625]);
+        });
     }
 }

@@ -3,45 +3,29 @@
 use super::grid::Phases;
 use super::plan::Plan;
 use super::proof::{Part, SLOW};
-use super::slot::{A, B, C, D, Root, Slot};
-use fearless_simd::{f64x8, prelude::*};
+use super::slot::{Root, Slot};
+use fearless_simd::{f64x8, mask64x8, prelude::*};
 
 /// Gaps with a sign change, of which the first roots are located together.
 #[derive(Default)]
 pub struct Candidates {
-    eights: Vec<Eight>,
-    who: Vec<Candidate>,
-}
-
-/// Amplitudes and starts of eight candidates, or of none: f = 1 has no root.
-#[derive(Clone, Copy, Default)]
-struct Eight {
-    amplitudes: [[f64; 8]; 4],
-    start: [f64; 8],
-}
-
-#[derive(Clone, Copy)]
-pub struct Candidate {
-    pub slot: usize,
-    pub gap: usize,
-    /// As in [`Part::after`].
-    pub after: f64,
-    pub just_hit: bool,
-    pub tame: bool,
+    /// Amplitudes of eight candidates each, or of none: f = 1 has no root.
+    eights: Vec<[[f64; 8]; 4]>,
+    /// Slots and gaps, with the parts of the step where their roots are.
+    who: Vec<(usize, usize, Part)>,
 }
 
 impl Candidates {
     #[inline(always)]
-    pub fn push(&mut self, [a, b, c, d]: [f64; 4], start: f64, who: Candidate) {
+    pub fn push(&mut self, amplitudes: [f64; 4], slot: usize, gap: usize, part: Part) {
         let (eight, lane) = (self.who.len() / 8, self.who.len() % 8);
         if lane == 0 {
-            self.eights.push(Eight::default());
+            self.eights.push([[0.0; 8]; 4]);
         }
-        let Eight { amplitudes, start: starts } = &mut self.eights[eight];
-        (amplitudes[A][lane], amplitudes[B][lane]) = (a, b);
-        (amplitudes[C][lane], amplitudes[D][lane]) = (c, d);
-        starts[lane] = start;
-        self.who.push(who);
+        for (row, amplitude) in self.eights[eight].iter_mut().zip(amplitudes) {
+            row[lane] = amplitude;
+        }
+        self.who.push((slot, gap, part));
     }
 
     /// Locates the first roots of all candidates, eight at a time.
@@ -49,23 +33,16 @@ impl Candidates {
     /// f(start) > 0 > f(end). One root lies between if the gap is tame, if f'' has one sign, or if
     /// f' has.
     #[inline(always)]
-    pub fn locate<S: Simd>(
-        &mut self,
-        simd: S,
-        plan: &Plan,
-        half: f64,
-        middle: Phases,
-        slots: &mut [Slot],
-    ) {
-        let total = self.who.len();
-        let Plan { ratio, restitution, .. } = *plan;
+    pub fn locate<S: Simd>(&mut self, simd: S, plan: &Plan, middle: Phases, slots: &mut [Slot]) {
+        let Plan { ratio, restitution, half, .. } = *plan;
         let [cos, sin, forced_cos, forced_sin] = middle;
         let (square, last) = (ratio * ratio, f64x8::splat(simd, half));
         let zero = f64x8::splat(simd, 0.0);
-        for (eight, at) in self.eights.iter().zip((0..).step_by(8)) {
+        for ([a, b, c, d], who) in self.eights.iter().zip(self.who.chunks(8)) {
             let row = |row| f64x8::from_slice(simd, row);
-            let [a, b, c, d] = [A, B, C, D].map(|place| row(&eight.amplitudes[place]));
-            let start = row(&eight.start);
+            let [a, b, c, d] = [row(a), row(b), row(c), row(d)];
+            let start = |lane: usize| who.get(lane).map_or(-half, |(.., part)| part.start);
+            let start = f64x8::from_fn(simd, start);
             let (u, q) = (a * cos + b * sin, b * cos - a * sin);
             let (v, z) =
                 (c * forced_cos + d * forced_sin, (d * forced_cos - c * forced_sin) * ratio);
@@ -90,10 +67,6 @@ impl Candidates {
             let mut fall = f1 + f2 * step;
             // Rarely more. A lane that has converged stays as it is, whatever its neighbours do.
             let mut turns = 0;
-            let is_open = |step: f64x8<S>, fall: f64x8<S>, f2: f64x8<S>| {
-                let step = step.abs();
-                step.simd_gt(CONVERGED) | (step * f2.abs()).simd_gt(fall.abs() * STRAIGHT)
-            };
             let mut open = is_open(step, fall, f2);
             while turns < 5 && open.any_true() {
                 let [f, f1, f2] = full(&p, s);
@@ -116,16 +89,13 @@ impl Candidates {
             let (s, speed) = (s.as_slice(), (fall * -1.0).to_array());
             let by_sine = (jump * (co * sin + si * cos)).to_array();
             let by_cosine = (jump * (co * cos - si * sin)).to_array();
-            for lane in 0..8.min(total - at) {
-                let Candidate { slot, gap, after, just_hit, tame } = self.who[at + lane];
+            for (lane, &(slot, gap, part)) in who.iter().enumerate() {
                 let chain = &mut slots[slot];
-                if (tame || definite >> lane & 1 == 1) && sure >> lane & 1 == 1 {
+                if (part.tame || definite >> lane & 1 == 1) && sure >> lane & 1 == 1 {
                     let jump = [by_sine[lane], by_cosine[lane]];
                     let root = Root { s: s[lane], gap, speed: speed[lane], jump };
-                    chain.add(root, after, half, restitution);
+                    chain.add(root, part.after, half, restitution);
                 } else {
-                    let start = eight.start[lane];
-                    let part = Part { start, end: half, after, just_hit, tame };
                     chain.decide(plan, middle, gap, part);
                 }
             }
@@ -197,6 +167,13 @@ fn full<S: Simd>(p: &[f64x8<S>; TERMS], s: f64x8<S>) -> [f64x8<S>; 3] {
 #[inline(always)]
 fn correction<S: Simd>(f: f64x8<S>, f1: f64x8<S>, f2: f64x8<S>) -> f64x8<S> {
     (f * f1) / (f * f2 * 0.5 - f1 * f1)
+}
+
+/// Returns which roots have not converged by a step to them, where f' is `fall` and f'' is `f2`.
+#[inline(always)]
+fn is_open<S: Simd>(step: f64x8<S>, fall: f64x8<S>, f2: f64x8<S>) -> mask64x8<S> {
+    let step = step.abs();
+    step.simd_gt(CONVERGED) | (step * f2.abs()).simd_gt(fall.abs() * STRAIGHT)
 }
 
 #[cfg(test)]

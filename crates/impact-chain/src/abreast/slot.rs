@@ -2,9 +2,10 @@
 
 use super::grid::Phases;
 use super::plan::Plan;
-use super::proof::{LARGEST, Local, Outcome, Part, SLOW, blur, cos_sin};
+use super::proof::{LARGEST, Local, MARGIN, Outcome, Part, SLOW, blur, cos_sin};
 use crate::Watch;
 use fearless_simd::{f64x4, prelude::*};
+use std::ops::Range;
 
 /// Gaps side by side. Four, whatever the processor has: nothing depends on its width.
 pub const WIDTH: usize = 4;
@@ -22,7 +23,8 @@ pub const REACH: usize = 5;
 pub const FORCED: usize = 6;
 /// A gap whose SAG is below this is tame: (1 − |ρ² − 1| R₂)/4.
 pub const TAME: usize = 7;
-pub const ROWS: usize = 8;
+/// f less [`MARGIN`] when the gap was looked at last.
+pub const LAST: usize = 8;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Root {
@@ -37,30 +39,39 @@ pub struct Root {
 /// One chain.
 pub struct Slot {
     /// A gap in each column. The column before gap 0 and that after the last gap are of no gap
-    /// between walls, and copies of the last and the first gap on a ring.
-    pub rows: [Vec<f64>; ROWS],
+    /// between walls, and copies of the last and the first gap on a ring, with a SAG of −1.
+    pub rows: [Vec<f64>; LAST + 1],
     pub gaps: usize,
-    /// Columns, a whole number of blocks.
-    pub columns: usize,
     pub watch: Watch,
     /// First roots of gaps within this step, in any order.
     pub roots: Vec<Root>,
-    /// Whether it is among the chains that may have a root in this step.
-    pub in_turn: bool,
+    /// Place of the earliest of them.
+    pub first: usize,
+    /// The first columns of blocks with a gap that can close, and whether a block is among them.
+    pub active: Vec<usize>,
+    is_active: Vec<bool>,
     /// Whether the chain has to be simulated by the engine.
     pub handed_over: bool,
-    /// Whether it has had the impact that was asked for.
-    pub ended: bool,
+    /// Whether it is not simulated any further.
+    ended: bool,
 }
 
 impl Slot {
     /// Creates a chain of gaps that never close.
     pub fn new(gaps: usize, watch: Watch) -> Slot {
         let columns = (gaps + WIDTH - 1).next_multiple_of(WIDTH);
-        let fill = |row| [0.0, -1.0, f64::INFINITY, 0.0, 1.0][usize::max(row, D) - D];
-        let rows = std::array::from_fn(|row| vec![fill(row); columns]);
-        let (in_turn, handed_over, ended) = (false, false, false);
-        Slot { rows, gaps, columns, watch, roots: Vec::new(), in_turn, handed_over, ended }
+        let fill = |row| [0.0, -1.0, f64::INFINITY, 0.0, 1.0, 1.0][usize::max(row, D) - D];
+        Slot {
+            rows: std::array::from_fn(|row| vec![fill(row); columns]),
+            gaps,
+            watch,
+            roots: Vec::new(),
+            first: 0,
+            active: Vec::new(),
+            is_active: vec![false; columns / WIDTH],
+            handed_over: false,
+            ended: false,
+        }
     }
 
     /// Sets a gap; hands the chain over if amplitudes are beyond the bounds of the proofs.
@@ -73,13 +84,15 @@ impl Slot {
         let reach = if left > 0.0 { left * left * (1.0 - 1e-9) } else { -1.0 };
         let sag = (free + square * forced) * plan.eighth;
         let tame = 0.25 * (1.0 - (square - 1.0).abs() * forced) * (1.0 - 1e-9);
-        let column = [a, b, c, d, sag, reach, square * forced, tame];
+        // The width at t = 0.
+        let last = 1.0 - MARGIN + a + c;
+        let column = [a, b, c, d, sag, reach, square * forced, tame, last];
         for (row, value) in self.rows.iter_mut().zip(column) {
             row[gap + 1] = value;
         }
         self.handed_over |= !(forced < LARGEST && free + square * forced < LARGEST);
         if plan.ring {
-            self.copy_ends(gap + 1);
+            self.copy_ends(gap + 1..gap + 2);
         }
     }
 
@@ -88,22 +101,67 @@ impl Slot {
         [A, B, C, D].map(|row| self.rows[row][gap + 1])
     }
 
-    /// Copies a column of a ring that has changed to its other place, if it has two.
-    pub fn copy_ends(&mut self, column: usize) {
+    /// Returns the gap of a column, on a ring also of a copy.
+    #[inline(always)]
+    pub fn gap(&self, column: usize) -> usize {
+        match column {
+            0 => self.gaps - 1,
+            _ if column > self.gaps => 0,
+            _ => column - 1,
+        }
+    }
+
+    /// Copies columns of a ring that have changed to their other places, if they have two.
+    #[cold]
+    pub fn copy_ends(&mut self, columns: Range<usize>) {
         let last = self.gaps;
-        let other = match column {
-            0 => last,
-            1 => last + 1,
-            _ if column == last => 0,
-            _ if column == last + 1 => 1,
-            _ => return,
-        };
-        self.rows.iter_mut().for_each(|row| row[other] = row[column]);
+        for column in columns {
+            let other = match self.gap(column) {
+                0 => last + 2 - column,
+                gap if gap + 1 == last => last - column,
+                _ => continue,
+            };
+            self.rows.iter_mut().for_each(|row| row[other] = row[column]);
+            self.activate(other, 1);
+        }
+        (self.rows[SAG][0], self.rows[SAG][last + 1]) = (-1.0, -1.0);
+    }
+
+    /// Ends the simulation of the chain.
+    pub fn end(&mut self) {
+        self.ended = true;
+        self.roots.clear();
+        self.active.clear();
     }
 
     pub fn hand_over(&mut self) {
         self.handed_over = true;
-        self.roots.clear();
+        self.end();
+    }
+
+    /// Looks from now on at gaps that can close: bits of the columns from this one on.
+    #[inline(always)]
+    pub fn activate(&mut self, column: usize, bits: usize) {
+        let (block, bits) = (column / WIDTH, bits << (column % WIDTH));
+        for (block, bits) in [(block, bits % (1 << WIDTH)), (block + 1, bits >> WIDTH)] {
+            if bits != 0 && !self.is_active[block] {
+                self.is_active[block] = true;
+                self.active.push(WIDTH * block);
+            }
+        }
+    }
+
+    /// Lists the blocks with a gap that can close.
+    #[inline(always)]
+    pub fn list_active<S: Simd>(&mut self, simd: S) {
+        let over = self.handed_over || self.ended;
+        self.active.clear();
+        for block in 0..self.is_active.len() {
+            self.is_active[block] = !over && self.can_close(simd, WIDTH * block) != 0;
+            if self.is_active[block] {
+                self.active.push(WIDTH * block);
+            }
+        }
     }
 
     #[inline(always)]
@@ -118,6 +176,22 @@ impl Slot {
         (a * a + b * b).simd_gt(self.four(simd, REACH, column)).to_bitmask() as u8
     }
 
+    /// Takes the earliest root out, and those of two gaps beside it, which the impact outdates.
+    #[inline(always)]
+    pub fn take_first(&mut self, [left, right]: [usize; 2]) {
+        self.roots.swap_remove(self.first);
+        let (mut place, mut first, mut earliest) = (0, 0, f64::INFINITY);
+        while let Some(&Root { s, gap, .. }) = self.roots.get(place) {
+            if gap == left || gap == right {
+                self.roots.swap_remove(place);
+                continue;
+            }
+            (first, earliest) = if s < earliest { (place, s) } else { (first, earliest) };
+            place += 1;
+        }
+        self.first = first;
+    }
+
     /// Adds a root of a gap, if an impact there is certain and its order too: `after` is the time
     /// up to which an adjacent gap may have been hit.
     #[inline(always)]
@@ -126,6 +200,9 @@ impl Slot {
         let sure =
             root.speed * restitution >= SLOW && root.s - after > blur && half - root.s > blur;
         if sure && !self.handed_over {
+            if self.roots.get(self.first).is_none_or(|first| root.s < first.s) {
+                self.first = self.roots.len();
+            }
             self.roots.push(root);
         } else {
             self.hand_over();
@@ -165,5 +242,25 @@ mod tests {
         let exact = [7.25 / 512.0, 0.75 * 0.75, 2.25, (1.0 - 8.0 * 0.25) / 4.0];
         let off = [SAG, REACH, FORCED, TAME].map(|row| slot.rows[row][2] - exact[row - SAG]);
         assert!(off.iter().all(|off| off.abs() < 2e-9), "{off:?}");
+    }
+
+    /// Impacts are certain that are fast enough and far enough from an earlier one and from the end
+    /// of the step: here 1.25e-12 is far enough, for more than one.
+    #[test]
+    fn roots_of_certain_impacts() {
+        let (unit, far) = (blur(1.0), 2.0 * blur(1.0));
+        for (s, speed, after, end, restitution, is_certain) in [
+            (0.0, 1.0, -far, far, 0.5, true),
+            (0.0, 1.0, -unit, far, 0.5, false),
+            (0.0, 1.0, -far, unit, 0.5, false),
+            (far, 1.0, 0.0, far, 0.5, false),
+            (0.0, 2.0 * SLOW, -1.0, 1.0, 0.5, true),
+            (0.0, 1.9 * SLOW, -1.0, 1.0, 0.5, false),
+        ] {
+            let mut slot = Slot::new(2, Watch::new(&Chain::default(), &[]));
+            slot.add(Root { s, gap: 0, speed, jump: [0.0; 2] }, after, end, restitution);
+            assert_eq!(slot.roots.len(), usize::from(is_certain), "{s} {speed} {after} {end}");
+            assert_eq!(slot.handed_over, !is_certain);
+        }
     }
 }

@@ -87,21 +87,6 @@ fn impacts_are_those_of_the_engine() {
     assert!(impacts > 40_000 && handed_over < 5, "{impacts} {handed_over}");
 }
 
-/// Returns the widths of the gaps between walls for these free parts.
-fn gaps(scenario: &Scenario, free: &[[f64; 2]], time: f64) -> Vec<f64> {
-    let (w, big_w) = (scenario.natural_frequency, scenario.forcing_frequency);
-    let position = |(j, (free, forces)): (usize, (&[f64; 2], &[f64; 2]))| {
-        let part =
-            |[a, b]: [f64; 2], omega: f64| a * (omega * time).cos() + b * (omega * time).sin();
-        let forced = part(*forces, big_w) / (w * w - big_w * big_w);
-        (j + 1) as f64 * scenario.spacing + part(*free, w) + forced
-    };
-    let masses = free.iter().zip(&scenario.forcing).enumerate().map(position);
-    let end = (free.len() + 1) as f64 * scenario.spacing;
-    let bodies: Vec<f64> = std::iter::once(0.0).chain(masses).chain([end]).collect();
-    bodies.windows(2).map(|pair| pair[1] - pair[0]).collect()
-}
-
 /// At any time no gap is below zero, and the free parts are those of the engine.
 #[test]
 fn no_gap_is_below_zero() {
@@ -112,14 +97,20 @@ fn no_gap_is_below_zero() {
                 let Some(found) = found else { continue };
                 let mut engine = Engine::new(scenario).unwrap();
                 engine.run(until, |_| true).unwrap();
-                let free = found.free_parts(&chain);
-                let theirs = engine.free_parts();
-                for (ours, theirs) in free.iter().flatten().zip(theirs.iter().flatten()) {
-                    let error = (ours - theirs).abs() / chain.spacing;
+                let (sin, cos) = (chain.natural_frequency * until).sin_cos();
+                let mut positions = engine.positions(until).unwrap();
+                let parts = found.free_parts(&chain).into_iter().zip(engine.free_parts());
+                for (position, (ours, theirs)) in positions.iter_mut().zip(parts) {
+                    let [a, b] = [ours[0] - theirs[0], ours[1] - theirs[1]];
+                    let error = a.hypot(b) / chain.spacing;
                     assert!(error < 1e-7, "{chain:?} {until}: {error:e}");
+                    *position += a * cos + b * sin;
                 }
-                for gap in gaps(scenario, &free, until) {
-                    assert!(gap > -1e-11 * chain.spacing, "{chain:?} {until}: {gap:e}");
+                positions.insert(0, 0.0);
+                positions.push((chain.masses + 1) as f64 * chain.spacing);
+                for pair in positions.windows(2) {
+                    let gap = (pair[1] - pair[0]) / chain.spacing;
+                    assert!(gap > -1e-11, "{chain:?} {until}: {gap:e}");
                 }
             }
         }
@@ -161,43 +152,44 @@ fn dips_to_zero_are_seen() {
     assert!(hits > 500 && handed_over > 50, "{hits} {handed_over}");
 }
 
-/// Mass 1 rebounds from the wall and follows mass 2 so slowly that their gap, if it closes, opens
-/// again within the same step.
-#[test]
-fn dips_after_an_impact_are_seen() {
-    let chain = Chain { masses: 2, ..Chain::default() };
-    let windows = windows(0.25);
-    let (mut late, mut handed_over) = (0, 0);
-    for i in 0..2000 {
-        let at = |bits: u32| f64::from(i >> bits & 7) / 8.0;
-        // The speed of the rebound, that at which the gap closes after it, and its width then: the
-        // gap turns at about zero after `slow` units of time.
-        let (fast, slow) = (0.3 + at(0), 0.02 + 0.25 * at(3));
-        let width = slow * slow / 2.0 * (1.0 + 0.002 * (f64::from(i % 101) - 50.0));
-        let leader = 0.8 * fast - slow;
-        let time = (0.1 + 0.8 * at(6)) * width / (leader + fast);
-        let free = vec![[fast * time - 1.0, -fast], [width - leader * time - 2.0, leader]];
-        let scenario = given(free, vec![[0.0; 2]; 2]);
-        if Engine::new(&scenario).is_err() {
-            continue;
-        }
-        let expected = by_engine(&chain, &windows, END, &scenario);
-        match run(&chain, &windows, END, std::slice::from_ref(&scenario)).pop().flatten() {
-            None => handed_over += 1,
-            Some(mut found) => {
-                late += usize::from(expected.distinct[0][0] == Some(2));
-                assert_eq!(found.counts().impacts[..4], expected.impacts[..4], "{i} {scenario:?}");
-            }
-        }
-    }
-    assert!(late > 200 && handed_over < 200, "{late} {handed_over}");
+/// Returns the amplitudes of cos ωt and sin ωt of an oscillation with this value and rate at t.
+fn amplitudes(omega: f64, t: f64, [value, rate]: [f64; 2]) -> [f64; 2] {
+    let (sin, cos) = (omega * t).sin_cos();
+    [value * cos - rate / omega * sin, value * sin + rate / omega * cos]
 }
 
-/// Gaps that turn within the first step about a width of zero while their acceleration changes its
-/// sign, also after an impact beside them: tangents and signs at the ends prove nothing there.
+/// A mass leaves the wall so slowly, against such a force, that it turns near the wall within the
+/// same step: its distance after the impact is about j s (s − τ)²/6.
 #[test]
-fn dips_that_are_not_convex_are_seen() {
-    let (mut hits, mut seen) = ([0; 2], 0);
+fn dips_after_an_impact_of_the_same_gap_are_seen() {
+    let (big_w, start, mut returned) = (1.99, 0.02, 0);
+    let factor = 1.0 - big_w * big_w;
+    for i in 0..3000 {
+        let (turn, jerk) = (0.05 + 0.01 * f64::from(i % 15), f64::from(2 << (i / 15 % 5)));
+        let restitution = [0.1, 0.8][i as usize / 75 % 2];
+        let speed = jerk * turn * turn / 6.0 * (1.0 + 0.01 * f64::from(i / 150 - 10));
+        let forced = [(-jerk * turn / 1.5 - 1.0) / factor, (jerk + speed) / factor];
+        let free = amplitudes(1.0, start, [-1.0 - forced[0], -speed / restitution - forced[1]]);
+        let forces = amplitudes(big_w, start, forced).map(|x| x * factor);
+        let mut chain = Chain { masses: 1, restitution, ..Chain::default() };
+        let mut scenario = Scenario { restitution, ..given(vec![free], vec![forces]) };
+        (chain.forcing_frequency, scenario.forcing_frequency) = (big_w, big_w);
+        let Ok(mut engine) = Engine::new(&scenario) else { continue };
+        let impacts = engine.impacts(0.25).unwrap().len() as u64;
+        let found =
+            run(&chain, &windows(0.25), 0.25, std::slice::from_ref(&scenario)).pop().flatten();
+        let Some(mut found) = found else { continue };
+        returned += usize::from(impacts > 1);
+        assert_eq!(found.counts().total.impacts, impacts, "{i} {scenario:?}");
+    }
+    assert!(returned > 500, "{returned}");
+}
+
+/// Gaps that turn within the first step about a width of zero, also after an impact beside them.
+/// With forces their acceleration changes its sign: tangents and signs at the ends prove nothing.
+#[test]
+fn dips_beside_an_impact_are_seen() {
+    let mut hits = [0; 2];
     for i in 0..40_000u64 {
         let mut normals = NormalPairs::new("turns", 1, i);
         let ([c, s], [place, depth]) = (normals.pair(), normals.pair());
@@ -213,33 +205,27 @@ fn dips_that_are_not_convex_are_seen() {
         };
         // Mass 2 turns near it at `turn`.
         let (turn, factor) = (0.13 + 0.04 * place, 1.0 - big_w * big_w);
-        let forces = [c, s].map(|x| 2.0 * x * factor);
+        let [c, s] = [c, s].map(|x| if i / 6 % 4 == 0 { 0.0 } else { 2.0 * x });
         let forced = |t: f64| {
             let (sin, cos) = (big_w * t).sin_cos();
-            [2.0 * (c * cos + s * sin), 2.0 * big_w * (s * cos - c * sin)]
+            [c * cos + s * sin, big_w * (s * cos - c * sin)]
         };
         let [x, v] = [0, 1].map(|k| after(turn)[k] - forced(turn)[k]);
-        let (x, (sin, cos)) = (x + 1e-3 * depth - 2.0, turn.sin_cos());
-        let second = [x * cos - v * sin, x * sin + v * cos];
-        let (sin, cos) = start.sin_cos();
-        let first = if rebounds { [-cos + fast * sin, -sin - fast * cos] } else { [0.0; 2] };
-        let scenario = Scenario {
-            forcing_frequency: big_w,
-            ..given(vec![first, second], vec![[0.0; 2], forces])
-        };
+        let second = amplitudes(1.0, turn, [x + 1e-3 * depth - 2.0, v]);
+        let first = if rebounds { amplitudes(1.0, start, [-1.0, -fast]) } else { [0.0; 2] };
+        let mut scenario = given(vec![first, second], vec![[0.0; 2], [c * factor, s * factor]]);
+        scenario.forcing_frequency = big_w;
         let Ok(mut engine) = Engine::new(&scenario) else { continue };
-        let windows = [Protocol { transient: 0.0, window: 0.25 }];
         let impacts = engine.impacts(0.25).unwrap();
         if rebounds && impacts.first().is_none_or(|hit| hit.gap != 0) {
             continue;
         }
-        let found = run(&chain, &windows, 0.25, std::slice::from_ref(&scenario));
+        let found = run(&chain, &windows(0.25), 0.25, std::slice::from_ref(&scenario));
         let Some(mut found) = found.into_iter().next().flatten() else { continue };
-        seen += 1;
         hits[usize::from(rebounds)] += usize::from(impacts.len() > usize::from(rebounds));
         assert_eq!(found.counts().total.impacts, impacts.len() as u64, "{i} {scenario:?}");
     }
-    assert!(seen > 2000 && hits.iter().all(|hits| *hits > 300), "{seen} {hits:?}");
+    assert!(hits.iter().all(|hits| *hits > 300), "{hits:?}");
 }
 
 /// What the proofs do not cover is left to the engine.
@@ -283,8 +269,7 @@ fn chains_that_are_handed_over() {
     let faster = set([[0.0, 60.0], [0.0; 2], [0.0, -50.0]]);
     assert!(run(&chain, &[], 0.05, &[faster])[0].is_none());
     // Impacts beside one another: errors of 1e-12 in the widths move each by 1.25e-11.
-    let (sin, cos) = 0.3_f64.sin_cos();
-    let back = |x: f64, v: f64| [x * cos - v * sin, x * sin + v * cos];
+    let back = |x: f64, v: f64| amplitudes(1.0, 0.3, [x, v]);
     for (apart, is_certain) in [(2e-11, false), (3e-11, true)] {
         let near = set([back(1.0, 0.1), [0.0; 2], back(-1.0 + 0.1 * apart, -0.01)]);
         assert_eq!(run(&chain, &[], 0.4, &[near])[0].is_some(), is_certain, "{apart:e}");
