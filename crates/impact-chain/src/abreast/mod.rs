@@ -218,6 +218,26 @@ mod tests {
         assert_eq!(Abreast::number(&Chain { masses: 200, ..chain }), 8);
     }
 
+    /// The tests side by side tell of nearly all gaps: few are decided by themselves.
+    #[test]
+    fn few_gaps_are_decided_by_themselves() {
+        for (sigma, frequency, share) in
+            [(0.3, 2.0_f64.sqrt(), 0.06), (0.3, 0.6, 0.05), (1.0, 2.3, 0.09)]
+        {
+            let chain = Chain { masses: 30, forcing_frequency: frequency, ..Chain::default() };
+            let draw = |i| Scenario::draw(&chain, sigma, &mut NormalPairs::new("decided", 1, i));
+            let all: Vec<Scenario> = (0..16).map(draw).collect();
+            let runs = Abreast::new(&chain, &[], 100.0).unwrap().run(&all, &|| false);
+            let of = |run: &mut Realisation| [run.counts().total.impacts, run.0.decided];
+            let sums = runs.into_iter().flatten().map(|mut run| of(&mut run));
+            let [impacts, decided] = sums.fold([0; 2], |[a, b], [x, y]| [a + x, b + y]);
+            assert!(
+                decided > 0 && (decided as f64) < share * impacts as f64,
+                "{decided} {impacts}"
+            );
+        }
+    }
+
     /// A realisation has the same bits with any vectors, alone or with others.
     #[test]
     fn bits_are_the_same_for_any_width() {

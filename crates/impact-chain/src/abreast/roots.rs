@@ -36,8 +36,7 @@ impl Candidates {
     pub fn locate<S: Simd>(&mut self, simd: S, plan: &Plan, middle: Phases, slots: &mut [Slot]) {
         let Plan { ratio, restitution, half, .. } = *plan;
         let [cos, sin, forced_cos, forced_sin] = middle;
-        let (square, last) = (ratio * ratio, f64x8::splat(simd, half));
-        let zero = f64x8::splat(simd, 0.0);
+        let (zero, last) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, half));
         for ([a, b, c, d], who) in self.eights.iter().zip(self.who.chunks(8)) {
             let row = |row| f64x8::from_slice(simd, row);
             let [a, b, c, d] = [row(a), row(b), row(c), row(d)];
@@ -46,15 +45,7 @@ impl Candidates {
             let (u, q) = (a * cos + b * sin, b * cos - a * sin);
             let (v, z) =
                 (c * forced_cos + d * forced_sin, (d * forced_cos - c * forced_sin) * ratio);
-            let mut p = [zero; TERMS];
-            let (mut factor, mut power) = (1.0, 1.0);
-            for (i, p) in p.iter_mut().enumerate() {
-                let signed = if i & 2 != 0 { -factor } else { factor };
-                *p = if i & 1 != 0 { q + z * power } else { u + v * power } * signed;
-                factor /= (i + 1) as f64;
-                power *= if i & 1 != 0 { square } else { 1.0 };
-            }
-            p[0] += 1.0;
+            let p = polynomial([u, q, v, z], ratio);
             // The root of the parabola about the middle, then two corrections of third order.
             let inside = p[1] * p[1] - p[0] * p[2] * 4.0;
             let within = |s: f64x8<S>| s.min(last).max(start);
@@ -78,9 +69,7 @@ impl Candidates {
                 turns += 1;
             }
             let sure = fall.simd_lt(-SLOW) & step.abs().simd_le(CONVERGED) & !open;
-            let third = (u.abs() + q.abs() + (v.abs() * ratio + z.abs()) * square) * half;
-            let second = (u.abs() + q.abs() + (v.abs() * ratio + z.abs()) * ratio) * half;
-            let definite = (p[2] * 2.0).abs().simd_gt(third) | p[1].abs().simd_gt(second);
+            let definite = is_definite([u, q, v, z], &p, ratio, half);
             let (sure, definite) = (sure.to_bitmask() as u8, definite.to_bitmask() as u8);
             let square = s * s;
             let co = series(square, COSINE) * square + 1.0;
@@ -130,6 +119,36 @@ const SINE: [f64; 6] = [
 fn series<S: Simd>(x: f64x8<S>, k: [f64; 6]) -> f64x8<S> {
     let square = x * x;
     ((x * k[1] + k[0]) + (x * k[3] + k[2]) * square) + (x * k[5] + k[4]) * (square * square)
+}
+
+/// Returns the Taylor coefficients of 1 + u cos s + q sin s + v cos ρs + z/ρ sin ρs.
+#[inline(always)]
+fn polynomial<S: Simd>([u, q, v, z]: [f64x8<S>; 4], ratio: f64) -> [f64x8<S>; TERMS] {
+    let mut p = [u; TERMS];
+    let (mut factor, mut power) = (1.0, 1.0);
+    for (i, p) in p.iter_mut().enumerate() {
+        let signed = if i & 2 != 0 { -factor } else { factor };
+        *p = if i & 1 != 0 { q + z * power } else { u + v * power } * signed;
+        factor /= (i + 1) as f64;
+        power *= if i & 1 != 0 { ratio * ratio } else { 1.0 };
+    }
+    p[0] += 1.0;
+    p
+}
+
+/// Returns where f'' or f' has one sign within `half` of the middle: it is larger there than its
+/// derivative, at most |u| + |q| + ρ² (ρ |v| + |z|) and |u| + |q| + ρ (ρ |v| + |z|), can change it.
+#[inline(always)]
+fn is_definite<S: Simd>(
+    [u, q, v, z]: [f64x8<S>; 4],
+    p: &[f64x8<S>; TERMS],
+    ratio: f64,
+    half: f64,
+) -> mask64x8<S> {
+    let (free, forced) = (u.abs() + q.abs(), v.abs() * ratio + z.abs());
+    let third = (free + forced * (ratio * ratio)) * half;
+    let second = (free + forced * ratio) * half;
+    (p[2] * 2.0).abs().simd_gt(third) | p[1].abs().simd_gt(second)
 }
 
 /// Evaluates f and f' by the first eight terms, and f'' by the first seven.
@@ -192,6 +211,38 @@ mod tests {
             for (found, last) in [(rough(&p, s), [8, 7]), (full(&p, s), [12, 8])] {
                 let rates = [sum(last[0], |n| 2.0 * n), sum(last[1], |n| 4.0 * n * (n - 1.0))];
                 assert_eq!(found.map(|x| x[0]), [sum(last[0], |_| 1.0), rates[0], rates[1]]);
+            }
+        });
+    }
+
+    #[test]
+    fn coefficients_and_signs_in_closed_form() {
+        dispatch!(Level::new(), simd => {
+            let of = |parts: [f64; 4]| parts.map(|x| f64x8::splat(simd, x));
+            // 1 + 5 cos s + 7 sin s + 2 cos 3s + sin 3s.
+            let p = polynomial(of([5.0, 7.0, 2.0, 3.0]), 3.0).map(|x| x[0]);
+            let exact = [8.0, 10.0, -23.0 / 2.0, -34.0 / 6.0, 167.0 / 24.0, 250.0 / 120.0];
+            for (i, (found, exact)) in p.into_iter().zip(exact).enumerate() {
+                assert!((found - exact).abs() < 1e-14, "{i}: {found} {exact}");
+            }
+            let last = -(7.0 + 3.0_f64.powi(11)) / 39_916_800.0;
+            assert!((p[11] / last - 1.0).abs() < 1e-14, "{p:?}");
+            // First and second derivative at the middle against half the bounds of the next: of
+            // the parts 1, 2, 0, 0 these are 3 and 3, and of 0, 0, 1, 2 with ρ = 3, 15 and 45.
+            for (parts, f1, f2, expected) in [
+                ([1.0, 2.0, 0.0, 0.0], 0.0, 1.499, false),
+                ([1.0, 2.0, 0.0, 0.0], 0.0, -1.501, true),
+                ([1.0, -2.0, 0.0, 0.0], 1.499, 0.0, false),
+                ([-1.0, 2.0, 0.0, 0.0], -1.501, 0.0, true),
+                ([0.0, 0.0, 1.0, 2.0], 0.0, -22.499, false),
+                ([0.0, 0.0, -1.0, 2.0], 0.0, 22.501, true),
+                ([0.0, 0.0, 1.0, -2.0], -7.499, 0.0, false),
+                ([0.0, 0.0, 1.0, 2.0], 7.501, 0.0, true),
+            ] {
+                let mut p = [f64x8::splat(simd, 0.0); TERMS];
+                (p[1], p[2]) = (f64x8::splat(simd, f1), f64x8::splat(simd, 0.5 * f2));
+                let is_definite = is_definite(of(parts), &p, 3.0, 0.5).to_bitmask();
+                assert_eq!(is_definite, if expected { 255 } else { 0 }, "{parts:?}, {f1}, {f2}");
             }
         });
     }

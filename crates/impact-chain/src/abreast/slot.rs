@@ -54,6 +54,8 @@ pub struct Slot {
     pub handed_over: bool,
     /// Whether it is not simulated any further.
     ended: bool,
+    /// Gaps of which the tests side by side did not tell.
+    pub decided: u64,
 }
 
 impl Slot {
@@ -71,6 +73,7 @@ impl Slot {
             is_active: vec![false; columns / WIDTH],
             handed_over: false,
             ended: false,
+            decided: 0,
         }
     }
 
@@ -213,6 +216,7 @@ impl Slot {
     #[cold]
     #[inline(never)]
     pub fn decide(&mut self, plan: &Plan, middle: Phases, gap: usize, part: Part) {
+        self.decided += 1;
         match Local::new(self.amplitudes(gap), middle, plan.ratio).first_root(part) {
             Outcome::Open => (),
             Outcome::Root { s, speed } => {

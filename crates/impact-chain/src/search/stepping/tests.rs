@@ -1,6 +1,7 @@
 //! Functions that touch the bounds of certified steps from the wrong side.
 
 use super::*;
+use crate::search::truth::derivative;
 
 fn frequencies() -> Frequencies<1> {
     Frequencies::new(1.0, [2.0])
@@ -112,4 +113,68 @@ fn a_dip_that_neither_end_shows_is_not_leapt_over() {
     let exact = (edge - (c + f0.cbrt()).acos()) / SIGMA;
     assert!(matches!(found, Next::Root { s, .. } if (s - exact).abs() < 1e-12), "{found:?}");
     assert_eq!(work.evaluations, 5);
+}
+
+/// Quadratics with the roots 1/2 and 1, and the corrections of their cubics by hand.
+#[test]
+fn a_guess_goes_beyond_the_root_of_the_cubic() {
+    let guess = |[f, d1, d2, d3]: [f64; 4], left| {
+        let discriminant = d1 * d1 - 2.0 * d2 * f;
+        let root = discriminant.max(0.0).sqrt();
+        beyond_root(&point([f, d1, d2, d3]), root, discriminant, left)
+    };
+    for (p, left, expected) in [
+        ([1.0, -3.0, 4.0, 0.0], 9.0, 1.0625 * 0.5),
+        ([1.0, -3.0, 4.0, 2.4], 9.0, 1.0625 * (0.5 + 0.05 / 0.7)),
+        ([1.0, 1.0, -4.0, 3.0], 9.0, 1.0625 * (1.0 + 0.5 / 1.5)),
+        ([1.0, -3.0, 4.0, 2.4], 0.6, 0.6),
+        ([1.0, -3.0, 4.0, 2.4], 0.4, 0.4),
+        ([1.0, 1.0, 4.0, 0.0], 9.0, 9.0),
+        ([1.0, -1.0, 4.0, 0.0], 9.0, 9.0),
+        ([1.0, 1.0, -4.0, 24.0], 9.0, 1.0625 * (1.0 - 4.0 / 9.0)),
+        ([1.0, 1.0, -4.0, 7.0], 9.0, 1.0),
+    ] {
+        assert!((guess(p, left) - expected).abs() < 1e-15, "{p:?}, {left}: {}", guess(p, left));
+    }
+}
+
+/// A polynomial of degree five that falls through zero at 0.4 of 1/2, and back from there by twice
+/// what M₆ h⁶/46080 moves it.
+#[test]
+fn a_guess_goes_before_the_root_of_the_quintic() {
+    const H: f64 = 0.5;
+    // (0.4 − s)(1 + s + 2 s² − 3 s³ + s⁴), by falling powers.
+    let p = [-1.0, 3.4, -3.2, -0.2, -0.6, 0.4];
+    let at = |s: f64| {
+        let mut p = p.to_vec();
+        let derivatives: Vec<f64> = (0..4)
+            .map(|_| {
+                let value = p.iter().fold(0.0, |sum, c| sum * s + c);
+                let degree = p.len() - 1;
+                p = (0..degree).map(|i| p[i] * (degree - i) as f64).collect();
+                value
+            })
+            .collect();
+        point(derivatives.try_into().unwrap())
+    };
+    let guess = |bound6| before_root(&at(0.0), &at(H), H, bound6).unwrap();
+    let slope = H * at(0.4).d1;
+    assert!((guess(0.0) - 0.4).abs() < 1e-6, "{}", guess(0.0));
+    let back = H * 2.0 * (100.0 * H.powi(6) / 46080.0) / slope;
+    assert!(((guess(100.0) - guess(0.0)) / back - 1.0).abs() < 1e-3, "{}", guess(100.0));
+    assert_eq!(before_root(&at(0.0), &at(H), H, 1e6), None);
+}
+
+/// Roots of gaps that close steeply, near h = 1e-3 and 1e-2: the speed is right to order h⁴.
+#[test]
+fn a_root_is_corrected_by_the_terms_of_higher_order() {
+    for (alpha, h, close, exact) in [(3.0, 1e-3, 1e-16, 3e-12), (-2.0, 1e-2, 3e-12, 2e-8)] {
+        let frame = Frame { f0: 10.0 * h, g0: -10.0, alpha, bound: 9.0, ..Frame::ZERO };
+        let frame = Frame { forced: [[0.5, 0.25]], ..frame };
+        let p = frame.start(&frequencies());
+        let root = (p.d1 * p.d1 - 2.0 * p.d2 * p.f).sqrt();
+        let (s, speed) = polish(0.0, 2.0 * p.f / (root - p.d1), root, &p, &frequencies());
+        let f = |order| derivative(&frame, &frequencies(), order, s);
+        assert!(f(0).abs() < close && (f(1) + speed).abs() < exact, "{alpha}, {h}: {s} {speed}");
+    }
 }
