@@ -1,6 +1,6 @@
 //! A paper that computes its numbers: from experiments to the documents that people read, on any
 //! subject. The [manual] has two pages: how to write a paper, and prose. `examples/feigenbaum` is a
-//! whole paper: in the folder of this crate, `cargo run --example feigenbaum -- paper --out FOLDER`.
+//! whole paper: in this folder, `cargo run --example feigenbaum -- paper --out FOLDER`.
 //!
 //! 1. An [experiment](experiments) has parameters for each profile and a run. Its result is saved,
 //!    and used again as long as parameters and the code that it depends on are the same.
