@@ -2,7 +2,7 @@
 # (rust-toolchain.toml names the version), make and a C compiler for linking; tests also run Python
 # 3.9 or later, and cmark-gfm where it is installed.
 
-.PHONY: paper quick check latex browser test test-checked test-long lint deny identity archive bench measure clean help
+.PHONY: paper quick check latex browser test test-checked test-long lint oldest deny identity archive bench measure clean help
 
 paper: ## the whole reproduction, full profile, into paper/
 	.ci/module && cargo run --release --locked -- paper
@@ -31,8 +31,11 @@ test-checked: ## the same tests with checks of overflow and debug assertions (co
 mutants: ## small wrong changes of what computes, each against the tests of its crate: SHARD=K/N (installs cargo-mutants)
 	.ci/mutants $(or $(SHARD),1/100)
 
-lint: ## formatting, clippy, documentation, width of comments and spelling; warnings denied
-	cargo fmt --check && cargo clippy --release --locked --workspace --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --no-deps --document-private-items && .ci/columns && .ci/spell
+lint: ## formatting, clippy, documentation, features, width of comments and spelling; warnings denied
+	cargo fmt --check && for features in '' random serde ensembles methods; do cargo check --release --locked -p impact-chain --features "$$features" || exit 1; done && cargo clippy --release --locked --workspace --all-targets -- -D warnings && RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --no-deps --document-private-items && .ci/columns && .ci/spell
+
+oldest: ## the engine's crate with the oldest Rust that its Cargo.toml states (installed when missing)
+	rustup toolchain install 1.89.0 --profile minimal --no-self-update && cargo +1.89.0 check --locked -p impact-chain --all-features --target-dir target/oldest
 
 deny: ## licences, sources, duplicate versions and advisories of all crates (builds cargo-deny when missing: minutes)
 	cargo install --quiet --locked --root target/deny cargo-deny@0.20.2 && target/deny/bin/cargo-deny --locked --workspace check

@@ -134,7 +134,7 @@ fn engine(
         let last = repetition == repetitions;
         let mut running = if last { engines.take() } else { engines.clone() }.unwrap_or_default();
         let began = Instant::now();
-        let run = |engine: &mut Engine| engine.run(until, |_| true);
+        let run = |engine: &mut Engine| engine.advance(until);
         pool.install(|| {
             running.par_iter_mut().with_max_len(1).map(run).collect::<Result<(), Error>>()
         })?;

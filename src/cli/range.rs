@@ -29,6 +29,15 @@ pub fn values(
     low: f64,
     high: f64,
 ) -> impl Fn(&str) -> Result<Values, String> + Clone + Send + Sync + 'static {
+    below(MOST_VALUES, low, high)
+}
+
+/// Returns such a parser of ranges with fewer than `most` values.
+fn below(
+    most: f64,
+    low: f64,
+    high: f64,
+) -> impl Fn(&str) -> Result<Values, String> + Clone + Send + Sync + 'static {
     move |text| {
         let number =
             |text: &str| within(low, high)(text).map_err(|what| format!("{text:?}: {what}"));
@@ -38,9 +47,10 @@ pub fn values(
         let (to, step) = rest.split_once(':').ok_or("the range has no step; write A..B:STEP")?;
         let [a, b, h] = [number(from)?, number(to)?, number(step)?];
         let steps = ((b - a) / h + 1e-3).floor();
-        if !(0.0..MOST_VALUES).contains(&steps) {
-            let what = "write a range of 1 to 100000 values, the smaller end first: A..B:STEP";
-            return Err(what.into());
+        if !(0.0..most).contains(&steps) {
+            return Err(format!(
+                "write a range of 1 to {most} values, the smaller end first: A..B:STEP"
+            ));
         }
         let decimals = |text: &str| match text.trim().split_once('.') {
             _ if text.contains(['e', 'E']) => 17,
@@ -48,8 +58,30 @@ pub fn values(
             None => 0,
         };
         let places = decimals(from).max(decimals(step));
-        let value = |i: u32| number(&format!("{:.places$}", a + f64::from(i) * h));
-        (0..=steps as u32).map(value).collect()
+        let value = |i: u64| number(&format!("{:.places$}", a + i as f64 * h));
+        (0..=steps as u64).map(value).collect()
+    }
+}
+
+/// Times of samples on the command line.
+#[derive(Clone, Debug)]
+pub enum Times {
+    /// Once in each period of the forcing.
+    Period,
+    Values(Values),
+}
+
+/// Returns a parser of times up to `latest` that rise, as many as memory holds, or `period`.
+pub fn times(
+    latest: f64,
+) -> impl Fn(&str) -> Result<Times, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        if text == "period" {
+            return Ok(Times::Period);
+        }
+        let times = below(1e15, 0.0, latest)(text)?;
+        let rises = times.is_sorted();
+        rises.then_some(Times::Values(times)).ok_or("the times fall; give rising ones".into())
     }
 }
 

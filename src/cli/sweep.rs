@@ -3,7 +3,7 @@
 use super::range::{Values, values, within};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
-use impact_chain::rise::{Mean, RisePoint};
+use impact_chain::rise::{Column, Mean, RisePoint};
 use impact_chain::{Boundary, Chain, Counts, Graze, LATEST, Protocol, Start};
 use impact_paper::experiments::Progress;
 use impact_paper::experiments::ensembles::CUTTING;
@@ -204,7 +204,7 @@ fn warn_of_doubts(ensemble: &Ensemble, sigma: f64, counts: &Counts) {
             total.simultaneous, total.impacts
         ));
     }
-    if let Some((realisation, Graze { time, gap })) = total.first_graze {
+    if let Some((realisation, Graze { time, gap, .. })) = total.first_graze {
         doubt(format!(
             "rounding could not decide {} grazes, the first in realisation {realisation}, of \
              gap {gap} at t = {time:?}; each was taken for a miss",
@@ -215,7 +215,7 @@ fn warn_of_doubts(ensemble: &Ensemble, sigma: f64, counts: &Counts) {
 
 /// Returns the cells of a row; a missing number is an empty cell.
 fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts, window: usize) -> Vec<String> {
-    let row = RisePoint::new(sigma, counts, window, ensemble.chain.gaps(), [None; 2]);
+    let row = RisePoint::new(sigma, counts, Column { window, largest: ensemble.chain.gaps() });
     let (protocol, total) = (ensemble.protocols[window], &counts.total);
     let real = |value: Option<f64>| value.map_or_else(String::new, shortest);
     let value = |mean: Option<Mean>| real(mean.map(|mean| mean.value));

@@ -1,20 +1,23 @@
 //! Runs the verb `trace`: one scenario, with its impacts.
 
-use super::range::{Values, values, within};
+mod one;
+
+use super::range::{Times, times, within};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use impact_chain::methods::{Cost, Method};
-use impact_chain::{Counters, Engine, Error, Graze, Impact, LATEST, Scenario, State, rounding};
+use impact_chain::{LATEST, State};
 use impact_paper::experiments::alive;
 use impact_paper::params::MethodName::{self, *};
 use literate::Failure;
 use literate::cli::terminal::{warn, written as printed};
-use literate::input::{self, one_line, plain};
-use std::fmt;
+use literate::input::{self, one_line};
+use one::{Job, Part};
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, BufWriter, Read, StdoutLock, Write};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
 
 /// Print the impacts of a scenario as CSV: time, gap, closing speed
 ///
@@ -29,7 +32,10 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 ///   trace chain.json --until 100
 ///   trace - --until 100 --max-impacts 20 < chain.json
 ///   trace chain.json --at 0..100:0.5
-///   trace - --lines --until 100 < chains.jsonl
+///   trace chain.json --at period --until 1000
+///   trace chain.json --until 100 --save state.json
+///   trace chain.json --from state.json --until 200 --events
+///   trace - --lines --keep-going --until 100 < chains.jsonl
 ///   trace chain.json --until 100 --method verlet --step 0.01
 ///   trace chain.json --until 100 --method truth
 ///
@@ -58,14 +64,30 @@ pub struct Args {
     #[arg(long, value_name = "T", value_parser = within(0.0, LATEST), allow_hyphen_values = true,
         required_unless_present = "at")]
     until: Option<f64>,
-    /// Print time, mass, position and velocity at these times instead: a rising list or a range.
-    #[arg(long, value_name = "A..B:STEP|LIST", value_parser = values(0.0, LATEST), allow_hyphen_values = true,
-        conflicts_with_all = ["until", "max_impacts"])]
-    at: Option<Values>,
-    /// Read a scenario from each line; the first column is its number. Each is answered
-    /// before the next is read; the first that is refused ends the run.
+    /// Print time, mass, position and velocity at these times up to --until instead: a rising list,
+    /// a range, or "period" for each multiple of the (first) period of the forcing.
+    #[arg(long, value_name = "A..B:STEP|LIST|period", value_parser = times(LATEST), allow_hyphen_values = true,
+        conflicts_with_all = ["max_impacts", "events"])]
+    at: Option<Times>,
+    /// Print all events, with a column of their names: impact; stick and release, where a gap comes
+    /// into contact and leaves it; graze, a dip that rounding could not decide.
+    #[arg(long)]
+    events: bool,
+    /// Write the state at the end to this file, which --from reads.
+    #[arg(long, value_name = "FILE", conflicts_with = "lines")]
+    save: Option<PathBuf>,
+    /// Go on from the state in this file, at its time and with the phases of the forcing then; the
+    /// scenario may be another, as along a branch.
+    #[arg(long, value_name = "FILE", conflicts_with = "lines")]
+    from: Option<PathBuf>,
+    /// Read a scenario from each line; the first column is its number. They are run on all cores
+    /// and answered in order, and the first that is refused ends the run.
     #[arg(long)]
     lines: bool,
+    /// Go on after a line that is refused or stopped: a column says "ok", "refused" or "stopped",
+    /// and each line has a row, without numbers if there are none.
+    #[arg(long, requires = "lines")]
+    keep_going: bool,
     /// Stop after this many impacts.
     #[arg(long, value_name = "M")]
     max_impacts: Option<u64>,
@@ -135,189 +157,95 @@ initial:  "rest" (at equilibrium), "zero" (no free part),
           {"random": {"sigma": s, "seed": k}} (normal free parts)."#;
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    if args.at.is_some() && args.method != MethodName::Certified {
-        return Err(Failure::input("--at: only the method certified prints states; leave it out"));
+    let needs_engine =
+        [("--at", args.at.is_some()), ("--events", args.events), ("--save", args.save.is_some())];
+    if let Some((option, _)) = needs_engine.iter().find(|(_, given)| *given)
+        && args.method != Certified
+    {
+        let message = format!("{option}: only the method certified has states; leave it out");
+        return Err(Failure::input(message));
     }
-    if args.at.as_ref().is_some_and(|times| !times.is_sorted()) {
-        return Err(Failure::input("--at: the times fall; give rising ones"));
+    if matches!(args.at, Some(Times::Period)) && args.until.is_none() {
+        return Err(Failure::input("--at: period has no end; give --until"));
     }
-    let number = if args.lines { "scenario," } else { "" };
-    let columns = if args.at.is_some() { "mass,position,velocity" } else { "gap,closing_speed" };
-    let method = args.method.with(setting(&args)?, 0.0);
     let latest = Arc::new(AtomicU64::new(0));
-    let mut printer = Printer {
-        out: BufWriter::new(io::stdout().lock()),
-        header: format!("{number}time,{columns}\n"),
-        prefix: String::new(),
-        written: Ok(()),
+    let job = Job {
+        setting: setting(&args)?,
+        start: args.from.as_deref().map(saved).transpose()?,
         latest: Arc::clone(&latest),
+        args,
     };
     let _alive = alive(move || format!("trace: at t = {:?}", f64::from_bits(latest.load(Relaxed))));
-    let piped = args.scenario == Path::new("-");
-    let name = if piped { "standard input".into() } else { args.scenario.display().to_string() };
-    let unread = |error: io::Error| {
-        Failure::input(format!("{name}: {error}; give a scenario, see `trace --help`"))
+    let mut header = job.header();
+    let mut out = io::stdout();
+    // Scenarios are read while others run, and the rows of each are taken in turn.
+    let (queue, scenarios) = sync_channel(4 * rayon::current_num_threads());
+    thread::spawn(move || start_all(&Arc::new(job), &queue));
+    for part in scenarios.into_iter().flatten() {
+        match part {
+            // Whole rows: a signal that ends the program leaves no half of a number.
+            Part::Rows(rows) => {
+                let text = std::mem::take(&mut header) + &rows;
+                printed(out.write_all(text.as_bytes()).and_then(|()| out.flush()))?;
+            }
+            Part::Note(note) => warn(&note),
+            Part::Failed(failure) => return Err(failure),
+        }
+    }
+    Ok(())
+}
+
+/// Reads the state that `--save` wrote.
+fn saved(path: &Path) -> Result<State, Failure> {
+    let refused = |error: String| {
+        let path = path.display();
+        let error = one_line(&error, 1000);
+        Failure::input(format!("--from: {path}: {error}; give a file that --save wrote"))
     };
-    let mut file: Box<dyn BufRead> = if piped {
+    let text = File::open(path).and_then(input::read_from);
+    serde_json::from_str(&text.map_err(|error| refused(error.to_string()))?)
+        .map_err(|error| refused(error.to_string()))
+}
+
+/// Starts the runs of all scenarios, and hands on where their parts come from.
+fn start_all(job: &Arc<Job>, queue: &SyncSender<Receiver<Part>>) {
+    let piped = job.args.scenario == Path::new("-");
+    let name =
+        if piped { "standard input".into() } else { job.args.scenario.display().to_string() };
+    if let Err(error) = read_all(job, &name, queue) {
+        let failure = format!("{name}: {error}; give a scenario, see `trace --help`");
+        let (sender, parts) = sync_channel(1);
+        // Nobody takes it if the program is ending.
+        let _ = sender.send(Part::Failed(Failure::input(failure)));
+        let _ = queue.send(parts);
+    }
+}
+
+fn read_all(job: &Arc<Job>, name: &str, queue: &SyncSender<Receiver<Part>>) -> io::Result<()> {
+    let mut file: Box<dyn BufRead> = if job.args.scenario == Path::new("-") {
         Box::new(io::stdin().lock())
     } else {
-        Box::new(BufReader::new(File::open(&args.scenario).map_err(unread)?))
+        Box::new(BufReader::new(File::open(&job.args.scenario)?))
     };
-    if !args.lines {
-        let text = input::read_from(file).map_err(unread)?;
-        return trace(&args, &*method, &name, &text, &mut printer);
+    let start = |number: Option<u64>, text: String| {
+        let (sender, parts) = sync_channel(16);
+        let (job, name) = (Arc::clone(job), name.to_string());
+        let is_wanted = queue.send(parts).is_ok();
+        rayon::spawn(move || job.run(number, &name, &text, sender));
+        is_wanted
+    };
+    if !job.args.lines {
+        start(None, input::read_from(file)?);
+        return Ok(());
     }
     for number in 1.. {
         let mut line = Vec::new();
-        (&mut file).take(input::MOST << 20).read_until(b'\n', &mut line).map_err(unread)?;
-        if line.is_empty() {
-            break;
-        }
-        let name = format!("{name}, line {number}");
-        printer.prefix = format!("{number},");
-        let text = input::read_from(line.as_slice()).map_err(unread)?;
-        trace(&args, &*method, &name, &text, &mut printer)?;
-    }
-    printed(printer.flush())
-}
-
-/// Prints rows in blocks of whole ones: a signal that ends the program leaves no half of a number.
-struct Printer {
-    out: BufWriter<StdoutLock<'static>>,
-    /// The first line, until it is printed.
-    header: String,
-    /// What each row begins with.
-    prefix: String,
-    written: io::Result<()>,
-    /// The bits of the time of the latest impact.
-    latest: Arc<AtomicU64>,
-}
-
-impl Printer {
-    fn row(&mut self, row: fmt::Arguments) {
-        self.print(format!("{}{row}\n", self.prefix));
-    }
-
-    /// Prints some rows, after the header, since a run that is refused at its start prints nothing.
-    fn print(&mut self, rows: String) {
-        let text = std::mem::take(&mut self.header) + &rows;
-        if self.written.is_ok() {
-            self.written = self.out.write_all(text.as_bytes());
-        }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        std::mem::replace(&mut self.written, Ok(()))?;
-        self.out.flush()
-    }
-}
-
-/// Runs the scenario of a text and prints its impacts, or its states at given times.
-fn trace(
-    args: &Args,
-    method: &dyn Method,
-    name: &str,
-    text: &str,
-    printer: &mut Printer,
-) -> Result<(), Failure> {
-    let scenario = Scenario::from_json(text).map_err(|error| in_file(name, error))?;
-    let ran = match &args.at {
-        Some(times) => states(&scenario, times, printer),
-        None => impacts(args, method, &scenario, printer),
-    };
-    if ran.is_ok() {
-        printer.print(String::new());
-    }
-    // What was found before a run was stopped is printed.
-    if let Err(error) = printer.flush() {
-        return printed(Err(error));
-    }
-    // With many scenarios each note names the one that it is about.
-    let of_line = if args.lines { format!("{name}: ") } else { String::new() };
-    let note = |text: String| warn(&(of_line.clone() + &text));
-    if let Ok(cost) = &ran {
-        warn_of_doubts(cost, &note);
-    }
-    let width = rounding::width(&scenario);
-    let closed = matches!(args.method, MethodName::Certified | MethodName::Sampled);
-    let began = matches!(ran, Ok(_) | Err(Error::Work { .. }));
-    if closed && began && width > rounding::REPORTED * scenario.spacing {
-        note(format!(
-            "rounding of large amplitudes may move each impact at closing speed v by {width:.1e}/v, and \
-             errors grow from impact to impact"
-        ));
-    }
-    ran.map(|_| ()).map_err(|error| in_file(name, error))
-}
-
-fn impacts(
-    args: &Args,
-    method: &dyn Method,
-    scenario: &Scenario,
-    printer: &mut Printer,
-) -> Result<Cost, Error> {
-    let most = args.max_impacts.unwrap_or(u64::MAX);
-    let mut all = 0;
-    let mut sink = |Impact { time, gap, closing_speed }: Impact| {
-        printer.latest.store(time.to_bits(), Relaxed);
-        if all < most {
-            printer.row(format_args!("{time:?},{gap},{closing_speed:?}"));
-            all += 1;
-        }
-        all < most && printer.written.is_ok()
-    };
-    let until = if most == 0 { 0.0 } else { args.until.unwrap_or_default() };
-    method.run((scenario, &State::of(scenario), until), &mut sink)
-}
-
-/// Prints time, place and velocity of each mass at each of several times.
-fn states(scenario: &Scenario, times: &[f64], printer: &mut Printer) -> Result<Cost, Error> {
-    let mut engine = Engine::new(scenario)?;
-    for &time in times {
-        engine.run(time, |impact| {
-            printer.latest.store(impact.time.to_bits(), Relaxed);
-            true
-        })?;
-        let state = engine.state(time)?;
-        for (j, (x, v)) in state.positions.iter().zip(&state.velocities).enumerate() {
-            printer.row(format_args!("{time:?},{},{x:?},{v:?}", j + 1));
-        }
-        if printer.written.is_err() {
+        (&mut file).take(input::MOST << 20).read_until(b'\n', &mut line)?;
+        if line.is_empty() || !start(Some(number), input::read_from(line.as_slice())?) {
             break;
         }
     }
-    let Counters { impacts, simultaneous, undecided, .. } = engine.counters();
-    let first_graze = engine.first_graze();
-    Ok(Cost { impacts, simultaneous, undecided, first_graze, ..Cost::default() })
-}
-
-/// Reports impacts whose order is a choice, and grazes that rounding hides.
-fn warn_of_doubts(cost: &Cost, note: &dyn Fn(String)) {
-    if cost.simultaneous > 0 {
-        note(format!(
-            "impacts at exactly the same instant as one in a neighbouring gap: {} of {}; they were taken \
-             one after the other, fastest first",
-            cost.simultaneous, cost.impacts
-        ));
-    }
-    if let Some(Graze { time, gap }) = cost.first_graze {
-        note(format!(
-            "grazes that rounding could not decide: {}, the first of gap {gap} at t = {time:?}; each was \
-             taken for a miss, and the run may be wrong from there on",
-            cost.undecided
-        ));
-    }
-}
-
-/// The failure for an error in a scenario or a setting (exit code 2) or a run (1).
-fn in_file(name: &str, error: Error) -> Failure {
-    match error {
-        Error::Work { .. } => Failure::check(error.to_string()),
-        Error::Input { ref field, .. } if ["step", "tolerance"].contains(&field.as_str()) => {
-            Failure::input(format!("--{error}"))
-        }
-        error => Failure::input(format!("{name}: {}", one_line(&plain(&error.to_string()), 1000))),
-    }
+    Ok(())
 }
 
 /// Returns the step or tolerance; refuses an option that the method does not have.

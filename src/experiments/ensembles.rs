@@ -3,7 +3,7 @@
 use crate::params::{Ensemble, Profile, Protocol};
 use impact_chain::Abreast;
 use impact_chain::counts::{Counts, Total};
-use impact_chain::rise::{Curve, RisePoint};
+use impact_chain::rise::{Curve, CurveData, RisePoint};
 use literate::experiments::cutting::{Cutting, Unit, UnitRow};
 use literate::experiments::experiment::How::Cut;
 use literate::experiments::progress::Stage;
@@ -125,8 +125,15 @@ fn join(
         let gaps = one.chain.gaps() as f64 / one.pieces as f64;
         let curve = |window: usize| {
             progress.check()?;
-            let protocol = (window, one.protocols[window]);
-            Ok(Curve::new(protocol, &one.sigmas, &counts, &compared, gaps, one.seed))
+            Ok(Curve::new(&CurveData {
+                protocol: one.protocols[window],
+                window,
+                sigmas: &one.sigmas,
+                counts: &counts,
+                compared: &compared,
+                gaps,
+                seed: one.seed,
+            }))
         };
         let windows = (0..one.protocols.len()).into_par_iter().with_max_len(1);
         let curves = windows.map(curve).collect::<Result<_, Error>>()?;

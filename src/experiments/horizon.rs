@@ -86,16 +86,15 @@ fn pair(parameters: &Runs, index: u64) -> Result<Twins, impact_chain::Error> {
         *amplitude = if j % 2 == 0 { amplitude.next_up() } else { amplitude.next_down() };
     }
     let first = Engine::new(&scenario)?.impacts(parameters.until)?;
-    let (mut growth, mut order, mut met) = (Vec::new(), None, first.iter().zip(0..));
-    Engine::new(&twin)?.run(parameters.until, |other| {
-        let Some((one, before)) = met.next() else { return false };
-        if one.gap == other.gap {
-            growth.push((one.time, (one.time - other.time).abs()));
-        } else {
+    let (mut growth, mut order, mut twin) = (Vec::new(), None, Engine::new(&twin)?);
+    for (one, before) in first.iter().zip(0..) {
+        let Some(other) = twin.next_impact(parameters.until)? else { break };
+        if one.gap != other.gap {
             order = Some((one.time.min(other.time), before));
+            break;
         }
-        order.is_none()
-    })?;
+        growth.push((one.time, (one.time - other.time).abs()));
+    }
     Ok(Twins { order, growth: rate(&growth) })
 }
 

@@ -117,15 +117,15 @@ fn replay(asked: &Request) -> Result<ReplayResult, Failure> {
     };
     let mut engine = Engine::new(&scenario)?;
     let (mut hit, mut bytes) = (BTreeSet::new(), Vec::new());
-    engine.run(asked.transient + asked.window, |Impact { time, gap, closing_speed }| {
+    for impact in engine.impacts(asked.transient + asked.window)? {
+        let Impact { time, gap, closing_speed } = impact;
         for bits in [time.to_bits(), gap as u64, closing_speed.to_bits()] {
             bytes.extend(bits.to_le_bytes());
         }
         if time > asked.transient {
             hit.insert(gap);
         }
-        true
-    })?;
+    }
     let work = engine.counters();
     Ok(ReplayResult {
         impacts: work.impacts,

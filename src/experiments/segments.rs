@@ -206,7 +206,7 @@ fn replay(text: &str) -> Result<Segment, String> {
 /// Runs a scenario and records positions and impacts from `from` to `until`.
 fn record(scenario: &Scenario, from: f64, until: f64) -> Result<Segment, impact_chain::Error> {
     let mut engine = Engine::new(scenario)?;
-    engine.run(from, |_| true)?;
+    engine.advance(from)?;
     let (masses, spacing) = (scenario.forcing.len(), scenario.spacing);
     let (mut times, mut tracks, mut impacts) = (Vec::new(), vec![Vec::new(); masses], Vec::new());
     let mut push = |time: f64, positions: Vec<f64>| {

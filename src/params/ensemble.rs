@@ -4,6 +4,7 @@ use impact_chain::abreast::{Abreast, Realisation};
 use impact_chain::counts::{Counts, Watch};
 use impact_chain::{Chain, Engine, Error, Initial, NormalPairs, Protocol, Scenario};
 use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow::{Break, Continue};
 use std::ops::Range;
 
 /// A stronger force before the count begins; then forces are lowered to σ without a jump.
@@ -146,7 +147,7 @@ impl Ensemble {
         };
         let scenario = Scenario::draw(&self.chain, hot, &mut self.normals(index));
         let mut engine = Engine::new(&scenario)?;
-        engine.run(time, |_| !stopped())?;
+        engine.run(time, |_, _| if stopped() { Break(()) } else { Continue(()) })?;
         Engine::new(&lowered(&scenario, &engine.free_parts(), time, sigma / hot))
     }
 }

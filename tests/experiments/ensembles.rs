@@ -1,6 +1,6 @@
 //! Tests counts of ensembles, their start, and the rise, which was measured elsewhere too.
 
-use impact_chain::mode_jump::{Sample, mode_jump};
+use impact_chain::mode_jump::{Histogram, Sample, mode_jump};
 use impact_chain::{Counts, Engine, Scenario, State};
 use impact_numerics::random::NormalPairs;
 use impact_paper::experiments::{Progress, ensembles::CUTTING};
@@ -116,7 +116,7 @@ fn the_mode_jumps_where_it_was_measured_elsewhere() {
         .collect();
     let samples =
         [0, 1, 2, 3].map(|at| Sample { sigma: sigmas[at], counts: &counts[at], seed: at as u64 });
-    let all_gaps = mode_jump(&samples, 101, 6).all_gaps;
+    let all_gaps = mode_jump(&samples, Histogram { gaps: 101, half_width: 6 }).all_gaps;
     let (place, peak) = (all_gaps.sigma.unwrap(), all_gaps.peak.unwrap());
     assert!(place.error < 3e-3, "{place:?}");
     assert!((place.value - 0.118).abs() < 4.0 * place.error, "{place:?}");

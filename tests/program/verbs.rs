@@ -193,13 +193,45 @@ fn states_and_many_scenarios() {
     std::fs::write(folder.path().join("s.json"), format!("{one_line}\n{one_line}\n[]\n")).unwrap();
     let (code, text, note) = run(folder.path(), "trace s.json --lines --until 9");
     assert!(code == 2 && note.contains("s.json, line 3: scenario: "), "{note}");
-    let mut expected = "scenario,time,gap,closing_speed\n".to_string();
-    for number in [1, 2] {
-        for row in plain.lines().skip(1) {
-            expected += &format!("{number},{row}\n");
-        }
+    let expected = |cells: [&str; 2], last: &str| {
+        let rows = |cell: &str| -> String {
+            plain.lines().skip(1).map(|row| format!("{cell},{row}\n")).collect()
+        };
+        let [first, second] = cells.map(rows);
+        first + &second + last
+    };
+    let header = "scenario,time,gap,closing_speed\n";
+    assert_eq!(text, header.to_string() + &expected(["1", "2"], ""));
+    let (code, text, note) = run(folder.path(), "trace s.json --lines --until 9 --keep-going");
+    assert!(code == 0 && note.contains("line 3: scenario: "), "{note}");
+    let header = "scenario,status,time,gap,closing_speed\n";
+    assert_eq!(text, header.to_string() + &expected(["1,ok", "2,ok"], "3,refused,,,\n"));
+}
+
+/// The events of two halves are those of the whole run, and samples are taken once in a period.
+#[test]
+fn a_run_goes_on_from_what_was_saved() {
+    let folder = folder(SCENARIO);
+    let rows = |options: &str| -> Vec<(f64, String)> {
+        let text = answer(folder.path(), &format!("trace s.json {options}"));
+        let cells = text.lines().skip(1).map(|row| row.split_once(',').unwrap());
+        cells.map(|(time, rest)| (time.parse().unwrap(), rest.to_string())).collect()
+    };
+    let whole = rows("--until 30 --events");
+    let halves =
+        ["--until 12 --events --save half.json", "--from half.json --until 30 --events"].map(rows);
+    let [half, after] = halves.each_ref().map(Vec::len);
+    assert!(half > 2 && after > 2 && half + after == whole.len(), "{half}, {after}");
+    for ((time, event), (expected, same)) in halves.concat().iter().zip(&whole) {
+        let event_and_gap = |row: &str| row.rsplit_once(',').unwrap().0.to_string();
+        assert!((time - expected).abs() < 1e-10, "{time} {expected}");
+        assert_eq!(event_and_gap(event), event_and_gap(same));
     }
-    assert_eq!(text, expected);
+    let samples = rows("--at period --until 20");
+    assert_eq!(samples.len(), 5 * 3);
+    assert!((samples[3].0 - std::f64::consts::TAU / 2.0_f64.sqrt()).abs() < 1e-14);
+    assert_eq!(rows("--from half.json --at period --until 20").len(), 2 * 3);
+    assert_eq!(rows("--at 0..9:4.5 --until 5").len(), 2 * 3);
 }
 
 #[test]

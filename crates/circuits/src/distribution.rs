@@ -4,9 +4,9 @@
 //! digits as N grows. Here every weight is a running product of the factors p (N − k), carried
 //! with 106 bits and a separate exponent, so N = 10^6 costs neither digits nor range.
 
+use crate::error::{Error, within};
 use crate::higher_order;
 pub use crate::higher_order::SampleSpace;
-use impact_chain::{Error, within};
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::scaled::Scaled;
 

@@ -19,7 +19,8 @@
 //!
 //! p_rest = (2/π) ∫_0^{π/2} exp(−(|ω² − Ω²| d/(2σ))²/(1 + √(cos²θ + (Ω/ω)² sin²θ))²) dθ.
 
-use impact_chain::{Chain, Error, within};
+use crate::error::{Error, refused, within};
+use impact_chain::Chain;
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::quadrature::GaussLegendre;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
@@ -82,7 +83,7 @@ fn saturation(x: f64) -> f64 {
 /// Creates the error of a positive quantity that is below the range of doubles at a σ.
 fn underflow(what: &str, sigma: f64, remedy: &str) -> Error {
     let problem = format!("{what} is below the range of double precision at σ = {sigma:e}");
-    Error::input("sigma", problem, remedy)
+    refused("sigma", problem, remedy.into())
 }
 
 /// An exponent below which 1 − p is more accurate than p: its rounding falls below p's last bit.
@@ -101,7 +102,7 @@ impl ImpactProbability {
         let detuning = if difference.hi < 0.0 { -difference } else { difference };
         if detuning.hi == 0.0 {
             let problem = format!("Ω = ω = {omega:?} is resonance, where amplitudes grow for ever");
-            return Err(Error::input("forcing-frequency", problem, "give Ω different from ω"));
+            return Err(refused("forcing-frequency", problem, "give Ω different from ω".into()));
         }
         Ok(ImpactProbability {
             sigma,

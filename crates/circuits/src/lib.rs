@@ -30,6 +30,7 @@
 pub mod commuting;
 pub mod counting;
 pub mod distribution;
+mod error;
 pub mod graph;
 pub mod higher_order;
 pub mod impact_probability;
@@ -37,4 +38,4 @@ pub mod jump;
 pub mod nucleation;
 
 pub use distribution::LARGEST_N;
-pub use impact_chain::Error;
+pub use error::Error;

@@ -22,11 +22,10 @@ fn balance(scenario: &Scenario, until: f64) -> Result<[f64; 3], Error> {
     let lost = 1.0 - scenario.restitution.powi(2);
     let (mut work, mut loss, mut before) = (0.0, 0.0, State::of(scenario));
     for time in (1..=(until / STEP) as u32).map(|step| f64::from(step) * STEP) {
-        engine.run(time, |impact| {
+        while let Some(impact) = engine.next_impact(time)? {
             let share = if [0, scenario.forcing.len()].contains(&impact.gap) { 0.5 } else { 0.25 };
             loss += share * lost * impact.closing_speed.powi(2);
-            true
-        })?;
+        }
         let after = engine.state(time)?;
         work += 0.5 * STEP * (power(&before, scenario) + power(&after, scenario));
         before = after;

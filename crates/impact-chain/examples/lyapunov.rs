@@ -7,16 +7,16 @@ const DISTANCE: f64 = 1e-8;
 
 fn exponent(scenario: &Scenario, steps: u32, step: f64) -> Result<f64, Error> {
     let mut start = Engine::new(scenario)?;
-    start.run(100.0, |_| true)?;
+    start.advance(100.0)?;
     let mut state = start.state(100.0)?;
     let mut other = state.clone();
     other.velocities[0] += DISTANCE;
     let mut sum = 0.0;
     for _ in 0..steps {
         let ends = [&state, &other].map(|state| -> Result<State, Error> {
-            let mut engine = Engine::new(&state.as_scenario(scenario)?)?;
-            engine.run(step, |_| true)?;
-            Ok(State { time: state.time + step, ..engine.state(step)? })
+            let mut engine = Engine::from_state(scenario, state)?;
+            engine.advance(state.time + step)?;
+            engine.state(state.time + step)
         });
         [state, other] = [ends[0].clone()?, ends[1].clone()?];
         let apart =

@@ -1,10 +1,11 @@
 //! Describes the chain of Sec. 2: its masses, its ends and its start, without the forcing.
 
-#[cfg(feature = "ensembles")]
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
+/// What stands at the ends of the chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "ensembles", derive(Deserialize, Serialize), serde(rename_all = "lowercase"))]
+#[cfg_attr(feature = "serde", derive(Deserialize, Serialize), serde(rename_all = "lowercase"))]
 pub enum Boundary {
     /// Rigid walls at 0 and (n + 1) d: n + 1 gaps (Fig. 1).
     Walls,
@@ -24,7 +25,7 @@ impl Boundary {
 
 /// The start of a realisation (Sec. 2 leaves it open; Sec. 8 assumes [`Start::Random`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "ensembles", derive(Deserialize, Serialize), serde(rename_all = "lowercase"))]
+#[cfg_attr(feature = "serde", derive(Deserialize, Serialize), serde(rename_all = "lowercase"))]
 pub enum Start {
     /// At rest at equilibrium, when the forcing sets in.
     Rest,
@@ -38,17 +39,17 @@ pub enum Start {
 ///
 /// **Eq. (4)** (step towards (2)): the scaling d = m = ω = 1 is this type's default.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "ensembles", derive(Deserialize, Serialize))]
+#[cfg_attr(feature = "serde", derive(Deserialize, Serialize))]
 pub struct Chain {
-    /// Number of masses n (Sec. 2: 100).
+    /// Number of masses n, at least 1 (Sec. 2: 100).
     pub masses: usize,
-    /// Distance d between equilibria (Sec. 2: 1).
+    /// Distance d between equilibria, from 1e-6 to 1e6 (Sec. 2: 1).
     pub spacing: f64,
-    /// Natural frequency ω (Sec. 2: 1).
+    /// Natural frequency ω in radians per unit of time, from 1e-3 to 1e3 (Sec. 2: 1).
     pub natural_frequency: f64,
-    /// Forcing frequency Ω (Sec. 2: √2).
+    /// Forcing frequency Ω, likewise, and not ω (Sec. 2: √2).
     pub forcing_frequency: f64,
-    /// Coefficient of restitution r (Sec. 2: 0.8).
+    /// Coefficient of restitution r, from 0 to 1 (Sec. 2: 0.8).
     pub restitution: f64,
     /// Walls or ring (Fig. 1: walls).
     pub boundary: Boundary,
@@ -71,6 +72,7 @@ impl Default for Chain {
 }
 
 impl Chain {
+    /// Returns its number of gaps, N.
     pub fn gaps(&self) -> usize {
         self.boundary.gaps(self.masses)
     }

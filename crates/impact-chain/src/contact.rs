@@ -14,9 +14,10 @@
 //! each gap of a cluster is hit once.
 
 use super::complementarity::contact_forces;
+use super::event::Event;
 use super::flight::{Motion, Phases};
 use super::force::Force;
-use super::simulation::{Awaits, Simulation};
+use super::simulation::{Awaits, Simulation, Waiting};
 use crate::search::clock::Instant;
 use crate::search::local_frame::ROUNDING;
 use crate::search::outcome::Next;
@@ -24,6 +25,7 @@ use crate::search::window::next_window;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::iter::successors;
+use std::mem::take;
 
 /// Separation speed, in units of d ω, below which a chatter is taken to have come to rest.
 pub(super) const CONTACT_SPEED: f64 = 1e-10;
@@ -44,6 +46,7 @@ const STILL: Changed = Changed { width: 0.0, rate: 0.0, settled: true };
 
 impl<const M: usize> Simulation<M> {
     /// Decides whether the impact of gap k is so slow that contact may begin, or hits a cluster.
+    #[inline(always)]
     pub(super) fn involves_contact(&self, k: usize, speed: f64) -> bool {
         let [before, after] = self.topology.adjacent(k);
         let in_contact = |gap: Option<usize>| gap.is_some_and(|gap| self.gaps[gap].in_contact);
@@ -170,6 +173,26 @@ impl<const M: usize> Simulation<M> {
                 }
             }
         }
+        self.note_contacts();
+    }
+
+    /// Notes the gaps whose contact has just ended, and those where it has begun.
+    fn note_contacts(&mut self) {
+        let (mut freed, stuck) = (take(&mut self.freed), take(&mut self.stuck));
+        freed.retain(|&k| !self.gaps[k].in_contact);
+        let (at, time) = (self.now, self.time(self.now));
+        let [freed, stuck] = [freed, stuck].map(|mut gaps| {
+            gaps.sort_unstable();
+            gaps.iter().map(|&k| self.topology.label(k)).collect::<Vec<usize>>()
+        });
+        if !freed.is_empty() {
+            let event = Event::Release { time, gaps: freed };
+            self.waiting.push(Waiting { at, dip: None, event });
+        }
+        if !stuck.is_empty() {
+            let event = Event::Stick { time, gaps: stuck };
+            self.waiting.push(Waiting { at, dip: None, event });
+        }
     }
 
     /// Lists the maximal runs of settled gaps from the left; on a ring one may pass the last gap.
@@ -225,8 +248,11 @@ impl<const M: usize> Simulation<M> {
             let ends = i + 1 == gaps.len() || forces[i + 1].is_none();
             if ends && !cluster.is_empty() {
                 self.make_rigid(&cluster);
-                for k in std::mem::take(&mut cluster) {
-                    self.work.contact_phases += u64::from(self.gaps[k].awaits != Awaits::Release);
+                for k in take(&mut cluster) {
+                    if self.gaps[k].awaits != Awaits::Release {
+                        self.work.contact_phases += 1;
+                        self.stuck.push(k);
+                    }
                     self.gaps[k].in_contact = true;
                     self.watch_contact(k, p);
                 }
@@ -334,6 +360,7 @@ impl<const M: usize> Simulation<M> {
             // A mark: if the gap is pressed again at once, its contact phase goes on.
             self.gaps[k].awaits = Awaits::Release;
         }
+        self.freed.extend(&gaps);
         gaps
     }
 
@@ -350,16 +377,14 @@ impl<const M: usize> Simulation<M> {
                 frame.g0 = 0.0;
             }
         }
-        let (awaits, key) = match next_window(force.constant, [0.0; 2], &frame.forced, frequencies)
-        {
-            None => (Awaits::Release, Instant::NEVER),
-            Some(_) => match self.search.first_root(&frame, &mut self.work) {
-                Next::Root { s, .. } => (Awaits::Release, self.now.after(s)),
-                Next::Clear { s } => (Awaits::Search { whole_reach: false }, self.now.after(s)),
-            },
-        };
+        let window = next_window(force.constant, [0.0; 2], &frame.forced, frequencies);
         self.gaps[k].frame = frame;
         self.gaps[k].origin = self.now;
+        let (awaits, key) = match window.map(|_| self.search.first_root(&frame, &mut self.work)) {
+            None => (Awaits::Release, Instant::NEVER),
+            Some(Next::Root { s, .. }) => (Awaits::Release, self.now.after(s)),
+            Some(Next::Clear { s }) => (Awaits::Search { whole_reach: false }, self.now.after(s)),
+        };
         self.gaps[k].awaits = awaits;
         self.queue.set(k, [key]);
     }

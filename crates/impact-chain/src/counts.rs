@@ -4,8 +4,10 @@
 
 use crate::search::outcome::Graze;
 use crate::topology::Topology;
-use crate::{Chain, Engine, Error, Impact, LATEST, within};
+use crate::{Chain, End, Engine, Error, Event, Impact, LATEST, within};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow::{Break, Continue};
 
 /// The δ below which impacts of adjacent gaps are counted as close, whatever ω is.
 pub const NEAR_DECADES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
@@ -17,7 +19,8 @@ pub const SLOW_DECADES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e
 const CHECK_EVERY: u64 = 4096;
 
 /// The window (T, T + W] in which gaps with an impact are counted (ours: Sec. 2 has none).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Protocol {
     /// Transient T that is dropped, in the scenario's unit of time.
     pub transient: f64,
@@ -39,7 +42,8 @@ impl Protocol {
 }
 
 /// Counts of realisations in order, for each window; those that follow one another can be joined.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Counts {
     /// Different gaps with an impact, by window and realisation; none of a run that ended before.
     pub distinct: Vec<Vec<Option<u32>>>,
@@ -53,17 +57,21 @@ pub struct Counts {
     pub failed: usize,
     /// Realisations that were simulated by the engine, one by one.
     pub by_engine: usize,
+    /// Counts of all runs together.
     pub total: Total,
 }
 
 /// Impacts of whole runs, transients included.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Total {
+    /// Their number.
     pub impacts: u64,
     /// Impacts that follow one of an adjacent gap within each of [`NEAR_DECADES`].
     pub near: [u64; NEAR_DECADES.len()],
     /// Impacts with a closing speed below each of [`SLOW_DECADES`].
     pub slow: [u64; SLOW_DECADES.len()],
+    /// Contact phases begun, one per gap.
     pub contact_phases: u64,
     /// Impacts at exactly the same instant as one of a neighbouring gap.
     pub simultaneous: u64,
@@ -74,6 +82,7 @@ pub struct Total {
 }
 
 impl Total {
+    /// Adds the counts of later realisations.
     pub fn add(&mut self, other: &Total) {
         self.impacts += other.impacts;
         self.contact_phases += other.contact_phases;
@@ -226,10 +235,13 @@ impl Watch {
             let problem = "its masses or ends are not those of the chain of the counts";
             return Err(Error::input("engine", problem, "create a Watch of its own chain"));
         }
-        let ended = end.map_or(Ok(()), |end| {
-            engine.run(end, |impact| {
-                self.count(impact);
-                !self.total.impacts.is_multiple_of(CHECK_EVERY) || !stopped()
+        let ended = end.map_or(Ok(End::Reached), |end| {
+            engine.run(end, |event, _| {
+                if let Event::Impact(impact) = event {
+                    self.count(*impact);
+                }
+                let stops = self.total.impacts.is_multiple_of(CHECK_EVERY) && stopped();
+                if stops { Break(()) } else { Continue(()) }
             })
         });
         let counters = engine.counters();
@@ -238,7 +250,7 @@ impl Watch {
         self.total.undecided = counters.undecided;
         self.total.first_graze = engine.first_graze().map(|graze| (index, graze));
         match ended {
-            Ok(()) => Ok(self.complete()),
+            Ok(_) => Ok(self.complete()),
             Err(Error::Work { .. }) => {
                 Ok(Counts { failed: 1, total: self.total.clone(), ..self.incomplete() })
             }

@@ -1,14 +1,17 @@
-//! Offers the simulation of one scenario: impacts in order, and the masses at any time.
+//! Offers the simulation of one scenario: its events in order, and the masses at any time.
 
-use super::impact::{Impact, Sink, collect};
 use super::scenario::COMPONENTS;
 use super::simulation::Simulation;
 #[cfg(feature = "ensembles")]
 use super::topology::Topology;
-use super::{Error, Scenario, State};
+use super::{End, Error, Event, Impact, Scenario, State};
 use crate::search::outcome::{Counters, Graze};
+use std::ops::ControlFlow::{self, Break, Continue};
 
-/// The simulation of one scenario.
+/// The simulation of one scenario, from event to event.
+///
+/// A run ends at a time `until`, at most [`LATEST`](crate::LATEST), or earlier; the next call goes
+/// on from there. An event whose time is `until` is within the run.
 ///
 /// # Errors
 /// [`Error::Work`] ends a run that exceeds the bound on work; [`Error::Input`] refuses an end that
@@ -40,28 +43,90 @@ impl Engine {
     /// # Errors
     /// [`Error::Input`] for values outside the model, [`Error::Overlap`] for an overlapping start.
     pub fn new(scenario: &Scenario) -> Result<Engine, Error> {
+        Engine::with_epoch(scenario, 0.0)
+    }
+
+    /// Goes on from a state of this scenario, or from one of yours, at its time: the forcing has
+    /// the phases of that time, and a run from a state is the whole run up to rounding.
+    ///
+    /// # Errors
+    /// Those of [`new`](Engine::new), and the same two for the state.
+    pub fn from_state(scenario: &Scenario, state: &State) -> Result<Engine, Error> {
+        scenario.validate()?;
+        // Its own start is known to more digits than its positions have.
+        if *state == State::of(scenario) {
+            return Engine::new(scenario);
+        }
+        Engine::with_epoch(&state.as_scenario(scenario)?, state.time)
+    }
+
+    fn with_epoch(scenario: &Scenario, epoch: f64) -> Result<Engine, Error> {
         Ok(Engine(if scenario.overtones.is_empty() {
-            Components::One(Box::new(Simulation::new(scenario)?))
+            Components::One(Box::new(Simulation::new(scenario, epoch)?))
         } else {
-            Components::Several(Box::new(Simulation::new(scenario)?))
+            Components::Several(Box::new(Simulation::new(scenario, epoch)?))
         }))
-    }
-
-    /// Runs until time `until`, at most [`LATEST`](crate::LATEST), and hands each impact to `sink`
-    /// in order; stops early, right after that impact, when `sink` returns false. May be called
-    /// again with a later time. An impact whose [`time`](Impact::time) is `until` is among them.
-    pub fn run(&mut self, until: f64, mut sink: impl FnMut(Impact) -> bool) -> Result<(), Error> {
-        self.run_to(until, &mut sink)
-    }
-
-    /// Returns the next impact up to time `until`, if any; the run stops right after it.
-    pub fn next_impact(&mut self, until: f64) -> Result<Option<Impact>, Error> {
-        Ok(collect(1, |sink| self.run_to(until, sink))?.pop())
     }
 
     /// Returns all impacts up to time `until`, in order.
     pub fn impacts(&mut self, until: f64) -> Result<Vec<Impact>, Error> {
-        collect(usize::MAX, |sink| self.run_to(until, sink))
+        let mut impacts = Vec::new();
+        self.observe(until, &mut |event, _| {
+            if let Event::Impact(impact) = event {
+                impacts.push(*impact);
+            }
+            Continue(())
+        })?;
+        Ok(impacts)
+    }
+
+    /// Returns the next impact up to time `until`, if any; the run stops right after it.
+    pub fn next_impact(&mut self, until: f64) -> Result<Option<Impact>, Error> {
+        let mut next = None;
+        self.observe(until, &mut |event, _| match event {
+            Event::Impact(impact) => {
+                next = Some(*impact);
+                Break(())
+            }
+            _ => Continue(()),
+        })?;
+        Ok(next)
+    }
+
+    /// Runs until time `until`; [`state`](Engine::state) then tells where the masses are.
+    pub fn advance(&mut self, until: f64) -> Result<(), Error> {
+        self.observe(until, &mut |_, _| Continue(())).map(drop)
+    }
+
+    /// Runs until time `until`, and shows each event to `observer` in order, with the engine right
+    /// after it, or stops there if `observer` says so. Events of one instant have the same state.
+    pub fn run(
+        &mut self,
+        until: f64,
+        mut observer: impl FnMut(&Event, &Engine) -> ControlFlow<()>,
+    ) -> Result<End, Error> {
+        self.observe(until, &mut observer)
+    }
+
+    /// Generic code would be compiled with the caller's crate, which may be unoptimised.
+    fn observe(
+        &mut self,
+        until: f64,
+        observer: &mut dyn FnMut(&Event, &Engine) -> ControlFlow<()>,
+    ) -> Result<End, Error> {
+        let end = call!(&self.0, simulation => simulation.end(until))?;
+        while let Some(event) = call!(&mut self.0, simulation => simulation.next(end))? {
+            if observer(&event, self).is_break() {
+                return Ok(End::Stopped);
+            }
+        }
+        Ok(End::Reached)
+    }
+
+    /// Returns the time of the next event up to `until`, if any, without going there. A gap that
+    /// then closes without speed may leave no event.
+    pub fn next_event_time(&mut self, until: f64) -> Result<Option<f64>, Error> {
+        call!(&mut self.0, simulation => simulation.next_time(simulation.end(until)?))
     }
 
     #[cfg(feature = "ensembles")]
@@ -69,14 +134,9 @@ impl Engine {
         call!(&self.0, simulation => simulation.topology)
     }
 
-    /// Generic code would be compiled with the caller's crate, which may be unoptimised.
-    fn run_to(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
-        call!(&mut self.0, simulation => simulation.run(until, sink))
-    }
-
     /// Returns positions and velocities at a time from the last event to the next, as that to which
-    /// [`run`](Engine::run) ran. At the time of the impact that ended a run it is the state after
-    /// it. [`State::as_scenario`] goes on from there.
+    /// [`run`](Engine::run) ran. At the time of an event it is the state after it.
+    /// [`Engine::from_state`] goes on from there.
     pub fn state(&self, time: f64) -> Result<State, Error> {
         call!(&self.0, simulation => simulation.state(time))
     }
@@ -91,7 +151,8 @@ impl Engine {
         Ok(self.state(time)?.velocities)
     }
 
-    /// Returns the free parts (a_j, b_j) of the masses 1..n; a cluster shares one.
+    /// Returns the free parts (a_j, b_j) of the masses 1..n, from the time of the start on; a
+    /// cluster shares one.
     pub fn free_parts(&self) -> Vec<[f64; 2]> {
         call!(&self.0, simulation => simulation.free_parts())
     }
@@ -101,11 +162,12 @@ impl Engine {
         call!(&self.0, simulation => simulation.contacts(time))
     }
 
-    /// Returns the time of the last event: of an impact, a contact, or a search that went on.
+    /// Returns the time of the last event; before the first, that of the start.
     pub fn time(&self) -> f64 {
-        call!(&self.0, simulation => simulation.now.time())
+        call!(&self.0, simulation => simulation.event_time)
     }
 
+    /// Returns the counted work since the start.
     pub fn counters(&self) -> Counters {
         call!(&self.0, simulation => simulation.work)
     }
@@ -165,7 +227,7 @@ mod tests {
         ];
         for (parts, impacts, ties) in starts {
             let mut engine = Engine::new(&free(parts)).unwrap();
-            engine.run(0.0, |_| true).unwrap();
+            engine.advance(0.0).unwrap();
             let counters = engine.counters();
             assert_eq!((counters.impacts, counters.simultaneous), (impacts, ties), "{parts:?}");
         }

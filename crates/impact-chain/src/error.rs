@@ -2,14 +2,47 @@
 
 use std::fmt::{self, Debug};
 
+/// Why input is refused, or a run is ended.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Error {
     /// A field has a value that the model does not allow: what is wrong, and what to write instead.
-    Input { field: String, problem: String, remedy: String },
+    Input {
+        /// The name of the field, as in the JSON form of a scenario, or of an argument.
+        field: String,
+        /// What is wrong with its value.
+        problem: String,
+        /// What to write instead.
+        remedy: String,
+    },
     /// The start has masses in reversed order, first at this gap, overlapped by this length.
-    Overlap { gap: usize, depth: f64 },
+    Overlap {
+        /// The first gap that is below zero.
+        gap: usize,
+        /// How far it is below zero.
+        depth: f64,
+    },
     /// More events than the bound within one unit of time, the last at this gap and time.
-    Work { gap: usize, time: f64, bound: u64 },
+    Work {
+        /// The gap of the last event.
+        gap: usize,
+        /// The time of the last event.
+        time: f64,
+        /// The largest number of events within 1/ω.
+        bound: u64,
+    },
+}
+
+/// The kinds of [`Error`], without what they tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// A value that the model does not allow.
+    Input,
+    /// Masses in reversed order at the start.
+    Overlap,
+    /// More events than a run may have.
+    Work,
 }
 
 impl fmt::Display for Error {
@@ -33,7 +66,25 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {}
 
 impl Error {
-    pub fn input(
+    /// Returns the kind of the error.
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            Error::Input { .. } => ErrorKind::Input,
+            Error::Overlap { .. } => ErrorKind::Overlap,
+            Error::Work { .. } => ErrorKind::Work,
+        }
+    }
+
+    /// Returns the name of the field or argument that is refused, or `None` if a run was ended.
+    pub fn field(&self) -> Option<&str> {
+        match self {
+            Error::Input { field, .. } => Some(field),
+            Error::Overlap { .. } => Some("initial"),
+            Error::Work { .. } => None,
+        }
+    }
+
+    pub(crate) fn input(
         field: impl Into<String>,
         problem: impl Into<String>,
         remedy: impl Into<String>,
@@ -42,7 +93,12 @@ impl Error {
     }
 }
 
-pub fn within<T: PartialOrd + Debug>(field: &str, x: T, low: T, high: T) -> Result<(), Error> {
+pub(crate) fn within<T: PartialOrd + Debug>(
+    field: &str,
+    x: T,
+    low: T,
+    high: T,
+) -> Result<(), Error> {
     if low <= x && x <= high {
         return Ok(());
     }

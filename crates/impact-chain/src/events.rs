@@ -9,11 +9,11 @@
 
 use super::flight::{Motion, Phases, response};
 use super::force::Force;
-use super::impact::{Impact, Sink};
-use super::simulation::{Awaits, Gap, Simulation, clamp_width};
+use super::impact::Impact;
+use super::simulation::{Awaits, Gap, Simulation, Waiting, clamp_width};
 use super::state::AT_REST;
 use super::topology::Topology;
-use super::{Error, Scenario, within};
+use super::{Error, Event, Scenario, within};
 use crate::search::clock::{Instant, LATEST};
 use crate::search::earliest::Earliest;
 use crate::search::first_root::Search;
@@ -35,7 +35,8 @@ const SHUT_AT_START: f64 = 4.0 * f64::EPSILON;
 const AT_REST_OF_TERMS: f64 = 64.0 * f64::EPSILON;
 
 impl<const M: usize> Simulation<M> {
-    pub fn new(scenario: &Scenario) -> Result<Self, Error> {
+    /// Sets a scenario at its time zero, which is `epoch` for observers.
+    pub fn new(scenario: &Scenario, epoch: f64) -> Result<Self, Error> {
         scenario.validate()?;
         let w = scenario.natural_frequency;
         let frequencies = Frequencies::new(w, scenario.frequencies());
@@ -74,14 +75,20 @@ impl<const M: usize> Simulation<M> {
             forces: vec![Force::ZERO; gaps],
             queue: Earliest::new(gaps),
             now: Instant::ZERO,
+            zero: Instant::at(-epoch),
+            event_time: epoch,
+            waiting: Vec::new(),
+            freed: Vec::new(),
+            stuck: Vec::new(),
             joined: (Instant::NEVER, Vec::new()),
             work: Counters::default(),
+            noted: 0,
             first_graze: None,
             budget_end: Instant::ZERO.after(1.0 / w),
             budget_left: EVENTS_PER_GAP * gaps as u64,
         };
         simulation.start()?;
-        simulation.note_graze();
+        simulation.note_grazes();
         Ok(simulation)
     }
 
@@ -129,36 +136,87 @@ impl<const M: usize> Simulation<M> {
         [SHUT_AT_START * width, AT_REST * fastest + AT_REST_OF_TERMS * rate]
     }
 
-    pub fn run(&mut self, until: f64, sink: Sink) -> Result<(), Error> {
+    /// Returns the last instant of the run whose time is `until`.
+    pub fn end(&self, until: f64) -> Result<Instant, Error> {
         within("until", until, -LATEST, LATEST)?;
-        let end = Instant::last_at(until);
-        while let Some((k, is_close)) = self.next_event(end) {
-            let impact = self.step(k, is_close)?;
-            if self.work.undecided > 0 {
-                self.note_graze();
-            }
-            if impact.is_some_and(|impact| !sink(impact)) {
-                return Ok(());
-            }
-        }
-        Ok(())
+        Ok(Instant::last_at(until).shifted(self.zero))
     }
 
-    /// Keeps the first dip that rounding could not decide, by searching new frames again.
+    /// Carries out the next event up to `end` and returns it, or `None` if there is no event.
+    #[inline(always)]
+    pub fn next(&mut self, end: Instant) -> Result<Option<Event>, Error> {
+        loop {
+            if !self.waiting.is_empty()
+                && let Some(first) = self.first_waiting(end)
+            {
+                let event = self.waiting.remove(first).event;
+                self.event_time = event.time();
+                return Ok(Some(event));
+            }
+            let Some((k, is_close)) = self.next_event(end) else { return Ok(None) };
+            let impact = self.step(k, is_close)?;
+            if self.work.undecided > self.noted {
+                self.note_grazes();
+            }
+            if let Some(impact) = impact {
+                self.event_time = impact.time;
+                return Ok(Some(Event::Impact(impact)));
+            }
+        }
+    }
+
+    /// Searches on until the next event up to `end` is known; returns its time, or `None` if there
+    /// is no event.
+    pub fn next_time(&mut self, end: Instant) -> Result<Option<f64>, Error> {
+        loop {
+            if let Some(first) = self.first_waiting(end) {
+                return Ok(Some(self.waiting[first].event.time()));
+            }
+            // The queue goes on to the epoch of its first key.
+            self.queue.first();
+            let (k, at) = self.queue.first_in_full(|_| 0.0);
+            if at > end {
+                return Ok(None);
+            }
+            if !matches!(self.gaps[k].awaits, Awaits::Search { .. }) {
+                return Ok(Some(self.time(at)));
+            }
+            self.now = at;
+            self.step(k, false)?;
+            self.note_grazes();
+        }
+    }
+
+    /// Forgets grazes that an impact has prevented; returns the place of the first waiting event,
+    /// or `None` if it is after `end` or another event.
     #[cold]
-    fn note_graze(&mut self) {
-        if self.work.undecided == 0 || self.first_graze.is_some() {
+    fn first_waiting(&mut self, end: Instant) -> Option<usize> {
+        let gaps = &self.gaps;
+        let stays = |k: usize, [f0, g0]: [f64; 2]| [gaps[k].frame.f0, gaps[k].frame.g0] == [f0, g0];
+        self.waiting.retain(|event| event.dip.is_none_or(|(k, frame)| stays(k, frame)));
+        let first = (0..self.waiting.len()).min_by_key(|&i| self.waiting[i].at)?;
+        let (_, next) = self.queue.first_in_full(|_| 0.0);
+        (self.waiting[first].at <= end.min(next)).then_some(first)
+    }
+
+    /// Notes dips that rounding could not decide, by searching frames of this instant again.
+    #[cold]
+    fn note_grazes(&mut self) {
+        if self.work.undecided == std::mem::replace(&mut self.noted, self.work.undecided) {
             return;
         }
         for (k, gap) in self.gaps.iter().enumerate().filter(|(_, gap)| gap.origin == self.now) {
             let mut work = Counters::default();
             self.search.first_root(&gap.frame, &mut work);
-            let hidden = hidden_dip(&gap.frame, &self.search.frequencies).is_some();
-            if work.undecided > 0 || hidden {
-                let time = self.now.after(self.work.dip).time();
-                self.first_graze = Some(Graze { time, gap: self.topology.label(k) });
-                return;
-            }
+            let hidden = hidden_dip(&gap.frame, &self.search.frequencies).map(|[dip, _]| dip);
+            let undecided = (work.undecided > 0).then_some(work.dip);
+            let dip = Some((k, [gap.frame.f0, gap.frame.g0]));
+            let is_known = self.waiting.iter().any(|event| event.dip == dip);
+            let Some(wait) = undecided.or(hidden).filter(|_| !is_known) else { continue };
+            let at = self.now.after(wait);
+            let graze = Graze { time: self.time(at), gap: self.topology.label(k) };
+            self.first_graze.get_or_insert(graze);
+            self.waiting.push(Waiting { at, dip, event: Event::Graze(graze) });
         }
     }
 
@@ -278,7 +336,7 @@ impl<const M: usize> Simulation<M> {
     fn count_impact(&mut self, k: usize, closing_speed: f64) -> Result<Impact, Error> {
         self.spend(k)?;
         self.work.impacts += 1;
-        Ok(Impact { time: self.now.time(), gap: self.topology.label(k), closing_speed })
+        Ok(Impact { time: self.time(self.now), gap: self.topology.label(k), closing_speed })
     }
 
     /// Takes one event of gap k from the budget of the current unit of time.
@@ -289,7 +347,7 @@ impl<const M: usize> Simulation<M> {
             self.budget_left = bound(self.gaps.len());
         }
         if self.budget_left == 0 {
-            let (gap, time) = (self.topology.label(k), self.now.time());
+            let (gap, time) = (self.topology.label(k), self.time(self.now));
             return Err(Error::Work { gap, time, bound: bound(self.gaps.len()) });
         }
         self.budget_left -= 1;

@@ -3,6 +3,8 @@
 use crate::Scenario;
 use crate::flight::response;
 use crate::search::clock::{Instant, Rate};
+#[cfg(any(feature = "ensembles", feature = "methods"))]
+use crate::topology::Topology;
 
 /// Returns the forced response of each mass at t = 0: displacement and velocity.
 pub fn response_at_zero(scenario: &Scenario) -> Vec<[f64; 2]> {
@@ -67,14 +69,31 @@ impl Component {
 }
 
 /// (sin, cos) of the phase of each component of the forcing.
-#[cfg(feature = "ensembles")]
+#[cfg(feature = "methods")]
 pub type Phases = [(f64, f64); crate::scenario::COMPONENTS];
 
-#[cfg(feature = "ensembles")]
+#[cfg(feature = "methods")]
 pub fn phases(components: &[Component], at: Instant) -> Phases {
     let mut phases = [(0.0, 1.0); crate::scenario::COMPONENTS];
     for (phase, component) in phases.iter_mut().zip(components) {
         *phase = component.phase(at);
     }
     phases
+}
+
+/// Returns the amplitudes of cos ωt, sin ωt, cos Ωt and sin Ωt of each gap, in units of d.
+#[cfg(any(feature = "ensembles", feature = "methods"))]
+pub fn gap_amplitudes(scenario: &Scenario) -> Vec<[f64; 4]> {
+    let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
+    let mut bodies = vec![[0.0; 4]; scenario.forcing.len() + 2];
+    for (j, forces) in scenario.forcing.iter().enumerate() {
+        let [a, b] = scenario.free_part(j);
+        let [c, d] = response(scenario.natural_frequency, scenario.forcing_frequency, *forces);
+        bodies[j + 1] = [a, b, c, d];
+    }
+    let gap = |gap| {
+        let [left, right] = topology.sides(gap).map(|body| bodies[body]);
+        std::array::from_fn(|i| (right[i] - left[i]) / scenario.spacing)
+    };
+    (0..topology.gaps()).map(gap).collect()
 }

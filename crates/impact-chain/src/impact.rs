@@ -1,8 +1,11 @@
 //! Defines an impact, the receivers of impacts, and the impact law.
 
+#[cfg(feature = "methods")]
 use crate::Error;
 
+/// The impact of two neighbours, or of a mass and a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct Impact {
     /// Time t, in the units of the scenario.
     pub time: f64,
@@ -13,9 +16,11 @@ pub struct Impact {
 }
 
 /// Receives the impacts of a run in order; returns false to stop it.
+#[cfg(feature = "methods")]
 pub type Sink<'a> = &'a mut dyn FnMut(Impact) -> bool;
 
 /// Collects the first `most` impacts of a run, or all if there are fewer.
+#[cfg(feature = "methods")]
 pub fn collect<T>(
     most: usize,
     run: impl FnOnce(Sink) -> Result<T, Error>,

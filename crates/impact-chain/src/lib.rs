@@ -19,6 +19,7 @@
 //! **Eq. (1)** (step towards (2)): a piecewise smooth system, smooth in flight, with a jump of
 //! velocities at impacts.
 
+#![deny(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 #[cfg(feature = "ensembles")]
@@ -31,12 +32,13 @@ pub mod counts;
 mod elastic;
 mod engine;
 mod error;
+mod event;
 mod events;
 mod flight;
 mod force;
 mod forcing;
 mod impact;
-#[cfg(feature = "ensembles")]
+#[cfg(feature = "methods")]
 pub mod methods;
 #[cfg(feature = "ensembles")]
 pub mod mode_jump;
@@ -46,14 +48,14 @@ mod resampling;
 pub mod rise;
 pub mod rounding;
 mod scenario;
-#[cfg(feature = "ensembles")]
+#[cfg(feature = "serde")]
 mod scenario_file;
 mod search;
 mod simulation;
 mod state;
 mod topology;
 mod validation;
-#[cfg(feature = "ensembles")]
+#[cfg(any(feature = "ensembles", feature = "methods"))]
 mod vectors;
 
 #[cfg(feature = "ensembles")]
@@ -62,12 +64,19 @@ pub use chain::{Boundary, Chain, Start};
 #[cfg(feature = "ensembles")]
 pub use counts::{Counts, Protocol, Watch};
 pub use engine::Engine;
-pub use error::{Error, within};
-pub use impact::{Impact, Sink};
+use error::within;
+pub use error::{Error, ErrorKind};
+pub use event::{End, Event};
+pub use impact::Impact;
+#[cfg(feature = "methods")]
+pub use impact::Sink;
+#[cfg(feature = "random")]
 pub use impact_numerics::random::NormalPairs;
+#[cfg(feature = "ensembles")]
+pub use impact_numerics::statistics::Estimate;
 pub use scenario::{Initial, Overtone, Scenario};
 pub use search::clock::LATEST;
 pub use search::outcome::{Counters, Graze};
 pub use state::State;
-#[cfg(feature = "ensembles")]
+#[cfg(any(feature = "ensembles", feature = "methods"))]
 pub use vectors::without_wide_vectors;

@@ -11,6 +11,7 @@
 use impact_numerics::bootstrap;
 use impact_numerics::estimates::LEVEL;
 use impact_numerics::statistics::Estimate;
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
@@ -18,32 +19,37 @@ const RESAMPLES: u64 = 400;
 
 /// Which numbers compete: one at an end, the bulk at least N/10 from it, and those between.
 #[derive(Clone, Debug)]
-pub struct Parts {
-    pub end: usize,
-    pub between: RangeInclusive<usize>,
-    pub bulk: RangeInclusive<usize>,
+struct Parts {
+    end: usize,
+    between: RangeInclusive<usize>,
+    bulk: RangeInclusive<usize>,
 }
 
 impl Parts {
     /// Returns the parts of the counts 1 to `gaps`, whose end is all gaps.
-    pub fn all_gaps(gaps: usize) -> Parts {
+    fn all_gaps(gaps: usize) -> Parts {
         let last = gaps - gaps.div_ceil(10);
         Parts { end: gaps, between: last + 1..=gaps - 1, bulk: 2..=last }
     }
 
     /// Returns the parts whose end is a single gap.
-    pub fn single_gap(gaps: usize) -> Parts {
+    fn single_gap(gaps: usize) -> Parts {
         let first = 1 + gaps.div_ceil(10);
         Parts { end: 1, between: 2..=first - 1, bulk: first..=gaps - gaps.div_ceil(10) }
     }
 }
 
 /// Shares of chains at one σ: at the end, in the peak of the bulk, and in the likeliest between.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Heights {
+    /// Standard deviation σ of the amplitudes.
     pub sigma: f64,
+    /// Share of the number at the end.
     pub end: f64,
+    /// Share of the peak of the bulk.
     pub bulk: f64,
+    /// Share of the likeliest number between.
     pub between: f64,
     /// Number of gaps at the peak of the bulk.
     pub peak: f64,
@@ -82,7 +88,7 @@ fn peak(
 
 impl Heights {
     /// Computes the shares of one σ from the histograms of the two halves of its chains.
-    pub fn new(sigma: f64, halves: &[Vec<u32>; 2], parts: &Parts, half_width: usize) -> Heights {
+    fn new(sigma: f64, halves: &[Vec<u32>; 2], parts: &Parts, half_width: usize) -> Heights {
         let total = |half: &Vec<u32>| half.iter().skip(1).sum::<u32>();
         let chains = f64::from(halves.iter().map(total).sum::<u32>().max(1));
         let [place, bulk] = peak(halves, &parts.bulk, half_width, chains);
@@ -94,20 +100,20 @@ impl Heights {
 
 /// Where the end and the bulk are equally likely, read from lines through the σ around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
-    pub sigma: f64,
+struct Crossing {
+    sigma: f64,
     /// Number of gaps at the peak of the bulk there.
-    pub peak: f64,
+    peak: f64,
     /// Height there less that of the likeliest number between, over the height.
-    pub clearance: f64,
+    clearance: f64,
 }
 
 /// Distance in σ within which curves are taken as straight.
-pub const STRAIGHT: f64 = 0.0075;
+const STRAIGHT: f64 = 0.0075;
 
 /// Finds where the end overtakes the bulk, or the other way round for a single gap: the logarithm
 /// of the ratio of their shares is a straight line there. Returns `None` without such a place.
-pub fn crossing(rows: &[Heights], rises: bool) -> Option<Crossing> {
+fn crossing(rows: &[Heights], rises: bool) -> Option<Crossing> {
     // Up to there what is overtaken leads in all: one row that is off by chance is no place.
     let (mut sum, mut least, mut after) = (0.0, 0.0, 0_usize);
     for (row, number) in rows.iter().zip(1..) {
@@ -157,7 +163,9 @@ fn line(points: impl Iterator<Item = (f64, f64, f64)>) -> Option<(f64, f64)> {
 /// The counts of independent realisations at one σ; `None` for a run that was not complete.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample<'a> {
+    /// Standard deviation σ of the amplitudes.
     pub sigma: f64,
+    /// The count of each realisation.
     pub counts: &'a [Option<u32>],
     /// Seed of its resamples, another for each σ.
     pub seed: u64,
@@ -183,12 +191,16 @@ impl Sample<'_> {
     }
 }
 
-/// A [`Crossing`] with bootstrap errors, each `None` where the sample shows none; where the mode
-/// surely climbs there is a clearance only.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// Where the most likely count passes from one part to another, with bootstrap errors, each `None`
+/// where the sample shows none; where the mode surely climbs there is a clearance only.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Passing {
+    /// The σ at which both are equally likely.
     pub sigma: Option<Estimate>,
+    /// Number of gaps at the peak of the bulk there.
     pub peak: Option<Estimate>,
+    /// Height there less that of the likeliest number between, over the height.
     pub clearance: Option<Estimate>,
 }
 
@@ -213,7 +225,8 @@ impl Passing {
 }
 
 /// The most likely count in one window, against σ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct ModeJump {
     /// For each σ the shares of all gaps, of the bulk and of the numbers between.
     pub rows: Vec<Heights>,
@@ -225,9 +238,18 @@ pub struct ModeJump {
     pub single_gap: Passing,
 }
 
-/// Measures the jump in samples at rising σ, whose bulk is smoothed over the numbers within
-/// `half_width` of each.
-pub fn mode_jump(samples: &[Sample<'_>], gaps: usize, half_width: usize) -> ModeJump {
+/// How counts are read as a distribution.
+#[derive(Clone, Copy, Debug)]
+pub struct Histogram {
+    /// The largest count, N.
+    pub gaps: usize,
+    /// The bulk is smoothed over the numbers within this of each.
+    pub half_width: usize,
+}
+
+/// Measures the jump in samples at rising σ.
+pub fn mode_jump(samples: &[Sample<'_>], histogram: Histogram) -> ModeJump {
+    let Histogram { gaps, half_width } = histogram;
     let read = |halves: &dyn Fn(&Sample<'_>) -> [Vec<u32>; 2]| {
         let [upper, lower] = [Parts::all_gaps(gaps), Parts::single_gap(gaps)];
         let both = samples.iter().map(|sample| {

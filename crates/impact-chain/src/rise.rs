@@ -5,28 +5,36 @@ pub use crate::resampling::ONSET;
 use crate::resampling::{Places, Resampled, Sample};
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::{Estimate, mean, mode, standard_error};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 /// Counts in one window, against σ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Curve {
+    /// The window.
     pub protocol: Protocol,
     /// One row for each σ, rising.
     pub rows: Vec<RisePoint>,
+    /// Where the curve rises.
     pub rise: Rise,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// The mean of a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Mean {
+    /// The mean.
     pub value: f64,
     /// Standard error; none from a single number.
     pub error: Option<f64>,
+    /// The interval of 95 % by the bootstrap, if there is one.
     pub interval: Option<[f64; 2]>,
 }
 
 impl Mean {
-    fn of(sample: &[f64], interval: Option<[f64; 2]>) -> Option<Mean> {
-        Some(Mean { value: mean(sample)?, error: standard_error(sample), interval })
+    fn of(sample: &[f64]) -> Option<Mean> {
+        Some(Mean { value: mean(sample)?, error: standard_error(sample), interval: None })
     }
 
     /// Returns the mean with its standard error and the normal interval; none without an error.
@@ -36,7 +44,8 @@ impl Mean {
 }
 
 /// Counts at one σ, of chains or their pieces. The paper discards those without an impact.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct RisePoint {
     /// Standard deviation σ of the amplitudes.
     pub sigma: f64,
@@ -50,6 +59,7 @@ pub struct RisePoint {
     pub mean_all: Option<Mean>,
     /// Mode over those with at least one; the lowest of several.
     pub mode: Option<usize>,
+    /// The interval of the mode of 95 %.
     pub mode_interval: Option<[usize; 2]>,
     /// Impacts of a whole chain in the window: mean over realisations with at least one.
     pub impacts: Option<Mean>,
@@ -60,7 +70,8 @@ pub struct RisePoint {
 }
 
 /// Places of the rise on the σ axis, each the last rise of a curve through a level, or none.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Rise {
     /// Half height: the mean over realisations with an impact reaches N/2.
     pub half_height: Option<Estimate>,
@@ -78,18 +89,32 @@ pub struct Rise {
     pub quarters: Option<Estimate>,
 }
 
+/// What a [`Curve`] is computed from.
+#[derive(Clone, Copy, Debug)]
+pub struct CurveData<'a> {
+    /// The window.
+    pub protocol: Protocol,
+    /// Its number among those of the counts, from 0 on.
+    pub window: usize,
+    /// The standard deviations σ, rising.
+    pub sigmas: &'a [f64],
+    /// The counts at each σ.
+    pub counts: &'a [Counts],
+    /// Whether each σ has a part in the places of the rise.
+    pub compared: &'a [bool],
+    /// The number N of gaps behind each count, on average.
+    pub gaps: f64,
+    /// Seed of the resamples.
+    pub seed: u64,
+}
+
 impl Curve {
-    /// Computes the curve of a window from the counts at each σ, of which it is the one with this
-    /// index. Rows that are not `compared` have no part in the places of the rise. `gaps` is the
-    /// number N behind each count, and `seed` that of the resamples.
-    pub fn new(
-        (window, protocol): (usize, Protocol),
-        sigmas: &[f64],
-        counts: &[Counts],
-        compared: &[bool],
-        gaps: f64,
-        seed: u64,
-    ) -> Curve {
+    /// Computes the curve of a window from the counts at each σ.
+    ///
+    /// # Panics
+    /// Panics if the counts have no window of this number, or a count is above `gaps`.
+    pub fn new(data: &CurveData) -> Curve {
+        let &CurveData { window, protocol, sigmas, counts, compared, gaps, seed } = data;
         let mut used: Vec<&[Option<u32>]> = Vec::new();
         for (found, &compared) in counts.iter().zip(compared) {
             used.push(if compared { &found.distinct[window] } else { &[] });
@@ -99,12 +124,15 @@ impl Curve {
         let interval = |pick: &dyn Fn(&Places) -> Option<f64>| Some(all.estimate(pick)?.interval);
         let mut rows = Vec::with_capacity(counts.len());
         for (row, (&sigma, found)) in sigmas.iter().zip(counts).enumerate() {
-            let intervals =
-                [interval(&|places| places.mean[row]), interval(&|places| places.mean_all[row])];
-            rows.push(RisePoint {
-                mode_interval: all.mode_interval(row),
-                ..RisePoint::new(sigma, found, window, all.largest, intervals)
-            });
+            let mut point = RisePoint::new(sigma, found, Column { window, largest: all.largest });
+            point.mode_interval = all.mode_interval(row);
+            if let Some(mean) = &mut point.mean {
+                mean.interval = interval(&|places| places.mean[row]);
+            }
+            if let Some(mean) = &mut point.mean_all {
+                mean.interval = interval(&|places| places.mean_all[row]);
+            }
+            rows.push(point);
         }
         let [half_height, half_height_all, onset, kept_half, width, kept_width, quarters] =
             all.rise();
@@ -114,15 +142,22 @@ impl Curve {
     }
 }
 
+/// Which of the counts a [`RisePoint`] shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Column {
+    /// The number of the window, from 0 on.
+    pub window: usize,
+    /// The largest count that is possible.
+    pub largest: usize,
+}
+
 impl RisePoint {
-    /// Computes the row of a σ, without the interval of the mode; counts go up to `largest`.
-    pub fn new(
-        sigma: f64,
-        found: &Counts,
-        window: usize,
-        largest: usize,
-        intervals: [Option<[f64; 2]>; 2],
-    ) -> RisePoint {
+    /// Computes the row of a σ, without intervals.
+    ///
+    /// # Panics
+    /// Panics if the counts have no such window, or one is above the largest.
+    pub fn new(sigma: f64, found: &Counts, column: Column) -> RisePoint {
+        let Column { window, largest } = column;
         let mut counts = vec![0; largest + 1];
         let mut all = Vec::new();
         for &k in found.distinct[window].iter().flatten() {
@@ -140,12 +175,12 @@ impl RisePoint {
             sigma,
             ran: all.len(),
             kept: kept.len(),
-            mean: Mean::of(&kept, intervals[0]),
-            mean_all: Mean::of(&all, intervals[1]),
+            mean: Mean::of(&kept),
+            mean_all: Mean::of(&all),
             mode: mode(&kept_counts),
             mode_interval: None,
-            impacts: Mean::of(&impacts, None),
-            masses: Mean::of(&masses, None),
+            impacts: Mean::of(&impacts),
+            masses: Mean::of(&masses),
             counts,
         }
     }
@@ -172,7 +207,9 @@ mod tests {
         let sigmas = [0.1, 0.2, 0.3, 0.4, 0.5];
         let protocol = Protocol { transient: 0.0, window: 1.0 };
         let compared = [true, true, true, false, true];
-        let found = Curve::new((0, protocol), &sigmas, &counts, &compared, 10.0, 1);
+        let (sigmas, counts, compared) = (&sigmas[..], &counts[..], &compared[..]);
+        let data = CurveData { window: 0, protocol, sigmas, counts, compared, gaps: 10.0, seed: 1 };
+        let found = Curve::new(&data);
         let near =
             |place: Option<Estimate>, value: f64| (place.unwrap().value - value).abs() < 1e-14;
         assert!(near(found.rise.half_height, 0.3 + 0.2 / 6.0));
@@ -196,7 +233,7 @@ mod tests {
         let all = all.map(|(k, impacts, masses)| one(k, impacts, masses));
         let rejected = Counts { rejected: 1, ..one(None, 0, 0) };
         let counts: Counts = all.into_iter().chain([rejected]).collect();
-        let row = RisePoint::new(0.1, &counts, 0, 10, [None; 2]);
+        let row = RisePoint::new(0.1, &counts, Column { window: 0, largest: 10 });
         assert_eq!((row.ran, row.kept, row.mode), (4, 3, Some(4)));
         let mean = |mean: Option<Mean>| mean.map(|mean| (mean.value, mean.error.unwrap()));
         assert_eq!(mean(row.mean), Some((6.0, 2.0))); // s = √12, over √3

@@ -3,10 +3,13 @@
 use crate::error::{Error, pairs_within};
 use crate::flight::response;
 use crate::{Boundary, Chain, Start};
+#[cfg(feature = "random")]
 use impact_numerics::random::NormalPairs;
 
+/// The start of a scenario at t = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Initial {
+    /// At rest at the places of equilibrium.
     Rest,
     /// Given free parts (a_j, b_j): x_j = j d + a_j cos ωt + b_j sin ωt + forced response.
     Free(Vec<[f64; 2]>),
@@ -15,6 +18,7 @@ pub enum Initial {
 pub const COMPONENTS: usize = 8;
 
 /// Draws one pair of normals with standard deviation `sigma` for each mass.
+#[cfg(feature = "random")]
 pub(crate) fn draw_pairs(masses: usize, sigma: f64, normals: &mut NormalPairs) -> Vec<[f64; 2]> {
     (0..masses).map(|_| normals.pair().map(|x| sigma * x)).collect()
 }
@@ -23,14 +27,21 @@ pub(crate) fn draw_pairs(masses: usize, sigma: f64, normals: &mut NormalPairs) -
 ///
 /// **Eq. (3)**: the forcing is a sum over components; the paper goes on with one, Eq. (5).
 #[derive(Clone, Debug, PartialEq)]
+#[must_use]
 pub struct Scenario {
+    /// Distance d between equilibria, the unit of lengths, from 1e-6 to 1e6.
     pub spacing: f64,
+    /// Natural frequency ω in radians per unit of time, from 1e-3 to 1e3.
     pub natural_frequency: f64,
+    /// Forcing frequency Ω, likewise; not ω.
     pub forcing_frequency: f64,
+    /// Coefficient of restitution r, from 0 (no rebound) to 1 (elastic).
     pub restitution: f64,
+    /// What stands at the ends.
     pub boundary: Boundary,
+    /// The start.
     pub initial: Initial,
-    /// Amplitudes (α_j, β_j) of Eq. (5), one pair for each mass.
+    /// Amplitudes (α_j, β_j) of Eq. (5), one pair for each mass; accelerations, as masses are 1.
     pub forcing: Vec<[f64; 2]>,
     /// Further components of the forcing, Eq. (3); the paper has none.
     pub overtones: Vec<Overtone>,
@@ -39,8 +50,10 @@ pub struct Scenario {
     pub places: Option<Vec<f64>>,
 }
 
+/// A further component of the forcing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overtone {
+    /// Its frequency Ω, from 1e-3 to 1e3, not ω.
     pub frequency: f64,
     /// Amplitudes (α_j, β_j), one pair for each mass.
     pub amplitudes: Vec<[f64; 2]>,
@@ -52,6 +65,7 @@ impl Scenario {
     /// Draws the amplitudes α_j, β_j of the forcing α_j cos Ωt + β_j sin Ωt with standard
     /// deviation `sigma` from `normals`: first the n pairs of the forcing, then, for a random
     /// start, the n pairs of the free part.
+    #[cfg(feature = "random")]
     pub fn draw(chain: &Chain, sigma: f64, normals: &mut NormalPairs) -> Scenario {
         let mut scenario = Scenario::of(chain, draw_pairs(chain.masses, sigma, normals));
         if chain.start == Start::Random {
@@ -116,7 +130,9 @@ impl Scenario {
         std::iter::once((self.forcing_frequency, self.forcing.as_slice())).chain(further)
     }
 
-    pub fn fastest(&self) -> f64 {
+    /// Returns the largest of all frequencies.
+    #[cfg(feature = "methods")]
+    pub(crate) fn fastest(&self) -> f64 {
         self.components().fold(self.natural_frequency, |fastest, (big_w, _)| fastest.max(big_w))
     }
 
@@ -132,6 +148,7 @@ impl Scenario {
         std::array::from_fn(|_| components.next().unwrap_or_default())
     }
 
+    /// Returns the number of gaps, N.
     pub fn gaps(&self) -> usize {
         self.boundary.gaps(self.forcing.len())
     }

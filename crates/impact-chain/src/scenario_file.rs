@@ -5,7 +5,8 @@ use crate::scenario::{COMPONENTS, Initial, Overtone, Scenario, draw_pairs};
 use crate::state::State;
 use crate::{Boundary, Chain, Engine};
 use impact_numerics::random::NormalPairs;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 
 /// One component: a pair for each mass.
@@ -105,6 +106,10 @@ impl Scenario {
     /// without the places of the walls on a ring. One that [`Scenario::validate`] refuses is not
     /// read again, or as another.
     pub fn to_json(&self) -> String {
+        serde_json::to_string(self).unwrap_or_default()
+    }
+
+    fn to_file(&self) -> ScenarioFile {
         let several = !self.overtones.is_empty();
         let (frequencies, lists) =
             self.components().map(|(frequency, pairs)| (frequency, pairs.to_vec())).unzip();
@@ -115,7 +120,7 @@ impl Scenario {
             }
             _ => (None, None),
         };
-        let file = ScenarioFile {
+        ScenarioFile {
             spacing: self.spacing,
             natural_frequency: self.natural_frequency,
             forcing_frequency: (!several).then_some(self.forcing_frequency),
@@ -133,8 +138,21 @@ impl Scenario {
             } else {
                 Forcing::One(self.forcing.clone())
             },
-        };
-        serde_json::to_string(&file).unwrap_or_default()
+        }
+    }
+}
+
+/// In the form of [`Scenario::to_json`].
+impl Serialize for Scenario {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.to_file().serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Scenario {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Scenario, D::Error> {
+        let file = ScenarioFile::deserialize(deserializer)?;
+        file.into_scenario().map_err(D::Error::custom)
     }
 }
 

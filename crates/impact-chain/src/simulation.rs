@@ -1,6 +1,7 @@
 //! Holds the state of a simulation, and keeps the frame and the next event of each gap.
 
 use super::error::Error;
+use super::event::Event;
 use super::flight::{Motion, Phases};
 use super::force::Force;
 use super::impact::jumps;
@@ -37,6 +38,15 @@ pub(super) struct Gap<const M: usize> {
     pub hit_at_start: bool,
 }
 
+/// An event that is known before its turn.
+#[derive(Clone, Debug)]
+pub(super) struct Waiting {
+    pub at: Instant,
+    /// Of a graze the gap, and width and rate of its frame, which an impact before it changes.
+    pub dip: Option<(usize, [f64; 2])>,
+    pub event: Event,
+}
+
 /// The simulation of one scenario with `M` components of the forcing.
 #[derive(Clone, Debug)]
 pub(super) struct Simulation<const M: usize> {
@@ -57,9 +67,19 @@ pub(super) struct Simulation<const M: usize> {
     pub(super) forces: Vec<Force<M>>,
     pub(super) queue: Earliest,
     pub(super) now: Instant,
+    /// The instant at which observers have t = 0: not that of the start if a state goes on.
+    pub(super) zero: Instant,
+    /// The time of the last event that was returned.
+    pub(super) event_time: f64,
+    pub(super) waiting: Vec<Waiting>,
+    /// Gaps whose contact ended or began in the change that is being made.
+    pub(super) freed: Vec<usize>,
+    pub(super) stuck: Vec<usize>,
     /// The last instant at which contact was involved, and the gaps hit then without rebound.
     pub(super) joined: (Instant, Vec<usize>),
     pub(super) work: Counters,
+    /// How many undecided dips are noted, and the first of them.
+    pub(super) noted: u64,
     pub(super) first_graze: Option<Graze>,
     pub(super) budget_end: Instant,
     pub(super) budget_left: u64,
@@ -74,7 +94,14 @@ pub(super) fn clamp_width<const M: usize>(frame: &mut Frame<M>) {
 }
 
 impl<const M: usize> Simulation<M> {
+    /// Returns the time of an instant for observers.
+    #[inline(always)]
+    pub(super) fn time(&self, at: Instant) -> f64 {
+        at.since(self.zero)
+    }
+
     /// Applies the impact law to the two neighbours of gap k; returns the jumps of their velocity.
+    #[inline(always)]
     pub(super) fn kick_neighbours(&mut self, k: usize, speed: f64, p: &Phases<M>) -> [f64; 2] {
         let sides = self.topology.sides(k);
         let jumps = jumps(speed, self.restitution, self.topology.inverse_masses(k));
@@ -208,9 +235,11 @@ impl<const M: usize> Simulation<M> {
     /// Returns the phases at a time from the last event to the next.
     fn phases_in_flight(&self, time: f64) -> Result<Phases<M>, Error> {
         let (_, next) = self.queue.first_in_full(|_| 0.0);
-        let (from, to) = (self.now.time(), next.time().min(LATEST));
+        let latest = Instant::at(LATEST).shifted(self.zero);
+        let (from, to) = (self.event_time, self.time(next.min(latest)));
         if (from..=to).contains(&time) {
-            return Ok(Phases::at(&self.search.frequencies, Instant::at(time)));
+            let at = Instant::at(time).shifted(self.zero);
+            return Ok(Phases::at(&self.search.frequencies, at));
         }
         let problem = format!("{time:?} is not between the last event and the next");
         let remedy = format!("give {from:?} to {to:?}, or run the engine to that time first");

@@ -8,13 +8,15 @@ use crate::topology::Topology;
 
 /// Positions and velocities of the masses 1..n at a time, from which a method starts.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "ensembles", derive(serde::Deserialize, serde::Serialize))]
-#[cfg_attr(feature = "ensembles", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[must_use]
 pub struct State {
     /// Time t, from 0 to 1e12.
     pub time: f64,
     /// x_1..x_n, counted from the left wall.
     pub positions: Vec<f64>,
+    /// v_1..v_n.
     pub velocities: Vec<f64>,
 }
 

@@ -6,7 +6,7 @@ use crate::scenario::{COMPONENTS, Initial, Scenario};
 
 impl Scenario {
     /// Checks that the places are the paper's, j d, which most methods take for granted.
-    #[cfg(feature = "ensembles")]
+    #[cfg(feature = "methods")]
     pub(crate) fn check_uniform(&self) -> Result<(), Error> {
         let problem = "only the method certified supports places of equilibrium";
         match self.places {

@@ -14,6 +14,7 @@ pub mod double_double;
 #[cfg(feature = "statistics")]
 pub mod estimates;
 pub mod quadrature;
+#[cfg(feature = "random")]
 pub mod random;
 pub mod roots;
 pub mod scaled;

@@ -1,13 +1,17 @@
 //! Computes estimates from samples: means, modes, quantiles, proportions and their errors.
 
-use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 use statrs::function::beta::inv_beta_reg;
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// A number with its error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct Estimate {
+    /// The number.
     pub value: f64,
+    /// Its standard error.
     pub error: f64,
+    /// Where it lies with a confidence of 95 %.
     pub interval: [f64; 2],
 }
 

@@ -7,12 +7,13 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![deny(unsafe_op_in_unsafe_fn)]
 
-use impact_chain::{Boundary, Chain, Engine, Impact, NormalPairs, Scenario, Start};
+use impact_chain::{Boundary, Chain, End, Engine, Event, Impact, NormalPairs, Scenario, Start};
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::jump;
 use sha2::{Digest, Sha256};
 use std::cell::RefCell;
+use std::ops::ControlFlow::{Break, Continue};
 
 /// Columns of the picture in space and time.
 const COLUMNS: usize = 640;
@@ -63,7 +64,10 @@ impl Page {
             return Ok(false);
         };
         let (gaps, mut left) = (hit.len(), most);
-        let ended = engine.run(*until, |Impact { time, gap, closing_speed }| {
+        let ended = engine.run(*until, |event, _| {
+            let Event::Impact(Impact { time, gap, closing_speed }) = *event else {
+                return Continue(());
+            };
             for bits in [time.to_bits(), gap as u64, closing_speed.to_bits()] {
                 hash.update(bits.to_le_bytes());
             }
@@ -73,11 +77,11 @@ impl Page {
             let column = ((time / *until * COLUMNS as f64) as usize).min(COLUMNS - 1);
             self.picture[gap * COLUMNS + column] += 1;
             left = left.saturating_sub(1);
-            left > 0
+            if left > 0 { Continue(()) } else { Break(()) }
         });
         let distinct = hit.iter().filter(|hit| **hit).count();
         self.numbers = vec![
-            if ended.is_ok() && left == 0 { engine.time() } else { *until },
+            if ended == Ok(End::Stopped) { engine.time() } else { *until },
             engine.counters().impacts as f64,
             distinct as f64,
             gaps as f64,
@@ -85,7 +89,7 @@ impl Page {
         ];
         let digest = hash.clone().finalize();
         self.text = digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>().into();
-        ended.map(|()| left == 0).map_err(|error| error.to_string())
+        ended.map(|end| end == End::Stopped).map_err(|error| error.to_string())
     }
 }
 

@@ -2,7 +2,8 @@
 
 use crate::experiments::prelude::*;
 use impact_chain::Error as Failure;
-use impact_chain::methods::Method;
+use impact_chain::Sink;
+use impact_chain::methods::{Cost, Task};
 use serde_json::Value as Json;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -103,6 +104,9 @@ pub fn scenes() -> Vec<Scene> {
     read.unwrap_or_else(|error| panic!("scenes/scenes.json: {error}; mend it and build again"))
 }
 
+/// How a method runs a case.
+pub type Run<'a> = dyn Fn(Task, Sink) -> Result<Cost, Failure> + 'a;
+
 impl Case {
     /// Returns the simulated time from its start to its end.
     pub fn length(&self) -> f64 {
@@ -115,10 +119,10 @@ impl Case {
     }
 
     /// Returns the outcome, and the least speed at which a gap opened by the law; infinite if none.
-    pub fn run(&self, method: &dyn Method) -> (Outcome, f64) {
+    pub fn run(&self, method: &Run) -> (Outcome, f64) {
         let Ok(scenario) = self.chain() else { return (Outcome::Refused, f64::INFINITY) };
         let (mut seen, mut slowest) = (Vec::new(), f64::INFINITY);
-        let ran = method.run((&scenario, &self.start, self.until), &mut |impact| {
+        let ran = method((&scenario, &self.start, self.until), &mut |impact| {
             slowest = slowest.min(scenario.restitution * impact.closing_speed);
             if self.expected.counts(&impact) {
                 seen.push(impact);
@@ -213,33 +217,25 @@ fn lawful(before: &[f64], seen: &[Impact]) -> Outcome {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use impact_chain::methods::{Certified, Cost, Task};
-    use impact_chain::{Error, Sink};
+    use impact_chain::methods::{Certified, Method};
 
     /// The engine with another time and closing speed of each impact, or without any.
-    struct False(f64);
-
-    impl Method for False {
-        fn name(&self) -> &'static str {
-            "false"
+    fn wrong(by: f64, task: Task, sink: Sink) -> Result<Cost, Failure> {
+        if by == 0.0 {
+            return Ok(Cost::default());
         }
-
-        fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-            if self.0 == 0.0 {
-                return Ok(Cost::default());
-            }
-            Certified.run((scenario, start, until), &mut |Impact { time, gap, closing_speed }| {
-                let closing_speed = closing_speed * (1.0 + self.0);
-                sink(Impact { time: time + self.0, gap, closing_speed })
-            })
-        }
+        Certified.run(task, &mut |Impact { time, gap, closing_speed }| {
+            let closing_speed = closing_speed * (1.0 + by);
+            sink(Impact { time: time + by, gap, closing_speed })
+        })
     }
 
     #[test]
     fn a_method_that_errs_is_not_right() {
         for scene in scenes() {
             for case in scene.cases.iter().filter(|case| case.until < 1e3) {
-                let [late, blind] = [0.05, 0.0].map(|by| case.run(&False(by)).0);
+                let [late, blind] =
+                    [0.05, 0.0].map(|by| case.run(&|task, sink| wrong(by, task, sink)).0);
                 if late == Outcome::Refused {
                     continue;
                 }

@@ -104,7 +104,8 @@ fn outcome(setting: Setting, case: &Case) -> (Outcome, f64) {
     if setting.value > 0.0 && !setting.method.has_tolerance() && steps > MOST_STEPS {
         return (Outcome::GaveUp, 0.0);
     }
-    case.run(setting.method().as_ref())
+    let method = setting.method();
+    case.run(&|task, sink| method.run(task, sink))
 }
 
 #[cfg(test)]

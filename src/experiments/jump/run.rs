@@ -4,7 +4,7 @@ use crate::experiments::ensembles::{joined, part, rows};
 use crate::experiments::prelude::*;
 use crate::params::{Boundary, Ensemble, Protocol};
 use impact_chain::Counts;
-use impact_chain::mode_jump::{ModeJump, Sample, mode_jump};
+use impact_chain::mode_jump::{Histogram, ModeJump, Sample, mode_jump};
 use literate::experiments::cutting::Cutting;
 use rayon::prelude::*;
 
@@ -70,9 +70,9 @@ fn join(
     let ring_gaps = rings.first().map_or(0, |(ensemble, _)| ensemble.chain.gaps());
     let ring = found(Protocol::default(), &self::samples(&rings, 0), ring_gaps);
     let ours = protocols.iter().position(|protocol| *protocol == Protocol::default());
-    let place = |width: usize| {
-        let jump = ours.map(|window| mode_jump(&samples(window), gaps, width));
-        (width, jump.and_then(|jump| jump.all_gaps.sigma))
+    let place = |half_width: usize| {
+        let jump = ours.map(|window| mode_jump(&samples(window), Histogram { gaps, half_width }));
+        (half_width, jump.and_then(|jump| jump.all_gaps.sigma))
     };
     let widths = HALF_WIDTHS.into_par_iter().map(place).collect();
     Ok(Jumps { ensembles: ensembles.clone(), windows, ring, widths })
@@ -85,7 +85,8 @@ fn found(protocol: Protocol, samples: &[Sample<'_>], gaps: usize) -> WindowJump 
         histogram
     };
     let histograms = samples.iter().map(histogram).collect();
-    WindowJump { protocol, jump: mode_jump(samples, gaps, HALF_WIDTH), histograms }
+    let jump = mode_jump(samples, Histogram { gaps, half_width: HALF_WIDTH });
+    WindowJump { protocol, jump, histograms }
 }
 
 /// Returns the counts of a window at each σ.

@@ -3,7 +3,9 @@
 use super::growth::{Prediction, predictions, sums};
 use crate::experiments::prelude::*;
 use crate::params::{SEED, SeedsParams};
+use impact_chain::Event;
 use impact_circuits::nucleation::{closing_pull, pulls};
+use std::ops::ControlFlow::{Break, Continue};
 use std::ops::Range;
 
 /// A chain whose one gap has not closed by this time is left out.
@@ -122,15 +124,16 @@ fn trace(
     hits[seed] = 1;
     let mut firsts = vec![None; chain.gaps()];
     firsts[seed] = Some(0);
-    let ended = engine.run(first + parameters.until(), |impact| {
+    let ended = engine.run(first + parameters.until(), |event, _| {
+        let Event::Impact(impact) = event else { return Continue(()) };
         let bin = ((impact.time - first) / parameters.bin) as usize;
         hits[impact.gap] |= 1 << bin.min(parameters.bins - 1);
         firsts[impact.gap].get_or_insert((impact.time - first) as u32);
-        !progress.stopped()
+        if progress.stopped() { Break(()) } else { Continue(()) }
     });
     progress.check()?;
     match ended {
-        Ok(()) => Ok(Some(Trace { seed: Some(seed), hits, firsts })),
+        Ok(_) => Ok(Some(Trace { seed: Some(seed), hits, firsts })),
         Err(impact_chain::Error::Work { .. }) => Ok(None),
         Err(source) => Err(fault(source)),
     }

@@ -15,8 +15,7 @@ mod proof;
 mod roots;
 mod slot;
 
-use crate::flight::response;
-use crate::topology::Topology;
+use crate::forcing::gap_amplitudes;
 use crate::vectors::level;
 use crate::{Boundary, Chain, Counts, Protocol, Scenario, Watch};
 use fearless_simd::{Level, dispatch};
@@ -132,29 +131,13 @@ impl Abreast {
             slot.handed_over = true;
             return slot;
         }
-        for (gap, amplitudes) in amplitudes(scenario).into_iter().enumerate() {
+        for (gap, amplitudes) in gap_amplitudes(scenario).into_iter().enumerate() {
             let width = 1.0 + amplitudes[0] + amplitudes[2];
             slot.set(gap, amplitudes, &self.plan);
             slot.handed_over |= width.is_nan() || width <= OPEN;
         }
         slot
     }
-}
-
-/// Returns the amplitudes of cos ωt, sin ωt, cos Ωt and sin Ωt of each gap, in units of d.
-pub(crate) fn amplitudes(scenario: &Scenario) -> Vec<[f64; 4]> {
-    let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
-    let mut bodies = vec![[0.0; 4]; scenario.forcing.len() + 2];
-    for (j, forces) in scenario.forcing.iter().enumerate() {
-        let [a, b] = scenario.free_part(j);
-        let [c, d] = response(scenario.natural_frequency, scenario.forcing_frequency, *forces);
-        bodies[j + 1] = [a, b, c, d];
-    }
-    let gap = |gap| {
-        let [left, right] = topology.sides(gap).map(|body| bodies[body]);
-        std::array::from_fn(|i| (right[i] - left[i]) / scenario.spacing)
-    };
-    (0..topology.gaps()).map(gap).collect()
 }
 
 impl Realisation {
@@ -204,12 +187,12 @@ mod tests {
         for (run, scenario) in early.run(&all, &|| false).into_iter().zip(&all) {
             let mut expected = 0;
             let mut engine = crate::Engine::new(scenario).unwrap();
-            engine
-                .run(60.0, |impact| {
-                    expected += 1;
-                    impact.time <= 30.0
-                })
-                .unwrap();
+            while let Some(impact) = engine.next_impact(60.0).unwrap() {
+                expected += 1;
+                if impact.time > 30.0 {
+                    break;
+                }
+            }
             let counts = run.unwrap().counts();
             assert_eq!(counts.total.impacts, expected);
             after += usize::from(expected > 0);

@@ -1,8 +1,9 @@
 //! Runs the engine of this project under the trait of its rivals.
 
-use super::method::{Cost, Method, Task};
+use super::method::{Cost, Method, Sealed, Task};
 use super::steps::check_end;
-use crate::{Engine, Error, Graze, Impact, LATEST, Sink, State};
+use crate::{Engine, Error, Event, Sink};
+use std::ops::ControlFlow::{Break, Continue};
 
 /// The exact event-driven engine: flight in closed form, the first root of each gap certified.
 ///
@@ -13,6 +14,8 @@ use crate::{Engine, Error, Graze, Impact, LATEST, Sink, State};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Certified;
 
+impl Sealed for Certified {}
+
 impl Method for Certified {
     fn name(&self) -> &'static str {
         "certified"
@@ -20,19 +23,11 @@ impl Method for Certified {
 
     fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
         check_end(until)?;
-        scenario.validate()?;
-        let same = *start == State::of(scenario);
-        let moved = if same { None } else { Some(start.as_scenario(scenario)?) };
-        let mut engine = Engine::new(moved.as_ref().unwrap_or(scenario))?;
-        let later = |time: f64| start.time + time;
-        engine
-            .run((until - start.time).max(-LATEST), |hit| {
-                sink(Impact { time: later(hit.time), ..hit })
-            })
-            .map_err(|error| match error {
-                Error::Work { gap, time, bound } => Error::Work { gap, time: later(time), bound },
-                other => other,
-            })?;
+        let mut engine = Engine::from_state(scenario, start)?;
+        engine.run(until, |event, _| match event {
+            Event::Impact(impact) if !sink(*impact) => Break(()),
+            _ => Continue(()),
+        })?;
         let counters = engine.counters();
         Ok(Cost {
             impacts: counters.impacts,
@@ -40,7 +35,7 @@ impl Method for Certified {
             evaluations: counters.evaluations,
             simultaneous: counters.simultaneous,
             undecided: counters.undecided,
-            first_graze: engine.first_graze().map(|at| Graze { time: later(at.time), ..at }),
+            first_graze: engine.first_graze(),
         })
     }
 }

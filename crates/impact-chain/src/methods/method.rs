@@ -3,9 +3,14 @@
 use crate::impact::{Impact, Sink, collect};
 use crate::{Error, Graze, Scenario, State};
 
+/// What no other crate can implement.
+pub trait Sealed {}
+
 /// Counted work of a method: deterministic.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Cost {
+    /// Impacts found.
     pub impacts: u64,
     /// Steps in time; for the certified engine, searches.
     pub steps: u64,
@@ -15,10 +20,12 @@ pub struct Cost {
     pub simultaneous: u64,
     /// Dips of gaps that rounding could not decide, and the first of them; no rival detects them.
     pub undecided: u64,
+    /// The first of these dips.
     pub first_graze: Option<Graze>,
 }
 
 impl Cost {
+    /// Returns the evaluations of an impact, or `None` without impacts.
     pub fn evaluations_per_impact(&self) -> Option<f64> {
         (self.impacts > 0).then(|| self.evaluations as f64 / self.impacts as f64)
     }
@@ -27,7 +34,8 @@ impl Cost {
 /// A chain, the state from which it starts (not the scenario's), and the time until which it runs.
 pub type Task<'a> = (&'a Scenario, &'a State, f64);
 
-pub trait Method: Sync {
+/// A way to simulate a chain. Only this crate has some: another may not rely on their parts.
+pub trait Method: Sealed + Sync {
     /// Returns the name, as in `trace --method`, e.g. "verlet".
     fn name(&self) -> &'static str;
 
@@ -47,6 +55,7 @@ pub trait Method: Sync {
         Ok(collect(1, |sink| self.run(task, sink))?.pop())
     }
 
+    /// Returns all impacts, in order.
     fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
         collect(usize::MAX, |sink| self.run(task, sink))
     }

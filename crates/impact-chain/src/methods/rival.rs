@@ -1,6 +1,6 @@
 //! Runs the methods other than the engine, which share all but their steps.
 
-use super::method::{Cost, Method, Task};
+use super::method::{Cost, Method, Sealed, Task};
 use super::steps::{Step, Steps, check_end};
 use super::tally::{Stop, Tally};
 use crate::search::clock::Rate;
@@ -17,6 +17,8 @@ pub trait Rival: Sync {
 
 /// Goes from the start of a task to its end, and hands each impact to the tally.
 pub type Run = Box<dyn FnOnce(&mut Tally) -> Result<(), Stop>>;
+
+impl<R: Rival> Sealed for R {}
 
 impl<R: Rival> Method for R {
     fn name(&self) -> &'static str {

@@ -8,7 +8,8 @@
 use super::method::Task;
 use super::rival::{Rival, Run};
 use crate::{Boundary, Error, Scenario, State};
-use impact_numerics::double_double::{DoubleDouble, sin_cos};
+pub use impact_numerics::double_double::DoubleDouble;
+use impact_numerics::double_double::sin_cos;
 
 /// The true motion as a method.
 ///
@@ -65,9 +66,13 @@ pub struct TrueMotion {
     open: Vec<DoubleDouble>,
 }
 
+/// An impact of the true motion.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Hit {
+    /// Time t, to some thirty digits.
     pub time: DoubleDouble,
+    /// The gap, as in [`Impact`](crate::Impact).
     pub gap: usize,
     /// −Δ' just before the impact.
     pub closing_speed: f64,
@@ -210,6 +215,7 @@ impl TrueMotion {
         if g.hi < 0.0 { f * 2.0 / (root - g) } else { (g + root) / dd(b) }
     }
 
+    /// Carries out the impact that [`next`](TrueMotion::next) found.
     pub fn advance(&mut self, hit: &Hit) {
         let phases = self.phases(hit.time);
         let [_, rate] = self.gap(hit.gap, &phases);

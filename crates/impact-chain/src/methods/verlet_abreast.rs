@@ -1,8 +1,8 @@
 //! Integrates chains side by side by Verlet, in single precision.
 
-use super::method::{Cost, Method, Task};
+use super::method::{Cost, Method, Sealed, Task};
 use super::steps::{Steps, check_end};
-use crate::abreast::amplitudes;
+use crate::forcing::gap_amplitudes;
 use crate::impact::jumps;
 use crate::search::clock::Rate;
 use crate::topology::Topology;
@@ -70,7 +70,7 @@ impl VerletAbreast {
                 let problem = "verlet-abreast supports equal chains with one frequency";
                 return Err(Error::input("forcing_frequencies", problem, "use another method"));
             }
-            let gaps = amplitudes(scenario);
+            let gaps = gap_amplitudes(scenario);
             let reach = |[a, b, c, d]: [f64; 4]| (a * a + b * b).sqrt() + (c * c + d * d).sqrt();
             if gaps.iter().any(|gap| reach(*gap) >= 1.0) {
                 ready.push((chain, gaps));
@@ -94,6 +94,8 @@ impl VerletAbreast {
         Ok((cost, counts))
     }
 }
+
+impl Sealed for VerletAbreast {}
 
 impl Method for VerletAbreast {
     fn name(&self) -> &'static str {

@@ -34,6 +34,11 @@ impl Instant {
         Instant(last.0 - i128::from(last.time() > t))
     }
 
+    /// Returns the instant that is as much later as `by` is than zero.
+    pub fn shifted(self, by: Instant) -> Instant {
+        Instant(self.0 + by.0)
+    }
+
     /// Returns the instant `s` units of time later, truncated to a tick.
     #[inline(always)]
     pub fn after(self, s: f64) -> Instant {

@@ -7,8 +7,9 @@
 use crate::reference::{Dd, Reference};
 use crate::{first, given};
 use impact_chain::rounding::TIME;
-use impact_chain::{Boundary, Chain, Engine, Initial, Overtone, Scenario};
+use impact_chain::{Boundary, Chain, End, Engine, Event, Initial, Overtone, Scenario};
 use impact_numerics::random::NormalPairs;
+use std::ops::ControlFlow::Continue;
 
 /// The closing speed is off by at most ε S (C′ max(ω, Ω) + C M₂/v), where M₂ = ω² R₁ +
 /// Ω² R₂ bounds Δ'' and its term is due to the error of the time. This is C′.
@@ -180,7 +181,7 @@ fn next_to_resonance_a_gap_that_hardly_moves_is_soon_passed() {
         let forcing_frequency = 1.0 + k * f64::EPSILON;
         let chain = Chain { masses: 3, forcing_frequency, ..Chain::default() };
         let mut engine = Engine::new(&Scenario::given(&chain, forcing.to_vec()).unwrap()).unwrap();
-        engine.run(30.0, |_| true).unwrap();
+        engine.advance(30.0).unwrap();
         let counters = engine.counters();
         assert!(counters.impacts == 0 && counters.evaluations < 2_000_000, "k = {k}: {counters:?}");
     }
@@ -222,9 +223,15 @@ fn a_graze_is_a_miss_where_rounding_hides_it_and_is_reported() {
     let within = [-12.0, 12.0].map(|units| (1.0 + units * f64::EPSILON, [0.0, 1.0], 0.5));
     for (amplitude, phase, quarters) in touching.into_iter().chain(within) {
         let mut exact = engine(amplitude, phase);
-        assert_eq!(exact.impacts(2000.0).unwrap(), []);
+        let mut first = None;
+        let see = |event: &Event, engine: &Engine| {
+            first.get_or_insert((event.clone(), engine.time()));
+            Continue(())
+        };
+        assert_eq!(exact.run(2000.0, see), Ok(End::Reached));
         assert!(exact.counters().undecided > 1200, "{:?}", exact.counters());
         let graze = exact.first_graze().unwrap();
+        assert_eq!(first, Some((Event::Graze(graze), graze.time)));
         let number = graze.time / std::f64::consts::FRAC_PI_2 - quarters;
         assert!(number < 4.0 && (number - number.round()).abs() < 1e-8, "{graze:?}");
         assert_eq!(graze.gap, [1, 0][number.round() as usize % 2], "{graze:?}");

@@ -4,7 +4,9 @@
 //! images.
 
 use crate::{drawn, given, run};
-use impact_chain::{Chain, Engine, Impact, Initial, Scenario, State};
+use impact_chain::{Boundary, Chain, End, Engine, Event, Impact, Initial, Scenario, State};
+use std::collections::BTreeSet;
+use std::ops::ControlFlow::{Break, Continue};
 
 fn scene(masses: &[(f64, f64)], forces: &[f64], restitution: f64) -> Scenario {
     let free = masses
@@ -343,5 +345,50 @@ fn an_even_mirror_image_keeps_its_symmetry() {
         let odd = masses % 2 == 1;
         assert_eq!((worst > 1e-3, engine.counters().simultaneous > 0), (odd, odd));
         assert!(odd || worst < 1e-14, "{worst:e}");
+    }
+}
+
+/// Sticks less releases are the gaps in contact, sticks are what is counted, each event comes in
+/// order and when it was foretold, and the impacts among them are those of a run without.
+#[test]
+fn events_tell_the_whole_run() {
+    for (boundary, restitution) in [(Boundary::Walls, 0.2), (Boundary::Ring, 0.5)] {
+        let chain = Chain { masses: 6, restitution, boundary, ..Chain::default() };
+        let scenario = drawn(&chain, 2.0, "events", 0);
+        let mut engine = Engine::new(&scenario).unwrap();
+        let (mut impacts, mut pressed, mut sticks) = (Vec::new(), BTreeSet::new(), 0);
+        for step in 1..=400 {
+            let (until, mut last) = (0.1 * f64::from(step), engine.time());
+            let foretold = engine.next_event_time(until).unwrap();
+            let mut first = None;
+            let ended = engine.run(until, |event, engine| {
+                let time = event.time();
+                assert!(time >= last && time == engine.time(), "{event:?} after {last}");
+                assert!(engine.state(time).is_ok());
+                (first, last) = (first.or(Some(time)), time);
+                match event {
+                    Event::Impact(impact) => impacts.push(*impact),
+                    Event::Stick { gaps, .. } => {
+                        sticks += gaps.len() as u64;
+                        assert!(gaps.iter().all(|gap| pressed.insert(*gap)), "{event:?}");
+                    }
+                    Event::Release { gaps, .. } => {
+                        assert!(gaps.iter().all(|gap| pressed.remove(gap)), "{event:?}");
+                    }
+                    _ => panic!("{event:?}"),
+                }
+                Continue(())
+            });
+            assert_eq!((ended, first), (Ok(End::Reached), foretold), "{until}");
+            let contacts = engine.contacts(until).unwrap().into_iter().map(|(gap, _)| gap);
+            assert!(contacts.eq(pressed.iter().copied()), "{until}: {pressed:?}");
+        }
+        let mut plain = Engine::new(&scenario).unwrap();
+        assert!(sticks > 10 && sticks == engine.counters().contact_phases, "{sticks}");
+        assert_eq!(plain.run(40.0, |_, _| Break(())), Ok(End::Stopped));
+        assert_eq!(
+            (plain.time(), plain.impacts(40.0).unwrap()),
+            (impacts[0].time, impacts.split_off(1))
+        );
     }
 }
