@@ -2,7 +2,7 @@
 # (rust-toolchain.toml names the version), make and a C compiler for linking; tests also run Python
 # 3.9 or later, and cmark-gfm where it is installed.
 
-.PHONY: paper quick check latex browser test test-checked test-long lint oldest deny identity archive bench measure clean help
+.PHONY: paper quick check latex browser python test test-checked test-long lint oldest deny identity archive bench measure clean help
 
 paper: ## the whole reproduction, full profile, into paper/
 	.ci/module && cargo run --release --locked -- paper
@@ -18,6 +18,9 @@ latex: ## compile the documents of paper/ with TeX Live, into target/latex (inst
 
 browser: ## test the pages of paper/ in headless Chromium (Chromium and Node installed when missing)
 	.ci/browser
+
+python: ## build the wheel of the Python package, install it in target/python and run its tests
+	.ci/python
 
 test: ## all tests except the long one
 	cargo test --release --locked --workspace

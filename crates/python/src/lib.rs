@@ -1,0 +1,353 @@
+//! Offers the engine to Python: scenarios, their events and states, and ensembles, as arrays.
+
+use impact_chain::{
+    Abreast, Chain, Engine, Error, ErrorKind, Event, Impact, NormalPairs, Protocol, Watch,
+};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use rayon::prelude::*;
+use serde_json::{Map, Value, from_str, from_value, to_value};
+use std::ops::ControlFlow::{Break, Continue};
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+type Array<'py> = Bound<'py, PyArray1<f64>>;
+
+fn to_python(error: Error) -> PyErr {
+    match error.kind() {
+        ErrorKind::Work => PyRuntimeError::new_err(error.to_string()),
+        _ => PyValueError::new_err(error.to_string()),
+    }
+}
+
+/// Computes without the lock of Python, which sees Ctrl-C all the while: `compute` then finds the
+/// flag set, and what it returns is dropped.
+fn apart<T: Send>(
+    py: Python<'_>,
+    compute: impl FnOnce(&AtomicBool) -> Result<T, Error> + Send,
+) -> PyResult<T> {
+    let stop = AtomicBool::new(false);
+    py.detach(|| {
+        let (sender, receiver) = channel();
+        std::thread::scope(|scope| {
+            let stop = &stop;
+            scope.spawn(move || sender.send(compute(stop)));
+            loop {
+                match receiver.recv_timeout(Duration::from_millis(50)) {
+                    Ok(result) => return result.map_err(to_python),
+                    Err(RecvTimeoutError::Timeout) => {
+                        if let Err(interrupt) = Python::attach(|py| py.check_signals()) {
+                            stop.store(true, Relaxed);
+                            return Err(interrupt);
+                        }
+                    }
+                    // The thread has panicked, and so does the scope.
+                    Err(RecvTimeoutError::Disconnected) => {
+                        return Err(PyRuntimeError::new_err("the engine has panicked"));
+                    }
+                }
+            }
+        })
+    })
+}
+
+/// One chain with the amplitudes of its forcing and its start.
+///
+/// Parameters
+/// ----------
+/// forcing : array_like, shape (n, 2)
+///     Amplitudes of cos(Ωt) and sin(Ωt) of each mass; (m, n, 2) with `forcing_frequencies`.
+/// **fields
+///     The other fields of a scenario in JSON, such as `restitution`, `spacing`,
+///     `natural_frequency`, `forcing_frequency`, `boundary` ("walls" or "ring"), `places`, `walls`
+///     and `initial` ("rest", "zero", {"free": pairs} or {"at": {"positions": …, "velocities": …}}).
+///
+/// Raises
+/// ------
+/// ValueError
+///     A field is not allowed; the message names it and says what to write instead.
+#[pyclass(frozen, module = "impact_chain")]
+struct Scenario(impact_chain::Scenario);
+
+#[pymethods]
+impl Scenario {
+    #[new]
+    #[pyo3(signature = (**fields))]
+    fn new(py: Python<'_>, fields: Option<Bound<'_, PyDict>>) -> PyResult<Scenario> {
+        Scenario::from_json(&json_of(py, fields.as_ref())?)
+    }
+
+    /// Reads a scenario from JSON, as `impact-paper trace` does.
+    #[staticmethod]
+    fn from_json(text: &str) -> PyResult<Scenario> {
+        impact_chain::Scenario::from_json(text).map(Scenario).map_err(to_python)
+    }
+
+    /// Draws the forcing from normals, and a random start too.
+    ///
+    /// Parameters
+    /// ----------
+    /// sigma : float
+    ///     Standard deviation of the amplitudes.
+    /// index, stream, seed
+    ///     Of the realisation, which has the same normals at every sigma.
+    /// **chain
+    ///     Fields of the chain: masses, restitution, boundary, start, …
+    #[staticmethod]
+    #[pyo3(signature = (sigma, index = 0, *, stream = "sweep", seed = 2007, **chain))]
+    fn draw(
+        py: Python<'_>,
+        sigma: f64,
+        index: u64,
+        stream: &str,
+        seed: u64,
+        chain: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Scenario> {
+        let mut normals = NormalPairs::new(stream, seed, index);
+        let scenario = impact_chain::Scenario::draw(&chain_of(py, chain)?, sigma, &mut normals);
+        scenario.validate().map_err(to_python)?;
+        Ok(Scenario(scenario))
+    }
+
+    fn to_json(&self) -> String {
+        self.0.to_json()
+    }
+
+    fn __repr__(&self) -> String {
+        let scenario = &self.0;
+        format!("<Scenario: {} masses, r = {}>", scenario.forcing.len(), scenario.restitution)
+    }
+}
+
+/// Writes keywords as JSON, arrays of numpy included.
+fn json_of(py: Python<'_>, fields: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
+    let Some(fields) = fields else { return Ok("{}".to_string()) };
+    let tolist = py.import("operator")?.call_method1("methodcaller", ("tolist",))?;
+    let arguments = PyDict::new(py);
+    arguments.set_item("default", tolist)?;
+    py.import("json")?.call_method("dumps", (fields,), Some(&arguments))?.extract()
+}
+
+/// Reads a chain from keywords: the fields of `Chain`.
+fn chain_of(py: Python<'_>, fields: Option<&Bound<'_, PyDict>>) -> PyResult<Chain> {
+    let refused = |error: serde_json::Error| PyValueError::new_err(error.to_string());
+    let given: Map<String, Value> = from_str(&json_of(py, fields)?).map_err(refused)?;
+    let mut chain = Chain::default();
+    for (name, value) in given {
+        let mut fields = to_value(&chain).map_err(refused)?;
+        let Some(field) = fields.get_mut(&name) else {
+            let known = "masses, spacing, natural_frequency, forcing_frequency, restitution, \
+                         boundary, start";
+            return Err(PyValueError::new_err(format!("{name}: give one of {known}")));
+        };
+        *field = value;
+        chain = from_value(fields)
+            .map_err(|error| PyValueError::new_err(format!("{name}: {error}")))?;
+    }
+    Ok(chain)
+}
+
+/// Runs a scenario to `until`, and gives all events to `take` until Ctrl-C.
+fn run(
+    scenario: &impact_chain::Scenario,
+    until: f64,
+    stop: &AtomicBool,
+    mut take: impl FnMut(&Event),
+) -> Result<(), Error> {
+    Engine::new(scenario)?.run(until, |event, _| {
+        take(event);
+        if stop.load(Relaxed) { Break(()) } else { Continue(()) }
+    })?;
+    Ok(())
+}
+
+/// Times, gaps and closing speeds of all impacts up to a time.
+///
+/// Parameters
+/// ----------
+/// scenario : Scenario
+/// until : float
+///     At most 1e12, itself included.
+///
+/// Returns
+/// -------
+/// time, gap, closing_speed : ndarray
+///     In order of time; gap 0 is at the left wall (1 to n on a ring).
+#[pyfunction]
+fn impacts<'py>(
+    py: Python<'py>,
+    scenario: &Scenario,
+    until: f64,
+) -> PyResult<(Array<'py>, Bound<'py, PyArray1<u64>>, Array<'py>)> {
+    let impacts = apart(py, |stop| {
+        let mut impacts = Vec::new();
+        run(&scenario.0, until, stop, |event| {
+            if let Event::Impact(impact) = event {
+                impacts.push(*impact);
+            }
+        })?;
+        Ok(impacts)
+    })?;
+    let array = |value: fn(&Impact) -> f64| PyArray1::from_iter(py, impacts.iter().map(value));
+    let gaps = PyArray1::from_iter(py, impacts.iter().map(|impact| impact.gap as u64));
+    Ok((array(|impact| impact.time), gaps, array(|impact| impact.closing_speed)))
+}
+
+/// All events up to a time: impacts, gaps that stick and are released, undecided grazes.
+///
+/// Parameters
+/// ----------
+/// scenario : Scenario
+/// until : float
+///
+/// Returns
+/// -------
+/// list of dict
+///     With `kind` ("impact", "stick", "release", "graze"), `time` and `gaps`; an impact has
+///     `closing_speed`.
+#[pyfunction]
+fn events<'py>(py: Python<'py>, scenario: &Scenario, until: f64) -> PyResult<Bound<'py, PyList>> {
+    let events = apart(py, |stop| {
+        let mut events = Vec::new();
+        run(&scenario.0, until, stop, |event| events.push(event.clone()))?;
+        Ok(events)
+    })?;
+    let list = PyList::empty(py);
+    for event in events {
+        let entry = PyDict::new(py);
+        let (kind, gaps) = match &event {
+            Event::Impact(impact) => {
+                entry.set_item("closing_speed", impact.closing_speed)?;
+                ("impact", vec![impact.gap])
+            }
+            Event::Stick { gaps, .. } => ("stick", gaps.clone()),
+            Event::Release { gaps, .. } => ("release", gaps.clone()),
+            Event::Graze(graze) => ("graze", vec![graze.gap]),
+            _ => continue,
+        };
+        entry.set_item("kind", kind)?;
+        entry.set_item("time", event.time())?;
+        entry.set_item("gaps", gaps)?;
+        list.append(entry)?;
+    }
+    Ok(list)
+}
+
+/// Positions and velocities of all masses at rising times.
+///
+/// Parameters
+/// ----------
+/// scenario : Scenario
+/// at : array_like
+///
+/// Returns
+/// -------
+/// positions, velocities : ndarray, shape (len(at), n)
+///     At the time of an impact the velocities are those after it.
+#[pyfunction]
+fn states<'py>(
+    py: Python<'py>,
+    scenario: &Scenario,
+    at: Vec<f64>,
+) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+    let shape = [at.len(), scenario.0.forcing.len()];
+    let (positions, velocities) = apart(py, |stop| {
+        let mut engine = Engine::new(&scenario.0)?;
+        let (mut positions, mut velocities) = (Vec::new(), Vec::new());
+        for time in at {
+            if stop.load(Relaxed) {
+                break;
+            }
+            engine.advance(time)?;
+            let state = engine.state(time)?;
+            positions.extend(state.positions);
+            velocities.extend(state.velocities);
+        }
+        Ok((positions, velocities))
+    })?;
+    let array = |values| PyArray1::from_vec(py, values).reshape(shape);
+    Ok((array(positions)?, array(velocities)?))
+}
+
+/// Counts the impacts of many random chains in a window of time, on all cores.
+///
+/// Parameters
+/// ----------
+/// sigma : float
+///     Standard deviation of the amplitudes of the forcing.
+/// realisations : int
+/// transient, window : float
+///     Impacts are counted from `transient` up to `transient + window`.
+/// stream, seed
+///     Of the random numbers: realisation i is `Scenario.draw(sigma, i, ...)`.
+/// **chain
+///     Fields of the chain: masses, restitution, boundary, start, …
+///
+/// Returns
+/// -------
+/// distinct, impacts : ndarray of int64
+///     For each realisation the gaps with an impact, −1 where the start overlaps or the engine
+///     ended the run early, and the number of impacts.
+#[pyfunction]
+#[pyo3(signature = (sigma, realisations, *, transient = 500.0, window = 200.0, stream = "sweep",
+    seed = 2007, **chain))]
+fn ensemble<'py>(
+    py: Python<'py>,
+    sigma: f64,
+    realisations: u64,
+    transient: f64,
+    window: f64,
+    stream: &str,
+    seed: u64,
+    chain: Option<&Bound<'_, PyDict>>,
+) -> PyResult<(Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>)> {
+    let (chain, windows) = (chain_of(py, chain)?, [Protocol { transient, window }]);
+    let until = windows[0].end();
+    let counts = apart(py, |stop| {
+        let stopped = || stop.load(Relaxed);
+        let abreast = Abreast::new(&chain, &windows, until);
+        let draw = |index| {
+            impact_chain::Scenario::draw(&chain, sigma, &mut NormalPairs::new(stream, seed, index))
+        };
+        let batch = Abreast::number(&chain) as u64;
+        let starts: Vec<u64> = (0..realisations).step_by(batch as usize).collect();
+        let count = |first: &u64| -> Result<Vec<[i64; 2]>, Error> {
+            if stopped() {
+                return Ok(Vec::new());
+            }
+            let scenarios: Vec<_> = (*first..(first + batch).min(realisations)).map(draw).collect();
+            let runs = match &abreast {
+                Some(abreast) => abreast.run(&scenarios, &stopped),
+                None => scenarios.iter().map(|_| None).collect(),
+            };
+            let mut counts = Vec::with_capacity(runs.len());
+            for (index, (scenario, run)) in (*first..).zip(scenarios.iter().zip(runs)) {
+                let engine = || Engine::new(scenario);
+                let one = match run {
+                    Some(mut run) => run.counts(),
+                    None => Watch::new(&chain, &windows).run(engine(), index, until, &stopped)?,
+                };
+                let distinct = one.distinct[0][0].map_or(-1, i64::from);
+                counts.push([distinct, one.impacts[0][0] as i64]);
+            }
+            Ok(counts)
+        };
+        starts.par_iter().map(count).collect::<Result<Vec<_>, Error>>()
+    })?;
+    let column =
+        |place: usize| PyArray1::from_iter(py, counts.iter().flatten().map(|counts| counts[place]));
+    Ok((column(0), column(1)))
+}
+
+/// Chains of forced masses with impacts, simulated exactly from event to event.
+#[pymodule(name = "impact_chain")]
+fn python_module(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Scenario>()?;
+    module.add_function(wrap_pyfunction!(impacts, module)?)?;
+    module.add_function(wrap_pyfunction!(events, module)?)?;
+    module.add_function(wrap_pyfunction!(states, module)?)?;
+    module.add_function(wrap_pyfunction!(ensemble, module)?)
+}
