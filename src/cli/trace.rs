@@ -168,6 +168,11 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if matches!(args.at, Some(Times::Period)) && args.until.is_none() {
         return Err(Failure::input("--at: period has no end; give --until"));
     }
+    if let Some(path) = &args.save {
+        // A long run is not made for a file that cannot be written.
+        let opened = File::options().append(true).create(true).open(path);
+        opened.map_err(|error| one::unsaved(path, &error))?;
+    }
     let latest = Arc::new(AtomicU64::new(0));
     let job = Job {
         setting: setting(&args)?,
@@ -186,7 +191,10 @@ pub fn run(args: Args) -> Result<(), Failure> {
             // Whole rows: a signal that ends the program leaves no half of a number.
             Part::Rows(rows) => {
                 let text = std::mem::take(&mut header) + &rows;
-                printed(out.write_all(text.as_bytes()).and_then(|()| out.flush()))?;
+                if let Err(error) = out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+                    // A reader that goes away is no failure.
+                    return printed(Err(error));
+                }
             }
             Part::Note(note) => warn(&note),
             Part::Failed(failure) => return Err(failure),

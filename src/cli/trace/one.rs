@@ -260,9 +260,11 @@ impl Job {
 /// Writes the state for `--from`.
 fn save(path: &Path, state: &State) -> Result<(), Failure> {
     let text = serde_json::to_string(state).unwrap_or_default();
-    std::fs::write(path, text + "\n").map_err(|error| {
-        Failure::input(format!("--save: {}: {error}; give another file", path.display()))
-    })
+    std::fs::write(path, text + "\n").map_err(|error| unsaved(path, &error))
+}
+
+pub fn unsaved(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::input(format!("--save: {}: {error}; give another file", path.display()))
 }
 
 /// Lists impacts whose order is a choice, and grazes that rounding hides.
