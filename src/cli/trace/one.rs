@@ -1,6 +1,7 @@
 //! Runs one scenario of the verb `trace`, and hands on its rows.
 
-use super::{Args, Times};
+use super::super::range::Times;
+use super::args::Args;
 use impact_chain::methods::Cost;
 use impact_chain::rounding;
 use impact_chain::{Counters, End, Engine, Error, Event, Graze, Impact, LATEST, Scenario, State};

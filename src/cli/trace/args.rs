@@ -1,0 +1,144 @@
+//! Describes the options of the verb `trace`.
+
+use super::super::range::{Times, times, within};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use impact_chain::LATEST;
+use impact_paper::params::MethodName::{self, *};
+use std::path::PathBuf;
+
+/// Print the impacts of a scenario as CSV: time, gap, closing speed
+///
+/// Masses 1..n in a row, points, each on a spring to its place: between impacts
+///   x_j'' = w^2 (j d - x_j) + alpha_j cos Wt + beta_j sin Wt.
+/// Where neighbours meet, their velocities jump: the gap opens at r times the speed at which it
+/// closed, and momentum is conserved. All masses are 1; walls, at 0 and (n + 1) d, do not move.
+/// Times are in units of 1/w, lengths of d, if these are 1. Not in the model: damping, springs
+/// between masses, unequal masses or springs, friction, three at once (pairs collide in turn).
+///
+/// Examples:
+///   trace chain.json --until 100
+///   trace - --until 100 --max-impacts 20 < chain.json
+///   trace chain.json --at 0..100:0.5
+///   trace chain.json --at period --until 1000
+///   trace chain.json --until 100 --save state.json
+///   trace chain.json --from state.json --until 200 --events
+///   trace - --lines --keep-going --until 100 < chains.jsonl
+///   trace chain.json --until 100 --method verlet --step 0.01
+///   trace chain.json --until 100 --method truth
+///
+/// Count gaps from the left wall: gap 0 lies between it and mass 1, gap j between masses j and j +
+/// 1; on a ring gap n lies between masses n and 1. Of neighbouring gaps that close at exactly the
+/// same instant, the fastest comes first. A note on stderr says how many impacts coincide, and how
+/// often rounding could not decide whether a gap closes (method certified).
+///
+/// Do not trust single impacts far into a chaotic run: errors grow about tenfold in a dozen units
+/// of time. Compare with --method truth to see from when on a run is off. The truth has every
+/// time to 106 bits, but only for walls, one frequency and no contact; it takes the next gap from
+/// the engine, so it cannot show an impact that the engine misses.
+///
+/// Amplitudes are refused where rounding may move a gap by more than 1e-6 of the spacing (near
+/// resonance, say): give smaller ones. From 1e-9 on, a note on stderr says by how much (methods in
+/// closed form). Bodies that part more slowly than 1e-10 d w stay in contact while forces press
+/// them.
+#[derive(clap::Args)]
+#[command(verbatim_doc_comment, after_help = SCENARIO_HELP)]
+pub struct Args {
+    /// Read the scenario from this JSON file (the form is below), 64 MiB at most; - for standard
+    /// input.
+    #[arg(value_name = "SCENARIO.json")]
+    pub(super) scenario: PathBuf,
+    /// Stop at this time.
+    #[arg(long, value_name = "T", value_parser = within(0.0, LATEST), allow_hyphen_values = true,
+        required_unless_present = "at")]
+    pub(super) until: Option<f64>,
+    /// Print time, mass, position and velocity at these times up to --until instead: a rising list,
+    /// a range, or "period" for each multiple of the (first) period of the forcing.
+    #[arg(long, value_name = "A..B:STEP|LIST|period", value_parser = times(LATEST), allow_hyphen_values = true,
+        conflicts_with_all = ["max_impacts", "events"])]
+    pub(super) at: Option<Times>,
+    /// Print all events, with a column of their names: impact; stick and release, where a gap comes
+    /// into contact and leaves it; graze, a dip that rounding could not decide.
+    #[arg(long)]
+    pub(super) events: bool,
+    /// Write the state at the end to this file, which --from reads.
+    #[arg(long, value_name = "FILE", conflicts_with = "lines")]
+    pub(super) save: Option<PathBuf>,
+    /// Go on from the state in this file, at its time and with the phases of the forcing then; the
+    /// scenario may be another, as along a branch.
+    #[arg(long, value_name = "FILE", conflicts_with = "lines")]
+    pub(super) from: Option<PathBuf>,
+    /// Read a scenario from each line; the first column is its number. They are run on all cores
+    /// and answered in order, and the first that is refused ends the run.
+    #[arg(long)]
+    pub(super) lines: bool,
+    /// Go on after a line that is refused or stopped: a column says "ok", "refused" or "stopped",
+    /// and each line has a row, without numbers if there are none.
+    #[arg(long, requires = "lines")]
+    pub(super) keep_going: bool,
+    /// Stop after this many impacts.
+    #[arg(long, value_name = "M")]
+    pub(super) max_impacts: Option<u64>,
+    /// Simulate by this method; all but the first are there to be compared with it.
+    #[arg(long, value_name = "NAME", value_parser = method_names(), default_value = MethodName::Certified.id(),
+        hide_default_value = true)]
+    pub(super) method: MethodName,
+    /// Step in time, for the methods that have one.
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    pub(super) step: Option<f64>,
+    /// For runge-kutta the error allowed in a step, for advancement the width at which a gap counts
+    /// as closed.
+    #[arg(long, value_name = "TOL", allow_hyphen_values = true)]
+    pub(super) tolerance: Option<f64>,
+}
+
+/// A method, its option with the usual value, and its line of `trace --help` with `{}` for that.
+pub type MethodLine = (MethodName, Option<(&'static str, f64)>, &'static str);
+
+pub const METHODS: [MethodLine; 9] = [
+    (Certified, None, "Closed form, the first root of each gap certified: misses nothing"),
+    (Sampled, step(0.01), "Closed form, sampled every {}, then Newton: misses close roots"),
+    (Advancement, tolerance(1e-12), "Closed form, parabolas to {}: near misses are impacts"),
+    (RungeKutta, tolerance(1e-9), "Dormand–Prince 5(4) with events, {}: misses close roots"),
+    (MoreauJean, step(1e-3), "Time stepping, {}: first order, near misses are impacts, can rest"),
+    (Verlet, step(1e-3), "Velocity Verlet, reflected after steps of {}: first order, late"),
+    (
+        VerletAbreast,
+        step(1e-2),
+        "The same for many chains side by side, {}: single precision, for means",
+    ),
+    (Penalty, step(1e-4), "Stiff damped springs, {}: order 1/2, wrong in clusters"),
+    (Truth, None, "106 bits, slowly: walls, one frequency, no contact; the gap from the engine"),
+];
+
+const fn step(usual: f64) -> Option<(&'static str, f64)> {
+    Some(("--step", usual))
+}
+
+const fn tolerance(usual: f64) -> Option<(&'static str, f64)> {
+    Some(("--tolerance", usual))
+}
+
+/// Returns a parser of the names of methods, which lists them with their lines in the help.
+fn method_names() -> impl TypedValueParser<Value = MethodName> {
+    let name = |(method, option, line): &MethodLine| {
+        let option = option.map_or(String::new(), |(name, usual)| format!("{name} [{usual:?}]"));
+        PossibleValue::new(method.id()).help(line.replace("{}", &option))
+    };
+    let names: Vec<PossibleValue> = METHODS.iter().map(name).collect();
+    PossibleValuesParser::new(names).try_map(|name| serde_json::from_value(name.into()))
+}
+
+const SCENARIO_HELP: &str = r#"The scenario, with the defaults of everything but "forcing":
+  {"spacing": 1, "natural_frequency": 1, "forcing_frequency": 1.4142135623730951,
+   "restitution": 0.8, "boundary": "walls", "initial": "rest",
+   "forcing": [[alpha_1, beta_1], ..., [alpha_n, beta_n]]}
+Several components of the forcing, 8 at most:
+   "forcing_frequencies": [W_1, W_2, ...], "forcing": [[[alpha_1, beta_1], ...], [[...], ...], ...]
+boundary: "walls" or "ring".
+places:   [p_1, ..., p_n] instead of j d, and "walls": [left, right] instead of [0, (n + 1) d]
+          (not on a ring): for gaps of any width, a wall far away, constant forces F (they shift a
+          place by F/w^2).
+initial:  "rest" (at equilibrium), "zero" (no free part),
+          {"free": [[a_1, b_1], ...]} (x_j = j d + a_j cos wt + b_j sin wt + forced response),
+          {"at": {"positions": [x_1, ...], "velocities": [v_1, ...]}} (from the left wall),
+          {"random": {"sigma": s, "seed": k}} (normal free parts)."#;
