@@ -1,8 +1,22 @@
 //! Counts impacts by their distance from the seed.
 
-use super::run::Trace;
 use crate::params::SeedsParams;
 use impact_numerics::statistics::slope;
+use serde::{Deserialize, Serialize};
+
+/// One run, in time since its first impact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Trace {
+    /// The gap that closes by itself; none if it had not closed when the wait ended.
+    pub(super) seed: Option<usize>,
+    /// For each gap the bins in which it was hit, as bits.
+    pub(super) hits: Vec<u64>,
+    /// For each gap the time of its first impact, in whole units.
+    pub(super) firsts: Vec<Option<u32>>,
+}
+
+/// Runs at one σ; none where the engine gave up.
+pub type Part = Vec<Option<Trace>>;
 
 /// Counts of impacts by distance from the seed, over runs at one σ.
 #[derive(Clone)]

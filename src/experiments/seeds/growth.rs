@@ -10,7 +10,7 @@
 //! gaps at distance l that are hit in a window W which begins a time t after the first impact of a
 //! seed, and R(l, t) the share that is hit within t.
 
-use super::{ByDistance, Part};
+use super::counting::{ByDistance, Part};
 use crate::params::SeedsParams;
 use impact_circuits::nucleation::{ANGLES, COARSE, Chances, Reach};
 use impact_numerics::estimates::jackknife;

@@ -7,8 +7,8 @@ pub mod growth;
 pub mod run;
 pub mod tables;
 
-pub use counting::ByDistance;
-pub use run::{Part, Seeds, Trace, run};
+pub use counting::{ByDistance, Part, Trace};
+pub use run::{Seeds, run};
 
 use crate::experiments::prelude::*;
 use crate::params::SeedsParams;

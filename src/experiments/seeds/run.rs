@@ -1,5 +1,6 @@
 //! Runs chains in which exactly one gap closes by itself.
 
+use super::counting::{Part, Trace};
 use super::growth::{Prediction, predictions, sums};
 use crate::experiments::prelude::*;
 use crate::params::{SEED, SeedsParams};
@@ -25,20 +26,6 @@ impl Seeds {
         Seeds { parameters, rows, predicted }
     }
 }
-
-/// One run, in time since its first impact.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Trace {
-    /// The gap that closes by itself; none if it had not closed when the wait ended.
-    pub(super) seed: Option<usize>,
-    /// For each gap the bins in which it was hit, as bits.
-    pub(super) hits: Vec<u64>,
-    /// For each gap the time of its first impact, in whole units.
-    pub(super) firsts: Vec<Option<u32>>,
-}
-
-/// Runs at one σ; none where the engine gave up.
-pub type Part = Vec<Option<Trace>>;
 
 pub fn run(parameters: &SeedsParams, progress: &Progress) -> Result<Seeds, Error> {
     let chains = parameters.sigmas.len() * parameters.realisations;
