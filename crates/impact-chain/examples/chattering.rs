@@ -1,11 +1,10 @@
-//! Follows a mass that is pressed to a wall: it chatters, with flight times that tend to a geometric
-//! series, sticks, and is released where the contact force vanishes.
+//! Follows a mass that is pressed to a wall: it chatters, with flight times that tend to a
+//! geometric series, sticks, and is released where the contact force vanishes.
 
 use impact_chain::{Engine, Error, Event, Scenario};
 use std::ops::ControlFlow::Continue;
 
-/// Returns the events up to t = 5 from rest at 0.02, with the acceleration -1 - `force` cos(t/2) at
-/// the wall.
+/// Returns the events from rest at 0.02; the acceleration at the wall is -1 - `force` cos(t/2).
 fn chatter(force: f64) -> Result<Vec<Event>, Error> {
     let scenario = Scenario::from_json(&format!(
         r#"{{"forcing": [[-{force}, 0]], "forcing_frequency": 0.5, "restitution": 0.5, "places": [-1],

@@ -4,8 +4,7 @@
 use impact_chain::{Engine, Error, Impact, Scenario};
 use std::f64::consts::TAU;
 
-/// Returns the first impact in a period, for a response of amplitude 1 + `excess` before a wall at
-/// distance 1.
+/// Returns the first impact in a period, for the amplitude 1 + `excess` before a wall at 1.
 fn first_impact(excess: f64) -> Result<Option<Impact>, Error> {
     let force = (1.0 + excess) * (1.0 - 1.5 * 1.5);
     let scenario = Scenario::from_json(&format!(

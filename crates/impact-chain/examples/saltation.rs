@@ -8,14 +8,13 @@ const ORBIT: &str = r#"{"forcing": [[-14.2, 0]], "forcing_frequency": 2.5, "rest
 
 /// Returns the exponent of a mass that hits the left wall, for times from 2500 to 5000.
 fn exponent(scenario: &Scenario) -> Result<f64, Error> {
-    let (omega, r, force) =
-        (scenario.forcing_frequency, scenario.restitution, scenario.forcing[0][0]);
+    let (omega, r) = (scenario.forcing_frequency, scenario.restitution);
     let impacts = Engine::new(scenario)?.impacts(5000.0)?;
     let (mut x, mut v, mut sum, middle) = (0.0, 1.0, 0.0, impacts.len() / 2);
     for (k, pair) in impacts.windows(2).enumerate() {
         let (sin, cos) = (pair[1].time - pair[0].time).sin_cos();
         (x, v) = (x * cos + v * sin, v * cos - x * sin);
-        let acceleration = 1.0 + force * (omega * pair[1].time).cos();
+        let acceleration = 1.0 + scenario.forcing[0][0] * (omega * pair[1].time).cos();
         (x, v) = (-r * x, -r * v - (1.0 + r) * acceleration / pair[1].closing_speed * x);
         let growth = f64::hypot(x, v);
         (x, v) = (x / growth, v / growth);

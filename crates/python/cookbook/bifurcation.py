@@ -5,16 +5,12 @@ import numpy
 
 
 def samples(amplitude, omega=2.5, restitution=0.5):
-    """Places once a period of the force, after 2000 periods.
+    """Array of the places at 30 periods of the force after 2000.
 
     Parameters
     ----------
     amplitude : float
         Of the response; 1 grazes the wall.
-
-    Returns
-    -------
-    ndarray, shape (30,)
     """
     chain = impact_chain.Scenario(
         forcing=[[amplitude * (1 - omega**2), 0]], forcing_frequency=omega,

@@ -6,7 +6,7 @@ use impact_chain::{
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{IntoPyDict, PyDict, PyList};
 use rayon::prelude::*;
 use serde_json::{Map, Value, from_str, from_value, to_value};
 use std::ops::ControlFlow::{Break, Continue};
@@ -14,7 +14,8 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-type Array<'py> = Bound<'py, PyArray1<f64>>;
+type Array<'py, T = f64> = Bound<'py, PyArray1<T>>;
+type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
 fn to_python(error: Error) -> PyErr {
     match error.kind() {
@@ -63,7 +64,8 @@ fn apart<T: Send>(
 /// **fields
 ///     The other fields of a scenario in JSON, such as `restitution`, `spacing`,
 ///     `natural_frequency`, `forcing_frequency`, `boundary` ("walls" or "ring"), `places`, `walls`
-///     and `initial` ("rest", "zero", {"free": pairs} or {"at": {"positions": …, "velocities": …}}).
+///     and `initial`: "rest", "zero", {"free": pairs} or
+///     {"at": {"positions": …, "velocities": …}}.
 ///
 /// Raises
 /// ------
@@ -126,26 +128,25 @@ impl Scenario {
 fn json_of(py: Python<'_>, fields: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
     let Some(fields) = fields else { return Ok("{}".to_string()) };
     let tolist = py.import("operator")?.call_method1("methodcaller", ("tolist",))?;
-    let arguments = PyDict::new(py);
-    arguments.set_item("default", tolist)?;
+    let arguments = [("default", tolist)].into_py_dict(py)?;
     py.import("json")?.call_method("dumps", (fields,), Some(&arguments))?.extract()
 }
 
 /// Reads a chain from keywords: the fields of `Chain`.
 fn chain_of(py: Python<'_>, fields: Option<&Bound<'_, PyDict>>) -> PyResult<Chain> {
-    let refused = |error: serde_json::Error| PyValueError::new_err(error.to_string());
-    let given: Map<String, Value> = from_str(&json_of(py, fields)?).map_err(refused)?;
+    let refused = |name: &str, error| PyValueError::new_err(format!("{name}: {error}"));
+    let unread = |error: serde_json::Error| refused("chain", error);
+    let given: Map<String, Value> = from_str(&json_of(py, fields)?).map_err(unread)?;
     let mut chain = Chain::default();
     for (name, value) in given {
-        let mut fields = to_value(&chain).map_err(refused)?;
+        let mut fields = to_value(&chain).map_err(unread)?;
         let Some(field) = fields.get_mut(&name) else {
             let known = "masses, spacing, natural_frequency, forcing_frequency, restitution, \
                          boundary, start";
             return Err(PyValueError::new_err(format!("{name}: give one of {known}")));
         };
         *field = value;
-        chain = from_value(fields)
-            .map_err(|error| PyValueError::new_err(format!("{name}: {error}")))?;
+        chain = from_value(fields).map_err(|error| refused(&name, error))?;
     }
     Ok(chain)
 }
@@ -157,11 +158,11 @@ fn run(
     stop: &AtomicBool,
     mut take: impl FnMut(&Event),
 ) -> Result<(), Error> {
-    Engine::new(scenario)?.run(until, |event, _| {
+    let observer = |event: &Event, _: &Engine| {
         take(event);
         if stop.load(Relaxed) { Break(()) } else { Continue(()) }
-    })?;
-    Ok(())
+    };
+    Engine::new(scenario)?.run(until, observer).map(drop)
 }
 
 /// Times, gaps and closing speeds of all impacts up to a time.
@@ -170,7 +171,6 @@ fn run(
 /// ----------
 /// scenario : Scenario
 /// until : float
-///     At most 1e12, itself included.
 ///
 /// Returns
 /// -------
@@ -181,7 +181,7 @@ fn impacts<'py>(
     py: Python<'py>,
     scenario: &Scenario,
     until: f64,
-) -> PyResult<(Array<'py>, Bound<'py, PyArray1<u64>>, Array<'py>)> {
+) -> PyResult<(Array<'py>, Array<'py, u64>, Array<'py>)> {
     let impacts = apart(py, |stop| {
         let mut impacts = Vec::new();
         run(&scenario.0, until, stop, |event| {
@@ -252,7 +252,7 @@ fn states<'py>(
     py: Python<'py>,
     scenario: &Scenario,
     at: Vec<f64>,
-) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+) -> PyResult<(Matrix<'py>, Matrix<'py>)> {
     let shape = [at.len(), scenario.0.forcing.len()];
     let (positions, velocities) = apart(py, |stop| {
         let mut engine = Engine::new(&scenario.0)?;
@@ -292,6 +292,7 @@ fn states<'py>(
 ///     For each realisation the gaps with an impact, −1 where the start overlaps or the engine
 ///     ended the run early, and the number of impacts.
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 #[pyo3(signature = (sigma, realisations, *, transient = 500.0, window = 200.0, stream = "sweep",
     seed = 2007, **chain))]
 fn ensemble<'py>(
@@ -303,7 +304,7 @@ fn ensemble<'py>(
     stream: &str,
     seed: u64,
     chain: Option<&Bound<'_, PyDict>>,
-) -> PyResult<(Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>)> {
+) -> PyResult<(Array<'py, i64>, Array<'py, i64>)> {
     let (chain, windows) = (chain_of(py, chain)?, [Protocol { transient, window }]);
     let until = windows[0].end();
     let counts = apart(py, |stop| {

@@ -5,12 +5,11 @@ import runpy
 
 import numpy
 
-COOKBOOK = pathlib.Path(__file__).parent.parent / "cookbook"
-
 
 def recipe(name, function, capsys):
     """Runs a recipe as a program, and returns its function."""
-    names = runpy.run_path(str(COOKBOOK / f"{name}.py"), run_name="__main__")
+    path = pathlib.Path(__file__).parents[1] / "cookbook" / f"{name}.py"
+    names = runpy.run_path(str(path), run_name="__main__")
     assert capsys.readouterr().out
     return names[function]
 
