@@ -139,7 +139,7 @@ class Filled(unittest.TestCase):
         self.assertIn(f'            doi: "{DOI}",\n', self.text("src/main.rs"))
         self.assertIn('address: env!("CARGO_PKG_REPOSITORY")', self.text("src/main.rs"))
         for path in ("SECURITY.md", "CODE_OF_CONDUCT.md"):
-            self.assertIn("in confidence. Write to <safety@example.org>.\n", self.text(path))
+            self.assertIn("in confidence. The way: <safety@example.org>.\n", self.text(path))
         readme = self.text("README.md")
         self.assertIn(f" DOI: [{DOI}](https://doi.org/{DOI}).", readme)
         self.assertIn(f"<{REPOSITORY}/issues>. By Ada Example, Zoë O'Neill.\n", readme)
