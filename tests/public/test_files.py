@@ -93,6 +93,8 @@ class Files(unittest.TestCase):
         days = {meta["dateModified"], *re.findall(r'date-released: "(.*)"', citation)}
         days |= set(re.findall(r'(?m)^            date: "(.*)",', text("src/main.rs")))
         self.assertEqual(len(days), 1, days)
+        year, month = re.search(r"(?m)^  year: (\d+)\n  month: (\d+)$", citation).groups()
+        self.assertTrue(days.pop().startswith(f"{year}-{int(month):02}-"), "of preferred-citation")
 
     def test_the_manifest_has_every_figure_with_its_data(self):
         listed = re.findall(r"(?m)^  - file: (.*)\n    comment: .+$", text("codecheck.yml"))

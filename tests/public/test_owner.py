@@ -74,7 +74,7 @@ class Filled(unittest.TestCase):
         wheels = {p.relative_to(ROOT).as_posix() for p in ROOT.glob("crates/*/pyproject.toml")}
         expected = {
             *("CITATION.cff", "codemeta.json", "codecheck.yml", "ro-crate-metadata.json"),
-            *("README.md", "SECURITY.md", "CODE_OF_CONDUCT.md"),
+            *("README.md", "REPRODUCTION.md", "SECURITY.md", "CODE_OF_CONDUCT.md"),
             *("Cargo.toml", "benches/Cargo.toml", "src/main.rs"),
         }
         self.assertEqual(changed, expected | packages | wheels)
@@ -140,6 +140,8 @@ class Filled(unittest.TestCase):
         self.assertIn('address: env!("CARGO_PKG_REPOSITORY")', self.text("src/main.rs"))
         for path in ("SECURITY.md", "CODE_OF_CONDUCT.md"):
             self.assertIn("in confidence. The way: <safety@example.org>.\n", self.text(path))
+        letter = f"that we erred. The edition is at <{REPOSITORY}>. Ada Example, Zoë O'Neill\n"
+        self.assertIn(letter, self.text("REPRODUCTION.md"))
         readme = self.text("README.md")
         self.assertIn(f" DOI: [{DOI}](https://doi.org/{DOI}).", readme)
         self.assertIn(f"<{REPOSITORY}/issues>. By Ada Example, Zoë O'Neill.\n", readme)
