@@ -1,11 +1,11 @@
 # Every target is one line that calls cargo, the program or a script. Requirements: Rust
 # (rust-toolchain.toml names the version), make and a C compiler for linking; tests also run Python
-# 3.9 or later, and cmark-gfm where it is installed.
+# 3.9 or later (owner and public: 3.11), and cmark-gfm where it is installed.
 
-.PHONY: paper quick check latex browser python test test-checked test-long lint oldest deny identity archive bench measure clean help
+.PHONY: paper quick check latex browser python owner public test test-checked test-long lint oldest deny identity archive bench measure clean help
 
 paper: ## the whole reproduction, full profile, into paper/
-	.ci/module && cargo run --release --locked -- paper
+	.ci/module && cargo run --release --locked -- paper && { .ci/owner || echo 'ro-crate-metadata.json has the hashes of before'; }
 
 quick: ## the same with small samples, into target/paper-quick/
 	.ci/module && cargo run --release --locked -- paper --profile quick
@@ -21,6 +21,12 @@ browser: ## test the pages of paper/ in headless Chromium (Chromium and Node ins
 
 python: ## build the wheel of the Python package, install it in target/python and run its tests
 	.ci/python
+
+owner: ## write owner.toml and the list of parts into all files that have them; .ci/owner --check names what is missing
+	.ci/owner
+
+public: ## test what is published beside the paper: owner, citations, schemas, archives' files, the README's commands
+	python3 -B -m unittest discover -s tests/public
 
 test: ## all tests except the long one
 	cargo test --release --locked --workspace

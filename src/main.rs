@@ -21,7 +21,10 @@ pub fn paper() -> Paper {
     let paper = experiments::bare();
     Paper {
         edition: Edition {
-            authors: vec![("The impact-paper authors", "")],
+            // What owner.toml says, by way of Cargo.toml.
+            authors: env!("CARGO_PKG_AUTHORS").split(':').map(|name| (name, "")).collect(),
+            address: env!("CARGO_PKG_REPOSITORY"),
+            doi: "",
             date: "2026-11-28",
             license: "text and figures CC BY 4.0, code MIT OR Apache-2.0",
             documents: DOCUMENTS.to_vec(),

@@ -7,6 +7,9 @@ use crate::prose::Templates;
 pub struct Edition {
     pub title: &'static str,
     pub authors: Vec<(&'static str, &'static str)>,
+    /// Address of the repository, at the foot of each page, and DOI; may be empty.
+    pub address: &'static str,
+    pub doi: &'static str,
     /// Day of this version, YYYY-MM-DD; may be empty.
     pub date: &'static str,
     pub license: &'static str,
@@ -22,6 +25,8 @@ impl Edition {
         Edition {
             title,
             authors: Vec::new(),
+            address: "",
+            doi: "",
             date: "",
             license: "",
             documents: vec![Document::REPORT],

@@ -63,6 +63,8 @@ pub fn write(
         "documents": documents.collect::<Vec<_>>(),
         "title": text(&spelt(title)),
         "key": key,
+        "address": text(edition.address),
+        "doi": text(edition.doi),
         "bibtex": [text(&edition.bibtex_authors()), text(&latex::inlines(title))],
         "heading": heading,
         "byline": text(&edition.byline(here)),
