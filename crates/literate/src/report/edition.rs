@@ -10,6 +10,10 @@ pub struct Edition {
     /// Day of this version, YYYY-MM-DD; may be empty.
     pub date: &'static str,
     pub license: &'static str,
+    /// Names and addresses of what the foot of each page leads to, seen from the report.
+    pub links: Vec<(&'static str, &'static str)>,
+    /// The figure that is drawn for dark pages too, as a README has it.
+    pub cover: Option<&'static str>,
     pub documents: Vec<Document>,
     pub equations: Vec<EquationEntry>,
     /// Returns the path of the item that judges the statement with this id, for its card.
@@ -24,6 +28,8 @@ impl Edition {
             authors: Vec::new(),
             date: "",
             license: "",
+            links: Vec::new(),
+            cover: None,
             documents: vec![Document::REPORT],
             equations: Vec::new(),
             judged_by: |_| String::new(),

@@ -52,12 +52,22 @@ pub fn write(
     let key = format!("{}{year}{}", sources.name, here.prose);
     let key: String = key.chars().filter(char::is_ascii_alphanumeric).collect();
     let documents = edition.documents.iter().map(|of| (of.page, text(of.name)));
+    let link = |(name, to): &(&str, &str)| {
+        let link = Inline::Link { to: to.to_string(), shown: vec![Inline::Text(name.to_string())] };
+        page.inlines(&document::relative_link(link, input.top))
+    };
     let parts = json!({
         "file": here.page,
         "markdown": here.markdown,
         "name": text(sources.name),
         "version": text(sources.version),
         "license": text(edition.license),
+        "description": text(&description(blocks)),
+        "picture": blocks.iter().rev().find_map(|block| match block {
+            Block::Figure { files: [file, _], .. } => Some(file),
+            _ => None,
+        }),
+        "links": edition.links.iter().map(link).collect::<Vec<_>>(),
         "date": text(edition.date),
         "authors": edition.authors.iter().map(|(name, _)| text(name)).collect::<Vec<_>>(),
         "documents": documents.collect::<Vec<_>>(),
@@ -73,6 +83,20 @@ pub fn write(
     });
     Error::all(page.errors.into_inner())?;
     Ok((parts, page.values.into_inner()))
+}
+
+/// The first words of a document, for those who have only a link to it.
+fn description(blocks: &[Block]) -> String {
+    const MOST: usize = 200;
+    let words = blocks.iter().find_map(|block| match block {
+        Block::Paragraph(text) => Some(spelt(text)),
+        Block::List { items, .. } => Some(description(items.first()?)),
+        _ => None,
+    });
+    let words = words.unwrap_or_default();
+    let end = words.char_indices().nth(MOST).map_or(words.len(), |(at, _)| at);
+    let short = if end < words.len() { words[..end].rfind(' ').unwrap_or(end) } else { end };
+    words[..short].to_string() + if end < words.len() { " …" } else { "" }
 }
 
 const OPENING: [char; 4] = ['(', '[', '“', '‘'];
@@ -332,9 +356,7 @@ impl<'a> Page<'a> {
             Shown::Words(_) => ("value phrase", self.inlines(&document::printed(shown))),
             Shown::Number(numeral) => ("value", number(numeral, blank)),
         };
-        format!(
-            "<span role=\"button\" tabindex=\"0\" class=\"{class}\" data-card=\"{id}\">{shown}</span>"
-        )
+        format!("<span class=\"{class}\" data-card=\"{id}\">{shown}</span>")
     }
 }
 
@@ -357,13 +379,11 @@ fn number(numeral: &Numeral, blank: char) -> String {
 
 /// Wraps what scrolls sideways where it is too wide.
 fn scroll(name: &str, inner: &str) -> String {
-    format!(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{name}\">{inner}</div>"
-    )
+    format!("<div class=\"scroll\" role=\"group\" aria-label=\"{name}\">{inner}</div>")
 }
 
 fn code(words: &str) -> String {
-    format!("<pre tabindex=\"0\"><code>{}</code></pre>\n", text(words.trim_end()))
+    format!("<pre><code>{}</code></pre>\n", text(words.trim_end()))
 }
 
 /// Escapes words; a number and its sign of per cent stay on one line.

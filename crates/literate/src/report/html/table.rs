@@ -2,6 +2,7 @@
 
 use super::super::document::{Inline, Table, plain, spelt};
 use super::Page;
+use crate::claims::Verdict;
 use crate::figures::escape as text;
 use pulldown_cmark::Alignment;
 use std::fmt::Write as _;
@@ -61,6 +62,22 @@ impl Page<'_> {
             ],
             (false, true) => [" class=\"many\"", "", "", ""],
             (false, false) => [""; 4],
+        };
+        // One row of numbers below verdicts is a bar, each part as wide as its number is large.
+        let is_verdict = |cell: &Vec<Inline>| {
+            let sign = plain(cell).chars().next();
+            Verdict::ALL.iter().find(|verdict| sign == Some(verdict.sign())).copied()
+        };
+        let verdicts: Option<Vec<Verdict>> = head.iter().map(is_verdict).collect();
+        let verdicts = verdicts.filter(|_| rows.len() == 1);
+        let table = if verdicts.is_some() { " class=\"bar\"" } else { table };
+        let class = |i: usize| match &verdicts {
+            Some(all) => format!(
+                " class=\"{}\" colspan=\"{}\"",
+                all[i].words().replace(' ', "-"),
+                plain(&rows[0][i])
+            ),
+            None => class(i),
         };
         let mut out = format!("<table{table}>\n<thead><tr{line}>");
         for (i, cell) in head.iter().enumerate() {
