@@ -1,7 +1,7 @@
 //! Writes lab.js, which a page loads to compute: the engine, results, and the script.
 
 use crate::experiments::ensembles::named;
-use crate::experiments::rise::{Curve, Mean, RisePoint};
+use crate::experiments::rise::{Mean, RisePoint};
 use crate::experiments::{JUMP, PROTOCOL, REPLAY, Results, Session, sweep};
 use crate::params::printed_threshold;
 use impact_numerics::statistics::count_quantile;
@@ -16,14 +16,9 @@ pub fn lab(session: &Session<'_>, results: &Results) -> Result<Option<String>, F
     let found = session.project.find(MODULE).and_then(|path| input::regular(&path).ok());
     match found.filter(|module| module.starts_with(b"\0asm")) {
         Some(module) => {
-            let files = |ending| {
-                let files = session.templates.iter();
-                let own =
-                    files.filter(|(path, _)| path.starts_with("lab/") && path.ends_with(ending));
-                own.map(|(_, text)| text).collect()
-            };
-            let [style, code] = [".css", ".js"].map(files);
-            Ok(Some(script(&module, results, [style, code])?))
+            let files = session.templates.iter().filter(|(path, _)| path.starts_with("lab/"));
+            let code: String = files.map(|(_, text)| text).collect();
+            Ok(Some(script(&module, results, &code)?))
         }
         None => {
             let what = "is missing or not WebAssembly, so the pages cannot run the engine; `make paper` builds it";
@@ -33,46 +28,35 @@ pub fn lab(session: &Session<'_>, results: &Results) -> Result<Option<String>, F
     }
 }
 
-/// The file, from the module in WebAssembly, a style sheet and the script.
-pub fn script(
-    module: &[u8],
-    results: &Results,
-    [style, code]: [String; 2],
-) -> Result<String, Failure> {
+/// The file, from the module in WebAssembly and the script.
+pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Failure> {
     let (replays, sweep) = (results.of(&REPLAY)?, sweep::main(results)?);
     let runs = replays.parameters.iter().zip(&replays.found);
     let runs: Vec<_> = runs
         .map(|((name, asked), found)| json!({ "name": name, "asked": asked, "found": found }))
         .collect();
+    // To a hundredth of a gap, which no eye sees.
+    let value = |mean: Option<Mean>| mean.map(|mean| (mean.value * 100.0).round() / 100.0);
     let row = |row: &RisePoint| {
         let [low, high] = [0.05, 0.95].map(|share| count_quantile(&row.counts, share).unwrap_or(0));
         (row.sigma, value(row.mean_all), value(row.mean), low, high)
     };
     let rows: Vec<_> = sweep.comparable().map(row).collect();
-    let curve = json!({ "gaps": sweep.ensemble.chain.gaps(), "half": sweep.first().rise.half_height, "rows": rows });
-    let protocols = named(results.of(&PROTOCOL)?, PROTOCOL.name).map_or(&[][..], |map| &map.curves);
-    let protocols: Vec<_> = protocols.iter().map(protocol).collect();
-    let jumps: Vec<_> = results.of(&JUMP)?.windows.iter().map(|window| {
+    let (gaps, half) = (sweep.ensemble.chain.gaps(), sweep.first().rise.half_height);
+    let map = named(results.of(&PROTOCOL)?, PROTOCOL.name);
+    let protocols = map.iter().flat_map(|map| &map.curves).map(|curve| {
+        let rows: Vec<_> = curve.rows.iter().map(row).collect();
+        json!({ "protocol": curve.protocol, "half": curve.rise.half_height, "rows": rows })
+    });
+    let jumps = results.of(&JUMP)?.windows.iter().map(|window| {
         let passing = &window.jump.all_gaps;
         json!({ "protocol": window.protocol, "sigma": passing.sigma, "jumps": passing.is_jump() })
-    }).collect();
-    let data = json!({
-        "runs": runs, "curve": curve, "protocols": protocols, "jumps": jumps, "printed": printed_threshold(),
-        "module": base64(module), "style": style,
     });
-    Ok(format!("\"use strict\";\nconst LAB = {data};\n{{\n{code}}}\n"))
-}
-
-/// The mean number of gaps of a window against σ: of all chains, and of those with an impact.
-fn protocol(curve: &Curve) -> serde_json::Value {
-    let row = |row: &RisePoint| (row.sigma, value(row.mean_all), value(row.mean));
-    let rows: Vec<_> = curve.rows.iter().map(row).collect();
-    json!({ "protocol": curve.protocol, "half": curve.rise.half_height, "rows": rows })
-}
-
-/// A mean to a hundredth of a gap, which no eye sees.
-fn value(mean: Option<Mean>) -> Option<f64> {
-    mean.map(|mean| (mean.value * 100.0).round() / 100.0)
+    let data = json!({
+        "runs": runs, "curve": { "gaps": gaps, "half": half, "rows": rows }, "printed": printed_threshold(),
+        "protocols": protocols.collect::<Vec<_>>(), "jumps": jumps.collect::<Vec<_>>(), "module": base64(module),
+    });
+    Ok(format!("\"use strict\";\nconst LAB = {data};\n{{\n{script}}}\n"))
 }
 
 /// Base64 with padding (RFC 4648).

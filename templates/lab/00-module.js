@@ -1,14 +1,13 @@
 // What readers run themselves: chains by the engine of this report, circuits by its theory, in
 // WebAssembly. A page loads this when it is first asked to; what it has to hold the runs against is
 // LAB, which the program writes before this.
-const { runs, curve, protocols, jumps, printed, module: BYTES, style: LOOK } = LAB;
+const { runs, curve, protocols, jumps, printed, module: BYTES } = LAB;
 
 const make = (tag, properties = {}, ...children) => {
   const node = Object.assign(document.createElement(tag), properties);
   node.append(...children);
   return node;
 };
-document.head.append(make("style", { textContent: LOOK }));
 
 // The module, with what it is asked and what it answers as JavaScript has it. Each copy has a
 // memory of its own: one for the chain that is shown, one for its masses in motion, one for many.
@@ -44,8 +43,9 @@ async function start() {
     // Positions of all masses at a time that is not before the last, and the gaps hit meanwhile.
     follow(time, masses) {
       refused(exports.follow(time));
-      const all = [...numbers(exports.count())];
-      return { positions: all.slice(0, masses), hit: all.slice(masses) };
+      const hits = numbers(masses + 1)[masses];
+      const all = [...numbers(masses + 1 + hits)];
+      return { positions: all.slice(0, masses), hit: all.slice(masses + 1) };
     },
     law(vertices, p) {
       refused(exports.law(vertices, p));

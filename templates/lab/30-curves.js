@@ -32,7 +32,7 @@ function computed({ chain, transient, window }) {
   return {
     all: points(1),
     hit: points(2),
-    band: is_main ? rows.map(([sigma, , , low, high]) => [sigma, low / curve.gaps, high / curve.gaps]) : [],
+    band: rows.filter((row) => row[1] !== null).map(([sigma, , , low, high]) => [sigma, low / curve.gaps, high / curve.gaps]),
     half,
     jump: jumps.find(same),
     holds,

@@ -7,13 +7,14 @@ const PACE = 4; // units of time in a second
 const FLASH = 1.5; // units of time for which a flash is seen
 const BEFORE = 5; // units of time before the first impact
 
-/** Where something happens first: the masses around that gap, and a time shortly before. */
+/** Where something happens first: the masses around that gap, its time, and one shortly before. */
 function first_impact({ picture, columns, gaps }, { chain, transient, window }) {
   const first = (gap) => picture.subarray(gap * columns, (gap + 1) * columns).findIndex((count) => count > 0);
   const all = Array.from({ length: gaps }, (_, gap) => [first(gap), gap]).filter(([column]) => column >= 0);
-  const [column, gap] = all.reduce((best, one) => (one[0] < best[0] ? one : best), [0, 0]);
+  const [column, gap] = all.reduce((best, one) => (one[0] < best[0] ? one : best), [columns, 0]);
   const from = Math.max(0, Math.min(gap - DOZEN / 2, chain.masses - DOZEN));
-  return { from, time: Math.max(0, ((transient + window) * column) / columns - BEFORE) };
+  const hit = column < columns ? ((transient + window) * (column + 1)) / columns : 0;
+  return { from, hit, time: Math.max(0, hit - BEFORE) };
 }
 
 function draw_row(canvas, { chain, from, count, positions, flashes, time }) {
@@ -97,6 +98,8 @@ function row() {
     state = { from, count: Math.min(DOZEN, asked.chain.masses - from), flashes: new Map(), positions: [], time };
     move(time);
     state.flashes.clear();
+    // What stands still shows the impact itself.
+    if (!playing) move(Math.max(time, opened.hit));
   }
   return {
     node,

@@ -1,6 +1,8 @@
 // A search through all documents, this one first, for passages with all words in any order,
 // whatever their endings; Enter goes from find to find.
 const MAX_FINDS = 12;
+// What people ask for in words that a document may not have.
+const INSTEAD = [[/^(run[ -]?times?|how long|speed)$/i, "seconds"]];
 const ABBREVIATED = { eq: "\\beq(?:s?\\.|uations?)", fig: "\\bfig(?:s?\\.|ures?)", sec: "\\bsec(?:s?\\.|tions?)" };
 const CONTEXT = 50;
 const found = make("ol");
@@ -12,7 +14,9 @@ const plain = (text) => text.match(/^[\p{Script=Latin}\d ,.;:()-]*/u)[0] || text
 let [texts, next] = [undefined, 0];
 input.addEventListener("input", async () => {
   await (texts ??= load("search.js"));
-  const asked = input.value.trim().split(/\s+/).filter((word) => word !== "");
+  const typed = input.value.trim();
+  const [, instead] = INSTEAD.find(([words]) => words.test(typed)) ?? [];
+  const asked = (instead ?? typed).split(/\s+/).filter((word) => word !== "");
   const stem = (word) => (/^\p{L}{5,}$/u.test(word) ? word.replace(/(ies|ing|ed|es|s|y|e)$/i, "") : word);
   // Equations, figures and sections are found as people abbreviate them.
   const abbreviated = (word) => ABBREVIATED[word.toLowerCase().replace(/s?\.$/, "")];

@@ -25,9 +25,6 @@ use crate::table::{DataFile, Table};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Rows of a figure's data, beyond which a page does not load them.
-const MOST_POINTS: usize = 2000;
-
 struct Part<'a> {
     document: Document,
     blocks: Vec<Block>,
@@ -263,9 +260,9 @@ fn write_documents(
     files.insert("data/index.html".into(), filler.fill("data.html")?.into_bytes());
     let texts = format!("TEXTS = {};\n", serde_json::Value::from(texts));
     files.insert("search.js".into(), texts.into_bytes());
-    // What the figures show, for readers who point at it.
+    // What the figures show, for readers who point at it, if it is not too long.
     let points = input.figures.iter().map(|figure| {
-        let short = figure.data.iter().filter(|file| file.rows.len() < MOST_POINTS);
+        let short = figure.data.iter().filter(|file| file.rows.len() < 2000);
         (figure.id.as_str(), short.map(DataFile::csv).collect::<Vec<_>>())
     });
     let points = serde_json::json!(points.collect::<BTreeMap<_, _>>());
@@ -282,17 +279,15 @@ fn write_documents(
 /// Returns the picture of a figure for a dark page, in the colours of the style sheet, if it has any.
 fn dark(figure: &Figure, style: &str) -> Option<(String, Vec<u8>)> {
     let (_, dark) = style.split_once("prefers-color-scheme: dark")?;
-    let colour = |name: &str| dark.split_once(&format!("--{name}: "))?.1.get(..7);
-    let mut picture = figure.svg();
-    for name in style.split(".fill-").skip(1).filter_map(|rule| rule.split(' ').next()) {
-        for paint in ["fill", "stroke"] {
-            let rule = format!(".{paint}-{name}{{{paint}:");
-            let at = picture.find(&rule).map(|at| at + rule.len());
-            if let (Some(at), Some(colour)) = (at, colour(name)) {
-                picture.replace_range(at..at + colour.len(), colour);
-            }
-        }
-    }
+    let colours = dark
+        .split_once('}')?
+        .0
+        .split("--")
+        .filter_map(|rule| rule.split(';').next()?.split_once(": "));
+    let rule =
+        |(name, colour)| format!(".fill-{name}{{fill:{colour}}}.stroke-{name}{{stroke:{colour}}}");
+    let rules: String = colours.map(rule).collect();
+    let picture = figure.svg().replacen("</style>", &(rules + "</style>"), 1);
     Some((format!("figures/{}-dark.svg", figure.id), picture.into_bytes()))
 }
 

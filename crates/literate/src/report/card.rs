@@ -158,10 +158,8 @@ impl Cards<'_> {
         card.row("data", links(&data));
         card.row("id", vec![Inline::Code(value.id.clone())]);
         card.experiment(&value.experiment, self);
-        match (value.experiment.as_str(), value.id.starts_with("score.")) {
-            ("", true) => card.repeat("check", self.project),
-            ("", false) => (),
-            (name, _) => card.repeat(&format!("paper --rerun {name}"), self.project),
+        if !value.experiment.is_empty() {
+            card.repeat(&format!("paper --rerun {}", value.experiment), self.project);
         }
         Some(card)
     }
@@ -252,17 +250,13 @@ pub(super) fn link_to_line(item: &str, project: &Project) -> Inline {
 
 /// What the number means, then what kind of number it is, and where it comes from.
 fn lead(value: &Value) -> String {
-    let kind = kind(value);
-    let word = value.note.split_whitespace().next().unwrap_or_default();
-    let rest = value.note.get(1..).unwrap_or_default();
-    let meaning = match word.chars().next() {
-        None => return kind,
-        Some('0'..='9') => format!("It is {}", value.note),
-        Some(first @ 'a'..='z') if word.len() > 1 => format!("{}{rest}", first.to_uppercase()),
-        Some('A'..='Z') => value.note.clone(),
-        Some(_) => format!("The {}", value.note),
+    let Some(first) = value.note.chars().next() else { return kind(value) };
+    // A name as σ begins no sentence.
+    let meaning = match value.note.split_at(first.len_utf8()) {
+        (first, rest) if rest.starts_with(char::is_alphabetic) => first.to_uppercase() + rest,
+        _ => format!("The {}", value.note),
     };
-    format!("{}. {kind}", meaning.trim_end_matches('.'))
+    format!("{}. {}", meaning.trim_end_matches('.'), kind(value))
 }
 
 fn kind(value: &Value) -> String {

@@ -12,7 +12,7 @@ pub struct Edition {
     pub license: &'static str,
     /// Names and addresses of what the foot of each page leads to, seen from the report.
     pub links: Vec<(&'static str, &'static str)>,
-    /// The figure that is drawn for dark pages too, as a README has it.
+    /// The figure that links to a page show, and a README, for which it is drawn for dark pages too.
     pub cover: Option<&'static str>,
     pub documents: Vec<Document>,
     pub equations: Vec<EquationEntry>,

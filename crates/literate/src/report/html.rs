@@ -52,6 +52,11 @@ pub fn write(
     let key = format!("{}{year}{}", sources.name, here.prose);
     let key: String = key.chars().filter(char::is_ascii_alphanumeric).collect();
     let documents = edition.documents.iter().map(|of| (of.page, text(of.name)));
+    // Its first words, for those who have only a link to it.
+    let description = blocks.iter().find_map(|block| match block {
+        Block::Paragraph(text) => Some(spelt(text)),
+        _ => None,
+    });
     let link = |(name, to): &(&str, &str)| {
         let link = Inline::Link { to: to.to_string(), shown: vec![Inline::Text(name.to_string())] };
         page.inlines(&document::relative_link(link, input.top))
@@ -62,11 +67,8 @@ pub fn write(
         "name": text(sources.name),
         "version": text(sources.version),
         "license": text(edition.license),
-        "description": text(&description(blocks)),
-        "picture": blocks.iter().rev().find_map(|block| match block {
-            Block::Figure { files: [file, _], .. } => Some(file),
-            _ => None,
-        }),
+        "description": text(&description.unwrap_or_default()),
+        "picture": edition.cover,
         "links": edition.links.iter().map(link).collect::<Vec<_>>(),
         "date": text(edition.date),
         "authors": edition.authors.iter().map(|(name, _)| text(name)).collect::<Vec<_>>(),
@@ -83,20 +85,6 @@ pub fn write(
     });
     Error::all(page.errors.into_inner())?;
     Ok((parts, page.values.into_inner()))
-}
-
-/// The first words of a document, for those who have only a link to it.
-fn description(blocks: &[Block]) -> String {
-    const MOST: usize = 200;
-    let words = blocks.iter().find_map(|block| match block {
-        Block::Paragraph(text) => Some(spelt(text)),
-        Block::List { items, .. } => Some(description(items.first()?)),
-        _ => None,
-    });
-    let words = words.unwrap_or_default();
-    let end = words.char_indices().nth(MOST).map_or(words.len(), |(at, _)| at);
-    let short = if end < words.len() { words[..end].rfind(' ').unwrap_or(end) } else { end };
-    words[..short].to_string() + if end < words.len() { " …" } else { "" }
 }
 
 const OPENING: [char; 4] = ['(', '[', '“', '‘'];

@@ -63,21 +63,14 @@ impl Page<'_> {
             (false, true) => [" class=\"many\"", "", "", ""],
             (false, false) => [""; 4],
         };
-        // One row of numbers below verdicts is a bar, each part as wide as its number is large.
-        let is_verdict = |cell: &Vec<Inline>| {
-            let sign = plain(cell).chars().next();
-            Verdict::ALL.iter().find(|verdict| sign == Some(verdict.sign())).copied()
-        };
-        let verdicts: Option<Vec<Verdict>> = head.iter().map(is_verdict).collect();
-        let verdicts = verdicts.filter(|_| rows.len() == 1);
-        let table = if verdicts.is_some() { " class=\"bar\"" } else { table };
-        let class = |i: usize| match &verdicts {
-            Some(all) => format!(
-                " class=\"{}\" colspan=\"{}\"",
-                all[i].words().replace(' ', "-"),
-                plain(&rows[0][i])
-            ),
-            None => class(i),
+        // One row of numbers below signs of verdicts is a bar, each part as wide as its number.
+        let signs: Vec<char> = head.iter().filter_map(|cell| plain(cell).chars().next()).collect();
+        let is_sign = |sign: &char| Verdict::ALL.iter().any(|verdict| verdict.sign() == *sign);
+        let is_bar = rows.len() == 1 && signs.len() == head.len() && signs.iter().all(is_sign);
+        let table = if is_bar { " class=\"bar\"" } else { table };
+        let class = |i: usize| match is_bar {
+            true => format!(" colspan=\"{}\" data-sign=\"{}\"", plain(&rows[0][i]), signs[i]),
+            false => class(i),
         };
         let mut out = format!("<table{table}>\n<thead><tr{line}>");
         for (i, cell) in head.iter().enumerate() {
