@@ -213,8 +213,6 @@ fn the_page_has_each_run_with_its_digest_and_the_module() {
     assert_eq!(data["module"], "Zm9vYmFy");
     let protocols = data["protocols"].as_array().unwrap();
     assert_eq!(protocols.len(), QUICK.results.of(&PROTOCOL).unwrap()[0].curves.len());
-    let ours = protocols.iter().find(|one| one["protocol"] == data["jumps"][0]["protocol"]);
-    assert!(ours.is_some_and(|one| one["half"]["value"].is_number()), "{ours:?}");
     let replays = QUICK.results.of(&REPLAY).unwrap();
     assert_eq!(data["runs"].as_array().unwrap().len(), replays.found.len());
     for (i, found) in replays.found.iter().enumerate() {

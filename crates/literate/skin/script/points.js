@@ -7,6 +7,9 @@ const digits = (text) => (text === "" ? "" : Number(Number(text).toPrecision(4))
 /** Rows of a CSV file, whose fields may be quoted. */
 const cells = (line) => [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)].map(([, quoted, bare]) => quoted?.replaceAll('""', '"') ?? bare);
 
+/** The name of a column with its unit, as people write it. */
+const named = (head) => head.replace(" (1)", "").replaceAll("sigma", "σ").replaceAll("omega", "ω").replace("^2", "²");
+
 /** A function from data to the drawing, along one axis. */
 function scale([low, high, is_log], from, to) {
   const of = is_log === "true" ? Math.log : Number;
@@ -22,16 +25,20 @@ function points_of(svg, files) {
     const at = rest.findIndex(([, ...rows]) => rows.some(([series]) => names.has(series)));
     if (at < 0) return [];
     const [[head, ...rows]] = rest.splice(at, 1);
+    const columns = head.map((name) => name.replace(/ \(.*/, ""));
+    const column = (row, name) => row[columns.indexOf(name) - 1] ?? "";
     const [left, top, right, bottom] = groups[0].dataset.frame.split(" ").map(Number);
     const ends = groups[0].dataset.axes.split(" ");
     const [x, y] = [scale(ends.slice(0, 3), left, right), scale(ends.slice(3), bottom, top)];
     return rows.flatMap(([series, ...row]) => {
-      const [of, value, low, high] = ["", "", "low", "high"].map((name, i) => row[i < 2 ? i : head.indexOf(name) - 1] ?? "");
+      const [of, value] = columns[2] === "low" ? [row[0], ""] : row;
+      const [error, low, high] = ["standard_error", "low", "high"].map((name) => column(row, name));
       const [px, py] = [x(Number(of)), y(Number(value || low))];
       if (!names.has(series) || !(px >= left - 1 && px <= right + 1 && py >= top - 1 && py <= bottom + 1)) return [];
-      const range = low === "" ? "" : `, from ${digits(low)} to ${digits(high)}`;
-      const error = row[head.indexOf("standard_error") - 1] ? ` \u00b1 ${digits(row[head.indexOf("standard_error") - 1])}` : "";
-      return [{ px, py, series, text: `${series}: ${head[1]} ${digits(of)}; ${head[2]} ${digits(value)}${error}${range}` }];
+      const range = low === "" ? "" : `, interval ${digits(low)} to ${digits(high)}`;
+      const bar = error === "" ? "" : ` \u00b1 ${digits(error)}`;
+      const known = value === "" ? "" : `; ${named(head[2])}: ${digits(value)}${bar}`;
+      return [{ px, py, series, text: `${series}: ${named(head[1])} = ${digits(of)}${known}${range}` }];
     });
   });
 }
@@ -77,9 +84,8 @@ for (const svg of all("figure svg:has([data-axes])")) {
     event.preventDefault();
     const [dx, dy] = steps[event.key];
     const series = [...new Set(points.map((point) => point.series))];
-    const own = points.filter((point) => point.series === now.series);
     const other = series[(series.indexOf(now.series) + dy + series.length) % series.length];
-    show(dy === 0 ? (own[own.indexOf(now) + dx] ?? now) : nearest(now.px, now.py, points.filter((point) => point.series === other)));
+    show(dy === 0 ? (points[points.indexOf(now) + dx] ?? now) : nearest(now.px, now.py, points.filter((point) => point.series === other)));
   });
   svg.parentElement.after(reading);
 }

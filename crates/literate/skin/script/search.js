@@ -1,8 +1,8 @@
 // A search through all documents, this one first, for passages with all words in any order,
 // whatever their endings; Enter goes from find to find.
 const MAX_FINDS = 12;
-// What people ask for in words that a document may not have.
-const INSTEAD = [[/^(run[ -]?times?|how long|speed)$/i, "seconds"]];
+// What people ask for in words that a document may not have, and what it has instead.
+const INSTEAD = [[/^(run[ -]?times?|how long)$/i, "\\b(?:seconds|minutes|µs)\\b"]];
 const ABBREVIATED = { eq: "\\beq(?:s?\\.|uations?)", fig: "\\bfig(?:s?\\.|ures?)", sec: "\\bsec(?:s?\\.|tions?)" };
 const CONTEXT = 50;
 const found = make("ol");
@@ -16,14 +16,15 @@ input.addEventListener("input", async () => {
   await (texts ??= load("search.js"));
   const typed = input.value.trim();
   const [, instead] = INSTEAD.find(([words]) => words.test(typed)) ?? [];
-  const asked = (instead ?? typed).split(/\s+/).filter((word) => word !== "");
+  const asked = typed.split(/\s+/).filter((word) => word !== "");
   const stem = (word) => (/^\p{L}{5,}$/u.test(word) ? word.replace(/(ies|ing|ed|es|s|y|e)$/i, "") : word);
   // Equations, figures and sections are found as people abbreviate them.
   const abbreviated = (word) => ABBREVIATED[word.toLowerCase().replace(/s?\.$/, "")];
   const ends = (word) => (/^\p{N}+$/u.test(word) ? "(?!\\p{N})" : "\\p{L}*");
   const pattern = (word) => abbreviated(word) ?? `(?<![\\p{L}\\p{N}])${stem(word).replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}${ends(word)}`;
-  const words = asked.map((word) => new RegExp(pattern(word), "iu"));
-  const phrase = new RegExp(asked.map(pattern).join("[^\\p{L}\\p{N}]+"), "iu");
+  const patterns = instead ? [instead] : asked.map(pattern);
+  const words = patterns.map((word) => new RegExp(word, "iu"));
+  const phrase = new RegExp(patterns.join("[^\\p{L}\\p{N}]+"), "iu");
   const is_short = asked.join("").length < 2;
   const pages = is_short ? [] : TEXTS.toSorted((a, b) => (b[0] === here) - (a[0] === here));
   const places = pages.flatMap(([page, name, pieces]) => pieces.flatMap(([id, section, text]) => {

@@ -67,8 +67,7 @@ pub type Glyphs = BTreeMap<String, Vec<Step>>;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Element {
-    /// The series of this name begins, in this frame, with the ends of both axes in units of the
-    /// data and whether each is logarithmic, as `0 1 false 0 101 false`.
+    /// The series of this name begins, in this frame, with these axes: `0 1 false 0 101 false`.
     Open(String, Frame, String),
     Close,
     /// A path, filled and along its edge; an edge without a fill has round corners.

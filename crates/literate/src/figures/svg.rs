@@ -144,8 +144,7 @@ impl Drawing {
         for element in &self.elements {
             out += &match element {
                 Element::Open(name, Frame { left, top, right, bottom }, axes) => {
-                    let axes =
-                        if on_page { format!(" data-axes=\"{axes}\"") } else { String::new() };
+                    let axes = if on_page { format!(" data-axes=\"{axes}\"") } else { "".into() };
                     format!(
                         "<g class=\"data\" data-name=\"{}\" data-frame=\"{left} {top} {right} {bottom}\"{axes}>",
                         escape(name)

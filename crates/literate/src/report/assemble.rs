@@ -276,7 +276,7 @@ fn write_documents(
     Ok(shown)
 }
 
-/// Returns the picture of a figure for a dark page, in the colours of the style sheet, if it has any.
+/// Returns a figure's picture for a dark page, in the colours of the style sheet, if it has any.
 fn dark(figure: &Figure, style: &str) -> Option<(String, Vec<u8>)> {
     let (_, dark) = style.split_once("prefers-color-scheme: dark")?;
     let colours = dark
