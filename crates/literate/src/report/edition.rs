@@ -12,7 +12,7 @@ pub struct Edition {
     pub license: &'static str,
     /// Names and addresses of what the foot of each page leads to, seen from the report.
     pub links: Vec<(&'static str, &'static str)>,
-    /// The figure that links to a page show, and a README, for which it is drawn for dark pages too.
+    /// The figure that links to a page show; a README has its form for dark pages too.
     pub cover: Option<&'static str>,
     pub documents: Vec<Document>,
     pub equations: Vec<EquationEntry>,
