@@ -3,7 +3,6 @@
 use crate::experiments::ensembles::named;
 use crate::experiments::rise::{Mean, RisePoint};
 use crate::experiments::{JUMP, PROTOCOL, REPLAY, Results, Session, sweep};
-use crate::params::printed_threshold;
 use impact_numerics::statistics::count_quantile;
 use literate::{Failure, input};
 use serde_json::json;
@@ -53,7 +52,7 @@ pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, 
         json!({ "protocol": window.protocol, "sigma": passing.sigma, "jumps": passing.is_jump() })
     });
     let data = json!({
-        "runs": runs, "curve": { "gaps": gaps, "half": half, "rows": rows }, "printed": printed_threshold(),
+        "runs": runs, "curve": { "gaps": gaps, "half": half, "rows": rows },
         "protocols": protocols.collect::<Vec<_>>(), "jumps": jumps.collect::<Vec<_>>(), "module": base64(module),
     });
     Ok(format!("\"use strict\";\nconst LAB = {data};\n{{\n{script}}}\n"))

@@ -1,7 +1,7 @@
 // What readers run themselves: chains by the engine of this report, circuits by its theory, in
 // WebAssembly. A page loads this when it is first asked to; what it has to hold the runs against is
 // LAB, which the program writes before this.
-const { runs, curve, protocols, jumps, printed, module: BYTES } = LAB;
+const { runs, curve, protocols, jumps, module: BYTES } = LAB;
 
 const make = (tag, properties = {}, ...children) => {
   const node = Object.assign(document.createElement(tag), properties);

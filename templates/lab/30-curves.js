@@ -1,7 +1,9 @@
 // What this edition computed beforehand for the paper's chain: the rise for each transient and
 // window, of which the main sweep has most chains; and where the most likely number jumps.
 
+// The first run is at the σ that the paper prints for the threshold.
 const base = runs[0].asked;
+const printed = base.forces.drawn.sigma;
 const distinct = (numbers) => [...new Set(numbers)].sort((a, b) => a - b);
 const TRANSIENTS = distinct(protocols.map(({ protocol }) => protocol.transient));
 const WINDOWS = distinct(protocols.map(({ protocol }) => protocol.window));
