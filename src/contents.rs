@@ -41,21 +41,12 @@ pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str
     let tested: Vec<&Program> =
         results.of(&PROGRAMS)?.iter().filter(|of| !of.settings.is_empty()).collect();
     Ok(BTreeMap::from([
-        ("scorecard", Verdict::ALL.iter().map(|verdict| score(*verdict, &statements)).collect()),
         ("basis_table", Basis::ALL.iter().filter_map(|basis| split(*basis, &statements)).collect()),
         ("scene_heads", json!(heads)),
         ("scene_table", trials.map(|(all, found)| scene(&all.what, found, &sizes)).collect()),
         ("program_heads", json!(tested.iter().map(|of| &of.settings[0].name).collect::<Vec<_>>())),
         ("program_table", program_table(&tested)),
     ]))
-}
-
-/// How many statements have a verdict, and references to them.
-fn score(verdict: Verdict, checks: &[&Check]) -> Json {
-    let found = checks.iter().filter(|check| check.verdict == verdict);
-    let found: Vec<String> = found.map(|check| format!("@claim:{}", check.id)).collect();
-    let which = if found.is_empty() { "none".into() } else { format!("[{}]", found.join("; ")) };
-    json!({"verdict": verdict.words(), "count": mark(verdict.words()), "claims": which})
 }
 
 /// A basis, how many statements rest on it, how many of these are reproduced, and a sign for each,

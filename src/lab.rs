@@ -1,8 +1,8 @@
 //! Writes lab.js, which a page loads to compute: the engine, results, and the script.
 
+use crate::experiments::ensembles::named;
 use crate::experiments::rise::{Mean, RisePoint};
-use crate::experiments::sweep;
-use crate::experiments::{REPLAY, Results, Session};
+use crate::experiments::{JUMP, PROTOCOL, REPLAY, Results, Session, sweep};
 use impact_numerics::statistics::count_quantile;
 use literate::{Failure, input};
 use serde_json::json;
@@ -14,7 +14,11 @@ const MODULE: &str = "target/page.wasm";
 pub fn lab(session: &Session<'_>, results: &Results) -> Result<Option<String>, Failure> {
     let found = session.project.find(MODULE).and_then(|path| input::regular(&path).ok());
     match found.filter(|module| module.starts_with(b"\0asm")) {
-        Some(module) => Ok(Some(script(&module, results, session.templates.text("lab.js")?)?)),
+        Some(module) => {
+            let files = session.templates.iter().filter(|(path, _)| path.starts_with("lab/"));
+            let code: String = files.map(|(_, text)| text).collect();
+            Ok(Some(script(&module, results, &code)?))
+        }
         None => {
             let what = "is missing or not WebAssembly, so the pages cannot run the engine; `make paper` builds it";
             session.progress.say(&format!("{MODULE} {what}"));
@@ -30,16 +34,28 @@ pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, 
     let runs: Vec<_> = runs
         .map(|((name, asked), found)| json!({ "name": name, "asked": asked, "found": found }))
         .collect();
-    let value = |mean: Option<Mean>| mean.map(|mean| mean.value);
+    // To a hundredth of a gap, which no eye sees.
+    let value = |mean: Option<Mean>| mean.map(|mean| (mean.value * 100.0).round() / 100.0);
     let row = |row: &RisePoint| {
         let [low, high] = [0.05, 0.95].map(|share| count_quantile(&row.counts, share).unwrap_or(0));
         (row.sigma, value(row.mean_all), value(row.mean), low, high)
     };
     let rows: Vec<_> = sweep.comparable().map(row).collect();
-    let gaps = sweep.ensemble.chain.gaps();
-    let data =
-        json!({ "runs": runs, "curve": { "gaps": gaps, "rows": rows }, "module": base64(module) });
-    Ok(format!("\"use strict\";\nconst LAB = {data};\n{script}"))
+    let (gaps, half) = (sweep.ensemble.chain.gaps(), sweep.first().rise.half_height);
+    let map = named(results.of(&PROTOCOL)?, PROTOCOL.name);
+    let protocols = map.iter().flat_map(|map| &map.curves).map(|curve| {
+        let rows: Vec<_> = curve.rows.iter().map(row).collect();
+        json!({ "protocol": curve.protocol, "half": curve.rise.half_height, "rows": rows })
+    });
+    let jumps = results.of(&JUMP)?.windows.iter().map(|window| {
+        let passing = &window.jump.all_gaps;
+        json!({ "protocol": window.protocol, "sigma": passing.sigma, "jumps": passing.is_jump() })
+    });
+    let data = json!({
+        "runs": runs, "curve": { "gaps": gaps, "half": half, "rows": rows },
+        "protocols": protocols.collect::<Vec<_>>(), "jumps": jumps.collect::<Vec<_>>(), "module": base64(module),
+    });
+    Ok(format!("\"use strict\";\nconst LAB = {data};\n{{\n{script}}}\n"))
 }
 
 /// Base64 with padding (RFC 4648).

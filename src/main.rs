@@ -27,6 +27,13 @@ pub fn paper() -> Paper {
             doi: "",
             date: "2026-11-28",
             license: "text and figures CC BY 4.0, code MIT OR Apache-2.0",
+            cover: Some("fig12"),
+            links: vec![
+                ("Report a problem", "../CONTRIBUTING.md"),
+                ("the original", "report.html#ref-homer2007"),
+                ("what journals ask", "../REPRODUCTION.md"),
+                ("licence", "../LICENSE-CC-BY"),
+            ],
             documents: DOCUMENTS.to_vec(),
             equations: equations::equations(),
             judged_by: |claim| format!("claims::{}", claim.split('_').next().unwrap_or_default()),

@@ -59,6 +59,7 @@ export async function labs({ report, open, check, stays_narrow, accessible, pict
     await page.context().close();
   };
   await Promise.all([["index.html", "chain", 1280, "light"], ["beyond.html", "chain", 390, "dark"]].map(tried));
+  await masses_move(open, check);
   await Promise.all([["report.html", "theory", 1280, "dark"], ["report.html", "theory", 390, "light"]].map(tried));
 }
 
@@ -89,6 +90,10 @@ async function chains(page, name, figure, { report, check }) {
   await appears(told.filter({ hasText: "gaps have impacts" }), check, `${name}: no other chain`);
   check((await choice.inputValue()) === "", `${name}: another chain is called ${await choice.inputValue()}`);
 
+  await times_move_the_curves(figure, told, check, name, set);
+  await states_have_an_address(page, figure, check, name, set);
+  await many_are_run(figure, check, name);
+
   // From slider to picture, by keyboard.
   await figure.getByLabel("force σ (dω²)", { exact: true }).focus();
   let slowest = 0;
@@ -116,6 +121,68 @@ async function chains(page, name, figure, { report, check }) {
     await set(label, good);
     await appears(told.filter({ hasText: "gaps have impacts" }).filter({ hasNotText: "so far" }), check, `${name}: it does not go on after ${label} = ${value}`);
   }
+}
+
+/** Sliders of T and W go from one computed pair to the next, and the page says where its rise lies; elsewhere what the curves hold for. */
+async function times_move_the_curves(figure, told, check, name, set) {
+  const said = figure.locator("output").filter({ hasText: /mean of our chains|faint curves/ });
+  const last = await figure.evaluate(() => Math.max(...LAB.protocols.map(({ protocol }) => protocol.transient)));
+  const places = [];
+  for (const key of ["Home", "End"]) {
+    await figure.getByLabel("transient T (1/ω)", { exact: true }).press(key);
+    await appears(said.filter({ hasText: key === "Home" ? "At T = 10 " : `At T = ${last} ` }), check, `${name}: ${key} of T`);
+    places.push(Number((await said.innerText()).match(/at σ = (\d\.\d+)\(/)?.[1] ?? 0));
+  }
+  check(places[0] > 0.12 && places[1] < places[0], `${name}: the rise lies at ${places}`);
+  await set("transient T", "500");
+  await appears(said.filter({ hasText: /At T = 500 and W = 200 .* jumps to all gaps at 0\.11/ }), check, `${name}: no jump at our times`);
+  await set("restitution r", "0.7");
+  await appears(said.filter({ hasText: "for n = 100, r = 0.8, T = 500, W = 200; for your settings" }), check, `${name}: curves hold for r = 0.7`);
+  await set("restitution r", "0.8");
+  await appears(told.filter({ hasNotText: "so far" }), check, `${name}: not back at r = 0.8`);
+}
+
+/** What is set stands in the address and in a command, and the address sets it. */
+async function states_have_an_address(page, figure, check, name, set) {
+  await set("force σ", "0.1");
+  await set("realisation", "3");
+  await appears(figure.locator("code").filter({ hasText: "impact-paper sweep --sigma 0.1 --realisations 3..4" }), check, `${name}: no command`);
+  const hash = await page.evaluate(() => location.hash);
+  check(hash === "#chain:sigma=0.1&realisation=3", `${name}: the address says ${hash}`);
+  await page.evaluate(() => (location.hash = "#chain:sigma=0.2&T=1000"));
+  await appears(figure.locator("output").filter({ hasText: "t = 1,000 to 1,200" }).filter({ hasNotText: "so far" }), check, `${name}: an address sets nothing`);
+  check((await figure.getByLabel("force σ, typed").inputValue()) === "0.2", `${name}: an address sets no σ`);
+  await figure.getByRole("button", { name: "Copy link" }).click();
+  await appears(figure.getByRole("button", { name: /Copied|Selected/ }), check, `${name}: no link is copied`);
+  await page.evaluate(() => (location.hash = "#chain:sigma=0.12"));
+  await appears(figure.locator("output").filter({ hasText: "t = 500 to 700" }).filter({ hasNotText: "so far" }), check, `${name}: no way back`);
+}
+
+/** Twenty chains at each σ, with progress, until they are stopped; a change forgets them. */
+async function many_are_run(figure, check, name) {
+  const told = figure.locator(".many output");
+  await figure.getByRole("button", { name: /^Run \d+ chains/ }).click();
+  await appears(told.filter({ hasText: /^\d+ of \d+ chains/ }), check, `${name}: no progress`);
+  check(await figure.locator("progress").isVisible(), `${name}: no bar of progress`);
+  await figure.getByRole("button", { name: "Stop" }).click();
+  await appears(figure.getByRole("button", { name: /^Run \d+ chains/ }), check, `${name}: it does not stop`);
+  check(!(await figure.locator("progress").isVisible()), `${name}: progress of nothing`);
+}
+
+/** A row of masses moves by itself unless a reader prefers it still, and stops when asked to. */
+async function masses_move(open, check) {
+  const page = await open("index.html", 1280, "light", { loads: true });
+  const canvas = page.locator(".row canvas");
+  const seen = () => canvas.evaluate((one) => one.toDataURL());
+  await appears(page.locator(".row span").filter({ hasText: "t =" }), check, "no row of masses");
+  const before = await seen();
+  await page.waitForTimeout(400);
+  check(before !== (await seen()), "the row of masses does not move");
+  await page.locator(".row").getByRole("button", { name: "Pause" }).click();
+  const still = await seen();
+  await page.waitForTimeout(300);
+  check(still === (await seen()), "a row that is stopped moves");
+  await page.context().close();
 }
 
 async function circuits(page, name, figure, { report, check }) {

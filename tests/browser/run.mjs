@@ -45,7 +45,7 @@ async function open(file, width, colorScheme, { before, loads, ...options } = {}
   page.on("request", (request) => {
     const url = request.url();
     const beside = url.slice(new URL(".", page_url).href.length);
-    const asked = /^(report\.css|report\.js|cards\.js|search\.js|fonts\/[^/]*\.woff2)$/.test(beside) || ((loads || file === "index.html") && beside === "lab.js");
+    const asked = /^(report\.css|report\.js|cards\.js|search\.js|points\.js|fonts\/[^/]*\.woff2)$/.test(beside) || ((loads || file === "index.html") && beside === "lab.js");
     check(asked || request.isNavigationRequest() || url.split("#")[0] === page_url || url.startsWith("data:"), `a request: ${url.slice(0, 100)}`);
   });
   page.on("console", (message) => {
@@ -63,14 +63,14 @@ async function reads_well(page, name, least) {
     const wrong = [];
     for (const face of document.fonts)
       if (face.status !== "loaded" && face.style === "normal" && face.family === "Libertinus Serif") wrong.push(`font ${face.family} ${face.weight}: ${face.status}`);
-    const figures = [...document.querySelectorAll("svg[role=img]")].filter((svg) => !svg.closest(".runs .front figure:has(+ .lab)"));
+    const figures = [...document.querySelectorAll("svg[role=img]")].filter((svg) => !svg.closest(".runs .front figure:has(+ .lab, + figure + .lab)"));
     for (const svg of figures) {
       const box = svg.getBoundingClientRect();
       const inner = svg.getBBox();
       if (box.width < 200 || box.height < 60 || inner.width === 0 || !svg.checkVisibility())
         wrong.push(`${svg.getAttribute("aria-labelledby")} is not seen: ${box.width} x ${box.height}`);
     }
-    const links = [...document.querySelectorAll('a[href^="#"]')];
+    const links = [...document.querySelectorAll('a[href^="#"]:not(.bench a)')];
     for (const link of links) {
       const target = document.getElementById(decodeURIComponent(link.hash.slice(1)));
       if (!target || !target.checkVisibility()) wrong.push(`${link.hash} does not land`);
@@ -207,12 +207,16 @@ async function opens_by_address(page, name) {
   await page.keyboard.press("Escape");
 }
 
-/** Arrow keys go from number to number in a table, which is one stop of the Tab key. */
+/** Arrow keys go from number to number in a table, which is one stop of the Tab key, and from verdict to verdict, each large enough for a finger. */
 async function tables_are_one_stop(page, name) {
   const stops = await page.evaluate(() =>
-    [...document.querySelectorAll("table")].map((table) => table.querySelectorAll(".value:not([tabindex='-1'])").length),
+    [...document.querySelectorAll("table, .front main > p:first-child + ul")].map((group) => group.querySelectorAll(":is(.value, a.verdict[data-card]):not([tabindex='-1'])").length),
   );
   check(stops.every((count) => count <= 1), `${name}: tables of ${Math.max(...stops)} stops`);
+  const small = await page.evaluate(() =>
+    [...document.querySelectorAll("td > .verdict:is(:has(+ .verdict), .verdict + .verdict)")].map((sign) => sign.getBoundingClientRect()).filter(({ width, height }) => Math.min(width, height) < 23.9).length,
+  );
+  check(small === 0, `${name}: ${small} signs are too small for a finger`);
   const table = page.locator("table:has(.value ~ *, td + td .value)").first();
   if ((await table.count()) === 0) return;
   const buttons = table.locator(".value");
@@ -252,6 +256,10 @@ async function search_finds(page, name) {
     await finds.first().waitFor({ timeout: 5000 }).catch(() => check(false, `${name}: the search does not find ${words}`));
     check((await finds.count()) === (await finds.locator("mark").count()), `${name}: what is found is not marked`);
   }
+  for (const [words, first] of [["Eq. (18)", /Eq(uation|\.)\s\(18\)/], ["Fig. 3", /Figure 3\./], ["run time", /seconds|minutes|µs/i]]) {
+    await input.fill(words);
+    await finds.first().filter({ hasText: first }).waitFor({ timeout: 5000 }).catch(async () => check(false, `${name}: ${words} finds first ${await finds.first().innerText().catch(() => "nothing")}`));
+  }
   for (const words of ["mpact", "no such xylophones"]) {
     await input.fill(words);
     const lines = await page.locator(".search li").allTextContents();
@@ -280,7 +288,7 @@ async function filters(page) {
   await page.getByLabel("verdict").selectOption("≠ differs and explained (range)");
   const some = await shown.count();
   check(some > 0 && some < (await all.count()), `ledger: ${some} rows differ`);
-  const words = await shown.locator("td:nth-child(2)").allInnerTexts();
+  const words = await shown.locator("td:nth-child(5)").allInnerTexts();
   check(words.every((word) => word === "≠ differs and explained (range)"), `ledger: rows of other verdicts: ${words}`);
   await page.evaluate(() => (location.hash = "#claim-sec7_jump"));
   await page.waitForTimeout(200);
@@ -297,6 +305,61 @@ async function accessible(page, name) {
     if (grave) check(false, text);
     else console.log(`note: ${text}`);
   }
+}
+
+/** A figure says its points to who points at it, or goes with the arrow keys, and its numbers are found by a search in the page. */
+async function figures_are_read(page, name) {
+  const picture = page.locator("figure svg:visible:has([data-axes])").first();
+  if ((await picture.count()) === 0) return;
+  const reading = page.locator("figure:has(svg[data-axes]), figure:has([data-axes])").locator(".reading").filter({ hasText: /\d/ });
+  await picture.focus();
+  await page.keyboard.press("Shift");
+  await page.keyboard.press("ArrowRight");
+  await reading.first().waitFor({ timeout: 5000 }).catch(() => check(false, `${name}: no key reads a figure`));
+  const before = await reading.first().innerText().catch(() => "");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowRight");
+  check((await reading.first().innerText().catch(() => "")) !== before, `${name}: ArrowRight goes to no point`);
+  const { x, y, width } = await picture.locator(".point").boundingBox();
+  await picture.blur();
+  await page.mouse.move(x + width / 2 - 1, y + width / 2);
+  await page.mouse.move(x + width / 2, y + width / 2);
+  await reading.first().waitFor({ timeout: 5000 }).catch(() => check(false, `${name}: a figure that is pointed at says nothing`));
+  await page.mouse.move(0, 0);
+  const words = await picture.locator(".said").first().textContent();
+  check(await page.evaluate((words) => (getSelection().removeAllRanges(), window.find(words)), words), `${name}: a search in the page does not find ${words}`);
+}
+
+/** What others see of a link to the page. */
+async function introduces_itself(page, name) {
+  const content = (what) => page.locator(`meta[${what}]`).getAttribute("content");
+  const words = await content("name=description");
+  check(words.length > 60 && words.length < 1500, `${name}: described as ${words}`);
+  for (const what of ["title", "description", "type"]) check((await content(`property='og:${what}'`)).length > 3, `${name}: no og:${what}`);
+  check(existsSync(join(report, await content("property='og:image'").catch(() => "figures"))), `${name}: no picture to share`);
+  check((await page.locator("link[rel=icon]").getAttribute("href")).startsWith("data:image/svg+xml,"), `${name}: no icon`);
+  const foot = await page.locator(".imprint").innerText();
+  for (const what of ["Report a problem", "original", "licence", "Markdown"]) check(foot.includes(what), `${name}: the foot lacks ${what}`);
+}
+
+/** What was found, the score and the slider stand on the first two screens of a phone. */
+async function begins_with_the_finding(page, name) {
+  await page.locator(".bench canvas").first().waitFor({ timeout: 8000 }).catch(() => {});
+  const bottoms = await page.evaluate(() => ["main > p:first-child + ul", "table.bar", ".bench input"].map((what) => {
+    const box = document.querySelector(what)?.getBoundingClientRect();
+    return box ? Math.round(box.bottom + scrollY) : Infinity;
+  }));
+  check(bottoms[2] <= 2 * 844 && bottoms[0] < bottoms[1] && bottoms[1] < bottoms[2], `${name}: finding, score and slider end at ${bottoms}`);
+}
+
+/** On paper no figure is a thumbnail. */
+async function prints(page, name) {
+  await page.emulateMedia({ media: "print" });
+  const small = await page.evaluate(() => [...document.querySelectorAll("figure:not(.lab) svg")].filter((svg) => svg.checkVisibility()).map((svg) => svg.getBoundingClientRect().width).filter((width) => width < 200).length);
+  check(small === 0, `${name}: ${small} thumbnails on paper`);
+  const pdf = await page.pdf({ format: "A4", preferCSSPageSize: true, ...(pictures ? { path: `${pictures}/${name}.pdf` } : {}) });
+  check(pdf.length > 20_000, `${name}: ${pdf.length} bytes of print`);
+  await page.emulateMedia({ media: "screen" });
 }
 
 /** Reads a page of a width as people do. */
@@ -317,6 +380,10 @@ async function read([file, least], [kind, width, scheme]) {
     await search_finds(page, name);
     await accessible(page, name);
   }
+  if (["wide-light", "phone-light"].includes(kind)) await figures_are_read(page, name);
+  await introduces_itself(page, name);
+  if (file === "index.html" && kind === "phone-light") await begins_with_the_finding(page, name);
+  if (kind === "wide-light") await prints(page, name);
   if (file === "ledger.html" && kind === "wide-light") await filters(page);
   if (file === "index.html" && kind === "wide-light") await verdicts_open(page, name);
   await page.context().close();
@@ -330,11 +397,13 @@ for (const of of Object.entries(PAGES)) {
 await tasks({ report, open, check });
 await labs({ report, open, check, stays_narrow, accessible, pictures });
 
-// Without scripts all that is to be read is there.
+// Without scripts all that is to be read is there, and nothing looks as if it could be pressed.
 for (const file of Object.keys(PAGES)) {
   const page = await open(file, 1280, "light", { javaScriptEnabled: false });
   if (file === "ledger.html") check((await page.locator("#tab-claims tbody tr:visible").count()) > 60, "without scripts the ledger lacks rows");
   check(await page.locator("main").isVisible(), `without scripts ${file} shows nothing`);
+  const pressed = await page.evaluate(() => [...document.querySelectorAll("main :is(button, [role=button], .value)")].filter((node) => node.checkVisibility() && (node.matches("button, [role=button]") || getComputedStyle(node).textDecorationLine !== "none")).length);
+  check(pressed === 0, `without scripts ${pressed} things in ${file} look like buttons`);
   if (file === "index.html") check((await page.locator("figure:not(.lab) svg:visible").count()) === 3, "without scripts the front page lacks a picture");
   await page.context().close();
 }

@@ -11,7 +11,7 @@ const in_sight = () =>
 
 /** Tasks: what is done (a word that is clicked, or what is typed into a field), and what is seen then. */
 const TASKS = {
-  "read statement 27": [[{ type: "statement 27" }, "Enter"], /^27$[^]*sticking/m],
+  "read statement 27": [[{ type: "statement 27" }, "Enter"], /^27$[^]*qualitatively/m],
   "know the number of realisations": [[{ type: "number of realisations" }, "Enter"], /number of realisations per value of \S+ is \d+/],
   "know the licence": [[{ type: "licence" }, "Enter"], /Licence: text, figures and data/],
   "go from Eq. (25) to its line of code": [["Eq. (25)", "(25)"], /, line \d+/],

@@ -5,7 +5,7 @@ use super::picture::{Label, Picture, Shape, bounds, pictures};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The style of pages; its second part is for dark ones.
-const STYLE: &str = include_str!("../../crates/literate/skin/report.css");
+const STYLE: &str = include_str!("../../crates/literate/skin/style/base.css");
 
 /// A colour on light and on dark pages, as parts of red, green and blue light.
 fn light_and_dark(name: &str) -> [[f64; 3]; 2] {

@@ -208,9 +208,11 @@ fn the_promise_of_the_engine_follows_the_numbers() {
 #[test]
 fn the_page_has_each_run_with_its_digest_and_the_module() {
     let text = impact_paper::lab::script(b"foobar", &QUICK.results, "end();").unwrap();
-    let data = text.split("const LAB = ").nth(1).unwrap().strip_suffix(";\nend();").unwrap();
+    let data = text.split("const LAB = ").nth(1).unwrap().strip_suffix(";\n{\nend();}\n").unwrap();
     let data: serde_json::Value = serde_json::from_str(data).unwrap();
     assert_eq!(data["module"], "Zm9vYmFy");
+    let protocols = data["protocols"].as_array().unwrap();
+    assert_eq!(protocols.len(), QUICK.results.of(&PROTOCOL).unwrap()[0].curves.len());
     let replays = QUICK.results.of(&REPLAY).unwrap();
     assert_eq!(data["runs"].as_array().unwrap().len(), replays.found.len());
     for (i, found) in replays.found.iter().enumerate() {

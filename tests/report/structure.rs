@@ -45,7 +45,7 @@ fn the_readme_has_the_score() {
     let rows: Vec<_> = rows.filter(|row| row["kind"] == "statement").collect();
     let count = |verdict: &str| rows.iter().filter(|row| row["verdict"] == verdict).count();
     let score = format!(
-        "of {} statements {} are reproduced, {} differ for a reason that is given, {} differ without one, and {} cannot be judged",
+        "of {} statements {} are reproduced, {} differ and are explained, {} differ, and {} cannot be judged",
         rows.len(),
         count("reproduced"),
         count("differs and explained"),
@@ -61,7 +61,7 @@ fn the_readme_has_the_score() {
     };
     let [theory, measures] = [by(&["exact", "rounding", "finite cases"]), by(&["our measure"])];
     let split = format!(
-        "decide {} of them, of which {} are reproduced; measures of ours decide {} statements in words, of which {} are; the one number printed for the simulation, in {} readings, cannot",
+        "rest {} of them, of which {} are reproduced; on our measure of a word rest {}, of which {} are; the one number printed for the simulation, in {} readings, cannot",
         theory[0],
         theory[1],
         measures[0],

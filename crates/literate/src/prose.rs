@@ -13,11 +13,26 @@ const SKIN: [(&str, &str); 8] = [
     ("literals.toml", ""),
     ("published.toml", ""),
     ("references.bib", ""),
-    ("report.css", include_str!("../skin/report.css")),
+    ("report.css", STYLE),
     ("report.html", include_str!("../skin/report.html")),
-    ("report.js", include_str!("../skin/report.js")),
+    ("report.js", SCRIPT),
     ("report.tex", include_str!("../skin/report.tex")),
 ];
+
+/// Joins files of the skin, one for each feature, to one that a page loads.
+macro_rules! joined {
+    ($folder:literal, $ending:literal, $($name:literal),+) => {
+        concat!($(include_str!(concat!("../skin/", $folder, "/", $name, $ending))),+)
+    };
+}
+#[rustfmt::skip]
+const STYLE: &str = joined!(
+    "style", ".css", "base", "figures", "tables", "labs", "navigation", "verdicts", "cards", "wide", "narrow", "front", "print"
+);
+#[rustfmt::skip]
+const SCRIPT: &str = concat!("\"use strict\";\n{\n", joined!(
+    "script", ".js", "start", "labs", "cards", "groups", "points", "previews", "contents", "search", "cite", "folds", "filters", "end"
+), "}\n");
 
 #[derive(Debug, thiserror::Error)]
 pub enum Error {

@@ -1,7 +1,7 @@
 //! The functions that a page of the report calls, as WebAssembly. Numbers are passed directly;
 //! texts and lists lie in memory that is valid until the next call.
 //!
-//! - [`room`], [`open`], [`advance`]: one run of the engine at a time.
+//! - [`room`], [`open`], [`advance`]: one run of the engine at a time; [`follow`] shows its masses.
 //! - [`law`], [`p_of_sigma`], [`mean`], [`k_star`]: the theory.
 //! - [`text`] with [`text_length`], [`numbers`], [`picture`]: where the results lie.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
@@ -163,6 +163,25 @@ pub extern "C" fn advance(impacts: u32) -> u32 {
     answer(|page| page.advance(impacts.into()))
 }
 
+/// Advances to a time, which is not before the last: 0, or 2 if it failed. The numbers are then the
+/// positions of all masses, how many impacts there were since the last time, and their gaps.
+#[unsafe(no_mangle)]
+pub extern "C" fn follow(time: f64) -> u32 {
+    answer(|page| {
+        let engine = &mut page.run.as_mut().ok_or("nothing is open")?.engine;
+        let mut gaps = Vec::new();
+        let hit = |impact: Impact| {
+            gaps.push(impact.gap as f64);
+            true
+        };
+        let moved = engine.run(time, hit).and_then(|()| engine.positions(time));
+        page.numbers = moved.map_err(|error| error.to_string())?;
+        page.numbers.push(gaps.len() as f64);
+        page.numbers.append(&mut gaps);
+        Ok(false)
+    })
+}
+
 /// The circuits of N vertices with edge probability p, into the numbers: k*, μ, p_crit, p_jump,
 /// k− and k+ (−1 where one does not exist), then P(X = k) for k = 1..N, then f(k).
 #[unsafe(no_mangle)]
@@ -225,6 +244,21 @@ pub extern "C" fn picture() -> *const u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn masses_are_followed_from_impact_to_impact() {
+        let own = [50.0, 20.0, 30.0, 1.0, 1.0, 1.5, 0.8, 0.0, 0.0].into_iter();
+        let numbers: Vec<f64> = own.chain((0..60).map(|i| f64::from(i % 5) - 2.0)).collect();
+        let (_, scenario) = request(&numbers, "").unwrap();
+        let impacts = Engine::new(&scenario).unwrap().impacts(50.0).unwrap();
+        PAGE.set(Page { numbers, ..Page::default() });
+        let after = |time: i32| {
+            assert_eq!(follow(f64::from(time)), 0);
+            PAGE.with_borrow(|page| page.numbers[30] as usize)
+        };
+        assert_eq!(open(), 0);
+        assert_eq!((1..=50).map(after).sum::<usize>(), impacts.len());
+    }
 
     #[test]
     fn what_is_no_run_and_no_probability_is_refused() {

@@ -67,8 +67,8 @@ pub type Glyphs = BTreeMap<String, Vec<Step>>;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Element {
-    /// The series of this name begins, in this frame.
-    Open(String, Frame),
+    /// The series of this name begins, in this frame, with these axes: `0 1 false 0 101 false`.
+    Open(String, Frame, String),
     Close,
     /// A path, filled and along its edge; an edge without a fill has round corners.
     Shape(Vec<Step>, Fill, Option<Stroke>),

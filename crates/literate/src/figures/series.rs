@@ -4,6 +4,7 @@
 //! no data. They refuse numbers that are not finite, and points outside the frame where the panel
 //! says so. What `draw_series` draws is not looked at.
 
+use super::axis::Axis;
 use super::drawing::{Drawing, Element};
 use super::elements::{CustomElement, Marker, line, markers};
 use super::error::{Drawn, Error};
@@ -29,7 +30,9 @@ impl Panel {
         S::Item: Drawable<Drawing>,
         for<'a> &'a S::Item: PointCollection<'a, (f64, f64)>,
     {
-        self.push(Element::Open(name.into(), self.frame))?;
+        let ends = |axis: &Axis| format!("{} {} {}", axis.lo, axis.hi, axis.is_log);
+        let axes = [&self.x, &self.y].map(ends).join(" ");
+        self.push(Element::Open(name.into(), self.frame, axes))?;
         for element in series {
             self.area.draw(&element)?;
         }

@@ -81,7 +81,7 @@ fn shape(path: &[Step], fill: &Fill, stroke: &Option<Stroke>) -> String {
     format!("<path class=\"{}\"{more} d=\"{}\"/>", classes.join(" "), path_data(path))
 }
 
-/// Writes words as glyphs; on a page, where groups have no role, without their text.
+/// Writes words as glyphs.
 fn label(label: &Label, on_page: bool) -> String {
     let scale = f64::from(label.size) / f64::from(font::EM);
     let (ink, (x, y)) = (class("fill", label.colour), label.at);
@@ -103,11 +103,17 @@ fn label(label: &Label, on_page: bool) -> String {
         let (page, width) = (class("stroke", WHITE), font::RIM);
         out = format!("<g class=\"{page}\" stroke-width=\"{width}\" {place}>{glyphs}</g>");
     }
-    out += &format!("<g class=\"{ink}\"");
+    let words = escape(&label.words);
     if !on_page {
-        out += &format!(" aria-label=\"{}\"", escape(&label.words));
+        return out + &format!("<g class=\"{ink}\" aria-label=\"{words}\" {place}>{glyphs}</g>");
     }
-    out + &format!(" {place}>{glyphs}</g>")
+    // The words themselves lie over the outlines, unseen, for a search in the page.
+    let (start, size) = (label.glyphs.first().map_or(0, |first| first.x), label.size);
+    let start = (f64::from(start) * scale) as i32;
+    out + &format!(
+        "<g class=\"{ink}\" {place}>{glyphs}</g><text class=\"said\" x=\"{start}\" font-size=\"{size}\" \
+         transform=\"translate({x} {y}){turn}\">{words}</text>"
+    )
 }
 
 impl Drawing {
@@ -137,10 +143,13 @@ impl Drawing {
         );
         for element in &self.elements {
             out += &match element {
-                Element::Open(name, Frame { left, top, right, bottom }) => format!(
-                    "<g class=\"data\" data-name=\"{}\" data-frame=\"{left} {top} {right} {bottom}\">",
-                    escape(name)
-                ),
+                Element::Open(name, Frame { left, top, right, bottom }, axes) => {
+                    let axes = if on_page { format!(" data-axes=\"{axes}\"") } else { "".into() };
+                    format!(
+                        "<g class=\"data\" data-name=\"{}\" data-frame=\"{left} {top} {right} {bottom}\"{axes}>",
+                        escape(name)
+                    )
+                }
                 Element::Close => "</g>".into(),
                 Element::Shape(path, fill, stroke) => shape(path, fill, stroke),
                 Element::Label(words) => label(words, on_page),

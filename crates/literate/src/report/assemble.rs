@@ -23,7 +23,7 @@ use crate::input::one_line;
 use crate::names::Names;
 use crate::table::{DataFile, Table};
 use rayon::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 struct Part<'a> {
     document: Document,
@@ -48,6 +48,9 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     let figures = input.figures.par_iter().flat_map_iter(figure);
     let (read, mut files): (_, Files) = rayon::join(read, || tables.chain(figures).collect());
     let (parts, labels) = read?;
+    let cover = input.edition.cover.and_then(|cover| input.figure(cover));
+    let style = input.templates.text("report.css")?;
+    files.extend(cover.and_then(|figure| dark(figure, style)));
     let ledger = ledger_of(input, &parts, &labels);
     let jsons = [serde_json::to_string_pretty(&values), serde_json::to_string_pretty(&ledger)];
     for (name, json) in ["values.json", "ledger.json"].into_iter().zip(jsons) {
@@ -244,6 +247,13 @@ fn write_documents(
     files.insert("data/index.html".into(), filler.fill("data.html")?.into_bytes());
     let texts = format!("TEXTS = {};\n", serde_json::Value::from(texts));
     files.insert("search.js".into(), texts.into_bytes());
+    // What the figures show, for readers who point at it, if it is not too long.
+    let points = input.figures.iter().map(|figure| {
+        let short = figure.data.iter().filter(|file| file.rows.len() < 2000);
+        (figure.id.as_str(), short.map(DataFile::csv).collect::<Vec<_>>())
+    });
+    let points = serde_json::json!(points.collect::<BTreeMap<_, _>>());
+    files.insert("points.js".into(), format!("POINTS = {points};\n").into_bytes());
     for name in ["report.css", "report.js"] {
         files.insert(name.into(), input.templates.text(name)?.as_bytes().to_vec());
     }
@@ -251,6 +261,21 @@ fn write_documents(
         files.insert(LAB.into(), lab.as_bytes().to_vec());
     }
     Ok(shown)
+}
+
+/// Returns a figure's picture for a dark page, in the colours of the style sheet, if it has any.
+fn dark(figure: &Figure, style: &str) -> Option<(String, Vec<u8>)> {
+    let (_, dark) = style.split_once("prefers-color-scheme: dark")?;
+    let colours = dark
+        .split_once('}')?
+        .0
+        .split("--")
+        .filter_map(|rule| rule.split(';').next()?.split_once(": "));
+    let rule =
+        |(name, colour)| format!(".fill-{name}{{fill:{colour}}}.stroke-{name}{{stroke:{colour}}}");
+    let rules: String = colours.map(rule).collect();
+    let picture = figure.svg().replacen("</style>", &(rules + "</style>"), 1);
+    Some((format!("figures/{}-dark.svg", figure.id), picture.into_bytes()))
 }
 
 /// Returns the files of a figure: its picture, which names this licence, and its data.

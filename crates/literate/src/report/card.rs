@@ -45,6 +45,12 @@ impl Card {
         }
     }
 
+    /// Ends a card with the command of the program that makes what it shows again.
+    fn repeat(&mut self, command: &str, project: &Project) {
+        let line = format!("{} {command}", project.sources.name);
+        self.row("repeat it", vec![Inline::Code(line)]);
+    }
+
     fn experiment(&mut self, name: &str, cards: &Cards<'_>) {
         let mut all = cards.experiments.iter();
         let Some(experiment) = all.find(|experiment| experiment.name() == name) else { return };
@@ -147,12 +153,14 @@ impl Cards<'_> {
             let (to, shown) = (format!("eq:{number}"), format!("Eq.\u{a0}({number})"));
             card.row("equation", vec![Inline::Reference { to, within: None, shown }]);
         }
-        card.words("note", &value.note);
         let mut data = vec!["values.json".to_string()];
         data.extend(table_of(&value.id).map(|t| format!("data/{}", DataFile::name_of(t))));
         card.row("data", links(&data));
         card.row("id", vec![Inline::Code(value.id.clone())]);
         card.experiment(&value.experiment, self);
+        if !value.experiment.is_empty() {
+            card.repeat(&format!("paper --rerun {}", value.experiment), self.project);
+        }
         Some(card)
     }
 
@@ -169,6 +177,7 @@ impl Cards<'_> {
         for name in &figure.experiments {
             card.experiment(name, self);
         }
+        card.repeat(&format!("paper --figure {}", figure.number), self.project);
         Some(card)
     }
 
@@ -205,6 +214,7 @@ impl Cards<'_> {
         card.item("judged by", &(self.edition.judged_by)(&claim.id), self.project);
         let (to, shown) = (card.id.clone(), "the row of this statement".into());
         card.row("ledger", vec![Inline::Reference { to, within: None, shown }]);
+        card.repeat(&format!("check {}", claim.id), self.project);
         Some(card)
     }
 }
@@ -238,8 +248,18 @@ pub(super) fn link_to_line(item: &str, project: &Project) -> Inline {
     }
 }
 
-/// What kind of number it is, and where it comes from.
+/// What the number means, then what kind of number it is, and where it comes from.
 fn lead(value: &Value) -> String {
+    let Some(first) = value.note.chars().next() else { return kind(value) };
+    // A name as σ begins no sentence.
+    let meaning = match value.note.split_at(first.len_utf8()) {
+        (first, rest) if rest.starts_with(char::is_alphabetic) => first.to_uppercase() + rest,
+        _ => format!("The {}", value.note),
+    };
+    format!("{}. {}", meaning.trim_end_matches('.'), kind(value))
+}
+
+fn kind(value: &Value) -> String {
     let what = match &value.kind {
         Provenance::Exact => "Computed exactly".into(),
         Provenance::Deterministic => "Computed without chance".into(),

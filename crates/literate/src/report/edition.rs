@@ -13,6 +13,10 @@ pub struct Edition {
     /// Day of this version, YYYY-MM-DD; may be empty.
     pub date: &'static str,
     pub license: &'static str,
+    /// Names and addresses of what the foot of each page leads to, seen from the report.
+    pub links: Vec<(&'static str, &'static str)>,
+    /// The figure that links to a page show; a README has its form for dark pages too.
+    pub cover: Option<&'static str>,
     pub documents: Vec<Document>,
     pub equations: Vec<EquationEntry>,
     /// Returns the path of the item that judges the statement with this id, for its card.
@@ -29,6 +33,8 @@ impl Edition {
             doi: "",
             date: "",
             license: "",
+            links: Vec::new(),
+            cover: None,
             documents: vec![Document::REPORT],
             equations: Vec::new(),
             judged_by: |_| String::new(),

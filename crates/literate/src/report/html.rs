@@ -52,12 +52,24 @@ pub fn write(
     let key = format!("{}{year}{}", sources.name, here.prose);
     let key: String = key.chars().filter(char::is_ascii_alphanumeric).collect();
     let documents = edition.documents.iter().map(|of| (of.page, text(of.name)));
+    // Its first words, for those who have only a link to it.
+    let description = blocks.iter().find_map(|block| match block {
+        Block::Paragraph(text) => Some(spelt(text)),
+        _ => None,
+    });
+    let link = |(name, to): &(&str, &str)| {
+        let link = Inline::Link { to: to.to_string(), shown: vec![Inline::Text(name.to_string())] };
+        page.inlines(&document::relative_link(link, input.top))
+    };
     let parts = json!({
         "file": here.page,
         "markdown": here.markdown,
         "name": text(sources.name),
         "version": text(sources.version),
         "license": text(edition.license),
+        "description": text(&description.unwrap_or_default()),
+        "picture": edition.cover,
+        "links": edition.links.iter().map(link).collect::<Vec<_>>(),
         "date": text(edition.date),
         "authors": edition.authors.iter().map(|(name, _)| text(name)).collect::<Vec<_>>(),
         "documents": documents.collect::<Vec<_>>(),
@@ -334,9 +346,7 @@ impl<'a> Page<'a> {
             Shown::Words(_) => ("value phrase", self.inlines(&document::printed(shown))),
             Shown::Number(numeral) => ("value", number(numeral, blank)),
         };
-        format!(
-            "<span role=\"button\" tabindex=\"0\" class=\"{class}\" data-card=\"{id}\">{shown}</span>"
-        )
+        format!("<span class=\"{class}\" data-card=\"{id}\">{shown}</span>")
     }
 }
 
@@ -359,13 +369,11 @@ fn number(numeral: &Numeral, blank: char) -> String {
 
 /// Wraps what scrolls sideways where it is too wide.
 fn scroll(name: &str, inner: &str) -> String {
-    format!(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{name}\">{inner}</div>"
-    )
+    format!("<div class=\"scroll\" role=\"group\" aria-label=\"{name}\">{inner}</div>")
 }
 
 fn code(words: &str) -> String {
-    format!("<pre tabindex=\"0\"><code>{}</code></pre>\n", text(words.trim_end()))
+    format!("<pre><code>{}</code></pre>\n", text(words.trim_end()))
 }
 
 /// Escapes words; a number and its sign of per cent stay on one line.

@@ -43,8 +43,9 @@ impl Index {
                     self.add(&words);
                 }
                 Block::Paragraph(text) => self.paragraph(text),
-                Block::Figure { number, caption, .. } => {
-                    self.add(&format!("Figure {number}. {}", spelt(caption)));
+                Block::Figure { id, number, caption, .. } => {
+                    let words = format!("Figure {number}. {}", spelt(caption));
+                    self.add_at(&place_on_page(id), &words);
                 }
                 Block::Table(table) => self.table(table),
                 Block::List { items, .. } => items.iter().for_each(|item| self.blocks(item)),

@@ -2,6 +2,7 @@
 
 use super::super::document::{Inline, Table, plain, spelt};
 use super::Page;
+use crate::claims::Verdict;
 use crate::figures::escape as text;
 use pulldown_cmark::Alignment;
 use std::fmt::Write as _;
@@ -61,6 +62,15 @@ impl Page<'_> {
             ],
             (false, true) => [" class=\"many\"", "", "", ""],
             (false, false) => [""; 4],
+        };
+        // One row of numbers below signs of verdicts is a bar, each part as wide as its number.
+        let signs: Vec<char> = head.iter().filter_map(|cell| plain(cell).chars().next()).collect();
+        let is_sign = |sign: &char| Verdict::ALL.iter().any(|verdict| verdict.sign() == *sign);
+        let is_bar = rows.len() == 1 && signs.len() == head.len() && signs.iter().all(is_sign);
+        let table = if is_bar { " class=\"bar\"" } else { table };
+        let class = |i: usize| match is_bar {
+            true => format!(" colspan=\"{}\" data-sign=\"{}\"", plain(&rows[0][i]), signs[i]),
+            false => class(i),
         };
         let mut out = format!("<table{table}>\n<thead><tr{line}>");
         for (i, cell) in head.iter().enumerate() {

@@ -284,7 +284,7 @@ fn a_report_is_all_its_files() {
     let report = assembled(PROSE).unwrap();
     let paths = report.keys().map(String::as_str).filter(|path| !path.starts_with("fonts/"));
     let expected = "SHA256SUMS SHA256SUMS.built cards.js data/fig03.csv data/index.html figures/fig03.pdf \
-        figures/fig03.svg ledger.json report.css report.html report.js report.md report.tex search.js values.json";
+        figures/fig03.svg ledger.json points.js report.css report.html report.js report.md report.tex search.js values.json";
     assert_eq!(paths.collect::<Vec<_>>().join(" "), expected);
     assert_eq!(file(&report, "SHA256SUMS").lines().count(), 6);
     let parts = r##"

@@ -1,0 +1,57 @@
+// What this edition computed beforehand for the paper's chain: the rise for each transient and
+// window, of which the main sweep has most chains; and where the most likely number jumps.
+
+// The first run is at the σ that the paper prints for the threshold.
+const base = runs[0].asked;
+const printed = base.forces.drawn.sigma;
+const distinct = (numbers) => [...new Set(numbers)].sort((a, b) => a - b);
+const TRANSIENTS = distinct(protocols.map(({ protocol }) => protocol.transient));
+const WINDOWS = distinct(protocols.map(({ protocol }) => protocol.window));
+const SIGMAS = Array.from({ length: 161 }, (_, i) => i / 400);
+
+/** A value with its standard error in units of the last digit: 0.1159(3). */
+function bracketed({ value, error }) {
+  const digits = Math.max(0, -Math.floor(Math.log10(error * 1.05)));
+  return `${value.toFixed(digits)}(${Math.round(error * 10 ** digits)})`;
+}
+
+/** Words for a chain and its times. */
+const settings = ({ chain, transient, window }) => `n = ${chain.masses}, r = ${chain.restitution}, T = ${transient}, W = ${window}`;
+
+/**
+ * The curves for the times of a run, or for those that are nearest, as points of σ and share; where
+ * the mode jumps; and whether all of it holds for the chain and its times.
+ */
+function computed({ chain, transient, window }) {
+  const far = ({ protocol }) => Math.abs(Math.log((protocol.transient + 1) / (transient + 1))) + Math.abs(Math.log(protocol.window / window));
+  const nearest = protocols.reduce((best, one) => (far(one) < far(best) ? one : best));
+  const { protocol } = nearest;
+  const same = (one) => one.protocol.transient === protocol.transient && one.protocol.window === protocol.window;
+  const is_main = protocol.transient === base.transient && protocol.window === base.window;
+  const { rows, half } = is_main ? curve : nearest;
+  const points = (which) => rows.filter((row) => row[which] !== null).map((row) => [row[0], row[which] / curve.gaps]);
+  const holds = far(nearest) === 0 && JSON.stringify(chain) === JSON.stringify(base.chain);
+  return {
+    all: points(1),
+    hit: points(2),
+    band: rows.filter((row) => row[1] !== null).map(([sigma, , , low, high]) => [sigma, low / curve.gaps, high / curve.gaps]),
+    half,
+    jump: jumps.find(same),
+    holds,
+    label: settings({ ...base, ...protocol }),
+    protocol,
+  };
+}
+
+/** What the curves say, in a sentence or two. */
+function finding({ half, jump, holds, label, protocol: { transient, window } }) {
+  if (!holds) return `The faint curves are for ${label}; for your settings this edition has none.`;
+  const times = `At T = ${transient} and W = ${window}`;
+  const place = half ? `passes half of all gaps at *σ* = ${bracketed(half)}` : "passes half of all gaps below every *σ* that was run";
+  const mode = {
+    true: () => ` There the most likely number jumps to all gaps at ${bracketed(jump.sigma)}.`,
+    false: () => " There the most likely number climbs to all gaps without a jump.",
+    null: () => " Whether the most likely number jumps there, our sample does not tell.",
+  };
+  return `${times} the mean of our chains with an impact ${place}; the paper prints ${printed} and no times.${jump ? mode[jump.jumps]() : ""}`;
+}
