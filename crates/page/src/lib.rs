@@ -169,15 +169,11 @@ pub extern "C" fn advance(impacts: u32) -> u32 {
 pub extern "C" fn follow(time: f64) -> u32 {
     answer(|page| {
         let engine = &mut page.run.as_mut().ok_or("nothing is open")?.engine;
-        let mut gaps = Vec::new();
-        let hit = |impact: Impact| {
-            gaps.push(impact.gap as f64);
-            true
-        };
-        let moved = engine.run(time, hit).and_then(|()| engine.positions(time));
-        page.numbers = moved.map_err(|error| error.to_string())?;
-        page.numbers.push(gaps.len() as f64);
-        page.numbers.append(&mut gaps);
+        let message = |error: impact_chain::Error| error.to_string();
+        let impacts = engine.impacts(time).map_err(message)?;
+        page.numbers = engine.positions(time).map_err(message)?;
+        page.numbers.push(impacts.len() as f64);
+        page.numbers.extend(impacts.iter().map(|impact| impact.gap as f64));
         Ok(false)
     })
 }

@@ -73,7 +73,7 @@ impl Figure {
     pub(crate) fn texts(&self) -> impl Iterator<Item = &str> {
         let drawn = self.drawing.elements.iter().filter_map(|element| match element {
             Element::Label(label) => Some(label.words.as_str()),
-            Element::Open(name, _) => Some(name.as_str()),
+            Element::Open(name, ..) => Some(name.as_str()),
             Element::Close | Element::Shape(..) => None,
         });
         drawn.chain([self.title.as_str()])
