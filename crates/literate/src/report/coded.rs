@@ -25,33 +25,44 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
     let is_code = |path: &str| path.ends_with(".rs") && !path.contains("/tests");
     let code = input.project.sources.files.iter().filter(|(path, _)| is_code(path));
     let code = code.map(|(path, text)| (path.to_string(), *text));
-    let typed: Vec<Typed> = code.chain(texts).flat_map(|(path, text)| typed(&path, text)).collect();
-    let mut errors = Vec::new();
+    let mut numbered = Vec::new();
     for (text, file, with_words) in given(input) {
         let mut numerals = lint::words(&text, 0..text.len(), declared);
+        let is_meant = |numeral: &str| with_words || numeral.starts_with(char::is_numeric);
+        numerals.retain(|(at, one)| is_meant(one) && is_number(&text, *at, one));
+        if !numerals.is_empty() {
+            numbered.push((text, file, numerals));
+        }
+    }
+    let wanted = numbered.iter().flat_map(|(.., numerals)| numerals).map(|(_, one)| one.as_str());
+    let wanted: BTreeSet<&str> = wanted.collect();
+    let typed = code.chain(texts).flat_map(|(path, text)| typed(&path, text, &wanted));
+    let (typed, mut errors): (Vec<Typed>, _) = (typed.collect(), Vec::new());
+    for (text, file, numerals) in &numbered {
         // Numbers without words count where they are drawn.
         let file = file.filter(|_| text.len() > 1).map(|file| &input.project.sources.files[file]);
         let quoted = file.filter(|(_, code)| code.contains(&format!("\"{text}\"")));
-        let is_meant = |numeral: &str| with_words || numeral.starts_with(char::is_numeric);
-        numerals.retain(|(at, one)| is_meant(one) && is_number(&text, *at, one));
         for (at, numeral) in numerals {
-            let found = typed.iter().find(|typed| typed.has(&text, at, &numeral));
+            let found = typed.iter().find(|typed| typed.has(text, *at, numeral));
             let place = found.map(|typed| &*typed.place).or(quoted.map(|(path, _)| *path));
-            let place = place.map(|place| format!("{place}: {:?}", one_line(&text, 60)));
-            errors.extend(place.map(|place| Error::HardCoded(numeral).at(place)));
+            let place = place.map(|place| format!("{place}: {:?}", one_line(text, 60)));
+            errors.extend(place.map(|place| Error::HardCoded(numeral.clone()).at(place)));
         }
     }
     errors
 }
 
-/// Returns what stands between quotation marks and braces, in strings and elsewhere.
-fn typed(path: &str, code: &str) -> Vec<Typed> {
+/// Returns what stands between quotation marks and braces, in strings and elsewhere, with one of
+/// the wanted numbers.
+fn typed(path: &str, code: &str, wanted: &BTreeSet<&str>) -> Vec<Typed> {
     let code = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
     let (mut found, mut line) = (Vec::new(), 1);
     for piece in code.split(['"', '{', '}']) {
-        let text = piece.replace(r"\\", r"\");
-        let numerals = lint::words(&text, 0..text.len(), &Declared::default());
-        if !numerals.is_empty() {
+        let has_digit = piece.bytes().any(|byte| byte.is_ascii_digit());
+        let may_be = |one: &&str| has_digit || !one.starts_with(char::is_numeric);
+        if wanted.iter().filter(|one| may_be(one)).any(|one| piece.contains(one)) {
+            let text = piece.replace(r"\\", r"\");
+            let numerals = lint::words(&text, 0..text.len(), &Declared::default());
             let numerals = numerals.into_iter().map(|(_, numeral)| numeral).collect();
             let (place, words) = (format!("{path}:{line}"), bare(&text.replace('\\', "")));
             found.push(Typed { place, words, numerals });
