@@ -178,7 +178,7 @@ class Filled(unittest.TestCase):
                 (f'"{DOI}"', f'"https://doi.org/{DOI}"', "without https://doi.org/"),
                 ('"safety@example.org"', '"ask around"', "a mail address"),
                 ('family = "Example"', 'name = "Example"', "has no family name"),
-                ("repository", "repositry", "repositry is unknown"),
+                ("repository", "repo", "repo is unknown"),
                 ('doi = "10.5281/zenodo.1234567"\n', "", "doi is not there"),
                 ("authors = [", "authors = ", "owner.toml: "),
             ]:

@@ -6,6 +6,7 @@ use super::error::Error;
 use super::people::{listed, listed_editors, names, people};
 use crate::input::line_and_column;
 use biblatex::{ChunksExt, Entry, EntryType, ParseErrorKind};
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};
 
@@ -20,7 +21,7 @@ impl Library {
             let place = line_and_column(text, error.span.start);
             let remedy = match error.kind {
                 ParseErrorKind::UnknownAbbreviation(_) => "give it above",
-                ParseErrorKind::DuplicateKey(_) => "rename one",
+                ParseErrorKind::DuplicateKey(_) => "rename or remove one",
                 _ => "is a brace or a comma missing before?",
             };
             fault(format!("{place}: {}; {remedy}", error.kind))
@@ -30,7 +31,7 @@ impl Library {
         for entry in read.iter() {
             let completed = bibtex::completed(entry, &read, &[]);
             let is_parent = completed.is_ok() && parents.contains(&entry.key);
-            match completed.and_then(|entry| reference(&entry)) {
+            match completed.and_then(|completed| reference(&completed, entry)) {
                 Ok(reference) => list.push(reference),
                 Err(_) if is_parent || entry.entry_type == EntryType::XData => (),
                 Err(what) => errors.push(fault(format!(" {} {what}", entry.key))),
@@ -71,9 +72,13 @@ fn letters(number: usize) -> String {
     if before > 0 { letters(before - 1) + last.encode_utf8(&mut [0]) } else { last.into() }
 }
 
-/// Reads an entry; the error is a message that follows its key.
-fn reference(entry: &Entry) -> Result<Reference, String> {
-    let field = |name: &str| field(entry, name);
+/// Reads an entry, completed from its parents; the error is a message that follows its key.
+fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
+    let shown = RefCell::new(BTreeSet::new());
+    let field = |name: &str| {
+        shown.borrow_mut().insert(name.to_string());
+        field(entry, name)
+    };
     let any = |names: &[&str]| {
         let found = names.iter().map(|name| field(name)).find(|found| *found != Ok(Vec::new()));
         found.unwrap_or(Ok(Vec::new()))
@@ -148,13 +153,19 @@ fn reference(entry: &Entry) -> Result<Reference, String> {
         let link = Inline::Link { to: to.clone(), shown: vec![Inline::Text(to)] };
         rest.extend(between(" ", vec![link], ""));
     }
-    let year = plain(&either(&["year", "date"])?);
-    let first = year.split('-').next().filter(|first| !first.is_empty());
-    let year = first.unwrap_or(&year).to_string();
+    let has_editors_in = matches!(
+        entry.entry_type,
+        EntryType::InProceedings | EntryType::InCollection | EntryType::InBook
+    );
+    if authors.is_empty() || has_editors_in {
+        shown.borrow_mut().insert("editor".into());
+    }
+    bibtex::refuse_left_out(own, &shown.borrow())?;
+    let [year, date] = [field("year")?, field("date")?].map(|text| plain(&text));
     Ok(Reference {
         key: entry.key.clone(),
         names: names(people),
-        year,
+        year: bibtex::year(&year, &date)?,
         authors: if authors.is_empty() { edited(people) } else { listed(people) },
         rest,
     })
@@ -331,6 +342,15 @@ free { "text @comment{a "b} @book{a, author="M{\"u}ller, J AND D'Arcy, \'Ulf", y
 @book{a, author={A}, title={T}, year=1, crossref={b}} => references.bib: a has the crossref b, which no entry has
 @string{x = x # "a"} @book{a, author={A}, title=x, year=1} => references.bib:1:13: unknown abbreviation "x"; give it above
 @book{a, author={B}, title={c}} => references.bib: a lacks its year or date
+@book{a, author={B}, title={c}, year=2015, date={2016-02}} => references.bib: a has the year 2015 and the date 2016-02; keep one
+@book{a, author={B}, title={c}, date={1988~}} => references.bib: a has the date
+@book{a, author={B}, title={c}, date={2011-13}} => references.bib: a has the date "2011-13"; write it as 2011-03-01
+@book{a, author={B}, title={c}, date={-0044-03-15/-0043}} => B, -0044: B. (-0044). *c*.
+@book{a, author={B}, title={c}, year=1, Title={d}} => references.bib:1:41: duplicate key "title"; rename or remove one
+@book{a, author={B}, title={c}, year=1, volume=2, isbn={3}} => references.bib: a has the field volume, which a @book does not show; put it in its note
+@incollection{a, author={B}, title={c}, booktitle={d}, edition=2, year=1} => references.bib: a has the field edition
+@book{a, author={B}, editor={E}, title={c}, year=1} => references.bib: a has the field editor
+@book{a, author={A, B, C, D}, title={c}, year=1} => references.bib: a has "A, B, C, D" in its author; write `and` between names
 @book{a, author={}, title={c}, year={1}} => references.bib: a lacks its author
 @article{a, author={B}, title={c}, year={1}} => references.bib: a lacks its journal or journaltitle
 @book{a, author={B}, title={c \foo{d}}, year={1}} => references.bib: a has \foo{d} in its title

@@ -3,6 +3,7 @@
 use biblatex::EntryType::*;
 use biblatex::{Bibliography, ChunksExt, Entry, ParseError, ParseErrorKind};
 use biblatex::{RawBibliography, RawChunk};
+use std::collections::BTreeSet;
 
 /// Fields of which an entry needs one: with one of its own it has none of these from a parent.
 const ALIKE: [&[&str]; 4] = [
@@ -26,6 +27,14 @@ pub fn entries(text: &str) -> Result<Bibliography, ParseError> {
                 let kind = ParseErrorKind::UnknownAbbreviation(name.into());
                 return Err(ParseError { span: part.span.clone(), kind });
             }
+        }
+    }
+    for entry in &raw.entries {
+        let name = |at: usize| entry.v.fields[at].key.v.to_lowercase();
+        let is_again = |at: &usize| (0..*at).any(|before| name(before) == name(*at));
+        if let Some(at) = (0..entry.v.fields.len()).find(is_again) {
+            let span = entry.v.fields[at].key.span.clone();
+            return Err(ParseError { span, kind: ParseErrorKind::DuplicateKey(name(at)) });
         }
     }
     for field in raw.entries.iter_mut().flat_map(|entry| &mut entry.v.fields) {
@@ -119,4 +128,49 @@ pub fn completed(entry: &Entry, all: &Bibliography, below: &[&str]) -> Result<En
         full.remove(field);
     }
     Ok(full)
+}
+
+/// Fields that no list of references shows, besides those of an address on the web.
+const NOT_SHOWN: &str = "abstract address addendum annotation annote archiveprefix copyright day \
+                         eprintclass eprinttype file groups isbn issn issue_date key keywords langid language \
+                         location month numpages primaryclass shortauthor timestamp urldate urn doi url eprint \
+                         author date year";
+
+/// Refuses a field of an entry's own that its reference leaves out without a word.
+pub fn refuse_left_out(entry: &Entry, shown: &BTreeSet<String>) -> Result<(), String> {
+    let is_known = |name: &str| {
+        shown.contains(name)
+            || NOT_SHOWN.split_whitespace().any(|known| known == name)
+            || PARENTS.contains(&name)
+    };
+    match entry.fields.keys().find(|name| !is_known(name)) {
+        Some(name) => {
+            let kind = &entry.entry_type;
+            Err(format!("has the field {name}, which a @{kind} does not show; put it in its note"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Returns the year, or that of a date: `2011`, `2011-03`, `2011-03-01`, or a range with `/`.
+pub fn year(year: &str, date: &str) -> Result<String, String> {
+    let is_number =
+        |part: &str, most: u32| part.parse().is_ok_and(|n: u32| (1..=most).contains(&n));
+    let is_date = |date: &str| {
+        let parts: Vec<&str> = date.trim_start_matches('-').splitn(3, '-').collect();
+        parts.iter().zip([9999, 12, 31]).all(|(part, most)| is_number(part, most))
+    };
+    if !date.split('/').filter(|part| !["", ".."].contains(part)).all(is_date) {
+        return Err(format!("has the date {date:?}; write it as 2011-03-01, or give a year"));
+    }
+    let first = date.split('/').next().unwrap_or_default();
+    let digits = first.trim_start_matches('-');
+    let end = first.len() - digits.len() + digits.find('-').unwrap_or(digits.len());
+    match (year, &first[..end]) {
+        ("", "") => Err("lacks its year or date; give it".into()),
+        (year, "") => Ok(year.into()),
+        ("", first) => Ok(first.into()),
+        (year, first) if year == first => Ok(year.into()),
+        _ => Err(format!("has the year {year} and the date {date}; keep one")),
+    }
 }

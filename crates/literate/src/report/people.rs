@@ -11,7 +11,8 @@ pub fn people(entry: &Entry, field: &str) -> Result<Vec<Person>, String> {
             *text = text.replace('~', " ").replace(" AND ", " and ");
         }
         let is_normal = matches!(chunk.v, Chunk::Normal(_));
-        all += &if is_normal { chunk.v.get().into() } else { chunk.v.get().replace(' ', "_") };
+        all +=
+            &if is_normal { chunk.v.get().into() } else { chunk.v.get().replace([' ', ','], "_") };
     }
     let words: Vec<&str> = all.split_whitespace().chain(["and"]).collect();
     if let Some((_, found)) = all.split_once('\\') {
@@ -20,6 +21,8 @@ pub fn people(entry: &Entry, field: &str) -> Result<Vec<Person>, String> {
         Ok(Vec::new())
     } else if words.windows(2).any(|pair| pair == ["and"; 2]) {
         Err(format!("has {:?} as its {field}, and so an empty name; correct it", &all[4..]))
+    } else if let Some(name) = all[4..].split(" and ").find(|name| name.matches(',').count() > 2) {
+        Err(format!("has {name:?} in its {field}; write `and` between names"))
     } else {
         Ok(chunks.parse().unwrap_or_default())
     }
