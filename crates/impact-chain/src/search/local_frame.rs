@@ -225,4 +225,16 @@ mod tests {
             }
         }
     }
+
+    /// With ω = 2, Ω = 3 and γ = −0.4 the second derivative at rest is 3.6 − 4 α.
+    #[test]
+    fn a_curvature_below_zero_becomes_one_of_rounding() {
+        let frequencies = Frequencies::new(2.0, [3.0]);
+        for (alpha, expected) in [(1.0, 0.9 - 1.9 * ROUNDING), (0.8, 0.8)] {
+            let mut frame = Frame { alpha, forced: [[-0.4, 0.0]], ..Frame::ZERO };
+            frame.prevent_fall(&frequencies);
+            assert!((frame.alpha - expected).abs() < 2e-16, "{} {expected}", frame.alpha);
+            assert!(frame.start(&frequencies).d2 > 0.0);
+        }
+    }
 }
