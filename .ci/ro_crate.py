@@ -35,9 +35,9 @@ def crate(root, owner):
     groups = {}
     for person in people:
         if "affiliation" in person:
-            group = {"@id": f"#{person['affiliation']['name']}"} | person["affiliation"]
-            groups[group["@id"]] = group
-            person["affiliation"] = {"@id": group["@id"]}
+            name = person["affiliation"]["name"]
+            new = {"@id": f"#organisation-{len(groups) + 1}"} | person["affiliation"]
+            person["affiliation"] = {"@id": groups.setdefault(name, new)["@id"]}
         if person["@type"] == "Person":
             person["name"] = f"{person.get('givenName', '')} {person['familyName']}".strip()
     whole = {

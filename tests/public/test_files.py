@@ -47,6 +47,7 @@ class Crate(unittest.TestCase):
     def test_every_reference_lands(self):
         for entity in self.entities.values():
             self.assertIn("@type", entity)
+            self.assertRegex(entity["@id"], r"^[!-~]+$")
             for to in ids({key: value for key, value in entity.items() if key != "@id"}):
                 known = to in self.entities or to.startswith(("http://", "https://"))
                 self.assertTrue(known or (ROOT / to).is_file(), f"{entity['@id']}: {to}")
