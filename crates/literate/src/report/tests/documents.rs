@@ -84,3 +84,22 @@ fn a_relation_is_shown_where_it_has_a_place() {
         assert_eq!(file(&report, "ledger.json").contains("\"closed\""), is_shown);
     }
 }
+
+#[test]
+fn a_page_names_its_address_and_its_doi_where_there_are_any() {
+    let page = |address, doi| {
+        let given = given(PROSE);
+        let edition = Edition { address, doi, ..given.edition };
+        file(&Given { edition, ..given }.made().unwrap(), "report.html")
+    };
+    let foot = "<a href=\"https://example.org/a&amp;b\">https://example.org/a&amp;b</a></p>";
+    let full = page("https://example.org/a&b", "10.5281/zenodo.1");
+    assert!(full.contains(foot), "{full}");
+    assert!(full.contains("  doi    = {10.5281/zenodo.1},\n  url    = {https://"), "{full}");
+    let empty = page("", "");
+    assert!(
+        !empty.contains("where to report")
+            && !empty.contains("url    =")
+            && empty.contains("},\n}</pre>")
+    );
+}
