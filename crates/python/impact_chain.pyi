@@ -1,3 +1,4 @@
+from collections.abc import Sequence
 from typing import Any
 
 import numpy
@@ -5,6 +6,7 @@ from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[numpy.float64]
 Integers = NDArray[numpy.int64]
+State = tuple[float, Sequence[float] | Floats, Sequence[float] | Floats]
 
 class Scenario:
     def __init__(self, *, forcing: ArrayLike, **fields: Any) -> None: ...
@@ -16,9 +18,13 @@ class Scenario:
     ) -> Scenario: ...
     def to_json(self) -> str: ...
 
-def impacts(scenario: Scenario, until: float) -> tuple[Floats, NDArray[numpy.uint64], Floats]: ...
-def events(scenario: Scenario, until: float) -> list[dict[str, Any]]: ...
-def states(scenario: Scenario, at: ArrayLike) -> tuple[Floats, Floats]: ...
+def impacts(
+    scenario: Scenario, until: float, start: State | None = None
+) -> tuple[Floats, NDArray[numpy.uint64], Floats]: ...
+def events(scenario: Scenario, until: float, start: State | None = None) -> list[dict[str, Any]]: ...
+def states(
+    scenario: Scenario, at: Sequence[float] | Floats, start: State | None = None
+) -> tuple[Floats, Floats]: ...
 def ensemble(
     sigma: float,
     realisations: int,

@@ -34,17 +34,22 @@ pub fn run(args: Args) -> Result<(), Failure> {
         return Err(Failure::input("--at: period has no end; give --until"));
     }
     if let Some(path) = &args.save {
-        // A long run is not made for a file that cannot be written.
+        // A long run is not made for a file that cannot be written; if it is ended, none is left.
+        let is_new = !path.exists();
         let opened = File::options().append(true).create(true).open(path);
-        opened.map_err(|error| one::unsaved(path, &error))?;
+        let removed = || if is_new { std::fs::remove_file(path) } else { Ok(()) };
+        opened.and_then(|_| removed()).map_err(|error| one::unsaved(path, &error))?;
+    }
+    let start = args.from.as_deref().map(saved).transpose()?;
+    if let (Some(State { time, .. }), Some(until)) = (&start, args.until)
+        && until < *time
+    {
+        let message =
+            format!("--until: {until:?} is before the state, at {time:?}; give a later time");
+        return Err(Failure::input(message));
     }
     let latest = Arc::new(AtomicU64::new(0));
-    let job = Job {
-        setting: setting(&args)?,
-        start: args.from.as_deref().map(saved).transpose()?,
-        latest: Arc::clone(&latest),
-        args,
-    };
+    let job = Job { setting: setting(&args)?, start, latest: Arc::clone(&latest), args };
     let _alive = alive(move || format!("trace: at t = {:?}", f64::from_bits(latest.load(Relaxed))));
     let mut header = job.header();
     let mut out = io::stdout();

@@ -231,6 +231,8 @@ fn a_run_goes_on_from_what_was_saved() {
     assert_eq!(samples.len(), 5 * 3);
     assert!((samples[3].0 - std::f64::consts::TAU / 2.0_f64.sqrt()).abs() < 1e-14);
     assert_eq!(rows("--from half.json --at period --until 20").len(), 2 * 3);
+    let (code, _, note) = run(folder.path(), "trace s.json --from half.json --until 11");
+    assert!(code == 2 && note.contains("--until: 11.0 is before the state, at 12.0"), "{note}");
     assert_eq!(rows("--at 0..9:4.5 --until 5").len(), 2 * 3);
 }
 

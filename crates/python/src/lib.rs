@@ -1,7 +1,7 @@
 //! Offers the engine to Python: scenarios, their events and states, and ensembles, as arrays.
 
 use impact_chain::{
-    Abreast, Chain, Engine, Error, ErrorKind, Event, Impact, NormalPairs, Protocol, Watch,
+    Abreast, Chain, Engine, Error, ErrorKind, Event, Impact, NormalPairs, Protocol, State, Watch,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -151,9 +151,29 @@ fn chain_of(py: Python<'_>, fields: Option<&Bound<'_, PyDict>>) -> PyResult<Chai
     Ok(chain)
 }
 
-/// Runs a scenario to `until`, and gives all events to `take` until Ctrl-C.
+/// A state to go on from: time, positions, velocities.
+type Start = Option<(f64, Vec<f64>, Vec<f64>)>;
+
+/// Sets a scenario at its start, or at a state of another time, which `first` must not precede.
+fn engine(scenario: &Scenario, start: Start, first: f64) -> PyResult<Engine> {
+    let engine = match start {
+        None => Engine::new(&scenario.0),
+        Some((time, positions, velocities)) => {
+            Engine::from_state(&scenario.0, &State { time, positions, velocities })
+        }
+    };
+    let engine = engine.map_err(to_python)?;
+    let begin = engine.time();
+    if first < begin {
+        let message = format!("{first:?} is before the start at t = {begin:?}; give a later time");
+        return Err(PyValueError::new_err(message));
+    }
+    Ok(engine)
+}
+
+/// Runs an engine to `until`, and gives all events to `take` until Ctrl-C.
 fn run(
-    scenario: &impact_chain::Scenario,
+    engine: &mut Engine,
     until: f64,
     stop: &AtomicBool,
     mut take: impl FnMut(&Event),
@@ -162,7 +182,7 @@ fn run(
         take(event);
         if stop.load(Relaxed) { Break(()) } else { Continue(()) }
     };
-    Engine::new(scenario)?.run(until, observer).map(drop)
+    engine.run(until, observer).map(drop)
 }
 
 /// Times, gaps and closing speeds of all impacts up to a time.
@@ -171,20 +191,25 @@ fn run(
 /// ----------
 /// scenario : Scenario
 /// until : float
+/// start : (time, positions, velocities), optional
+///     A state to go on from, at its time, as `states` gives it; the scenario may be another.
 ///
 /// Returns
 /// -------
 /// time, gap, closing_speed : ndarray
 ///     In order of time; gap 0 is at the left wall (1 to n on a ring).
 #[pyfunction]
+#[pyo3(signature = (scenario, until, start = None))]
 fn impacts<'py>(
     py: Python<'py>,
     scenario: &Scenario,
     until: f64,
+    start: Start,
 ) -> PyResult<(Array<'py>, Array<'py, u64>, Array<'py>)> {
+    let mut engine = engine(scenario, start, until)?;
     let impacts = apart(py, |stop| {
         let mut impacts = Vec::new();
-        run(&scenario.0, until, stop, |event| {
+        run(&mut engine, until, stop, |event| {
             if let Event::Impact(impact) = event {
                 impacts.push(*impact);
             }
@@ -198,21 +223,23 @@ fn impacts<'py>(
 
 /// All events up to a time: impacts, gaps that stick and are released, undecided grazes.
 ///
-/// Parameters
-/// ----------
-/// scenario : Scenario
-/// until : float
-///
 /// Returns
 /// -------
 /// list of dict
 ///     With `kind` ("impact", "stick", "release", "graze"), `time` and `gaps`; an impact has
 ///     `closing_speed`.
 #[pyfunction]
-fn events<'py>(py: Python<'py>, scenario: &Scenario, until: f64) -> PyResult<Bound<'py, PyList>> {
+#[pyo3(signature = (scenario, until, start = None))]
+fn events<'py>(
+    py: Python<'py>,
+    scenario: &Scenario,
+    until: f64,
+    start: Start,
+) -> PyResult<Bound<'py, PyList>> {
+    let mut engine = engine(scenario, start, until)?;
     let events = apart(py, |stop| {
         let mut events = Vec::new();
-        run(&scenario.0, until, stop, |event| events.push(event.clone()))?;
+        run(&mut engine, until, stop, |event| events.push(event.clone()))?;
         Ok(events)
     })?;
     let list = PyList::empty(py);
@@ -238,30 +265,30 @@ fn events<'py>(py: Python<'py>, scenario: &Scenario, until: f64) -> PyResult<Bou
 
 /// Positions and velocities of all masses at rising times.
 ///
-/// Parameters
-/// ----------
-/// scenario : Scenario
-/// at : array_like
-///
 /// Returns
 /// -------
 /// positions, velocities : ndarray, shape (len(at), n)
 ///     At the time of an impact the velocities are those after it.
 #[pyfunction]
+#[pyo3(signature = (scenario, at, start = None))]
 fn states<'py>(
     py: Python<'py>,
     scenario: &Scenario,
     at: Vec<f64>,
+    start: Start,
 ) -> PyResult<(Matrix<'py>, Matrix<'py>)> {
+    if !at.is_sorted() {
+        return Err(PyValueError::new_err("at: give rising times"));
+    }
     let shape = [at.len(), scenario.0.forcing.len()];
+    let mut engine = engine(scenario, start, at.first().copied().unwrap_or(f64::MAX))?;
     let (positions, velocities) = apart(py, |stop| {
-        let mut engine = Engine::new(&scenario.0)?;
         let (mut positions, mut velocities) = (Vec::new(), Vec::new());
         for time in at {
+            run(&mut engine, time, stop, |_| ())?;
             if stop.load(Relaxed) {
                 break;
             }
-            engine.advance(time)?;
             let state = engine.state(time)?;
             positions.extend(state.positions);
             velocities.extend(state.velocities);
@@ -305,6 +332,10 @@ fn ensemble<'py>(
     seed: u64,
     chain: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(Array<'py, i64>, Array<'py, i64>)> {
+    if !(sigma >= 0.0 && transient >= 0.0 && window > 0.0) {
+        let message = "sigma, transient, window: give no negative number, and a window above 0";
+        return Err(PyValueError::new_err(message));
+    }
     let (chain, windows) = (chain_of(py, chain)?, [Protocol { transient, window }]);
     let until = windows[0].end();
     let counts = apart(py, |stop| {

@@ -46,6 +46,19 @@ def test_an_ensemble_counts_what_single_runs_do():
         assert abs(impacts[i] - (t > 20.0).sum()) <= 2
 
 
+def test_a_run_goes_on_from_a_state_at_its_time():
+    chain = impact_chain.Scenario.draw(0.4, 1, masses=5)
+    t, gap, _ = impact_chain.impacts(chain, 20.0)
+    x, v = impact_chain.states(chain, [7.3])
+    on, gaps, _ = impact_chain.impacts(chain, 20.0, start=(7.3, x[0], v[0]))
+    assert len(on) > 5 and gaps.tolist() == gap[t > 7.3].tolist()
+    assert abs(on - t[t > 7.3]).max() < 1e-9
+    x, v = impact_chain.states(chain, [8.0], start=(7.3, x[0], v[0]))
+    assert abs(x - impact_chain.states(chain, [8.0])[0]).max() < 1e-11
+    with pytest.raises(ValueError, match="7.0 is before the start at t = 8.0"):
+        impact_chain.impacts(chain, 7.0, start=(8.0, x[0], v[0]))
+
+
 def test_a_scenario_is_its_json():
     scenario = impact_chain.Scenario.draw(0.2, 3, masses=4)
     again = impact_chain.Scenario(**json.loads(scenario.to_json()))
@@ -55,6 +68,10 @@ def test_a_scenario_is_its_json():
 def test_errors_name_the_field():
     with pytest.raises(ValueError, match="restitution: 1.5 is out of range; give a number from"):
         ball(restitution=1.5)
+    with pytest.raises(ValueError, match="at: give rising times"):
+        impact_chain.states(ball(), [5.0, 1.0])
+    with pytest.raises(ValueError, match="a window above 0"):
+        impact_chain.ensemble(0.1, 1, window=-3.0)
     with pytest.raises(ValueError, match="until: "):
         impact_chain.impacts(ball(), float("nan"))
     with pytest.raises(ValueError, match="length: give one of masses, "):
@@ -62,9 +79,14 @@ def test_errors_name_the_field():
 
 
 def test_ctrl_c_ends_a_long_run():
+    # A shell's background jobs ignore it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
     with pytest.raises(KeyboardInterrupt):
         impact_chain.ensemble(0.3, 10**7)
     threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
     with pytest.raises(KeyboardInterrupt):
         impact_chain.impacts(impact_chain.Scenario.draw(0.3), 1e9)
+    threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
+    with pytest.raises(KeyboardInterrupt):
+        impact_chain.states(impact_chain.Scenario.draw(0.3), [1e9])
