@@ -9,7 +9,7 @@ use crate::claims::Kind;
 use crate::figures::plain;
 use crate::input::one_line;
 use crate::table::Table;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// Words of code with numbers that have no reason, up to what is computed between them.
 struct Typed {
@@ -35,7 +35,9 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
         }
     }
     let wanted = numbered.iter().flat_map(|(.., numerals)| numerals).map(|(_, one)| one.as_str());
-    let wanted: BTreeSet<&str> = wanted.collect();
+    let parts = wanted.map(|one| one.split(|c: char| !c.is_alphanumeric()));
+    let wanted: HashSet<&str> =
+        parts.filter_map(|mut parts| parts.find(|it| !it.is_empty())).collect();
     let typed = code.chain(texts).flat_map(|(path, text)| typed(&path, text, &wanted));
     let (typed, mut errors): (Vec<Typed>, _) = (typed.collect(), Vec::new());
     for (text, file, numerals) in &numbered {
@@ -52,15 +54,18 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
     errors
 }
 
-/// Returns what stands between quotation marks and braces, in strings and elsewhere, with one of
-/// the wanted numbers.
-fn typed(path: &str, code: &str, wanted: &BTreeSet<&str>) -> Vec<Typed> {
+/// Returns what stands between quotation marks and braces, in strings and elsewhere, with a number
+/// that begins with one of the wanted words or runs of digits.
+fn typed(path: &str, code: &str, wanted: &HashSet<&str>) -> Vec<Typed> {
     let code = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
     let (mut found, mut line) = (Vec::new(), 1);
     for piece in code.split(['"', '{', '}']) {
-        let has_digit = piece.bytes().any(|byte| byte.is_ascii_digit());
-        let may_be = |one: &&str| has_digit || !one.starts_with(char::is_numeric);
-        if wanted.iter().filter(|one| may_be(one)).any(|one| piece.contains(one)) {
+        let mut words = piece.split(|c: char| !c.is_alphanumeric());
+        let in_digits = |word: &str| {
+            let has_digit = word.bytes().any(|byte| byte.is_ascii_digit());
+            has_digit && word.split(|c: char| !c.is_ascii_digit()).any(|run| wanted.contains(run))
+        };
+        if words.any(|word| wanted.contains(word) || in_digits(word)) {
             let text = piece.replace(r"\\", r"\");
             let numerals = lint::words(&text, 0..text.len(), &Declared::default());
             let numerals = numerals.into_iter().map(|(_, numeral)| numeral).collect();
