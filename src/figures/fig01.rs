@@ -6,7 +6,7 @@ const LEFT: i32 = 640;
 const SPACING: i32 = 1187;
 const FLOOR: i32 = 2280;
 const HEIGHT: i32 = 1060;
-const RADIUS: i32 = 280;
+const RADIUS: i32 = 130;
 
 /// The masses as drawn: the place on the sheet in units of the spacing, the name, the place in the
 /// row, and how far the mass is displaced from its equilibrium.
@@ -71,8 +71,11 @@ fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Drawn {
     });
     draw_line(sheet, stem, 50)?;
     let centre = (root + bend, HEIGHT);
-    sheet.draw(&markers(vec![centre], (Symbol::Ring, RADIUS, Stroke::solid(INK, 36))))?;
-    Ok(sheet.draw_text(name, &words(SMALL, INK, HPos::Center, VPos::Center), centre)?)
+    sheet.draw(&markers(vec![centre], (Symbol::Disc, RADIUS, Stroke::solid(INK, 36))))?;
+    // A mass is a point; its name stands on the side to which it is bent.
+    let side = bend.signum();
+    let style = words(TEXT, INK, if side > 0 { HPos::Left } else { HPos::Right }, VPos::Center);
+    Ok(sheet.draw_text(name, &style, (centre.0 + side * (RADIUS + 70), HEIGHT))?)
 }
 
 fn double_arrow(sheet: &SheetArea, a: (i32, i32), b: (i32, i32)) -> Drawn {

@@ -22,62 +22,54 @@ const CLASSES: [Class; 5] = [
     ("two vertices twice", "*ϕ*_{*N*}^{2}", INK, ALTERNATE),
 ];
 
+/// The name of the axis of probabilities, on the sheet and in data files.
+const PROBABILITY: &str = "*P*(*X* = *k*)";
+const COLUMN: &str = "P(X = k)";
+
+/// What is less than this part of an axis lies on zero, and is not drawn there.
+const VISIBLE: f64 = 0.02;
+
 /// Where a class is named: its place in [`CLASSES`], a k, and millimetres to the right and down
-/// from its curve there; names at one k stand in a row, at the height of the first.
+/// from its curve there.
 type Name = (usize, usize, i32, i32);
 
-/// A panel: p, first and last k, step between their numbers, the least P if logarithmic, names.
-type Shown = (f64, [f64; 3], Option<f64>, &'static [Name]);
-
-/// The names in (e) and (f).
-const E: [Name; 5] = [(0, 6, 1, -2), (1, 3, -3, 0), (2, 4, 0, 2), (3, 5, 0, 2), (4, 2, -1, 1)];
-const F: [Name; 5] = [(0, 81, 0, 2), (1, 79, -3, 3), (2, 79, 0, 3), (3, 79, 3, 3), (4, 72, -2, -1)];
+/// A panel: p, first and last k, step between their numbers, names.
+type Shown = (f64, [f64; 3], &'static [Name]);
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sheet = Sheet::new(11_200);
+    let sheet = Sheet::new(12_100);
     let [small, middle, large] = HIGHER_P;
-    let panels: [Shown; 6] = [
-        (small, [0.0, 8.0, 2.0], None, &[(0, 2, 2, 0)]),
-        (small, [0.0, 12.0, 4.0], None, &[(0, 8, 1, -2), (1, 3, 1, -2)]),
-        (middle, [0.0, 20.0, 5.0], None, &[(0, 3, 2, 0)]),
-        (large, [65.0, 95.0, 10.0], None, &[(4, 78, -2, 0)]),
-        (small, [0.0, 12.0, 4.0], Some(3e-10), &E),
-        (large, [65.0, 95.0, 10.0], Some(1e-7), &F),
+    let panels: [Shown; 4] = [
+        (small, [0.0, 8.0, 2.0], &[(0, 2, 2, 0)]),
+        (small, [0.0, 12.0, 4.0], &[(0, 8, 1, -2), (1, 3, 1, -2)]),
+        (middle, [0.0, 20.0, 5.0], &[(0, 3, 2, -1), (1, 10, 0, -1)]),
+        (large, [65.0, 95.0, 10.0], &[(4, 78, -2, 0)]),
     ];
-    for (i, (p, [first, last, step], least, names)) in panels.into_iter().enumerate() {
-        let label = if i % 2 == 0 { "*P*(*X* = *k*)" } else { "" };
-        let (classes, most) = (contributions(p), largest(&five(p)));
-        let y = match least {
-            Some(least) => Axis::decades(-12, 0, 2, label).between(least, 1.5 * most),
-            // The detail shows the higher orders: the simple circuits leave it at its upper edge.
-            None if i == 1 => Axis::up_to(1.5 * largest(&classes[1..].concat()), label),
-            None => Axis::up_to(most, label),
-        };
-        let (left, top) = (1200 + 4050 * (i as i32 % 2), 480 + 3250 * (i as i32 / 2));
-        let frame = Frame::new(left, top, left + 2950, top + 2050);
+    for (i, (p, [first, last, step], names)) in panels.into_iter().enumerate() {
+        let (classes, sum) = (contributions(p), five(p));
+        // The detail shows the higher orders: the simple circuits leave it at its upper edge.
+        let most = if i == 1 { 1.5 * largest(&classes[1..].concat()) } else { largest(&sum) };
+        let y = Axis::up_to(most, if i % 2 == 0 { PROBABILITY } else { "" });
+        let (left, top) = (1200 + 4050 * (i as i32 % 2), 480 + 2700 * (i as i32 / 2));
+        let frame = Frame::new(left, top, left + 2950, top + 1700);
         let x = Axis::linear(first, last, step, 2, "*k*");
-        let panel = sheet.panel(frame, x, y.column("P(X = k)"))?.outside(Outside::Cut);
+        let panel = sheet.panel(frame, x, y.column(COLUMN))?.outside(Outside::Cut);
         panel.heading(LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
-        panel.curve("all five classes", &over_k(&five(p)), SUM)?;
+        panel.curve("all five classes", &over_k(&sum), SUM)?;
         for (class, (name, _, colour, dash)) in classes.iter().zip(CLASSES) {
-            panel.curve(name, &over_k(class), Stroke::dashed(colour, LINE, dash))?;
+            if largest(class) > VISIBLE * panel.y.hi {
+                panel.curve(name, &over_k(class), Stroke::dashed(colour, LINE, dash))?;
+            } else {
+                panel.record(name, over_k(class));
+            }
         }
         for &(class, k, right, down) in names {
-            let first = names.iter().find(|name| name.1 == k).map_or(class, |name| name.0);
             let (_, symbol, colour, _) = CLASSES[class];
-            panel.label(symbol, (k as f64, classes[first][k - 1]), (right, down), colour)?;
+            panel.label(symbol, (k as f64, classes[class][k - 1]), (right, down), colour)?;
         }
     }
-    let names = CLASSES.map(|(name, symbol, colour, dash)| {
-        (format!("{name}, {symbol}"), colour, Stroke::dashed(colour, LINE, dash))
-    });
-    let all = ("all five classes".to_string(), GREY, SUM);
-    for (i, (name, colour, stroke)) in (0..).zip([all].into_iter().chain(names)) {
-        let (left, y) = (1200 + 3500 * (i / 3), 10_250 + 360 * (i % 3));
-        sheet.area.draw(&line(vec![(left, y), (left + 500, y)], stroke))?;
-        let style = words(SMALL, colour, HPos::Left, VPos::Center);
-        sheet.area.draw_text(&name, &style, (left + 600, y))?;
-    }
+    logarithmic(&sheet, "(e)", small, [0.0, 12.0, 4.0], 3e-10)?;
+    logarithmic(&sheet, "(f)", large, [65.0, 95.0, 10.0], 1e-7)?;
 
     let share = |p: f64| {
         results.number(&format!("theory.classes[p={p}].simple")).map(|share| short(share, 2))
@@ -93,4 +85,29 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         short(large, 3),
     );
     Ok(sheet.finish("Distributions with higher-order circuits", description))
+}
+
+/// Draws all classes down to a least P, each with its name at its end.
+fn logarithmic(
+    sheet: &Sheet,
+    letter: &str,
+    p: f64,
+    [first, last, step]: [f64; 3],
+    least: f64,
+) -> Drawn {
+    let (classes, sum) = (contributions(p), five(p));
+    let top = if letter == "(e)" { 5880 } else { 8980 };
+    let y = Axis::decades(-12, 0, 2, PROBABILITY).between(least, 1.5 * largest(&sum));
+    let x = Axis::linear(first, last, step, 2, "*k*");
+    let frame = Frame::new(1200, top, 5500, top + 2150);
+    let panel = sheet.panel(frame, x, y.column(COLUMN))?.outside(Outside::Cut);
+    panel.heading(letter, &format!("*p* = {}", short(p, 3)))?;
+    panel.curve("all five classes", &over_k(&sum), SUM)?;
+    let mut ends = Vec::new();
+    for (class, (name, symbol, colour, dash)) in classes.iter().zip(CLASSES) {
+        let points = over_k(class);
+        panel.curve(name, &points, Stroke::dashed(colour, LINE, dash))?;
+        ends.push((format!("{name}, {symbol}"), points, colour));
+    }
+    panel.label_ends(&ends)
 }

@@ -1,7 +1,7 @@
 //! Draws Fig. S2: gaps that close by themselves, and chains with one of them.
 
+use super::encoding::{FORCING, SHARE};
 use super::prelude::*;
-use super::simulated::FORCING;
 use crate::experiments::theory::comparison::at;
 use crate::experiments::{Results, sweep};
 use crate::params::printed_threshold;
@@ -29,11 +29,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
 fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: usize) -> Drawn {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
-    let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
+    let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of chains with an impact");
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
     let mut kept = sweep.curve(&[], "sigma", "kept")?;
     kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
-    panel.markers("kept", &kept, (Symbol::Cross, 42, Stroke::solid(INK, HAIR)))?;
+    panel.markers(SHARE.name, &kept, SHARE.mark)?;
     let last = found.distinct("time")?.last().copied().unwrap_or_default();
     let lengths = found.distinct("masses")?;
     for (place, &masses) in lengths.iter().enumerate() {
@@ -51,8 +51,8 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: u
     }
     let Some((sigma, share)) = kept.iter().rfind(|(_, share)| *share < 0.9) else { return Ok(()) };
     let leader = [(sigma + 0.001, share - 0.03), (sigma + 0.004, share - 0.1)];
-    panel.guide("leader", &leader, Stroke::solid(INK, HAIR))?;
-    panel.label(&format!("main sweep, *n* = {masses}"), leader[1], (1, 1), INK)
+    panel.guide("leader", &leader, Stroke::solid(RED, HAIR))?;
+    panel.label(&format!("main sweep, *n* = {masses}"), leader[1], (1, 1), RED)
 }
 
 fn times(sheet: &Sheet, found: &Table) -> Drawn {

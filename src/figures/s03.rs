@@ -1,7 +1,7 @@
 //! Draws Fig. S3: how impacts spread from one gap, and the mean count that follows.
 
+use super::encoding::{ALL, FORCING, HALF_HEIGHT, REST, SEEDS, THEORY, gaps_axis};
 use super::prelude::*;
-use super::simulated::{FORCING, count_axis};
 use crate::experiments::Results;
 use crate::experiments::ensembles::Counted;
 use crate::experiments::sweep;
@@ -11,9 +11,6 @@ use literate::table::Table;
 
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.075, 0.165);
-
-/// Nucleation and growth, which is computed at some places only.
-const GROWN: (&str, Marker) = ("from seeds", (Symbol::OpenSquare, 44, Stroke::solid(INK, HAIR)));
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
@@ -33,41 +30,37 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
 fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Drawn {
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
-    let y = count_axis(sweep.ensemble.chain.gaps(), "mean number of gaps");
+    let y = gaps_axis(sweep.ensemble.chain.gaps());
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", sweep.first().protocol.transient)];
-    let lines = [
-        ("circuits, Eq. (25)", "simple", Stroke::dashed(BLUE, LINE, SHORT), 50.0),
-        ("circuits, from rest", "rest", Stroke::dashed(PURPLE, LINE, LONG), 62.0),
-    ];
-    for (name, column, stroke, height) in lines {
+    for (look, column, height) in [(THEORY, "simple", 50.0), (REST, "rest", 62.0)] {
         let mut curve = theory.curve(&[], "sigma", column)?;
         curve.retain(|(sigma, _)| *sigma >= SIGMAS.0 && *sigma <= SIGMAS.1);
-        panel.curve(name, &curve, stroke)?;
+        panel.curve(look.name, &curve, look.line)?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, mean)| (mean, sigma)).collect();
         let place = (at(&rising, height).unwrap_or(SIGMAS.0), height);
-        panel.label(name, place, (-2, 0), stroke.colour)?;
+        panel.label(look.name, place, (-2, 0), GREEN)?;
     }
     let grown = means.series(&transient, "sigma", "grown")?;
-    panel.joined_estimates(GROWN.0, &grown, GROWN.1)?;
+    panel.joined_estimates(SEEDS.name, &grown, SEEDS.mark)?;
     if let Some((sigma, mean)) = grown.iter().find(|(_, mean)| mean.value > 85.0) {
-        panel.label(GROWN.0, (*sigma, mean.value), (-1, -1), INK)?;
+        panel.label(SEEDS.name, (*sigma, mean.value), (-1, -1), INK)?;
     }
     let inside =
         sweep.first().rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
     let bars: Vec<_> = inside
         .filter_map(|row| Some((row.sigma, row.mean_all?.value, row.mean_all?.interval?)))
         .collect();
-    let look = (Symbol::Disc, 42, Stroke::solid(RED, THIN));
     let ends: Vec<_> = bars.iter().map(|(x, _, [low, high])| (*x, *low, *high)).collect();
-    panel.bars("simulation", &ends, 35, look.2)?;
+    panel.bars(ALL.name, &ends, 35, ALL.mark.2)?;
     let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
-    panel.markers("simulation", &points, look)?;
+    panel.guide(ALL.name, &points, ALL.line)?;
+    panel.markers(ALL.name, &points, ALL.mark)?;
     let low = points.iter().copied().rfind(|(_, mean)| *mean < 40.0);
     let Some((sigma, mean)) = low else { return Ok(()) };
     let leader = [(sigma + 0.001, mean - 3.0), (sigma + 0.004, mean - 10.0)];
     panel.guide("leader", &leader, Stroke::solid(RED, HAIR))?;
-    panel.label("simulation", leader[1], (1, 1), RED)
+    panel.label(ALL.name, leader[1], (1, 1), RED)
 }
 
 fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
@@ -92,15 +85,13 @@ fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
 
 fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").between(20.0, 2000.0);
-    let y = Axis::linear(0.1, 0.14, 0.01, 2, "half height (*d ω*^{2})")
-        .column("half_height (d omega^2)");
+    let y = Axis::linear(0.1, 0.14, 0.01, 2, HALF_HEIGHT).column("half_height (d omega^2)");
     let panel =
         sheet.lettered("(c)", Frame::new(5600, 5250, 8150, 7650), x, y)?.outside(Outside::Edge);
     let grown = rise.curve(&[], "transient", "half_height")?;
-    panel.marked_curve(GROWN.0, &grown, GROWN.1.2, GROWN.1)?;
-    let look = (Symbol::Disc, LARGE, Stroke::solid(RED, THIN));
+    panel.marked_curve(SEEDS.name, &grown, SEEDS.mark.2, SEEDS.mark)?;
     let found = scores.series(&[], "transient", "half_height")?;
-    panel.estimates("simulation", &found, look)?;
-    panel.label("simulation", (150.0, 0.1355), (1, 0), RED)?;
-    panel.label("from seeds", (300.0, 0.109), (-1, 0), INK)
+    panel.joined_estimates(ALL.name, &found, ALL.mark)?;
+    panel.label("all chains", (150.0, 0.1355), (1, 0), RED)?;
+    panel.label(SEEDS.name, (300.0, 0.109), (-1, 0), INK)
 }

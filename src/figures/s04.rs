@@ -1,7 +1,7 @@
 //! Draws Fig. S4: chains from rest and from above after several transients.
 
+use super::encoding::{FORCING, HALF_HEIGHT};
 use super::prelude::*;
-use super::simulated::FORCING;
 use crate::experiments::{PROTOCOL, Results};
 use literate::table::Table;
 
@@ -10,8 +10,8 @@ const WINDOW: f64 = 200.0;
 
 /// The branches: column, name, colour, and symbols for shorter and for the longest chains.
 const BRANCHES: [(&str, &str, RGBColor, [Symbol; 2]); 2] = [
-    ("from_rest", "from rest", BLUE, [Symbol::Ring, Symbol::Disc]),
-    ("from_above", "from above", RED, [Symbol::OpenSquare, Symbol::Square]),
+    ("from_rest", "from rest", INK, [Symbol::Ring, Symbol::Disc]),
+    ("from_above", "from above", ORANGE, [Symbol::OpenSquare, Symbol::Square]),
 ];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
@@ -39,8 +39,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
 fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64]) -> Drawn {
     let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 1.25e5);
-    let y = Axis::linear(0.06, 0.14, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
-        .column("half_height (d omega^2)");
+    let y = Axis::linear(0.06, 0.14, 0.01, 2, HALF_HEIGHT).column("half_height (d omega^2)");
     let panel =
         sheet.lettered("(a)", Frame::new(1150, 430, 6000, 3930), x, y)?.outside(Outside::Cut);
     let masses = results.of(&PROTOCOL)?.first().map_or(0, |map| map.ensemble.chain.masses);
@@ -75,7 +74,7 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Drawn {
     let sigmas = shares.distinct("sigma")?;
     let least = sigmas.iter().copied().fold(f64::INFINITY, f64::min);
     let x = Axis::linear(least - 0.005, largest(&sigmas) + 0.005, 0.01, 2, FORCING);
-    let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of active gaps");
+    let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of gaps with an impact");
     let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 8000), x, y)?;
     let transients = shares.distinct("transient")?;
     let ends = [transients.first(), transients.last()];

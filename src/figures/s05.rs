@@ -1,5 +1,6 @@
 //! Draws Fig. S5: the most likely number and its jump for many vertices.
 
+use super::encoding::MODE;
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::large;
@@ -25,11 +26,11 @@ fn shares(sheet: &Sheet) -> Drawn {
     let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
     let panel =
         sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?.outside(Outside::Cut);
-    // Beyond their jumps all lie on the limit: the last to jump is drawn last, and each has a disc
-    // where it arrives.
-    for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate().rev() {
+    // Beyond their jumps all lie on the limit, so the last to jump is widest and below the others,
+    // and each has a disc where it arrives.
+    for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
         let colour = ordered(place, DRAWN_VERTICES.len());
-        let stroke = Stroke::solid(colour, LINE);
+        let stroke = Stroke::solid(colour, [96, 60, 26][place]);
         // No value lies within the jump.
         let [before, after] = large::shares(vertices);
         let name = format!("N = {vertices}");
@@ -43,7 +44,7 @@ fn shares(sheet: &Sheet) -> Drawn {
         panel.label(&name, (RANGE.0, 1.0 / vertices as f64), (1, -1), colour)?;
     }
     // On top, so that it is seen on the curves that lie on it.
-    panel.curve("limit", &large::limit(), Stroke::dashed(ORANGE, LINE, LONG))?;
+    panel.curve("limit", &large::limit(), Stroke::dashed(ORANGE, HAIR, LONG))?;
     panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), ORANGE)
 }
 
@@ -55,9 +56,9 @@ fn jumps(sheet: &Sheet, table: &Table) -> Drawn {
     let rule: Vec<_> = rule.into_iter().map(|(n, k)| (n, k / n)).collect();
     panel.curve("rule", &rule, Stroke::solid(INK, THIN))?;
     let exact = table.curve(&[], "n", "share")?;
-    panel.markers("exact", &exact, (Symbol::Disc, 55, Stroke::solid(RED, THIN)))?;
+    panel.markers("exact", &exact, MODE.mark)?;
     if let Some(place) = exact.get(4) {
-        panel.label("exact", *place, (2, -1), RED)?;
+        panel.label("exact", *place, (2, -1), PURPLE)?;
     }
     panel.label("*k*^{2} = 2*N*(ln *k* − 1)", (3e4, 0.0168), (-1, 1), INK)
 }

@@ -1,124 +1,129 @@
-//! Draws Fig. S8: the difference of a mean by each method from that of the engine, with its
-//! interval; methods are sorted by the time that they take.
+//! Draws Fig. S8: how long all impacts of a run are right, against its time and one impact's error.
 
+use super::encoding;
 use super::prelude::*;
-use crate::experiments::accuracy::tables::{Compared, compared};
-use crate::experiments::{BIAS, MEASURED, Results};
-use crate::params::{Means, MethodName::Certified, Setting};
+use super::rivals::{self, FINEST, Place, by_method, over_engine, programs};
+use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
+use crate::experiments::{MEASURED, RACE, Results};
+use crate::params::MethodName::*;
 use impact_numerics::statistics::Estimate;
 
-/// The differences in the panels, in per cent.
-const RANGE: f64 = 60.0;
+/// The rounding of doubles, 2⁻⁵³.
+const ROUNDING: f64 = f64::EPSILON / 2.0;
 
-/// From one row to the next.
-const ROW: i32 = 275;
+/// Where names stand in (a).
+const NAMES: [Place; 3] =
+    [(Certified, FINEST, (0, 2)), (Advancement, 1, (-2, 0)), (RungeKutta, 3, (2, 0))];
 
-/// The width of a decimal with its point.
-const DECIMAL: i32 = 170;
+/// The same in (b), for other programs: name of the row, name here.
+const PROGRAMS: [(&str, &str, usize, (i32, i32)); 6] = [
+    ("impact-paper", "engine", FINEST, (2, 0)),
+    ("heyoka", "heyoka", FINEST, (0, -2)),
+    ("SUNDIALS CVODE", "CVODE", FINEST, (2, 0)),
+    ("SciPy DOP853", "SciPy", FINEST, (-2, 0)),
+    ("pymunk", "pymunk", FINEST, (0, -2)),
+    ("diffsol tsit45", "diffsol", 0, (-2, 0)),
+];
 
-pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let (biases, measured) = (results.of(&BIAS)?, results.of(&MEASURED)?);
-    let rows = compared(biases);
-    let means = &biases.parameters.means;
-    let height = |of: &Means| of.settings.len() as i32 * ROW;
-    let sheet = Sheet::new(means.iter().map(|of| height(of) + 480).sum::<i32>() as u32 + 1500);
-    let mut top = 1000;
-    for (i, of) in means.iter().enumerate() {
-        let chains = &of.chains;
-        let time = |setting| {
-            measured.thousand(measured.method(setting, chains.chain.masses, chains.sigma)?)
-        };
-        let mut found = Vec::new();
-        for row in rows.iter().filter(|row| row.sigma == chains.sigma && row.share.is_some()) {
-            found.extend(time(row.setting).map(|time| (time, row)));
-        }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let frame = Frame::new(2450, top, 5350, top + height(of));
-        top += height(of) + 480;
-        let engine = Setting { method: Certified, value: 0.0, stop: 0.0 };
-        let panel = rows_of(&sheet, frame, &found, time(engine), i + 1 == means.len())?;
-        panel.heading(LETTERS[i], &format!("*σ* = {}, *T* = {}", chains.sigma, of.transient))?;
-    }
-    let style = words(SMALL, INK, HPos::Right, VPos::Bottom);
-    let heads =
-        [("difference (%)", 7250, 350), ("± 95 % half-width", 7250, 650), ("time (s)", 8250, 650)];
-    for (name, right, base) in heads {
-        sheet.area.draw_text(name, &style, (right, base))?;
-    }
-    let description = describe!(
-        "Difference of the mean number of impacting gaps from the engine's, with 95 % intervals, at {} σ; rows are methods with a step or \
-         tolerance, by rising time. {} of {} differences are clear (discs).",
-        means.len(),
-        rows.iter().filter(|row| row.is_clear()).count(),
-        rows.len(),
-    );
-    Ok(sheet.finish("Error of a mean, by method", description))
+/// The same for (c).
+const BY_ERROR: [Place; 3] =
+    [(Certified, FINEST, (-2, 0)), (Sampled, 0, (-2, 0)), (Advancement, 2, (0, 3))];
+
+/// Returns the time in which an error ε grows to [`DISPLACED`], ln([`DISPLACED`]/ε)/λ, and its
+/// interval: [low, value, high].
+fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
+    let growth = race.growth.growth()?;
+    let folds = pxfm::f_log(DISPLACED / error).max(0.0);
+    Some([growth.interval[1], growth.value, growth.interval[0]].map(|rate| folds / rate))
 }
 
-/// Draws a row for the engine, if its time is known, and one for each method below it. Returns the
-/// panel, whose data are times and differences.
-fn rows_of(
-    sheet: &Sheet,
-    frame: Frame,
-    found: &[(f64, &Compared)],
-    engine: Option<f64>,
-    is_last: bool,
-) -> Result<Panel, Error> {
-    let x = Axis::linear(-RANGE, RANGE, 20.0, 2, "difference from the engine’s mean (%)");
-    let x = x.column("time of one core for a thousand chains (s)");
-    let x = if is_last { x } else { x.without_numbers() };
-    let y = Axis::linear(-0.6 - found.len() as f64, 0.6, 1.0, 1, "");
-    let mut y = y.column("error of the mean (%)");
-    y.ticks = vec![Tick { at: 0.0, label: Some("engine".into()) }];
-    for setting in found.iter().map(|row| row.1.setting) {
-        let name = format!("{}, {}", setting.method.title(), in_powers(setting.value));
-        y.ticks.insert(0, Tick { at: -(y.ticks.len() as f64), label: Some(name) });
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let (race, measured) = (results.of(&RACE)?, results.of(&MEASURED)?);
+    let sheet = Sheet::new(10900);
+    let top = (race.parameters.until / 50.0).ceil() * 50.0;
+    let x = || rivals::time_axis(1.3e4);
+    let (by_time, others) = (Frame::new(1100, 430, 8250, 3230), Frame::new(1100, 3800, 8250, 6600));
+    let by_time = sheet.lettered("(a)", by_time, x().without_numbers(), horizon_axis(top))?;
+    let by_time = by_time.outside(Outside::Edge);
+    let others = sheet.lettered("(b)", others, x(), horizon_axis(top))?.outside(Outside::Edge);
+    let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").between(1e-20, 0.5);
+    let by_error = Frame::new(1100, 7750, 8250, 9950);
+    let by_error = sheet.lettered("(c)", by_error, x, horizon_axis(top))?.outside(Outside::Edge);
+
+    chaos(&by_error, race)?;
+    if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|t| t[1] < top) {
+        let name = "what chaos allows in double precision";
+        by_time.level(name, ceiling, Stroke::dashed(GREY, LINE, SHORT))?;
+        by_time.label(name, (by_time.x.hi, ceiling), (-1, -1), GREY)?;
     }
-    // A background for every second row.
-    let height = f64::from(frame.bottom - frame.top) / (found.len() as f64 + 1.2);
-    for row in (1..=found.len()).step_by(2) {
-        let upper = frame.top + (height * (row as f64 + 0.1)) as i32;
-        let ground = [(60, upper), (8340, upper + height as i32)];
-        sheet.area.draw(&Rectangle::new(ground, PALE.mix(0.3).filled()))?;
-    }
-    let panel = sheet.panel(frame, x, y)?;
-    panel.guide("engine", &[(0.0, panel.y.lo), (0.0, 0.0)], Stroke::solid(RED, THIN))?;
-    let disc = (Symbol::Disc, LARGE + 12, Stroke::solid(RED, THIN));
-    panel.unrecorded().markers("engine", &[(0.0, 0.0)], disc)?;
-    let style = words(SMALL, INK, HPos::Right, VPos::Center);
-    let decimals = |value: f64| usize::from(value < 9.95);
-    // Writes a number so that its units digit ends at a place.
-    let write = |before: &str, value: f64, decimals: usize, units: i32, row: f64| {
-        let at = (units + decimals as i32 * DECIMAL, panel.area.map_coordinate(&(0.0, row)).1);
-        sheet.area.draw_text(&(before.to_owned() + &number(value, decimals)), &style, at)
-    };
-    if let Some(time) = engine {
-        write("", time, decimals(time), 8000, 0.0)?;
-    }
-    for (row, (time, compared)) in (1..).map(|i| -f64::from(i)).zip(found) {
-        let Some(share) = compared.share else { continue };
-        let interval = share.interval.map(|end| 100.0 * end);
-        let (value, error) = (100.0 * share.value, 100.0 * share.error);
-        let name = compared.setting.name();
-        panel.record(&name, [(*time, Estimate { value, error, interval })]);
-        let is_clear = compared.is_clear();
-        let stroke = Stroke::solid(INK, if is_clear { LINE } else { HAIR });
-        panel.guide(&name, &interval.map(|end| (end, row)), stroke)?;
-        let symbol = if is_clear { Symbol::Disc } else { Symbol::Ring };
-        if value.abs() < RANGE {
-            let mark = (symbol, MEDIUM, Stroke::solid(INK, THIN));
-            panel.unrecorded().markers("difference", &[(value, row)], mark)?;
+    let run = &race.parameters.growth;
+    let time = |e: &Entry| over_engine(race, measured, e.setting);
+    let point = |x: f64, t: Estimate| (x, t.value, Some([t.value - t.error, t.value + t.error]));
+    let timed = |e: &Entry| Some((e.setting, point(time(e)?, e.horizon()?)));
+    let median = |e: &Entry| Some((e.setting, point(e.errors?[0], e.horizon()?)));
+    let timed = by_method(&race.entries, timed);
+    rivals::draw(&by_time, &timed, &NAMES)?;
+    rivals::draw(&by_error, &by_method(&race.entries, median), &BY_ERROR)?;
+    for (program, points) in programs(measured, run.chain.masses) {
+        let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };
+        let mark = match place.1 {
+            "engine" => encoding::method(Certified),
+            _ => (Symbol::OpenDiamond, LARGE, Stroke::solid(INK, THIN)),
+        };
+        let colour = mark.2.colour;
+        others.marked_curve(program, &points, Stroke::solid(colour, THIN), mark)?;
+        if let Some(at) = points.get(place.2).or(points.last()) {
+            others.label_nearby(place.1, (at.0, at.1.min(top)), place.3, colour)?;
         }
-        for end in interval.into_iter().filter(|end| end.abs() > RANGE) {
-            let ends = [0.85, 1.0].map(|share| (share * RANGE * end.signum(), row));
-            panel.area.draw(&arrow(ends.to_vec(), stroke))?;
-        }
-        let half = interval[1] - value;
-        write("", value, decimals(half), 6300, row)?;
-        // A space is half as wide as a digit.
-        let before = ["± ", "±   "][decimals(half)];
-        write(before, half, decimals(half), 7000, row)?;
-        write("", *time, decimals(*time), 8000, row)?;
     }
-    Ok(panel)
+    // The coarsest and the finest setting; the first of Runge–Kutta lies on the fixed steps.
+    for (method, points) in &timed {
+        let offsets = match method {
+            Advancement => [(1, -1), (2, 0)],
+            RungeKutta => [(1, 0); 2],
+            Sampled => [(-1, -1), (1, 1)],
+            Verlet => [(0, -1), (0, -1)],
+            _ => continue,
+        };
+        let first = points.first().filter(|_| *method != RungeKutta);
+        let ends = first.into_iter().chain(points.iter().skip(1).last());
+        for ((setting, (x, t, _)), offset) in ends.zip(offsets) {
+            by_time.label_nearby(&in_powers(setting.value), (*x, t.min(top)), offset, GREY)?;
+        }
+    }
+    by_time.label_nearby("sampling", (6.5, 0.77 * top), (1, 0), INK)?;
+    rivals::key(&by_time, 700.0, [0.48, 0.37, 0.26].map(|share| share * top))?;
+    rivals::better(&by_time, (2500.0, 0.68 * top), (1300.0, 0.79 * top))?;
+    rivals::better(&others, (0.5, 0.5 * top), (0.28, 0.7 * top))?;
+    by_error.label_nearby("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
+    let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
+    let description = describe!(
+        "Time up to which a run has every impact right, n = {}, σ = {}: against measured time over the engine's (a) for this program, \
+         mean of {} chains, the engine at the top left, and (b) for others on one chain; (c) against the median error of one impact, \
+         with the line that λ = {growth} allows.",
+        run.chain.masses,
+        run.sigma,
+        race.parameters.chains,
+    );
+    Ok(sheet.finish("How long a run is true", description))
+}
+
+fn horizon_axis(top: f64) -> Axis {
+    let step = if top > 60.0 { 50.0 } else { 10.0 };
+    Axis::linear(0.0, top, step, 1, "horizon *t* (1/*ω*)").column("horizon (1/omega)")
+}
+
+/// The line that chaos allows, with the band of λ's interval.
+fn chaos(panel: &Panel, race: &Race) -> Drawn {
+    let at = |error: f64| allowed(race, error).map(|t| (error, t));
+    let errors = (0..=72).map(|i| pxfm::f_exp10(-18.0 + 0.25 * f64::from(i)));
+    let grid: Vec<_> = errors.filter(|error| panel.x.contains(*error)).filter_map(at).collect();
+    let cut = |t: f64| t.min(panel.y.hi);
+    let below = grid.iter().map(|(x, t)| (*x, cut(t[0])));
+    let above = grid.iter().rev().map(|(x, t)| (*x, cut(t[2])));
+    let band = Polygon::new(below.chain(above).collect::<Vec<_>>(), GREY.mix(0.35));
+    panel.draw_series("interval of the growth", [band])?;
+    let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
+    let stroke = Stroke::dashed(GREY, LINE, SHORT);
+    panel.outside(Outside::Cut).curve("what chaos allows", &line, stroke)
 }

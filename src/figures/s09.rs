@@ -5,14 +5,24 @@ use super::rivals::{self, FINEST, Place, by_method};
 use crate::experiments::{MEASURED, Results, SCALE};
 use crate::params::{MethodName::*, Setting};
 
-/// Where names stand in both panels.
-const NAMES: [Place; 6] = [
+/// Where names stand in (a).
+const COUNTED: [Place; 6] = [
     (Certified, FINEST, (0, -2)),
-    (Sampled, FINEST, (0, -2)),
-    (Advancement, FINEST, (6, 1)),
-    (RungeKutta, FINEST, (-1, -1)),
-    (MoreauJean, FINEST, (6, -4)),
-    (Verlet, FINEST, (6, -1)),
+    (Sampled, FINEST, (2, 0)),
+    (Advancement, FINEST, (2, 0)),
+    (RungeKutta, FINEST, (2, 0)),
+    (MoreauJean, FINEST, (2, -1)),
+    (Verlet, FINEST, (2, 1)),
+];
+
+/// Where they stand in (b).
+const TIMED: [Place; 6] = [
+    (Certified, FINEST, (0, -2)),
+    (Sampled, 0, (1, 2)),
+    (Advancement, FINEST, (2, 0)),
+    (RungeKutta, FINEST, (2, 0)),
+    (MoreauJean, 0, (1, -1)),
+    (Verlet, FINEST, (0, 2)),
 ];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
@@ -24,7 +34,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let counted =
         sheet.lettered("(a)", Frame::new(1200, 430, 8250, 3330), masses().without_numbers(), y)?;
     let all = by_method(scale, |row| Some((row.0, (row.1 as f64, row.2, None))));
-    rivals::draw(&counted, &all, &NAMES)?;
+    rivals::draw(&counted, &all, &COUNTED)?;
 
     // The same chains and settings, on one thread.
     let timed = |row: &(Setting, usize, f64)| {
@@ -35,7 +45,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let y = Axis::decades_around(times.iter().map(|at| at.1.1), 1, "µs per impact");
     let (x, y) = (masses(), y.column("time per impact (us)"));
     let clock = sheet.lettered("(b)", Frame::new(1200, 4050, 8250, 6950), x, y)?;
-    rivals::draw(&clock, &by_method(scale, timed), &NAMES)?;
+    rivals::draw(&clock, &by_method(scale, timed), &TIMED)?;
     let most = scale.iter().rfind(|row| row.0.method == Certified);
     let counted = most.map(|(_, n, work)| format!("{} at n = {n}", short(*work, 2)));
     let longest = times.iter().rfind(|at| at.0.method == Certified);

@@ -1,0 +1,83 @@
+//! Draws Fig. S10: the half height of the rise for each transient and window, as a map.
+
+use super::prelude::*;
+use crate::experiments::Results;
+use crate::params::{Protocol, printed_threshold};
+
+/// The numbers of a table's key as an axis of cells of equal width, counted from zero.
+fn cells(values: &[f64], label: &str) -> Axis {
+    let mut axis = Axis::linear(-0.5, values.len() as f64 - 0.5, 1.0, 1, label);
+    for (tick, value) in axis.ticks.iter_mut().zip(values) {
+        tick.label = Some(value.to_string());
+    }
+    axis
+}
+
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let table = results.table("protocol.cells")?;
+    let (transients, windows) = (table.distinct("transient")?, table.distinct("window")?);
+    let sheet = Sheet::new(850 + 400 * transients.len() as u32 + 650);
+    let frame = Frame::new(1300, 250, 8300, 250 + 400 * transients.len() as i32);
+    let x = cells(&windows, "window *W* (1/*ω*)");
+    let y = cells(&transients, "transient *T* (1/*ω*)").column("half_height (d omega^2)");
+    let panel = sheet.panel(frame, x, y)?;
+    let printed = number(printed_threshold(), 2);
+    let mut as_printed = Vec::new();
+    let halves = table.curve(&[], "window", "half_height")?;
+    let [least, most] = halves
+        .iter()
+        .fold([f64::MAX, 0.0], |[least, most], half| [half.1.min(least), half.1.max(most)]);
+    for (row, transient) in transients.iter().enumerate() {
+        for (column, window) in windows.iter().enumerate() {
+            let keys = [("transient", *transient), ("window", *window)];
+            let at = (column as f64, row as f64);
+            let Ok(half) = table.number(&keys, "half_height") else {
+                panel.label("none", at, (0, 0), INK)?;
+                continue;
+            };
+            panel.record(&format!("*T* = {transient}"), [(*window, half)]);
+            let corners = [(at.0 - 0.5, at.1 - 0.5), (at.0 + 0.5, at.1 + 0.5)];
+            let share = 0.05 + 0.6 * (half - least) / (most - least).max(f64::MIN_POSITIVE);
+            let ground = Rectangle::new(corners, BLUE.mix(share).filled());
+            panel.draw_series("half height", [ground])?;
+            let text = words(SMALL, INK, HPos::Center, VPos::Center);
+            panel.area.draw(&Text::new(number(half, 3), at, text))?;
+            if number(half, 2) == printed {
+                as_printed.push(at);
+            }
+        }
+    }
+    // The outline of what rounds to the printed value: sides with such a cell on one side only.
+    let edge = Stroke::solid(INK, LINE + 12);
+    for &(x, y) in &as_printed {
+        for (right, up) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
+            if !as_printed.contains(&(x + right, y + up)) {
+                let side =
+                    [-0.5, 0.5].map(|t| (x + 0.5 * right + t * up, y + 0.5 * up + t * right));
+                panel.guide("rounds to the printed value", &side, edge)?;
+            }
+        }
+    }
+    let Protocol { transient, window } = Protocol::default();
+    let place = |values: &[f64], value| values.iter().position(|other| *other == value);
+    if let (Some(column), Some(row)) = (place(&windows, window), place(&transients, transient)) {
+        let corner = |x: f64, y: f64| (column as f64 + x, row as f64 + y);
+        let around = [(-0.4, -0.4), (0.4, -0.4), (0.4, 0.4), (-0.4, 0.4), (-0.4, -0.4)];
+        panel.guide(
+            "ours",
+            &around.map(|(x, y)| corner(x, y)),
+            Stroke::dashed(RED, LINE, SHORT),
+        )?;
+    }
+    let description = describe!(
+        "A map of the half height over {} transients, upwards, and {} windows, to the right: from {} at the lower left it falls to {} at the \
+         upper right. {} cells, on a band from the upper left to the lower right, round to {printed} and are outlined; ours is one of \
+         them.",
+        transients.len(),
+        windows.len(),
+        short(most, 3),
+        short(least, 3),
+        as_printed.len(),
+    );
+    Ok(sheet.finish("Half height for each transient and window", description))
+}

@@ -1,0 +1,104 @@
+//! Draws Fig. S11: in how many cases of each scene each method and each program fails, and how.
+
+use super::prelude::*;
+use crate::experiments::accuracy::case::Outcome::{self, *};
+use crate::experiments::accuracy::trials::{Trial, right};
+use crate::experiments::{PROGRAMS, Results, TRIALS};
+
+/// How cases end that are not right, from the bottom of a tile upwards.
+const FAILURES: [(&str, RGBColor, &[Outcome]); 3] = [
+    ("missed", RED, &[Missed]),
+    ("late, ghost, or wrong speed", ORANGE, &[Late, Ghost, WrongSpeed, WrongRest]),
+    ("announced", GREY, &[GaveUp, Refused, Warned]),
+];
+
+const TOP: i32 = 1700;
+const ROW: i32 = 660;
+const HEIGHT: i32 = 250;
+
+/// A method or a program: its name, and for each of its settings the trial in each scene.
+type Group<'a> = (&'a str, Vec<Vec<&'a Trial>>);
+
+pub fn draw(results: &Results) -> Result<Figure, Error> {
+    let trials = results.of(&TRIALS)?;
+    let scenes = &trials.parameters.scenes;
+    let own = trials.parameters.settings.iter().enumerate();
+    let own = own.map(|(place, setting)| {
+        let found = trials.found.iter().map(|found| &found[place]);
+        (setting.method.title(), found.collect::<Vec<_>>())
+    });
+    let others = results.of(&PROGRAMS)?.iter().flat_map(|program| &program.settings);
+    let others = others.map(|run| (&*run.name, scenes.iter().map(|s| run.trial(s)).collect()));
+    let mut groups: Vec<Group> = Vec::new();
+    for (name, trials) in own.chain(others) {
+        match groups.last_mut().filter(|group| group.0 == name) {
+            Some(group) => group.1.push(trials),
+            None => groups.push((name, vec![trials])),
+        }
+    }
+    let count = scenes.len() as i32;
+    let sheet = Sheet::new((TOP + ROW * count + 700) as u32);
+    let frame = Frame::new(500, TOP, 8350, TOP + ROW * count);
+    let x = Axis::linear(0.0, 1.0, 1.0, 1, "").column("scene (1)").without_numbers();
+    let mut y = Axis::linear(0.5, f64::from(count) + 0.5, 1.0, 1, "").column("share right (1)");
+    for (tick, number) in y.ticks.iter_mut().zip((1..=count).rev()) {
+        tick.label = Some(number.to_string());
+    }
+    let panel = sheet.panel(frame, x, y)?;
+    let name = words(SMALL, INK, HPos::Left, VPos::Top);
+    for (row, scene) in (0..).zip(scenes) {
+        sheet.area.draw_text(&scene.what, &name, (frame.left + 90, TOP + ROW * row + 70))?;
+    }
+    let settings: usize = groups.iter().map(|group| group.1.len()).sum();
+    let width = (frame.right - frame.left - 90 - 90 * groups.len() as i32) / settings as i32;
+    let mut left = frame.left + 90;
+    let head = words(SMALL, INK, HPos::Left, VPos::Center).transform(FontTransform::Rotate270);
+    for (name, settings) in &groups {
+        let middle = left + width * settings.len() as i32 / 2;
+        sheet.area.draw_text(name, &head, (middle, TOP - 100))?;
+        for (place, trials) in settings.iter().enumerate() {
+            let share = |trial: &Trial| right(trial) as f64 / trial.len() as f64;
+            let shares = (1..).map(f64::from).zip(trials.iter().map(|trial| share(trial)));
+            panel.record(&format!("{name}, {}", place + 1), shares);
+            for (row, trial) in (0..).zip(trials) {
+                tile(&sheet, (left, TOP + ROW * row + 330), width, trial)?;
+            }
+            left += width;
+        }
+        left += 90;
+    }
+    let mut left = frame.left + 90;
+    let key = words(SMALL, INK, HPos::Left, VPos::Center);
+    let y = frame.bottom + 330;
+    for (name, failure, room) in [("right", Right, 1000), ("missed", Missed, 1250)]
+        .into_iter()
+        .chain([(FAILURES[1].0, Late, 3400), (FAILURES[2].0, GaveUp, 0)])
+    {
+        tile(&sheet, (left, y), width, &vec![failure])?;
+        sheet.area.draw_text(name, &key, (left + width + 90, y + HEIGHT / 2))?;
+        left += room + width;
+    }
+    let description = describe!(
+        "A row for each of {count} scenes, with a tile for each setting of {} methods and programs, filled as far as its cases fail. The \
+         engine, at the left, fails in one row only, where it says so; all others fail silently in some scenes.",
+        groups.len(),
+    );
+    Ok(sheet.finish("Where methods and programs fail", description))
+}
+
+/// Draws a tile, filled from below by each kind of failure as far as its share of the cases.
+fn tile(sheet: &Sheet, (left, top): (i32, i32), width: i32, trial: &Trial) -> Drawn {
+    let right = left + width - 22;
+    let all = [(left, top), (right, top + HEIGHT)];
+    sheet.area.draw(&Rectangle::new(all, GREEN.mix(0.3).filled()))?;
+    let mut failed = 0;
+    for (_, colour, outcomes) in FAILURES {
+        let base = top + HEIGHT - HEIGHT * failed as i32 / trial.len() as i32;
+        failed += trial.iter().filter(|outcome| outcomes.contains(outcome)).count();
+        let upper = top + HEIGHT - HEIGHT * failed as i32 / trial.len() as i32;
+        if upper < base {
+            sheet.area.draw(&Rectangle::new([(left, upper), (right, base)], colour.filled()))?;
+        }
+    }
+    Ok(())
+}
