@@ -22,7 +22,7 @@ pub fn draw() -> Result<Figure, Error> {
     let right = LEFT + 6 * SPACING;
     walls(&sheet.area, right)?;
     for (slot, name, _, bend) in MASSES {
-        draw_mass(&sheet.area, LEFT + slot * SPACING, name, bend)?;
+        draw_mass(&sheet.area, LEFT + slot * SPACING, slot < 3, name, bend)?;
     }
     let middle = LEFT + 3 * SPACING + 260;
     for dx in [-170, 0, 170] {
@@ -61,7 +61,8 @@ fn draw_line<const N: usize>(sheet: &SheetArea, points: [(i32, i32); N], width: 
     Ok(sheet.draw(&PathElement::new(points, INK.stroke_width(width)))?)
 }
 
-fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Drawn {
+/// Draws a mass and its stem. The name is beside it if there are distances above.
+fn draw_mass(sheet: &SheetArea, root: i32, is_beside: bool, name: &str, bend: i32) -> Drawn {
     sheet.draw(&line(vec![(root, 740), (root, FLOOR)], Stroke::dashed(GREY, HAIR, SHORT)))?;
     // A clamped stem with a load at its end: s²(3 − s)/2.
     let stem: [(i32, i32); 41] = std::array::from_fn(|i| {
@@ -72,10 +73,12 @@ fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Drawn {
     draw_line(sheet, stem, 50)?;
     let centre = (root + bend, HEIGHT);
     sheet.draw(&markers(vec![centre], (Symbol::Disc, RADIUS, Stroke::solid(INK, 36))))?;
-    // A mass is a point; its name stands on the side to which it is bent.
-    let side = bend.signum();
-    let style = words(TEXT, INK, if side > 0 { HPos::Left } else { HPos::Right }, VPos::Center);
-    Ok(sheet.draw_text(name, &style, (centre.0 + side * (RADIUS + 70), HEIGHT))?)
+    let (h, v, place) = match (is_beside, bend > 0) {
+        (true, true) => (HPos::Left, VPos::Center, (centre.0 + RADIUS + 70, HEIGHT)),
+        (true, false) => (HPos::Right, VPos::Center, (centre.0 - RADIUS - 70, HEIGHT)),
+        (false, _) => (HPos::Center, VPos::Bottom, (centre.0, HEIGHT - RADIUS - 90)),
+    };
+    Ok(sheet.draw_text(name, &words(TEXT, INK, h, v), place)?)
 }
 
 fn double_arrow(sheet: &SheetArea, a: (i32, i32), b: (i32, i32)) -> Drawn {

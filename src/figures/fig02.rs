@@ -17,7 +17,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     );
     let at = |column: &str| results.number(&format!("{row}.{column}")).ok();
     let (place, single) = (at("place"), at("single_place"));
-    let sheet = Sheet::new(8300);
+    let sheet = Sheet::new(8550);
     let panel = sheet.lettered("(a)", MAIN, sigma_axis(), gaps_axis(n))?.outside(Outside::Cut);
     let rows = results.table("jump.rows")?;
     let modes = rows.curve(&[], "sigma", "mode")?;
@@ -62,7 +62,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         }
         let y = Axis::up_to(1.25 * top, "share of chains");
         let y = if i == 0 { y } else { y.without_numbers() };
-        let frame = Frame::new(left, 5300, left + 2150, 7400);
+        let frame = Frame::new(left, 5550, left + 2150, 7650);
         let panel = sheet.lettered(["(b)", "(c)", "(d)"][i], frame, x, y)?.outside(Outside::Cut);
         panel.columns("share of chains", &columns, Stroke::solid(RED, THIN))?;
         panel.label(&format!("*σ* = {}", short(*sigma, 4)), (50.0, 1.18 * top), (0, 0), INK)?;

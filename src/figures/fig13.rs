@@ -42,7 +42,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let panels: [Shown; 4] = [
         (small, [0.0, 8.0, 2.0], &[(0, 2, 2, 0)]),
         (small, [0.0, 12.0, 4.0], &[(0, 8, 1, -2), (1, 3, 1, -2)]),
-        (middle, [0.0, 20.0, 5.0], &[(0, 3, 2, -1), (1, 10, 0, -1)]),
+        (middle, [0.0, 20.0, 5.0], &[(0, 3, 2, -1), (1, 15, 0, -3)]),
         (large, [65.0, 95.0, 10.0], &[(4, 78, -2, 0)]),
     ];
     for (i, (p, [first, last, step], names)) in panels.into_iter().enumerate() {
@@ -69,7 +69,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         }
     }
     logarithmic(&sheet, "(e)", small, [0.0, 12.0, 4.0], 3e-10)?;
-    logarithmic(&sheet, "(f)", large, [65.0, 95.0, 10.0], 1e-7)?;
+    logarithmic(&sheet, "(f)", large, [65.0, 95.0, 10.0], 3e-10)?;
 
     let share = |p: f64| {
         results.number(&format!("theory.classes[p={p}].simple")).map(|share| short(share, 2))

@@ -30,7 +30,7 @@ fn shares(sheet: &Sheet) -> Drawn {
     // and each has a disc where it arrives.
     for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
         let colour = ordered(place, DRAWN_VERTICES.len());
-        let stroke = Stroke::solid(colour, [96, 60, 26][place]);
+        let stroke = Stroke::solid(colour, [116, 80, 44][place]);
         // No value lies within the jump.
         let [before, after] = large::shares(vertices);
         let name = format!("N = {vertices}");
@@ -44,7 +44,7 @@ fn shares(sheet: &Sheet) -> Drawn {
         panel.label(&name, (RANGE.0, 1.0 / vertices as f64), (1, -1), colour)?;
     }
     // On top, so that it is seen on the curves that lie on it.
-    panel.curve("limit", &large::limit(), Stroke::dashed(ORANGE, HAIR, LONG))?;
+    panel.curve("limit", &large::limit(), Stroke::dashed(ORANGE, THIN, LONG))?;
     panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), ORANGE)
 }
 

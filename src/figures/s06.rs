@@ -42,8 +42,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         panel.unrecorded().markers("engine", at.as_slice(), encoding::method(engine.method))?;
     }
     let shown = MethodName::ALL.into_iter().filter(|method| *method != MethodName::Truth);
-    for (i, method) in (0..).zip(shown) {
-        let (x, y) = (1250 + 1800 * (i % 4), 7550 + 400 * (i / 4));
+    for (i, method) in shown.enumerate() {
+        let (x, y) = ([1100, 2950, 4250, 6300][i % 4], 7550 + 400 * (i as i32 / 4));
         sheet.area.draw(&markers(vec![(x, y)], encoding::method(method)))?;
         let style = words(SMALL, INK, HPos::Left, VPos::Center);
         sheet.area.draw_text(method.title(), &style, (x + 130, y))?;

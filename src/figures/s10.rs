@@ -16,12 +16,14 @@ fn cells(values: &[f64], label: &str) -> Axis {
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = results.table("protocol.cells")?;
     let (transients, windows) = (table.distinct("transient")?, table.distinct("window")?);
-    let sheet = Sheet::new(850 + 400 * transients.len() as u32 + 650);
-    let frame = Frame::new(1300, 250, 8300, 250 + 400 * transients.len() as i32);
+    let sheet = Sheet::new(1150 + 400 * transients.len() as u32 + 650);
+    let frame = Frame::new(1300, 550, 8300, 550 + 400 * transients.len() as i32);
     let x = cells(&windows, "window *W* (1/*ω*)");
     let y = cells(&transients, "transient *T* (1/*ω*)").column("half_height (d omega^2)");
     let panel = sheet.panel(frame, x, y)?;
     let printed = number(printed_threshold(), 2);
+    let note = format!("outlined: rounds to {printed}; broken frame: our protocol");
+    panel.heading("", &note)?;
     let mut as_printed = Vec::new();
     let halves = table.curve(&[], "window", "half_height")?;
     let [least, most] = halves
