@@ -15,7 +15,7 @@ pub struct Look {
 }
 
 const fn look(name: &'static str, colour: RGBColor, dash: Dash, symbol: Symbol) -> Look {
-    let mark = (symbol, LARGE, Stroke::solid(colour, THIN));
+    let mark = (symbol, LARGE, Stroke::dashed(colour, THIN, dash));
     Look { name, line: Stroke::dashed(colour, LINE, dash), mark }
 }
 

@@ -22,9 +22,8 @@ const CLASSES: [Class; 5] = [
     ("two vertices twice", "*ϕ*_{*N*}^{2}", INK, ALTERNATE),
 ];
 
-/// The name of the axis of probabilities, on the sheet and in data files.
+/// The name of the axis of probabilities.
 const PROBABILITY: &str = "*P*(*X* = *k*)";
-const COLUMN: &str = "P(X = k)";
 
 /// What is less than this part of an axis lies on zero, and is not drawn there.
 const VISIBLE: f64 = 0.02;
@@ -45,31 +44,31 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         (middle, [0.0, 20.0, 5.0], &[(0, 3, 2, -1), (1, 15, 0, -3)]),
         (large, [65.0, 95.0, 10.0], &[(4, 78, -2, 0)]),
     ];
-    for (i, (p, [first, last, step], names)) in panels.into_iter().enumerate() {
-        let (classes, sum) = (contributions(p), five(p));
+    for (i, (p, x, names)) in panels.iter().copied().enumerate() {
+        let classes = contributions(p);
         // The detail shows the higher orders: the simple circuits leave it at its upper edge.
-        let most = if i == 1 { 1.5 * largest(&classes[1..].concat()) } else { largest(&sum) };
+        let most = if i == 1 { 1.5 * largest(&classes[1..].concat()) } else { largest(&five(p)) };
         let y = Axis::up_to(most, if i % 2 == 0 { PROBABILITY } else { "" });
         let (left, top) = (1200 + 4050 * (i as i32 % 2), 480 + 2700 * (i as i32 / 2));
         let frame = Frame::new(left, top, left + 2950, top + 1700);
-        let x = Axis::linear(first, last, step, 2, "*k*");
-        let panel = sheet.panel(frame, x, y.column(COLUMN))?.outside(Outside::Cut);
-        panel.heading(LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
-        panel.curve("all five classes", &over_k(&sum), SUM)?;
-        for (class, (name, _, colour, dash)) in classes.iter().zip(CLASSES) {
-            if largest(class) > VISIBLE * panel.y.hi {
-                panel.curve(name, &over_k(class), Stroke::dashed(colour, LINE, dash))?;
-            } else {
-                panel.record(name, over_k(class));
-            }
-        }
+        let panel = draw_panel(&sheet, LETTERS[i], frame, x, y, p)?;
         for &(class, k, right, down) in names {
             let (_, symbol, colour, _) = CLASSES[class];
             panel.label(symbol, (k as f64, classes[class][k - 1]), (right, down), colour)?;
         }
     }
-    logarithmic(&sheet, "(e)", small, [0.0, 12.0, 4.0], 3e-10)?;
-    logarithmic(&sheet, "(f)", large, [65.0, 95.0, 10.0], 3e-10)?;
+    for (letter, p, x, top) in
+        [("(e)", small, panels[1].1, 5880), ("(f)", large, panels[3].1, 8980)]
+    {
+        let y = Axis::decades(-12, 0, 2, PROBABILITY).between(3e-10, 1.5 * largest(&five(p)));
+        let frame = Frame::new(1200, top, 5300, top + 2150);
+        let panel = draw_panel(&sheet, letter, frame, x, y, p)?;
+        let ends = contributions(p)
+            .into_iter()
+            .zip(CLASSES)
+            .map(|(class, look)| (format!("{}, {}", look.0, look.1), over_k(&class), look.2));
+        panel.label_ends(&ends.collect::<Vec<_>>())?;
+    }
 
     let share = |p: f64| {
         results.number(&format!("theory.classes[p={p}].simple")).map(|share| short(share, 2))
@@ -87,27 +86,25 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     Ok(sheet.finish("Distributions with higher-order circuits", description))
 }
 
-/// Draws all classes down to a least P, each with its name at its end.
-fn logarithmic(
+/// Draws the sum and the classes; those that are not visible are data only.
+fn draw_panel(
     sheet: &Sheet,
     letter: &str,
-    p: f64,
+    frame: Frame,
     [first, last, step]: [f64; 3],
-    least: f64,
-) -> Drawn {
-    let (classes, sum) = (contributions(p), five(p));
-    let top = if letter == "(e)" { 5880 } else { 8980 };
-    let y = Axis::decades(-12, 0, 2, PROBABILITY).between(least, 1.5 * largest(&sum));
+    y: Axis,
+    p: f64,
+) -> Result<Panel, Error> {
     let x = Axis::linear(first, last, step, 2, "*k*");
-    let frame = Frame::new(1200, top, 5500, top + 2150);
-    let panel = sheet.panel(frame, x, y.column(COLUMN))?.outside(Outside::Cut);
+    let panel = sheet.panel(frame, x, y.column("P(X = k)"))?.outside(Outside::Cut);
     panel.heading(letter, &format!("*p* = {}", short(p, 3)))?;
-    panel.curve("all five classes", &over_k(&sum), SUM)?;
-    let mut ends = Vec::new();
-    for (class, (name, symbol, colour, dash)) in classes.iter().zip(CLASSES) {
-        let points = over_k(class);
-        panel.curve(name, &points, Stroke::dashed(colour, LINE, dash))?;
-        ends.push((format!("{name}, {symbol}"), points, colour));
+    panel.curve("all five classes", &over_k(&five(p)), SUM)?;
+    for (class, (name, _, colour, dash)) in contributions(p).iter().zip(CLASSES) {
+        if panel.y.is_log || largest(class) > VISIBLE * panel.y.hi {
+            panel.curve(name, &over_k(class), Stroke::dashed(colour, LINE, dash))?;
+        } else {
+            panel.record(name, over_k(class));
+        }
     }
-    panel.label_ends(&ends)
+    Ok(panel)
 }

@@ -3,8 +3,6 @@
 use super::encoding::{ALL, FORCING, HALF_HEIGHT, REST, SEEDS, THEORY, gaps_axis};
 use super::prelude::*;
 use crate::experiments::Results;
-use crate::experiments::ensembles::Counted;
-use crate::experiments::sweep;
 use crate::experiments::theory::comparison::at;
 use crate::params::printed_threshold;
 use literate::table::Table;
@@ -15,7 +13,7 @@ const SIGMAS: (f64, f64) = (0.075, 0.165);
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let sheet = Sheet::new(8600);
-    counts(&sheet, table("seeds.means")?, table("theory.curve")?, sweep::main(results)?)?;
+    counts(&sheet, results)?;
     let advance = table("seeds.advance")?;
     advances(&sheet, advance)?;
     halves(&sheet, table("seeds.rise")?, table("seeds.scores")?)?;
@@ -28,11 +26,13 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     Ok(sheet.finish("From one gap to many: nucleation and growth", description))
 }
 
-fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Drawn {
+fn counts(sheet: &Sheet, results: &Results) -> Drawn {
+    let (theory, sweep) = (results.table("theory.curve")?, results.table("sweep.rows")?);
+    let run = |column: &str| results.number(&format!("sweep.run.{column}"));
     let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
-    let y = gaps_axis(sweep.ensemble.chain.gaps());
+    let y = gaps_axis(run("gaps")? as usize);
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
-    let transient = [("transient", sweep.first().protocol.transient)];
+    let transient = [("transient", run("transient")?)];
     for (look, column, height) in [(THEORY, "simple", 50.0), (REST, "rest", 62.0)] {
         let mut curve = theory.curve(&[], "sigma", column)?;
         curve.retain(|(sigma, _)| *sigma >= SIGMAS.0 && *sigma <= SIGMAS.1);
@@ -41,24 +41,17 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Draw
         let place = (at(&rising, height).unwrap_or(SIGMAS.0), height);
         panel.label(look.name, place, (-2, 0), GREEN)?;
     }
-    let grown = means.series(&transient, "sigma", "grown")?;
+    let grown = results.table("seeds.means")?.series(&transient, "sigma", "grown")?;
     panel.joined_estimates(SEEDS.name, &grown, SEEDS.mark)?;
     if let Some((sigma, mean)) = grown.iter().find(|(_, mean)| mean.value > 85.0) {
         panel.label(SEEDS.name, (*sigma, mean.value), (-1, -1), INK)?;
     }
-    let inside =
-        sweep.first().rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
-    let bars: Vec<_> = inside
-        .filter_map(|row| Some((row.sigma, row.mean_all?.value, row.mean_all?.interval?)))
-        .collect();
-    let ends: Vec<_> = bars.iter().map(|(x, _, [low, high])| (*x, *low, *high)).collect();
-    panel.bars(ALL.name, &ends, 35, ALL.mark.2)?;
-    let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
-    panel.guide(ALL.name, &points, ALL.line)?;
-    panel.markers(ALL.name, &points, ALL.mark)?;
-    let low = points.iter().copied().rfind(|(_, mean)| *mean < 40.0);
+    let mut all = sweep.series(&[], "sigma", "mean_all")?;
+    all.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
+    panel.joined_estimates(ALL.name, &all, ALL.mark)?;
+    let low = all.iter().rfind(|(_, mean)| mean.value < 40.0);
     let Some((sigma, mean)) = low else { return Ok(()) };
-    let leader = [(sigma + 0.001, mean - 3.0), (sigma + 0.004, mean - 10.0)];
+    let leader = [(sigma + 0.001, mean.value - 3.0), (sigma + 0.004, mean.value - 10.0)];
     panel.guide("leader", &leader, Stroke::solid(RED, HAIR))?;
     panel.label(ALL.name, leader[1], (1, 1), RED)
 }

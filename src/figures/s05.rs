@@ -30,7 +30,7 @@ fn shares(sheet: &Sheet) -> Drawn {
     // and each has a disc where it arrives.
     for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
         let colour = ordered(place, DRAWN_VERTICES.len());
-        let stroke = Stroke::solid(colour, [116, 80, 44][place]);
+        let stroke = Stroke::solid(colour, [96, 66, 40][place]);
         // No value lies within the jump.
         let [before, after] = large::shares(vertices);
         let name = format!("N = {vertices}");

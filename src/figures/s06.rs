@@ -12,7 +12,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (biases, measured) = (results.of(&BIAS)?, results.of(&MEASURED)?);
     let rows = compared(biases);
     let means = &biases.parameters.means;
-    let sheet = Sheet::new(8250);
+    let sheet = Sheet::new(7900);
     let clear = rows.iter().filter(|row| row.is_clear()).count();
     for (i, of) in means.iter().enumerate() {
         let chains = &of.chains;
@@ -43,7 +43,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     }
     let shown = MethodName::ALL.into_iter().filter(|method| *method != MethodName::Truth);
     for (i, method) in shown.enumerate() {
-        let (x, y) = ([1100, 2950, 4250, 6300][i % 4], 7550 + 400 * (i as i32 / 4));
+        let (x, y) = ([1100, 2950, 4250, 6300][i % 4], 7200 + 400 * (i as i32 / 4));
         sheet.area.draw(&markers(vec![(x, y)], encoding::method(method)))?;
         let style = words(SMALL, INK, HPos::Left, VPos::Center);
         sheet.area.draw_text(method.title(), &style, (x + 130, y))?;

@@ -21,7 +21,7 @@ const TIMED: [Place; 6] = [
     (Sampled, 0, (1, 2)),
     (Advancement, FINEST, (2, 0)),
     (RungeKutta, FINEST, (2, 0)),
-    (MoreauJean, 0, (3, 0)),
+    (MoreauJean, 0, (4, 0)),
     (Verlet, FINEST, (0, 2)),
 ];
 

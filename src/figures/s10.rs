@@ -16,7 +16,7 @@ fn cells(values: &[f64], label: &str) -> Axis {
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = results.table("protocol.cells")?;
     let (transients, windows) = (table.distinct("transient")?, table.distinct("window")?);
-    let sheet = Sheet::new(1150 + 400 * transients.len() as u32 + 650);
+    let sheet = Sheet::new(1450 + 400 * transients.len() as u32);
     let frame = Frame::new(1300, 550, 8300, 550 + 400 * transients.len() as i32);
     let x = cells(&windows, "window *W* (1/*ω*)");
     let y = cells(&transients, "transient *T* (1/*ω*)").column("half_height (d omega^2)");
@@ -25,10 +25,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let note = format!("outlined: rounds to {printed}; broken frame: our protocol");
     panel.heading("", &note)?;
     let mut as_printed = Vec::new();
-    let halves = table.curve(&[], "window", "half_height")?;
-    let [least, most] = halves
-        .iter()
-        .fold([f64::MAX, 0.0], |[least, most], half| [half.1.min(least), half.1.max(most)]);
+    let end = |column: &str| results.number(&format!("protocol.all.{column}"));
+    let (least, most) = (end("least")?, end("largest")?);
     for (row, transient) in transients.iter().enumerate() {
         for (column, window) in windows.iter().enumerate() {
             let keys = [("transient", *transient), ("window", *window)];
@@ -39,7 +37,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             };
             panel.record(&format!("*T* = {transient}"), [(*window, half)]);
             let corners = [(at.0 - 0.5, at.1 - 0.5), (at.0 + 0.5, at.1 + 0.5)];
-            let share = 0.05 + 0.6 * (half - least) / (most - least).max(f64::MIN_POSITIVE);
+            let share = 0.05 + 0.6 * (half - least) / (most - least);
             let ground = Rectangle::new(corners, BLUE.mix(share).filled());
             panel.draw_series("half height", [ground])?;
             let text = words(SMALL, INK, HPos::Center, VPos::Center);

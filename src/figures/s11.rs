@@ -69,16 +69,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         // What is not of this program stands apart.
         left += if i + 1 == methods { 330 } else { 90 };
     }
-    let mut left = frame.left + 90;
     let key = words(SMALL, INK, HPos::Left, VPos::Center);
     let y = frame.bottom + 330;
-    for (name, failure, room) in [("right", Right, 1000), ("missed", Missed, 1250)]
-        .into_iter()
-        .chain([(FAILURES[1].0, Late, 3400), (FAILURES[2].0, GaveUp, 0)])
-    {
-        tile(&sheet, (left, y), width, &vec![failure])?;
-        sheet.area.draw_text(name, &key, (left + width + 90, y + HEIGHT / 2))?;
-        left += room + width;
+    let right = ("right", GREEN, &[Right][..]);
+    for ((name, _, outcomes), x) in [right].iter().chain(&FAILURES).zip([590, 1770, 3200, 6780]) {
+        tile(&sheet, (x, y), width, &vec![outcomes[0]])?;
+        sheet.area.draw_text(name, &key, (x + width + 90, y + HEIGHT / 2))?;
     }
     let description = describe!(
         "A row for each of {count} scenes, with a tile for each setting of {} methods and programs, filled as far as its cases fail. The \
