@@ -34,10 +34,11 @@ pub const FORCING: &str = "*σ* (*d ω*^{2})";
 /// The label of an axis of half heights.
 pub const HALF_HEIGHT: &str = "*σ*_{1/2} (*d ω*^{2})";
 
-/// Makes the axis of a number of the `n` gaps, up to a little more.
-pub fn gaps_axis(n: usize) -> Axis {
+/// Makes the axis of a number of the `n` gaps, up to a little more, with a number every `step`.
+pub fn gaps_axis(n: usize, step: f64) -> Axis {
     let label = format!("gaps with an impact (of {n})");
-    Axis::linear(0.0, 1.06 * n as f64, 20.0, 2, &label).column("gaps with an impact (1)")
+    Axis::linear(0.0, 1.06 * n as f64, step, (step / 10.0) as u32, &label)
+        .column("gaps with an impact (1)")
 }
 
 /// The mark of a method, whose line joins its settings. The engine is red, methods of fixed steps

@@ -22,7 +22,7 @@ pub fn draw() -> Result<Figure, Error> {
     let right = LEFT + 6 * SPACING;
     walls(&sheet.area, right)?;
     for (slot, name, _, bend) in MASSES {
-        draw_mass(&sheet.area, LEFT + slot * SPACING, slot < 3, name, bend)?;
+        draw_mass(&sheet.area, LEFT + slot * SPACING, name, bend)?;
     }
     let middle = LEFT + 3 * SPACING + 260;
     for dx in [-170, 0, 170] {
@@ -61,8 +61,7 @@ fn draw_line<const N: usize>(sheet: &SheetArea, points: [(i32, i32); N], width: 
     Ok(sheet.draw(&PathElement::new(points, INK.stroke_width(width)))?)
 }
 
-/// Draws a mass and its stem. The name is beside it if there are distances above.
-fn draw_mass(sheet: &SheetArea, root: i32, is_beside: bool, name: &str, bend: i32) -> Drawn {
+fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Drawn {
     sheet.draw(&line(vec![(root, 740), (root, FLOOR)], Stroke::dashed(GREY, HAIR, SHORT)))?;
     // A clamped stem with a load at its end: s²(3 − s)/2.
     let stem: [(i32, i32); 41] = std::array::from_fn(|i| {
@@ -73,12 +72,8 @@ fn draw_mass(sheet: &SheetArea, root: i32, is_beside: bool, name: &str, bend: i3
     draw_line(sheet, stem, 50)?;
     let centre = (root + bend, HEIGHT);
     sheet.draw(&markers(vec![centre], (Symbol::Disc, RADIUS, Stroke::solid(INK, 36))))?;
-    let (h, v, place) = match (is_beside, bend > 0) {
-        (true, true) => (HPos::Left, VPos::Center, (centre.0 + RADIUS + 70, HEIGHT)),
-        (true, false) => (HPos::Right, VPos::Center, (centre.0 - RADIUS - 70, HEIGHT)),
-        (false, _) => (HPos::Center, VPos::Bottom, (centre.0, HEIGHT - RADIUS - 90)),
-    };
-    Ok(sheet.draw_text(name, &words(TEXT, INK, h, v), place)?)
+    let style = words(TEXT, INK, HPos::Center, VPos::Bottom);
+    Ok(sheet.draw_text(name, &style, (centre.0, HEIGHT - RADIUS - 70))?)
 }
 
 fn double_arrow(sheet: &SheetArea, a: (i32, i32), b: (i32, i32)) -> Drawn {
@@ -98,14 +93,14 @@ fn distances(sheet: &SheetArea) -> Drawn {
         draw_line(sheet, [(x, y - 90), (x, y + 90)], HAIR)?;
     }
     // The position of mass 1 and the gap between the masses 1 and 2, one behind the other.
-    let y = HEIGHT - 430;
+    let y = HEIGHT - 580;
     for x in [x1, x2] {
-        draw_line(sheet, [(x, y - 90), (x, HEIGHT - RADIUS)], HAIR)?;
+        draw_line(sheet, [(x, y - 90), (x, y + 90)], HAIR)?;
     }
     double_arrow(sheet, (LEFT + 20, y), (x1, y))?;
-    sheet.draw_text("*x*_{1}(*t*)", &style, ((LEFT + x1) / 2, y - 140))?;
+    sheet.draw_text("*x*_{1}(*t*)", &style, ((LEFT + x1) / 2, y - 110))?;
     double_arrow(sheet, (x1, y), (x2, y))?;
-    sheet.draw_text("Δ_{1}(*t*)", &style, ((x1 + x2) / 2, y - 140))?;
+    sheet.draw_text("Δ_{1}(*t*)", &style, ((x1 + x2) / 2, y - 110))?;
     // The force on mass 2.
     let start = x2 + RADIUS + 25;
     sheet.draw(&arrow(vec![(start + 480, HEIGHT), (start, HEIGHT)], Stroke::solid(BLUE, 40)))?;

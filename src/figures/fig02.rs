@@ -18,7 +18,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let at = |column: &str| results.number(&format!("{row}.{column}")).ok();
     let (place, single) = (at("place"), at("single_place"));
     let sheet = Sheet::new(8550);
-    let panel = sheet.lettered("(a)", MAIN, sigma_axis(), gaps_axis(n))?.outside(Outside::Cut);
+    let panel =
+        sheet.lettered("(a)", MAIN, sigma_axis(), gaps_axis(n, 20.0))?.outside(Outside::Cut);
     let rows = results.table("jump.rows")?;
     let modes = rows.curve(&[], "sigma", "mode")?;
     let peaks = rows.series(&[], "sigma", "peak")?;
@@ -53,12 +54,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let columns: Vec<f64> = shares.iter().map(|(_, share)| *share).collect();
         let left = 1200 + 2400 * i as i32;
         // The name of all three axes stands below the middle one.
-        let mut x = gaps_axis(n);
+        let mut x = gaps_axis(n, 100.0);
         if i != 1 {
             x.label.clear();
-        }
-        for tick in x.ticks.iter_mut().filter(|tick| tick.at % 100.0 != 0.0) {
-            tick.label = None;
         }
         let y = Axis::up_to(1.25 * top, "share of chains");
         let y = if i == 0 { y } else { y.without_numbers() };

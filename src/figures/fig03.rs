@@ -4,27 +4,21 @@
 use super::encoding::{ALL, HIT, SHARE, gaps_axis};
 use super::prelude::*;
 use super::simulated::*;
+use crate::experiments::Results;
 use crate::experiments::theory::comparison;
-use crate::experiments::{Results, sweep};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sweep = sweep::main(results)?;
     let half_height = results.number("sweep.rise.half_height").ok();
     let sheet = Sheet::new(7550);
-    let n = sweep.ensemble.chain.gaps();
-    let (x, y) = (sigma_axis().without_numbers(), gaps_axis(n));
+    let n = results.number("sweep.run.gaps")? as usize;
+    let (x, y) = (sigma_axis().without_numbers(), gaps_axis(n, 20.0));
     let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
     let rows = results.table("sweep.rows")?;
     let swept = |column| rows.curve(&[], "sigma", column);
     let (all, means) = (swept("mean_all")?, means(results)?);
-    let intervals = sweep
-        .comparable()
-        .filter_map(|row| row.mean?.interval.map(|[low, high]| (row.sigma, low, high)));
-    let intervals: Vec<_> = intervals.collect();
-    panel.bars(HIT.name, &intervals, 0, INTERVAL)?;
     printed(&panel, comparison::at(&means, printed_threshold()).unwrap_or(0.0))?;
     panel.curve(ALL.name, &all, ALL.line)?;
-    panel.markers(HIT.name, &means, HIT.mark)?;
+    panel.estimates(HIT.name, &rows.series(&[], "sigma", "mean")?, HIT.mark)?;
     panel.label(HIT.name, (panel.x.hi, n as f64), (-1, 3), RED)?;
     panel.label(ALL.name, reaches(&all, 7.0), (3, 0), RED)?;
     if let Some(half) = half_height {
@@ -44,9 +38,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
     let description = describe!(
         "(a) Mean number of different gaps that impact against σ, simulated with {} masses: of the realisations with an impact \
-         (crosses, grey 95 % intervals) it {}; of all realisations (broken line) it starts near zero. (b) The share with an \
+         (crosses, standard errors) it {}; of all realisations (broken line) it starts near zero. (b) The share with an \
          impact rises from {} to {}.",
-        sweep.ensemble.chain.masses,
+        n - 1,
         half_height
             .map_or("rises".into(), |half| format!("passes half of {n} at σ = {}", short(half, 4))),
         fraction.first().map_or("0".into(), |f| short(f.1, 2)),

@@ -10,7 +10,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(5450);
     let n = results.number("sweep.run.gaps")? as usize;
     let threshold = printed_threshold();
-    let panel = sheet.panel(MAIN, sigma_axis(), gaps_axis(n))?;
+    let panel = sheet.panel(MAIN, sigma_axis(), gaps_axis(n, 20.0))?;
     let panel = panel.outside(Outside::Cut);
     printed(&panel, 0.0)?;
     let simple = curve(results, "simple")?;

@@ -9,7 +9,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(7900);
     let n = results.number("sweep.run.gaps")? as usize;
     let threshold = printed_threshold();
-    let (x, y) = (sigma_axis().without_numbers(), gaps_axis(n));
+    let (x, y) = (sigma_axis().without_numbers(), gaps_axis(n, 20.0));
     let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
     let (simple, higher) = (curve(results, "simple")?, curve(results, "higher")?);
     panel.curve("simple circuits", &simple, THEORY.line)?;

@@ -1,59 +1,64 @@
-//! Draws Fig. S6: speed against accuracy of a mean, the difference by each method from the engine's
-//! mean against the time that the method takes, once for each question.
+//! Draws Fig. S6: the most likely number and its jump for many vertices.
 
-use super::encoding;
+use super::encoding::MODE;
 use super::prelude::*;
-use super::rivals;
-use crate::experiments::accuracy::tables::{Compared, compared};
-use crate::experiments::{BIAS, MEASURED, Results};
-use crate::params::{MethodName, Setting};
+use crate::experiments::Results;
+use crate::experiments::theory::large;
+use crate::params::DRAWN_VERTICES;
+use literate::table::Table;
+
+/// The p N in (a): around the onset, where the sizes differ.
+const RANGE: (f64, f64) = (0.9, 1.5);
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let (biases, measured) = (results.of(&BIAS)?, results.of(&MEASURED)?);
-    let rows = compared(biases);
-    let means = &biases.parameters.means;
-    let sheet = Sheet::new(7900);
-    let clear = rows.iter().filter(|row| row.is_clear()).count();
-    for (i, of) in means.iter().enumerate() {
-        let chains = &of.chains;
-        let time = |setting| {
-            measured.thousand(measured.method(setting, chains.chain.masses, chains.sigma)?)
-        };
-        let (left, top) = (1200 + 3950 * (i as i32 % 2), 480 + 3150 * (i as i32 / 2));
-        let frame = Frame::new(left, top, left + 3000, top + 2450);
-        let x = Axis::decades(-2, 2, 1, "time (s)").between(0.04, 100.0);
-        let x = x.column("time of one core for a thousand chains (s)");
-        let x = if i < 2 { x.without_numbers() } else { x };
-        let y =
-            Axis::linear(-100.0, 50.0, 50.0, 5, "difference (%)").column("error of the mean (%)");
-        let y = if i % 2 == 0 { y } else { y.without_numbers() };
-        let panel = sheet.panel(frame, x, y)?.outside(Outside::Edge);
-        panel.heading(LETTERS[i], &format!("*σ* = {}, *T* = {}", chains.sigma, of.transient))?;
-        panel.level("engine", 0.0, Stroke::solid(RED, HAIR))?;
-        let own: Vec<_> = rows.iter().filter(|row| row.sigma == chains.sigma).collect();
-        let point = |row: &&Compared| {
-            let share = row.share?;
-            let interval = share.interval.map(|end| 100.0 * end);
-            Some((row.setting, (time(row.setting)?, 100.0 * share.value, Some(interval))))
-        };
-        rivals::draw(&panel, &rivals::all_by_method(&own, point), &[])?;
-        let engine = Setting { method: MethodName::Certified, value: 0.0, stop: 0.0 };
-        let at = time(engine).map(|time| (time, 0.0));
-        panel.unrecorded().markers("engine", at.as_slice(), encoding::method(engine.method))?;
-    }
-    let shown = MethodName::ALL.into_iter().filter(|method| *method != MethodName::Truth);
-    for (i, method) in shown.enumerate() {
-        let (x, y) = ([1100, 2950, 4250, 6300][i % 4], 7200 + 400 * (i as i32 / 4));
-        sheet.area.draw(&markers(vec![(x, y)], encoding::method(method)))?;
-        let style = words(SMALL, INK, HPos::Left, VPos::Center);
-        sheet.area.draw_text(method.title(), &style, (x + 130, y))?;
-    }
+    let sheet = Sheet::new(8450);
+    shares(&sheet)?;
+    jumps(&sheet, results.table("theory.large")?)?;
     let description = describe!(
-        "Difference of the mean number of impacting gaps from the engine's against time, for {} questions; each mark, with its 95 % interval, \
-         is a method with a step or tolerance. Float32 Verlet is left of the engine and level with it; others are slower or off. {clear} of \
-         {} differences are clear.",
-        means.len(),
-        rows.len(),
+        "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
+     smaller the jump. (b) Height of the jump against N, with the rule."
     );
-    Ok(sheet.finish("Speed against accuracy of a mean", description))
+    Ok(sheet.finish("The theory at large N", description))
+}
+
+fn shares(sheet: &Sheet) -> Drawn {
+    let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
+    let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
+    let panel =
+        sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?.outside(Outside::Cut);
+    // Beyond their jumps all lie on the limit, so the last to jump is widest and below the others,
+    // and each has a disc where it arrives.
+    for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
+        let colour = ordered(place, DRAWN_VERTICES.len());
+        let stroke = Stroke::solid(colour, [96, 66, 40][place]);
+        // No value lies within the jump.
+        let [before, after] = large::shares(vertices);
+        let name = format!("N = {vertices}");
+        panel.curve(&name, &before, stroke)?;
+        panel.curve(&name, &after, stroke)?;
+        let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
+        panel.guide("jump", &jump, Stroke::dashed(colour, THIN, DOTTED))?;
+        let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
+        panel.unrecorded().markers(&name, &jump[1..], disc)?;
+        let name = format!("*N* = {}", power_of_ten(vertices.ilog10() as i32));
+        panel.label(&name, (RANGE.0, 1.0 / vertices as f64), (1, -1), colour)?;
+    }
+    // On top, so that it is seen on the curves that lie on it.
+    panel.curve("limit", &large::limit(), Stroke::dashed(ORANGE, THIN, LONG))?;
+    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), ORANGE)
+}
+
+fn jumps(sheet: &Sheet, table: &Table) -> Drawn {
+    let x = Axis::decades(1, 6, 1, "*N*");
+    let y = Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump");
+    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 7550), x, y)?;
+    let rule = table.curve(&[], "n", "rule")?;
+    let rule: Vec<_> = rule.into_iter().map(|(n, k)| (n, k / n)).collect();
+    panel.curve("rule", &rule, Stroke::solid(INK, THIN))?;
+    let exact = table.curve(&[], "n", "share")?;
+    panel.markers("exact", &exact, MODE.mark)?;
+    if let Some(place) = exact.get(4) {
+        panel.label("exact", *place, (2, -1), PURPLE)?;
+    }
+    panel.label("*k*^{2} = 2*N*(ln *k* − 1)", (3e4, 0.0168), (-1, 1), INK)
 }

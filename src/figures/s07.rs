@@ -1,69 +1,59 @@
-//! Draws Fig. S7: error and misses of the next impact against measured time, for every method.
+//! Draws Fig. S7: speed against accuracy of a mean, the difference by each method from the engine's
+//! mean against the time that the method takes, once for each question.
 
+use super::encoding;
 use super::prelude::*;
-use super::rivals::{self, FINEST, Place, by_method, over_engine};
-use crate::experiments::accuracy::race::{DISPLACED, Entry};
-use crate::experiments::{MEASURED, RACE, Results};
-use crate::params::MethodName::*;
-
-/// Where the names stand in the upper panel.
-const NAMES: [Place; 4] = [
-    (Certified, FINEST, (-2, 0)),
-    (Sampled, FINEST, (2, 0)),
-    (Advancement, 0, (-2, 0)),
-    (RungeKutta, FINEST, (2, 0)),
-];
-
-/// Where they stand in the lower panel.
-const MISSED: [Place; 7] = [
-    (Certified, FINEST, (2, -2)),
-    (Sampled, 0, (0, -2)),
-    (Advancement, 0, (2, 0)),
-    (RungeKutta, FINEST, (1, -2)),
-    (MoreauJean, 2, (2, 0)),
-    (Verlet, 2, (-2, 0)),
-    (Penalty, 2, (1, 3)),
-];
+use super::rivals;
+use crate::experiments::accuracy::tables::{Compared, compared};
+use crate::experiments::{BIAS, MEASURED, Results};
+use crate::params::{MethodName, Setting};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let (race, measured) = (results.of(&RACE)?, results.of(&MEASURED)?);
-    let time_axis = || rivals::time_axis(900.0);
-    let sheet = Sheet::new(8300);
-    let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
-    let error = error.column("error of the next impact's time (1/omega)");
-    let (upper, x) = (Frame::new(1300, 430, 8250, 4330), time_axis().without_numbers());
-    let errors = sheet.lettered("(a)", upper, x, error)?.outside(Outside::Edge);
-    errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, SHORT))?;
-    errors.label("missed above", (errors.x.hi, DISPLACED), (-1, -1), INK)?;
-
-    let tried = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);
-    let bottom = -(pxfm::f_log10(tried as f64).ceil() as i32) - 1;
-    let mut axis = Axis::decades(bottom, 0, 1, "share missed");
-    // Below one in all that were tried there is nothing but zero.
-    axis.ticks.retain(|tick| tick.at <= axis.lo || tick.at >= 9.5 * axis.lo);
-    if let Some(first) = axis.ticks.first_mut() {
-        first.label = Some("none".into());
+    let (biases, measured) = (results.of(&BIAS)?, results.of(&MEASURED)?);
+    let rows = compared(biases);
+    let means = &biases.parameters.means;
+    let sheet = Sheet::new(7900);
+    let clear = rows.iter().filter(|row| row.is_clear()).count();
+    for (i, of) in means.iter().enumerate() {
+        let chains = &of.chains;
+        let time = |setting| {
+            measured.thousand(measured.method(setting, chains.chain.masses, chains.sigma)?)
+        };
+        let (left, top) = (1200 + 3950 * (i as i32 % 2), 480 + 3150 * (i as i32 / 2));
+        let frame = Frame::new(left, top, left + 3000, top + 2450);
+        let x = Axis::decades(-2, 2, 1, "time (s)").between(0.04, 100.0);
+        let x = x.column("time of one core for a thousand chains (s)");
+        let x = if i < 2 { x.without_numbers() } else { x };
+        let y =
+            Axis::linear(-100.0, 50.0, 50.0, 5, "difference (%)").column("error of the mean (%)");
+        let y = if i % 2 == 0 { y } else { y.without_numbers() };
+        let panel = sheet.panel(frame, x, y)?.outside(Outside::Edge);
+        panel.heading(LETTERS[i], &format!("*σ* = {}, *T* = {}", chains.sigma, of.transient))?;
+        panel.level("engine", 0.0, Stroke::solid(RED, HAIR))?;
+        let own: Vec<_> = rows.iter().filter(|row| row.sigma == chains.sigma).collect();
+        let point = |row: &&Compared| {
+            let share = row.share?;
+            let interval = share.interval.map(|end| 100.0 * end);
+            Some((row.setting, (time(row.setting)?, 100.0 * share.value, Some(interval))))
+        };
+        rivals::draw(&panel, &rivals::all_by_method(&own, point), &[])?;
+        let engine = Setting { method: MethodName::Certified, value: 0.0, stop: 0.0 };
+        let at = time(engine).map(|time| (time, 0.0));
+        panel.unrecorded().markers("engine", at.as_slice(), encoding::method(engine.method))?;
     }
-    let misses = Frame::new(1300, 4950, 8250, 7250);
-    let misses = sheet.lettered("(b)", misses, time_axis(), axis)?.outside(Outside::Edge);
-    misses.level("a break", 7.0 * misses.y.lo, Stroke::dashed(GREY, HAIR, SHORT))?;
-    let time = |e: &Entry| over_engine(race, measured, e.setting);
-    let median = |e: &Entry| Some((e.setting, (time(e)?, e.errors?[0], e.errors)));
-    let share = |e: &Entry| e.misses as f64 / e.tried.max(1) as f64;
-    let missed = |e: &Entry| Some((e.setting, (time(e)?, share(e), None)));
-    rivals::draw(&errors, &by_method(&race.entries, median), &NAMES)?;
-    rivals::key(&errors, 110.0, [1e-5, 3e-7, 1e-8])?;
-    rivals::better(&errors, (0.7, 1e-10), (0.35, 1e-13))?;
-    rivals::draw(&misses, &by_method(&race.entries, missed), &MISSED)?;
-    let certified = race.entries.iter().find(|e| e.setting.method == Certified);
-    let largest = certified.and_then(|entry| Some(entry.errors?[1]));
+    let shown = MethodName::ALL.into_iter().filter(|method| *method != MethodName::Truth);
+    for (i, method) in shown.enumerate() {
+        let (x, y) = ([1100, 2950, 4250, 6300][i % 4], 7200 + 400 * (i as i32 / 4));
+        sheet.area.draw(&markers(vec![(x, y)], encoding::method(method)))?;
+        let style = words(SMALL, INK, HPos::Left, VPos::Center);
+        sheet.area.draw_text(method.title(), &style, (x + 130, y))?;
+    }
     let description = describe!(
-        "Against measured time over the engine's, a mark for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
-         impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
-         next impact is missed.",
-        race.parameters.growth.chain.masses,
-        race.parameters.growth.sigma,
-        largest.map_or("unknown".into(), |error| short(error, 2)),
+        "Difference of the mean number of impacting gaps from the engine's against time, for {} questions; each mark, with its 95 % interval, \
+         is a method with a step or tolerance. Float32 Verlet is left of the engine and level with it; others are slower or off. {clear} of \
+         {} differences are clear.",
+        means.len(),
+        rows.len(),
     );
-    Ok(sheet.finish("Error and misses of the next impact", description))
+    Ok(sheet.finish("Speed against accuracy of a mean", description))
 }

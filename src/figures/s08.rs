@@ -1,129 +1,102 @@
-//! Draws Fig. S8: how long all impacts of a run are right, against its time and one impact's error.
+//! Draws Fig. S8: in how many cases of each scene each method and each program fails, and how.
 
-use super::encoding;
 use super::prelude::*;
-use super::rivals::{self, FINEST, Place, by_method, over_engine, programs};
-use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
-use crate::experiments::{MEASURED, RACE, Results};
-use crate::params::MethodName::*;
-use impact_numerics::statistics::Estimate;
+use crate::experiments::accuracy::case::Outcome::{self, *};
+use crate::experiments::accuracy::trials::{Trial, right};
+use crate::experiments::{PROGRAMS, Results, TRIALS};
 
-/// The rounding of doubles, 2⁻⁵³.
-const ROUNDING: f64 = f64::EPSILON / 2.0;
-
-/// Where names stand in (a).
-const NAMES: [Place; 3] =
-    [(Certified, FINEST, (0, 2)), (Advancement, 1, (-2, 0)), (RungeKutta, 3, (2, 0))];
-
-/// The same in (b), for other programs: name of the row, name here.
-const PROGRAMS: [(&str, &str, usize, (i32, i32)); 6] = [
-    ("impact-paper", "engine", FINEST, (2, 0)),
-    ("heyoka", "heyoka", FINEST, (0, -2)),
-    ("SUNDIALS CVODE", "CVODE", FINEST, (2, 0)),
-    ("SciPy DOP853", "SciPy", FINEST, (-2, 0)),
-    ("pymunk", "pymunk", FINEST, (0, -2)),
-    ("diffsol tsit45", "diffsol", 0, (-2, 0)),
+/// How cases end that are not right, from the bottom of a tile upwards.
+const FAILURES: [(&str, RGBColor, &[Outcome]); 3] = [
+    ("missed", RED, &[Missed]),
+    ("late, ghost, or wrong speed", ORANGE, &[Late, Ghost, WrongSpeed, WrongRest]),
+    ("announced", GREY, &[GaveUp, Refused, Warned]),
 ];
 
-/// The same for (c).
-const BY_ERROR: [Place; 3] =
-    [(Certified, FINEST, (-2, 0)), (Sampled, 0, (-2, 0)), (Advancement, 2, (0, 3))];
+const TOP: i32 = 1850;
+const ROW: i32 = 660;
+const HEIGHT: i32 = 250;
 
-/// Returns the time in which an error ε grows to [`DISPLACED`], ln([`DISPLACED`]/ε)/λ, and its
-/// interval: [low, value, high].
-fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
-    let growth = race.growth.growth()?;
-    let folds = pxfm::f_log(DISPLACED / error).max(0.0);
-    Some([growth.interval[1], growth.value, growth.interval[0]].map(|rate| folds / rate))
-}
+/// A method or a program: its name, and for each of its settings the trial in each scene.
+type Group<'a> = (&'a str, Vec<Vec<&'a Trial>>);
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let (race, measured) = (results.of(&RACE)?, results.of(&MEASURED)?);
-    let sheet = Sheet::new(10900);
-    let top = (race.parameters.until / 50.0).ceil() * 50.0;
-    let x = || rivals::time_axis(1.3e4);
-    let (by_time, others) = (Frame::new(1100, 430, 8250, 3230), Frame::new(1100, 3800, 8250, 6600));
-    let by_time = sheet.lettered("(a)", by_time, x().without_numbers(), horizon_axis(top))?;
-    let by_time = by_time.outside(Outside::Edge);
-    let others = sheet.lettered("(b)", others, x(), horizon_axis(top))?.outside(Outside::Edge);
-    let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").between(1e-20, 0.5);
-    let by_error = Frame::new(1100, 7750, 8250, 9950);
-    let by_error = sheet.lettered("(c)", by_error, x, horizon_axis(top))?.outside(Outside::Edge);
-
-    chaos(&by_error, race)?;
-    if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|t| t[1] < top) {
-        let name = "what chaos allows in double precision";
-        by_time.level(name, ceiling, Stroke::dashed(GREY, LINE, SHORT))?;
-        by_time.label(name, (by_time.x.hi, ceiling), (-1, -1), GREY)?;
-    }
-    let run = &race.parameters.growth;
-    let time = |e: &Entry| over_engine(race, measured, e.setting);
-    let point = |x: f64, t: Estimate| (x, t.value, Some([t.value - t.error, t.value + t.error]));
-    let timed = |e: &Entry| Some((e.setting, point(time(e)?, e.horizon()?)));
-    let median = |e: &Entry| Some((e.setting, point(e.errors?[0], e.horizon()?)));
-    let timed = by_method(&race.entries, timed);
-    rivals::draw(&by_time, &timed, &NAMES)?;
-    rivals::draw(&by_error, &by_method(&race.entries, median), &BY_ERROR)?;
-    for (program, points) in programs(measured, run.chain.masses) {
-        let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };
-        let mark = match place.1 {
-            "engine" => encoding::method(Certified),
-            _ => (Symbol::OpenDiamond, LARGE, Stroke::solid(INK, THIN)),
-        };
-        let colour = mark.2.colour;
-        others.marked_curve(program, &points, Stroke::solid(colour, THIN), mark)?;
-        if let Some(at) = points.get(place.2).or(points.last()) {
-            others.label_nearby(place.1, (at.0, at.1.min(top)), place.3, colour)?;
+    let trials = results.of(&TRIALS)?;
+    let scenes = &trials.parameters.scenes;
+    let own = trials.parameters.settings.iter().enumerate();
+    let own = own.map(|(place, setting)| {
+        let found = trials.found.iter().map(|found| &found[place]);
+        (setting.method.title(), found.collect::<Vec<_>>())
+    });
+    let others = results.of(&PROGRAMS)?.iter().flat_map(|program| &program.settings);
+    let others = others.map(|run| (&*run.name, scenes.iter().map(|s| run.trial(s)).collect()));
+    let mut groups: Vec<Group> = Vec::new();
+    for (name, trials) in own.chain(others) {
+        match groups.last_mut().filter(|group| group.0 == name) {
+            Some(group) => group.1.push(trials),
+            None => groups.push((name, vec![trials])),
         }
     }
-    // The coarsest and the finest setting; the first of Runge–Kutta lies on the fixed steps.
-    for (method, points) in &timed {
-        let offsets = match method {
-            Advancement => [(1, -1), (2, 0)],
-            RungeKutta => [(1, 0); 2],
-            Sampled => [(-1, -1), (1, 1)],
-            Verlet => [(0, -1), (0, -1)],
-            _ => continue,
-        };
-        let first = points.first().filter(|_| *method != RungeKutta);
-        let ends = first.into_iter().chain(points.iter().skip(1).last());
-        for ((setting, (x, t, _)), offset) in ends.zip(offsets) {
-            by_time.label_nearby(&in_powers(setting.value), (*x, t.min(top)), offset, GREY)?;
-        }
+    let methods = trials.parameters.settings.chunk_by(|a, b| a.method == b.method).count();
+    let count = scenes.len() as i32;
+    let sheet = Sheet::new((TOP + ROW * count + 700) as u32);
+    let frame = Frame::new(500, TOP, 8350, TOP + ROW * count);
+    let x = Axis::linear(0.0, 1.0, 1.0, 1, "").column("scene (1)").without_numbers();
+    let mut y = Axis::linear(0.5, f64::from(count) + 0.5, 1.0, 1, "").column("share right (1)");
+    for (tick, number) in y.ticks.iter_mut().zip((1..=count).rev()) {
+        tick.label = Some(number.to_string());
     }
-    by_time.label_nearby("sampling", (6.5, 0.77 * top), (1, 0), INK)?;
-    rivals::key(&by_time, 700.0, [0.48, 0.37, 0.26].map(|share| share * top))?;
-    rivals::better(&by_time, (2500.0, 0.68 * top), (1300.0, 0.79 * top))?;
-    rivals::better(&others, (0.5, 0.5 * top), (0.28, 0.7 * top))?;
-    by_error.label_nearby("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
-    let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
+    let panel = sheet.panel(frame, x, y)?;
+    let name = words(SMALL, INK, HPos::Left, VPos::Top);
+    for (row, scene) in (0..).zip(scenes) {
+        sheet.area.draw_text(&scene.what, &name, (frame.left + 90, TOP + ROW * row + 70))?;
+    }
+    let settings: usize = groups.iter().map(|group| group.1.len()).sum();
+    let width = (frame.right - frame.left - 330 - 90 * groups.len() as i32) / settings as i32;
+    let mut left = frame.left + 90;
+    let head = words(SMALL, INK, HPos::Left, VPos::Center).transform(FontTransform::Rotate270);
+    for (i, (name, settings)) in groups.iter().enumerate() {
+        let middle = left + width * settings.len() as i32 / 2;
+        sheet.area.draw_text(name, &head, (middle, TOP - 100))?;
+        for (place, trials) in settings.iter().enumerate() {
+            let share = |trial: &Trial| right(trial) as f64 / trial.len() as f64;
+            let shares = (1..).map(f64::from).zip(trials.iter().map(|trial| share(trial)));
+            panel.record(&format!("{name}, {}", place + 1), shares);
+            for (row, trial) in (0..).zip(trials) {
+                tile(&sheet, (left, TOP + ROW * row + 330), width, trial)?;
+            }
+            left += width;
+        }
+        // What is not of this program stands apart.
+        left += if i + 1 == methods { 330 } else { 90 };
+    }
+    let key = words(SMALL, INK, HPos::Left, VPos::Center);
+    let y = frame.bottom + 330;
+    let right = ("right", GREEN, &[Right][..]);
+    for ((name, _, outcomes), x) in [right].iter().chain(&FAILURES).zip([590, 1770, 3200, 6780]) {
+        tile(&sheet, (x, y), width, &vec![outcomes[0]])?;
+        sheet.area.draw_text(name, &key, (x + width + 90, y + HEIGHT / 2))?;
+    }
     let description = describe!(
-        "Time up to which a run has every impact right, n = {}, σ = {}: against measured time over the engine's (a) for this program, \
-         mean of {} chains, the engine at the top left, and (b) for others on one chain; (c) against the median error of one impact, \
-         with the line that λ = {growth} allows.",
-        run.chain.masses,
-        run.sigma,
-        race.parameters.chains,
+        "A row for each of {count} scenes, with a tile for each setting of {} methods and programs, filled as far as its cases fail. The \
+         engine, at the left, fails in one row only, where it says so; all others fail silently in some scenes.",
+        groups.len(),
     );
-    Ok(sheet.finish("How long a run is true", description))
+    Ok(sheet.finish("Where methods and programs fail", description))
 }
 
-fn horizon_axis(top: f64) -> Axis {
-    let step = if top > 60.0 { 50.0 } else { 10.0 };
-    Axis::linear(0.0, top, step, 1, "horizon *t* (1/*ω*)").column("horizon (1/omega)")
-}
-
-/// The line that chaos allows, with the band of λ's interval.
-fn chaos(panel: &Panel, race: &Race) -> Drawn {
-    let at = |error: f64| allowed(race, error).map(|t| (error, t));
-    let errors = (0..=72).map(|i| pxfm::f_exp10(-18.0 + 0.25 * f64::from(i)));
-    let grid: Vec<_> = errors.filter(|error| panel.x.contains(*error)).filter_map(at).collect();
-    let cut = |t: f64| t.min(panel.y.hi);
-    let below = grid.iter().map(|(x, t)| (*x, cut(t[0])));
-    let above = grid.iter().rev().map(|(x, t)| (*x, cut(t[2])));
-    let band = Polygon::new(below.chain(above).collect::<Vec<_>>(), GREY.mix(0.35));
-    panel.draw_series("interval of the growth", [band])?;
-    let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
-    let stroke = Stroke::dashed(GREY, LINE, SHORT);
-    panel.outside(Outside::Cut).curve("what chaos allows", &line, stroke)
+/// Draws a tile, filled from below by each kind of failure as far as its share of the cases.
+fn tile(sheet: &Sheet, (left, top): (i32, i32), width: i32, trial: &Trial) -> Drawn {
+    let right = left + width - 22;
+    let all = [(left, top), (right, top + HEIGHT)];
+    sheet.area.draw(&Rectangle::new(all, GREEN.mix(0.3).filled()))?;
+    let mut failed = 0;
+    for (_, colour, outcomes) in FAILURES {
+        let base = top + HEIGHT - HEIGHT * failed as i32 / trial.len() as i32;
+        failed += trial.iter().filter(|outcome| outcomes.contains(outcome)).count();
+        let upper = top + HEIGHT - HEIGHT * failed as i32 / trial.len() as i32;
+        if upper < base {
+            sheet.area.draw(&Rectangle::new([(left, upper), (right, base)], colour.filled()))?;
+        }
+    }
+    Ok(())
 }

@@ -1,102 +1,60 @@
-//! Draws Fig. S11: in how many cases of each scene each method and each program fails, and how.
+//! Draws Fig. S11: the cost of an impact against the number of masses, counted and measured.
 
 use super::prelude::*;
-use crate::experiments::accuracy::case::Outcome::{self, *};
-use crate::experiments::accuracy::trials::{Trial, right};
-use crate::experiments::{PROGRAMS, Results, TRIALS};
+use super::rivals::{self, FINEST, Place, by_method};
+use crate::experiments::{MEASURED, Results, SCALE};
+use crate::params::{MethodName::*, Setting};
 
-/// How cases end that are not right, from the bottom of a tile upwards.
-const FAILURES: [(&str, RGBColor, &[Outcome]); 3] = [
-    ("missed", RED, &[Missed]),
-    ("late, ghost, or wrong speed", ORANGE, &[Late, Ghost, WrongSpeed, WrongRest]),
-    ("announced", GREY, &[GaveUp, Refused, Warned]),
+/// Where names stand in (a).
+const COUNTED: [Place; 6] = [
+    (Certified, FINEST, (0, -2)),
+    (Sampled, FINEST, (2, 0)),
+    (Advancement, FINEST, (2, 0)),
+    (RungeKutta, FINEST, (2, 0)),
+    (MoreauJean, FINEST, (2, -1)),
+    (Verlet, FINEST, (2, 1)),
 ];
 
-const TOP: i32 = 1850;
-const ROW: i32 = 660;
-const HEIGHT: i32 = 250;
-
-/// A method or a program: its name, and for each of its settings the trial in each scene.
-type Group<'a> = (&'a str, Vec<Vec<&'a Trial>>);
+/// Where they stand in (b).
+const TIMED: [Place; 6] = [
+    (Certified, FINEST, (0, -2)),
+    (Sampled, 0, (1, 2)),
+    (Advancement, FINEST, (2, 0)),
+    (RungeKutta, FINEST, (2, 0)),
+    (MoreauJean, 0, (4, 0)),
+    (Verlet, FINEST, (0, 2)),
+];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let trials = results.of(&TRIALS)?;
-    let scenes = &trials.parameters.scenes;
-    let own = trials.parameters.settings.iter().enumerate();
-    let own = own.map(|(place, setting)| {
-        let found = trials.found.iter().map(|found| &found[place]);
-        (setting.method.title(), found.collect::<Vec<_>>())
-    });
-    let others = results.of(&PROGRAMS)?.iter().flat_map(|program| &program.settings);
-    let others = others.map(|run| (&*run.name, scenes.iter().map(|s| run.trial(s)).collect()));
-    let mut groups: Vec<Group> = Vec::new();
-    for (name, trials) in own.chain(others) {
-        match groups.last_mut().filter(|group| group.0 == name) {
-            Some(group) => group.1.push(trials),
-            None => groups.push((name, vec![trials])),
-        }
-    }
-    let methods = trials.parameters.settings.chunk_by(|a, b| a.method == b.method).count();
-    let count = scenes.len() as i32;
-    let sheet = Sheet::new((TOP + ROW * count + 700) as u32);
-    let frame = Frame::new(500, TOP, 8350, TOP + ROW * count);
-    let x = Axis::linear(0.0, 1.0, 1.0, 1, "").column("scene (1)").without_numbers();
-    let mut y = Axis::linear(0.5, f64::from(count) + 0.5, 1.0, 1, "").column("share right (1)");
-    for (tick, number) in y.ticks.iter_mut().zip((1..=count).rev()) {
-        tick.label = Some(number.to_string());
-    }
-    let panel = sheet.panel(frame, x, y)?;
-    let name = words(SMALL, INK, HPos::Left, VPos::Top);
-    for (row, scene) in (0..).zip(scenes) {
-        sheet.area.draw_text(&scene.what, &name, (frame.left + 90, TOP + ROW * row + 70))?;
-    }
-    let settings: usize = groups.iter().map(|group| group.1.len()).sum();
-    let width = (frame.right - frame.left - 330 - 90 * groups.len() as i32) / settings as i32;
-    let mut left = frame.left + 90;
-    let head = words(SMALL, INK, HPos::Left, VPos::Center).transform(FontTransform::Rotate270);
-    for (i, (name, settings)) in groups.iter().enumerate() {
-        let middle = left + width * settings.len() as i32 / 2;
-        sheet.area.draw_text(name, &head, (middle, TOP - 100))?;
-        for (place, trials) in settings.iter().enumerate() {
-            let share = |trial: &Trial| right(trial) as f64 / trial.len() as f64;
-            let shares = (1..).map(f64::from).zip(trials.iter().map(|trial| share(trial)));
-            panel.record(&format!("{name}, {}", place + 1), shares);
-            for (row, trial) in (0..).zip(trials) {
-                tile(&sheet, (left, TOP + ROW * row + 330), width, trial)?;
-            }
-            left += width;
-        }
-        // What is not of this program stands apart.
-        left += if i + 1 == methods { 330 } else { 90 };
-    }
-    let key = words(SMALL, INK, HPos::Left, VPos::Center);
-    let y = frame.bottom + 330;
-    let right = ("right", GREEN, &[Right][..]);
-    for ((name, _, outcomes), x) in [right].iter().chain(&FAILURES).zip([590, 1770, 3200, 6780]) {
-        tile(&sheet, (x, y), width, &vec![outcomes[0]])?;
-        sheet.area.draw_text(name, &key, (x + width + 90, y + HEIGHT / 2))?;
-    }
-    let description = describe!(
-        "A row for each of {count} scenes, with a tile for each setting of {} methods and programs, filled as far as its cases fail. The \
-         engine, at the left, fails in one row only, where it says so; all others fail silently in some scenes.",
-        groups.len(),
-    );
-    Ok(sheet.finish("Where methods and programs fail", description))
-}
+    let (scale, measured) = (results.of(&SCALE)?, results.of(&MEASURED)?);
+    let sheet = Sheet::new(7850);
+    // Somewhat wider than the sizes, which would stand on the other axis.
+    let masses = || Axis::decades(0, 5, 1, "number of masses *n*").between(7.0, 1.4e4);
+    let y = Axis::decades_around(scale.iter().map(|row| row.2), 1, "evaluations per impact");
+    let counted =
+        sheet.lettered("(a)", Frame::new(1200, 430, 8250, 3330), masses().without_numbers(), y)?;
+    let all = by_method(scale, |row| Some((row.0, (row.1 as f64, row.2, None))));
+    rivals::draw(&counted, &all, &COUNTED)?;
 
-/// Draws a tile, filled from below by each kind of failure as far as its share of the cases.
-fn tile(sheet: &Sheet, (left, top): (i32, i32), width: i32, trial: &Trial) -> Drawn {
-    let right = left + width - 22;
-    let all = [(left, top), (right, top + HEIGHT)];
-    sheet.area.draw(&Rectangle::new(all, GREEN.mix(0.3).filled()))?;
-    let mut failed = 0;
-    for (_, colour, outcomes) in FAILURES {
-        let base = top + HEIGHT - HEIGHT * failed as i32 / trial.len() as i32;
-        failed += trial.iter().filter(|outcome| outcomes.contains(outcome)).count();
-        let upper = top + HEIGHT - HEIGHT * failed as i32 / trial.len() as i32;
-        if upper < base {
-            sheet.area.draw(&Rectangle::new([(left, upper), (right, base)], colour.filled()))?;
-        }
-    }
-    Ok(())
+    // The same chains and settings, on one thread.
+    let timed = |row: &(Setting, usize, f64)| {
+        let time = measured.size(row.0, row.1)?.microseconds_per_impact?;
+        Some((row.0, (row.1 as f64, time, None)))
+    };
+    let times: Vec<_> = scale.iter().filter_map(timed).collect();
+    let y = Axis::decades_around(times.iter().map(|at| at.1.1), 1, "µs per impact");
+    let (x, y) = (masses(), y.column("time per impact (us)"));
+    let clock = sheet.lettered("(b)", Frame::new(1200, 4050, 8250, 6950), x, y)?;
+    rivals::draw(&clock, &by_method(scale, timed), &TIMED)?;
+    let most = scale.iter().rfind(|row| row.0.method == Certified);
+    let counted = most.map(|(_, n, work)| format!("{} at n = {n}", short(*work, 2)));
+    let longest = times.iter().rfind(|at| at.0.method == Certified);
+    let timed = longest.map(|(_, (n, time, _))| format!("{} at n = {n}", short(*time, 2)));
+    let description = describe!(
+        "Cost against the number of masses n, all axes logarithmic. (a) Evaluations per impact: this engine lowest and nearly level, \
+         {}; Runge–Kutta grows with n. (b) Microseconds per impact, of this engine {}.",
+        counted.unwrap_or("none".into()),
+        timed.unwrap_or("none".into()),
+    );
+    Ok(sheet.finish("Cost of an impact against n", description))
 }

@@ -2,8 +2,8 @@
 
 use super::encoding::FORCING;
 use super::prelude::*;
+use crate::experiments::Results;
 use crate::experiments::theory::comparison;
-use crate::experiments::{Results, sweep};
 pub use crate::params::printed_threshold;
 
 /// Bars of intervals, which stay behind the marks.
@@ -25,16 +25,14 @@ pub fn printed(panel: &Panel, from: f64) -> Drawn {
     panel.label(&format!("paper: {printed}"), line[1], (0, -1), INK)
 }
 
-/// Mean over the realisations with an impact against σ. The mean of a single one is drawn, though
-/// it has no error and so no cell.
+/// Mean over the realisations with an impact against σ.
 pub fn means(results: &Results) -> Result<Vec<(f64, f64)>, Error> {
-    let rows = sweep::main(results)?.comparable();
-    Ok(rows.filter_map(|row| Some((row.sigma, row.mean?.value))).collect())
+    Ok(results.table("sweep.rows")?.curve(&[], "sigma", "mean")?)
 }
 
 /// A theory curve up to the largest σ of the main sweep.
 pub fn curve(results: &Results, column: &str) -> Result<Vec<(f64, f64)>, Error> {
-    let end = sweep::main(results)?.first().rows.last().map_or(0.0, |row| row.sigma);
+    let end = largest(&results.table("sweep.rows")?.distinct("sigma")?);
     let mut points = results.table("theory.curve")?.curve(&[], "sigma", column)?;
     points.retain(|(sigma, _)| *sigma <= end);
     Ok(points)
