@@ -28,10 +28,8 @@ pub const REST: Look = look("theory, from rest", GREEN, SHORT, Symbol::Ring);
 pub const HIGHER: Look = look("with higher orders", BLUE, LONG, Symbol::Disc);
 pub const SEEDS: Look = look("from seeds", INK, SOLID, Symbol::OpenSquare);
 
-/// The label of an axis of σ.
+/// The labels of an axis of σ, and of half heights.
 pub const FORCING: &str = "*σ* (*d ω*^{2})";
-
-/// The label of an axis of half heights.
 pub const HALF_HEIGHT: &str = "*σ*_{1/2} (*d ω*^{2})";
 
 /// Makes the axis of a number of the `n` gaps, up to a little more, with a number every `step`.

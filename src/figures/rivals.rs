@@ -84,9 +84,8 @@ pub fn over_engine(race: &Race, measured: &Measured, setting: Setting) -> Option
 /// Points of each method that has some, in the order of [`MethodName::ALL`], without chains side by
 /// side, whose times are not those of one.
 pub fn by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<(Setting, Point)>) -> Curves {
-    let mut curves = all_by_method(rows, point);
-    curves.retain(|(method, _)| *method != MethodName::VerletAbreast);
-    curves
+    let is_alone = |at: &(Setting, Point)| at.0.method != MethodName::VerletAbreast;
+    all_by_method(rows, |row| point(row).filter(is_alone))
 }
 
 /// Points of each method that has some, chains side by side included.

@@ -22,8 +22,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let y = cells(&transients, "transient *T* (1/*ω*)").column("half_height (d omega^2)");
     let panel = sheet.panel(frame, x, y)?;
     let printed = number(printed_threshold(), 2);
-    let note = format!("outlined: rounds to {printed}; broken frame: our protocol");
-    panel.heading("", &note)?;
+    panel.heading("", &format!("outlined: rounds to {printed}; broken frame: our protocol"))?;
     let mut as_printed = Vec::new();
     let end = |column: &str| results.number(&format!("protocol.all.{column}"));
     let (least, most) = (end("least")?, end("largest")?);
@@ -45,29 +44,22 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             if number(half, 2) == printed {
                 as_printed.push(at);
             }
+            if (Protocol { transient: *transient, window: *window }) == Protocol::default() {
+                let around = [(-0.4, -0.4), (0.4, -0.4), (0.4, 0.4), (-0.4, 0.4), (-0.4, -0.4)];
+                let around = around.map(|(x, y)| (at.0 + x, at.1 + y));
+                panel.guide("ours", &around, Stroke::dashed(RED, LINE, SHORT))?;
+            }
         }
     }
     // The outline of what rounds to the printed value: sides with such a cell on one side only.
-    let edge = Stroke::solid(INK, LINE + 12);
     for &(x, y) in &as_printed {
         for (right, up) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
             if !as_printed.contains(&(x + right, y + up)) {
                 let side =
                     [-0.5, 0.5].map(|t| (x + 0.5 * right + t * up, y + 0.5 * up + t * right));
-                panel.guide("rounds to the printed value", &side, edge)?;
+                panel.guide("as printed", &side, Stroke::solid(INK, LINE + 12))?;
             }
         }
-    }
-    let Protocol { transient, window } = Protocol::default();
-    let place = |values: &[f64], value| values.iter().position(|other| *other == value);
-    if let (Some(column), Some(row)) = (place(&windows, window), place(&transients, transient)) {
-        let corner = |x: f64, y: f64| (column as f64 + x, row as f64 + y);
-        let around = [(-0.4, -0.4), (0.4, -0.4), (0.4, 0.4), (-0.4, 0.4), (-0.4, -0.4)];
-        panel.guide(
-            "ours",
-            &around.map(|(x, y)| corner(x, y)),
-            Stroke::dashed(RED, LINE, SHORT),
-        )?;
     }
     let description = describe!(
         "A map of the half height over {} transients, upwards, and {} windows, to the right: from {} at the lower left it falls to {} at the \
