@@ -1,4 +1,4 @@
-//! Draws Fig. S10: how long all impacts of a run are right, against its time and one impact's error.
+//! Draws Fig. S10: how long all impacts of a run are right, against time and one impact's error.
 
 use super::encoding;
 use super::prelude::*;

@@ -1,4 +1,4 @@
-//! Computes the theory for many vertices, with p N held fixed as N grows: Fig. S5.
+//! Computes the theory for many vertices, with p N held fixed as N grows: Fig. S6.
 
 use super::basics::known;
 use crate::experiments::prelude::*;
