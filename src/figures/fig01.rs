@@ -62,7 +62,7 @@ fn draw_line<const N: usize>(sheet: &SheetArea, points: [(i32, i32); N], width: 
 }
 
 fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Drawn {
-    sheet.draw(&line(vec![(root, 740), (root, FLOOR)], Stroke::dashed(GREY, HAIR, SHORT)))?;
+    sheet.draw(&line(vec![(root, 900), (root, FLOOR)], Stroke::dashed(GREY, HAIR, SHORT)))?;
     // A clamped stem with a load at its end: s²(3 − s)/2.
     let stem: [(i32, i32); 41] = std::array::from_fn(|i| {
         let s = i as f64 / 40.0;

@@ -13,8 +13,8 @@ const FAILURES: [(&str, RGBColor, &[Outcome]); 3] = [
 ];
 
 const TOP: i32 = 1850;
-const ROW: i32 = 660;
-const HEIGHT: i32 = 250;
+const ROW: i32 = 600;
+const HEIGHT: i32 = 230;
 
 /// A method or a program: its name, and for each of its settings the trial in each scene.
 type Group<'a> = (&'a str, Vec<Vec<&'a Trial>>);
@@ -44,7 +44,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let panel = sheet.panel(frame, x, y.without_numbers())?;
     let name = words(SMALL, INK, HPos::Left, VPos::Top);
     for (row, scene) in (0..).zip(scenes) {
-        sheet.area.draw_text(&scene.what, &name, (frame.left + 90, TOP + ROW * row + 70))?;
+        sheet.area.draw_text(&scene.what, &name, (frame.left + 90, TOP + ROW * row + 60))?;
     }
     let settings: usize = groups.iter().map(|group| group.1.len()).sum();
     let width = (frame.right - frame.left - 330 - 90 * groups.len() as i32) / settings as i32;
@@ -58,7 +58,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             let shares = (1..).map(f64::from).zip(trials.iter().map(|trial| share(trial)));
             panel.record(&format!("{name}, {}", place + 1), shares);
             for (row, trial) in (0..).zip(trials) {
-                tile(&sheet, (left, TOP + ROW * row + 330), width, trial)?;
+                tile(&sheet, (left, TOP + ROW * row + 310), width, trial)?;
             }
             left += width;
         }
