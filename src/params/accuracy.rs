@@ -88,7 +88,7 @@ impl RaceParams {
     pub fn new(profile: Profile) -> Self {
         let quick = profile == Profile::Quick;
         let (until, at_least, chains, segments, realisations) =
-            if quick { (30.0, 10.0, 2, 12, 6) } else { (250.0, 20.0, 12, 1200, 60) };
+            if quick { (30.0, 10.0, 2, 12, 6) } else { (250.0, 20.0, 16, 1200, 60) };
         let chain = Chain { masses: 20, ..Chain::default() };
         let (stream, seed) = (BENCH.0.into(), BENCH.1);
         let growth = Runs { chain, sigma: 0.3, until: 300.0, realisations, stream, seed };
