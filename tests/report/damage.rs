@@ -84,7 +84,7 @@ static LIBRARY: LazyLock<Library> =
 
 /// What documents make of a text.
 fn prose(text: &str) -> Result<(), Error> {
-    let (values, templates) = (&QUICK.values, Templates::of([("report.md", text)]));
+    let (values, templates) = (&QUICK.values, Templates::from_files([("report.md", text)]));
     let filler = Filler::new(&templates, values)?;
     let filled = filler.prose(&Document::REPORT)?;
     let sources = &QUICK.paper.project.sources;

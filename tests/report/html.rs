@@ -29,8 +29,8 @@ fn pages() -> impl Iterator<Item = (&'static str, Document<'static>)> {
 type Card = (String, String, Vec<usize>);
 
 fn cards(report: &Files) -> (Vec<String>, BTreeMap<String, Card>) {
-    let text = std::str::from_utf8(&report["cards.js"]).unwrap();
-    let json = text.strip_prefix("CARDS = ").and_then(|text| text.strip_suffix(";\n"));
+    let script = std::str::from_utf8(&report["cards.js"]).unwrap();
+    let json = script.strip_prefix("CARDS = ").and_then(|script| script.strip_suffix(";\n"));
     serde_json::from_str(json.unwrap()).unwrap()
 }
 
@@ -88,9 +88,9 @@ fn every_value_has_one_card() {
         assert!(!row.contains("<code>") || row.contains("<a href=\"../"), "{row}");
     }
     let card = &cards["sweep.rise.half_height"];
-    let text: String = card.2.iter().map(|row| rows[*row].as_str()).collect();
+    let html: String = card.2.iter().map(|row| rows[*row].as_str()).collect();
     for part in ["rise::", "<wbr/>Curve::<wbr/>new", "standard error", "--rerun sweep"] {
-        assert!(text.contains(part), "{part:?} is not in {text:?}");
+        assert!(html.contains(part), "{part:?} is not in {html:?}");
     }
     // The headline number stands in an equation, and opens there too.
     let page = page("report.html");

@@ -9,7 +9,7 @@ use std::fmt;
 #[macro_export]
 macro_rules! text {
     ($sentence:expr $(, $number:expr)* $(,)?) => {
-        $crate::claims::Text::of($sentence, [$($crate::value::Number::from($number)),*])
+        $crate::claims::Text::from_sentence($sentence, [$($crate::value::Number::from($number)),*])
     };
 }
 
@@ -19,7 +19,7 @@ macro_rules! text {
 pub struct Text(pub Vec<Number>);
 
 impl Text {
-    pub fn of(sentence: &str, numbers: impl IntoIterator<Item = Number>) -> Text {
+    pub fn from_sentence(sentence: &str, numbers: impl IntoIterator<Item = Number>) -> Text {
         let mut pieces = sentence.split('{');
         let mut text = Text::from(pieces.next().unwrap_or_default());
         for (number, piece) in numbers.into_iter().zip(pieces) {
@@ -68,7 +68,7 @@ impl From<Text> for String {
 impl fmt::Display for Text {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for piece in &self.0 {
-            f.write_str(&print(piece, Style::default()).plain())?;
+            f.write_str(&print(piece, Style::default()).to_plain_text())?;
         }
         Ok(())
     }

@@ -19,7 +19,7 @@ pub struct Registry {
 
 impl Registry {
     pub fn add(&mut self, value: Value) -> Result<(), Error> {
-        showable(&value)?;
+        check_showable(&value)?;
         if let Some(before) = self.values.get(&value.id) {
             return Err(Error::twice(&value.id, &before.source, &value.source));
         }
@@ -32,7 +32,7 @@ impl Registry {
             if let Some(value) = self.values.get(table.name()) {
                 return Err(Error::twice(&value.id, &value.source, &table.place()));
             }
-            table.cells().try_for_each(showable)?;
+            table.cells().try_for_each(check_showable)?;
         }
         self.tables = tables.clone();
         Ok(())
@@ -59,7 +59,7 @@ impl Registry {
     }
 
     fn cell(&self, address: &str) -> Option<&Value> {
-        self.tables.get(crate::table::table_of(address)?)?.at(address)
+        self.tables.get(crate::table::table_name(address)?)?.cell(address)
     }
 
     pub fn extend(&mut self, values: impl IntoIterator<Item = Value>) -> Result<(), Error> {
@@ -83,7 +83,7 @@ impl Registry {
 }
 
 /// Refuses a number that is not finite, and words with a character that no format can show.
-fn showable(value: &Value) -> Result<(), Error> {
+fn check_showable(value: &Value) -> Result<(), Error> {
     let words = if let Number::Text(words) = &value.number { words } else { "" };
     // Characters for private use frame values in filled prose.
     let hidden = |c: &char| match c {
@@ -98,8 +98,8 @@ fn showable(value: &Value) -> Result<(), Error> {
     }
 }
 
-pub fn read(text: &str) -> Result<Registry, Error> {
-    let values = serde_json::from_str(text)
+pub fn read(json: &str) -> Result<Registry, Error> {
+    let values = serde_json::from_str(json)
         .map_err(|error| Error::Template(format!("values.json: {error}")))?;
     Ok(Registry { values, ..Registry::default() })
 }
